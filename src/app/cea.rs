@@ -238,6 +238,7 @@ mod tests {
             contact_share: 0.1,
             axial_share: None,
             shape: Some(shape),
+            left: None,
             wave: None,
         };
         let values = cea.solved_friction_coefficients();
@@ -251,6 +252,7 @@ mod tests {
             sweep: FrictionSweep {
                 points: points.collect(),
                 intervals: Vec::new(),
+                crossings: Vec::new(),
             },
             dofs: 100,
             method: "sparse",

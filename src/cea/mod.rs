@@ -19,6 +19,7 @@ pub use error::CeaError;
 pub use quadratic::{QuadraticMode, quadratic_modes};
 pub use request::{ModeLimit, SweepProgress, SweepRequest, SweepStage};
 pub use spectrum::{
-    ComplexMode, FrictionPoint, FrictionSweep, ModeWave, UnstableInterval, keeping_ties,
+    ComplexMode, FrictionPoint, FrictionSweep, ModeVectors, ModeWave, UnstableInterval,
+    keeping_ties,
 };
 pub use watch::{PartWatch, SweepWatch, Unwatched};

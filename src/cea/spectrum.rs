@@ -32,8 +32,24 @@ pub struct ComplexMode {
     /// Displacement shape over all nodes in nodal frames, two values a node (three in three dimensions) with
     /// `max |u| = 1`, where it was asked for.
     pub shape: Option<Vec<c64>>,
+    /// The left vector that belongs to it, see [`ModeVectors::left`], where a whole mesh was solved.
+    pub left: Option<Vec<c64>>,
     /// The same of one sector of a body solved harmonic by harmonic, where it was asked for.
     pub wave: Option<ModeWave>,
+}
+
+/// Right and left vector of a mode over all nodal dofs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModeVectors {
+    /// Eigenvalue `lambda`, rad/s.
+    pub eigenvalue: c64,
+    /// `d lambda / d mu`, rad/s.
+    pub rate: c64,
+    /// Displacement `x`, the largest entry 1.
+    pub right: Vec<c64>,
+    /// `w` with `w^T T(lambda) = 0`, scaled to `w^T (2 lambda M + C) x = 1` (no conjugation). Where rigid contact was eliminated, it
+    /// moves along the normal by what friction turns of its slip.
+    pub left: Vec<c64>,
 }
 
 /// A mode as a wave of its harmonic.
@@ -136,4 +152,7 @@ pub struct FrictionSweep {
     pub points: Vec<FrictionPoint>,
     /// Every unstable interval, sorted by critical friction.
     pub intervals: Vec<UnstableInterval>,
+    /// The mode at the critical friction of each interval, where a whole mesh was solved and shapes were asked for; `None` for one
+    /// that is unstable from the start.
+    pub crossings: Vec<Option<ModeVectors>>,
 }

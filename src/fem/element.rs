@@ -3,6 +3,8 @@
 //! A plane element is integrated as a solid one of unit thickness whose gradients along z vanish: strains have six components,
 //! and the material says what they mean ([`ElasticMaterial::elasticity_at`]).
 
+mod strain;
+
 use super::{ElasticMaterial, PlaneFormulation};
 use crate::mesh::{ElementKind, Mesh, QuadraturePoint};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
@@ -156,95 +158,10 @@ impl ElementGeometry {
         position
     }
 
-    /// Whether the element has incompatible modes.
-    fn has_incompatible_modes(&self) -> bool {
-        self.kind == ElementKind::Hex8
-    }
-
-    /// Gradients of the three incompatible modes `1 - xi_k^2` at each point, scaled so that a constant stress does no work on
-    /// them (Taylor, Beresford and Wilson 1976); none for elements without.
-    fn incompatible_gradients(&self, points: &[IntegrationPoint]) -> Vec<Vec<Vector3<f64>>> {
-        if !self.has_incompatible_modes() {
-            return vec![Vec::new(); points.len()];
-        }
-        let (inverse, determinant) = inverse(&self.jacobian([0.0; 3]));
-        let at_point = |point: &IntegrationPoint| {
-            // All weights of the 2 x 2 x 2 rule are one.
-            let scale = determinant / point.measure;
-            let slope = |k: usize| inverse.column(k) * (-2.0 * point.place[k] * scale);
-            (0..3).map(slope).collect()
-        };
-        points.iter().map(at_point).collect()
-    }
-
-    /// Displacement gradient `du_i / dx_j` at a point, from the values of the element's nodes in their frames.
-    fn nodal_gradient(&self, point: &IntegrationPoint, values: &[f64]) -> Matrix3<f64> {
-        let dimension = self.dimension();
-        let mut gradient = Matrix3::zeros();
-        for (local, frame) in self.frames.iter().enumerate() {
-            let mut components = Vector3::zeros();
-            for axis in 0..dimension {
-                components[axis] = values[dimension * local + axis];
-            }
-            gradient += (frame * components) * point.gradients[local].transpose();
-        }
-        gradient
-    }
-
-    /// Displacement gradients at some points, incompatible modes of amplitudes `internal` included.
-    fn displacement_gradients(
-        &self,
-        points: &[IntegrationPoint],
-        values: &[f64],
-        internal: Option<&DVector<f64>>,
-    ) -> Vec<Matrix3<f64>> {
-        let modes = self.incompatible_gradients(points);
-        let at_point = |(point, modes): (&IntegrationPoint, Vec<Vector3<f64>>)| {
-            let mut gradient = self.nodal_gradient(point, values);
-            if let Some(internal) = internal {
-                for (k, mode) in modes.iter().enumerate() {
-                    let amplitude = Vector3::from_fn(|axis, _| internal[3 * k + axis]);
-                    gradient += amplitude * mode.transpose();
-                }
-            }
-            gradient
-        };
-        points.iter().zip(modes).map(at_point).collect()
-    }
-
-    /// Stress at some points, Pa, from the values of the element's nodes in their frames, m.
-    pub fn stresses(
-        &self,
-        points: &[IntegrationPoint],
-        material: &ElasticMaterial,
-        values: &[f64],
-    ) -> Vec<Voigt> {
-        let internal = self.internal_amplitudes(material, values);
-        let gradients = self.displacement_gradients(points, values, internal.as_ref());
-        let pairs = points.iter().zip(&gradients);
-        pairs
-            .map(|(point, gradient)| stress_of(material, gradient, self.position(point)))
-            .collect()
-    }
-
-    /// Amplitudes of the incompatible modes that come with nodal values.
-    fn internal_amplitudes(
-        &self,
-        material: &ElasticMaterial,
-        values: &[f64],
-    ) -> Option<DVector<f64>> {
-        if !self.has_incompatible_modes() {
-            return None;
-        }
-        let recovered = self.stiffness(material).recovered?;
-        Some(recovered * DVector::from_column_slice(values))
-    }
-
     /// Stiffness over the nodes and, where there are incompatible modes, their amplitudes; linear in the elasticity.
     fn full_stiffness(&self, material: &ElasticMaterial) -> DMatrix<f64> {
-        let dimension = self.dimension();
-        let size =
-            dimension * self.node_count() + if self.has_incompatible_modes() { 9 } else { 0 };
+        let internal = if self.has_incompatible_modes() { 9 } else { 0 };
+        let size = self.dimension() * self.node_count() + internal;
         let components = self.components();
         let material = self.solid_aware(material);
         let points = self.stiffness_points();
@@ -252,14 +169,7 @@ impl ElementGeometry {
         let mut matrix = DMatrix::zeros(size, size);
         for (point, modes) in points.iter().zip(&modes) {
             let law = material.elasticity_at(self.position(point));
-            let mut strains: Vec<Voigt> = Vec::with_capacity(size);
-            for (gradient, frame) in point.gradients.iter().zip(&self.frames) {
-                let axes = (0..dimension).map(|axis| frame.column(axis).into_owned());
-                strains.extend(axes.map(|e| strain_along(gradient, &e)));
-            }
-            for gradient in modes {
-                strains.extend((0..3).map(|c| strain_along(gradient, &Vector3::ith(c, 1.0))));
-            }
+            let strains = self.strain_columns(point, modes);
             for column in 0..size {
                 let stress = stress_in(components, &law, &strains[column]);
                 let stress = stress.map(|component| component * point.measure);
@@ -446,18 +356,6 @@ pub struct StressPart<'a> {
     pub values: &'a [f64],
     /// Amplitudes of the incompatible modes; `None` for elements without.
     pub internal: Option<DVector<f64>>,
-}
-
-/// Strain of a displacement along `e` with the gradient `g` of its size.
-fn strain_along(g: &Vector3<f64>, e: &Vector3<f64>) -> Voigt {
-    [
-        g.x * e.x,
-        g.y * e.y,
-        g.z * e.z,
-        g.y * e.x + g.x * e.y,
-        g.z * e.y + g.y * e.z,
-        g.z * e.x + g.x * e.z,
-    ]
 }
 
 /// `D epsilon` over some components.

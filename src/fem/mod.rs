@@ -5,6 +5,7 @@
 //! plane is for one metre of thickness.
 
 mod assembly;
+mod discretization;
 pub mod element;
 mod face;
 mod material;
@@ -12,6 +13,7 @@ mod maxwell;
 mod modulus_table;
 pub mod operator;
 mod orthotropy;
+mod recovery;
 mod rotation;
 pub mod sector;
 pub mod solid;
@@ -25,6 +27,7 @@ pub use assembly::{
     assemble_structural_damping, assemble_support_losses, assemble_supports, assemble_tabled,
     element_matrices, lumped_masses,
 };
+pub use discretization::DiscretizationError;
 pub use material::{
     AnnulusMaterials, ElasticMaterial, MaterialField, PlaneFormulation, RayleighDamping,
     RegionMaterial, RelaxedMaterials, TabledMaterial,

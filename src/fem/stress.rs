@@ -1,9 +1,10 @@
 //! Stress recovery at the nodes.
 
 use super::element::{ElementGeometry, Voigt, nodal_values};
+use super::recovery::{Degree, Recovery};
 use super::{ElasticMaterial, MaterialField};
 use crate::mesh::{Mesh, SolidSector};
-use nalgebra::{Matrix2, Matrix3, Rotation3, SMatrix, Vector3};
+use nalgebra::{Matrix2, Matrix3, Rotation3, Vector3};
 
 /// Stress at one node in the axes of [`Mesh::reported_angle`], Pa.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -142,154 +143,36 @@ pub fn revolved_stress(
         .collect()
 }
 
-/// Recovered stress at each node in global axes and the region whose material it is of; `None` for a node without elements.
+/// Recovered stress at each node in global axes and the region whose material it is of: that of its first element, where several meet;
+/// `None` for a node without elements.
 fn recovered_stress(
     mesh: &Mesh,
     material: &dyn MaterialField,
     displacement: &[f64],
 ) -> Vec<Option<(Voigt, usize)>> {
-    let samples: Vec<Vec<Sample>> = (0..mesh.element_count())
-        .map(|e| superconvergent_samples(mesh, e, material.of(mesh.region(e)), displacement))
+    let samples: Vec<Voigt> = (0..mesh.element_count())
+        .flat_map(|e| {
+            let geometry = ElementGeometry::new(mesh, e);
+            let places = mesh.element_kind(e).superconvergent_points().into_iter();
+            let points: Vec<_> = places.map(|place| geometry.at((place, 1.0))).collect();
+            let values = nodal_values(mesh, e, displacement);
+            geometry.stresses(&points, material.of(mesh.region(e)), &values)
+        })
         .collect();
-    let around = elements_around(mesh);
-    let mut on_edge = vec![false; mesh.node_count()];
-    for face in mesh.outer_faces() {
-        for node in face.nodes {
-            on_edge[node as usize] = true;
+    let recovery = Recovery::new(mesh, Degree::Linear, false);
+    let value = |weights: &[(usize, f64)]| {
+        let mut sum = [0.0; 6];
+        for (sample, weight) in weights {
+            (0..6).for_each(|k| sum[k] += weight * samples[*sample][k]);
         }
-    }
+        sum
+    };
     (0..mesh.node_count())
         .map(|node| {
-            let &first = around[node].first()?;
-            // Stress jumps from one material to the next: a node between two shows that of the first.
-            let region = mesh.region(first as usize);
-            let mut patch = around[node].clone();
-            // A mid-side node has two elements at most: their neighbours complete its patch too.
-            if on_edge[node] || patch.len() < 3 {
-                let corners = patch.iter().flat_map(|&e| mesh.element_nodes(e as usize));
-                let neighbours = corners.flat_map(|&n| around[n as usize].iter().copied());
-                patch = neighbours.collect();
-                patch.sort_unstable();
-                patch.dedup();
-            }
-            patch.retain(|&e| mesh.region(e as usize) == region);
-            let points: Vec<&Sample> = patch.iter().flat_map(|&e| &samples[e as usize]).collect();
-            let stress = match mesh.dimension {
-                2 => fit_in_plane(mesh.nodes[node], &points),
-                _ => fit_in_space(mesh.nodes[node], &points),
-            };
-            Some((stress, region))
+            let (region, weights) = recovery.first(node)?;
+            Some((value(weights), region))
         })
         .collect()
-}
-
-/// Stress in global axes at a point, Pa, m.
-struct Sample {
-    position: [f64; 3],
-    stress: Voigt,
-}
-
-fn superconvergent_samples(
-    mesh: &Mesh,
-    e: usize,
-    material: &ElasticMaterial,
-    displacement: &[f64],
-) -> Vec<Sample> {
-    let geometry = ElementGeometry::new(mesh, e);
-    let places = mesh.element_kind(e).superconvergent_points().into_iter();
-    let points: Vec<_> = places.map(|place| geometry.at((place, 1.0))).collect();
-    let stresses = geometry.stresses(&points, material, &nodal_values(mesh, e, displacement));
-    let pairs = points.iter().zip(stresses);
-    pairs
-        .map(|(point, stress)| Sample {
-            position: geometry.position(point),
-            stress,
-        })
-        .collect()
-}
-
-fn elements_around(mesh: &Mesh) -> Vec<Vec<u32>> {
-    let mut around = vec![Vec::new(); mesh.node_count()];
-    for e in 0..mesh.element_count() {
-        for &node in mesh.element_nodes(e) {
-            around[node as usize].push(e as u32);
-        }
-    }
-    around
-}
-
-/// Largest distance of the samples from a point along an axis.
-fn size_of(origin: [f64; 3], samples: &[&Sample]) -> f64 {
-    let offsets = samples.iter().flat_map(|sample| {
-        let pairs = sample.position.into_iter().zip(origin);
-        pairs.map(|(p, o)| (p - o).abs())
-    });
-    offsets.fold(0.0_f64, f64::max)
-}
-
-/// Value at `origin` of the linear polynomial that fits the samples best, their mean where they do not
-/// determine one (a single row of elements).
-fn fit_in_plane(origin: [f64; 3], samples: &[&Sample]) -> Voigt {
-    let size = size_of(origin, samples);
-    let (mut normal, mut right) = (Matrix3::zeros(), SMatrix::<f64, 3, 6>::zeros());
-    for sample in samples {
-        let offset = |axis: usize| (sample.position[axis] - origin[axis]) / size;
-        let basis = Vector3::new(1.0, offset(0), offset(1));
-        normal += basis * basis.transpose();
-        right += basis * SMatrix::<f64, 1, 6>::from(sample.stress);
-    }
-    // Relative to the sample count the determinant is of order 0.01 for any patch of two rows.
-    let count = samples.len() as f64;
-    let is_determined = normal.determinant() > 1e-9 * count.powi(3);
-    match normal.cholesky().filter(|_| is_determined) {
-        Some(factor) => {
-            let values = factor.solve(&right);
-            std::array::from_fn(|k| values[(0, k)])
-        }
-        None => mean(samples),
-    }
-}
-
-/// As [`fit_in_plane`], with a polynomial in three coordinates. The samples of a patch one element thick lie on a plane: across it the
-/// stress is taken as constant.
-fn fit_in_space(origin: [f64; 3], samples: &[&Sample]) -> Voigt {
-    // About the centre of the samples the slope is independent of the mean.
-    let count = samples.len() as f64;
-    let sum: Vector3<f64> = samples.iter().map(|s| Vector3::from(s.position)).sum();
-    let centre = sum / count;
-    let middle = mean(samples);
-    let (mut normal, mut right) = (Matrix3::zeros(), SMatrix::<f64, 3, 6>::zeros());
-    for sample in samples {
-        let offset = Vector3::from(sample.position) - centre;
-        normal += offset * offset.transpose();
-        right += offset * SMatrix::<f64, 1, 6>::from(sample.stress);
-    }
-    let eigen = normal.symmetric_eigen();
-    let widest = eigen.eigenvalues.max();
-    let reach = Vector3::from(origin) - centre;
-    let mut value = middle;
-    for (spread, axis) in eigen
-        .eigenvalues
-        .iter()
-        .zip(eigen.eigenvectors.column_iter())
-    {
-        if *spread > FLAT * widest {
-            let slope = axis.transpose() * right / *spread;
-            (0..6).for_each(|k| value[k] += axis.dot(&reach) * slope[k]);
-        }
-    }
-    value
-}
-
-/// Squared thickness over width below which the samples of a patch lie on a plane.
-const FLAT: f64 = 1e-4;
-
-fn mean(samples: &[&Sample]) -> Voigt {
-    let mut sum = [0.0; 6];
-    for sample in samples {
-        (0..6).for_each(|k| sum[k] += sample.stress[k]);
-    }
-    sum.map(|component| component / samples.len() as f64)
 }
 
 fn in_frame(stress: Voigt, angle: f64, material: &ElasticMaterial) -> NodalStress {

@@ -43,6 +43,7 @@ fn mode(real_hz: f64, frequency_hz: f64, harmonic: usize, direction: i8) -> Comp
         contact_share: 0.2,
         axial_share: None,
         shape: None,
+        left: None,
         wave: None,
     }
 }
@@ -77,6 +78,7 @@ fn sweep(mesh: &AnnulusMesh) -> FrictionSweep {
             restabilized: Some((0.9, 9950.0)),
             unstable_from_start: false,
         }],
+        crossings: Vec::new(),
     }
 }
 
@@ -153,7 +155,7 @@ fn tables_hold_one_row_for_each_mode_of_a_tabulated_friction_value() {
     assert_eq!(
         lines.next().unwrap(),
         "friction_coefficient,mode,real_hz,frequency_hz,damping_factor,growth_rate_per_s,harmonic,\
-         branch,direction,unstable,residual,contact_share"
+         branch,direction,unstable,residual,contact_share,mesh_error"
     );
     let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
     assert_eq!(rows.len(), 6);
@@ -172,8 +174,8 @@ fn tables_hold_one_row_for_each_mode_of_a_tabulated_friction_value() {
         stability.lines().collect::<Vec<_>>(),
         [
             "harmonic,branch,direction,critical_friction,frequency_hz,restabilized_friction,\
-             restabilized_frequency_hz,unstable_from_start",
-            "2,0,-1,0.1382,9893.0,0.9,9950.0,false"
+             restabilized_frequency_hz,unstable_from_start,mesh_error",
+            "2,0,-1,0.1382,9893.0,0.9,9950.0,false,"
         ]
     );
     assert_eq!(

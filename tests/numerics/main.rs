@@ -31,6 +31,7 @@ mod friction_law;
 mod half_space;
 mod improve;
 mod matrices;
+mod mesh_error;
 mod normal_law;
 mod orthotropy;
 mod plane_body;

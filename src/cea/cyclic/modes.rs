@@ -102,6 +102,7 @@ fn mode(
         contact_share: pair.contact_share,
         axial_share: Some(pair.axial_share).filter(|share| !share.is_nan()),
         shape: wants_shape.then(|| (producer.expand)(problem.harmonic, waves, &pair.x)),
+        left: None,
         wave: wants_wave.then(|| ModeWave {
             unknowns: (producer.unknowns)(problem.harmonic, &pair.x),
             is_backward: waves == Waves::Backward,

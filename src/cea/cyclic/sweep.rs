@@ -231,7 +231,11 @@ fn finish(tangent: SectorTangent, found: Found, verdict: Verdict) -> CyclicSweep
     let mut intervals: Vec<_> = branches.iter().flat_map(|b| b.intervals.clone()).collect();
     intervals.sort_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction));
     CyclicSweep {
-        sweep: FrictionSweep { points, intervals },
+        sweep: FrictionSweep {
+            points,
+            crossings: vec![None; intervals.len()],
+            intervals,
+        },
         branches,
         coverage,
         tangent,

@@ -19,7 +19,7 @@ const BACKWARD_ERROR_BOUND: f64 = 1e-9;
 /// Factors of `K(mu)`.
 pub enum StiffnessFactors {
     /// Without friction: a factor five cheaper to compute and to solve with.
-    Symmetric(Box<SparseLdl>),
+    Symmetric(Arc<SparseLdl>),
     /// With friction on few rows: two solutions with the factors of `K(0)`, and a small dense one.
     Updated(Box<UpdatedFactors>),
     /// With friction.
@@ -32,7 +32,7 @@ impl StiffnessFactors {
     /// # Errors
     /// If it is singular.
     pub fn frictionless(tangent: &SlidingTangent) -> Result<Self, LinalgError> {
-        Ok(Self::Symmetric(Box::new(symmetric(tangent)?)))
+        Ok(Self::Symmetric(Arc::new(symmetric(tangent)?)))
     }
 
     /// Factors of `K(mu)`, with what all friction coefficients share made once and kept in `cache`.
@@ -87,6 +87,29 @@ pub struct FactorCache {
     shared: OnceLock<Result<Shared, LinalgError>>,
 }
 
+impl FactorCache {
+    /// Factors of `K(0)`, where those with friction are updates of them; `None` where they are not. `release` is called before they are
+    /// made, to let go of what they replace.
+    ///
+    /// # Errors
+    /// If it is singular.
+    pub fn frictionless(
+        &self,
+        tangent: &SlidingTangent,
+        release: impl FnOnce(),
+    ) -> Result<Option<StiffnessFactors>, LinalgError> {
+        if friction_rows(&tangent.stiffness).len() > MOST_ROWS {
+            return Ok(None);
+        }
+        release();
+        let shared = self.shared.get_or_init(|| Shared::new(tangent));
+        match shared.as_ref().map_err(Clone::clone)? {
+            Shared::Base(base) => Ok(Some(StiffnessFactors::Symmetric(Arc::clone(&base.ldl)))),
+            Shared::Analysis(_) => Ok(None),
+        }
+    }
+}
+
 enum Shared {
     Base(Arc<FrictionlessBase>),
     Analysis(LuAnalysis),
@@ -119,7 +142,7 @@ fn friction_rows(stiffness: &MatrixPolynomial) -> Vec<usize> {
 /// Factors of `K(0)`, and `R_p K(0)^-1 E` of `K(mu) = K(0) + E R(mu)`, `R = sum_p mu^p R_p`: `E` picks the rows that friction
 /// touches.
 struct FrictionlessBase {
-    ldl: SparseLdl,
+    ldl: Arc<SparseLdl>,
     rows: Vec<usize>,
     /// `R_p K(0)^-1 E`, for each power from 1 on.
     couplings: Vec<Mat<f64>>,
@@ -147,7 +170,7 @@ impl FrictionlessBase {
         }
         Self {
             couplings,
-            ldl,
+            ldl: Arc::new(ldl),
             rows,
         }
     }

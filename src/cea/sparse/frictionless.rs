@@ -15,6 +15,7 @@ use crate::linalg::{
 };
 use crate::prestress::SlidingTangent;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// Bound on the residual of the iteration.
 const TOLERANCE: f64 = 1e-11;
@@ -167,7 +168,7 @@ fn free_modes(
         ModeLimit::Lowest(_) => inertia.largest_ratio() * part,
     };
     let ldl = SparseLdl::factorize(&inertia.analysis, &inertia.shifted(-shift))?;
-    let factors = StiffnessFactors::Symmetric(Box::new(ldl));
+    let factors = StiffnessFactors::Symmetric(Arc::new(ldl));
     let undamped = Linearization::Reduced(RayleighDamping::default());
     let operator = ShiftInverted {
         matrices: &StructureMatrices::at(tangent, undamped, 0.0),
@@ -290,7 +291,7 @@ impl<'a> Inertia<'a> {
 
     fn factorize_stiffness(&self) -> Result<StiffnessFactors, LinalgError> {
         let ldl = SparseLdl::factorize(&self.analysis, &self.stiffness.evaluate(0.0))?;
-        Ok(StiffnessFactors::Symmetric(Box::new(ldl)))
+        Ok(StiffnessFactors::Symmetric(Arc::new(ldl)))
     }
 
     /// Factors of `K - sigma M` with a shift amid the modes, else those of `K`, where they are known already.
@@ -310,7 +311,7 @@ impl<'a> Inertia<'a> {
     fn factorize_amid(&self, frequencies: &[f64]) -> Option<StiffnessFactors> {
         let shift = frequency_amid(frequencies)?.powi(2);
         let ldl = SparseLdl::factorize(&self.analysis, &self.shifted(shift)).ok()?;
-        Some(StiffnessFactors::Symmetric(Box::new(ldl)))
+        Some(StiffnessFactors::Symmetric(Arc::new(ldl)))
     }
 
     /// Values of `K - shift M`.

@@ -20,6 +20,7 @@ mod factors;
 #[cfg(test)]
 mod fixtures;
 mod frictionless;
+mod left;
 mod linearization;
 mod mode;
 mod onset;

@@ -33,10 +33,14 @@ pub struct FoundInterval {
 }
 
 impl FoundInterval {
+    /// The mode at its critical friction; `None` where it is unstable from the start.
+    pub fn onset(&self) -> Option<&State> {
+        (!self.found.from_start).then_some(&self.found.onset)
+    }
+
     /// Modes at its ends that lie within the range.
     pub fn crossings(&self) -> impl Iterator<Item = &State> {
-        let onset = (!self.found.from_start).then_some(&self.found.onset);
-        onset.into_iter().chain(&self.found.restabilized)
+        self.onset().into_iter().chain(&self.found.restabilized)
     }
 }
 

@@ -1,15 +1,16 @@
 //! All modes at one friction coefficient, each held to its residual in the full matrices.
 
+use super::StiffnessFactors;
 use super::edge::ContactEdge;
+use super::left::{OpenPair, correct_lefts};
 use super::linearization::Linearization;
 use super::mode::ReducedMode;
 use super::packed::{PackedModes, PackedVector};
 use super::reduced::ReducedModel;
 use super::structure::StructureMatrices;
 use super::{GROUP_WIDTH, RESIDUAL_BOUND, TRACKING_MARGIN};
-use crate::cea::{ModeLimit, keeping_ties};
-use crate::linalg::LinalgError;
-use crate::linalg::c64;
+use crate::cea::{ModeLimit, ModeVectors, keeping_ties};
+use crate::linalg::{LinalgError, Mat, c64};
 use crate::prestress::SlidingTangent;
 use std::f64::consts::TAU;
 
@@ -234,21 +235,62 @@ impl PointSolver<'_> {
         edge / (whole - friction)
     }
 
-    /// Shapes of `modes` over all nodal dofs, the largest displacement vector of length 1 and real there.
-    pub fn shapes(&self, model: &ReducedModel, modes: &[ReducedMode]) -> Vec<Vec<c64>> {
-        let packed = PackedModes::of(modes, model.dimension());
-        let count = self.tangent.unknowns.len();
-        let mut shapes = vec![Vec::new(); modes.len()];
-        for group in packed.groups(GROUP_WIDTH) {
-            let x = model.expand(packed.coordinates.get(.., group.columns.clone()));
-            for &j in &group.modes {
-                let vector = packed.vector(j, &group, &x);
-                let values: Vec<c64> = (0..count).map(|unknown| vector.at(unknown)).collect();
-                shapes[j] = self.tangent.displacement(&values);
-                normalize(&mut shapes[j]);
-            }
+    /// Right and left vectors of `modes` at `mu` over all nodal dofs, see [`ModeVectors`]; left ones are corrected by `factors`, of the
+    /// stiffness without friction.
+    pub fn vectors(
+        &self,
+        (model, factors): (&ReducedModel, &StiffnessFactors),
+        mu: f64,
+        modes: &[ReducedMode],
+    ) -> Vec<ModeVectors> {
+        let rights = self.expanded(model, modes, |mode| &mode.right);
+        let lefts = self.expanded(model, modes, |mode| &mode.left);
+        let pairs = modes.iter().zip(rights.into_iter().zip(lefts));
+        let pairs = pairs.map(|(mode, (right, left))| OpenPair {
+            eigenvalue: mode.eigenvalue,
+            right,
+            left,
+        });
+        let mut pairs: Vec<OpenPair> = pairs.collect();
+        correct_lefts(self.tangent, factors, mu, &mut pairs);
+        let pairs = modes.iter().zip(pairs);
+        pairs
+            .map(|(mode, pair)| {
+                let mut right = self.tangent.displacement(&pair.right);
+                let scale = normalize(&mut right);
+                let mut left = self.tangent.left_displacement(&pair.left, mu);
+                left.iter_mut().for_each(|v| *v *= scale);
+                ModeVectors {
+                    eigenvalue: mode.eigenvalue,
+                    rate: mode.derivative,
+                    right,
+                    left,
+                }
+            })
+            .collect()
+    }
+
+    /// Vectors of `modes` over the unknowns, of their coordinates as they are.
+    fn expanded(
+        &self,
+        model: &ReducedModel,
+        modes: &[ReducedMode],
+        of: impl Fn(&ReducedMode) -> &Vec<c64>,
+    ) -> Vec<Vec<c64>> {
+        let mut vectors = Vec::with_capacity(modes.len());
+        for group in modes.chunks(GROUP_WIDTH / 2) {
+            // Real and imaginary part of each side by side.
+            let coordinates = Mat::from_fn(model.dimension(), 2 * group.len(), |i, column| {
+                let value = of(&group[column / 2]).get(i);
+                value.map_or(0.0, |v| if column % 2 == 0 { v.re } else { v.im })
+            });
+            let x = model.expand(coordinates.as_ref());
+            vectors.extend((0..group.len()).map(|j| -> Vec<c64> {
+                let parts = x.col(2 * j).iter().zip(x.col(2 * j + 1).iter());
+                parts.map(|(&re, &im)| c64::new(re, im)).collect()
+            }));
         }
-        shapes
+        vectors
     }
 }
 
@@ -256,8 +298,8 @@ fn length(vector: &[c64]) -> f64 {
     vector.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt()
 }
 
-/// Scales a nodal vector so that its largest entry is 1.
-fn normalize(shape: &mut [c64]) {
+/// Scales a nodal vector so that its largest entry is 1; what it was divided by.
+fn normalize(shape: &mut [c64]) -> c64 {
     let zero = c64::new(0.0, 0.0);
     let largest = shape.iter().fold(zero, |best, &v| {
         if v.norm_sqr() > best.norm_sqr() {
@@ -266,7 +308,9 @@ fn normalize(shape: &mut [c64]) {
             best
         }
     });
-    if largest != zero {
-        shape.iter_mut().for_each(|v| *v /= largest);
+    if largest == zero {
+        return c64::new(1.0, 0.0);
     }
+    shape.iter_mut().for_each(|v| *v /= largest);
+    largest
 }

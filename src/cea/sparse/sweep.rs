@@ -1,18 +1,18 @@
 //! The stages of a sweep.
 
+mod results;
+
 use super::basis::BasisBuilder;
 use super::branches::{BranchLabel, TrackedBranch, label_frictionless, track};
 use super::edge::ContactEdge;
 use super::frictionless::FrictionlessModes;
 use super::linearization::Linearization;
-use super::onset::{FoundInterval, OnsetFinder, State};
 use super::point::{PointSolver, SolvedPoint};
 use super::{RESIDUAL_BOUND, TRACKING_MARGIN};
 use crate::cea::{
-    CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeLimit, SweepProgress, SweepRequest,
-    SweepStage, SweepWatch, UnstableInterval,
+    CeaError, FrictionSweep, ModeLimit, SweepProgress, SweepRequest, SweepStage, SweepWatch,
 };
-use crate::linalg::{LinalgError, c64};
+use crate::linalg::LinalgError;
 
 use crate::prestress::SlidingTangent;
 use rayon::prelude::*;
@@ -372,147 +372,6 @@ impl<'a> SparseSweep<'a> {
                 self.builder.search(to, TRACKING_MARGIN)?;
             }
             self.solve()?;
-        }
-    }
-
-    /// The result, with shapes and critical friction coefficients.
-    ///
-    /// # Errors
-    /// As [`sweep`].
-    pub fn finish(
-        &mut self,
-        request: &SweepRequest<'_>,
-        branches: &[TrackedBranch],
-    ) -> Result<FrictionSweep, CeaError> {
-        let frictions = request.friction_coefficients.iter();
-        let points = frictions
-            .map(|&mu| {
-                let k = self.grid.partition_point(|&g| g < mu);
-                self.friction_point(k, request.shapes_at.contains(&mu), branches)
-            })
-            .collect();
-        let mut intervals = self.intervals(branches)?;
-        intervals.sort_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction));
-        Ok(FrictionSweep { points, intervals })
-    }
-
-    /// Unstable intervals of all branches; where a crossing misses its residual, the basis grows there.
-    ///
-    /// Of the quadratic problem the basis holds the modes of a few friction coefficients only: the modes at crossings
-    /// are corrected until these settle.
-    fn intervals(&mut self, branches: &[TrackedBranch]) -> Result<Vec<UnstableInterval>, CeaError> {
-        let mut repairs = 0;
-        let mut settled: Vec<f64> = Vec::new();
-        let mut known: Vec<Vec<FoundInterval>> = Vec::new();
-        loop {
-            let solver = self.point_solver();
-            let finder = || OnsetFinder {
-                solver: &solver,
-                model: &self.builder.model,
-                points: &self.points,
-                lowest: self.lowest,
-            };
-            // In a basis that grew, crossings are near where they were.
-            let found: Result<Vec<_>, CeaError> = (0..branches.len())
-                .into_par_iter()
-                .map(|i| {
-                    let again = known.get(i).map(|own| finder().again(&branches[i], own));
-                    match again {
-                        Some(Ok(Some(intervals))) => Ok(intervals),
-                        Some(Err(error)) => Err(error),
-                        Some(Ok(None)) | None => finder().intervals(&branches[i]),
-                    }
-                })
-                .collect();
-            match found {
-                Ok(found) => {
-                    let crossings = || found.iter().flatten().flat_map(FoundInterval::crossings);
-                    let places: Vec<f64> = crossings().map(|state| state.mu).collect();
-                    let pairs = || places.iter().zip(&settled);
-                    let has_settled = places.len() == settled.len()
-                        && pairs().all(|(new, old)| (new - old).abs() <= SETTLED);
-                    let is_final =
-                        !self.builder.is_sampling() || has_settled || repairs >= MAX_REPAIRS;
-                    let mut has_grown = false;
-                    if !is_final {
-                        for State { mu, mode } in crossings() {
-                            has_grown |= self.builder.refine_mode(*mu, mode);
-                        }
-                    }
-                    if !has_grown {
-                        let found = found.into_iter().flatten();
-                        return Ok(found.map(|found| found.interval).collect());
-                    }
-                    settled = places;
-                    known = found;
-                    repairs += 1;
-                }
-                Err(CeaError::NotConverged {
-                    friction_coefficient,
-                    ..
-                }) if repairs < MAX_REPAIRS => {
-                    self.builder.improve_at(friction_coefficient)?;
-                    repairs += 1;
-                }
-                Err(error) => return Err(error),
-            }
-        }
-    }
-
-    fn friction_point(
-        &self,
-        k: usize,
-        with_shapes: bool,
-        branches: &[TrackedBranch],
-    ) -> FrictionPoint {
-        let point = &self.points[k];
-        let wanted = &point.modes[..point.wanted];
-        let mut shapes = if with_shapes {
-            self.point_solver().shapes(&self.builder.model, wanted)
-        } else {
-            Vec::new()
-        }
-        .into_iter();
-        let modes = wanted
-            .iter()
-            .zip(&point.checks)
-            .enumerate()
-            .map(|(i, (mode, check))| {
-                let branch = branches.iter().find(|b| b.modes[k] == Some(i));
-                let label = branch.map_or_else(
-                    || BranchLabel {
-                        harmonic: self.edge.harmonic(&check.edge, check.peak),
-                        branch: 0,
-                    },
-                    |b| b.label,
-                );
-                // Without friction any combination of a degenerate pair is a mode: it has no direction.
-                let direction = match point.friction_coefficient {
-                    0.0 => 0,
-                    _ => self.edge.direction(&check.edge, label.harmonic),
-                };
-                // A body that turns without damping neither grows nor decays but by round-off.
-                let is_round_off = self.tangent.is_gyroscopic
-                    && mode.eigenvalue.re.abs() <= check.uncertainty * mode.eigenvalue.norm();
-                ComplexMode {
-                    eigenvalue: match is_round_off {
-                        true => c64::new(0.0, mode.eigenvalue.im),
-                        false => mode.eigenvalue,
-                    },
-                    harmonic: label.harmonic,
-                    branch: label.branch,
-                    direction,
-                    residual: check.residual,
-                    uncertainty: check.uncertainty,
-                    contact_share: check.contact_share,
-                    axial_share: None,
-                    shape: shapes.next(),
-                    wave: None,
-                }
-            });
-        FrictionPoint {
-            friction_coefficient: point.friction_coefficient,
-            modes: modes.collect(),
         }
     }
 }

@@ -83,6 +83,7 @@ mod tests {
             contact_share: 0.0,
             axial_share: None,
             shape: None,
+            left: None,
             wave: None,
         };
         let point = |friction_coefficient: f64, own: &[usize]| FrictionPoint {
@@ -97,6 +98,7 @@ mod tests {
                 point(0.4, &[0, 1]),
             ],
             intervals: Vec::new(),
+            crossings: Vec::new(),
         };
         let all = branches(&sweep);
         let lengths = |branch: usize, changes: &[f64]| -> Vec<usize> {

@@ -18,7 +18,16 @@ use std::io::{self, Write};
 pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, FolderError> {
     folder.write("eigenvalues.csv", |out| write_eigenvalues(out, report))?;
     folder.write("stability.csv", |out| {
-        write_stability(out, &report.sweep.intervals, report.has_harmonics)
+        let errors = report
+            .reading
+            .as_ref()
+            .map(|own| own.onset_errors.as_slice());
+        write_stability(
+            out,
+            &report.sweep.intervals,
+            errors.unwrap_or_default(),
+            report.has_harmonics,
+        )
     })?;
     if let Some(sensitivities) = report.sensitivities {
         folder.write("sensitivities.csv", |out| sensitivities.write(out))?;
@@ -50,6 +59,10 @@ pub fn write_eigenvalues(out: &mut dyn Write, report: &CeaReport<'_>) -> io::Res
     // A body without symmetry has modes without a harmonic.
     let harmonic = |mode: &ComplexMode| report.has_harmonics.then_some(mode.harmonic);
     let direction = |mode: &ComplexMode| report.has_harmonics.then_some(mode.direction);
+    let mesh_error = |friction: f64, mode: usize| {
+        let reading = report.reading.as_ref()?;
+        reading.mesh_error(friction, mode)
+    };
     let columns: &[Column<'_, (f64, usize, &ComplexMode)>] = &[
         ("friction_coefficient", &|row| row.0.into()),
         ("mode", &|row| (row.1 + 1).into()),
@@ -63,6 +76,7 @@ pub fn write_eigenvalues(out: &mut dyn Write, report: &CeaReport<'_>) -> io::Res
         ("unstable", &|row| row.2.is_unstable().into()),
         ("residual", &|row| row.2.residual.into()),
         ("contact_share", &|row| row.2.contact_share.into()),
+        ("mesh_error", &|row| mesh_error(row.0, row.1 + 1).into()),
         ("axial_share", &|row| row.2.axial_share.into()),
     ];
     let is_plane = report.solid.is_none();
@@ -82,25 +96,31 @@ pub fn write_eigenvalues(out: &mut dyn Write, report: &CeaReport<'_>) -> io::Res
 pub fn write_stability(
     out: &mut dyn Write,
     intervals: &[UnstableInterval],
+    mesh_errors: &[Option<f64>],
     has_harmonics: bool,
 ) -> io::Result<()> {
-    let columns: &[Column<'_, &UnstableInterval>] = &[
-        ("harmonic", &|i| has_harmonics.then_some(i.harmonic).into()),
-        ("branch", &|i| i.branch.into()),
-        ("direction", &|i| {
-            has_harmonics.then_some(i.direction).into()
+    let columns: &[Column<'_, (&UnstableInterval, Option<f64>)>] = &[
+        ("harmonic", &|i| {
+            has_harmonics.then_some(i.0.harmonic).into()
         }),
-        ("critical_friction", &|i| i.critical_friction.into()),
-        ("frequency_hz", &|i| i.frequency_hz.into()),
+        ("branch", &|i| i.0.branch.into()),
+        ("direction", &|i| {
+            has_harmonics.then_some(i.0.direction).into()
+        }),
+        ("critical_friction", &|i| i.0.critical_friction.into()),
+        ("frequency_hz", &|i| i.0.frequency_hz.into()),
         ("restabilized_friction", &|i| {
-            i.restabilized.map(|end| end.0).into()
+            i.0.restabilized.map(|end| end.0).into()
         }),
         ("restabilized_frequency_hz", &|i| {
-            i.restabilized.map(|end| end.1).into()
+            i.0.restabilized.map(|end| end.1).into()
         }),
-        ("unstable_from_start", &|i| i.unstable_from_start.into()),
+        ("unstable_from_start", &|i| i.0.unstable_from_start.into()),
+        ("mesh_error", &|i| i.1.into()),
     ];
-    write_rows(out, columns, intervals)
+    let rows = intervals.iter().enumerate();
+    let rows = rows.map(|(k, own)| (own, mesh_errors.get(k).copied().flatten()));
+    write_rows(out, columns, rows)
 }
 
 /// Writes the shapes that the modes carry: one VTU each with the real and the imaginary part of the

@@ -29,7 +29,7 @@ pub use locus::NamedDamping;
 pub use map::MapReport;
 pub use mode_name::ModeName;
 pub use print::print;
-pub use reading::{Contribution, Coupling, Reading, Source};
+pub use reading::{Contribution, Coupling, MeshError, Reading, Source};
 pub use report::html_report;
 pub use sensitivity::{OnsetRates, SensitivityReport, SensitivityRow};
 pub use solid::SolidReport;

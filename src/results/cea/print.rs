@@ -1,7 +1,7 @@
 //! The table that a person reads.
 
 use super::branches::branch_of;
-use super::{CeaReport, direction_name};
+use super::{CeaReport, MeshError, direction_name};
 use crate::cea::{ComplexMode, FrictionPoint, UnstableInterval};
 use std::fmt::Write as _;
 
@@ -26,6 +26,7 @@ pub fn print(report: &CeaReport<'_>, is_whole: bool) -> String {
         own_modes(&mut out, report);
     }
     totals(&mut out, report);
+    mesh_errors(&mut out, report);
     critical_frictions(&mut out, report);
     out
 }
@@ -189,6 +190,46 @@ fn critical_frictions(out: &mut String, report: &CeaReport<'_>) {
             interval.frequency_hz,
         );
     }
+}
+
+/// Estimated relative error of a frequency above which a mesh is too coarse for the estimate.
+const COARSE: f64 = 0.05;
+
+/// The largest error of the mesh in a frequency, and that of the lowest critical friction, where they were estimated.
+fn mesh_errors(out: &mut String, report: &CeaReport<'_>) {
+    let Some(reading) = &report.reading else {
+        return;
+    };
+    let share = |own: &&MeshError| (own.frequency_hz / own.of_hz).abs();
+    let all = reading.mesh_errors.iter();
+    let Some(worst) = all.max_by(|a, b| share(a).total_cmp(&share(b))) else {
+        return;
+    };
+    let _ = write!(
+        out,
+        "error of the mesh, estimated: frequencies up to {:+.2} Hz ({:.2} %, mode {} at friction {})",
+        worst.frequency_hz,
+        100.0 * share(&worst),
+        worst.mode,
+        worst.friction_coefficient,
+    );
+    if share(&worst) > COARSE {
+        let _ = writeln!(
+            out,
+            ": too coarse for more than an order of magnitude of it"
+        );
+        return;
+    }
+    let first = report.sweep.intervals.iter().zip(&reading.onset_errors);
+    let mut first = first.filter_map(|(interval, error)| Some((interval, (*error)?)));
+    let _ = match first.next() {
+        Some((interval, error)) => writeln!(
+            out,
+            ", critical friction {error:+.1e} of {:.6}",
+            interval.critical_friction
+        ),
+        None => writeln!(out),
+    };
 }
 
 /// So many friction values, in words.

@@ -77,10 +77,13 @@ pub struct CriticalFriction {
     pub restabilized_frequency_hz: Option<f64>,
     /// Whether it is unstable at the lowest friction value already.
     pub unstable_from_start: bool,
+    /// What the mesh makes of it: estimate of the critical friction less that on an ever finer mesh.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mesh_error: Option<f64>,
 }
 
 impl CriticalFriction {
-    fn of(interval: &UnstableInterval, has_harmonics: bool) -> Self {
+    fn of(interval: &UnstableInterval, mesh_error: Option<f64>, has_harmonics: bool) -> Self {
         Self {
             harmonic: has_harmonics.then_some(interval.harmonic),
             branch: interval.branch,
@@ -90,6 +93,7 @@ impl CriticalFriction {
             restabilized_friction: interval.restabilized.map(|end| end.0),
             restabilized_frequency_hz: interval.restabilized.map(|end| end.1),
             unstable_from_start: interval.unstable_from_start,
+            mesh_error,
         }
     }
 }
@@ -114,10 +118,13 @@ pub struct ModeSummary {
     /// Share of the kinetic energy along the axis, of a body in three dimensions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axial_share: Option<f64>,
+    /// What the mesh makes of the frequency: estimate of it less that on an ever finer mesh, Hz.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mesh_error: Option<f64>,
 }
 
 impl ModeSummary {
-    fn of(mode: &ComplexMode, has_harmonics: bool) -> Self {
+    fn of(mode: &ComplexMode, mesh_error: Option<f64>, has_harmonics: bool) -> Self {
         Self {
             harmonic: has_harmonics.then_some(mode.harmonic),
             branch: mode.branch,
@@ -127,6 +134,7 @@ impl ModeSummary {
             unstable: mode.is_unstable(),
             contact_share: present(mode.contact_share),
             axial_share: mode.axial_share,
+            mesh_error,
         }
     }
 }
@@ -216,9 +224,19 @@ pub fn summary(report: &CeaReport<'_>, manifest: &Manifest) -> CeaSummary {
         point.friction_coefficient == base.friction_coefficient
     };
     let own = report.sweep.points.iter().find(own);
-    let of_mode = |mode: &ComplexMode| ModeSummary::of(mode, report.has_harmonics);
-    let of_interval =
-        |interval: &UnstableInterval| CriticalFriction::of(interval, report.has_harmonics);
+    let reading = report.reading.as_ref();
+    let modes_at = |point: &crate::cea::FrictionPoint| -> Vec<ModeSummary> {
+        let error = |mode: usize| reading?.mesh_error(point.friction_coefficient, mode);
+        let numbered = point.modes.iter().enumerate();
+        numbered
+            .map(|(i, mode)| ModeSummary::of(mode, error(i + 1), report.has_harmonics))
+            .collect()
+    };
+    let onset = |(k, interval): (usize, &UnstableInterval)| {
+        let error = reading.and_then(|own| own.onset_errors.get(k).copied().flatten());
+        CriticalFriction::of(interval, error, report.has_harmonics)
+    };
+    let onsets = report.sweep.intervals.iter().enumerate();
     let may_open = !report.has_harmonics || report.solid.is_some();
     let nodes = (base.slipping + base.sticking + base.open).max(1);
     CeaSummary {
@@ -231,9 +249,9 @@ pub fn summary(report: &CeaReport<'_>, manifest: &Manifest) -> CeaSummary {
         modes: report.mode_counts().1,
         friction_values: report.friction_coefficients.len(),
         unstable_counts: report.tabulated().map(of_point).collect(),
-        critical_frictions: report.sweep.intervals.iter().map(of_interval).collect(),
+        critical_frictions: onsets.map(onset).collect(),
         largest_residual: present(report.largest_residual()),
-        modes_at_friction: own.map(|point| point.modes.iter().map(of_mode).collect()),
+        modes_at_friction: own.map(modes_at),
         unstable_modes: UnstableMode::all(report),
         base_state: base,
         notes: report.notes.clone(),

@@ -4,7 +4,7 @@ use super::Progress;
 use crate::case::Case;
 use crate::cea::sparse;
 use crate::cea::{
-    CeaError, FrictionPoint, FrictionSweep, PartWatch, SweepRequest, UnstableInterval,
+    CeaError, FrictionPoint, FrictionSweep, ModeVectors, PartWatch, SweepRequest, UnstableInterval,
 };
 use crate::fem::assemble_stiffness;
 use crate::mesh::Mesh;
@@ -140,23 +140,31 @@ fn joined(mut parts: Vec<FrictionSweep>, frictions: &[f64]) -> FrictionSweep {
             .map(|point| (*point).clone())
     });
     let points = points.collect();
-    let mut intervals: Vec<UnstableInterval> = Vec::new();
-    for interval in parts.into_iter().flat_map(|part| part.intervals) {
+    let mut found: Vec<(UnstableInterval, Option<ModeVectors>)> = Vec::new();
+    let pairs = parts
+        .into_iter()
+        .flat_map(|part| part.intervals.into_iter().zip(part.crossings));
+    for (interval, crossing) in pairs {
         // A branch that is unstable on both sides of a change goes on.
-        let same = intervals.iter_mut().find(|known| {
+        let same = found.iter_mut().find(|(known, _)| {
             known.branch == interval.branch
                 && known.harmonic == interval.harmonic
                 && known.restabilized.is_none()
         });
         match same {
-            Some(known) if interval.unstable_from_start => {
+            Some((known, _)) if interval.unstable_from_start => {
                 known.restabilized = interval.restabilized
             }
-            _ => intervals.push(interval),
+            _ => found.push((interval, crossing)),
         }
     }
-    intervals.sort_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction));
-    FrictionSweep { points, intervals }
+    found.sort_by(|(a, _), (b, _)| a.critical_friction.total_cmp(&b.critical_friction));
+    let (intervals, crossings) = found.into_iter().unzip();
+    FrictionSweep {
+        points,
+        intervals,
+        crossings,
+    }
 }
 
 /// Gives the branches of `after` the numbers that their nearest eigenvalues have in `before` where both meet.

@@ -67,6 +67,7 @@ pub fn modes(friction: f64, mesh: Option<&Mesh>) -> Vec<ComplexMode> {
                 contact_share: 0.1,
                 axial_share: None,
                 shape: mesh.map(|mesh| shape(mesh, harmonic, branch, direction, friction)),
+                left: None,
                 wave: None,
             });
         }
@@ -101,7 +102,11 @@ pub fn sweep(count: usize) -> FrictionSweep {
         }
     }
     intervals.sort_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction));
-    FrictionSweep { points, intervals }
+    FrictionSweep {
+        points,
+        intervals,
+        crossings: Vec::new(),
+    }
 }
 
 /// A wave of one harmonic, clamped outside, with an arbitrary solver phase; friction shears it.

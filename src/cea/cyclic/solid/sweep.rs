@@ -183,7 +183,11 @@ pub fn solid_sweep_with_waves(
         factorizations: followed.iter().map(|paths| paths.factorizations).sum(),
     };
     Ok(SolidSweep {
-        sweep: FrictionSweep { points, intervals },
+        sweep: FrictionSweep {
+            points,
+            crossings: vec![None; intervals.len()],
+            intervals,
+        },
         coverage,
         dofs: tangent.unknown_of().iter().flatten().count() * sector.sector_count(),
         reduction_error: error,

@@ -13,6 +13,7 @@
 
 mod budget;
 mod feed;
+mod mesh_error;
 mod parts;
 mod shapes;
 mod waves;
@@ -72,5 +73,6 @@ pub(super) fn read(
         reading.couplings.extend(couplings);
     }
     reading.feed = feed::feed(case, model, &parts, &points);
+    (reading.mesh_errors, reading.onset_errors) = mesh_error::mesh_errors(&parts, &points, sweep);
     Some(reading)
 }

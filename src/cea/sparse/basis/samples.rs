@@ -1,0 +1,246 @@
+//! A basis of the modes at a few friction coefficients, each from an iteration of its own.
+
+use super::{
+    BasisBuilder, FREE_ROUNDS, LOSSY_ROUNDS, MAX_CORRECTIONS, SAMPLE_RESIDUAL, SAMPLE_TOLERANCE,
+    VECTOR_TOLERANCE, turn_to_real,
+};
+use crate::cea::CeaError;
+use crate::cea::sparse::factors::StiffnessFactors;
+use crate::cea::sparse::linearization::Linearization;
+use crate::cea::sparse::mode::ReducedMode;
+use crate::cea::sparse::packed::PackedModes;
+use crate::cea::sparse::structure::{Companion, StructureMatrices};
+use crate::linalg::Mat;
+use crate::linalg::dense::{column_mut, column_norms, random_columns};
+use crate::linalg::{LinalgError, QuadraticKrylovSettings, quadratic_krylov};
+
+impl BasisBuilder<'_> {
+    /// Takes up the modes at each of few `values` (friction coefficients, ascending) of proportional damping: without friction
+    /// they are known.
+    ///
+    /// # Errors
+    /// If an iteration fails.
+    pub fn cover_each(&mut self, values: &[f64]) -> Result<(), CeaError> {
+        self.is_sampling = true;
+        self.hold_frictionless();
+        // One set of factors is enough: those of K(0), which factors with friction update, instead of the shifted ones.
+        let preconditioner = &mut self.preconditioner;
+        if let Some(shared) = self
+            .cache
+            .frictionless(self.tangent, || *preconditioner = None)?
+        {
+            self.preconditioner = Some(shared);
+        }
+        for mu in values.iter().filter(|mu| **mu > 0.0) {
+            self.improve_at(*mu)?;
+        }
+        Ok(())
+    }
+
+    /// Branches begin without friction: the modes there, without damping too, are near enough, or those of proportional damping.
+    pub(super) fn hold_frictionless(&mut self) {
+        let modes = Mat::identity(self.model.dimension(), self.count);
+        self.model.hold_coordinates(0.0, modes);
+        if let Linearization::Reduced(_) = self.linearization {
+            self.sampled.push(0.0);
+        }
+    }
+
+    /// Makes the basis hold the modes at `mu` better; whether it grew.
+    ///
+    /// # Errors
+    /// If `K(mu)` is singular, or an iteration or a dense decomposition fails.
+    pub fn improve_at(&mut self, mu: f64) -> Result<bool, CeaError> {
+        match self.linearization {
+            _ if !self.is_sampling => Ok(self.refine_at(mu)?.is_some()),
+            _ if self.sampled.contains(&mu) => self.refine_sample(mu),
+            Linearization::Reduced(_) => {
+                self.sampled.push(mu);
+                let vectors =
+                    self.step(mu, |builder| builder.dominant_vectors(mu, builder.count))?;
+                let has_grown = self.model.extend(vectors.clone(), SAMPLE_TOLERANCE).ncols() > 0;
+                self.model.hold_sample(mu, &vectors);
+                Ok(has_grown)
+            }
+            Linearization::Companion { frequency_scale } => {
+                self.sampled.push(mu);
+                if self.rigid.is_some() {
+                    return self.sample_free(mu);
+                }
+                // Combinations of the modes without friction, which the basis holds first.
+                let width = self.start_width();
+                let known = self.count.min(self.model.dimension());
+                let has_grown = self.sample(mu, frequency_scale, self.count, |builder| {
+                    [1, 2].map(|seed| {
+                        let mixed = random_columns(known, width, seed);
+                        builder.model.expand(mixed.as_ref())
+                    })
+                })?;
+                // The iteration leaves structural damping and tables out: its vectors are a start.
+                let is_viscous =
+                    self.tangent.structural.is_none() && self.tangent.tabled.is_empty();
+                let rounds = if is_viscous { 0 } else { LOSSY_ROUNDS };
+                for _ in 0..rounds {
+                    if !self.refine_sample(mu)? {
+                        break;
+                    }
+                }
+                Ok(has_grown)
+            }
+        }
+    }
+
+    /// Corrects `modes` that the basis holds nearly at `mu`, from the second time on those that it holds now; whether there was
+    /// anything to correct.
+    ///
+    /// # Errors
+    /// If a dense decomposition fails.
+    pub fn correct_at(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
+        if !self.sampled.contains(&mu) {
+            self.sampled.push(mu);
+            self.model.hold_coordinates(mu, self.leading(modes));
+        }
+        self.refine_sample(mu)
+    }
+
+    /// Lets the `modes` found in the sample at `mu`, if there is one, stand for it: corrections made it wider than they need.
+    pub fn hold_solved(&mut self, mu: f64, modes: &[ReducedMode]) {
+        if self.sampled.contains(&mu) && modes.len() >= self.count {
+            self.model.drop_sample(mu);
+            self.model.hold_coordinates(mu, self.leading(modes));
+        }
+    }
+
+    /// Coordinates of the modes to be held, real and imaginary parts.
+    fn leading(&self, modes: &[ReducedMode]) -> Mat<f64> {
+        let leading = &modes[..self.count.min(modes.len())];
+        PackedModes::of(leading, self.model.dimension()).coordinates
+    }
+
+    /// Where `mu` lies among the friction coefficients whose modes the basis holds: an odd number at one, an even one between.
+    pub fn gap(&self, mu: f64) -> usize {
+        let below = self.sampled.iter().filter(|&&held| held < mu).count();
+        2 * below + usize::from(self.sampled.contains(&mu))
+    }
+
+    /// Takes up the modes at `mu` of bodies that nothing holds, whose `K` has no factors, from those without damping.
+    fn sample_free(&mut self, mu: f64) -> Result<bool, CeaError> {
+        let modes = Mat::identity(self.model.dimension(), self.count);
+        let vectors = self.model.expand(modes.as_ref());
+        self.model.hold_sample(mu, &vectors);
+        for _ in 0..FREE_ROUNDS {
+            if !self.refine_sample(mu)? {
+                break;
+            }
+        }
+        Ok(true)
+    }
+
+    /// Start vectors of an iteration: two where modes may come in pairs of equal eigenvalue.
+    pub(super) fn start_width(&self) -> usize {
+        1 + usize::from(!self.tangent.contact_angles.is_empty())
+    }
+
+    /// Adds the vectors of the `modes` lowest modes of the quadratic problem at `mu`, found from what `start` gives; whether
+    /// the basis grew.
+    pub(super) fn sample(
+        &mut self,
+        mu: f64,
+        frequency_scale: f64,
+        modes: usize,
+        start: impl FnOnce(&Self) -> [Mat<f64>; 2],
+    ) -> Result<bool, CeaError> {
+        let vectors = self.step(mu, |builder| {
+            builder.quadratic_modes(mu, frequency_scale, modes, &start(builder))
+        })?;
+        let has_grown = self.model.extend(vectors.clone(), SAMPLE_TOLERANCE).ncols() > 0;
+        self.model.hold_sample(mu, &vectors);
+        Ok(has_grown)
+    }
+
+    /// Vectors of the `modes` lowest modes of the quadratic problem at `mu`, two real columns each.
+    fn quadratic_modes(
+        &self,
+        mu: f64,
+        frequency_scale: f64,
+        modes: usize,
+        [x, y]: &[Mat<f64>; 2],
+    ) -> Result<Mat<f64>, CeaError> {
+        let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
+        let factors = match mu {
+            0.0 => StiffnessFactors::frictionless(self.tangent)?,
+            _ => StiffnessFactors::general(self.tangent, &self.cache, mu)?,
+        };
+        let operator = Companion::new(&matrices, &factors, frequency_scale);
+        let settings = QuadraticKrylovSettings {
+            pairs: modes,
+            tolerance: SAMPLE_RESIDUAL,
+            max_applications: 20 * (modes + 10),
+        };
+        let found = quadratic_krylov(&operator, [x.as_ref(), y.as_ref()], &settings)?;
+        let mut vectors = found.vectors;
+        turn_to_real(&mut vectors);
+        Ok(vectors)
+    }
+
+    /// Adds the corrections of the modes at a sampled `mu` to the basis and to the sample; whether there were any.
+    fn refine_sample(&mut self, mu: f64) -> Result<bool, CeaError> {
+        let mut corrections = self.step(mu, |builder| {
+            let modes = builder.model.solve_right(mu, builder.count)?;
+            Ok::<_, LinalgError>(builder.corrections(&modes, mu))
+        })?;
+        let lengths = column_norms(corrections.as_ref());
+        for (j, length) in lengths.into_iter().enumerate().filter(|(_, l)| *l > 0.0) {
+            let entries = column_mut(&mut corrections, j).iter_mut();
+            entries.for_each(|v| *v /= length);
+        }
+        let has_any = corrections.ncols() > 0;
+        if has_any {
+            self.model.extend(corrections.clone(), VECTOR_TOLERANCE);
+            self.model.hold_sample(mu, &corrections);
+        }
+        Ok(has_any)
+    }
+
+    /// Corrects one mode at `mu`, not sampled, in the basis until its residual vanishes or stays; whether the basis
+    /// grew.
+    ///
+    /// Each correction needs two solves, and a Rayleigh quotient iteration in the basis.
+    pub fn refine_mode(&mut self, mu: f64, mode: &ReducedMode) -> bool {
+        let (mut mode, mut last, mut has_grown) = (mode.clone(), f64::INFINITY, false);
+        for _ in 0..MAX_CORRECTIONS {
+            let corrections = self.corrections(std::slice::from_ref(&mode), mu);
+            let lengths = column_norms(corrections.as_ref());
+            let longest = lengths.into_iter().fold(0.0, f64::max);
+            // Corrections of round-off do not become shorter.
+            if longest == 0.0 || longest > 0.7 * last {
+                break;
+            }
+            last = longest;
+            let new = self.model.extend(corrections, VECTOR_TOLERANCE * longest);
+            if new.ncols() == 0 {
+                break;
+            }
+            has_grown = true;
+            match self.model.mode_near(mu, &mode) {
+                Some(next) => mode = next,
+                None => break,
+            }
+        }
+        has_grown
+    }
+
+    /// Makes the tracking of branches over `from..to` surer: takes up the modes at an end or, after those, at the
+    /// next of the dyadic fractions between; whether anything was left to do.
+    ///
+    /// # Errors
+    /// As [`Self::improve_at`].
+    pub fn improve_between(&mut self, from: f64, to: f64) -> Result<bool, CeaError> {
+        let fractions = [0.0, 1.0, 0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875];
+        let values = fractions.map(|t| from + t * (to - from));
+        match values.into_iter().find(|mu| !self.sampled.contains(mu)) {
+            Some(mu) => self.improve_at(mu).map(|_| true),
+            None => Ok(false),
+        }
+    }
+}

@@ -1,0 +1,182 @@
+//! All modes of the projected problem by dense decompositions.
+
+use super::ReducedModel;
+use crate::cea::sparse::linearization::Linearization;
+use crate::cea::sparse::mode::ReducedMode;
+use crate::cea::sparse::own_frequency;
+use crate::cea::sparse::projected::ProjectedMatrices;
+use crate::linalg::dense_eigen::{complex_eigen, real_eigen};
+use crate::linalg::dense_few::few_eigenvalues;
+use crate::linalg::{ComplexDenseLu, DenseLu, LinalgError};
+use crate::linalg::{Mat, MatRef, c64};
+
+impl ReducedModel {
+    /// The modes of projected matrices, without derivatives and scale.
+    pub(super) fn solve_projected(
+        &self,
+        at: &ProjectedMatrices,
+        count: usize,
+        with_left: bool,
+    ) -> Result<Vec<ReducedMode>, LinalgError> {
+        if let Some((gain, _)) = at.tabled.first() {
+            let start_hz = gain.reference_hz;
+            let frozen = |frequency_hz: f64| {
+                let at = at.frozen(frequency_hz);
+                self.solve_lossy(&at, count, true)
+            };
+            let mut modes = own_frequency::solve(at, &frozen, start_hz)?;
+            for mode in &mut modes {
+                mode.inverse_value = self.linearization.inverse_value(mode.eigenvalue);
+            }
+            return Ok(modes);
+        }
+        if at.structural.is_some() {
+            return self.solve_lossy(at, count, with_left);
+        }
+        let lu = DenseLu::factorize(at.stiffness.clone());
+        let leading = match self.linearization {
+            Linearization::Reduced(_) => count,
+            Linearization::Companion { .. } => 2 * count,
+        };
+        let operator = self.shift_inverted(at, &lu);
+        let eigen = match (with_left, few_eigenvalues(&operator, leading)) {
+            (false, Some(eigen)) => eigen,
+            _ => real_eigen(operator.as_ref(), with_left, leading)?,
+        };
+        // The upper half of a left vector of the operator is K^T times that of the problem.
+        let m = at.stiffness.nrows();
+        let mut left = eigen.left;
+        if let Some(left) = &mut left {
+            lu.solve_transpose_in_place(left.as_mut().split_at_row_mut(m).0);
+        }
+
+        let mut order: Vec<usize> = (0..eigen.values.len()).collect();
+        order.sort_by(|&i, &j| eigen.values[j].norm().total_cmp(&eigen.values[i].norm()));
+        let mut modes: Vec<ReducedMode> = order
+            .into_iter()
+            .filter_map(|i| {
+                Some(ReducedMode {
+                    eigenvalue: self.linearization.eigenvalue(eigen.values[i])?,
+                    inverse_value: eigen.values[i],
+                    derivative: c64::new(0.0, 0.0),
+                    right: unpack(&eigen.values, eigen.right.as_ref(), m, i, false),
+                    left: left.as_ref().map_or_else(Vec::new, |left| {
+                        unpack(&eigen.values, left.as_ref(), m, i, true)
+                    }),
+                })
+            })
+            .take(count)
+            .collect();
+        modes.sort_by(|p, q| p.eigenvalue.im.total_cmp(&q.eigenvalue.im));
+        Ok(modes)
+    }
+
+    /// [`Self::solve_projected`] with structural damping `H`: the eigenvalues `1 / nu` of the complex operator
+    ///
+    /// ```text
+    /// [ -omega (K + i H)^-1 C   -omega^2 (K + i H)^-1 M ]
+    /// [  I                       0                      ],    lambda = omega nu, Im nu > 0;
+    /// ```
+    ///
+    /// those with `Im nu < 0` are no motions: at negative frequencies the force is `-i H`.
+    fn solve_lossy(
+        &self,
+        at: &ProjectedMatrices,
+        count: usize,
+        with_left: bool,
+    ) -> Result<Vec<ReducedMode>, LinalgError> {
+        let (
+            Linearization::Companion {
+                frequency_scale: omega,
+            },
+            Some(structural),
+        ) = (self.linearization, &at.structural)
+        else {
+            return Ok(Vec::new());
+        };
+        // The operator.
+        let m = at.stiffness.nrows();
+        let complex = |p: &Mat<f64>, factor: f64| {
+            Mat::from_fn(m, m, |i, j| c64::new(factor * p[(i, j)], 0.0))
+        };
+        let lu = ComplexDenseLu::factorize(Mat::from_fn(m, m, |i, j| {
+            c64::new(at.stiffness[(i, j)], structural[(i, j)])
+        }));
+        let (mut damped, mut inert) = (
+            complex(&at.damping, -omega),
+            complex(&at.mass, -omega * omega),
+        );
+        lu.solve_in_place(damped.as_mut());
+        lu.solve_in_place(inert.as_mut());
+        let operator = Mat::from_fn(2 * m, 2 * m, |i, j| match (i < m, j < m) {
+            (true, true) => damped[(i, j)],
+            (true, false) => inert[(i, j - m)],
+            (false, _) => c64::new(f64::from(u8::from(i - m == j)), 0.0),
+        });
+        let (values, right, left) = complex_eigen(operator.as_ref(), with_left)?;
+        // The upper half of a left vector y^H of the operator is (K + i H)^T times that of the problem.
+        let left = left.map(|left| {
+            let mut upper = Mat::from_fn(m, left.ncols(), |i, j| left[(i, j)].conj());
+            lu.solve_transpose_in_place(upper.as_mut());
+            upper
+        });
+        let mut order: Vec<usize> = (0..values.len()).collect();
+        order.sort_by(|&i, &j| values[j].norm().total_cmp(&values[i].norm()));
+        let mode = |i: usize| {
+            let column = |vectors: &Mat<c64>| (0..m).map(|row| vectors[(row, i)]).collect();
+            Some(ReducedMode {
+                eigenvalue: self.linearization.eigenvalue(values[i])?,
+                inverse_value: values[i],
+                derivative: c64::new(0.0, 0.0),
+                right: column(&right),
+                left: left.as_ref().map_or_else(Vec::new, column),
+            })
+        };
+        let mut modes: Vec<ReducedMode> = order.into_iter().filter_map(mode).take(count).collect();
+        modes.sort_by(|p, q| p.eigenvalue.im.total_cmp(&q.eigenvalue.im));
+        Ok(modes)
+    }
+
+    /// The dense shift-inverted operator of the linearisation.
+    fn shift_inverted(&self, at: &ProjectedMatrices, lu: &DenseLu) -> Mat<f64> {
+        let mut inertia = at.mass.clone();
+        lu.solve_in_place(inertia.as_mut());
+        match self.linearization {
+            Linearization::Reduced(_) => inertia,
+            Linearization::Companion {
+                frequency_scale: omega,
+            } => {
+                let m = at.stiffness.nrows();
+                let mut damped = at.damping.clone();
+                lu.solve_in_place(damped.as_mut());
+                Mat::from_fn(2 * m, 2 * m, |i, j| match (i < m, j < m) {
+                    (true, true) => -omega * damped[(i, j)],
+                    (true, false) => -omega * omega * inertia[(i, j - m)],
+                    (false, _) => f64::from(i - m == j),
+                })
+            }
+        }
+    }
+}
+
+/// The first `rows` entries of column `i` of packed vectors, as a complex vector, conjugated if asked.
+fn unpack(
+    values: &[c64],
+    vectors: MatRef<'_, f64>,
+    rows: usize,
+    i: usize,
+    conjugated: bool,
+) -> Vec<c64> {
+    let (re, im, sign) = match values[i].im {
+        im if im > 0.0 => (i, Some(i + 1), 1.0),
+        im if im < 0.0 => (i - 1, Some(i), -1.0),
+        _ => (i, None, 0.0),
+    };
+    let sign = if conjugated { -sign } else { sign };
+    (0..rows)
+        .map(|row| {
+            let imaginary = im.map_or(0.0, |k| sign * vectors[(row, k)]);
+            c64::new(vectors[(row, re)], imaginary)
+        })
+        .collect()
+}

@@ -1,0 +1,164 @@
+//! Strains and stresses at the points of an element.
+
+use super::{ElementGeometry, IntegrationPoint, Voigt, inverse, stress_of};
+use crate::fem::ElasticMaterial;
+use crate::mesh::ElementKind;
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+
+impl ElementGeometry {
+    /// Whether the element has incompatible modes.
+    pub(super) fn has_incompatible_modes(&self) -> bool {
+        self.kind == ElementKind::Hex8
+    }
+
+    /// Gradients of the three incompatible modes `1 - xi_k^2` at each point, scaled so that a constant stress does no work on
+    /// them (Taylor, Beresford and Wilson 1976); none for elements without.
+    pub(super) fn incompatible_gradients(
+        &self,
+        points: &[IntegrationPoint],
+    ) -> Vec<Vec<Vector3<f64>>> {
+        if !self.has_incompatible_modes() {
+            return vec![Vec::new(); points.len()];
+        }
+        let (inverse, determinant) = inverse(&self.jacobian([0.0; 3]));
+        let at_point = |point: &IntegrationPoint| {
+            // All weights of the 2 x 2 x 2 rule are one.
+            let scale = determinant / point.measure;
+            let slope = |k: usize| inverse.column(k) * (-2.0 * point.place[k] * scale);
+            (0..3).map(slope).collect()
+        };
+        points.iter().map(at_point).collect()
+    }
+
+    /// Displacement gradient `du_i / dx_j` at a point, from the values of the element's nodes in their frames.
+    fn nodal_gradient(&self, point: &IntegrationPoint, values: &[f64]) -> Matrix3<f64> {
+        let dimension = self.dimension();
+        let mut gradient = Matrix3::zeros();
+        for (local, frame) in self.frames.iter().enumerate() {
+            let mut components = Vector3::zeros();
+            for axis in 0..dimension {
+                components[axis] = values[dimension * local + axis];
+            }
+            gradient += (frame * components) * point.gradients[local].transpose();
+        }
+        gradient
+    }
+
+    /// Displacement gradients at some points, incompatible modes of amplitudes `internal` included.
+    pub(super) fn displacement_gradients(
+        &self,
+        points: &[IntegrationPoint],
+        values: &[f64],
+        internal: Option<&DVector<f64>>,
+    ) -> Vec<Matrix3<f64>> {
+        let modes = self.incompatible_gradients(points);
+        let at_point = |(point, modes): (&IntegrationPoint, Vec<Vector3<f64>>)| {
+            let mut gradient = self.nodal_gradient(point, values);
+            if let Some(internal) = internal {
+                for (k, mode) in modes.iter().enumerate() {
+                    let amplitude = Vector3::from_fn(|axis, _| internal[3 * k + axis]);
+                    gradient += amplitude * mode.transpose();
+                }
+            }
+            gradient
+        };
+        points.iter().zip(modes).map(at_point).collect()
+    }
+
+    /// Stress at some points, Pa, from the values of the element's nodes in their frames, m.
+    pub fn stresses(
+        &self,
+        points: &[IntegrationPoint],
+        material: &ElasticMaterial,
+        values: &[f64],
+    ) -> Vec<Voigt> {
+        let internal = self.internal_amplitudes(material, values);
+        let gradients = self.displacement_gradients(points, values, internal.as_ref());
+        let pairs = points.iter().zip(&gradients);
+        pairs
+            .map(|(point, gradient)| stress_of(material, gradient, self.position(point)))
+            .collect()
+    }
+
+    /// Amplitudes of the incompatible modes that come with nodal values.
+    pub(super) fn internal_amplitudes(
+        &self,
+        material: &ElasticMaterial,
+        values: &[f64],
+    ) -> Option<DVector<f64>> {
+        if !self.has_incompatible_modes() {
+            return None;
+        }
+        let recovered = self.stiffness(material).recovered?;
+        Some(recovered * DVector::from_column_slice(values))
+    }
+
+    /// Strain at a point of each nodal displacement along its axis, and of each amplitude of the incompatible `modes`.
+    pub(super) fn strain_columns(
+        &self,
+        point: &IntegrationPoint,
+        modes: &[Vector3<f64>],
+    ) -> Vec<Voigt> {
+        let mut strains = Vec::new();
+        for (gradient, frame) in point.gradients.iter().zip(&self.frames) {
+            let axes = (0..self.dimension()).map(|axis| frame.column(axis).into_owned());
+            strains.extend(axes.map(|e| strain_along(gradient, &e)));
+        }
+        for gradient in modes {
+            strains.extend((0..3).map(|c| strain_along(gradient, &Vector3::ith(c, 1.0))));
+        }
+        strains
+    }
+
+    /// Matrix from the values of the element's nodes in their frames (m) to the strains at some points, with those of the incompatible
+    /// modes that come with the values: three rows `(xx, yy, 2 xy)` a point in the plane, six `(xx, yy, zz, 2 xy, 2 yz, 2 zx)` in space.
+    pub fn strain_operator(
+        &self,
+        material: &ElasticMaterial,
+        points: &[IntegrationPoint],
+    ) -> DMatrix<f64> {
+        let nodal = self.dimension() * self.node_count();
+        let recovered = match self.has_incompatible_modes() {
+            true => self.stiffness(material).recovered,
+            false => None,
+        };
+        let (components, modes) = (self.components(), self.incompatible_gradients(points));
+        let rows = components.len();
+        let mut operator = DMatrix::zeros(rows * points.len(), nodal);
+        for (k, (point, modes)) in points.iter().zip(&modes).enumerate() {
+            let columns = self.strain_columns(point, modes);
+            let strains = DMatrix::from_fn(rows, columns.len(), |row, column| {
+                columns[column][components[row]]
+            });
+            let mut own = strains.columns(0, nodal).into_owned();
+            if let Some(recovered) = &recovered {
+                own += strains.columns(nodal, columns.len() - nodal) * recovered;
+            }
+            operator.rows_mut(rows * k, rows).copy_from(&own);
+        }
+        operator
+    }
+
+    /// Elasticity `D` at a point, Pa, over the rows of [`Self::strain_operator`].
+    pub fn elasticity(&self, material: &ElasticMaterial, point: &IntegrationPoint) -> DMatrix<f64> {
+        let material = self.solid_aware(material);
+        let law = material.elasticity_at(self.position(point));
+        let components = self.components();
+        let count = components.len();
+        DMatrix::from_fn(count, count, |row, column| {
+            law[components[row]][components[column]]
+        })
+    }
+}
+
+/// Strain of a displacement along `e` with the gradient `g` of its size.
+fn strain_along(g: &Vector3<f64>, e: &Vector3<f64>) -> Voigt {
+    [
+        g.x * e.x,
+        g.y * e.y,
+        g.z * e.z,
+        g.y * e.x + g.x * e.y,
+        g.z * e.y + g.y * e.z,
+        g.z * e.x + g.x * e.z,
+    ]
+}

@@ -1,0 +1,78 @@
+//! What the mesh makes of frequencies and of critical friction.
+//!
+//! A finite-element eigenvalue `lambda_h` differs from that of the same model on a fine mesh, to leading order, by what the errors of its
+//! right and left vector have in common (goal-oriented, Heuveline and Rannacher 2001),
+//!
+//! ```text
+//! lambda_h - lambda = - sum_regions (1 + i eta + lambda beta) a(e_w, e_x),   w^T (2 lambda M + C) x = 1
+//! mu_h - mu = - Re(lambda_h - lambda) / Re(d lambda / d mu)                  at critical friction
+//! ```
+//!
+//! with `a(e_w, e_x)` of [`DiscretizationError`]. Outlines that the mesh cuts off, and geometry of its own, are no part of it.
+
+use super::parts::Parts;
+use crate::cea::{FrictionPoint, FrictionSweep, ModeVectors};
+use crate::fem::{DiscretizationError, MassKind};
+use crate::linalg::c64;
+use crate::results::cea::MeshError;
+use std::f64::consts::TAU;
+
+/// Modes for which the estimate is made at every friction value; of more, at the ends and at the case's own friction.
+const MOST_MODES: usize = 256;
+
+/// The errors of the modes that have both vectors, and of each critical friction of the sweep; none of a mass that is lumped, whose own
+/// error they would leave out, and of materials whose modulus follows a table.
+pub(super) fn mesh_errors(
+    parts: &Parts<'_>,
+    points: &[&FrictionPoint],
+    sweep: &FrictionSweep,
+) -> (Vec<MeshError>, Vec<Option<f64>>) {
+    let is_tabled = parts.regions.iter().any(|region| region.is_tabled());
+    if parts.options.mass != MassKind::Consistent || is_tabled {
+        return (Vec::new(), Vec::new());
+    }
+    let own = parts.case.contact.sliding.friction_coefficient;
+    let all: usize = points.iter().map(|point| point.modes.len()).sum();
+    let is_wanted = |k: usize| {
+        let is_end = k == 0 || k + 1 == points.len();
+        all <= MOST_MODES || is_end || points[k].friction_coefficient == own
+    };
+    let estimate = DiscretizationError::new(parts.mesh, parts.case.materials());
+    let error = |lambda: c64, forms: &[c64]| -> c64 {
+        let regions = parts.regions.iter().zip(forms);
+        -regions
+            .map(|(region, form)| (region.ratio(lambda) + lambda * region.beta) * form)
+            .sum::<c64>()
+    };
+
+    let mut of_modes = Vec::new();
+    for (_, point) in points.iter().enumerate().filter(|(k, _)| is_wanted(*k)) {
+        let numbered = point.modes.iter().enumerate();
+        let (modes, pairs): (Vec<_>, Vec<_>) = numbered
+            .filter_map(|(i, mode)| {
+                let pair = [mode.left.as_deref()?, mode.shape.as_deref()?];
+                Some(((i + 1, mode), pair))
+            })
+            .unzip();
+        let forms = estimate.forms(&pairs);
+        let rows = modes.iter().zip(&forms);
+        let rows = rows.map(|((number, mode), forms)| MeshError {
+            friction_coefficient: point.friction_coefficient,
+            mode: *number,
+            of_hz: mode.frequency_hz(),
+            frequency_hz: error(mode.eigenvalue, forms).im / TAU,
+        });
+        of_modes.extend(rows.filter(|row| row.frequency_hz.is_finite()));
+    }
+
+    let crossings: Vec<&ModeVectors> = sweep.crossings.iter().flatten().collect();
+    let pairs = crossings.iter().map(|own| [&*own.left, &*own.right]);
+    let forms = estimate.forms(&pairs.collect::<Vec<_>>());
+    let mut of_crossings = crossings.iter().zip(&forms).map(|(own, forms)| {
+        let change = -error(own.eigenvalue, forms).re / own.rate.re;
+        change.is_finite().then_some(change)
+    });
+    let onsets = sweep.crossings.iter();
+    let onsets = onsets.map(|own| own.as_ref().and_then(|_| of_crossings.next().flatten()));
+    (of_modes, onsets.collect())
+}

@@ -1,0 +1,108 @@
+//! What the mesh makes of frequencies and of critical friction, against finer meshes.
+
+use crate::bricks::{Block, file_of};
+use frictionsim::case::Case;
+use frictionsim::cea::Unwatched;
+use frictionsim::study::eigenvalues::{SlidingModel, Solution, solve};
+use std::fs;
+use std::path::PathBuf;
+
+/// Shipped cases, with the sweep of their own made short.
+fn shipped(name: &str, modes: usize, frictions: &str) -> Case {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+        .join("cases")
+        .join(format!("{name}.toml"));
+    let overrides = [
+        format!("cea.modes={modes}"),
+        format!("cea.friction_coefficients={frictions}"),
+        "cea.sensitivities=false".to_owned(),
+    ];
+    let text = fs::read(&path).unwrap();
+    Case::parse(path.to_str().unwrap(), &text, &overrides).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn solved(case: &Case) -> Solution {
+    let cea = case.cea.clone().unwrap();
+    let model = SlidingModel::new(case, &cea).unwrap();
+    solve(case, &cea, &model, &Unwatched).unwrap()
+}
+
+/// Frequencies at the last friction value with their estimates, Hz.
+fn estimates(solution: &Solution) -> Vec<[f64; 2]> {
+    let point = solution.sweep.points.last().unwrap();
+    let reading = solution.reading.as_ref().unwrap();
+    let numbered = point.modes.iter().enumerate();
+    numbered
+        .map(|(i, mode)| {
+            let error = reading.mesh_error(point.friction_coefficient, i + 1);
+            [mode.frequency_hz(), error.unwrap()]
+        })
+        .collect()
+}
+
+/// What the estimates say of the difference of two meshes, over that difference, by mode.
+fn effectivities(coarse: &[[f64; 2]], fine: &[[f64; 2]]) -> Vec<f64> {
+    let pairs = coarse.iter().zip(fine);
+    pairs
+        .map(|([a, of_a], [b, of_b])| (of_a - of_b) / (a - b))
+        .collect()
+}
+
+/// Independent check: the same body on elements of half the size. Linear bricks in space, quadratic triangles in the plane, with contact,
+/// friction and damping; the estimate of every frequency is within a factor of two.
+#[test]
+fn estimates_of_frequencies_are_within_a_factor_of_two_of_the_error_by_refinement() {
+    let lining = |fineness: usize| {
+        let folder =
+            PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("mesh-error-{fineness}"));
+        fs::create_dir_all(&folder).unwrap();
+        let block = Block {
+            name: "part",
+            origin: [0.0; 3],
+            size: [0.05, 0.04, 0.02],
+            counts: [10 * fineness, 8 * fineness, 6 * fineness],
+        };
+        fs::write(folder.join("part.msh"), file_of(&[block], |point| point)).unwrap();
+        let text = "[mesh]\nfile = \"part.msh\"\n[material]\nyoung_modulus = 8e9\npoisson_ratio = 0.25\n\
+                    density = 2500.0\n[cea]\nmodes = 8\n";
+        let path = folder.join("part.toml");
+        Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]).unwrap()
+    };
+    let disc = shipped("disc-triangles", 6, "[0.0, 0.3]");
+    for (name, [coarse, fine]) in [
+        ("lining", [lining(1), lining(2)]),
+        ("disc", [disc.clone(), disc.refined(2.0).unwrap()]),
+    ] {
+        let [coarse, fine] = [coarse, fine].map(|case| estimates(&solved(&case)));
+        let found = effectivities(&coarse, &fine);
+        println!("{name}: {found:.3?}");
+        assert!(
+            found.iter().all(|e| (0.5..2.0).contains(e)),
+            "{name}: {found:?}"
+        );
+        // Both meshes are fine enough for the error to fall as its order says.
+        let falls = coarse.iter().zip(&fine).all(|(a, b)| b[1] < 0.4 * a[1]);
+        assert!(falls, "{name}: {coarse:?} {fine:?}");
+    }
+}
+
+/// Independent check: the same body on elements of half the size. A critical friction is where a growth rate vanishes, a difference of
+/// large parts: errors of 1e-4 and more are estimated within a factor of two on this body.
+#[test]
+fn estimates_of_critical_friction_follow_the_error_by_refinement() {
+    let coarse = shipped("test-bench", 10, "[0.1, 0.2]");
+    let fine = coarse.refined(2.0).unwrap();
+    let onsets = |case: &Case| -> Vec<[f64; 2]> {
+        let solution = solved(case);
+        let reading = solution.reading.as_ref().unwrap();
+        let pairs = solution.sweep.intervals.iter().zip(&reading.onset_errors);
+        pairs
+            .filter_map(|(interval, error)| Some([interval.critical_friction, (*error)?]))
+            .collect()
+    };
+    let [coarse, fine] = [coarse, fine].map(|case| onsets(&case));
+    assert_eq!(coarse.len(), 3, "{coarse:?}");
+    let found = effectivities(&coarse, &fine);
+    println!("{found:.3?} of {coarse:?}");
+    assert!(found.iter().all(|e| (0.5..2.0).contains(e)), "{found:?}");
+}
