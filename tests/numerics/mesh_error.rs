@@ -69,9 +69,10 @@ fn estimates_of_frequencies_are_within_a_factor_of_two_of_the_error_by_refinemen
         Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]).unwrap()
     };
     let disc = shipped("disc-triangles", 6, "[0.0, 0.3]");
-    for (name, [coarse, fine]) in [
-        ("lining", [lining(1), lining(2)]),
-        ("disc", [disc.clone(), disc.refined(2.0).unwrap()]),
+    // The strain of bricks with incompatible modes is better than that of others, and so less is recovered.
+    for (name, most, [coarse, fine]) in [
+        ("lining", 2.3, [lining(1), lining(2)]),
+        ("disc", 2.0, [disc.clone(), disc.refined(2.0).unwrap()]),
     ] {
         let [coarse, fine] = [coarse, fine].map(|case| estimates(&solved(&case)));
         let found = effectivities(&coarse, &fine);

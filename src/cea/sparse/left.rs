@@ -6,6 +6,10 @@ use crate::prestress::SlidingTangent;
 
 /// Corrections of a left vector; each takes two digits or so where the contact is.
 const CORRECTIONS: usize = 4;
+/// Energy of a correction, relative to that of the vector, below which no more are made.
+const NEGLIGIBLE: f64 = 1e-8;
+/// Modes that are corrected together.
+const PAIRS_AT_A_TIME: usize = 12;
 
 /// A mode over the unknowns.
 pub struct OpenPair {
@@ -34,31 +38,73 @@ impl<'a> Transposed<'a> {
         }
     }
 
-    /// `sum_k factors_k A_k^T w`.
-    fn image(&self, factors: [c64; 4], w: &[c64]) -> Vec<c64> {
-        let mut image = vec![c64::new(0.0, 0.0); w.len()];
-        for (part, factor) in self.parts.iter().zip(factors) {
+    /// `sum_k factors_k A_k^T w` of several vectors, each with factors of its own.
+    fn images(&self, vectors: &[(&[c64], [c64; 4])]) -> Vec<Vec<c64>> {
+        let (size, width) = (
+            vectors.first().map_or(0, |own| own.0.len()),
+            2 * vectors.len(),
+        );
+        let mut image = vec![0.0; size * width];
+        for (k, part) in self.parts.iter().enumerate() {
             let Some((matrix, values)) = part else {
                 continue;
             };
-            for (i, value) in w.iter().enumerate() {
-                let own = factor * value;
+            // Real and imaginary parts of all vectors side by side: each entry of the matrix is read once.
+            let mut row = vec![0.0; width];
+            for i in 0..size {
+                for (parts, (w, factors)) in row.chunks_exact_mut(2).zip(vectors) {
+                    let value = factors[k] * w[i];
+                    parts.copy_from_slice(&[value.re, value.im]);
+                }
                 for (position, j) in matrix.pattern().row(i) {
-                    image[j] += own * values[position];
+                    let value = values[position];
+                    let sums = image[j * width..(j + 1) * width].iter_mut();
+                    sums.zip(&row).for_each(|(sum, x)| *sum += value * x);
                 }
             }
         }
-        image
+        let of = |m: usize| -> Vec<c64> {
+            let rows = image.chunks_exact(width);
+            rows.map(|row| c64::new(row[2 * m], row[2 * m + 1]))
+                .collect()
+        };
+        (0..vectors.len()).map(of).collect()
     }
 
-    fn residual(&self, lambda: c64, w: &[c64]) -> Vec<c64> {
-        let one = c64::new(1.0, 0.0);
-        self.image([lambda * lambda, lambda, one, c64::new(0.0, 1.0)], w)
+    /// `T(lambda)^T w` of some pairs.
+    fn residuals(&self, pairs: &[&OpenPair]) -> Vec<Vec<c64>> {
+        let own = pairs.iter().map(|pair| {
+            let lambda = pair.eigenvalue;
+            let factors = [
+                lambda * lambda,
+                lambda,
+                c64::new(1.0, 0.0),
+                c64::new(0.0, 1.0),
+            ];
+            (pair.left.as_slice(), factors)
+        });
+        self.images(&own.collect::<Vec<_>>())
     }
 
-    fn slope(&self, lambda: c64, w: &[c64]) -> Vec<c64> {
-        let [zero, one] = [0.0, 1.0].map(|v| c64::new(v, 0.0));
-        self.image([lambda * 2.0, one, zero, zero], w)
+    /// `T'(lambda)^T w` of some pairs.
+    fn slopes(&self, pairs: &[&OpenPair]) -> Vec<Vec<c64>> {
+        let own = pairs.iter().map(|pair| {
+            let [zero, one] = [0.0, 1.0].map(|v| c64::new(v, 0.0));
+            (
+                pair.left.as_slice(),
+                [pair.eigenvalue * 2.0, one, zero, zero],
+            )
+        });
+        self.images(&own.collect::<Vec<_>>())
+    }
+}
+
+impl OpenPair {
+    /// About twice the elastic energy of the left vector: `w^T (2 lambda M + C) x` is 1.
+    fn left_energy(&self) -> f64 {
+        let square: f64 = self.left.iter().map(|v| v.norm_sqr()).sum();
+        let product: c64 = self.left.iter().zip(&self.right).map(|(w, x)| w * x).sum();
+        0.5 * self.eigenvalue.norm() * square / product.norm()
     }
 }
 
@@ -78,41 +124,49 @@ pub fn correct_lefts(
     pairs: &mut [OpenPair],
 ) {
     let transposed = Transposed::at(tangent, mu);
-    let size = tangent.unknowns.len();
+    for group in pairs.chunks_mut(PAIRS_AT_A_TIME) {
+        correct_group(&transposed, factors, group);
+    }
+}
+
+fn correct_group(transposed: &Transposed<'_>, factors: &StiffnessFactors, pairs: &mut [OpenPair]) {
+    let scales: Vec<f64> = pairs.iter().map(OpenPair::left_energy).collect();
     let mut energies = vec![f64::INFINITY; pairs.len()];
     let mut open: Vec<usize> = (0..pairs.len()).collect();
     for _ in 0..CORRECTIONS {
-        let residuals = open.iter().map(|&k| {
-            let OpenPair {
-                eigenvalue, left, ..
-            } = &pairs[k];
-            transposed.residual(*eigenvalue, left)
-        });
-        let residuals: Vec<Vec<c64>> = residuals.collect();
+        // The corrections of those that are open, real and imaginary parts side by side.
+        let own: Vec<&OpenPair> = open.iter().map(|&k| &pairs[k]).collect();
+        let residuals = transposed.residuals(&own);
+        let size = residuals.first().map_or(0, Vec::len);
         let mut corrections = Mat::from_fn(size, 2 * open.len(), |i, column| {
             let value = residuals[column / 2][i];
             if column % 2 == 0 { value.re } else { value.im }
         });
         factors.solve_in_place(&mut corrections);
+        // Each is taken as long as corrections become smaller and still matter.
         let mut still_open = Vec::new();
         for (at, (&k, residual)) in open.iter().zip(&residuals).enumerate() {
             let [re, im] = [2 * at, 2 * at + 1].map(|column| corrections.col(column));
             let parts = || re.iter().zip(im.iter()).zip(residual);
-            let energy = parts()
-                .map(|((re, im), r)| re * r.re + im * r.im)
-                .sum::<f64>()
-                .abs();
-            if energy < energies[k] {
-                energies[k] = energy;
-                let entries = pairs[k].left.iter_mut().zip(parts());
-                entries.for_each(|(w, ((re, im), _))| *w -= c64::new(*re, *im));
+            let energy: f64 = parts().map(|((re, im), r)| re * r.re + im * r.im).sum();
+            let energy = energy.abs();
+            if energy >= energies[k] {
+                continue;
+            }
+            energies[k] = energy;
+            let entries = pairs[k].left.iter_mut().zip(parts());
+            entries.for_each(|(w, ((re, im), _))| *w -= c64::new(*re, *im));
+            if energy > NEGLIGIBLE * scales[k] {
                 still_open.push(k);
             }
         }
         open = still_open;
+        if open.is_empty() {
+            break;
+        }
     }
-    for pair in pairs {
-        let slope = transposed.slope(pair.eigenvalue, &pair.left);
+    let slopes = transposed.slopes(&pairs.iter().collect::<Vec<_>>());
+    for (pair, slope) in pairs.iter_mut().zip(&slopes) {
         let scale: c64 = slope.iter().zip(&pair.right).map(|(s, x)| s * x).sum();
         pair.left.iter_mut().for_each(|w| *w /= scale);
     }
