@@ -385,7 +385,6 @@ impl<'a> Assembly<'a> {
             .collect();
         let nodes = self
             .joined
-            .joined
             .contacts
             .iter()
             .flat_map(|(_, surface)| &surface.nodes);
