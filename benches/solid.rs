@@ -2,9 +2,12 @@
 //!
 //! `cargo bench --bench solid`. Prints, for each instruction set, microseconds a step (the fastest of many batches, so that
 //! other load on the machine counts little), nanoseconds a brick, how many times the floor of the stencil that is, and the share
-//! of the processor's fused multiply-add peak, which it measures first; then the time of 30 modes at 21 friction values.
+//! of the processor's fused multiply-add peak, which it measures first; then the time of 30 modes at 21 friction values; then a
+//! step of a body from a mesh file on one thread and on two, with the bandwidth that its bytes take of the memory's.
 //! Without `--bench` (as `cargo test --benches` calls it) everything is done once, on a small mesh.
 
+#[path = "../tests/common/bricks.rs"]
+mod bricks;
 #[path = "../tests/common/fma_peak.rs"]
 mod fma_peak;
 #[allow(dead_code)]
@@ -14,12 +17,17 @@ mod model;
 use fma_peak::fma_peak;
 use frictionsim::cea::cyclic::{SolidModel, solid_sweep};
 use frictionsim::cea::{ModeLimit, SweepRequest};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::mesh::{ElementKind, SolidSector};
+use frictionsim::fem::operator::{
+    AlignedVector, AssembledOperator, MotionFields, SimdLevel, StepCoefficients, StiffnessOperator,
+};
+use frictionsim::fem::{ElasticMaterial, PlaneFormulation, assemble_stiffness, lumped_masses};
+use frictionsim::mesh::{ElementKind, GmshFile, Mesh, SolidSector};
 use frictionsim::transient::{
     CentralDifference, InitialState, Observer, OperatorChoice, Perturbation, Sample,
     SolidTransientModel, TimeStep, TransientSettings,
 };
+use rayon::prelude::*;
+use std::hint::black_box;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -31,6 +39,14 @@ const FLOOR: f64 = 2.0 * 243.0;
 /// Additions and multiplications of one node's step: nine couplings of 34 for `K v` (mirror images share products), 6 for
 /// `K u`, 39 for motion and damping power.
 const OPERATIONS: f64 = 9.0 * 34.0 + 6.0 + 39.0;
+
+const STEEL: ElasticMaterial = ElasticMaterial {
+    young_modulus: 2e11,
+    poisson_ratio: 0.3,
+    density: 7850.0,
+    formulation: PlaneFormulation::ThreeDimensional,
+    ..ElasticMaterial::PLAIN
+};
 
 struct Ignore;
 
@@ -66,6 +82,70 @@ fn main() {
         .install(|| (0..samples).map(|_| eigenvalues(divisions)))
         .fold(f64::INFINITY, f64::min);
     println!("30 modes at 21 friction values: {:.0} ms", 1e3 * best);
+    let divisions = if is_measured { 40 } else { 6 };
+    println!("threads  ms/step    GB/s  GB/s of reading memory");
+    [1, 2].map(|threads| assembled(divisions, threads));
+}
+
+/// Prints a row: the step of a cube of bricks in a mesh file, without contact.
+fn assembled(divisions: usize, threads: usize) {
+    let cube = bricks::Block {
+        name: "cube",
+        origin: [0.0; 3],
+        size: [0.1; 3],
+        counts: [divisions; 3],
+    };
+    let file = GmshFile::read(&bricks::file_of(&[cube], |point| point)).expect("a mesh file");
+    let mesh = Mesh::from_solids(&file, 1.0, &[]).expect("a body");
+    let stiffness = assemble_stiffness(&mesh, &STEEL);
+    let masses = lumped_masses(&mesh, &STEEL);
+    let masses = masses.iter().flat_map(|&mass| [mass; 3]).collect();
+    let operator = AssembledOperator::new(&stiffness, masses, Vec::new(), SimdLevel::detect());
+    let operator = operator.expect("an operator");
+    let zeros = || AlignedVector::zeros(operator.field_length());
+    let mut fields = MotionFields {
+        displacement: zeros(),
+        velocity: zeros(),
+        elastic: zeros(),
+        elastic_rate: zeros(),
+    };
+    fields.velocity[0] = 1.0;
+    let coefficients = StepCoefficients {
+        time_step: 1e-8,
+        mass_coefficient: 0.0,
+        stiffness_coefficient: 0.0,
+    };
+    let bytes = operator.bytes_per_step();
+    let memory = vec![1.0_f64; bytes / 8];
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let [step, reading] = pool.expect("threads").install(|| {
+        let fastest = |work: &mut dyn FnMut()| {
+            let times = (0..20).map(|_| {
+                let clock = Instant::now();
+                work();
+                clock.elapsed().as_secs_f64()
+            });
+            times.fold(f64::INFINITY, f64::min)
+        };
+        let step = fastest(&mut || {
+            operator.advance(&mut fields, &coefficients);
+        });
+        let reading = fastest(&mut || {
+            let sums = memory.par_chunks(1 << 16).map(|chunk| {
+                let eights = chunk.as_chunks::<8>().0.iter();
+                eights.fold([0.0; 8], |sum, x| std::array::from_fn(|k| sum[k] + x[k]))
+            });
+            black_box(sums.collect::<Vec<_>>());
+        });
+        [step, reading]
+    });
+    let rate = 1e-9 * bytes as f64;
+    println!(
+        "{threads:7} {:8.3} {:7.1} {:7.1}",
+        1e3 * step,
+        rate / step,
+        rate / reading
+    );
 }
 
 /// Prints a row.

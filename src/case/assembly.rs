@@ -8,6 +8,7 @@ use super::normal_law::normal_law;
 use super::raw::MeshBytes;
 use super::reader::Section;
 use super::suggestion;
+use super::tables::{TableFiles, topography};
 use crate::contact::{ContactStiffness, Motion, PairFriction, SlidingContact};
 use crate::fem::{
     ElasticMaterial, MaterialField, PlaneFormulation, RegionMaterial, TabledMaterial,
@@ -101,13 +102,16 @@ impl AssemblyParts {
 
 /// Reads the sections of an assembly; its first contact and motion give the common contact of the case: a sweep varies the
 /// friction coefficient of the first contact, and the others keep their ratio to it.
-pub(super) fn sections(root: &Section<'_>) -> (AssemblyParts, Contact) {
+pub(super) fn sections(
+    root: &Section<'_>,
+    tables: &mut TableFiles<'_>,
+) -> (AssemblyParts, Contact) {
     let motions = root.each("motion", motion);
     let ties = root.each("ties", |section| {
         [section.text("surface"), section.text("counter")]
     });
     let mut bases = Vec::new();
-    let contacts = root.each("contacts", |section| contact(section, &mut bases));
+    let contacts = root.each("contacts", |section| contact(section, &mut bases, tables));
     let contacts: Vec<NamedContact> = contacts
         .into_iter()
         .map(|(name, contact)| NamedContact {
@@ -198,8 +202,25 @@ fn motion(section: &Section<'_>) -> Motion {
 }
 
 /// One contact, without its name and its place in the mesh.
-fn contact(section: &Section<'_>, bases: &mut Vec<BaseChoice>) -> NamedContact {
-    bases.push(section.choice("state"));
+fn contact(
+    section: &Section<'_>,
+    bases: &mut Vec<BaseChoice>,
+    tables: &mut TableFiles<'_>,
+) -> NamedContact {
+    let base = section.choice("state");
+    bases.push(base);
+    let topography = topography(section, tables);
+    if base == BaseChoice::Closed && topography.is_some() {
+        section.reject(
+            "gap",
+            format!(
+                "{} has no effect on a contact that is closed and free of stress",
+                section.name("gap")
+            ),
+            "beside state = \"closed\"".to_owned(),
+            Some("leave one of the two out".to_owned()),
+        );
+    }
     let decay = friction_decay(section);
     let stiffness = ContactStiffness {
         normal_stiffness: section.optional_number("normal_stiffness"),
@@ -235,6 +256,7 @@ fn contact(section: &Section<'_>, bases: &mut Vec<BaseChoice>) -> NamedContact {
             friction: PairFriction { ratio: 1.0, decay },
             stiffness,
             law,
+            topography,
         },
     }
 }

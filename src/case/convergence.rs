@@ -1,10 +1,12 @@
 //! `[convergence]`: the same case on several meshes and with several time steps.
 
 use super::body::{Body, Revolution, node_count};
-use super::imported::ImportedBody;
 use super::reader::Section;
 use super::words::Analysis;
-use crate::mesh::{AnnulusSpecification, ShaftSpecification, SolidSpecification};
+use crate::mesh::{
+    AnnulusSpecification, Mesh, MeshFileError, ShaftSpecification, SolidSpecification,
+};
+use std::sync::Arc;
 
 /// Fewest refinements that an order can be observed from.
 const FEWEST: usize = 3;
@@ -63,25 +65,29 @@ impl super::Case {
                 specification.axial_elements =
                     (specification.axial_elements as f64 * factor).round() as usize;
             }
-            Body::Assembly(_) => {
-                return Err(self.error_at(
-                    "convergence.factors",
-                    "the meshes of solid bodies are not refined by this program".to_owned(),
-                    "no refinement".to_owned(),
-                    Some("mesh them finer, and compare the runs".to_owned()),
-                ));
+            Body::Assembly(assembly) => {
+                for _ in 0..factor.log2() as u32 {
+                    let finer = assembly.mesh.refined_solids();
+                    let finer = finer.map_err(|error| self.no_refinement(factor, &error))?;
+                    assembly.mesh = Arc::new(finer);
+                }
             }
             Body::Imported(imported) => {
-                *imported = imported.refined(factor.log2() as u32).map_err(|error| {
-                    let (key, label) = ("convergence.factors", "makes no body".to_owned());
-                    self.error_at(key, format!("{key} = {factor}: {error}"), label, None)
-                })?;
+                let finer = imported.refined(factor.log2() as u32);
+                *imported = finer.map_err(|error| self.no_refinement(factor, &error))?;
             }
         }
         Ok(Self {
             body,
             ..self.clone()
         })
+    }
+}
+
+impl super::Case {
+    fn no_refinement(&self, factor: f64, error: &MeshFileError) -> super::CaseErrors {
+        let (key, label) = ("convergence.factors", "makes no body".to_owned());
+        self.error_at(key, format!("{key} = {factor}: {error}"), label, None)
     }
 }
 
@@ -110,13 +116,8 @@ pub(super) fn read(root: &Section<'_>, body: Option<&Body>, has: [bool; 3]) -> O
     };
     if has_enough(&section, "factors", &factors) && is_ordered(&section, "factors", &factors, 1.0) {
         match body {
-            Some(Body::Assembly(_)) => section.reject(
-                "factors",
-                "the meshes of solid bodies are not refined by this program".to_owned(),
-                "no refinement".to_owned(),
-                Some("mesh them finer, and compare the runs".to_owned()),
-            ),
-            Some(Body::Imported(imported)) => check_splits(&section, imported, &factors),
+            Some(Body::Assembly(assembly)) => check_splits(&section, &assembly.mesh, &factors),
+            Some(Body::Imported(imported)) => check_splits(&section, &imported.mesh, &factors),
             Some(Body::Annulus(annulus)) => {
                 check_meshes(&section, &annulus.specification, None, &factors);
             }
@@ -206,13 +207,14 @@ fn is_ordered(section: &Section<'_>, key: &'static str, values: &[f64], sign: f6
 }
 
 /// Refuses factors that no splitting of elements gives, and meshes that are too large.
-fn check_splits(section: &Section<'_>, body: &ImportedBody, factors: &[f64]) {
+fn check_splits(section: &Section<'_>, mesh: &Mesh, factors: &[f64]) {
     let is_power = |factor: f64| (1.0..1e6).contains(&factor) && factor.log2().fract() == 0.0;
     if let Some(factor) = factors.iter().find(|factor| !is_power(**factor)) {
         section.reject(
             "factors",
             format!(
-                "convergence.factors holds {factor}: an imported mesh is refined by splitting each element into four"
+                "convergence.factors holds {factor}: an imported mesh is refined by splitting each element into four, a solid one \
+                 into eight"
             ),
             "powers of two: 1, 2, 4, ...".to_owned(),
             Some("leave it out for [1, 2, 4]".to_owned()),
@@ -220,13 +222,13 @@ fn check_splits(section: &Section<'_>, body: &ImportedBody, factors: &[f64]) {
         return;
     }
     let finest = factors.last().copied().unwrap_or(1.0);
-    let (nodes, limit) = (body.mesh.node_count() as f64, f64::from(u32::MAX / 2));
-    if nodes * finest * finest > limit {
+    let limit = f64::from(u32::MAX / mesh.dimension as u32);
+    let nodes = mesh.node_count() as f64 * finest.powi(mesh.dimension as i32);
+    if nodes > limit {
         section.reject(
             "factors",
             format!(
-                "the mesh of convergence.factors = {finest} would have {:.0} nodes, above the limit of {limit}",
-                nodes * finest * finest
+                "the mesh of convergence.factors = {finest} would have {nodes:.0} nodes, above the limit of {limit}"
             ),
             "too many elements".to_owned(),
             None,

@@ -4,12 +4,12 @@ use super::boundaries::NamedCondition;
 use super::elastic::elastic;
 use super::inclusion;
 use super::modifications::{Modification, reshaped};
-use super::modulus_table::{TableFiles, modulus_table};
 use super::opposite::{check_meeting, opposite_curve};
 use super::raw::{MeshBytes, RawCase};
 use super::reader::Section;
 use super::shown::first_of;
 use super::suggestion;
+use super::tables::{TableFiles, modulus_table};
 use super::words::CounterfaceWord;
 use crate::fem::{ElasticMaterial, RayleighDamping, RegionMaterial, TabledMaterial};
 use crate::mesh::{

@@ -174,6 +174,7 @@ pub const KEYS: &[CaseKey] = &[
     key("contacts.*.normal_damping", Number(NotNegative), "Pa s/m", Value("0.0"), "0.0", "a normal dashpot on the contact"),
     key("contacts.*.tangential_damping", Number(NotNegative), "Pa s/m", Value("0.0"), "0.0", "a tangential dashpot on the contact"),
     key("contacts.*.state", Choice(words::<BaseChoice>), "", Value("\"solved\""), "\"closed\"", "the base state: gap, pressure and opening from the loads, or all facing points closed and free of stress"),
+    key("contacts.*.gap", Text, "", Otherwise("the gaps of the mesh"), "\"topography.csv\"", "a table of a measured or worn surface, x, y, z and gap in m: what adds to the gaps of the mesh, positive where material is missing"),
 
     key("ties.*.surface", Text, "", Required, "\"backplate_glue\"", "a surface of solid bodies that is glued, the finer one"),
     key("ties.*.counter", Text, "", Required, "\"lining_glue\"", "the surface that it is glued to; the meshes need not match"),
@@ -260,7 +261,7 @@ pub const KEYS: &[CaseKey] = &[
     key("frf.noise", Number(NotNegative), "", Value("0.0"), "0.01", "Gaussian noise added to real and imaginary part, relative to the magnitude"),
     key("frf.noise_seed", Count(0), "", Value("1"), "1", "the seed of that noise"),
 
-    key("convergence.factors", Numbers(Positive), "", Value("[1, 1.5, 2.25]"), "[1, 1.5, 2.25]", "the refinements of the mesh: factors on both element counts, powers of two on an imported mesh ([1, 2, 4] where left out), whose elements are split into four"),
+    key("convergence.factors", Numbers(Positive), "", Value("[1, 1.5, 2.25]"), "[1, 1.5, 2.25]", "the refinements of the mesh: factors on both element counts, powers of two on an imported mesh ([1, 2, 4] where left out), whose elements are split into four, solid ones into eight"),
     key("convergence.time_step_factors", Numbers(Positive), "", Otherwise("no such study"), "[1, 0.5, 0.25]", "the factors on the transient's time step, on the case's own mesh"),
     key("convergence.analyses", Choices(words::<Analysis>), "", Otherwise("every one that the case has a section for"), "[\"cea\", \"transient\"]", "what is studied"),
 

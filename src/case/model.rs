@@ -8,11 +8,11 @@ use super::contact::{Contact, contact};
 use super::elastic::{Surroundings, elastic, place_axes};
 use super::imported::{self, BodyParts};
 use super::modifications::{self, Modification};
-use super::modulus_table::TableFiles;
 use super::raw::{MeshBytes, RawCase, TableBytes};
 use super::reader::Section;
 use super::shaft;
 use super::solid;
+use super::tables::TableFiles;
 use super::words::{FilePart, UnitsWord};
 use crate::fem::{
     AnnulusMaterials, ElasticMaterial, RayleighDamping, RegionMaterial, TabledMaterial,
@@ -38,7 +38,7 @@ pub(super) struct Model {
     pub body: Option<Body>,
     pub thickness: f64,
     pub mesh: Option<MeshBytes>,
-    /// Tables of modulus over frequency.
+    /// Tables beside the case.
     pub tables: Vec<TableBytes>,
     pub contact: Contact,
 }
@@ -217,9 +217,9 @@ fn assembly_model(
             Some("describe it under [contacts.NAME]".to_owned()),
         );
     }
-    let (parts, contact) = assembly::sections(root);
-    let solids = Surroundings::Solids { axis: parts.axis() };
     let mut tables = TableFiles::of(raw);
+    let (parts, contact) = assembly::sections(root, &mut tables);
+    let solids = Surroundings::Solids { axis: parts.axis() };
     let own = materials(root, material, &solids, &mut tables);
     let reject = |(message, label): (String, String)| mesh.reject("file", message, label, None);
     let bytes = imported::mesh_bytes(raw, file).map_err(&reject).ok();

@@ -1,7 +1,7 @@
 //! The case exactly as its TOML says it: a tree of values that know where they were written.
 
 use super::diagnostic::{CaseErrors, Diagnostic, Location, Source};
-use super::value::{RawEntry, RawItem, RawTable, RawValue, convert_table, quote};
+use super::value::{RawItem, RawTable, RawValue, convert_table, quote};
 use super::{keys, overrides};
 use crate::mesh::{GmshFile, MeshFileError};
 use sha2::{Digest, Sha256};
@@ -23,7 +23,7 @@ pub struct RawCase {
     pub root: RawTable,
     /// The mesh file, once it is read.
     pub mesh: Option<MeshBytes>,
-    /// Tables of modulus over frequency, once they are read.
+    /// Tables beside the case, once they are read.
     pub tables: Vec<TableBytes>,
 }
 
@@ -37,12 +37,12 @@ pub struct TableBytes {
 }
 
 impl TableBytes {
-    /// The name under which the table of a material lies beside the results.
-    pub fn kept_as(material: &str) -> String {
+    /// The name under which the table of a section, named by a key, lies beside the results.
+    pub fn kept_as(key: &str, section: &str) -> String {
         let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
         format!(
-            "table-{}.csv",
-            material.chars().map(plain).collect::<String>()
+            "{key}-{}.csv",
+            section.chars().map(plain).collect::<String>()
         )
     }
 }
@@ -190,23 +190,22 @@ impl RawCase {
         hex
     }
 
-    /// Tables of modulus over frequency that the case names, each with the name under which it lies beside the results.
+    /// Tables that the case names, each with the name under which it lies beside the results.
     pub fn table_files(&self) -> Vec<(String, String)> {
-        let Some(RawValue::Table(materials)) = self.find("materials").map(|item| &item.value)
-        else {
-            return Vec::new();
-        };
-        let file = |entry: &RawEntry| match &entry.item.value {
-            RawValue::Table(own) => match own.get("table").map(|entry| &entry.item.value) {
-                Some(RawValue::String(file)) => Some(file.clone()),
-                _ => None,
-            },
-            _ => None,
-        };
-        let named = materials.iter();
-        let named =
-            named.filter_map(|(name, entry)| Some((TableBytes::kept_as(name), file(entry)?)));
-        named.collect()
+        let mut found = Vec::new();
+        for (group, key) in [("materials", "table"), ("contacts", "gap")] {
+            let Some(RawValue::Table(sections)) = self.find(group).map(|item| &item.value) else {
+                continue;
+            };
+            for (name, entry) in sections {
+                if let RawValue::Table(own) = &entry.item.value
+                    && let Some(RawValue::String(file)) = own.get(key).map(|own| &own.item.value)
+                {
+                    found.push((TableBytes::kept_as(key, name), file.clone()));
+                }
+            }
+        }
+        found
     }
 
     /// The tables that were read, each with the name under which it lies beside the results.

@@ -4,13 +4,15 @@ use super::file_sections::{FileSection, sections};
 use super::inclusion;
 use super::value::{RawValue, quote};
 use super::words::UnitsWord;
-use crate::mesh::{GmshFile, SurfaceFace};
+use crate::mesh::{FileElasticity, GmshFile, SurfaceFace};
 use nalgebra::Vector3;
 use std::fmt::Write as _;
 use std::path::Path;
 
 /// Densities below this are tonnes for each cubic millimetre: the lightest solid has 1 kg/m3, the heaviest 3e-8 t/mm3.
 const TONNES: f64 = 1e-6;
+/// Moduli above this are in pascals: diamond has 1.2e6 MPa, soft rubber 1e6 Pa is rarely the stiffest material of a file.
+const STIFFEST_MPA: f64 = 2e6;
 /// Extent from which on a file without materials is in millimetres.
 const MILLIMETRES: f64 = 10.0;
 /// Modes that the case asks for.
@@ -79,6 +81,27 @@ fn units_of(file: &GmshFile) -> (UnitsWord, String) {
             format!("judged by the density {lightest:e} of a material; check it"),
         );
     }
+    let moduli =
+        file.model
+            .materials
+            .iter()
+            .filter_map(|material| match material.elasticity.as_ref()? {
+                FileElasticity::Isotropic { young_modulus, .. } => Some(*young_modulus),
+                FileElasticity::Orthotropic { young_moduli, .. } => {
+                    Some(young_moduli.iter().copied().fold(0.0, f64::max))
+                }
+            });
+    let stiffest = moduli.fold(0.0, f64::max);
+    if stiffest > 0.0 {
+        let units = match stiffest > STIFFEST_MPA {
+            true => UnitsWord::MKgS,
+            false => UnitsWord::MmTS,
+        };
+        return (
+            units,
+            format!("judged by the modulus {stiffest:e} of a material; check it"),
+        );
+    }
     let extent = (0..3).map(|axis| {
         let coordinates = || file.points.iter().map(|point| point[axis]);
         coordinates().fold(f64::NEG_INFINITY, f64::max)
@@ -107,7 +130,15 @@ fn missing_materials(file: &GmshFile, sections: &[FileSection], out: &mut String
         .collect();
     bare.sort_unstable();
     bare.dedup();
-    if !bare.is_empty() {
+    let is_common = |section: &FileSection| {
+        section.path.0 == "material" && section.keys.iter().any(|key| key.0 == "young_modulus")
+    };
+    if bare.is_empty() && !sections.iter().any(is_common) {
+        let _ = write!(
+            out,
+            "\n[material]    # of regions without a section of their own: there are none\n{STEEL}"
+        );
+    } else if !bare.is_empty() {
         let _ = write!(
             out,
             "\n[material]    # CHOOSE: the file gives no material to {}; this is steel\n{STEEL}",

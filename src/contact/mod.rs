@@ -18,10 +18,12 @@ mod linearized;
 mod mortar;
 mod normal_law;
 mod opposite;
+mod pair_error;
 mod pairing;
 mod point;
 mod surface;
 mod surface_law;
+mod topography;
 
 pub use interface::ContactInterface;
 pub use law::{
@@ -31,10 +33,12 @@ pub use linearized::{ContactTerms, PressedPoints, linearized};
 pub use mortar::{MortarNode, mortar_nodes};
 pub use normal_law::{LawParameter, NormalLaw};
 pub use opposite::OppositeShare;
+pub use pair_error::PairError;
 pub use pairing::{ContactSite, ContactSurface, Motion, PairFriction, PointKind};
 pub use point::{Point, Row, value_of};
-pub use surface::{PairError, SegmentPoint, SurfacePair, row_along};
+pub use surface::{SegmentPoint, SurfacePair, row_along};
 pub use surface_law::{PointFriction, SlippingPoint};
+pub use topography::Topography;
 
 /// The rigid moving counterface and its friction law.
 #[derive(Clone, Copy, Debug, PartialEq)]

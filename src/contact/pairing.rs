@@ -1,8 +1,8 @@
 //! Contact points of two surfaces of which one slides over the other.
 
 use super::mortar::mortar_nodes;
-use super::surface::{PairError, SurfacePair, row_along};
-use super::{FrictionDecay, Point, Row, SteadyFriction};
+use super::surface::{SurfacePair, row_along};
+use super::{FrictionDecay, PairError, Point, Row, SteadyFriction, Topography};
 use crate::mesh::{Boundary, Mesh};
 use nalgebra::Vector3;
 
@@ -88,18 +88,21 @@ impl ContactSurface {
     /// V = v_B - v_A without its part along n,   t = V / |V|,   d = n x t
     /// ```
     ///
-    /// with `v = Omega x r` of the region that a surface belongs to.
+    /// with `v = Omega x r` of the region that a surface belongs to. Gaps of a measured surface add to those of the mesh.
     ///
     /// # Errors
-    /// [`PairError`] where the surfaces do not meet, or nothing slides.
+    /// [`PairError`] where the surfaces do not meet, nothing slides, or a measured surface leaves points out.
     pub fn of(
         mesh: &Mesh,
         [surface, counter]: [&Boundary; 2],
         motions: &[Motion],
         friction: PairFriction,
-        kind: PointKind,
+        (kind, measured): (PointKind, Option<&Topography>),
     ) -> Result<Self, PairError> {
-        let pair = SurfacePair::of(mesh, surface, counter)?;
+        let mut pair = SurfacePair::of(mesh, surface, counter)?;
+        if let Some(measured) = measured {
+            measured.widen(&mut pair, &surface.name)?;
+        }
         let moving = [surface, counter].map(|boundary| motion_of(mesh, boundary, motions));
         let mut found = Self {
             points: Vec::new(),

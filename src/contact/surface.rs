@@ -1,6 +1,6 @@
 //! Faces of two surfaces that face each other, cut into the segments that both have.
 
-use super::Row;
+use super::{PairError, Row};
 use crate::mesh::{Boundary, BoundaryFace, Mesh};
 use nalgebra::{Matrix2, Vector2, Vector3};
 use std::collections::BTreeMap;
@@ -35,62 +35,6 @@ pub struct SurfacePair {
     pub covered: f64,
     /// Distance beyond which faces do not meet, m.
     pub reach: f64,
-}
-
-/// Why two surfaces make no pair.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum PairError {
-    /// A surface has no faces.
-    #[error("surface \"{0}\" has no faces on the outside of the bodies")]
-    NoFaces(String),
-    /// They are too far from each other.
-    #[error(
-        "surfaces \"{surface}\" and \"{counter}\" face each other but stand {distance:.3e} m apart, more than half an element \
-         ({reach:.3e} m): move the bodies together in the mesh, or name other surfaces"
-    )]
-    Apart {
-        /// Own surface.
-        surface: String,
-        /// Counter surface.
-        counter: String,
-        /// Smallest distance along the normal, m.
-        distance: f64,
-        /// Largest that is bridged, m.
-        reach: f64,
-    },
-    /// The outward normals point the same way.
-    #[error(
-        "surface \"{surface}\" faces away from \"{counter}\": where they lie over each other their outward normals point the \
-         same way; name the surfaces that touch"
-    )]
-    FacesAway {
-        /// Own surface.
-        surface: String,
-        /// Counter surface.
-        counter: String,
-    },
-    /// Nothing lies over anything.
-    #[error(
-        "surfaces \"{surface}\" and \"{counter}\" never meet: along its normals no face of the one lies over a face of the other; \
-         name the surfaces that touch"
-    )]
-    NeverMeets {
-        /// Own surface.
-        surface: String,
-        /// Counter surface.
-        counter: String,
-    },
-    /// The counter surface does not move relative to the surface.
-    #[error(
-        "nothing slides between surfaces \"{surface}\" and \"{counter}\": the motion given leaves them at rest to each other; \
-         check the axis, the centre and the regions of [motion]"
-    )]
-    NoSliding {
-        /// Own surface.
-        surface: String,
-        /// Counter surface.
-        counter: String,
-    },
 }
 
 /// Degree-4 rule of the triangle (Dunavant 1985): area coordinates and shares of the area.

@@ -83,6 +83,22 @@ impl Boundary {
         !nodes.is_empty() && self.nodes.iter().all(|node| nodes.contains(node))
     }
 
+    /// The same surface with nodes beside those of its faces, which have no share in its area.
+    pub(super) fn with_nodes(self, nodes: &BTreeSet<u32>) -> Self {
+        if nodes.is_empty() {
+            return self;
+        }
+        let area_of = |node: &u32| match self.nodes.binary_search(node) {
+            Ok(place) => self.tributary_lengths[place],
+            Err(_) => 0.0,
+        };
+        Self {
+            tributary_lengths: nodes.iter().map(area_of).collect(),
+            nodes: nodes.iter().copied().collect(),
+            ..self
+        }
+    }
+
     /// Puts the nodes of the contact edge in the order in which their places along the counterface rise; a closed edge
     /// begins at the smallest angle from 0 on.
     pub(super) fn order_along(&mut self, mesh: &Mesh) {

@@ -73,6 +73,11 @@ impl Curve {
 
     /// A contact curve must be one piece that does not touch itself.
     pub fn check_single(&self, name: &str, labels: &[usize]) -> Result<(), MeshFileError> {
+        if self.edges.is_empty() {
+            return Err(MeshFileError::Body(format!(
+                "the contact curve \"{name}\" has no edges: a contact needs some between its nodes; name another curve"
+            )));
+        }
         if let Some(node) = self.touching {
             return Err(MeshFileError::Body(format!(
                 "the contact curve \"{name}\" touches itself at node {}: more than two of its edges meet there",

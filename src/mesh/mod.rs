@@ -26,6 +26,7 @@ mod sector;
 mod sectors;
 mod solid;
 mod solid_body;
+mod solid_refinement;
 mod specification;
 mod universal;
 

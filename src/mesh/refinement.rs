@@ -29,7 +29,7 @@ impl GmshFile {
     pub fn refined(&self) -> Result<Self, MeshFileError> {
         if self.dimension == 3 {
             return Err(MeshFileError::Body(
-                "solid elements are not refined here: mesh the volume finer (Mesh.MeshSizeFactor in Gmsh)".to_owned(),
+                "a file of solid elements is refined as the mesh that is made of it".to_owned(),
             ));
         }
         if self.points.len().saturating_mul(4) > MOST_NODES {

@@ -87,23 +87,13 @@ impl Mesh {
             let faces = outer.values();
             let own = faces.filter(|face| face.nodes.iter().all(|node| nodes.contains(node)));
             let surface = self.surface(name, own.cloned().collect());
-            // Nodes beside those faces have no share in the area.
-            let area_of = |node: &u32| match surface.nodes.binary_search(node) {
-                Ok(place) => surface.tributary_lengths[place],
-                Err(_) => 0.0,
-            };
-            let areas = nodes.iter().map(area_of).collect();
-            self.boundaries.push(Boundary {
-                nodes: nodes.into_iter().collect(),
-                tributary_lengths: areas,
-                ..surface
-            });
+            self.boundaries.push(surface.with_nodes(&nodes));
         }
         self.boundaries.sort_by(|a, b| a.name.cmp(&b.name));
     }
 
     /// A named surface of some faces, free.
-    fn surface(&self, name: &str, faces: Vec<BoundaryFace>) -> Boundary {
+    pub(super) fn surface(&self, name: &str, faces: Vec<BoundaryFace>) -> Boundary {
         let nodes: BTreeSet<u32> = faces.iter().flat_map(|f| f.nodes.iter().copied()).collect();
         let nodes: Vec<u32> = nodes.into_iter().collect();
         let mut areas = vec![0.0; nodes.len()];
@@ -163,7 +153,7 @@ impl Mesh {
     }
 
     /// Turns the frames of nodes that are held in some, not all, directions such that these are axes.
-    fn turn_frames_to_guides(&mut self) {
+    pub(super) fn turn_frames_to_guides(&mut self) {
         let mut frames = vec![Matrix3::identity(); self.node_count()];
         for (node, held) in self.held_directions() {
             let is_axis = |d: &Vector3<f64>| d.amax() > 1.0 - 1e-12;

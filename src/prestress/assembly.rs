@@ -10,13 +10,14 @@ use super::tangent::{BodyTerms, ContactDofs, ContactPart, SlidingTangent};
 use super::{PrestressError, TangentOptions};
 use crate::contact::{
     ContactStiffness, ContactSurface, Motion, NormalLaw, PairError, PairFriction, PointKind,
-    PressedPoints, SurfacePair, mortar_nodes,
+    PressedPoints, SurfacePair, Topography, mortar_nodes,
 };
 use crate::fem::{
     MaterialField, Triplets, assemble_extra_damping, assemble_losses, assemble_mass,
     assemble_pressures, assemble_stiffness, assemble_supports, assemble_tabled,
 };
 use crate::mesh::Mesh;
+use std::sync::Arc;
 
 /// Two boundaries of a mesh by their indices.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,6 +55,8 @@ pub struct SlidingSurfaces {
     pub stiffness: ContactStiffness,
     /// How it stiffens with pressure; `None` where it does not. Its stiffness without pressure is that of `stiffness`.
     pub law: Option<NormalLaw>,
+    /// Gaps beside those of the mesh, of a measured or worn surface.
+    pub topography: Option<Arc<Topography>>,
 }
 
 /// Solid bodies of one mesh with what ties them and what slides.
@@ -66,6 +69,12 @@ pub struct SlidingSurfaces {
 pub struct Assembly<'a> {
     mesh: &'a Mesh,
     materials: &'a dyn MaterialField,
+    joined: Arc<Joined>,
+}
+
+/// What a mesh, its materials and the pairs of its surfaces give: the costly part of an [`Assembly`], made once.
+#[derive(Debug)]
+pub struct Joined {
     elastic: Triplets,
     supports: [Triplets; 2],
     /// Held dofs and ties.
@@ -129,7 +138,8 @@ impl<'a> Assembly<'a> {
             .map(|contact| {
                 let sides = [contact.surface, contact.counter].map(|b| &mesh.boundaries[b]);
                 let (friction, kind) = (contact.friction, kind(contact));
-                let surface = ContactSurface::of(mesh, sides, motions, friction, kind);
+                let measured = contact.topography.as_deref();
+                let surface = ContactSurface::of(mesh, sides, motions, friction, (kind, measured));
                 let surface = surface.map_err(|error| named("contacts", &contact.name, error))?;
                 Ok((contact.clone(), surface))
             })
@@ -143,21 +153,34 @@ impl<'a> Assembly<'a> {
             basis.congruent(&held)
         };
         let rotation = Rotation::of(mesh, materials, motions, (&basis, &seams), held)?;
-        Ok(Self {
+        let joined = Joined {
             contacts: found?,
             rotation,
             elastic,
             supports,
-            mesh,
-            materials,
             basis,
             base,
-        })
+        };
+        Ok(Self::of(mesh, materials, Arc::new(joined)))
+    }
+
+    /// From what was made of the same mesh and materials before.
+    pub fn of(mesh: &'a Mesh, materials: &'a dyn MaterialField, joined: Arc<Joined>) -> Self {
+        Self {
+            mesh,
+            materials,
+            joined,
+        }
+    }
+
+    /// What is to be kept of it where the bodies are borrowed for a while only.
+    pub fn joined(&self) -> Arc<Joined> {
+        Arc::clone(&self.joined)
     }
 
     /// The contacts with their points.
     pub fn contacts(&self) -> &[(SlidingSurfaces, ContactSurface)] {
-        &self.contacts
+        &self.joined.contacts
     }
 
     /// The mesh of all bodies.
@@ -173,23 +196,26 @@ impl<'a> Assembly<'a> {
     /// Whether nothing holds the bodies: a part by itself, whose rigid motions have no stiffness.
     pub fn is_free(&self) -> bool {
         let held = self.mesh.held_dofs().count();
-        let springs = &self.supports[0].entries;
-        held == 0 && springs.is_empty() && self.contacts.is_empty() && self.rotation.is_none()
+        let springs = &self.joined.supports[0].entries;
+        held == 0
+            && springs.is_empty()
+            && self.joined.contacts.is_empty()
+            && self.joined.rotation.is_none()
     }
 
     /// Held dofs and ties.
     pub(crate) fn basis(&self) -> &Elimination {
-        &self.basis
+        &self.joined.basis
     }
 
     /// Stiffness of the bodies, N/m.
     pub(crate) fn elastic(&self) -> &Triplets {
-        &self.elastic
+        &self.joined.elastic
     }
 
     /// Springs (N/m) and dashpots (N s/m) of the supports.
     pub(crate) fn supports(&self) -> &[Triplets; 2] {
-        &self.supports
+        &self.joined.supports
     }
 
     /// Base states at every one of `friction_coefficients`, over the points of all contacts in turn.
@@ -198,11 +224,12 @@ impl<'a> Assembly<'a> {
     /// [`PrestressError::GapEverywhere`], [`PrestressError::NoState`], [`PrestressError::Singular`].
     pub fn range(&self, friction_coefficients: &[f64]) -> Result<PressedRange, PrestressError> {
         let points: Vec<_> = self
+            .joined
             .contacts
             .iter()
             .flat_map(|(_, surface)| surface.points.iter().cloned())
             .collect();
-        if self.base == BaseChoice::Closed {
+        if self.joined.base == BaseChoice::Closed {
             return Ok(PressedRange {
                 states: vec![PressedState {
                     displacements: vec![vec![0.0; self.mesh.dof_count()]],
@@ -214,13 +241,13 @@ impl<'a> Assembly<'a> {
                 changes: Vec::new(),
             });
         }
-        let mut stiffness = self.elastic.clone();
+        let mut stiffness = self.joined.elastic.clone();
         stiffness
             .entries
-            .extend_from_slice(&self.supports[0].entries);
+            .extend_from_slice(&self.joined.supports[0].entries);
         let none = || vec![0.0; self.mesh.dof_count()];
         let mut load = assemble_pressures(self.mesh).unwrap_or_else(none);
-        if let Some(rotation) = &self.rotation {
+        if let Some(rotation) = &self.joined.rotation {
             let pairs = load.iter_mut().zip(&rotation.centrifugal);
             pairs.for_each(|(load, own)| *load += own);
         }
@@ -228,12 +255,12 @@ impl<'a> Assembly<'a> {
             let count = friction_coefficients.len();
             return self.without_contact(&stiffness, &load, count);
         }
-        let stiffnesses = self.contacts.iter().flat_map(|(contact, surface)| {
+        let stiffnesses = self.joined.contacts.iter().flat_map(|(contact, surface)| {
             let normal = contact.stiffness.normal_stiffness;
             let points = surface.points.iter();
             points.map(move |point| normal.map(|k| k * point.weight))
         });
-        let laws = self.contacts.iter().flat_map(|(contact, surface)| {
+        let laws = self.joined.contacts.iter().flat_map(|(contact, surface)| {
             let points = surface.points.iter();
             points.map(|_| contact.law)
         });
@@ -241,7 +268,7 @@ impl<'a> Assembly<'a> {
             laws: laws.collect(),
             stiffness: &stiffness,
             load,
-            elimination: self.basis.clone(),
+            elimination: self.joined.basis.clone(),
             pushed: points.iter().map(|point| -point.gap).collect(),
             stiffnesses: stiffnesses.collect(),
             points: &points,
@@ -276,13 +303,13 @@ impl<'a> Assembly<'a> {
                 changes: Vec::new(),
             });
         }
-        let unknowns = self.basis.unknowns();
-        let solver = CholeskySolver::new(&self.basis.congruent(stiffness), &unknowns)?;
-        let right = unknowns.restrict(&self.basis.transposed_forces(load));
+        let unknowns = self.joined.basis.unknowns();
+        let solver = CholeskySolver::new(&self.joined.basis.congruent(stiffness), &unknowns)?;
+        let right = unknowns.restrict(&self.joined.basis.transposed_forces(load));
         let displacement = unknowns.expand(&solver.solve(right));
         Ok(PressedRange {
             states: vec![PressedState {
-                displacements: vec![self.basis.displacement(&displacement)],
+                displacements: vec![self.joined.basis.displacement(&displacement)],
                 normal_forces: Vec::new(),
                 stiffnesses: Vec::new(),
                 is_pressed: Vec::new(),
@@ -294,7 +321,7 @@ impl<'a> Assembly<'a> {
 
     /// Stiffness and gyroscopic matrix of regions that turn with the inertia of their rotation.
     pub fn rotation_terms(&self) -> Option<&[Triplets; 2]> {
-        self.rotation.as_ref().map(|own| &own.terms)
+        self.joined.rotation.as_ref().map(|own| &own.terms)
     }
 
     /// Mass, damping and stiffness of small motions around `state`.
@@ -308,9 +335,9 @@ impl<'a> Assembly<'a> {
     ) -> Result<SlidingTangent, PrestressError> {
         let body = BodyTerms {
             mass: assemble_mass(self.mesh, self.materials, options.mass),
-            elastic: self.elastic.clone(),
+            elastic: self.joined.elastic.clone(),
             geometric: None,
-            supports: self.supports.clone(),
+            supports: self.joined.supports.clone(),
             extra_damping: assemble_extra_damping(
                 self.mesh,
                 self.materials,
@@ -319,12 +346,13 @@ impl<'a> Assembly<'a> {
             ),
             structural: assemble_losses(self.mesh, self.materials),
             tabled: assemble_tabled(self.mesh, self.materials),
-            rotation: self.rotation.as_ref().map(|own| own.terms.clone()),
+            rotation: self.joined.rotation.as_ref().map(|own| own.terms.clone()),
             is_free: self.is_free(),
         };
         // Each contact has its stretch of the state's points.
         let mut first = 0;
         let stretches: Vec<Stretch> = self
+            .joined
             .contacts
             .iter()
             .map(|(_, surface)| {
@@ -338,6 +366,7 @@ impl<'a> Assembly<'a> {
             })
             .collect();
         let parts: Vec<ContactPart<'_>> = self
+            .joined
             .contacts
             .iter()
             .zip(&stretches)
@@ -354,7 +383,11 @@ impl<'a> Assembly<'a> {
                 },
             )
             .collect();
-        let nodes = self.contacts.iter().flat_map(|(_, surface)| &surface.nodes);
+        let nodes = self
+            .joined
+            .contacts
+            .iter()
+            .flat_map(|(_, surface)| &surface.nodes);
         let dofs = ContactDofs {
             tangential: nodes
                 .flat_map(|&node| (0..3).map(move |axis| 3 * node as usize + axis))
@@ -362,7 +395,7 @@ impl<'a> Assembly<'a> {
             sliding_direction: 1.0,
             ..ContactDofs::default()
         };
-        SlidingTangent::assemble(&body, &parts, self.basis.clone(), &dofs, options)
+        SlidingTangent::assemble(&body, &parts, self.joined.basis.clone(), &dofs, options)
     }
 }
 

@@ -37,7 +37,7 @@ mod tabled;
 mod tangent;
 mod wave_parts;
 
-pub use assembly::{Assembly, BaseChoice, SlidingSurfaces, TiedSurfaces};
+pub use assembly::{Assembly, BaseChoice, Joined, SlidingSurfaces, TiedSurfaces};
 pub use complementarity::{PressedRange, PressedState, Pressing};
 pub use condensed::CondensedContact;
 pub use elimination::{Elimination, RigidFriction};

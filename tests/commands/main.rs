@@ -28,6 +28,7 @@ mod improve;
 mod inputs;
 mod mac;
 mod materials;
+mod measured_surface;
 mod mesh_files;
 mod normal_law;
 mod plot;

@@ -76,6 +76,7 @@ fn assembly<'a>(
             ..ContactStiffness::default()
         },
         law: None,
+        topography: None,
     };
     let tie = TiedSurfaces {
         name: "glue".to_owned(),

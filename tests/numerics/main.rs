@@ -39,6 +39,7 @@ mod plane_spectrum;
 mod relaxation;
 mod shaft;
 mod solid_elements;
+mod solid_refinement;
 mod solids;
 mod structural_damping;
 mod tabled;

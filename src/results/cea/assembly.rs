@@ -8,6 +8,10 @@ use crate::results::charts::contact_surfaces;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::table::{Column, write_rows};
 use crate::results::vtu::{EncodedMesh, Field, write_vtu};
+use nalgebra::Vector3;
+
+/// Half the length of the arrow of the sliding over the size of its surface.
+const ARROW: f64 = 0.15;
 
 /// A contact point in the base state.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,36 +92,71 @@ impl AssemblyReport {
         self.points.iter().all(|point| point.pressure == 0.0)
     }
 
-    /// Pressure on each contact surface, seen from outside along its mean normal; grey where it is open.
+    /// Pressure on each contact surface.
     ///
     /// # Errors
     /// [`ChartError::Empty`] for a base state that is free of stress.
     pub(super) fn prestress(&self, mesh: &Mesh) -> Result<Figure, ChartError> {
+        self.traction(mesh, ("prestress", "contact pressure"), |point| {
+            point.pressure
+        })
+    }
+
+    /// Friction on each contact surface.
+    ///
+    /// # Errors
+    /// [`ChartError::Empty`] for a base state that is free of stress.
+    pub(super) fn shear(&self, mesh: &Mesh) -> Result<Figure, ChartError> {
+        self.traction(mesh, ("shear", "friction traction"), |point| point.shear)
+    }
+
+    /// A traction on each contact surface, seen from outside along its mean normal, with the sliding over it; grey where it is
+    /// open.
+    fn traction(
+        &self,
+        mesh: &Mesh,
+        (name, what): (&str, &'static str),
+        value: fn(&AssemblyPoint) -> f64,
+    ) -> Result<Figure, ChartError> {
         if self.is_free_of_stress() {
             return Err(ChartError::empty(
-                "pressure of contacts that are free of stress",
+                "tractions of contacts that are free of stress",
             ));
         }
-        let pressures = self.around_nodes(mesh, |point| point.pressure);
+        let tractions = self.around_nodes(mesh, value);
         let closed = self.around_nodes(mesh, |point| f64::from(u8::from(point.is_closed)));
-        let nodes = pressures.iter().zip(&closed);
+        let nodes = tractions.iter().zip(&closed);
         let values: Vec<f64> = nodes
-            .map(|(&pressure, &closed)| if closed > 0.0 { pressure } else { f64::NAN })
+            .map(|(&traction, &closed)| if closed > 0.0 { traction } else { f64::NAN })
             .collect();
-        let largest = pressures.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-        let axis = || {
-            Axis::new("contact pressure", "Pa")
-                .prefixed()
-                .between(0.0, largest)
-        };
-        let caption = "Contact pressure in the base state on each contact surface, seen from outside; grey where it is open.";
+        let largest = tractions.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+        let axis = || Axis::new(what, "Pa").prefixed().between(0.0, largest);
+        let caption = format!(
+            "Base state: {what} on each contact surface, seen from outside; grey where it is open. The other surface slides \
+             over it along the arrow."
+        );
+        let arrows = self.surfaces.iter().map(|(contact, _)| self.arrow(contact));
+        let arrows: Vec<[[f64; 3]; 2]> = arrows.collect();
         let surfaces = (mesh, &self.surfaces[..]);
         Ok(contact_surfaces(
-            ("prestress", caption),
+            (name, &caption),
             surfaces,
-            &values,
+            (&values, &arrows),
             &axis,
         ))
+    }
+
+    /// Ends of an arrow in the middle of a contact along the mean sliding of the other surface over it.
+    fn arrow(&self, contact: &str) -> [[f64; 3]; 2] {
+        let (mut area, mut middle, mut along) = (0.0, Vector3::zeros(), Vector3::zeros());
+        for point in self.points.iter().filter(|point| point.contact == contact) {
+            area += point.area;
+            middle += Vector3::from(point.site.position) * point.area;
+            along += Vector3::from(point.site.direction) * point.area;
+        }
+        let half = along * (ARROW * area.sqrt() / area.max(f64::MIN_POSITIVE));
+        let middle = middle / area.max(f64::MIN_POSITIVE);
+        [(middle - half).into(), (middle + half).into()]
     }
 
     /// Mean over the points around each node, weighted by area and share.

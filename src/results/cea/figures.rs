@@ -39,7 +39,10 @@ pub fn draw(
     ];
     match report.assembly {
         None => figures.push(Box::new(move || Ok(prestress(report)))),
-        Some(assembly) => figures.push(Box::new(move || assembly.prestress(report.mesh))),
+        Some(assembly) => {
+            figures.push(Box::new(move || assembly.prestress(report.mesh)));
+            figures.push(Box::new(move || assembly.shear(report.mesh)));
+        }
     }
     for point in &report.sweep.points {
         let friction = point.friction_coefficient;

@@ -1,22 +1,26 @@
 //! Fields of bodies in three dimensions at one time.
 
 use super::solid::SolidView;
-use crate::chart::{Axis, ChartError, ColourMap, Figure, Panel, Side, literal};
+use crate::chart::{Axis, ChartError, ColourMap, Figure, Line, Panel, Side, literal};
 use crate::mesh::{Mesh, SolidFace, SolidSector};
 
 /// Values at nodes (NaN: grey) on each contact surface, seen from outside along its mean normal; `surfaces` has the name and the
-/// boundary of each, `axis` is common to all.
+/// boundary of each, `axis` is common to all. `arrows` are ends of an arrow on the surface of the same place among them.
 pub fn contact_surfaces(
     (name, caption): (&str, &str),
     (mesh, surfaces): (&Mesh, &[(String, usize)]),
-    values: &[f64],
+    (values, arrows): (&[f64], &[[[f64; 3]; 2]]),
     axis: &dyn Fn() -> Axis,
 ) -> Figure {
-    let panels = surfaces.iter().map(|(name, boundary)| {
+    let panels = surfaces.iter().enumerate().map(|(k, (name, boundary))| {
         let view = SolidView::of_boundary(mesh, *boundary);
         let surface = view.surface(values.to_vec(), (&[], 0.0), axis(), ColourMap::Viridis);
         let panel = Panel::plane(surface.window(0.05)).height(150.0);
-        panel.caption(literal(name)).layer(surface)
+        let arrows = arrows.get(k).map(|ends| {
+            let line = Line::through(ends.map(|end| view.at(end)));
+            line.solid("black", 1.2).arrows(1)
+        });
+        panel.caption(literal(name)).layer(surface).layers(arrows)
     });
     let panels: Vec<Panel> = panels.collect();
     let columns = panels.len().clamp(1, 3);

@@ -113,6 +113,12 @@ impl<'a> SolidView<'a> {
         edges.map(|path| [path[0], path[path.len() - 1]]).collect()
     }
 
+    /// Where a place of the bodies lies in the picture, m to the right and upwards.
+    pub fn at(&self, place: [f64; 3]) -> (f64, f64) {
+        let place = Vector3::from(place);
+        (self.axes[0].dot(&place), self.axes[1].dot(&place))
+    }
+
     /// Largest extent of the bodies along an axis, m.
     pub fn size(&self) -> f64 {
         let along = |axis: usize| {

@@ -29,7 +29,7 @@ impl PeriodicFigures<'_> {
         );
         let name = format!("contact-{}", motion.tag());
         let surfaces = (self.mesh, &self.surfaces[..]);
-        contact_surfaces((&name, &caption), surfaces, &values, &axis)
+        contact_surfaces((&name, &caption), surfaces, (&values, &[]), &axis)
     }
 
     /// Speed over the surface of the bodies at time zero, each picture with colours of its own.

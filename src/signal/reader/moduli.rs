@@ -1,7 +1,8 @@
 //! Tables of modulus and loss factor over frequency.
 
-use super::error::{ReadError, ReadProblem};
-use super::table::{Table, read_table};
+use super::error::ReadError;
+use super::named_columns::missing;
+use super::table::read_table;
 
 /// The columns and what their names begin with.
 const COLUMNS: [(&str, &[&str]); 3] = [
@@ -12,6 +13,8 @@ const COLUMNS: [(&str, &[&str]); 3] = [
 
 /// Units that the numbers must not be in.
 const OTHER_UNITS: [&str; 5] = ["khz", "rad", "kpa", "mpa", "gpa"];
+
+const HEADER: &str = "name them in the first line: frequency_hz, young_modulus, loss_factor";
 
 /// A row of a table of moduli.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +37,12 @@ pub struct ModulusRow {
 /// [`ReadError`] with the place: no such column, another unit, a cell that is no number.
 pub fn read_moduli(bytes: &[u8], source: &str) -> Result<Vec<ModulusRow>, ReadError> {
     let table = read_table(bytes, source, &[])?;
-    let places = places(&table, source)?;
+    let is_other = |name: &String| OTHER_UNITS.iter().any(|unit| name.contains(unit));
+    if table.names.iter().any(is_other) {
+        let remedy = "give frequencies in Hz and moduli in Pa";
+        return Err(missing(&table, source, "Hz and Pa", remedy));
+    }
+    let places = table.places(&COLUMNS, source, HEADER)?;
     let rows = (0..table.rows()).map(|row| {
         let [frequency_hz, young_modulus, loss_factor] =
             places.map(|place| table.columns[place].real[row]);
@@ -46,45 +54,6 @@ pub fn read_moduli(bytes: &[u8], source: &str) -> Result<Vec<ModulusRow>, ReadEr
         }
     });
     Ok(rows.collect())
-}
-
-/// Where the three columns are.
-fn places(table: &Table, source: &str) -> Result<[usize; 3], ReadError> {
-    let missing = |wanted, remedy| {
-        let problem = ReadProblem::MissingColumn {
-            wanted,
-            columns: table.described(),
-            remedy,
-        };
-        ReadError::whole(source, problem)
-    };
-    let header = "name them in the first line: frequency_hz, young_modulus, loss_factor";
-    if table.names.is_empty() {
-        return match table.columns.len() {
-            3 => Ok([0, 1, 2]),
-            _ => Err(missing("frequency_hz, young_modulus, loss_factor", header)),
-        };
-    }
-    let is_other = |name: &&String| OTHER_UNITS.iter().any(|unit| name.contains(unit));
-    if table.names.iter().any(|name| is_other(&name)) {
-        return Err(missing(
-            "Hz and Pa",
-            "give frequencies in Hz and moduli in Pa",
-        ));
-    }
-    let mut places = [0; 3];
-    for (place, (wanted, begins)) in places.iter_mut().zip(COLUMNS) {
-        let is_it = |name: &String| {
-            let short = |begin: &&str| match begin.len() {
-                1 => name == *begin,
-                _ => name.starts_with(*begin),
-            };
-            begins.iter().any(short)
-        };
-        let found = table.names.iter().position(is_it);
-        *place = found.ok_or_else(|| missing(wanted, header))?;
-    }
-    Ok(places)
 }
 
 #[cfg(test)]

@@ -6,10 +6,12 @@ use crate::case::{AssemblyBody, Case};
 use crate::cea::{CeaError, FrictionSweep, SweepRequest};
 use crate::fem::solid_stress;
 use crate::prestress::{
-    BaseChoice, PressedRange, PressedState, PrestressError, SlidingTangent, TangentOptions,
+    Assembly, BaseChoice, Joined, PressedRange, PressedState, PrestressError, SlidingTangent,
+    TangentOptions,
 };
 use crate::results::Extent;
 use crate::results::cea::{AssemblyPoint, AssemblyReport, BaseState};
+use std::sync::Arc;
 
 /// An assembly and its base states.
 pub struct AssemblyModel {
@@ -19,6 +21,8 @@ pub struct AssemblyModel {
     pub range: PressedRange,
     /// How the tangent is taken.
     pub options: TangentOptions,
+    /// The bodies with their surfaces paired.
+    pub joined: Arc<Joined>,
 }
 
 impl AssemblyModel {
@@ -34,12 +38,20 @@ impl AssemblyModel {
     ) -> Result<Self, CeaError> {
         let own = case.contact.sliding.friction_coefficient;
         let frictions = [frictions, &[own]].concat();
-        let range = body.assembled()?.range(&frictions)?;
+        let assembly = body.assembled()?;
+        let range = assembly.range(&frictions)?;
         Ok(Self {
             body: body.clone(),
             range,
             options,
+            joined: assembly.joined(),
         })
+    }
+
+    /// The bodies with what ties them and what slides.
+    pub fn assembly(&self) -> Assembly<'_> {
+        let (mesh, materials) = (&self.body.mesh, &self.body.materials);
+        Assembly::of(mesh, materials, Arc::clone(&self.joined))
     }
 
     /// The state at the case's own friction coefficient.
@@ -57,7 +69,7 @@ impl AssemblyModel {
         request: &SweepRequest<'_>,
         progress: &Progress<'_>,
     ) -> Result<(FrictionSweep, usize), CeaError> {
-        let assembly = self.body.assembled()?;
+        let assembly = self.assembly();
         let range = &self.range;
         let tangent = |k: usize| Ok(assembly.tangent(&range.states[k], &self.options)?);
         let changes = (range.state_of.as_slice(), range.changes.as_slice());
@@ -67,27 +79,24 @@ impl AssemblyModel {
     /// The tangent at the case's own friction coefficient.
     ///
     /// # Errors
-    /// Those of the pairing of surfaces.
+    /// Those of [`Assembly::tangent`].
     pub fn own_tangent(&self) -> Result<SlidingTangent, PrestressError> {
-        self.body.assembled()?.tangent(self.base(), &self.options)
+        self.assembly().tangent(self.base(), &self.options)
     }
 
     /// The tangent of one of the states.
     ///
     /// # Errors
-    /// Those of the pairing of surfaces.
+    /// Those of [`Assembly::tangent`].
     pub(super) fn tangent(&self, state: usize) -> Result<SlidingTangent, CeaError> {
-        let assembly = self.body.assembled()?;
+        let assembly = self.assembly();
         Ok(assembly.tangent(&self.range.states[state], &self.options)?)
     }
 
     /// The base state point by point at the case's own friction coefficient.
-    ///
-    /// # Errors
-    /// Those of the pairing of surfaces.
-    pub fn report(&self, case: &Case) -> Result<AssemblyReport, PrestressError> {
+    pub fn report(&self, case: &Case) -> AssemblyReport {
         let friction = case.contact.sliding.friction_coefficient;
-        let (assembly, state) = (self.body.assembled()?, self.base());
+        let (assembly, state) = (self.assembly(), self.base());
         let forces = state.normal_forces(friction);
         let all = assembly.contacts().iter().flat_map(|(contact, surface)| {
             let points = surface
@@ -112,14 +121,14 @@ impl AssemblyModel {
         });
         let contacts = self.body.contacts.iter();
         let displacement = state.displacement(friction);
-        Ok(AssemblyReport {
+        AssemblyReport {
             stress: solid_stress(&self.body.mesh, &self.body.materials, &displacement),
             surfaces: contacts
                 .map(|own| (own.name.clone(), own.surface))
                 .collect(),
             points: points.collect(),
             displacement,
-        })
+        }
     }
 }
 
@@ -152,7 +161,8 @@ pub fn base_state(case: &Case, report: &AssemblyReport) -> BaseState {
 }
 
 /// What a base state without stress and the inertia of rotation leave out.
-pub fn notes(body: &AssemblyBody) -> Vec<String> {
+pub fn notes(model: &AssemblyModel) -> Vec<String> {
+    let body = &model.body;
     let closed = (body.base == BaseChoice::Closed).then(|| {
         "the base state is closed and free of stress: no pressure, no geometric stiffness, no dashpot of friction across the \
          sliding"
@@ -165,8 +175,7 @@ pub fn notes(body: &AssemblyBody) -> Vec<String> {
             rotors.join(", ")
         )
     });
-    let is_free = body.assembled().is_ok_and(|assembly| assembly.is_free());
-    let free = is_free.then(|| {
+    let free = model.assembly().is_free().then(|| {
         "nothing holds the bodies: their rigid motions, at frequency zero, are not listed; the modes are those of free parts"
             .to_owned()
     });

@@ -277,7 +277,7 @@ impl Model {
                     dofs,
                     sensitivities: None,
                     without_sensitivities: 0,
-                    notes: assembly::notes(&model.body),
+                    notes: assembly::notes(model),
                     coverage: None,
                     overdamped: Vec::new(),
                     sweep,
@@ -299,11 +299,15 @@ impl Model {
             }))),
             // A centrifugal load depends on the density.
             Self::Assembly(assembly) if assembly.body.rotors().next().is_some() => None,
-            Self::Assembly(assembly) => Some(Self::Assembly(Box::new(AssemblyModel {
-                body: case.body.assembly()?.clone(),
-                range: assembly.range.clone(),
-                options,
-            }))),
+            Self::Assembly(assembly) => {
+                let body = case.body.assembly()?;
+                Some(Self::Assembly(Box::new(AssemblyModel {
+                    joined: body.assembled().ok()?.joined(),
+                    body: body.clone(),
+                    range: assembly.range.clone(),
+                    options,
+                })))
+            }
             Self::Sectors(..) | Self::SolidSectors(_) => None,
         }
     }

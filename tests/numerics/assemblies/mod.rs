@@ -3,6 +3,7 @@
 mod normal_law;
 mod response;
 mod rotation;
+mod topography;
 
 use crate::bricks::{Block, file_of};
 use frictionsim::cea::sparse::sweep;
@@ -71,6 +72,7 @@ fn sliding(mesh: &Mesh, normal_stiffness: Option<f64>) -> SlidingSurfaces {
             ..ContactStiffness::default()
         },
         law: None,
+        topography: None,
     }
 }
 

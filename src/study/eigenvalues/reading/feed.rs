@@ -19,7 +19,7 @@ use crate::contact::{ContactStiffness, Point, PressedPoints, linearized};
 use crate::fem::{Triplets, assemble_geometric_stiffness};
 use crate::linalg::c64;
 use crate::mesh::Mesh;
-use crate::prestress::{DampingModel, PrestressError, SteadySliding};
+use crate::prestress::{DampingModel, SteadySliding};
 use crate::results::cea::{Feed, FeedPlace, ModeFeed};
 use crate::study::eigenvalues::assembly::AssemblyModel;
 use crate::study::eigenvalues::model::Model;
@@ -53,7 +53,7 @@ pub(super) fn feed(
         return None;
     }
     let pressed = match (&model.model, &model.state) {
-        (Model::Assembly(assembly), _) => of_assembly(assembly).ok()?,
+        (Model::Assembly(assembly), _) => of_assembly(assembly),
         (_, SteadyState::Plane(base)) => of_edge(case, parts, base),
         _ => return None,
     };
@@ -215,11 +215,8 @@ pub(super) fn edge_places(
 }
 
 /// The points of all contacts of solid bodies.
-///
-/// # Errors
-/// Those of the pairing of surfaces.
-fn of_assembly(model: &AssemblyModel) -> Result<Vec<Pressed>, PrestressError> {
-    let (assembly, state) = (model.body.assembled()?, model.base());
+fn of_assembly(model: &AssemblyModel) -> Vec<Pressed> {
+    let (assembly, state) = (model.assembly(), model.base());
     let by_power = |all: &[Vec<f64>], i: usize| -> Vec<Vec<f64>> {
         all.iter().map(|values| vec![values[i]]).collect()
     };
@@ -242,5 +239,5 @@ fn of_assembly(model: &AssemblyModel) -> Result<Vec<Pressed>, PrestressError> {
             });
         }
     }
-    Ok(found)
+    found
 }

@@ -125,8 +125,7 @@ impl<'a> Parts<'a> {
         }
         let rotation = match &model.model {
             Model::Assembly(own) if own.body.rotors().next().is_some() => {
-                let assembled = own.body.assembled().ok()?;
-                let terms = assembled.rotation_terms().cloned();
+                let terms = own.assembly().rotation_terms().cloned();
                 terms.map(|[transport, gyroscopic]| Pair::new(count, [gyroscopic, transport]))
             }
             _ => None,

@@ -1,9 +1,10 @@
-//! `materials.*.table`: modulus and loss factor over frequency.
+//! Tables beside a case: `materials.*.table`, modulus and loss factor over frequency, and `contacts.*.gap`, a measured surface.
 
 use super::raw::{RawCase, TableBytes};
 use super::reader::Section;
+use crate::contact::Topography;
 use crate::fem::ModulusTable;
-use crate::signal::reader::{ModulusRow, read_moduli};
+use crate::signal::reader::{ModulusRow, read_gaps, read_moduli};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -120,6 +121,27 @@ pub(super) fn modulus_table(
         .map(|row| [row.frequency_hz, row.young_modulus, row.loss_factor]);
     let key = section.name("table");
     Some(Arc::new(ModulusTable::new(&key, &file, rows.collect())))
+}
+
+/// The measured surface of a section of `[contacts.*]`, where it has one.
+pub(super) fn topography(
+    section: &Section<'_>,
+    files: &mut TableFiles<'_>,
+) -> Option<Arc<Topography>> {
+    let file = section.optional_text("gap")?;
+    let readable = files.bytes(&file);
+    let points = readable.and_then(|bytes| read_gaps(&bytes, &file).map_err(|e| e.to_string()));
+    points
+        .map(|points| Arc::new(Topography::new(&file, points)))
+        .map_err(|reason| {
+            section.reject(
+                "gap",
+                format!("{}: {reason}", section.name("gap")),
+                "not a measured surface".to_owned(),
+                Some("its columns are x, y, z and gap, all in m".to_owned()),
+            );
+        })
+        .ok()
 }
 
 /// What no table can hold: line, what is wrong, remedy.

@@ -1,0 +1,104 @@
+//! Uniform refinement of solid bodies (independent: volumes, surfaces, exact eigenvalues of the meshed block).
+
+use crate::block::{SOLIDS, block};
+use frictionsim::fem::{ElasticMaterial, PlaneFormulation, lumped_masses};
+use frictionsim::mesh::{BoundaryCondition, ElementKind, GmshFile, Mesh};
+
+const STEEL: ElasticMaterial = ElasticMaterial {
+    young_modulus: 2e11,
+    poisson_ratio: 0.3,
+    density: 7850.0,
+    formulation: PlaneFormulation::ThreeDimensional,
+    ..ElasticMaterial::PLAIN
+};
+
+/// A barrel-shaped block.
+fn barrel([x, y, z]: [f64; 3]) -> [f64; 3] {
+    let bulge = 1.0 + 0.3 * z * (1.0 - z);
+    [
+        0.1 * bulge * (x - 0.5),
+        0.08 * bulge * (y - 0.4),
+        0.06 * z + 0.01 * x * y,
+    ]
+}
+
+fn mesh(file: &GmshFile) -> Mesh {
+    let conditions = [
+        ("x0", BoundaryCondition::Clamped),
+        ("y0", BoundaryCondition::Guide),
+        ("z1", BoundaryCondition::Pressure(2e6)),
+    ];
+    let conditions = conditions.map(|(name, condition)| (name.to_owned(), condition));
+    Mesh::from_solids(file, 1.0, &conditions).unwrap()
+}
+
+#[test]
+fn refined_solids_fit_together_and_keep_volume_surfaces_and_conditions() {
+    for kind in SOLIDS {
+        let coarse = mesh(&block(kind, [2, 1, 2], barrel));
+        let mut fine = coarse.clone();
+        for level in 1..=2 {
+            fine = fine.refined_solids().unwrap();
+            let times = |power: i32| 2_usize.pow(level * power as u32);
+            assert_eq!(fine.element_count(), times(3) * coarse.element_count());
+            // A crack between two elements would show as further faces outside.
+            let outer = [&coarse, &fine].map(|mesh| mesh.outer_faces().len());
+            assert_eq!(outer[1], times(2) * outer[0], "{kind:?}");
+            let mass = [&coarse, &fine].map(|m| lumped_masses(m, &STEEL).iter().sum::<f64>());
+            // Parts of linear elements with curved faces, and quadratures of bent ones, see a little less.
+            let bound = 0.03 / f64::from(level);
+            assert!((mass[1] / mass[0] - 1.0).abs() < bound, "{kind:?} {mass:?}");
+            for (own, other) in coarse.boundaries.iter().zip(&fine.boundaries) {
+                assert_eq!((&own.name, own.condition), (&other.name, other.condition));
+                assert_eq!(other.faces.len(), times(2) * own.faces.len(), "{kind:?}");
+                let area = [own, other].map(|b| b.tributary_lengths.iter().sum::<f64>());
+                assert!((area[1] / area[0] - 1.0).abs() < 0.02, "{kind:?} {area:?}");
+            }
+            let kept = coarse.nodes.iter().zip(&fine.nodes);
+            assert!(kept.into_iter().all(|(own, other)| own == other));
+        }
+    }
+}
+
+#[test]
+fn a_refined_block_is_the_block_meshed_finer() {
+    let straight = |[x, y, z]: [f64; 3]| [0.1 * x + 0.01 * z, 0.08 * y, 0.06 * z];
+    for kind in [ElementKind::Hex8, ElementKind::Hex20] {
+        let split = mesh(&block(kind, [2, 2, 1], straight))
+            .refined_solids()
+            .unwrap();
+        let meshed = mesh(&block(kind, [4, 4, 2], straight));
+        let sorted = |mesh: &Mesh| {
+            let mut points: Vec<[i64; 3]> = mesh
+                .nodes
+                .iter()
+                .map(|point| point.map(|x| (1e9 * x).round() as i64))
+                .collect();
+            points.sort_unstable();
+            points
+        };
+        assert_eq!(sorted(&split), sorted(&meshed));
+        assert_eq!(split.held_dofs().count(), meshed.held_dofs().count());
+    }
+}
+
+/// A set of nodes that is no surface: an edge keeps being one.
+#[test]
+fn nodes_between_those_of_a_held_edge_are_held_too() {
+    let mut file = block(ElementKind::Tet10, [2, 2, 2], |place| {
+        place.map(|x| 0.1 * x)
+    });
+    let is_on_edge = |p: &[f64; 3]| p[0] == 0.0 && p[1] == 0.0;
+    let nodes = (0..file.points.len() as u32).filter(|&k| is_on_edge(&file.points[k as usize]));
+    file.node_sets.insert("edge".to_owned(), nodes.collect());
+    let conditions = [("edge".to_owned(), BoundaryCondition::Clamped)];
+    let mut mesh = Mesh::from_solids(&file, 1.0, &conditions).unwrap();
+    for _ in 0..2 {
+        mesh = mesh.refined_solids().unwrap();
+        let boundary = mesh.boundaries.iter().find(|b| b.name == "edge").unwrap();
+        let own: Vec<u32> = (0..mesh.node_count() as u32)
+            .filter(|&k| is_on_edge(&mesh.nodes[k as usize]))
+            .collect();
+        assert_eq!(boundary.nodes, own);
+    }
+}
