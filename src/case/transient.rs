@@ -98,7 +98,7 @@ impl Case {
         if assembly
             .motions
             .iter()
-            .any(|motion| motion.has_rotation_terms)
+            .any(|motion| motion.inertia.is_some())
         {
             return Err(self.error_at(
                 "motion",

@@ -240,8 +240,14 @@ impl ElementGeometry {
         Some(recovered * DVector::from_column_slice(values))
     }
 
-    /// Stiffness over the nodes and, where there are incompatible modes, their amplitudes; linear in the elasticity.
-    fn full_stiffness(&self, material: &ElasticMaterial) -> DMatrix<f64> {
+    /// Stiffness over the nodes and, where there are incompatible modes, their amplitudes; linear in the elasticity. Of a body
+    /// that is deformed, with `gradients` of its displacement at the points of the stiffness, by the strain of Green and
+    /// Lagrange: `delta E = sym(F^T grad delta u)`, `F = 1 + grad u`.
+    fn full_stiffness(
+        &self,
+        material: &ElasticMaterial,
+        gradients: Option<&[Matrix3<f64>]>,
+    ) -> DMatrix<f64> {
         let dimension = self.dimension();
         let size =
             dimension * self.node_count() + if self.has_incompatible_modes() { 9 } else { 0 };
@@ -250,15 +256,20 @@ impl ElementGeometry {
         let points = self.stiffness_points();
         let modes = self.incompatible_gradients(&points);
         let mut matrix = DMatrix::zeros(size, size);
-        for (point, modes) in points.iter().zip(&modes) {
+        for (i, (point, modes)) in points.iter().zip(&modes).enumerate() {
             let law = material.elasticity_at(self.position(point));
+            let deformed = |e: Vector3<f64>| match gradients {
+                Some(gradients) => e + gradients[i].transpose() * e,
+                None => e,
+            };
             let mut strains: Vec<Voigt> = Vec::with_capacity(size);
             for (gradient, frame) in point.gradients.iter().zip(&self.frames) {
-                let axes = (0..dimension).map(|axis| frame.column(axis).into_owned());
+                let axes = (0..dimension).map(|axis| deformed(frame.column(axis).into_owned()));
                 strains.extend(axes.map(|e| strain_along(gradient, &e)));
             }
             for gradient in modes {
-                strains.extend((0..3).map(|c| strain_along(gradient, &Vector3::ith(c, 1.0))));
+                let axes = (0..3).map(|axis| deformed(Vector3::ith(axis, 1.0)));
+                strains.extend(axes.map(|e| strain_along(gradient, &e)));
             }
             for column in 0..size {
                 let stress = stress_in(components, &law, &strains[column]);
@@ -286,7 +297,27 @@ impl ElementGeometry {
     /// Element stiffness `K_e = ∫ B^T D B dV` in nodal frames, N/m, in the plane for each metre of thickness; the incompatible
     /// modes of bricks with 8 nodes condensed.
     pub fn stiffness(&self, material: &ElasticMaterial) -> Condensed {
-        let full = self.full_stiffness(material);
+        self.condensed(self.full_stiffness(material, None))
+    }
+
+    /// What the displacements `values` of the nodes, in their frames, m, add to [`Self::stiffness`]: the elements stand where these
+    /// took them. With [`Self::geometric_stiffness`] it is the whole tangent of a stressed body, to the first order in its strain.
+    ///
+    /// Source: K.-J. Bathe, Finite Element Procedures (1996), 6.3.5: the initial displacement effect.
+    pub fn displacement_stiffness(
+        &self,
+        material: &ElasticMaterial,
+        values: &[f64],
+    ) -> DMatrix<f64> {
+        let points = self.stiffness_points();
+        let internal = self.internal_amplitudes(material, values);
+        let gradients = self.displacement_gradients(&points, values, internal.as_ref());
+        let deformed = self.full_stiffness(material, Some(&gradients));
+        self.condensed(deformed).stiffness - self.stiffness(material).stiffness
+    }
+
+    /// A stiffness without the amplitudes of incompatible modes.
+    fn condensed(&self, full: DMatrix<f64>) -> Condensed {
         let nodal = self.dimension() * self.node_count();
         let internal = full.nrows() - nodal;
         if internal == 0 {
@@ -315,7 +346,7 @@ impl ElementGeometry {
     /// dK = [1; R]^T dK_full [1; R],   dR = -K_ii^-1 (dK_iu + dK_ii R)
     /// ```
     pub fn stiffness_rate(&self, material: &ElasticMaterial, rate: &ElasticMaterial) -> Condensed {
-        let change = self.full_stiffness(rate);
+        let change = self.full_stiffness(rate, None);
         let nodal = self.dimension() * self.node_count();
         let internal = change.nrows() - nodal;
         let Some(recovered) = self.stiffness(material).recovered else {
@@ -331,7 +362,7 @@ impl ElementGeometry {
         let image = &change * &follows;
         let mut stiffness = follows.transpose() * &image;
         mirror_upper_triangle(&mut stiffness);
-        let full = self.full_stiffness(material);
+        let full = self.full_stiffness(material, None);
         let inner = full.view((nodal, nodal), (internal, internal)).into_owned();
         let load = image.view((nodal, 0), (internal, nodal)).into_owned();
         let factor = inner
@@ -529,6 +560,17 @@ pub fn geometric_stiffness(
         internal: geometry.internal_amplitudes(material, &values),
         values: &values,
     }])
+}
+
+/// What the displacements `base` add to an element's stiffness, see [`ElementGeometry::displacement_stiffness`].
+pub fn displacement_stiffness(
+    mesh: &Mesh,
+    element: usize,
+    material: &ElasticMaterial,
+    base: &[f64],
+) -> DMatrix<f64> {
+    let values = nodal_values(mesh, element, base);
+    ElementGeometry::new(mesh, element).displacement_stiffness(material, &values)
 }
 
 /// Element consistent mass of a mesh, see [`ElementGeometry::consistent_mass`].

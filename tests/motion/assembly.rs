@@ -88,7 +88,7 @@ fn assembly<'a>(
         axis: [0.0, 0.0, 1.0],
         center: [0.02, -0.2, 0.0],
         rotation_speed: speed,
-        has_rotation_terms: false,
+        inertia: None,
     };
     Assembly::at_nodes(
         mesh,
