@@ -108,22 +108,6 @@ impl Case {
                 Some("use `frictionsim cea`, or leave rotation_terms out".to_owned()),
             ));
         }
-        if assembly
-            .contacts
-            .iter()
-            .any(|contact| contact.law.is_some())
-        {
-            return Err(self.error_at(
-                "contacts",
-                "contact that stiffens with pressure is not stepped in time between solid bodies"
-                    .to_owned(),
-                "with normal_law = \"linear\"".to_owned(),
-                Some(
-                    "use `frictionsim cea`, or the stiffness at the pressure of the base state"
-                        .to_owned(),
-                ),
-            ));
-        }
         Ok(())
     }
 }

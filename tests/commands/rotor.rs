@@ -217,15 +217,15 @@ fn a_rotor_above_its_critical_speed_has_the_published_frequencies_in_its_turning
 fn frequencies_of_a_turning_ring_in_both_frames_differ_by_multiples_of_its_speed() {
     let folder = tempfile::tempdir().unwrap();
     let ring = Revolved {
-        around: 48,
+        around: 64,
         cells: vec![[60.0, 80.0, 0.0, 8.0], [80.0, 100.0, 0.0, 8.0]],
     };
     let (_, mesh) = ring.text();
     let deck = mesh + "*SURFACE, NAME=skin\nEall,\n";
-    let speed = 500.0;
+    let speed = 30.0;
     let modes = |frame: &str| {
         let rpm = speed * 60.0 / TAU;
-        let springs = "[boundaries.skin]\ncondition = \"support\"\nnormal_stiffness = 1e8\ntangential_stiffness = 1e8\naxial_stiffness = 1e8\n";
+        let springs = "[boundaries.skin]\ncondition = \"support\"\nnormal_stiffness = 1e8\ntangential_stiffness = 1e8\n";
         let motion = format!(
             "[motion.Eall]\naxis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = {rpm:?}\nrotation_terms = true\nframe = \"{frame}\"\n"
         );

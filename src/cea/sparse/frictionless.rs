@@ -2,6 +2,7 @@
 
 use super::GUARD_MODES;
 use super::factors::StiffnessFactors;
+use super::inertia::{counted, gyroscopic_count};
 use super::linearization::Linearization;
 use super::rigid::RigidMotions;
 use super::structure::{ShiftInverted, StructureMatrices};
@@ -107,6 +108,11 @@ impl FrictionlessModes {
         };
         let wanted = match limit {
             ModeLimit::Lowest(count) => (count + unheld).min(tangent.stiffness.dimension()),
+            ModeLimit::MaxFrequency(limit_hz) if tangent.is_gyroscopic => {
+                let omega = TAU * limit_hz;
+                let turning = gyroscopic_count(tangent, omega)? + unheld;
+                turning.max(inertia.count_below(omega)?)
+            }
             ModeLimit::MaxFrequency(limit_hz) => inertia.count_below(TAU * limit_hz)?,
         };
         // An empty range still needs the lowest mode, for the message.
@@ -358,18 +364,9 @@ impl<'a> Inertia<'a> {
     }
 
     /// Number of modes below an angular frequency, by Sylvester's law of inertia.
-    ///
-    /// A shift that the unpivoted factorization cannot bear is moved by parts in 1e8 a few times.
     fn count_below(&self, frequency: f64) -> Result<usize, LinalgError> {
-        let mut outcome = Ok(0);
-        for attempt in 0..5 {
-            let shift = (frequency * (1.0 + 1e-8 * f64::from(attempt))).powi(2);
-            outcome = SparseLdl::factorize(&self.analysis, &self.shifted(shift))
-                .map(|ldl| ldl.negative_count());
-            if outcome.is_ok() {
-                break;
-            }
-        }
-        outcome
+        counted(frequency, |frequency| {
+            SparseLdl::factorize(&self.analysis, &self.shifted(frequency * frequency))
+        })
     }
 }
