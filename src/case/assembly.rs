@@ -11,7 +11,7 @@ use super::suggestion;
 use super::tables::{TableFiles, topography};
 use crate::contact::{ContactStiffness, Motion, PairFriction, SlidingContact};
 use crate::fem::{
-    ElasticMaterial, MaterialField, PlaneFormulation, RegionMaterial, TabledMaterial,
+    ElasticMaterial, MaterialField, PlaneFormulation, RegionMaterial, RotationFrame, TabledMaterial,
 };
 use crate::mesh::{Mesh, MeshFileError};
 use crate::prestress::{Assembly, BaseChoice, PrestressError, SlidingSurfaces, TiedSurfaces};
@@ -197,8 +197,28 @@ fn motion(section: &Section<'_>) -> Motion {
         axis: axis.map(|x| x / length.max(f64::MIN_POSITIVE)),
         center: triple("center").unwrap_or([0.0; 3]),
         rotation_speed: section.number("rotation_speed_rpm") * TAU / 60.0,
-        has_rotation_terms: section.flag("rotation_terms"),
+        inertia: inertia(section),
     }
+}
+
+/// In which frame the inertia of a motion counts.
+fn inertia(section: &Section<'_>) -> Option<RotationFrame> {
+    let frame = section.choice("frame");
+    if section.flag("rotation_terms") {
+        return Some(frame);
+    }
+    if section.has("frame") {
+        section.reject(
+            "frame",
+            format!(
+                "{} has no effect without the inertia of rotation",
+                section.name("frame")
+            ),
+            "needs rotation_terms = true".to_owned(),
+            Some("give rotation_terms = true, or leave frame out".to_owned()),
+        );
+    }
+    None
 }
 
 /// One contact, without its name and its place in the mesh.
@@ -367,7 +387,7 @@ impl AssemblyBody {
         let turning = self
             .motions
             .iter()
-            .filter(|motion| motion.has_rotation_terms);
+            .filter(|motion| motion.inertia.is_some());
         let regions = turning.flat_map(|motion| &motion.regions);
         regions.map(|&region| self.mesh.regions[region].as_str())
     }

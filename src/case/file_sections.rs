@@ -55,11 +55,15 @@ pub(super) fn sections(
             let [from, to] = motion.axis;
             let axis = [0, 1, 2].map(|i| to[i] - from[i]);
             let rpm = motion.angular_velocity * 60.0 / std::f64::consts::TAU;
-            let keys = vec![
+            let mut keys = vec![
                 ("axis", numbers(&axis)),
                 ("center", numbers(&from.map(|x| scaled(x, units.length())))),
                 ("rotation_speed_rpm", RawValue::Float(rpm)),
             ];
+            if motion.is_load {
+                keys.push(("rotation_terms", RawValue::Boolean(true)));
+                keys.push(("frame", text("turning")));
+            }
             sections.push(section(("motion", &motion.region), keys, &motion.place));
         }
     }

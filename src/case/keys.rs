@@ -14,7 +14,7 @@ use super::words::{
     FilePart, FrfMethod, HeldAxis, ModificationKind, NormalLawWord, OnsetChoice, StabilityChoice,
     UnitsWord, words,
 };
-use crate::fem::{MassKind, PlaneFormulation};
+use crate::fem::{MassKind, PlaneFormulation, RotationFrame};
 use crate::frf::{Direction, FrfBoundary};
 use crate::mesh::ElementKind;
 use crate::prestress::BaseChoice;
@@ -159,6 +159,7 @@ pub const KEYS: &[CaseKey] = &[
     key("motion.*.center", Numbers(Finite), "m", Otherwise("[0, 0, 0]"), "[0.0, 0.0, 0.0]", "a point of that axis"),
     key("motion.*.rotation_speed_rpm", Number(Finite), "1/min", Required, "120.0", "its rotation speed"),
     key("motion.*.rotation_terms", Flag, "", Value("false"), "true", "whether the inertia of its rotation counts, as of a disc of revolution: Coriolis, transport and centrifugal terms"),
+    key("motion.*.frame", Choice(words::<RotationFrame>), "", Value("\"rest\""), "\"turning\"", "the frame of the modes of rotation_terms: \"rest\", through which a body of revolution passes, or \"turning\" with all bodies, of any shape"),
 
     key("contacts.*.surface", Text, "", Required, "\"lining\"", "the surface of solid bodies that slides, the finer and softer one"),
     key("contacts.*.counter", Text, "", Required, "\"disc_face\"", "the surface that it slides on; the meshes need not match"),

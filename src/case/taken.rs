@@ -188,15 +188,23 @@ fn has_sides(entry: &RawEntry, section: &FileSection) -> bool {
 /// Whether the case gives a key of a section, or what excludes it.
 fn is_given(own: &RawTable, section: &str, key: &str) -> bool {
     let has = |names: &[&str]| names.iter().any(|name| own.contains_key(*name));
+    let is = |name: &str, value: RawValue| own.get(name).is_some_and(|own| own.item.value == value);
     let orthotropic = ["young_moduli", "poisson_ratios", "shear_moduli", "axes"];
     own.contains_key(key)
         || match (section, key) {
             ("boundaries", _) => has(&["condition"]),
+            // Another law has no linear stiffness; the inertia that a case leaves out has no frame.
+            ("contacts", "normal_stiffness")
+                if is("normal_law", RawValue::String("exponential".to_owned())) =>
+            {
+                true
+            }
+            ("motion", "frame") if is("rotation_terms", RawValue::Boolean(false)) => true,
             ("contacts" | "ties", _) => has(&["surface", "counter"]),
             ("motion", _) => has(&["axis"]),
-            ("materials", "young_modulus" | "poisson_ratio") => {
-                has(&orthotropic) || has(&["table"])
-            }
+            ("materials", "young_modulus") => has(&orthotropic) || has(&["table"]),
+            ("materials", "poisson_ratio") => has(&orthotropic),
+            ("materials", "loss_factor") => has(&["table"]),
             ("materials", key) if orthotropic.contains(&key) => {
                 has(&["young_modulus", "poisson_ratio", "table"])
             }

@@ -98,7 +98,7 @@ impl Case {
         if assembly
             .motions
             .iter()
-            .any(|motion| motion.has_rotation_terms)
+            .any(|motion| motion.inertia.is_some())
         {
             return Err(self.error_at(
                 "motion",
@@ -106,22 +106,6 @@ impl Case {
                     .to_owned(),
                 "with rotation_terms = false".to_owned(),
                 Some("use `frictionsim cea`, or leave rotation_terms out".to_owned()),
-            ));
-        }
-        if assembly
-            .contacts
-            .iter()
-            .any(|contact| contact.law.is_some())
-        {
-            return Err(self.error_at(
-                "contacts",
-                "contact that stiffens with pressure is not stepped in time between solid bodies"
-                    .to_owned(),
-                "with normal_law = \"linear\"".to_owned(),
-                Some(
-                    "use `frictionsim cea`, or the stiffness at the pressure of the base state"
-                        .to_owned(),
-                ),
             ));
         }
         Ok(())

@@ -1,7 +1,7 @@
 //! The choices that a case names by a word, and their words.
 
 use super::range::Spacing;
-use crate::fem::{MassKind, PlaneFormulation};
+use crate::fem::{MassKind, PlaneFormulation, RotationFrame};
 use crate::frf::{Direction, FrfBoundary};
 use crate::mesh::ElementKind;
 use crate::prestress::BaseChoice;
@@ -261,6 +261,7 @@ choices! {
     FrfBoundary { "free" = Self::Free, "clamped" = Self::Clamped, "sliding" = Self::Sliding }
     BaseChoice { "solved" = Self::Solved, "closed" = Self::Closed }
     NormalLawWord { "linear" = Self::Linear, "cubic" = Self::Cubic, "exponential" = Self::Exponential }
+    RotationFrame { "rest" = Self::Rest, "turning" = Self::Turning }
     HeldAxis { "x" = Self::X, "y" = Self::Y, "z" = Self::Z }
     BaseContact { "rigid" = Self::Rigid, "compliant" = Self::Compliant }
     AxesWord { "global" = Self::Global, "cylindrical" = Self::Cylindrical }

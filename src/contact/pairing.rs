@@ -3,6 +3,7 @@
 use super::mortar::mortar_nodes;
 use super::surface::{SurfacePair, row_along};
 use super::{FrictionDecay, PairError, Point, Row, SteadyFriction, Topography};
+use crate::fem::{RotationFrame, Spin};
 use crate::mesh::{Boundary, Mesh};
 use nalgebra::Vector3;
 
@@ -17,8 +18,9 @@ pub struct Motion {
     pub center: [f64; 3],
     /// `Omega`, rad/s.
     pub rotation_speed: f64,
-    /// Whether its inertia counts: Coriolis, transport, and the stress and stiffness of the centrifugal load.
-    pub has_rotation_terms: bool,
+    /// In which frame its inertia counts: Coriolis, transport, and the stress and stiffness of the centrifugal load; `None` where
+    /// it does not.
+    pub inertia: Option<RotationFrame>,
 }
 
 impl Motion {
@@ -28,10 +30,13 @@ impl Motion {
         (Vector3::from(self.axis).cross(&arm) * self.rotation_speed).into()
     }
 
-    /// `Omega x (Omega x r)`, m/s2.
-    pub fn acceleration(&self, position: [f64; 3]) -> [f64; 3] {
-        let velocity = Vector3::from(self.velocity(position));
-        (Vector3::from(self.axis).cross(&velocity) * self.rotation_speed).into()
+    /// How its inertia turns, where it counts.
+    pub fn spin(&self) -> Option<Spin> {
+        self.inertia.map(|frame| Spin {
+            velocity: Vector3::from(self.axis) * self.rotation_speed,
+            center: self.center,
+            frame,
+        })
     }
 }
 

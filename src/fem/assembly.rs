@@ -139,7 +139,22 @@ pub fn assemble_geometric_stiffness(
     geometric_stiffness_of(mesh, material, base, &|_| true)
 }
 
-/// The same of the elements of one region alone.
+/// What the displacements `base` (all dofs, nodal frames, m) add to the elastic stiffness of the elements, N/m: beside
+/// [`assemble_geometric_stiffness`] the other term of the first order in the strain of `base`.
+pub fn assemble_displacement_stiffness(
+    mesh: &Mesh,
+    material: &dyn MaterialField,
+    base: &[f64],
+) -> Triplets {
+    let mut sum = ElementSum::new(mesh, &|_| true);
+    for e in 0..mesh.element_count() {
+        let matrix = element::displacement_stiffness(mesh, e, material.of(mesh.region(e)), base);
+        sum.add(e, &matrix);
+    }
+    sum.finish()
+}
+
+/// [`assemble_geometric_stiffness`] of the elements of one region alone.
 pub fn assemble_region_geometric_stiffness(
     mesh: &Mesh,
     material: &dyn MaterialField,

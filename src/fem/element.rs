@@ -158,8 +158,14 @@ impl ElementGeometry {
         position
     }
 
-    /// Stiffness over the nodes and, where there are incompatible modes, their amplitudes; linear in the elasticity.
-    fn full_stiffness(&self, material: &ElasticMaterial) -> DMatrix<f64> {
+    /// Stiffness over the nodes and, where there are incompatible modes, their amplitudes; linear in the elasticity. Of a body
+    /// that is deformed, with `gradients` of its displacement at the points of the stiffness, by the strain of Green and
+    /// Lagrange: `delta E = sym(F^T grad delta u)`, `F = 1 + grad u`.
+    fn full_stiffness(
+        &self,
+        material: &ElasticMaterial,
+        gradients: Option<&[Matrix3<f64>]>,
+    ) -> DMatrix<f64> {
         let internal = if self.has_incompatible_modes() { 9 } else { 0 };
         let size = self.dimension() * self.node_count() + internal;
         let components = self.components();
@@ -167,9 +173,10 @@ impl ElementGeometry {
         let points = self.stiffness_points();
         let modes = self.incompatible_gradients(&points);
         let mut matrix = DMatrix::zeros(size, size);
-        for (point, modes) in points.iter().zip(&modes) {
+        for (i, (point, modes)) in points.iter().zip(&modes).enumerate() {
             let law = material.elasticity_at(self.position(point));
-            let strains = self.strain_columns(point, modes);
+            let gradient = gradients.map(|gradients| &gradients[i]);
+            let strains = self.strain_columns(point, modes, gradient);
             for column in 0..size {
                 let stress = stress_in(components, &law, &strains[column]);
                 let stress = stress.map(|component| component * point.measure);
@@ -196,7 +203,27 @@ impl ElementGeometry {
     /// Element stiffness `K_e = ∫ B^T D B dV` in nodal frames, N/m, in the plane for each metre of thickness; the incompatible
     /// modes of bricks with 8 nodes condensed.
     pub fn stiffness(&self, material: &ElasticMaterial) -> Condensed {
-        let full = self.full_stiffness(material);
+        self.condensed(self.full_stiffness(material, None))
+    }
+
+    /// What the displacements `values` of the nodes, in their frames, m, add to [`Self::stiffness`]: the elements stand where these
+    /// took them. With [`Self::geometric_stiffness`] it is the whole tangent of a stressed body, to the first order in its strain.
+    ///
+    /// Source: K.-J. Bathe, Finite Element Procedures (1996), 6.3.5: the initial displacement effect.
+    pub fn displacement_stiffness(
+        &self,
+        material: &ElasticMaterial,
+        values: &[f64],
+    ) -> DMatrix<f64> {
+        let points = self.stiffness_points();
+        let internal = self.internal_amplitudes(material, values);
+        let gradients = self.displacement_gradients(&points, values, internal.as_ref());
+        let deformed = self.full_stiffness(material, Some(&gradients));
+        self.condensed(deformed).stiffness - self.stiffness(material).stiffness
+    }
+
+    /// A stiffness without the amplitudes of incompatible modes.
+    fn condensed(&self, full: DMatrix<f64>) -> Condensed {
         let nodal = self.dimension() * self.node_count();
         let internal = full.nrows() - nodal;
         if internal == 0 {
@@ -225,7 +252,7 @@ impl ElementGeometry {
     /// dK = [1; R]^T dK_full [1; R],   dR = -K_ii^-1 (dK_iu + dK_ii R)
     /// ```
     pub fn stiffness_rate(&self, material: &ElasticMaterial, rate: &ElasticMaterial) -> Condensed {
-        let change = self.full_stiffness(rate);
+        let change = self.full_stiffness(rate, None);
         let nodal = self.dimension() * self.node_count();
         let internal = change.nrows() - nodal;
         let Some(recovered) = self.stiffness(material).recovered else {
@@ -241,7 +268,7 @@ impl ElementGeometry {
         let image = &change * &follows;
         let mut stiffness = follows.transpose() * &image;
         mirror_upper_triangle(&mut stiffness);
-        let full = self.full_stiffness(material);
+        let full = self.full_stiffness(material, None);
         let inner = full.view((nodal, nodal), (internal, internal)).into_owned();
         let load = image.view((nodal, 0), (internal, nodal)).into_owned();
         let factor = inner
@@ -427,6 +454,17 @@ pub fn geometric_stiffness(
         internal: geometry.internal_amplitudes(material, &values),
         values: &values,
     }])
+}
+
+/// What the displacements `base` add to an element's stiffness, see [`ElementGeometry::displacement_stiffness`].
+pub fn displacement_stiffness(
+    mesh: &Mesh,
+    element: usize,
+    material: &ElasticMaterial,
+    base: &[f64],
+) -> DMatrix<f64> {
+    let values = nodal_values(mesh, element, base);
+    ElementGeometry::new(mesh, element).displacement_stiffness(material, &values)
 }
 
 /// Element consistent mass of a mesh, see [`ElementGeometry::consistent_mass`].

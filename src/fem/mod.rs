@@ -21,11 +21,11 @@ mod stress;
 mod triplets;
 
 pub use assembly::{
-    DofMap, MassKind, assemble_extra_damping, assemble_geometric_stiffness, assemble_losses,
-    assemble_mass, assemble_patch_damping, assemble_point_masses, assemble_pressures,
-    assemble_region, assemble_region_geometric_stiffness, assemble_stiffness,
-    assemble_structural_damping, assemble_support_losses, assemble_supports, assemble_tabled,
-    element_matrices, lumped_masses,
+    DofMap, MassKind, assemble_displacement_stiffness, assemble_extra_damping,
+    assemble_geometric_stiffness, assemble_losses, assemble_mass, assemble_patch_damping,
+    assemble_point_masses, assemble_pressures, assemble_region,
+    assemble_region_geometric_stiffness, assemble_stiffness, assemble_structural_damping,
+    assemble_support_losses, assemble_supports, assemble_tabled, element_matrices, lumped_masses,
 };
 pub use discretization::DiscretizationError;
 pub use material::{
@@ -35,6 +35,6 @@ pub use material::{
 pub use maxwell::{MaxwellChain, MaxwellElement};
 pub use modulus_table::{ModulusTable, own_frequency_step};
 pub use orthotropy::{Elasticity, Indefinite, MaterialAxes, Orthotropy, RATIOS};
-pub use rotation::{RotationTerms, Turning, assemble_rotation};
+pub use rotation::{RotationFrame, RotationTerms, Spin, assemble_rotation};
 pub use stress::{NodalStress, SolidStress, nodal_stress, revolved_stress, solid_stress};
 pub use triplets::Triplets;

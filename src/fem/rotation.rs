@@ -1,39 +1,71 @@
-//! Inertia of solid bodies that turn about an axis, in the frame at rest.
+//! Inertia of solid bodies that turn about an axis.
 
 use super::element::ElementGeometry;
 use super::{MaterialField, Triplets};
 use crate::mesh::Mesh;
+use nalgebra::{Matrix3, Vector3};
+
+/// The frame in which the motion of a turning body is described.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RotationFrame {
+    /// At rest: the body passes through its mesh. It is one of revolution; its supports and contacts are at rest.
+    #[default]
+    Rest,
+    /// It turns with the body, whose supports turn too. Any body.
+    Turning,
+}
+
+/// How a body turns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spin {
+    /// `Omega`, rad/s.
+    pub velocity: Vector3<f64>,
+    /// A point of the axis, m.
+    pub center: [f64; 3],
+    /// The frame of its equations.
+    pub frame: RotationFrame,
+}
+
+impl Spin {
+    /// `Omega x r` at a place, m/s.
+    pub fn velocity_at(&self, place: [f64; 3]) -> Vector3<f64> {
+        let arm = Vector3::from(place) - Vector3::from(self.center);
+        self.velocity.cross(&arm)
+    }
+}
 
 /// What the rotation of some regions adds to the equation of small motions.
 ///
-/// A particle of a turning body of revolution stands at `x + u(x, t)`, `x` a place at rest; with `v = Omega x r` the operator
-/// `d/dt + v . grad` takes its velocity, and twice its acceleration:
+/// In the frame at rest a particle of a turning body of revolution stands at `x + u(x, t)`, `x` a place at rest; with
+/// `v = Omega x r` the operator `d/dt + v . grad` takes its velocity, and twice its acceleration:
 ///
 /// ```text
 /// rho (d/dt + v . grad)^2 u = rho (u'' + 2 v . grad u' + (v . grad)^2 u)
 /// G_IJ = ∫ rho (N_I v . grad N_J - N_J v . grad N_I) dV,   S_IJ = -∫ rho (v . grad N_I) (v . grad N_J) dV
 /// ```
 ///
-/// for each Cartesian component, by parts over the body, through whose surface `v` carries nothing: `G` is skew and takes no
-/// power. Over all dofs, N s/m and N/m.
+/// for each Cartesian component, by parts over the body, through whose surface `v` carries nothing. In the turning frame
+///
+/// ```text
+/// rho (u'' + 2 Omega x u' + Omega x (Omega x u)),   G_IJ = 2 ∫ rho N_I N_J dV [Omega x],   S_IJ = ∫ rho N_I N_J dV [Omega x]^2.
+/// ```
+///
+/// `G` is skew and takes no power. Over all dofs, N s/m and N/m.
 #[derive(Clone, Debug)]
 pub struct RotationTerms {
     /// `G`: Coriolis and transport, times the velocity.
     pub gyroscopic: Triplets,
-    /// `S`: transport twice, times the displacement.
+    /// `S`: transport twice or the centrifugal force's growth with the radius, times the displacement.
     pub transport: Triplets,
     /// Centrifugal load `∫ rho N_I |Omega|^2 r dV`, N.
     pub centrifugal: Vec<f64>,
 }
 
-/// Velocity and acceleration of a place of a turning body, m/s and m/s2.
-pub type Turning<'a> = dyn Fn([f64; 3]) -> [[f64; 3]; 2] + 'a;
-
-/// The terms of the regions that turn; `turning` gives the motion of a region, `None` where it is at rest.
-pub fn assemble_rotation<'a>(
+/// The terms of the regions that turn; `turning` gives how a region does, `None` where it is at rest.
+pub fn assemble_rotation(
     mesh: &Mesh,
     material: &dyn MaterialField,
-    turning: &dyn Fn(usize) -> Option<&'a Turning<'a>>,
+    turning: &dyn Fn(usize) -> Option<Spin>,
 ) -> RotationTerms {
     let mut terms = RotationTerms {
         gyroscopic: Triplets::default(),
@@ -42,54 +74,68 @@ pub fn assemble_rotation<'a>(
     };
     for e in 0..mesh.element_count() {
         let region = mesh.region(e);
-        if let Some(motion) = turning(region) {
-            add_element(mesh, e, material.of(region).density, motion, &mut terms);
+        if let Some(spin) = turning(region) {
+            add_element(mesh, e, material.of(region).density, &spin, &mut terms);
         }
     }
     terms
 }
 
-/// Adds one element. Nodes of solid bodies have the frame of the whole.
-fn add_element(
-    mesh: &Mesh,
-    element: usize,
-    density: f64,
-    motion: &Turning<'_>,
-    terms: &mut RotationTerms,
-) {
+/// Adds one element, and its load. Vectors are those of the nodes' frames.
+fn add_element(mesh: &Mesh, element: usize, density: f64, spin: &Spin, terms: &mut RotationTerms) {
     let geometry = ElementGeometry::new(mesh, element);
     let nodes = mesh.element_nodes(element);
     let count = nodes.len();
-    let mut along = vec![0.0; count * count];
-    let mut twice = vec![0.0; count * count];
+    // `∫ rho N_I N_J`, `∫ rho N_I v . grad N_J` and `∫ rho (v . grad N_I) (v . grad N_J)`.
+    let mut sums = vec![[0.0; 3]; count * count];
     for point in geometry.integration_points() {
-        let [velocity, acceleration] = motion(geometry.position(&point));
+        let velocity = spin.velocity_at(geometry.position(&point));
         let weight = density * point.measure;
-        let slopes = point.gradients.iter();
-        let slopes: Vec<f64> = slopes
-            .map(|g| g.x * velocity[0] + g.y * velocity[1] + g.z * velocity[2])
-            .collect();
+        let slopes: Vec<f64> = point.gradients.iter().map(|g| g.dot(&velocity)).collect();
         for i in 0..count {
             for j in 0..count {
-                along[i * count + j] += weight * point.values[i] * slopes[j];
-                twice[i * count + j] += weight * slopes[i] * slopes[j];
+                let sum = &mut sums[i * count + j];
+                sum[0] += weight * point.values[i] * point.values[j];
+                sum[1] += weight * point.values[i] * slopes[j];
+                sum[2] += weight * slopes[i] * slopes[j];
             }
-            for (axis, a) in acceleration.iter().enumerate() {
-                terms.centrifugal[3 * nodes[i] as usize + axis] -= weight * point.values[i] * a;
+            let frame = mesh.frame(nodes[i] as usize);
+            let pull = frame.transpose() * spin.velocity.cross(&velocity);
+            for axis in 0..3 {
+                let force = weight * point.values[i] * pull[axis];
+                terms.centrifugal[3 * nodes[i] as usize + axis] -= force;
             }
         }
     }
-    // The same for each component.
+    let across = spin.velocity.cross_matrix();
     for i in 0..count {
         for j in 0..count {
-            let skew = along[i * count + j] - along[j * count + i];
-            for axis in 0..3 {
-                let [row, column] = [i, j].map(|k| 3 * nodes[k] as usize + axis);
-                if i != j {
-                    terms.gyroscopic.push(row, column, skew);
+            let [mass, along, twice] = sums[i * count + j];
+            let [gyroscopic, transport] = match spin.frame {
+                RotationFrame::Rest => {
+                    let skew = along - sums[j * count + i][1];
+                    [skew, -twice].map(Matrix3::from_diagonal_element)
                 }
-                terms.transport.push(row, column, -twice[i * count + j]);
-            }
+                RotationFrame::Turning => [across * (2.0 * mass), across * across * mass],
+            };
+            add_block(
+                mesh,
+                [nodes[i], nodes[j]],
+                &gyroscopic,
+                &mut terms.gyroscopic,
+            );
+            add_block(mesh, [nodes[i], nodes[j]], &transport, &mut terms.transport);
+        }
+    }
+}
+
+/// Adds what one node's displacement does at another, in their frames.
+fn add_block(mesh: &Mesh, [i, j]: [u32; 2], block: &Matrix3<f64>, sum: &mut Triplets) {
+    let block = mesh.frame(i as usize).transpose() * block * mesh.frame(j as usize);
+    for row in 0..3 {
+        for column in (0..3).filter(|&column| block[(row, column)] != 0.0) {
+            let at = [3 * i as usize + row, 3 * j as usize + column];
+            sum.push(at[0], at[1], block[(row, column)]);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::gmsh::{CurveEdge, FileElement, GmshFile, SurfaceFace};
 use super::model_data::ModelData;
-use super::{ElementKind, FaceKind};
+use super::{ElementKind, Equation, FaceKind};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 
@@ -17,6 +17,7 @@ pub(super) struct Collection {
     pub elements: Vec<CollectedElement>,
     pub surfaces: BTreeMap<String, Vec<SurfaceFace>>,
     pub node_sets: BTreeMap<String, Vec<u32>>,
+    pub equations: Vec<Equation>,
 }
 
 /// An element without its region.
@@ -151,7 +152,7 @@ impl Collection {
             ..GmshFile::default()
         };
         match dimension {
-            3 => file.surfaces = self.surfaces,
+            3 => (file.surfaces, file.equations) = (self.surfaces, self.equations),
             _ => file.curves = self.surfaces.into_iter().map(curve).collect(),
         }
         file
@@ -198,6 +199,9 @@ impl Collection {
         }
         for nodes in self.node_sets.values_mut() {
             *nodes = nodes.iter().filter_map(moved).collect();
+        }
+        for term in self.equations.iter_mut().flatten() {
+            term.0 = moved(&term.0).unwrap_or(term.0);
         }
     }
 }

@@ -34,6 +34,8 @@ pub enum ElementKind {
     Hex8,
     /// Twenty-node serendipity brick.
     Hex20,
+    /// The same with 2 x 2 x 2 Gauss points for stiffness and mass: softer in bending on coarse meshes.
+    Hex20R,
     /// Six-node linear wedge: a triangle in `(xi, eta)` times `-1 <= zeta <= 1`.
     Wedge6,
     /// Fifteen-node serendipity wedge.
@@ -197,6 +199,10 @@ const HEX20: Row = Row {
     name: "hex20",
     ..HEX8
 };
+const HEX20R: Row = Row {
+    name: "hex20r",
+    ..HEX20
+};
 const WEDGE6: Row = Row {
     dimension: 3,
     corners: 6,
@@ -230,7 +236,7 @@ const WEDGE15: Row = Row {
 
 impl ElementKind {
     /// Every kind there is.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Tri3,
         Self::Tri6,
         Self::Quad4,
@@ -239,6 +245,7 @@ impl ElementKind {
         Self::Tet10,
         Self::Hex8,
         Self::Hex20,
+        Self::Hex20R,
         Self::Wedge6,
         Self::Wedge15,
     ];
@@ -253,6 +260,7 @@ impl ElementKind {
             Self::Tet10 => &TET10,
             Self::Hex8 => &HEX8,
             Self::Hex20 => &HEX20,
+            Self::Hex20R => &HEX20R,
             Self::Wedge6 => &WEDGE6,
             Self::Wedge15 => &WEDGE15,
         }
@@ -322,7 +330,7 @@ impl ElementKind {
     pub fn gmsh_order(self) -> Vec<usize> {
         match self {
             Self::Tet10 => vec![0, 1, 2, 3, 4, 5, 6, 7, 9, 8],
-            Self::Hex20 => vec![
+            Self::Hex20 | Self::Hex20R => vec![
                 0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15,
             ],
             Self::Wedge15 => vec![0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11],
@@ -351,15 +359,15 @@ impl ElementKind {
             Self::Tet4 => shapes::tetrahedron(at).to_vec(),
             Self::Tet10 => shapes::quadratic_simplex(&shapes::tetrahedron(at), self.edges()),
             Self::Hex8 => shapes::brick(false, at),
-            Self::Hex20 => shapes::brick(true, at),
+            Self::Hex20 | Self::Hex20R => shapes::brick(true, at),
             Self::Wedge6 => shapes::wedge(at),
             Self::Wedge15 => shapes::quadratic_wedge(at),
         }
     }
 
-    /// Full quadrature, exact for the mass of an undistorted element: 3 points for Tri3, 6 (degree 4, Dunavant 1985) for Tri6,
+    /// Quadrature of the mass: full, exact for the mass of an undistorted element: 3 points for Tri3, 6 (degree 4, Dunavant 1985) for Tri6,
     /// 2 x 2 Gauss points for Quad4, 3 x 3 for Quad8; 4 for Tet4, 14 (degree 5, Walkington 2000) for Tet10; Gauss points on
-    /// bricks, triangle times line on wedges.
+    /// bricks, reduced ones for Hex20R, triangle times line on wedges.
     pub fn quadrature(self) -> Vec<QuadraturePoint> {
         match self {
             Self::Tri3 => rule::triangle_three(),
@@ -368,7 +376,7 @@ impl ElementKind {
             Self::Quad8 => rule::square(&rule::THREE),
             Self::Tet4 => rule::tetrahedron_four(),
             Self::Tet10 => rule::tetrahedron_fourteen(),
-            Self::Hex8 => rule::cube(&rule::TWO),
+            Self::Hex8 | Self::Hex20R => rule::cube(&rule::TWO),
             Self::Hex20 => rule::cube(&rule::THREE),
             Self::Wedge6 => rule::wedge(&rule::triangle_three(), &rule::TWO),
             Self::Wedge15 => rule::wedge(&rule::triangle_six(), &rule::THREE),
@@ -406,7 +414,7 @@ impl ElementKind {
                 .into_iter()
                 .map(|p| p.0)
                 .collect(),
-            Self::Hex20 => rule::cube(&rule::TWO).into_iter().map(|p| p.0).collect(),
+            Self::Hex20 | Self::Hex20R => rule::cube(&rule::TWO).into_iter().map(|p| p.0).collect(),
             Self::Wedge15 => {
                 let triangle = rule::triangle_three().into_iter();
                 triangle
@@ -432,7 +440,7 @@ impl ElementKind {
             Self::Tri3 | Self::Tri6 => shapes::TETRAHEDRON[..3].to_vec(),
             Self::Quad4 | Self::Quad8 => shapes::SQUARE.map(|(a, b)| [a, b, 0.0]).to_vec(),
             Self::Tet4 | Self::Tet10 => shapes::TETRAHEDRON.to_vec(),
-            Self::Hex8 | Self::Hex20 => shapes::brick_places(false),
+            Self::Hex8 | Self::Hex20 | Self::Hex20R => shapes::brick_places(false),
             Self::Wedge6 | Self::Wedge15 => shapes::WEDGE.to_vec(),
         };
         let middle = |&[start, end]: &[usize; 2]| {

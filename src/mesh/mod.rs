@@ -97,7 +97,12 @@ pub struct Mesh {
     pub attachments: Vec<Attachment>,
     /// Elements with damping beside that of their material.
     pub patches: Vec<DampedPatch>,
+    /// Sums of displacements of a solid body that vanish: `(node, axis, coefficient)` along the global axes.
+    pub equations: Vec<Equation>,
 }
+
+/// A sum of displacements that vanishes: nodes with an axis and a coefficient.
+pub type Equation = Vec<(u32, usize, f64)>;
 
 /// A plane mesh without nodes.
 impl Default for Mesh {
@@ -120,6 +125,7 @@ impl Default for Mesh {
             is_cyclic: false,
             attachments: Vec::new(),
             patches: Vec::new(),
+            equations: Vec::new(),
         }
     }
 }

@@ -142,6 +142,8 @@ pub struct FileMotion {
     pub axis: [[f64; 3]; 2],
     /// Speed about the axis, rad/s.
     pub angular_velocity: f64,
+    /// Whether it stands for a load that turns with the region: the inertia of its rotation, in its own frame.
+    pub is_load: bool,
     /// Where the file says so.
     pub place: String,
 }

@@ -66,6 +66,12 @@ impl Mesh {
             }
             boundary.condition = *condition;
         }
+        let place = |&(node, axis, factor): &(u32, usize, f64)| {
+            index_of[node as usize].map(|node| (node, axis, factor))
+        };
+        let equations = file.equations.iter();
+        let equations = equations.map(|own| own.iter().filter_map(place).collect());
+        mesh.equations = equations.collect();
         mesh.turn_frames_to_guides();
         Ok(mesh)
     }

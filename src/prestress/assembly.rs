@@ -133,6 +133,18 @@ impl<'a> Assembly<'a> {
         for tie in ties {
             tie_surfaces(mesh, tie, &mut basis)?;
         }
+        for equation in &mesh.equations {
+            let row = equation.iter().flat_map(|&(node, axis, factor)| {
+                let frame = mesh.frame(node as usize);
+                let shares =
+                    (0..3).map(move |k| (3 * node as usize + k, factor * frame[(axis, k)]));
+                shares.filter(|share| share.1 != 0.0)
+            });
+            // Nothing is left of one whose nodes are all held.
+            if let Some(pivot) = basis.take(&row.collect()) {
+                basis.drop_unknown(pivot);
+            }
+        }
         let found: Result<Vec<_>, PrestressError> = contacts
             .iter()
             .map(|contact| {
@@ -195,7 +207,7 @@ impl<'a> Assembly<'a> {
 
     /// Whether nothing holds the bodies: a part by itself, whose rigid motions have no stiffness.
     pub fn is_free(&self) -> bool {
-        let held = self.mesh.held_dofs().count();
+        let held = self.mesh.held_dofs().count() + self.mesh.equations.len();
         let springs = &self.joined.supports[0].entries;
         held == 0
             && springs.is_empty()

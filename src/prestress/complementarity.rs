@@ -102,6 +102,11 @@ impl PressedState {
     pub fn normal_forces(&self, friction_coefficient: f64) -> Vec<f64> {
         evaluate(&self.normal_forces, friction_coefficient)
     }
+
+    /// Stiffness of each contact point, N/m; none where no contact stiffens.
+    pub fn springs(&self, friction_coefficient: f64) -> Vec<f64> {
+        evaluate(&self.stiffnesses, friction_coefficient)
+    }
 }
 
 /// States over a range of friction coefficients.

@@ -72,10 +72,22 @@ pub enum PrestressError {
         "contacts with a normal_law other than \"linear\" and rigid contacts in one case: give the rigid ones a normal_stiffness"
     )]
     MixedContacts,
+    /// A frame that turns with one region, but not with another.
+    #[error(
+        "motion.{turning}.frame = \"turning\", but \"{other}\" does not turn so: in that frame it would move; give both the same \
+         axis, speed and frame, or describe bodies of revolution with frame = \"rest\""
+    )]
+    FrameOfNone {
+        /// The region of the frame.
+        turning: String,
+        /// A region that has another one.
+        other: String,
+    },
     /// A region that turns with the inertia of its rotation, but is no body of revolution.
     #[error(
         "motion.{region}.rotation_terms = true, but \"{region}\" is no body of revolution about that axis: {:.0} % of the \
-         velocity on its sides stands across them, which move in the frame at rest; leave rotation_terms out",
+         velocity on its sides stands across them, which move in the frame at rest; where everything turns with it give \
+         frame = \"turning\", else leave rotation_terms out",
         100.0 * share
     )]
     NotOfRevolution {

@@ -5,8 +5,8 @@ use super::cholesky::CholeskySolver;
 use super::elimination::Elimination;
 use crate::contact::Motion;
 use crate::fem::{
-    MassKind, MaterialField, Triplets, Turning, assemble_geometric_stiffness, assemble_mass,
-    assemble_rotation,
+    MassKind, MaterialField, RotationFrame, Spin, Triplets, assemble_displacement_stiffness,
+    assemble_geometric_stiffness, assemble_mass, assemble_rotation,
 };
 use crate::mesh::Mesh;
 use std::collections::BTreeSet;
@@ -22,7 +22,7 @@ const GROUND: f64 = 1e-12;
 /// The inertia of all regions that turn with their rotation terms.
 #[derive(Debug)]
 pub(super) struct Rotation {
-    /// Stiffness (transport and centrifugal stress) and gyroscopic matrix over all dofs.
+    /// Stiffness (transport, centrifugal stress and the strain that comes with it) and gyroscopic matrix over all dofs.
     pub terms: [Triplets; 2],
     /// Centrifugal load, N.
     pub centrifugal: Vec<f64>,
@@ -33,7 +33,7 @@ impl Rotation {
     /// boundaries `seams` are glued.
     ///
     /// # Errors
-    /// [`PrestressError::NotOfRevolution`].
+    /// [`PrestressError::NotOfRevolution`], [`PrestressError::FrameOfNone`].
     pub fn of(
         mesh: &Mesh,
         materials: &dyn MaterialField,
@@ -41,23 +41,20 @@ impl Rotation {
         (basis, seams): (&Elimination, &[usize]),
         held: impl FnOnce() -> Triplets,
     ) -> Result<Option<Self>, PrestressError> {
-        let turning: Vec<&Motion> = motions.iter().filter(|m| m.has_rotation_terms).collect();
-        if turning.iter().all(|motion| motion.rotation_speed == 0.0) {
+        let spins = |motion: &Motion| motion.spin().filter(|spin| spin.velocity.norm() > 0.0);
+        if motions.iter().all(|motion| spins(motion).is_none()) {
             return Ok(None);
         }
-        for motion in &turning {
-            check_revolution(mesh, motion, seams)?;
-        }
-        let fields: Vec<Box<Turning<'_>>> = turning
-            .iter()
-            .map(|motion| -> Box<Turning<'_>> {
-                Box::new(|place| [motion.velocity(place), motion.acceleration(place)])
-            })
-            .collect();
-        let of_region = |region: usize| {
-            let found = turning.iter().position(|m| m.regions.contains(&region));
-            found.map(|i| &*fields[i])
+        let of_region = |region: usize| -> Option<Spin> {
+            let own = motions.iter().find(|m| m.regions.contains(&region));
+            own.and_then(spins)
         };
+        check_frames(mesh, &of_region)?;
+        for motion in motions {
+            if spins(motion).is_some_and(|spin| spin.frame == RotationFrame::Rest) {
+                check_revolution(mesh, motion, seams)?;
+            }
+        }
         let mut terms = assemble_rotation(mesh, materials, &of_region);
 
         // The stress of the centrifugal load alone.
@@ -77,11 +74,29 @@ impl Rotation {
         let load = unknowns.restrict(&basis.transposed_forces(&terms.centrifugal));
         let displacement = basis.displacement(&unknowns.expand(&solver.solve(load)));
         let stressed = assemble_geometric_stiffness(mesh, materials, &displacement);
+        let deformed = assemble_displacement_stiffness(mesh, materials, &displacement);
         terms.transport.entries.extend(stressed.entries);
+        terms.transport.entries.extend(deformed.entries);
         Ok(Some(Self {
             terms: [terms.transport, terms.gyroscopic],
             centrifugal: terms.centrifugal,
         }))
+    }
+}
+
+/// Refuses a frame that turns with some regions while others do not turn with them.
+fn check_frames(mesh: &Mesh, of: &dyn Fn(usize) -> Option<Spin>) -> Result<(), PrestressError> {
+    let spins: Vec<Option<Spin>> = (0..mesh.regions.len()).map(of).collect();
+    let is_turning = |spin: &Option<Spin>| spin.is_some_and(|s| s.frame == RotationFrame::Turning);
+    let Some(first) = spins.iter().position(is_turning) else {
+        return Ok(());
+    };
+    match spins.iter().position(|spin| *spin != spins[first]) {
+        None => Ok(()),
+        Some(other) => Err(PrestressError::FrameOfNone {
+            turning: mesh.regions[first].clone(),
+            other: mesh.regions[other].clone(),
+        }),
     }
 }
 

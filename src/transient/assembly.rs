@@ -1,6 +1,7 @@
 //! Model of a transient of an assembly of solid bodies.
 
 use super::boundary::BoundaryForces;
+use super::compliance::SpringDamping;
 use super::perturbation::Place;
 use super::settings::stiffening;
 use super::{LagrangeContact, Perturbation, StepPlan, TransientError, TransientSettings};
@@ -10,7 +11,7 @@ use crate::fem::{
     MassKind, RayleighDamping, Triplets, assemble_extra_damping, assemble_pressures, lumped_masses,
 };
 use crate::mesh::Counterface;
-use crate::prestress::{Assembly, PrestressError};
+use crate::prestress::{Assembly, PressedRange, PressedState, PrestressError};
 use std::collections::BTreeMap;
 
 /// Solid bodies that are tied together and slide on each other.
@@ -117,13 +118,21 @@ impl AssemblyTransientModel<'_> {
 
     /// Displacement of steady sliding over all dofs, m.
     pub(super) fn sliding_displacement(&self) -> Result<Vec<f64>, TransientError> {
-        let friction = self.contact.friction_coefficient;
-        let range = self.assembly.range(&[friction])?;
-        let state = range.state_of.first().and_then(|&at| range.states.get(at));
-        let state = state.ok_or(PrestressError::NoState {
-            friction_coefficient: friction,
-        })?;
-        Ok(state.displacement(friction))
+        let state = self.sliding_state()?;
+        Ok(state.displacement(self.contact.friction_coefficient))
+    }
+
+    fn sliding_state(&self) -> Result<PressedState, TransientError> {
+        let friction_coefficient = self.contact.friction_coefficient;
+        let PressedRange {
+            states, state_of, ..
+        } = self.assembly.range(&[friction_coefficient])?;
+        let place = state_of.first().copied();
+        let state = place.and_then(|at| states.into_iter().nth(at));
+        let none = PrestressError::NoState {
+            friction_coefficient,
+        };
+        Ok(state.ok_or(none)?)
     }
 
     pub(super) fn plan(
@@ -173,9 +182,24 @@ impl AssemblyTransientModel<'_> {
         BoundaryForces::of(&basis.congruent(&damping), &pressure, operator)
     }
 
-    pub(super) fn lagrange_contact(&self, operator: &dyn StiffnessOperator) -> LagrangeContact {
+    pub(super) fn lagrange_contact(
+        &self,
+        operator: &dyn StiffnessOperator,
+    ) -> Result<LagrangeContact, TransientError> {
         let friction = self.contact.friction_coefficient;
-        LagrangeContact::at_points(operator, self.assembly, friction, self.contact_damping)
+        let mut contacts = self.assembly.contacts().iter();
+        let stiffens = contacts.any(|(surfaces, _)| surfaces.law.is_some());
+        let damped_by = SpringDamping {
+            coefficient: self.contact_damping,
+            springs: match stiffens && self.contact_damping > 0.0 {
+                true => self.sliding_state()?.springs(friction),
+                false => Vec::new(),
+            },
+        };
+        let assembly = self.assembly;
+        Ok(LagrangeContact::at_points(
+            operator, assembly, friction, &damped_by,
+        ))
     }
 
     /// The velocity of a perturbation over all dofs, m/s: waves along the axis of the motion over all bodies, and noise.

@@ -186,7 +186,7 @@ impl TransientBody<'_> {
         match self {
             Self::Plane(model) => LagrangeContact::new(operator, interface, model),
             Self::Solid(model) => model.lagrange_contact(operator, interface),
-            Self::Assembly(model) => Ok(model.lagrange_contact(operator)),
+            Self::Assembly(model) => model.lagrange_contact(operator),
         }
     }
 

@@ -3,7 +3,7 @@
 use super::{TransientError, TransientModel};
 use crate::contact::{ContactInterface, NormalLaw};
 use crate::fem::assemble_stiffness;
-use crate::prestress::SteadySliding;
+use crate::prestress::{SlidingSurfaces, SteadySliding};
 
 /// Newton steps and halvings of one node at most: an interval of the largest numbers is halved away by then.
 const NEWTON_STEPS: usize = 200;
@@ -42,6 +42,37 @@ pub(super) struct CompliantContact {
     law: Option<(NormalLaw, Vec<f64>)>,
     /// Power of each node's dashpot in the last step, W/m.
     pub dissipation: Vec<f64>,
+}
+
+/// The stiffness damping of a case that acts on the springs of contacts between solid bodies too.
+#[derive(Clone, Debug, Default)]
+pub(super) struct SpringDamping {
+    /// The coefficient, s.
+    pub coefficient: f64,
+    /// Springs of all points in the base state, N/m, where some stiffen with pressure; else empty.
+    pub springs: Vec<f64>,
+}
+
+impl SpringDamping {
+    /// The springs of a contact at points with these `areas`, the first of which is point `first` of all; `None` is rigid.
+    pub fn springs_of(
+        &self,
+        surfaces: &SlidingSurfaces,
+        areas: &[f64],
+        first: usize,
+    ) -> Option<CompliantContact> {
+        let Some(law) = surfaces.law else {
+            let stiffness = surfaces.stiffness.damped_by(self.coefficient);
+            let own = [stiffness.normal_stiffness?, stiffness.normal_damping];
+            return Some(CompliantContact::of(own, areas, &vec![0.0; areas.len()]));
+        };
+        let damping = areas.iter().enumerate().map(|(k, area)| {
+            let spring = self.springs.get(first + k).copied().unwrap_or(0.0);
+            surfaces.stiffness.normal_damping * area + self.coefficient * spring
+        });
+        let damping = damping.collect();
+        Some(CompliantContact::stiffening(law, areas, damping))
+    }
 }
 
 /// One node before a step, as its spring sees it.
@@ -100,13 +131,18 @@ impl CompliantContact {
                 *damping += stiffness.law_damping * spring;
             }
         }
-        Ok(Self {
+        Ok(Self::stiffening(law, shares, damping))
+    }
+
+    /// Contact that stiffens with pressure, with its nodes' `shares` and dashpots.
+    pub fn stiffening(law: NormalLaw, shares: &[f64], damping: Vec<f64>) -> Self {
+        Self {
             stiffness: Vec::new(),
             compression: vec![0.0; shares.len()],
             dissipation: vec![0.0; shares.len()],
             law: Some((law, shares.to_vec())),
             damping,
-        })
+        }
     }
 
     /// From stiffness and dashpot for each unit of the nodes' `shares` of the contact, and the nodes' forces in steady sliding.

@@ -34,6 +34,7 @@ mod normal_law;
 mod plot;
 mod reading;
 mod results;
+mod rotor;
 mod signal_command;
 mod survival;
 mod sweep;

@@ -196,6 +196,25 @@ fn both_methods_have_the_same_tables() {
     }
 }
 
+/// The law of a case stands in place of the constant stiffness that an input file gives.
+#[test]
+fn a_law_of_the_case_replaces_the_stiffness_of_an_input_file() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/brake.toml");
+    let own = std::fs::read_to_string(&path).unwrap();
+    let read = |text: &str| Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]).unwrap();
+    let law = "normal_law = \"exponential\"\nreference_pressure = 1e5\nheight = 1e-6\n";
+    let sections = ["Outer", "Inner"].map(|pad| format!("[contacts.{pad}_Friction_face]\n{law}"));
+    let (plain, stiffening) = (read(&own), read(&(own.clone() + &sections.concat())));
+    let [plain, stiffening] =
+        [&plain, &stiffening].map(|case| &case.body.assembly().unwrap().contacts);
+    assert_eq!(plain.len(), 2);
+    for (old, new) in plain.iter().zip(stiffening) {
+        let linear = old.stiffness.normal_stiffness.unwrap();
+        assert!(old.law.is_none() && (linear / 2e13 - 1.0).abs() < 1e-12);
+        assert!(new.law.is_some() && new.surface == old.surface);
+    }
+}
+
 /// The shipped case: critical friction moves with the pressure of the brake, and hardly on a contact of constant stiffness.
 #[test]
 fn critical_friction_of_the_shipped_case_depends_on_the_brake_pressure() {

@@ -3,7 +3,9 @@
 use crate::bricks::{Block, file_of};
 use frictionsim::cea::sparse::sweep;
 use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest};
-use frictionsim::contact::{ContactStiffness, FrictionDecay, Motion, PairFriction, SlidingContact};
+use frictionsim::contact::{
+    ContactStiffness, FrictionDecay, Motion, NormalLaw, PairFriction, SlidingContact,
+};
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping};
 use frictionsim::mesh::{BoundaryCondition, GmshFile, Mesh};
@@ -62,7 +64,7 @@ fn mesh(plate: [usize; 3]) -> Mesh {
 
 fn assembly<'a>(
     mesh: &'a Mesh,
-    normal_stiffness: Option<f64>,
+    (normal_stiffness, law): (Option<f64>, Option<NormalLaw>),
     decay: Option<FrictionDecay>,
     speed: f64,
 ) -> Assembly<'a> {
@@ -75,7 +77,7 @@ fn assembly<'a>(
             normal_stiffness,
             ..ContactStiffness::default()
         },
-        law: None,
+        law,
         topography: None,
     };
     let tie = TiedSurfaces {
@@ -89,7 +91,7 @@ fn assembly<'a>(
         axis: [0.0, 0.0, 1.0],
         center: [0.02, -0.2, 0.0],
         rotation_speed: speed,
-        has_rotation_terms: false,
+        inertia: None,
     };
     Assembly::at_nodes(
         mesh,
@@ -168,7 +170,18 @@ fn modes(assembly: &Assembly<'_>) -> Vec<ComplexMode> {
         .collect()
 }
 
-const SPRINGS: [Option<f64>; 2] = [None, Some(5e12)];
+/// Rigid contact, constant springs, and springs that stiffen to about the same at the pressure of 2 MPa.
+const SPRINGS: [(Option<f64>, Option<NormalLaw>); 3] = [
+    (None, None),
+    (Some(5e12), None),
+    (
+        Some(1e6 / 6e-7),
+        Some(NormalLaw::Exponential {
+            reference_pressure: 1e6,
+            height: 6e-7,
+        }),
+    ),
+];
 
 /// Independent: the base state of the eigenvalue analysis, through a tie and a contact whose meshes do not match, is at rest.
 #[test]

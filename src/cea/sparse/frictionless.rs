@@ -2,6 +2,7 @@
 
 use super::GUARD_MODES;
 use super::factors::StiffnessFactors;
+use super::inertia::{counted, gyroscopic_count};
 use super::linearization::Linearization;
 use super::rigid::RigidMotions;
 use super::structure::{ShiftInverted, StructureMatrices};
@@ -27,6 +28,8 @@ const FREE_SHIFT: f64 = 0.1;
 const STIFFEST: f64 = 1e-6;
 /// The same where that does not converge: a coarse mesh, whose modes are not that far below its stiffest.
 const STIFFER: f64 = 1e-3;
+/// The first of such shifts where a frame turns, relative to the largest of the mesh.
+const LEAST_SHIFT: f64 = 1e-9;
 /// Eigenvalue, relative to the highest found, below which a motion of such bodies is rigid: a thousandth of its frequency.
 const RIGID: f64 = 1e-6;
 /// Rigid motions of one body in space.
@@ -38,7 +41,7 @@ const AMID: std::ops::Range<f64> = 0.4..0.65;
 pub struct FrictionlessModes {
     /// Vectors, one column each, by rising frequency.
     pub vectors: Mat<f64>,
-    /// Angular frequencies `sqrt(kappa)`, rad/s.
+    /// Angular frequencies `sqrt(kappa)`, rad/s; 0 where only gyroscopic forces hold a motion, `kappa < 0`.
     pub frequencies: Vec<f64>,
     /// Factors of `K(0) - sigma M(0)`, `sigma` amid the modes where it can be.
     pub factors: StiffnessFactors,
@@ -100,8 +103,17 @@ impl FrictionlessModes {
                 found => found,
             };
         }
+        let (factors, shift, unheld) = match tangent.is_gyroscopic {
+            true => inertia.factorize_positive()?,
+            false => (inertia.factorize_stiffness()?, 0.0, 0),
+        };
         let wanted = match limit {
-            ModeLimit::Lowest(count) => count,
+            ModeLimit::Lowest(count) => (count + unheld).min(tangent.stiffness.dimension()),
+            ModeLimit::MaxFrequency(limit_hz) if tangent.is_gyroscopic => {
+                let omega = TAU * limit_hz;
+                let turning = gyroscopic_count(tangent, omega)? + unheld;
+                turning.max(inertia.count_below(omega)?)
+            }
             ModeLimit::MaxFrequency(limit_hz) => inertia.count_below(TAU * limit_hz)?,
         };
         // An empty range still needs the lowest mode, for the message.
@@ -114,13 +126,13 @@ impl FrictionlessModes {
         }
         let request = (wanted.max(1) + GUARD_MODES).min(unknowns);
         let undamped = Linearization::Reduced(RayleighDamping::default());
-        let factors = inertia.factorize_stiffness()?;
         let operator = ShiftInverted {
             matrices: &StructureMatrices::at(tangent, undamped, 0.0),
             factors: &factors,
         };
         let pairs = krylov_schur(&operator, None, &settings(request))?;
-        let frequencies: Vec<f64> = pairs.values.iter().map(|s| s.re.recip().sqrt()).collect();
+        let kappas = pairs.values.iter().map(|s| s.re.recip() - shift);
+        let frequencies: Vec<f64> = kappas.map(|kappa| kappa.max(0.0).sqrt()).collect();
         if wanted == 0
             && let ModeLimit::MaxFrequency(limit_hz) = limit
         {
@@ -256,7 +268,10 @@ fn recalled(kept: Option<Vec<Vec<f64>>>, unknowns: usize) -> Option<(Mat<f64>, V
 
 /// Number of leading frequencies before the widest relative gap at or after `wanted`.
 fn widest_gap(frequencies: &[f64], wanted: usize) -> usize {
-    let gap = |i: usize| frequencies[i] / frequencies[i - 1];
+    let gap = |i: usize| match frequencies[i] {
+        0.0 => 1.0,
+        own => own / frequencies[i - 1],
+    };
     (wanted.max(1)..frequencies.len())
         .max_by(|&i, &j| gap(i).total_cmp(&gap(j)).then(j.cmp(&i)))
         .unwrap_or(frequencies.len())
@@ -292,6 +307,25 @@ impl<'a> Inertia<'a> {
     fn factorize_stiffness(&self) -> Result<StiffnessFactors, LinalgError> {
         let ldl = SparseLdl::factorize(&self.analysis, &self.stiffness.evaluate(0.0))?;
         Ok(StiffnessFactors::Symmetric(Arc::new(ldl)))
+    }
+
+    /// Factors of `K + sigma M`, `sigma`, and how many motions `K` does not hold: `sigma = 0` but where there are some, as in a
+    /// frame that turns faster than a shaft can bend.
+    fn factorize_positive(&self) -> Result<(StiffnessFactors, f64, usize), LinalgError> {
+        let of = |ldl| StiffnessFactors::Symmetric(Arc::new(ldl));
+        let ldl = SparseLdl::factorize(&self.analysis, &self.stiffness.evaluate(0.0))?;
+        let unheld = ldl.negative_count();
+        if unheld == 0 {
+            return Ok((of(ldl), 0.0, 0));
+        }
+        let mut shift = LEAST_SHIFT * self.largest_ratio();
+        loop {
+            let ldl = SparseLdl::factorize(&self.analysis, &self.shifted(-shift))?;
+            if ldl.negative_count() == 0 {
+                return Ok((of(ldl), shift, unheld));
+            }
+            shift *= 4.0;
+        }
     }
 
     /// Factors of `K - sigma M` with a shift amid the modes, else those of `K`, where they are known already.
@@ -331,18 +365,9 @@ impl<'a> Inertia<'a> {
     }
 
     /// Number of modes below an angular frequency, by Sylvester's law of inertia.
-    ///
-    /// A shift that the unpivoted factorization cannot bear is moved by parts in 1e8 a few times.
     fn count_below(&self, frequency: f64) -> Result<usize, LinalgError> {
-        let mut outcome = Ok(0);
-        for attempt in 0..5 {
-            let shift = (frequency * (1.0 + 1e-8 * f64::from(attempt))).powi(2);
-            outcome = SparseLdl::factorize(&self.analysis, &self.shifted(shift))
-                .map(|ldl| ldl.negative_count());
-            if outcome.is_ok() {
-                break;
-            }
-        }
-        outcome
+        counted(frequency, |frequency| {
+            SparseLdl::factorize(&self.analysis, &self.shifted(frequency * frequency))
+        })
     }
 }

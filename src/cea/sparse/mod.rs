@@ -20,6 +20,7 @@ mod factors;
 #[cfg(test)]
 mod fixtures;
 mod frictionless;
+mod inertia;
 mod left;
 mod linearization;
 mod mode;

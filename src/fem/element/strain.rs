@@ -93,19 +93,26 @@ impl ElementGeometry {
         Some(recovered * DVector::from_column_slice(values))
     }
 
-    /// Strain at a point of each nodal displacement along its axis, and of each amplitude of the incompatible `modes`.
+    /// Strain at a point of each nodal displacement along its axis, and of each amplitude of the incompatible `modes`; of a body that is
+    /// deformed, with the gradient of its displacement there, that of Green and Lagrange.
     pub(super) fn strain_columns(
         &self,
         point: &IntegrationPoint,
         modes: &[Vector3<f64>],
+        gradient: Option<&Matrix3<f64>>,
     ) -> Vec<Voigt> {
+        let deformed = |e: Vector3<f64>| match gradient {
+            Some(gradient) => e + gradient.transpose() * e,
+            None => e,
+        };
         let mut strains = Vec::new();
-        for (gradient, frame) in point.gradients.iter().zip(&self.frames) {
-            let axes = (0..self.dimension()).map(|axis| frame.column(axis).into_owned());
-            strains.extend(axes.map(|e| strain_along(gradient, &e)));
+        for (slope, frame) in point.gradients.iter().zip(&self.frames) {
+            let axes = (0..self.dimension()).map(|axis| deformed(frame.column(axis).into_owned()));
+            strains.extend(axes.map(|e| strain_along(slope, &e)));
         }
-        for gradient in modes {
-            strains.extend((0..3).map(|c| strain_along(gradient, &Vector3::ith(c, 1.0))));
+        for slope in modes {
+            let axes = (0..3).map(|axis| deformed(Vector3::ith(axis, 1.0)));
+            strains.extend(axes.map(|e| strain_along(slope, &e)));
         }
         strains
     }
@@ -126,7 +133,7 @@ impl ElementGeometry {
         let rows = components.len();
         let mut operator = DMatrix::zeros(rows * points.len(), nodal);
         for (k, (point, modes)) in points.iter().zip(&modes).enumerate() {
-            let columns = self.strain_columns(point, modes);
+            let columns = self.strain_columns(point, modes, None);
             let strains = DMatrix::from_fn(rows, columns.len(), |row, column| {
                 columns[column][components[row]]
             });

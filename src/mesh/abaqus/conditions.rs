@@ -25,7 +25,7 @@ const WORDS: [(&str, [bool; 3]); 8] = [
 const SINGLE_NODES: &str = "held_nodes";
 
 /// What a set of nodes bears: held axes, and where that is said.
-type Held = BTreeMap<(usize, String), ([bool; 3], Place)>;
+pub(super) type Held = BTreeMap<(usize, String), ([bool; 3], Place)>;
 
 /// Pressures by surface.
 type Pressures = BTreeMap<String, (f64, Place)>;
@@ -69,7 +69,8 @@ impl Reader<'_, '_> {
                 "conditions, pressures and friction are those at the end of {step} {plural}"
             ));
         }
-        self.take_held(held, &transformed);
+        let referred = self.read_equations(blocks, &held)?;
+        self.take_held(held, &transformed, &referred);
         for (boundary, (pressure, place)) in pressures {
             let place = self.deck.name(place);
             let kind = FileConditionKind::Pressure(pressure);
@@ -177,7 +178,7 @@ impl Reader<'_, '_> {
     }
 
     /// Conditions of the sets that are held; what has no meaning here is left out.
-    fn take_held(&mut self, held: Held, transformed: &BTreeSet<u32>) {
+    fn take_held(&mut self, held: Held, transformed: &BTreeSet<u32>, referred: &BTreeSet<u32>) {
         let in_plane = self.collection.dimension() == 2;
         let used: BTreeSet<u32> = self
             .collection
@@ -206,6 +207,8 @@ impl Reader<'_, '_> {
                     place,
                     "rotations of nodes have no meaning in solid elements",
                 );
+            } else if nodes.is_empty() && set.items.iter().all(|node| referred.contains(node)) {
+                // Its part is played in the equations.
             } else if nodes.is_empty() {
                 self.leave_out(
                     &keyword,
@@ -245,6 +248,10 @@ impl Reader<'_, '_> {
         for &(place, line) in &block.data {
             let entry: Vec<&str> = fields(line).collect();
             let kind = entry.get(1).copied().unwrap_or_default().to_uppercase();
+            if keyword == "DLOAD" && kind == "CENTRIF" {
+                self.centrifugal(scope, place, line)?;
+                continue;
+            }
             let is_surface = keyword == "DSLOAD" && kind == "P";
             let is_face = keyword == "DLOAD"
                 && kind
@@ -313,31 +320,73 @@ impl Reader<'_, '_> {
             let nodes = self.node_entry(scope, place, target)?;
             let nodes = nodes.ok_or_else(|| self.unknown(place, "node set", target))?;
             let nodes: BTreeSet<u32> = nodes.into_iter().collect();
-            let mut covers: BTreeMap<Option<Arc<str>>, bool> = BTreeMap::new();
-            for element in &self.collection.elements {
-                let is_inside = element.nodes.iter().all(|node| nodes.contains(node));
-                *covers.entry(element.region.clone()).or_insert(true) &= is_inside;
-            }
-            let regions: Vec<_> = covers
-                .into_iter()
-                .filter(|c| c.1)
-                .filter_map(|c| c.0)
-                .collect();
-            if regions.is_empty() {
+            let elements = self.collection.elements.iter();
+            let is_inside = elements.map(|e| e.nodes.iter().all(|node| nodes.contains(node)));
+            let is_inside: Vec<bool> = is_inside.collect();
+            let turning = FileMotion {
+                region: String::new(),
+                axis: [[a, b, c], [d, e, f]],
+                angular_velocity: speed,
+                is_load: false,
+                place: self.deck.name(place),
+            };
+            if !self.turn_regions(&is_inside, &turning) {
                 let reason = "its nodes are not those of whole regions";
                 self.leave_out("*MOTION, ROTATION", place, reason);
             }
-            for region in regions {
-                self.model
-                    .motions
-                    .retain(|motion| *motion.region != *region);
-                self.model.motions.push(FileMotion {
-                    region: region.to_string(),
-                    axis: [[a, b, c], [d, e, f]],
-                    angular_velocity: speed,
-                    place: self.deck.name(place),
-                });
-            }
+        }
+        Ok(())
+    }
+
+    /// Gives the motion to the regions whose elements are all among those marked; whether there is one.
+    fn turn_regions(&mut self, is_inside: &[bool], turning: &FileMotion) -> bool {
+        let mut covers: BTreeMap<Option<Arc<str>>, bool> = BTreeMap::new();
+        for (element, is_inside) in self.collection.elements.iter().zip(is_inside) {
+            *covers.entry(element.region.clone()).or_insert(true) &= is_inside;
+        }
+        let regions = covers.into_iter().filter(|c| c.1).filter_map(|c| c.0);
+        let regions: Vec<Arc<str>> = regions.collect();
+        for region in &regions {
+            let motions = &mut self.model.motions;
+            motions.retain(|motion| *motion.region != **region);
+            motions.push(FileMotion {
+                region: region.to_string(),
+                ..turning.clone()
+            });
+        }
+        !regions.is_empty()
+    }
+
+    /// `*DLOAD`, `CENTRIF`: the squared speed at which elements turn, a point of the axis and its direction.
+    fn centrifugal(&mut self, scope: usize, place: Place, line: &str) -> Result<(), MeshFileError> {
+        let mut entry = fields(line);
+        let target = entry.next().unwrap_or_default();
+        let numbers: Option<Vec<f64>> = entry.skip(1).map(real).collect();
+        let Some(&[square, a, b, c, d, e, f]) = numbers.as_deref() else {
+            let message = "CENTRIF: the square of a speed, a point of the axis and its direction (1 + 3 + 3 numbers) expected";
+            return Err(self.deck.error(place, message));
+        };
+        if square < 0.0 {
+            let message = "CENTRIF: the square of a speed is not negative";
+            return Err(self.deck.error(place, message));
+        }
+        let elements = self.element_entry(scope, place, target)?;
+        let elements = elements.ok_or_else(|| self.unknown(place, "element set", target))?;
+        let mut is_inside = vec![false; self.collection.elements.len()];
+        elements.into_iter().for_each(|e| is_inside[e] = true);
+        let turning = FileMotion {
+            region: String::new(),
+            axis: [[a, b, c], [a + d, b + e, c + f]],
+            angular_velocity: square.sqrt(),
+            is_load: true,
+            place: self.deck.name(place),
+        };
+        if !self.turn_regions(&is_inside, &turning) {
+            self.leave_out(
+                "*DLOAD, CENTRIF",
+                place,
+                "its elements are not those of whole regions",
+            );
         }
         Ok(())
     }

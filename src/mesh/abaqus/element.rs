@@ -33,7 +33,9 @@ pub(super) fn element_type(name: &str) -> Option<ElementType> {
         "C3D8" | "C3D8R" | "C3D8H" | "C3D8RH" => solid(ElementKind::Hex8, brick),
         "C3D8I" | "C3D8IH" => solid(ElementKind::Hex8, ""),
         "C3D20" => solid(ElementKind::Hex20, ""),
-        "C3D20R" | "C3D20H" | "C3D20RH" => solid(ElementKind::Hex20, full),
+        "C3D20H" => solid(ElementKind::Hex20, full),
+        "C3D20R" => solid(ElementKind::Hex20R, ""),
+        "C3D20RH" => solid(ElementKind::Hex20R, "by displacements alone here"),
         "C3D6" => solid(ElementKind::Wedge6, ""),
         "C3D6R" | "C3D6H" => solid(ElementKind::Wedge6, full),
         "C3D15" => solid(ElementKind::Wedge15, ""),
@@ -86,7 +88,7 @@ const SQUARE: &[&[usize]] = &[&[0, 1], &[1, 2], &[2, 3], &[3, 0]];
 pub(super) fn face_corners(kind: ElementKind, number: usize) -> Option<&'static [usize]> {
     let faces = match kind {
         ElementKind::Tet4 | ElementKind::Tet10 => TETRAHEDRON,
-        ElementKind::Hex8 | ElementKind::Hex20 => BRICK,
+        ElementKind::Hex8 | ElementKind::Hex20 | ElementKind::Hex20R => BRICK,
         ElementKind::Wedge6 | ElementKind::Wedge15 => WEDGE,
         ElementKind::Tri3 | ElementKind::Tri6 => TRIANGLE,
         ElementKind::Quad4 | ElementKind::Quad8 => SQUARE,

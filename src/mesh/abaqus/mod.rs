@@ -10,6 +10,7 @@
 mod block;
 mod conditions;
 mod element;
+mod equations;
 mod interactions;
 mod materials;
 mod nodes;
@@ -67,10 +68,10 @@ const GENERATORS: [&str; 9] = [
 
 /// Keywords that are read.
 #[rustfmt::skip]
-const KNOWN: [&str; 25] = [
+const KNOWN: [&str; 26] = [
     "HEADING", "NODE", "ELEMENT", "NSET", "ELSET", "SURFACE", "SOLID SECTION", "MATERIAL", "ELASTIC", "DENSITY", "DAMPING",
     "ORIENTATION", "TIE", "CONTACT PAIR", "SURFACE INTERACTION", "SURFACE BEHAVIOR", "FRICTION", "CHANGE FRICTION", "BOUNDARY",
-    "DLOAD", "DSLOAD", "STEP", "END STEP", "MOTION", "INCLUDE",
+    "DLOAD", "DSLOAD", "STEP", "END STEP", "MOTION", "INCLUDE", "EQUATION",
 ];
 
 /// Keywords of analyses, which the case describes.

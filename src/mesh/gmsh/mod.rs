@@ -7,7 +7,7 @@ mod version2;
 mod version4;
 
 use super::model_data::ModelData;
-use super::{ElementKind, FaceKind};
+use super::{ElementKind, Equation, FaceKind};
 use cursor::Cursor;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -80,6 +80,8 @@ pub struct GmshFile {
     pub is_used: Vec<bool>,
     /// Named sets of nodes of a solid body that are not all the nodes of some faces.
     pub node_sets: BTreeMap<String, Vec<u32>>,
+    /// Sums of displacements of a solid body that vanish.
+    pub equations: Vec<Equation>,
     /// What the file holds beside the mesh.
     pub model: ModelData,
 }

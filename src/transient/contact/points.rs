@@ -4,7 +4,7 @@ use super::{ContactPowers, LagrangeContact, StatusCounts};
 use crate::contact::{ContactStatus, CoulombFriction, Row, SlippingPoint};
 use crate::fem::operator::{MotionFields, StepCoefficients, StiffnessOperator};
 use crate::prestress::{Assembly, Elimination};
-use crate::transient::compliance::{CompliantContact, CompressedNode};
+use crate::transient::compliance::{CompliantContact, CompressedNode, SpringDamping};
 use std::collections::BTreeMap;
 
 /// Sweeps over the points within one step, at most; a step that needs more is counted.
@@ -71,7 +71,7 @@ impl PointContact {
     fn new(
         assembly: &Assembly<'_>,
         friction_coefficient: f64,
-        damped_by: f64,
+        damped_by: &SpringDamping,
         operator: &dyn StiffnessOperator,
     ) -> Self {
         let mut contact = Self {
@@ -83,14 +83,9 @@ impl PointContact {
         };
         let mut touched = BTreeMap::new();
         for (c, (surfaces, surface)) in assembly.contacts().iter().enumerate() {
-            let stiffness = surfaces.stiffness.damped_by(damped_by);
             let areas: Vec<f64> = surface.points.iter().map(|point| point.weight).collect();
-            let still = vec![0.0; areas.len()];
-            contact
-                .springs
-                .push(stiffness.normal_stiffness.map(|normal| {
-                    CompliantContact::of([normal, stiffness.normal_damping], &areas, &still)
-                }));
+            let springs = damped_by.springs_of(surfaces, &areas, contact.points.len());
+            contact.springs.push(springs);
             let law = CoulombFriction {
                 friction_coefficient: friction_coefficient * surfaces.friction.ratio,
                 decay: surfaces.friction.decay,
@@ -117,7 +112,7 @@ impl PointContact {
                     rows,
                     gap: point.gap,
                     speed: point.speed,
-                    dashpot: stiffness.tangential_damping * point.weight,
+                    dashpot: surfaces.stiffness.tangential_damping * point.weight,
                     law,
                     contact: (c, k),
                     separation: 0.0,
@@ -247,7 +242,7 @@ impl TouchingPoint {
 }
 
 impl LagrangeContact {
-    /// All points of `assembly` open; `damped_by` is the stiffness damping that acts on the contact too.
+    /// All points of `assembly` open.
     ///
     /// The forces of a step hold the laws at its end, point by point and in turn until none changes (Gauss-Seidel over the
     /// mobilities `J M^-1 J^T` of the points, which share nodes): normal forces as on an edge, friction as on a face.
@@ -255,7 +250,7 @@ impl LagrangeContact {
         operator: &dyn StiffnessOperator,
         assembly: &Assembly<'_>,
         friction_coefficient: f64,
-        damped_by: f64,
+        damped_by: &SpringDamping,
     ) -> Self {
         let points = PointContact::new(assembly, friction_coefficient, damped_by, operator);
         let count = points.nodes.len();

@@ -84,7 +84,7 @@ fn turning(mesh: &Mesh, axis: [f64; 3], center: [f64; 3]) -> Motion {
         axis,
         center,
         rotation_speed: 10.0,
-        has_rotation_terms: false,
+        inertia: None,
     }
 }
 

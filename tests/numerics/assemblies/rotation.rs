@@ -3,7 +3,7 @@
 use super::{STEEL, boundary, eigenvalues, mesh_of};
 use crate::bricks::{Block, file_of};
 use frictionsim::contact::Motion;
-use frictionsim::fem::{MassKind, assemble_mass, assemble_supports};
+use frictionsim::fem::{MassKind, RotationFrame, assemble_mass, assemble_supports};
 use frictionsim::mesh::{BoundaryCondition, ElasticSupport, Mesh};
 use frictionsim::prestress::{Assembly, BaseChoice, PrestressError, TiedSurfaces};
 use std::f64::consts::TAU;
@@ -36,7 +36,7 @@ fn turning(rotation_speed: f64, center: [f64; 3]) -> Motion {
         axis: [0.0, 0.0, 1.0],
         center,
         rotation_speed,
-        has_rotation_terms: true,
+        inertia: Some(RotationFrame::Rest),
     }
 }
 
