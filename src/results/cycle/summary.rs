@@ -2,7 +2,7 @@
 
 use super::confirmation::ConfirmationSummary;
 use super::stability::StabilitySummary;
-use super::{CycleReport, CycleResult};
+use super::{CycleReport, CycleResult, TwoWaveSummary};
 use crate::cycle::periodic::velocity_level;
 use crate::cycle::{CycleBranch, LimitCycle, Onset};
 use crate::results::extent::Extent;
@@ -30,6 +30,9 @@ pub struct CycleSummary {
     pub extent: Extent,
     /// The families, each with its cycle or why there is none.
     pub cycles: Vec<FamilySummary>,
+    /// Motions of two waves that live together.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub two_waves: Vec<TwoWaveSummary>,
     /// What it was made from.
     pub manifest: Manifest,
     /// The branches, where no tables hold them: at a point of a study.
@@ -158,6 +161,8 @@ impl Summary for CycleSummary {
 /// The summary of a search.
 pub fn summary(report: &CycleReport<'_>, manifest: &Manifest) -> CycleSummary {
     let families = report.results.iter().map(|result| family(report, result));
+    let pairs = report.two_waves.iter();
+    let pairs = pairs.map(|result| TwoWaveSummary::of(report, result));
     CycleSummary {
         command: "cycle".to_owned(),
         title: report.title.to_owned(),
@@ -166,6 +171,7 @@ pub fn summary(report: &CycleReport<'_>, manifest: &Manifest) -> CycleSummary {
         lowest_onset: report.lowest_onset.as_ref().map(OnsetSummary::from),
         extent: report.extent,
         cycles: families.collect(),
+        two_waves: pairs.collect(),
         manifest: manifest.clone(),
         curves: None,
     }

@@ -16,6 +16,7 @@
 mod along;
 mod families;
 mod periodic;
+mod two_waves;
 
 pub use families::{disc_model, mode_limit};
 pub use periodic::{PeriodicStudy, boundary_of_modes};
@@ -127,6 +128,7 @@ impl<'a> CycleStudy<'a> {
             friction_coefficient: self.point.contact.friction_coefficient,
             lowest_onset: self.onsets.first().copied(),
             results,
+            two_waves: Vec::new(),
             wall_s,
         }
     }
