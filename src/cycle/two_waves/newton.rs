@@ -20,6 +20,8 @@ const MOST: usize = 60;
 /// no more is to be had: points on the edge of stick, slip or opening may go to and fro between two states.
 const CONVERGED: f64 = 1e-9;
 const ACCEPTED: f64 = 1e-3;
+/// Iterations without what is missed a tenth smaller than before after which the search ends.
+const PATIENCE: usize = 12;
 /// Shares of a step that are tried.
 const SHARES: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
 
@@ -95,6 +97,7 @@ impl TwoWaves {
         let at = |state: WaveState| Iterate::at(&wave, state, parameter);
         let mut here = at(start.clone());
         let mut best: Option<(f64, WaveState)> = None;
+        let mut improved = (0, f64::INFINITY);
         for turn in 0..MOST {
             // Contact states of the laws, the forces that they ask for.
             let mut state = here.state.clone();
@@ -127,7 +130,10 @@ impl TwoWaves {
             if best.as_ref().is_none_or(|best| here.missed < best.0) {
                 best = Some((here.missed, here.state.clone()));
             }
-            if here.missed < CONVERGED {
+            if here.missed < 0.9 * improved.1 {
+                improved = (turn, here.missed);
+            }
+            if here.missed < CONVERGED || turn > improved.0 + PATIENCE {
                 break;
             }
         }

@@ -145,6 +145,9 @@ pub struct StabilityChangeSummary {
     pub harmonic: usize,
     /// Its frequency, Hz.
     pub frequency_hz: f64,
+    /// Whether the wave gives way to a motion of two frequencies: a Neimark-Sacker bifurcation.
+    #[serde(default)]
+    pub to_two_frequencies: bool,
 }
 
 impl Summary for CycleSummary {
@@ -240,6 +243,7 @@ fn branch_of(
         at: in_key_units(change.value),
         harmonic: change.harmonic,
         frequency_hz: change.frequency_hz,
+        to_two_frequencies: change.harmonic != result.family.harmonic,
     });
     BranchSummary {
         key: branch.parameter.key().to_owned(),
