@@ -38,6 +38,10 @@ pub const PROFILE: Profile = Profile {
         ),
         ("branch-nN.csv", "one row for each cycle of a branch"),
         ("stability-nN.csv", "exponents of perturbations"),
+        (
+            "two-waves-nN-nM.csv",
+            "one row for each motion of two frequencies",
+        ),
         ("cycles.pvd, cycle-nN.vtu", "fields over one period"),
         (
             "cycle-modeK.csv, contact-modeK.csv, .npz, harmonics-modeK.csv",
@@ -81,7 +85,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     terminal::catch_signals(terminal::NOTHING_KEPT);
     let results = study.run(study.choices.frames, &|| bar.inc(1));
     bar.finish_and_clear();
-    let report = study.report(results, session.wall_seconds());
+    let two_waves = study.two_waves(&results);
+    let mut report = study.report(results, session.wall_seconds());
+    report.two_waves = two_waves;
     CycleStudy::refuse_nothing(&report)?;
     for result in &report.results {
         if let Some(doubt) = doubt(&report, result) {

@@ -30,6 +30,8 @@ pub struct Cycle {
     pub confirmation_periods: usize,
     /// What stability is worked out for.
     pub stability: StabilityChoice,
+    /// Whether the motion of two frequencies is sought where a rotating wave loses its stability to another.
+    pub two_frequencies: bool,
     /// Continuation over a parameter.
     pub continuation: Option<Continuation>,
 }
@@ -179,6 +181,15 @@ pub(super) fn cycle(root: &Section<'_>, body: Option<&Body>) -> Option<Cycle> {
         );
     }
     let stability = section.choice("stability");
+    let two_frequencies = section.flag("two_frequencies");
+    if two_frequencies && stability == StabilityChoice::None {
+        section.reject(
+            "two_frequencies",
+            "cycle.two_frequencies needs to know which cycles lose their stability".to_owned(),
+            "needs cycle.stability".to_owned(),
+            Some("cycle.stability = \"point\" or \"branch\"".to_owned()),
+        );
+    }
     let inner = section.section("continuation", false);
     let continuation = inner.is_given().then(|| Continuation {
         key: inner.parameter("key"),
@@ -209,6 +220,7 @@ pub(super) fn cycle(root: &Section<'_>, body: Option<&Body>) -> Option<Cycle> {
         frames,
         confirmation_periods,
         stability,
+        two_frequencies,
         continuation,
     })
 }

@@ -244,6 +244,7 @@ pub const KEYS: &[CaseKey] = &[
     key("cycle.frames", Count(1), "", Value("1"), "24", "the times over one period at which the whole field is written"),
     key("cycle.confirmation_periods", Count(0), "", Value("20"), "20", "the periods of the transient that puts each cycle to the test (0 = none)"),
     key("cycle.stability", Choice(words::<StabilityChoice>), "", Value("\"point\""), "\"point\"", "the cycles whose stability is worked out"),
+    key("cycle.two_frequencies", Flag, "", Value("false"), "true", "whether the motion of two frequencies is sought where a rotating wave loses its stability to another"),
     key("cycle.continuation.key", Parameter, "", Required, "\"contact.rotation_speed_rpm\"", "the parameter along which a cycle is followed"),
     key("cycle.continuation.from", Number(Finite), "", Required, "10", "the first value of that parameter"),
     key("cycle.continuation.to", Number(Finite), "", Required, "6000", "the last value of that parameter"),

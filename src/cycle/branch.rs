@@ -239,24 +239,22 @@ impl<'a> Branch<'a> {
             Parameter::FrictionCoefficient => 0.0,
             _ => heading.parameter,
         };
-        [&linear.gap_columns, &linear.slip_columns]
-            .into_iter()
-            .zip(linear.by_frequency.iter().zip(&linear.by_parameter))
-            .map(|(columns, (by_frequency, by_parameter))| {
-                let columns = columns.each_ref().map(|column| self.wave.harmonics(column));
-                let mut rate = self.wave.values(
-                    (0..columns[0].len())
-                        .map(|k| columns[0][k] * forces[0][k] + columns[1][k] * forces[1][k]),
-                );
-                for (i, value) in rate.iter_mut().enumerate() {
-                    *value +=
-                        by_frequency[i] * heading.frequency + by_parameter[i] * along_parameter;
-                }
-                rate
-            })
-            .collect::<Vec<_>>()
-            .try_into()
-            .expect("gap and slip")
+        let [by_frequency, by_parameter] = &linear.by[..] else {
+            unreachable!("branches of one wave have one frequency");
+        };
+        [0, 1].map(|row| {
+            let columns = [&linear.gap_columns, &linear.slip_columns][row];
+            let columns = columns.each_ref().map(|column| self.wave.harmonics(column));
+            let mut rate = self.wave.values(
+                (0..columns[0].len())
+                    .map(|k| columns[0][k] * forces[0][k] + columns[1][k] * forces[1][k]),
+            );
+            let by = by_frequency[row].iter().zip(&by_parameter[row]);
+            for (value, (by_frequency, by_parameter)) in rate.iter_mut().zip(by) {
+                *value += by_frequency * heading.frequencies[0] + by_parameter * along_parameter;
+            }
+            rate
+        })
     }
 
     /// The nearest end of the coming step.

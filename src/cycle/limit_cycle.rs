@@ -164,17 +164,17 @@ impl LimitCycle {
 }
 
 /// Harmonics of the edge's displacement (unscaled sums), and their velocity symbols.
-struct EdgeMotion {
-    displacement: Vec<[c64; 2]>,
-    rates: Vec<c64>,
+pub(super) struct EdgeMotion {
+    pub displacement: Vec<[c64; 2]>,
+    pub rates: Vec<c64>,
 }
 
 impl EdgeMotion {
-    fn of(wave: &Wave<'_>, state: &WaveState) -> Self {
+    pub fn of(wave: &Wave<'_>, state: &WaveState) -> Self {
         let normal = wave.harmonics(&state.normal);
         let tangential = wave.harmonics(&state.tangential);
         let rates: Vec<c64> = (0..wave.body.harmonic_count())
-            .map(|k| c64::new(0.0, state.frequency * wave.order(k)))
+            .map(|k| wave.rate(k, state.frequencies()))
             .collect();
         let displacement = rates.iter().enumerate().map(|(k, &rate)| {
             let at = DynamicCoefficients::new(rate, &state.point.damping);
@@ -187,13 +187,13 @@ impl EdgeMotion {
         }
     }
 
-    fn points(&self, wave: &Wave<'_>, state: &WaveState) -> Vec<PhasePoint> {
+    pub fn points(&self, wave: &Wave<'_>, state: &WaveState) -> Vec<PhasePoint> {
         let displacement =
             [0, 1].map(|component| wave.values(self.displacement.iter().map(|u| u[component])));
         let velocity = [0, 1].map(|component| {
             let harmonics = self.displacement.iter().enumerate();
             wave.values(
-                harmonics.map(|(k, u)| u[component] * state.frequency * wave.contact_order(k)),
+                harmonics.map(|(k, u)| u[component] * wave.contact_rate(k, state.frequencies())),
             )
         });
         let length = wave.body.tributary_length;
@@ -210,7 +210,8 @@ impl EdgeMotion {
     }
 }
 
-fn powers(
+/// Mean powers of a wave, or of two.
+pub(super) fn powers(
     wave: &Wave<'_>,
     state: &WaveState,
     edge: &EdgeMotion,

@@ -6,7 +6,8 @@
 //! receptance for each temporal harmonic ([`WaveBody`]); Signorini's and Coulomb's laws hold at points along the phase;
 //! a branch of cycles is followed from its birth in steady sliding through every change of contact state
 //! ([`CycleSolver`]). Cycles are born where the eigenvalue analysis has its onsets ([`DiscModel`]); their stability is that of
-//! the transient's own step, linearized over one period ([`MeshStepping`]).
+//! the transient's own step, linearized over one period ([`MeshStepping`]). Two waves that live together, each at its own
+//! frequency, are a steady contact problem along both phases ([`TwoWaves`]).
 //!
 //! Bodies without symmetry have no rotating waves; their cycles are periodic motions of the whole mesh ([`periodic`]).
 
@@ -29,6 +30,7 @@ mod stability;
 mod state;
 mod stepping;
 mod system;
+mod two_waves;
 mod wave;
 
 pub use basin::{BasinBoundary, BasinRequest, BasinRun};
@@ -46,3 +48,4 @@ pub use solver_stability::SteppedCycle;
 pub use stability::{CycleStability, FloquetExponent, StabilityChange, Verdict};
 pub use state::{PointState, WaveState};
 pub use stepping::{MeshStepping, Period};
+pub use two_waves::{Measured, NoTwoWaves, TwoWaveBranch, TwoWaveMotion, TwoWaveSearch, TwoWaves};

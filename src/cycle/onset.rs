@@ -199,6 +199,7 @@ pub fn largest_linear_wave(
         frequency: onset.frequency,
         contact: vec![PointState::SlipForward; points],
         origin,
+        second: None,
         point,
     };
     state.impose_law();

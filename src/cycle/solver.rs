@@ -122,6 +122,15 @@ impl CycleSolver {
         &self.body
     }
 
+    /// The disc that it solves for, with the damping of its onset left open.
+    pub(super) fn model(&self) -> DiscModel {
+        DiscModel {
+            specification: self.specification,
+            material: self.material,
+            damping: RayleighDamping::default(),
+        }
+    }
+
     /// Its phases.
     pub fn grid(&self) -> PhaseGrid {
         self.grid
@@ -312,7 +321,8 @@ impl CycleSolver {
     pub fn field(&self, cycle: &LimitCycle, time: f64) -> [Vec<f64>; 2] {
         let wave = self.wave();
         let profiles = cycle.profiles(&wave);
-        let rays = profiles[0].1.len() + 1;
+        // Clamped nodes have no place in a profile.
+        let rays = self.specification.radial_elements + 1;
         let (sectors, harmonic) = (self.body.sector_count, self.body.harmonic());
         let mut fields = [0, 1].map(|_| vec![0.0; 2 * rays * sectors]);
         for sector in 0..sectors {

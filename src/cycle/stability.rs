@@ -61,6 +61,17 @@ pub struct StabilityChange {
     pub frequency_hz: f64,
 }
 
+impl StabilityChange {
+    /// In words, of a wave of harmonic `n`: a mode of another harmonic turns at a frequency of its own, so that its multiplier
+    /// leaves the unit circle at an angle.
+    pub fn kind(&self, n: usize) -> &'static str {
+        match self.harmonic == n {
+            true => "of its own wave",
+            false => "a Neimark-Sacker bifurcation, to two frequencies",
+        }
+    }
+}
+
 impl FloquetExponent {
     /// What its growth rate says for sure.
     pub fn verdict(&self) -> Verdict {

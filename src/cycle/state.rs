@@ -64,6 +64,29 @@ impl Event {
     }
 }
 
+/// The phase of a second wave that lives with the first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SecondPhase {
+    /// `omega_2`, rad/s.
+    pub frequency: f64,
+    /// As [`WaveState::origin`].
+    pub origin: f64,
+    /// Points along it; the first phase runs first over the points of the grid.
+    pub points: usize,
+}
+
+/// One phase of a state.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Phase {
+    /// 0 for the first, 1 for the second.
+    pub index: usize,
+    /// Phase of its first harmonic, rad.
+    pub origin: f64,
+    /// Points along it, and points of the grid from one of them to the next.
+    pub points: usize,
+    pub stride: usize,
+}
+
 /// Contact forces of a rotating wave along its phase, its frequency, and what it lives on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WaveState {
@@ -77,11 +100,37 @@ pub struct WaveState {
     pub contact: Vec<PointState>,
     /// Phase of the first harmonic of the edge's tangential displacement, rad: which point of the wave is called zero.
     pub origin: f64,
+    /// The phase of a second wave, where there is one.
+    pub second: Option<SecondPhase>,
     /// Contact and damping.
     pub point: OperatingPoint,
 }
 
 impl WaveState {
+    /// `omega_1, omega_2`, rad/s; zero for a second wave that is not there.
+    pub fn frequencies(&self) -> [f64; 2] {
+        [self.frequency, self.second.map_or(0.0, |own| own.frequency)]
+    }
+
+    /// Its phases, one or two.
+    pub(super) fn phases(&self) -> Vec<Phase> {
+        let across = self.second.map_or(1, |own| own.points);
+        let along = self.contact.len() / across;
+        let first = Phase {
+            index: 0,
+            origin: self.origin,
+            points: along,
+            stride: 1,
+        };
+        let second = self.second.map(|own| Phase {
+            index: 1,
+            origin: own.origin,
+            points: across,
+            stride: along,
+        });
+        [Some(first), second].into_iter().flatten().collect()
+    }
+
     /// Points in contact, and points that stick, in rising order.
     pub fn active(&self) -> (Vec<usize>, Vec<usize>) {
         let those = |wanted: fn(PointState) -> bool| {

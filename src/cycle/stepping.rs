@@ -116,6 +116,22 @@ impl MeshStepping<'_> {
         cycle: &LimitCycle,
         seed: Option<(usize, f64)>,
     ) -> Result<(CentralDifference<'_>, usize), CycleError> {
+        self.start_from(cycle, seed, |time_step| {
+            self.solver.starting_fields(cycle, time_step)
+        })
+    }
+
+    /// The same at the operating point of `cycle` from other fields: displacement at time zero (m) and velocity half a step of so
+    /// many seconds earlier (m/s).
+    ///
+    /// # Errors
+    /// As [`Self::start`].
+    pub(super) fn start_from(
+        &self,
+        cycle: &LimitCycle,
+        seed: Option<(usize, f64)>,
+        fields: impl Fn(f64) -> [Vec<f64>; 2],
+    ) -> Result<(CentralDifference<'_>, usize), CycleError> {
         let point = &cycle.state.point;
         let duration = TAU / cycle.state.frequency;
         let limit = stable_step_limit(self.largest_frequency, &point.damping);
@@ -140,7 +156,7 @@ impl MeshStepping<'_> {
                 Perturbation::of(&[harmonic], velocity)
             }),
         };
-        let [displacement, velocity] = self.solver.starting_fields(cycle, time_step);
+        let [displacement, velocity] = fields(time_step);
         let operator = self.operator.as_ref();
         let run =
             CentralDifference::start_from(model, operator, &settings, &displacement, velocity)?;

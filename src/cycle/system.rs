@@ -1,19 +1,19 @@
-//! The linear systems of one step along a branch.
+//! The linear systems of one step along a branch, of one wave or of two.
 
 use super::parameter::Parameter;
-use super::state::{Event, PointState, WaveState};
+use super::state::{Event, Phase, PointState, WaveState};
 use super::wave::Linearization;
 use crate::linalg::{DenseLu, Mat, MatMut, c64};
 
-/// A change of forces, frequency and parameter.
+/// A change of forces, frequencies and parameter.
 #[derive(Clone, Debug)]
 pub struct Heading {
     /// Change of the normal force at each point.
     pub normal: Vec<f64>,
     /// Change of the tangential force.
     pub tangential: Vec<f64>,
-    /// Change of the frequency.
-    pub frequency: f64,
+    /// Change of both frequencies; zero for a second wave that is not there.
+    pub frequencies: [f64; 2],
     /// Change of the parameter.
     pub parameter: f64,
 }
@@ -25,7 +25,7 @@ impl Heading {
         Self {
             normal: difference(&from.normal, &to.normal),
             tangential: difference(&from.tangential, &to.tangential),
-            frequency: to.frequency - from.frequency,
+            frequencies: [0, 1].map(|i| to.frequencies()[i] - from.frequencies()[i]),
             parameter: parameter.of(&to.point) - parameter.of(&from.point),
         }
     }
@@ -36,7 +36,7 @@ impl Heading {
         self.tangential
             .iter_mut()
             .for_each(|value| *value = -*value);
-        self.frequency = -self.frequency;
+        self.frequencies = self.frequencies.map(|value| -value);
         self.parameter = -self.parameter;
     }
 
@@ -46,7 +46,10 @@ impl Heading {
             state.normal[i] += length * self.normal[i];
             state.tangential[i] += length * self.tangential[i];
         }
-        state.frequency += length * self.frequency;
+        state.frequency += length * self.frequencies[0];
+        if let Some(second) = &mut state.second {
+            second.frequency += length * self.frequencies[1];
+        }
         let value = parameter.of(&state.point) + length * self.parameter;
         parameter.set(&mut state.point, value);
         state.impose_law();
@@ -60,6 +63,8 @@ pub enum Closure<'a> {
     Event(Event),
     /// The parameter has a value.
     Value(f64),
+    /// The first harmonic along a phase has an amplitude, m.
+    Amplitude(usize, f64),
     /// The point lies in the plane across a heading through a state.
     Plane(&'a Heading, &'a WaveState),
     /// Only the direction along a heading matters (for tangents).
@@ -68,38 +73,86 @@ pub enum Closure<'a> {
     AlongParameter,
 }
 
-/// The unknowns of one set of contact states: normal forces in contact, tangential forces in stick, frequency,
-/// parameter.
+/// A law that a contact point obeys: no gap, no slip.
+#[derive(Clone, Copy)]
+enum Law {
+    Gap = 0,
+    Slip = 1,
+}
+
+impl Law {
+    fn columns(self, linear: &Linearization) -> &[Vec<f64>; 2] {
+        [&linear.gap_columns, &linear.slip_columns][self as usize]
+    }
+
+    /// Force for a unit of what it misses.
+    fn scale(self, linear: &Linearization) -> f64 {
+        [linear.normal_scale(), linear.tangential_scale()][self as usize]
+    }
+}
+
+/// The unknowns of one set of contact states: normal forces in contact, tangential forces in stick, and the scalars, one or two
+/// frequencies and the parameter.
 ///
-/// All unknowns and equations are scaled: forces by the mean normal force, the frequency by a hundredth of itself,
+/// All unknowns and equations are scaled: forces by the mean normal force, a frequency by a hundredth of itself,
 /// the parameter by itself.
 pub struct System<'a> {
     state: &'a WaveState,
     parameter: Parameter,
+    phases: Vec<Phase>,
     contact: Vec<usize>,
     stick: Vec<usize>,
     force_scale: f64,
-    frequency_scale: f64,
-    parameter_scale: f64,
+    /// Scales of the scalars.
+    scales: Vec<f64>,
 }
 
 impl<'a> System<'a> {
     /// The unknowns of `state`.
     pub fn new(state: &'a WaveState, parameter: Parameter, force_scale: f64) -> Self {
         let (contact, stick) = state.active();
+        let phases = state.phases();
+        let frequencies = state.frequencies();
+        let scales = phases.iter().map(|own| 0.01 * frequencies[own.index]);
         Self {
             state,
             parameter,
             contact,
             stick,
             force_scale,
-            frequency_scale: 0.01 * state.frequency,
-            parameter_scale: parameter.of(&state.point).abs().max(1e-12),
+            scales: scales
+                .chain([parameter.of(&state.point).abs().max(1e-12)])
+                .collect(),
+            phases,
         }
     }
 
     fn size(&self) -> usize {
-        self.contact.len() + self.stick.len() + 2
+        self.forces() + self.scales.len()
+    }
+
+    /// Unknown forces: the scalars come after them.
+    fn forces(&self) -> usize {
+        self.contact.len() + self.stick.len()
+    }
+
+    fn parameter_scale(&self) -> f64 {
+        self.scales[self.scales.len() - 1]
+    }
+
+    /// Which point of the grid lies from `from` as `to` from its first.
+    fn lag(&self, from: usize, to: usize) -> usize {
+        let phases = self.phases.iter();
+        let lags = phases.map(|own| {
+            let [from, to] = [from, to].map(|i| (i / own.stride) % own.points);
+            own.stride
+                * if to >= from {
+                    to - from
+                } else {
+                    to + own.points - from
+                }
+        });
+        lags.sum()
     }
 
     /// A row of responses at `row`: columns of the circulant, drag of slipping points included.
@@ -108,24 +161,29 @@ impl<'a> System<'a> {
         matrix: &mut Mat<f64>,
         at: usize,
         row: usize,
-        columns: &[Vec<f64>; 2],
-        by: [&Vec<f64>; 2],
-        scale: f64,
+        linear: &Linearization,
+        law: Law,
     ) {
-        let points = self.state.contact.len();
         let friction = self.state.point.contact.friction_coefficient;
-        let lag = |i: usize| if row >= i { row - i } else { row + points - i };
+        let columns = law.columns(linear);
+        let scale = law.scale(linear) / self.force_scale;
         let force = scale * self.force_scale;
         for (j, &i) in self.contact.iter().enumerate() {
             let drag = friction * self.state.contact[i].drag();
-            matrix[(at, j)] = force * (columns[0][lag(i)] + drag * columns[1][lag(i)]);
+            let lag = self.lag(i, row);
+            matrix[(at, j)] = force * (columns[0][lag] + drag * columns[1][lag]);
         }
         for (j, &i) in self.stick.iter().enumerate() {
-            matrix[(at, self.contact.len() + j)] = force * columns[1][lag(i)];
+            matrix[(at, self.contact.len() + j)] = force * columns[1][self.lag(i, row)];
         }
-        let end = self.size();
-        matrix[(at, end - 2)] = scale * self.frequency_scale * by[0][row];
-        matrix[(at, end - 1)] = scale * self.parameter_scale * by[1][row];
+        for (j, (own, by)) in self.scales.iter().zip(&linear.by).enumerate() {
+            matrix[(at, self.forces() + j)] = scale * own * by[law as usize][row];
+        }
+    }
+
+    /// What a law misses at a point, scaled.
+    fn missed(&self, linear: &Linearization, law: Law, i: usize) -> f64 {
+        law.scale(linear) / self.force_scale * [&linear.gap, &linear.slip][law as usize][i]
     }
 
     /// Matrix and residual, scaled.
@@ -133,56 +191,50 @@ impl<'a> System<'a> {
         let size = self.size();
         let mut matrix = Mat::zeros(size, size);
         let mut residual = vec![0.0; size];
-        let normal = linear.normal_scale() / self.force_scale;
-        let tangential = linear.tangential_scale() / self.force_scale;
-        let gap_by = [&linear.by_frequency[0], &linear.by_parameter[0]];
-        let slip_by = [&linear.by_frequency[1], &linear.by_parameter[1]];
-        for (at, &i) in self.contact.iter().enumerate() {
-            self.response_row(&mut matrix, at, i, &linear.gap_columns, gap_by, normal);
-            residual[at] = normal * linear.gap[i];
+        let gaps = self.contact.iter().map(|&i| (i, Law::Gap));
+        let laws = gaps.chain(self.stick.iter().map(|&i| (i, Law::Slip)));
+        for (at, (i, law)) in laws.enumerate() {
+            self.response_row(&mut matrix, at, i, linear, law);
+            residual[at] = self.missed(linear, law, i);
         }
-        for (j, &i) in self.stick.iter().enumerate() {
-            let at = self.contact.len() + j;
-            self.response_row(
-                &mut matrix,
-                at,
-                i,
-                &linear.slip_columns,
-                slip_by,
-                tangential,
-            );
-            residual[at] = tangential * linear.slip[i];
+        // `Im(u_theta,1) = 0` along each phase.
+        for own in &self.phases {
+            let at = self.forces() + own.index;
+            residual[at] = self.first_row(&mut matrix, at, linear, own, |value| value.im);
         }
-        self.phase_row(&mut matrix, &mut residual, linear, normal);
         self.closure_row(&mut matrix, &mut residual, linear, closure);
         (matrix, residual)
     }
 
-    /// `Im(u_theta,1) = 0`.
-    fn phase_row(
+    /// A row of the real or the imaginary `part` of the first harmonic along a phase, and its scaled value.
+    fn first_row(
         &self,
         matrix: &mut Mat<f64>,
-        residual: &mut [f64],
+        at: usize,
         linear: &Linearization,
-        scale: f64,
-    ) {
-        let at = self.size() - 2;
-        let points = self.state.contact.len() as f64;
+        phase: &Phase,
+        part: impl Fn(c64) -> f64,
+    ) -> f64 {
+        let first = &linear.first[phase.index];
+        let scale = linear.normal_scale() / self.force_scale;
         let friction = self.state.point.contact.friction_coefficient;
-        let turn = |i: usize| c64::from_polar(1.0, -std::f64::consts::TAU * i as f64 / points);
+        let turn = |i: usize| {
+            let place = ((i / phase.stride) % phase.points) as f64;
+            c64::from_polar(1.0, -std::f64::consts::TAU * place / phase.points as f64)
+        };
         let force = scale * self.force_scale;
         for (j, &i) in self.contact.iter().enumerate() {
             let drag = friction * self.state.contact[i].drag();
-            let response = turn(i) * (linear.first_row[0] + drag * linear.first_row[1]);
-            matrix[(at, j)] = force * response.im;
+            let response = turn(i) * (first.row[0] + drag * first.row[1]);
+            matrix[(at, j)] = force * part(response);
         }
         for (j, &i) in self.stick.iter().enumerate() {
-            let response = turn(i) * linear.first_row[1];
-            matrix[(at, self.contact.len() + j)] = force * response.im;
+            matrix[(at, self.contact.len() + j)] = force * part(turn(i) * first.row[1]);
         }
-        matrix[(at, at)] = scale * self.frequency_scale * linear.first_by[0].im;
-        matrix[(at, at + 1)] = scale * self.parameter_scale * linear.first_by[1].im;
-        residual[at] = scale * linear.first.im;
+        for (j, (own, by)) in self.scales.iter().zip(&first.by).enumerate() {
+            matrix[(at, self.forces() + j)] = scale * own * part(*by);
+        }
+        scale * part(first.value)
     }
 
     fn closure_row(
@@ -198,7 +250,12 @@ impl<'a> System<'a> {
             Closure::Value(value) => {
                 matrix[(at, at)] = 1.0;
                 residual[at] =
-                    (self.parameter.of(&self.state.point) - value) / self.parameter_scale;
+                    (self.parameter.of(&self.state.point) - value) / self.parameter_scale();
+            }
+            Closure::Amplitude(phase, value) => {
+                let own = &self.phases[phase];
+                let found = self.first_row(matrix, at, linear, own, |value| value.re);
+                residual[at] = found - linear.normal_scale() / self.force_scale * value;
             }
             Closure::AlongParameter => matrix[(at, at)] = 1.0,
             Closure::Along(heading) => {
@@ -225,8 +282,6 @@ impl<'a> System<'a> {
         event: Event,
     ) {
         let at = self.size() - 1;
-        let normal = linear.normal_scale() / self.force_scale;
-        let tangential = linear.tangential_scale() / self.force_scale;
         let place = |list: &[usize], i: usize| list.binary_search(&i).expect("an active point");
         match event {
             Event::Lift(i) => {
@@ -234,14 +289,12 @@ impl<'a> System<'a> {
                 residual[at] = self.state.normal[i] / self.force_scale;
             }
             Event::Touch(i) => {
-                let by = [&linear.by_frequency[0], &linear.by_parameter[0]];
-                self.response_row(matrix, at, i, &linear.gap_columns, by, normal);
-                residual[at] = normal * linear.gap[i];
+                self.response_row(matrix, at, i, linear, Law::Gap);
+                residual[at] = self.missed(linear, Law::Gap, i);
             }
             Event::Rest(i) => {
-                let by = [&linear.by_frequency[1], &linear.by_parameter[1]];
-                self.response_row(matrix, at, i, &linear.slip_columns, by, tangential);
-                residual[at] = tangential * linear.slip[i];
+                self.response_row(matrix, at, i, linear, Law::Slip);
+                residual[at] = self.missed(linear, Law::Slip, i);
             }
             Event::SlideForward(i) | Event::SlideBackward(i) => {
                 let drag = match event {
@@ -253,7 +306,7 @@ impl<'a> System<'a> {
                 matrix[(at, place(&self.contact, i))] = friction;
                 matrix[(at, self.contact.len() + place(&self.stick, i))] = -drag;
                 if self.parameter == Parameter::FrictionCoefficient {
-                    matrix[(at, at)] = force * self.parameter_scale / self.force_scale;
+                    matrix[(at, at)] = force * self.parameter_scale() / self.force_scale;
                 }
                 residual[at] = (friction * force - drag * shear) / self.force_scale;
             }
@@ -273,8 +326,13 @@ impl<'a> System<'a> {
                 .iter()
                 .map(|&i| heading.tangential[i] / self.force_scale),
         );
-        values.push(heading.frequency / self.frequency_scale);
-        values.push(heading.parameter / self.parameter_scale);
+        let [first, second] = heading.frequencies;
+        let scalars = match self.phases.len() {
+            1 => vec![first, heading.parameter],
+            _ => vec![first, second, heading.parameter],
+        };
+        let pairs = scalars.iter().zip(&self.scales);
+        values.extend(pairs.map(|(value, scale)| value / scale));
         values
     }
 
@@ -287,7 +345,7 @@ impl<'a> System<'a> {
     /// Root of the mean square of the forces, and of the squares of frequency and parameter, all scaled.
     fn length(&self, scaled: &[f64]) -> f64 {
         let points = self.state.contact.len() as f64;
-        let (forces, rest) = scaled.split_at(self.size() - 2);
+        let (forces, rest) = scaled.split_at(self.forces());
         let forces: f64 = forces.iter().map(|value| value * value).sum();
         let rest: f64 = rest.iter().map(|value| value * value).sum();
         (forces / points + rest).sqrt()
@@ -338,11 +396,16 @@ impl<'a> System<'a> {
         let points = self.state.contact.len();
         let friction = self.state.point.contact.friction_coefficient;
         let end = self.size();
-        let parameter = solution[end - 1] * self.parameter_scale;
+        let parameter = solution[end - 1] * self.parameter_scale();
+        let scalars = solution[self.forces()..].iter().zip(&self.scales);
+        let mut frequencies = [0.0; 2];
+        for (own, (value, scale)) in frequencies[..self.phases.len()].iter_mut().zip(scalars) {
+            *own = value * scale;
+        }
         let mut heading = Heading {
             normal: vec![0.0; points],
             tangential: vec![0.0; points],
-            frequency: solution[end - 2] * self.frequency_scale,
+            frequencies,
             parameter,
         };
         for (j, &i) in self.contact.iter().enumerate() {

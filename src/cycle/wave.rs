@@ -13,9 +13,12 @@
 //!
 //! Both reach a few neighbours only: a jump of the force disturbs the phases around it, and no others. `s` is real, so that
 //! the motion itself neither gains nor loses energy; `b` looks back, so that a point that touches can only push.
+//!
+//! Two waves at once, `U(r, xi_1, xi_2)` with `xi_a = n_a theta + omega_a t`, are the same on a grid of both phases: harmonic
+//! `(k_1, k_2)` has `n = k_1 n_1 + k_2 n_2` around the circumference, and `s` and `b` are the sums of those along either phase.
 
 use super::body::{DynamicCoefficients, Receptance, WaveBody};
-use super::parameter::{OperatingPoint, Parameter};
+use super::parameter::Parameter;
 use super::state::WaveState;
 use crate::fem::RayleighDamping;
 use crate::linalg::c64;
@@ -23,78 +26,170 @@ use rustfft::{Fft, FftPlanner};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// A wave of one body on a grid of phases.
+/// A wave of one body on a grid of phases, or two waves on a grid of both.
 #[derive(Clone)]
 pub struct Wave<'a> {
     /// The body.
     pub body: &'a WaveBody,
-    points: usize,
+    /// Points along the first and the second phase; 1 along the second where there is none.
+    sides: [usize; 2],
     landing_share: f64,
-    forward: Arc<dyn Fft<f64>>,
-    inverse: Arc<dyn Fft<f64>>,
+    /// `omega_2 / omega_1` in the look ahead of the gap.
+    ratio: f64,
+    /// Harmonics `(k_1, k_2)`, one of each conjugate pair.
+    orders: Vec<[isize; 2]>,
+    forward: [Arc<dyn Fft<f64>>; 2],
+    inverse: [Arc<dyn Fft<f64>>; 2],
+}
+
+/// Harmonics `(k_1, k_2)` that a grid of odd sides holds, one of each conjugate pair: `(0, 0), (1, 0), ...` first, then those of
+/// rising `k_2 > 0`.
+pub fn orders([first, second]: [usize; 2]) -> Vec<[isize; 2]> {
+    let [most, rows] = [first, second].map(|side| (side / 2) as isize);
+    let row = |k_2: isize| (if k_2 == 0 { 0 } else { -most }..=most).map(move |k_1| [k_1, k_2]);
+    (0..=rows).flat_map(row).collect()
 }
 
 impl<'a> Wave<'a> {
     /// The wave on `2 K + 1` points, with `K + 1` harmonics in `body`, landing over `landing_share` of its period.
     pub fn new(body: &'a WaveBody, landing_share: f64) -> Self {
-        let points = 2 * body.harmonic_count() - 1;
+        Self::on(body, [2 * body.harmonic_count() - 1, 1], landing_share, 0.0)
+    }
+
+    /// Two waves on a grid of both phases, of about `ratio = omega_2 / omega_1`; `body` holds the harmonics [`orders`] of it.
+    pub fn on(body: &'a WaveBody, sides: [usize; 2], landing_share: f64, ratio: f64) -> Self {
         let mut planner = FftPlanner::new();
         Self {
             body,
-            points,
+            sides,
             landing_share,
-            forward: planner.plan_fft_forward(points),
-            inverse: planner.plan_fft_inverse(points),
+            ratio,
+            orders: orders(sides),
+            forward: sides.map(|side| planner.plan_fft_forward(side)),
+            inverse: sides.map(|side| planner.plan_fft_inverse(side)),
         }
     }
 
-    /// Number of points along the phase.
+    /// Number of points of the grid.
     pub fn points(&self) -> usize {
-        self.points
+        self.sides[0] * self.sides[1]
     }
 
-    /// `s / omega` of harmonic `k`: `k` itself in the limit of many points.
+    /// `s / omega` along both phases of harmonic `k`: `k_1, k_2` in the limit of many points.
+    pub fn orders(&self, k: usize) -> [f64; 2] {
+        [0, 1].map(|phase| {
+            let step = TAU / self.sides[phase] as f64;
+            let angle = self.orders[k][phase] as f64 * step;
+            (8.0 * angle.sin() - (2.0 * angle).sin()) / (6.0 * step)
+        })
+    }
+
+    /// `b / omega` along both phases of harmonic `k`: `i k_1, i k_2` in the limit of many points.
+    pub fn contact_orders(&self, k: usize) -> [c64; 2] {
+        [0, 1].map(|phase| {
+            let step = TAU / self.sides[phase] as f64;
+            let back = c64::from_polar(1.0, -(self.orders[k][phase] as f64) * step);
+            (1.0 - back) / step
+        })
+    }
+
+    /// `s / omega` of harmonic `k` of one wave.
     pub fn order(&self, k: usize) -> f64 {
-        let step = TAU / self.points as f64;
-        let angle = k as f64 * step;
-        (8.0 * angle.sin() - (2.0 * angle).sin()) / (6.0 * step)
+        self.orders(k)[0]
     }
 
-    /// `b / omega` of harmonic `k`: `i k` in the limit of many points.
+    /// `b / omega` of harmonic `k` of one wave.
     pub fn contact_order(&self, k: usize) -> c64 {
-        let step = TAU / self.points as f64;
-        let back = c64::from_polar(1.0, -(k as f64) * step);
-        (1.0 - back) / step
+        self.contact_orders(k)[0]
+    }
+
+    /// `i s` of harmonic `k`, 1/s.
+    pub fn rate(&self, k: usize, frequencies: [f64; 2]) -> c64 {
+        let orders = self.orders(k);
+        c64::new(0.0, orders[0] * frequencies[0] + orders[1] * frequencies[1])
+    }
+
+    /// `b` of harmonic `k`, 1/s.
+    pub fn contact_rate(&self, k: usize, frequencies: [f64; 2]) -> c64 {
+        let orders = self.contact_orders(k);
+        frequencies[0] * orders[0] + frequencies[1] * orders[1]
     }
 
     /// Factor that turns a displacement into `u + tau v`.
     pub fn look_ahead(&self, k: usize) -> c64 {
-        1.0 + TAU * self.landing_share * self.contact_order(k)
+        1.0 + TAU * self.landing_share * self.contact_rate(k, [1.0, self.ratio])
     }
 
-    /// Harmonics `0..=K` of values on the points, `sum_i f_i e^{-i k xi_i}`.
+    /// `k_1 omega_1 + k_2 omega_2` of harmonic `k`, rad/s.
+    pub fn phase(&self, k: usize, frequencies: [f64; 2]) -> f64 {
+        let [k_1, k_2] = self.orders[k].map(|order| order as f64);
+        k_1 * frequencies[0] + k_2 * frequencies[1]
+    }
+
+    /// Circumferential harmonic `k_1 n_1 + k_2 n_2` of harmonic `k`.
+    pub fn circumferential(&self, k: usize, [first, second]: [isize; 2]) -> isize {
+        let [k_1, k_2] = self.orders[k];
+        k_1 * first + k_2 * second
+    }
+
+    /// Which harmonic is the first along a phase, `(1, 0)` or `(0, 1)`.
+    pub fn first(&self, phase: usize) -> usize {
+        [1, self.sides[0]][phase]
+    }
+
+    /// Place of a harmonic in a spectrum of all.
+    fn place(&self, [k_1, k_2]: [isize; 2]) -> usize {
+        let [first, second] = self.sides.map(|side| side as isize);
+        (k_2.rem_euclid(second) * first + k_1.rem_euclid(first)) as usize
+    }
+
+    /// Fourier transform along both phases, the first one contiguous.
+    fn transform(&self, values: &mut Vec<c64>, plans: &[Arc<dyn Fft<f64>>; 2]) {
+        plans[0].process(values);
+        let [first, second] = self.sides;
+        if second > 1 {
+            let at = |i: usize| (i % second) * first + i / second;
+            let mut across: Vec<c64> = (0..values.len()).map(|i| values[at(i)]).collect();
+            plans[1].process(&mut across);
+            (0..values.len()).for_each(|i| values[at(i)] = across[i]);
+        }
+    }
+
+    /// Harmonics of values on the points, `sum_i f_i e^{-i k xi_i}`.
     pub fn harmonics(&self, values: &[f64]) -> Vec<c64> {
         let mut spectrum: Vec<c64> = values.iter().map(|&value| c64::new(value, 0.0)).collect();
-        self.forward.process(&mut spectrum);
-        spectrum.truncate(self.points / 2 + 1);
-        spectrum
+        self.transform(&mut spectrum, &self.forward);
+        let orders = self.orders.iter();
+        orders.map(|&order| spectrum[self.place(order)]).collect()
     }
 
-    /// Values on the points of harmonics `0..=K`, the inverse of [`Self::harmonics`].
+    /// Values on the points of harmonics, the inverse of [`Self::harmonics`].
     pub fn values(&self, harmonics: impl IntoIterator<Item = c64>) -> Vec<f64> {
-        let scale = 1.0 / self.points as f64;
-        let mut spectrum = vec![c64::new(0.0, 0.0); self.points];
-        for (k, value) in harmonics.into_iter().enumerate() {
-            spectrum[k] = value * scale;
-            if k > 0 {
-                spectrum[self.points - k] = spectrum[k].conj();
+        let scale = 1.0 / self.points() as f64;
+        let mut spectrum = vec![c64::new(0.0, 0.0); self.points()];
+        for (&[k_1, k_2], value) in self.orders.iter().zip(harmonics) {
+            let (own, conjugate) = (self.place([k_1, k_2]), self.place([-k_1, -k_2]));
+            spectrum[own] = value * scale;
+            if conjugate == own {
+                spectrum[own].im = 0.0;
             } else {
-                spectrum[0].im = 0.0;
+                spectrum[conjugate] = spectrum[own].conj();
             }
         }
-        self.inverse.process(&mut spectrum);
+        self.transform(&mut spectrum, &self.inverse);
         spectrum.into_iter().map(|value| value.re).collect()
     }
+}
+
+/// What ties one phase down: the first harmonic along it of the tangential displacement of the edge, turned back by the state's
+/// origin, and what it changes by.
+pub struct FirstHarmonic {
+    /// Itself, m.
+    pub value: c64,
+    /// For unit first harmonics of the normal and of the tangential force.
+    pub row: [c64; 2],
+    /// Derivatives with the frequencies and the parameter.
+    pub by: Vec<c64>,
 }
 
 /// The contact edge around one state: residuals, their derivatives, and the columns of its circulant responses.
@@ -103,87 +198,72 @@ pub struct Linearization {
     pub gap: Vec<f64>,
     /// `v_theta - Omega a` at each point, m/s.
     pub slip: Vec<f64>,
-    /// Derivatives of gap and slip with the frequency, forces fixed.
-    pub by_frequency: [Vec<f64>; 2],
-    /// Derivatives of gap and slip with the parameter, free forces fixed.
-    pub by_parameter: [Vec<f64>; 2],
+    /// Derivatives of gap and slip with each frequency, forces fixed, and with the parameter, free forces fixed.
+    pub by: Vec<[Vec<f64>; 2]>,
     /// Response of the gap, at rising phase, to a unit normal and tangential force at phase zero.
     pub gap_columns: [Vec<f64>; 2],
     /// Response of the tangential velocity.
     pub slip_columns: [Vec<f64>; 2],
     /// Forces for a unit of gap and of velocity.
     scales: [f64; 2],
-    /// First harmonic of the tangential displacement (m), turned back by the state's origin, for unit first harmonics of
-    /// the forces.
-    pub first_row: [c64; 2],
-    /// First harmonic of the tangential displacement of the edge, m.
-    pub first: c64,
-    /// Its derivatives with the frequency and the parameter.
-    pub first_by: [c64; 2],
+    /// What ties each phase down.
+    pub first: Vec<FirstHarmonic>,
 }
 
-/// What a unit of both forces does at one harmonic, and its derivatives with frequency and parameter.
+/// What a unit of both forces does at one harmonic, and its derivatives with the frequencies and the parameter.
 struct HarmonicResponse {
     slip_rate: c64,
     receptance: Receptance,
-    changes: [Receptance; 2],
-    slip_rate_changes: [c64; 2],
+    changes: [Receptance; 3],
+    slip_rate_changes: [c64; 3],
 }
 
 impl HarmonicResponse {
-    fn new(
-        wave: &Wave<'_>,
-        k: usize,
-        frequency: f64,
-        point: &OperatingPoint,
-        parameter: Parameter,
-    ) -> Self {
+    fn new(wave: &Wave<'_>, k: usize, state: &WaveState, parameter: Parameter) -> Self {
         let still = RayleighDamping {
             mass_coefficient: 0.0,
             stiffness_coefficient: 0.0,
         };
-        let rate = c64::new(0.0, frequency * wave.order(k));
-        let rate_changes = [c64::new(0.0, wave.order(k)), c64::new(0.0, 0.0)];
-        let damping = &point.damping;
+        let rate = wave.rate(k, state.frequencies());
+        let [first, second] = wave.orders(k).map(|order| c64::new(0.0, order));
+        let damping = &state.point.damping;
         let mut by_damping = still;
         match parameter {
             Parameter::MassDamping => by_damping.mass_coefficient = 1.0,
             Parameter::StiffnessDamping => by_damping.stiffness_coefficient = 1.0,
             _ => {}
         }
+        let none = c64::new(0.0, 0.0);
+        let changes = [(first, &still), (second, &still), (none, &by_damping)];
         let (receptance, changes) = wave.body.receptance(
             k,
             DynamicCoefficients::new(rate, damping),
-            [
-                DynamicCoefficients::derivative(rate, damping, rate_changes[0], &still),
-                DynamicCoefficients::derivative(rate, damping, rate_changes[1], &by_damping),
-            ],
+            changes.map(|(rate_change, damping_change)| {
+                DynamicCoefficients::derivative(rate, damping, rate_change, damping_change)
+            }),
         );
+        let [first, second] = wave.contact_orders(k);
         Self {
-            slip_rate: frequency * wave.contact_order(k),
+            slip_rate: wave.contact_rate(k, state.frequencies()),
             receptance,
             changes,
-            slip_rate_changes: [wave.contact_order(k), c64::new(0.0, 0.0)],
+            slip_rate_changes: [first, second, none],
         }
     }
 
     /// Displacement of the edge, and its derivatives.
-    fn displacement(&self, force: [c64; 2]) -> [[c64; 2]; 3] {
-        let times =
-            |m: &Receptance| [0, 1].map(|row| m[(row, 0)] * force[0] + m[(row, 1)] * force[1]);
-        [
-            times(&self.receptance),
-            times(&self.changes[0]),
-            times(&self.changes[1]),
-        ]
+    fn displacement(&self, force: [c64; 2]) -> [[c64; 2]; 4] {
+        let [first, second, third] = &self.changes;
+        [&self.receptance, first, second, third]
+            .map(|m| [0, 1].map(|row| m[(row, 0)] * force[0] + m[(row, 1)] * force[1]))
     }
 }
 
 impl Linearization {
-    /// Linearizes the edge around `state` with respect to forces, frequency and `parameter`.
+    /// Linearizes the edge around `state` with respect to forces, frequencies and `parameter`.
     pub fn at(wave: &Wave<'_>, state: &WaveState, parameter: Parameter) -> Self {
         let responses: Vec<HarmonicResponse> = (0..wave.body.harmonic_count())
-            .map(|k| HarmonicResponse::new(wave, k, state.frequency, &state.point, parameter))
+            .map(|k| HarmonicResponse::new(wave, k, state, parameter))
             .collect();
         let enumerated = || responses.iter().enumerate();
         let gap_column = |j: usize| {
@@ -193,7 +273,7 @@ impl Linearization {
             |j: usize| wave.values(enumerated().map(|(_, r)| r.slip_rate * r.receptance[(1, j)]));
         let normal = wave.harmonics(&state.normal);
         let tangential = wave.harmonics(&state.tangential);
-        let moved: Vec<[[c64; 2]; 3]> = enumerated()
+        let moved: Vec<[[c64; 2]; 4]> = enumerated()
             .map(|(k, r)| r.displacement([normal[k], tangential[k]]))
             .collect();
         let gap_of = |which: usize| {
@@ -212,20 +292,37 @@ impl Linearization {
         let surface_speed = contact.rotation_speed * wave.body.radius;
         slip.iter_mut().for_each(|slip| *slip -= surface_speed);
 
-        let share = c64::from_polar(2.0 / wave.points as f64, -state.origin);
-        let first_row = [0, 1].map(|j| share * responses[1].receptance[(1, j)]);
-        let mut first_by = [share * moved[1][1][1], share * moved[1][2][1]];
-        let mut by_parameter = [gap_of(2), velocity_change(1)];
+        // Each frequency, the parameter.
+        let phases = state.phases();
+        let scalars: Vec<usize> = (0..phases.len()).chain([2]).collect();
+        let by = scalars.iter();
+        let mut by: Vec<[Vec<f64>; 2]> = by
+            .map(|&which| [gap_of(1 + which), velocity_change(which)])
+            .collect();
+        let first = phases.iter().map(|phase| {
+            let k = wave.first(phase.index);
+            let share = c64::from_polar(2.0 / wave.points() as f64, -phase.origin);
+            let by = scalars.iter();
+            FirstHarmonic {
+                value: share * moved[k][0][1],
+                row: [0, 1].map(|j| share * responses[k].receptance[(1, j)]),
+                by: by.map(|&which| share * moved[k][1 + which][1]).collect(),
+            }
+        });
+        let mut first: Vec<FirstHarmonic> = first.collect();
+        let by_parameter = &mut by[phases.len()];
         match parameter {
             Parameter::FrictionCoefficient => {
-                let change: Vec<f64> = state.slipping_normal();
-                let change = wave.harmonics(&change);
+                let change = wave.harmonics(&state.slipping_normal());
                 let respond = |row: usize, k: usize| responses[k].receptance[(row, 1)] * change[k];
-                by_parameter = [
+                *by_parameter = [
                     wave.values(enumerated().map(|(k, _)| wave.look_ahead(k) * respond(0, k))),
                     wave.values(enumerated().map(|(k, r)| r.slip_rate * respond(1, k))),
                 ];
-                first_by[1] = share * respond(1, 1);
+                for (first, phase) in first.iter_mut().zip(&phases) {
+                    let share = c64::from_polar(2.0 / wave.points() as f64, -phase.origin);
+                    first.by[phases.len()] = share * respond(1, wave.first(phase.index));
+                }
             }
             Parameter::RotationSpeed | Parameter::Speed => by_parameter[1].fill(-wave.body.radius),
             Parameter::Interference => by_parameter[0].fill(-1.0),
@@ -236,14 +333,11 @@ impl Linearization {
         Self {
             gap,
             slip,
-            by_frequency: [gap_of(1), velocity_change(0)],
-            by_parameter,
+            by,
             scales: [&gap_columns[0], &slip_columns[1]].map(|column| 1.0 / largest(column)),
             gap_columns,
             slip_columns,
-            first_row,
-            first: share * moved[1][0][1],
-            first_by,
+            first,
         }
     }
 

@@ -51,7 +51,7 @@ pub fn draw_sweep(
     let mut families = cycle_families(records);
     families.sort_by_key(|(_, family)| family.family());
     let families: Vec<NamedFamily<'_>> = families.iter().map(|(l, f)| (l.clone(), f)).collect();
-    figures.extend(draw_branches(&families, options)?);
+    figures.extend(draw_branches(&families, &[], options)?);
     Ok(figures)
 }
 

@@ -12,7 +12,9 @@ use frictionsim::cycle::{
 };
 use frictionsim::fem::RayleighDamping;
 use frictionsim::fem::operator::SimdLevel;
-use frictionsim::mesh::{AnnulusSpecification, ElementKind};
+use frictionsim::mesh::{
+    AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElasticSupport, ElementKind,
+};
 use frictionsim::study::cycle::CycleStudy;
 use std::f64::consts::TAU;
 
@@ -329,6 +331,29 @@ fn number_of_phases_does_not_decide_what_is_found() {
             assert!(power.abs() < 0.02, "{phases}: {power}");
         }
     }
+}
+
+/// With springs on the rim its nodes move: the field has all nodes of the mesh, on its edge the motion along the phase.
+#[test]
+fn field_of_a_disc_with_a_supported_rim_has_the_nodes_of_its_mesh() {
+    let mut specification = disc();
+    specification.outer = BoundaryCondition::Support(ElasticSupport {
+        normal_stiffness: 2e12,
+        tangential_stiffness: 2e12,
+        ..ElasticSupport::default()
+    });
+    let solver = CycleSolver::new(&specification, &POLYCARBONATE, &DAMPING, 1, None).unwrap();
+    let cycle = solver.find(&operating(610.0)).unwrap();
+    let [field, _] = solver.field(&cycle, 0.0);
+    let annulus = AnnulusMesh::generate(&specification).unwrap();
+    assert_eq!(field.len(), 2 * annulus.mesh.node_count());
+    let edge = cycle.points[0].displacement;
+    let largest = field.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
+    for (own, wanted) in field[..2].iter().zip(edge) {
+        assert!((own - wanted).abs() < 1e-9 * largest, "{own} {wanted}");
+    }
+    let rim = 2 * specification.radial_elements;
+    assert!(field[rim..rim + 2].iter().any(|u| u.abs() > 1e-6 * largest));
 }
 
 #[test]

@@ -13,5 +13,6 @@ mod cycle_discs;
 mod cycle_periodic;
 mod cycle_solids;
 mod cycle_transient;
+mod cycle_two_waves;
 mod oscillator;
 mod transient;

@@ -38,6 +38,16 @@ pub struct FloquetMultiplier {
 }
 
 impl FloquetMultiplier {
+    /// Where it leaves the unit circle, in words: a pair at an angle brings a second frequency, one at -1 twice the period, one at 1 a
+    /// neighbouring cycle.
+    pub fn kind(&self) -> &'static str {
+        match self.multiplier {
+            own if own.im != 0.0 => "a Neimark-Sacker bifurcation, to two frequencies",
+            own if own.re < 0.0 => "a period doubling",
+            _ => "a fold or a branching to another cycle",
+        }
+    }
+
     /// What its growth rate says for sure.
     pub fn verdict(&self) -> Verdict {
         match self.growth_rate {
@@ -286,6 +296,22 @@ fn unit(mut vector: Vec<f64>) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_multiplier_tells_what_becomes_of_the_cycle() {
+        let kind = |re: f64, im: f64| {
+            let multiplier = FloquetMultiplier {
+                multiplier: c64::new(re, im),
+                growth_rate: 1.0,
+                uncertainty: 0.1,
+                beat_hz: 0.0,
+            };
+            multiplier.kind()
+        };
+        assert!(kind(0.6, 0.9).contains("Neimark-Sacker"));
+        assert!(kind(-1.1, 0.0).contains("doubling"));
+        assert!(kind(1.1, 0.0).contains("fold"));
+    }
 
     #[test]
     fn what_is_kept_of_multipliers_comes_back_bit_by_bit() {

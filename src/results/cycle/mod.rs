@@ -5,6 +5,7 @@ mod fields;
 mod print;
 mod stability;
 mod summary;
+mod two_waves;
 
 pub use confirmation::ConfirmationSummary;
 pub use confirmation::doubt;
@@ -12,6 +13,7 @@ pub use fields::CycleFrame;
 pub use print::print;
 pub use stability::{ExponentSummary, Finding, StabilitySummary, known};
 pub use summary::{CycleSummary, FamilySummary, LimitCycleSummary, summary};
+pub use two_waves::{FoundTwoWaves, TwoWaveResult, TwoWaveSummary};
 
 use crate::cycle::{
     Confirmation, CycleBranch, CyclePowers, CycleStability, Family, LimitCycle, Onset, PhasePoint,
@@ -120,6 +122,8 @@ pub struct CycleReport<'a> {
     pub lowest_onset: Option<Onset>,
     /// One entry for each harmonic.
     pub results: Vec<CycleResult>,
+    /// Motions of two waves that live together.
+    pub two_waves: Vec<TwoWaveResult>,
     /// Wall time of the run, s.
     pub wall_s: f64,
 }
@@ -145,6 +149,7 @@ pub fn write(folder: &OutputFolder, report: &CycleReport<'_>) -> Result<Value, F
             folder.write(&name, |out| stability::write_stability(out, result))?;
         }
     }
+    two_waves::write_two_waves(folder, report)?;
     fields::write_fields(folder, report)?;
     write_record(folder, &CycleRecord::of(report))?;
     write_summary(folder, &summary(report, folder.manifest()))

@@ -2,6 +2,7 @@
 
 use super::confirmation::confirmation_text;
 use super::stability::print_stability;
+use super::two_waves::print_two_waves;
 use super::{CycleReport, CycleResult};
 use crate::cycle::periodic::velocity_level;
 use crate::cycle::{CycleBranch, Family, LimitCycle};
@@ -50,6 +51,9 @@ pub fn print(report: &CycleReport<'_>) -> String {
         if let Some(branch) = &result.branch {
             branch_line(&mut out, result.family, branch);
         }
+    }
+    for result in &report.two_waves {
+        print_two_waves(&mut out, result);
     }
     if let Some(note) = report.extent.note() {
         let _ = writeln!(out, "{note}");

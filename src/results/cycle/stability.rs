@@ -161,9 +161,10 @@ pub fn print_stability(out: &mut String, result: &CycleResult) {
         });
         let _ = writeln!(
             out,
-            "{family}: stability changes at {key} = {value:.1} ({} at {:.0} Hz)",
+            "{family}: stability changes at {key} = {value:.1} ({} at {:.0} Hz: {})",
             diameters(change.harmonic),
             change.frequency_hz,
+            change.kind(family.harmonic),
         );
     }
 }

@@ -2,7 +2,7 @@
 
 use super::confirmation::ConfirmationSummary;
 use super::stability::StabilitySummary;
-use super::{CycleReport, CycleResult};
+use super::{CycleReport, CycleResult, TwoWaveSummary};
 use crate::cycle::periodic::velocity_level;
 use crate::cycle::{CycleBranch, LimitCycle, Onset};
 use crate::results::extent::Extent;
@@ -30,6 +30,9 @@ pub struct CycleSummary {
     pub extent: Extent,
     /// The families, each with its cycle or why there is none.
     pub cycles: Vec<FamilySummary>,
+    /// Motions of two waves that live together.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub two_waves: Vec<TwoWaveSummary>,
     /// What it was made from.
     pub manifest: Manifest,
     /// The branches, where no tables hold them: at a point of a study.
@@ -142,6 +145,9 @@ pub struct StabilityChangeSummary {
     pub harmonic: usize,
     /// Its frequency, Hz.
     pub frequency_hz: f64,
+    /// Whether the wave gives way to a motion of two frequencies: a Neimark-Sacker bifurcation.
+    #[serde(default)]
+    pub to_two_frequencies: bool,
 }
 
 impl Summary for CycleSummary {
@@ -158,6 +164,8 @@ impl Summary for CycleSummary {
 /// The summary of a search.
 pub fn summary(report: &CycleReport<'_>, manifest: &Manifest) -> CycleSummary {
     let families = report.results.iter().map(|result| family(report, result));
+    let pairs = report.two_waves.iter();
+    let pairs = pairs.map(|result| TwoWaveSummary::of(report, result));
     CycleSummary {
         command: "cycle".to_owned(),
         title: report.title.to_owned(),
@@ -166,6 +174,7 @@ pub fn summary(report: &CycleReport<'_>, manifest: &Manifest) -> CycleSummary {
         lowest_onset: report.lowest_onset.as_ref().map(OnsetSummary::from),
         extent: report.extent,
         cycles: families.collect(),
+        two_waves: pairs.collect(),
         manifest: manifest.clone(),
         curves: None,
     }
@@ -234,6 +243,7 @@ fn branch_of(
         at: in_key_units(change.value),
         harmonic: change.harmonic,
         frequency_hz: change.frequency_hz,
+        to_two_frequencies: change.harmonic != result.family.harmonic,
     });
     BranchSummary {
         key: branch.parameter.key().to_owned(),

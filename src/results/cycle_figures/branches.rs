@@ -1,8 +1,8 @@
 //! Branches of limit cycles over a parameter, as curves that may turn back.
 
-use super::record::{BranchRecord, FamilyRecord};
+use super::record::{BranchRecord, FamilyRecord, TwoWaveRecord};
 use crate::chart::{
-    Axis, ChartError, Figure, Line, MUTED, Marker, Panel, Points, Rule, SERIES, Scale, Stroke,
+    Axis, ChartError, Figure, INK, Line, MUTED, Marker, Panel, Points, Rule, SERIES, Scale, Stroke,
 };
 use crate::results::charts::palette::{
     CONTACT_DISSIPATION, MATERIAL_DISSIPATION, NORMAL_POWER, SLIDE_POWER, STATUSES, STICK_POWER,
@@ -29,6 +29,7 @@ const POWERS: [(&str, &str); 5] = [
 /// That of a figure that cannot be drawn although there is something to draw.
 pub fn draw_branches(
     families: &[NamedFamily<'_>],
+    two_waves: &[TwoWaveRecord],
     options: &DrawingOptions,
 ) -> Result<Vec<NamedFigure>, ChartError> {
     // A branch of a single cycle is no curve.
@@ -45,7 +46,7 @@ pub fn draw_branches(
         .collect();
     let curves = &curves[..];
     let figures: Vec<Declaration<'_>> = vec![
-        Box::new(|| frequencies(curves)),
+        Box::new(|| frequencies(curves, two_waves)),
         Box::new(|| shares(curves)),
     ];
     draw_all(figures, options)
@@ -88,7 +89,7 @@ fn with_strokes(figure: Figure, curves: &[Curve<'_>]) -> Figure {
 type Column = fn(&BranchRecord) -> &Vec<f64>;
 
 /// Main frequency and amplitude of the limit cycles over the parameter, one curve for each family.
-fn frequencies(curves: &[Curve<'_>]) -> Result<Figure, ChartError> {
+fn frequencies(curves: &[Curve<'_>], two_waves: &[TwoWaveRecord]) -> Result<Figure, ChartError> {
     let (x, scale) = axis_of(curves);
     let amplitude = Axis::new("amplitude of *u*_{θ}", "m").prefixed();
     let amplitude = if scale == Scale::Logarithmic {
@@ -131,6 +132,17 @@ fn frequencies(curves: &[Curve<'_>]) -> Result<Figure, ChartError> {
         (Panel::new(x, amplitude).height(92.0), |b| &b.amplitude, 2),
     ];
     let panels = quantities.into_iter().map(|(panel, quantity, own)| {
+        let together = two_waves.iter().flat_map(|pair| {
+            let columns = [&pair.frequency_hz, &pair.amplitude][own - 1];
+            columns.iter().map(|ys| {
+                let points = pair.values.iter().copied().zip(ys.iter().copied());
+                let [first, second] = pair.harmonics;
+                Line::through(points)
+                    .stroke(Stroke::dotted(INK, 1.1))
+                    .name(format!("*n* = {first} and {second} together"))
+            })
+        });
+        let panel = panel.layers(together.collect::<Vec<_>>());
         curves
             .iter()
             .enumerate()

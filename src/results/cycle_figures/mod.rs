@@ -6,7 +6,7 @@ mod record;
 mod report;
 
 pub use branches::{NamedFamily, draw_branches};
-pub use record::{BranchRecord, CycleRecord, FamilyRecord, WaveRecord};
+pub use record::{BranchRecord, CycleRecord, FamilyRecord, TwoWaveRecord, WaveRecord};
 pub use report::draw;
 
 use super::charts::palette::{status_ground, status_of_code};

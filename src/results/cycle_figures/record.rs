@@ -1,9 +1,9 @@
 //! Record of a search for limit cycles, from which its figures are drawn again.
 
 use crate::contact::ContactStatus;
-use crate::cycle::{CycleBranch, CycleStability, Family, LimitCycle, Verdict};
+use crate::cycle::{CycleBranch, CycleStability, Family, LimitCycle, TwoWaveMotion, Verdict};
 use crate::results::charts::palette::status_of_code;
-use crate::results::cycle::{CycleReport, CycleResult, amplitude, known};
+use crate::results::cycle::{CycleReport, CycleResult, TwoWaveResult, amplitude, known};
 use crate::results::record::Record;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
@@ -13,11 +13,45 @@ use std::f64::consts::TAU;
 pub struct CycleRecord {
     /// One entry for each harmonic.
     pub families: Vec<FamilyRecord>,
+    /// Branches of two waves that live together.
+    pub two_waves: Vec<TwoWaveRecord>,
+}
+
+/// Motions of two waves along a branch, in its order.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TwoWaveRecord {
+    /// Their harmonics.
+    pub harmonics: [usize; 2],
+    /// The parameter, in units of its key.
+    pub values: Vec<f64>,
+    /// Both frequencies, Hz.
+    pub frequency_hz: [Vec<f64>; 2],
+    /// Both amplitudes of the edge's tangential displacement, m.
+    pub amplitude: [Vec<f64>; 2],
+}
+
+impl TwoWaveRecord {
+    fn is_whole(&self) -> bool {
+        let mut columns = self.frequency_hz.iter().chain(&self.amplitude);
+        columns.all(|column| column.len() == self.values.len())
+    }
+
+    fn of(result: &TwoWaveResult) -> Option<Self> {
+        let branch = result.outcome.as_ref().ok()?.branch.as_ref()?;
+        let column = |of: &dyn Fn(&TwoWaveMotion) -> f64| branch.motions.iter().map(of).collect();
+        let parameter = branch.parameter;
+        Some(Self {
+            harmonics: result.harmonics,
+            values: column(&|own| parameter.in_key_units(parameter.of(&own.state.point))),
+            frequency_hz: [0, 1].map(|wave| column(&|own| own.frequencies_hz()[wave])),
+            amplitude: [0, 1].map(|wave| column(&|own| own.amplitudes[wave])),
+        })
+    }
 }
 
 impl Record for CycleRecord {
     const MAGIC: [u8; 8] = *b"FRICSIMY";
-    const VERSION: u32 = 2;
+    const VERSION: u32 = 3;
 
     fn inconsistency(&self) -> Option<&'static str> {
         let is_whole = |family: &FamilyRecord| {
@@ -30,7 +64,8 @@ impl Record for CycleRecord {
                 })
                 && branch.is_none_or(BranchRecord::is_whole)
         };
-        let is_whole = self.families.iter().all(is_whole);
+        let is_whole = self.families.iter().all(is_whole)
+            && self.two_waves.iter().all(TwoWaveRecord::is_whole);
         (!is_whole).then_some("its harmonics, phases and branches do not fit together")
     }
 }
@@ -109,6 +144,9 @@ impl CycleRecord {
     pub fn of(report: &CycleReport<'_>) -> Self {
         Self {
             families: report.results.iter().map(FamilyRecord::of).collect(),
+            two_waves: (report.two_waves.iter())
+                .filter_map(TwoWaveRecord::of)
+                .collect(),
         }
     }
 }

@@ -26,7 +26,7 @@ pub fn draw(
     if let Some(branches) = report.sections.get_mut(2) {
         let families = data.record.families.iter();
         let families: Vec<NamedFamily<'_>> = families.map(|f| (String::new(), f)).collect();
-        branches.figures = draw_branches(&families, options)?;
+        branches.figures = draw_branches(&families, &data.record.two_waves, options)?;
     }
     write_report(folder, &report, options)
 }

@@ -2,7 +2,7 @@
 
 use super::{FoundCycle, PeriodicReport, PeriodicResult};
 use crate::cycle::Verdict;
-use crate::cycle::periodic::{FloquetMultipliers, PeriodicBranch, REMAINDER};
+use crate::cycle::periodic::{FloquetMultiplier, FloquetMultipliers, PeriodicBranch, REMAINDER};
 use crate::results::cycle_table::{printed_cycle, printed_heading};
 use crate::results::quantity::significant;
 use std::fmt::Write as _;
@@ -176,9 +176,13 @@ fn stability_text(found: &FloquetMultipliers) -> String {
         Verdict::Unstable => "UNSTABLE",
         verdict => verdict.word(),
     };
+    let leads_to = |leading: &FloquetMultiplier| match leading.verdict() {
+        Verdict::Unstable => format!(" ({})", leading.kind()),
+        _ => String::new(),
+    };
     match found.leading() {
         Some(leading) => format!(
-            "{verdict}; the leading perturbation, {:.0} Hz from a harmonic, {} at {:.0} +- {:.0} 1/s",
+            "{verdict}; the leading perturbation, {:.0} Hz from a harmonic, {} at {:.0} +- {:.0} 1/s{}",
             leading.beat_hz,
             if leading.growth_rate > 0.0 {
                 "grows"
@@ -187,6 +191,7 @@ fn stability_text(found: &FloquetMultipliers) -> String {
             },
             leading.growth_rate.abs(),
             leading.uncertainty,
+            leads_to(leading),
         ),
         None => "stable; every perturbation decays fast".to_owned(),
     }

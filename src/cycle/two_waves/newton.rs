@@ -1,0 +1,208 @@
+//! Newton's method on the grid of two phases.
+
+use super::super::body::WaveBody;
+use super::super::parameter::Parameter;
+use super::super::state::{PointState, WaveState};
+use super::super::system::{Closure, System};
+use super::super::wave::{Linearization, Wave, orders};
+use super::super::{CycleError, DiscModel};
+
+/// Points along either phase, where the mesh allows for them.
+const SIDE: usize = 53;
+/// Landing time, in points, that is resolved.
+const RESOLVED: f64 = 0.5;
+/// Circumferential harmonics kept between the highest of the grid and a multiple of the mesh's sectors: differences in time take
+/// the highest harmonics for slow ones, which would resonate with the long wave that the mesh takes them for.
+const CLEARANCE: usize = 10;
+/// Most iterations.
+const MOST: usize = 60;
+/// Root mean square of what the forces of a solution miss the laws by, over the mean normal force; and with which it is taken where
+/// no more is to be had: points on the edge of stick, slip or opening may go to and fro between two states.
+const CONVERGED: f64 = 1e-9;
+const ACCEPTED: f64 = 1e-3;
+/// Iterations without what is missed a tenth smaller than before after which the search ends.
+const PATIENCE: usize = 12;
+/// Shares of a step that are tried.
+const SHARES: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
+
+/// Two rotating waves of a disc on a grid of both phases.
+pub struct TwoWaves {
+    body: WaveBody,
+    sides: [usize; 2],
+    landing_share: f64,
+    ratio: f64,
+    /// `n_1, n_2`, negative for a wave with the rotor.
+    pub harmonics: [isize; 2],
+}
+
+impl TwoWaves {
+    /// Those of two harmonics and about these frequencies (rad/s), on `side` points along either phase, or as many as resolve them,
+    /// where the mesh allows for so many.
+    ///
+    /// # Errors
+    /// A mesh that cannot be built.
+    pub fn new(
+        model: &DiscModel,
+        harmonics: [isize; 2],
+        frequencies: [f64; 2],
+        side: Option<usize>,
+    ) -> Result<Self, CycleError> {
+        let sectors = model.specification.circumferential_elements;
+        let reach = harmonics[0].unsigned_abs() + harmonics[1].unsigned_abs();
+        let is_clear = |half: &usize| {
+            let above = (half * reach) % sectors;
+            half * reach < sectors / 2 || above.min(sectors - above) >= CLEARANCE
+        };
+        let half = (4..=side.unwrap_or(SIDE) / 2)
+            .rev()
+            .find(is_clear)
+            .unwrap_or(4);
+        let sides = [2 * half + 1; 2];
+        let all = orders(sides).into_iter();
+        let all = all.map(|[k_1, k_2]| k_1 * harmonics[0] + k_2 * harmonics[1]);
+        let (specification, material) = (&model.specification, &model.material);
+        let body = WaveBody::new(specification, material, all, harmonics[0])?;
+        let landing = 0.5 / body.node_frequency * frequencies[0] / std::f64::consts::TAU;
+        Ok(Self {
+            landing_share: landing.max(RESOLVED / sides[0] as f64),
+            ratio: frequencies[1] / frequencies[0],
+            body,
+            sides,
+            harmonics,
+        })
+    }
+
+    /// Points along both phases.
+    pub fn sides(&self) -> [usize; 2] {
+        self.sides
+    }
+
+    pub(in super::super) fn wave(&self) -> Wave<'_> {
+        Wave::on(&self.body, self.sides, self.landing_share, self.ratio)
+    }
+
+    /// The state that satisfies the contact laws at all points, near one that does nearly.
+    ///
+    /// Signorini's and Coulomb's laws are `N = max(N - c gap, 0)` and `T = clamp(T - c_t slip, -mu N, mu N)`; Newton's method on
+    /// them takes the contact states of all points from one iterate and solves for the forces of the next (P. Alart, A. Curnier,
+    /// Comput. Methods Appl. Mech. Engrg. 92 (1991) 353), by a shorter step where the whole one misses the laws by more. The first
+    /// step takes the contact states as they are. `None` where it does not converge.
+    pub(super) fn solved(
+        &self,
+        start: &WaveState,
+        parameter: Parameter,
+        closure: Closure<'_>,
+    ) -> Option<WaveState> {
+        let wave = self.wave();
+        let at = |state: WaveState| Iterate::at(&wave, state, parameter);
+        let mut here = at(start.clone());
+        let mut best: Option<(f64, WaveState)> = None;
+        let mut improved = (0, f64::INFINITY);
+        for turn in 0..MOST {
+            // Contact states of the laws, the forces that they ask for.
+            let mut state = here.state.clone();
+            if turn > 0 {
+                state.contact.clone_from(&here.contact);
+            }
+            state.impose_law();
+            let linear = Linearization::at(&wave, &state, parameter);
+            let scale = here.scale();
+            let system = System::new(&state, parameter, scale);
+            let (matrix, residual) = system.assemble(&linear, closure);
+            let change = system.solve(matrix, &residual)?;
+            let mut target = state.clone();
+            change.add_to(&mut target, 1.0, parameter);
+            // As far towards them as the laws are missed by less.
+            let mut next = None;
+            for share in if turn == 0 { &SHARES[..1] } else { &SHARES[..] } {
+                let trial = at(between(&here.state, &target, *share, parameter));
+                let is_less = turn == 0 || trial.missed < (1.0 - 0.1 * share) * here.missed;
+                next = Some(trial);
+                if is_less {
+                    break;
+                }
+            }
+            here = next?;
+            let is_sound = here.state.frequencies().iter().all(|&omega| omega > 0.0);
+            if !here.missed.is_finite() || !is_sound {
+                break;
+            }
+            if best.as_ref().is_none_or(|best| here.missed < best.0) {
+                best = Some((here.missed, here.state.clone()));
+            }
+            if here.missed < 0.9 * improved.1 {
+                improved = (turn, here.missed);
+            }
+            if here.missed < CONVERGED || turn > improved.0 + PATIENCE {
+                break;
+            }
+        }
+        best.filter(|best| best.0 < ACCEPTED).map(|best| best.1)
+    }
+}
+
+/// An iterate with what its forces miss the laws by.
+struct Iterate {
+    state: WaveState,
+    /// Contact states of the laws.
+    contact: Vec<PointState>,
+    /// Root mean square of what the forces miss the laws by, over the mean normal force.
+    missed: f64,
+}
+
+impl Iterate {
+    fn at(wave: &Wave<'_>, state: WaveState, parameter: Parameter) -> Self {
+        let linear = Linearization::at(wave, &state, parameter);
+        let friction = state.point.contact.friction_coefficient;
+        let mut sum = 0.0;
+        let points = 0..state.contact.len();
+        let contact = points.map(|i| {
+            let normal = (state.normal[i] - linear.normal_scale() * linear.gap[i]).max(0.0);
+            let shear = state.tangential[i] - linear.tangential_scale() * linear.slip[i];
+            let limit = friction * normal;
+            sum += (state.normal[i] - normal).powi(2);
+            sum += (state.tangential[i] - shear.clamp(-limit, limit)).powi(2);
+            if normal <= 0.0 {
+                PointState::Open
+            } else if shear > limit {
+                PointState::SlipForward
+            } else if shear < -limit {
+                PointState::SlipBackward
+            } else {
+                PointState::Stick
+            }
+        });
+        let contact = contact.collect();
+        let mut iterate = Self {
+            state,
+            contact,
+            missed: 0.0,
+        };
+        let count = iterate.contact.len() as f64;
+        iterate.missed = (sum / count).sqrt() / iterate.scale();
+        iterate
+    }
+
+    /// Mean normal force, N/m.
+    fn scale(&self) -> f64 {
+        let normal = &self.state.normal;
+        normal.iter().map(|force| force.abs()).sum::<f64>() / normal.len() as f64
+    }
+}
+
+/// The state a share of the way from one to another, with the contact of the other.
+fn between(from: &WaveState, to: &WaveState, share: f64, parameter: Parameter) -> WaveState {
+    let mix = |a: f64, b: f64| a + share * (b - a);
+    let mut state = to.clone();
+    for i in 0..state.normal.len() {
+        state.normal[i] = mix(from.normal[i], to.normal[i]);
+        state.tangential[i] = mix(from.tangential[i], to.tangential[i]);
+    }
+    state.frequency = mix(from.frequency, to.frequency);
+    if let (Some(own), Some(before)) = (&mut state.second, &from.second) {
+        own.frequency = mix(before.frequency, own.frequency);
+    }
+    let value = mix(parameter.of(&from.point), parameter.of(&to.point));
+    parameter.set(&mut state.point, value);
+    state
+}

@@ -1,0 +1,146 @@
+//! From a cycle that loses its stability to the motion of two frequencies beside it.
+
+use super::super::stepping::MeshStepping;
+use super::super::system::Closure;
+use super::super::{CycleError, LimitCycle, Parameter};
+use super::history::{History, Measured};
+use super::{TwoWaveMotion, TwoWaves};
+
+/// Velocity of the seed of the second wave, in units of the slip speed.
+const SEED: f64 = 0.05;
+/// Periods between two looks at the amplitudes, and of the last look, from which the search starts.
+const WINDOWS: [usize; 2] = [100, 200];
+/// Most looks.
+const LOOKS: usize = 24;
+/// Change of the second amplitude from one look to the next that is none.
+const CONSTANT: f64 = 0.01;
+/// Amplitude of one wave, over that of the other, at which it has gone.
+const GONE: f64 = 0.05;
+/// Relative difference of the frequencies of a transient that stays on the motion.
+const AGREES: f64 = 1e-3;
+
+/// Why there is no motion of two frequencies.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum NoTwoWaves {
+    /// The second wave does not come up.
+    #[error(
+        "a transient from the cycle has no second wave of {0} nodal diameters after {1} periods"
+    )]
+    Vanishes(usize, usize),
+    /// The first wave goes.
+    #[error("a transient from the cycle ends on the wave of {0} nodal diameters alone")]
+    TakesOver(usize),
+    /// The amplitudes do not come to rest.
+    #[error("the amplitudes of both waves still change after {0} periods of a transient")]
+    Unsettled(usize),
+    /// The contact laws are not met on the grid of phases.
+    #[error(
+        "the balance of both waves does not converge from the motion of {0:.1} and {1:.1} Hz that a transient settles on"
+    )]
+    NotConverged(f64, f64),
+    /// The mesh or its time stepping.
+    #[error(transparent)]
+    Cycle(#[from] CycleError),
+}
+
+/// A motion of two frequencies beside a cycle.
+pub struct TwoWaveSearch {
+    /// Its grid of phases.
+    pub waves: TwoWaves,
+    /// Itself.
+    pub motion: TwoWaveMotion,
+    /// What a transient that started on it has after some hundred periods, where both waves still live.
+    pub confirmation: Option<Measured>,
+    /// What the transient from the cycle has settled on.
+    pub settled: Measured,
+}
+
+impl TwoWaveSearch {
+    /// Whether the transient from the motion still has its frequencies, within a thousandth.
+    pub fn agrees(&self) -> bool {
+        let own = self.motion.state.frequencies();
+        self.confirmation.is_some_and(|found| {
+            let pairs = found.frequencies.iter().zip(own);
+            pairs.into_iter().all(|(a, b)| (a / b - 1.0).abs() < AGREES)
+        })
+    }
+}
+
+impl MeshStepping<'_> {
+    /// The motion in which the wave of a cycle lives together with one of harmonic `second` (negative for a wave with the rotor), on
+    /// a grid of `side` points along either phase or as many as resolve them.
+    ///
+    /// A transient leaves the cycle, seeded with the second wave, until both amplitudes are constant; its contact forces over both
+    /// phases are the start of the balance. A transient from what is found confirms it.
+    ///
+    /// # Errors
+    /// [`NoTwoWaves`].
+    pub fn two_waves(
+        &self,
+        cycle: &LimitCycle,
+        second: isize,
+        side: Option<usize>,
+    ) -> Result<TwoWaveSearch, NoTwoWaves> {
+        let harmonics = [self.solver.body().harmonic(), second];
+        let (point, other) = (&cycle.state.point, second.unsigned_abs());
+        let surface_speed = point.contact.rotation_speed * self.solver.body().radius;
+        let (mut run, steps) = self.start(cycle, Some((other, SEED * surface_speed)))?;
+
+        // Until neither amplitude changes any more.
+        let [window, last] = WINDOWS;
+        let (mut before, mut is_constant) = (f64::NAN, false);
+        for _ in 0..LOOKS {
+            let history = History::of(&mut run, harmonics, steps, window);
+            let amplitudes = history.measured().map(|found| found.amplitudes);
+            let Some([first, second]) = amplitudes else {
+                before = f64::NAN;
+                continue;
+            };
+            if first < GONE * second {
+                return Err(NoTwoWaves::TakesOver(other));
+            }
+            is_constant = (second / before - 1.0).abs() < CONSTANT;
+            before = second;
+            if is_constant {
+                break;
+            }
+        }
+        if !is_constant {
+            let periods = LOOKS * window;
+            return Err(match before.is_nan() {
+                true => NoTwoWaves::Vanishes(other, periods),
+                false => NoTwoWaves::Unsettled(periods),
+            });
+        }
+        let history = History::of(&mut run, harmonics, steps, last);
+        let settled = history.measured();
+        let settled = settled.ok_or(NoTwoWaves::Vanishes(other, LOOKS * window))?;
+
+        // The balance of both waves, and a transient from it.
+        let waves = TwoWaves::new(&self.solver.model(), harmonics, settled.frequencies, side)?;
+        let start = history.state(&waves, &settled, point);
+        let parameter = Parameter::FrictionCoefficient;
+        let value = Closure::Value(point.contact.friction_coefficient);
+        let [a, b] = settled
+            .frequencies
+            .map(|omega| omega / std::f64::consts::TAU);
+        let state = waves.solved(&start, parameter, value);
+        let motion = waves.motion(state.ok_or(NoTwoWaves::NotConverged(a, b))?);
+        let shape = [
+            self.solver.specification.radial_elements + 1,
+            self.solver.specification.circumferential_elements,
+        ];
+        let (mut run, steps) = self.start_from(cycle, None, |time_step| {
+            let [displacement, _] = waves.field(&motion, 0.0, shape);
+            let [_, velocity] = waves.field(&motion, -0.5 * time_step, shape);
+            [displacement, velocity]
+        })?;
+        let confirmation = History::of(&mut run, harmonics, steps, last).measured();
+        Ok(TwoWaveSearch {
+            waves,
+            motion,
+            confirmation,
+            settled,
+        })
+    }
+}

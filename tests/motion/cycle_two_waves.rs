@@ -1,0 +1,83 @@
+//! Motions of two frequencies: balance on both phases against a transient of the mesh, energy, and birth where the cycle loses
+//! its stability.
+
+use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use frictionsim::contact::{ContactStatus, SlidingContact};
+use frictionsim::cycle::{BranchEnd, CycleSolver, LimitCycle, OperatingPoint, Parameter};
+use frictionsim::fem::operator::SimdLevel;
+use frictionsim::mesh::ElementKind;
+use std::f64::consts::TAU;
+
+const FRICTION: f64 = 0.2;
+
+fn solver() -> CycleSolver {
+    let disc = annulus(ElementKind::Quad4, 90, 18);
+    CycleSolver::new(&disc, &POLYCARBONATE, &DAMPING, 1, None).unwrap()
+}
+
+fn cycle(solver: &CycleSolver, rpm: f64) -> LimitCycle {
+    let contact = SlidingContact {
+        friction_coefficient: FRICTION,
+        ..contact(rpm)
+    };
+    let damping = DAMPING;
+    solver.find(&OperatingPoint { contact, damping }).unwrap()
+}
+
+/// At friction 0.2 and 1000 rpm one and two nodal diameters live together; the transient is independent but for the matrices.
+#[test]
+fn two_waves_that_live_together_have_the_frequencies_of_a_transient() {
+    let solver = solver();
+    let cycle = cycle(&solver, 1000.0);
+    let stepping = solver.stepping(SimdLevel::detect()).unwrap();
+    let found = stepping.two_waves(&cycle, 2, None).unwrap();
+    let own = found.motion.state.frequencies();
+    for (own, stepped) in own.iter().zip(found.settled.frequencies) {
+        assert!((own / stepped - 1.0).abs() < 1e-3, "{own} {stepped}");
+    }
+    for (own, stepped) in found.motion.amplitudes.iter().zip(found.settled.amplitudes) {
+        assert!((own / stepped - 1.0).abs() < 0.05, "{own} {stepped}");
+    }
+    // No common fundamental, and the wave that the transient of a case has there: 10.36 and 9.5 kHz.
+    assert!((own[0] / TAU - 10_345.0).abs() < 15.0 && (own[1] / TAU - 9_533.0).abs() < 15.0);
+    assert!(found.agrees(), "{:?}", found.confirmation);
+    // The identity is exact; what remains is round-off of the linear systems.
+    assert!(found.motion.powers.balance_residual() < 1e-9);
+
+    // Signorini and Coulomb hold at every point of both phases.
+    let state = &found.motion.state;
+    let mean = state.normal.iter().sum::<f64>() / state.normal.len() as f64;
+    for (i, contact) in state.contact.iter().enumerate() {
+        let (normal, shear) = (state.normal[i], state.tangential[i]);
+        assert!(normal >= -1e-3 * mean);
+        assert!(shear.abs() <= FRICTION * normal.max(0.0) + 1e-3 * mean);
+        if contact.status() == ContactStatus::Open {
+            assert_eq!((normal, shear), (0.0, 0.0));
+        }
+    }
+}
+
+/// The branch over the speed goes down to where the second wave vanishes: there the cycle's own exponent changes its sign.
+#[test]
+fn two_waves_are_born_where_the_cycle_loses_its_stability() {
+    let solver = solver();
+    let stepping = solver.stepping(SimdLevel::detect()).unwrap();
+    let rpm = TAU / 60.0;
+    let above = cycle(&solver, 700.0);
+    let found = stepping.two_waves(&above, 2, Some(31)).unwrap();
+    let speed = Parameter::RotationSpeed;
+    let values = [500.0 * rpm, 650.0 * rpm, 800.0 * rpm];
+    let branch = found.waves.follow(&found.motion, speed, &values);
+    assert_eq!(branch.ends, [BranchEnd::Birth, BranchEnd::Range]);
+    let [stable, unstable] = [560.0, 700.0].map(|speed| {
+        let cycle = cycle(&solver, speed);
+        stepping.settle(&cycle, None).unwrap()
+    });
+    let change = stepping.stability_change(speed, &stable, &unstable);
+    let change = change.unwrap();
+    assert_eq!(change.harmonic, 2);
+    assert!(change.kind(1).contains("Neimark-Sacker"));
+    // The coarse grid of phases is what is between them.
+    let (born, lost) = (branch.births[0] / rpm, change.value / rpm);
+    assert!((born / lost - 1.0).abs() < 0.03, "{born} {lost}");
+}
