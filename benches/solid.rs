@@ -84,7 +84,9 @@ fn main() {
     println!("30 modes at 21 friction values: {:.0} ms", 1e3 * best);
     let divisions = if is_measured { 40 } else { 6 };
     println!("threads  ms/step    GB/s  GB/s of reading memory");
-    [1, 2].map(|threads| assembled(divisions, threads));
+    for threads in [1, 2] {
+        assembled(divisions, threads);
+    }
 }
 
 /// Prints a row: the step of a cube of bricks in a mesh file, without contact.
