@@ -194,7 +194,11 @@ fn is_given(own: &RawTable, section: &str, key: &str) -> bool {
         || match (section, key) {
             ("boundaries", _) => has(&["condition"]),
             // Another law has no linear stiffness; the inertia that a case leaves out has no frame.
-            ("contacts", "normal_stiffness") if is("normal_law", RawValue::String("exponential".to_owned())) => true,
+            ("contacts", "normal_stiffness")
+                if is("normal_law", RawValue::String("exponential".to_owned())) =>
+            {
+                true
+            }
             ("motion", "frame") if is("rotation_terms", RawValue::Boolean(false)) => true,
             ("contacts" | "ties", _) => has(&["surface", "counter"]),
             ("motion", _) => has(&["axis"]),

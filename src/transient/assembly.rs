@@ -1,8 +1,8 @@
 //! Model of a transient of an assembly of solid bodies.
 
 use super::boundary::BoundaryForces;
-use super::perturbation::Place;
 use super::compliance::SpringDamping;
+use super::perturbation::Place;
 use super::settings::stiffening;
 use super::{LagrangeContact, Perturbation, StepPlan, TransientError, TransientSettings};
 use crate::contact::{ContactInterface, SlidingContact};
@@ -197,7 +197,9 @@ impl AssemblyTransientModel<'_> {
             },
         };
         let assembly = self.assembly;
-        Ok(LagrangeContact::at_points(operator, assembly, friction, &damped_by))
+        Ok(LagrangeContact::at_points(
+            operator, assembly, friction, &damped_by,
+        ))
     }
 
     /// The velocity of a perturbation over all dofs, m/s: waves along the axis of the motion over all bodies, and noise.

@@ -205,7 +205,8 @@ fn a_law_of_the_case_replaces_the_stiffness_of_an_input_file() {
     let law = "normal_law = \"exponential\"\nreference_pressure = 1e5\nheight = 1e-6\n";
     let sections = ["Outer", "Inner"].map(|pad| format!("[contacts.{pad}_Friction_face]\n{law}"));
     let (plain, stiffening) = (read(&own), read(&(own.clone() + &sections.concat())));
-    let [plain, stiffening] = [&plain, &stiffening].map(|case| &case.body.assembly().unwrap().contacts);
+    let [plain, stiffening] =
+        [&plain, &stiffening].map(|case| &case.body.assembly().unwrap().contacts);
     assert_eq!(plain.len(), 2);
     for (old, new) in plain.iter().zip(stiffening) {
         let linear = old.stiffness.normal_stiffness.unwrap();
