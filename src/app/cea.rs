@@ -253,6 +253,7 @@ mod tests {
                 points: points.collect(),
                 intervals: Vec::new(),
                 crossings: Vec::new(),
+                vanished: Vec::new(),
             },
             dofs: 100,
             method: "sparse",

@@ -20,6 +20,6 @@ pub use quadratic::{QuadraticMode, quadratic_modes};
 pub use request::{ModeLimit, SweepProgress, SweepRequest, SweepStage};
 pub use spectrum::{
     ComplexMode, FrictionPoint, FrictionSweep, ModeVectors, ModeWave, UnstableInterval,
-    keeping_ties,
+    VanishedMode, keeping_ties,
 };
 pub use watch::{PartWatch, SweepWatch, Unwatched};

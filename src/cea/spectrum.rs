@@ -155,4 +155,15 @@ pub struct FrictionSweep {
     /// The mode at the critical friction of each interval, where a whole mesh was solved and shapes were asked for; `None` for one
     /// that is unstable from the start.
     pub crossings: Vec<Option<ModeVectors>>,
+    /// Modes of a whole mesh that cease to oscillate, by rising friction.
+    pub vanished: Vec<VanishedMode>,
+}
+
+/// A mode that damping of friction takes beyond the critical one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VanishedMode {
+    /// Its frequency where it was last seen, Hz.
+    pub frequency_hz: f64,
+    /// The friction coefficient there.
+    pub friction_coefficient: f64,
 }

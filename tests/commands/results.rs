@@ -79,6 +79,7 @@ fn sweep(mesh: &AnnulusMesh) -> FrictionSweep {
             unstable_from_start: false,
         }],
         crossings: Vec::new(),
+        vanished: Vec::new(),
     }
 }
 

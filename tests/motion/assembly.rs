@@ -155,8 +155,10 @@ fn modes(assembly: &Assembly<'_>) -> Vec<ComplexMode> {
         damping_model: DampingModel::BodyOnly,
         contact: ContactStiffness::default(),
     };
-    let range = assembly.range(&[FRICTION]).unwrap();
-    let tangent = assembly.tangent(&range.states[0], &options).unwrap();
+    // The eigenvalue analysis starts without friction: stiffness that depends on friction is known there too.
+    let range = assembly.range(&[FRICTION, 0.0]).unwrap();
+    let state = &range.states[range.state_of[0]];
+    let tangent = assembly.tangent(state, &options).unwrap();
     let request = SweepRequest {
         friction_coefficients: &[FRICTION],
         limit: ModeLimit::Lowest(40),

@@ -12,6 +12,8 @@ use crate::linalg::{Mat, c64};
 const SAME: f64 = 0.5;
 /// Relative distance of eigenvalues below which modes without friction are degenerate.
 const DEGENERATE: f64 = 1e-7;
+/// Damping factor predicted at the next friction coefficient from which on a mode may cease to oscillate there.
+const NEARLY_CRITICAL: f64 = 0.5;
 /// Bisections of an interval before modes are matched by their extrapolated eigenvalue.
 const MAX_BISECTIONS: usize = 10;
 
@@ -31,6 +33,14 @@ pub struct TrackedBranch {
     pub label: BranchLabel,
     /// Its index among the modes of each point; `None` before it entered the range.
     pub modes: Vec<Option<usize>>,
+    /// The last point where it was seen, of a wanted mode that damping of friction takes beyond the critical.
+    pub vanished_after: Option<usize>,
+}
+
+/// Whether a mode may cease to oscillate within a step of friction, as friction across slow sliding, a dashpot of `mu p / V`, damps it.
+fn may_vanish(mode: &ReducedMode, step: f64) -> bool {
+    let decay = -(mode.eigenvalue.re + mode.derivative.re * step);
+    decay > NEARLY_CRITICAL * mode.eigenvalue.norm()
 }
 
 /// A branch with no continuation.
@@ -197,7 +207,8 @@ fn rotate(
 /// different modes of one problem, and by `lambda' - lambda = (dlambda/dmu + dlambda'/dmu) dmu / 2`.
 /// Where this is not clear the interval is bisected.
 ///
-/// A wanted mode that no branch reaches has come from above the range: it starts a branch.
+/// A wanted mode that no branch reaches has come from above the range, or from motions that did not oscillate: it starts a branch. A mode
+/// whose damping nears the critical one may cease to oscillate: its branch ends.
 ///
 /// # Errors
 /// `Ok(Err(lost))` for a branch among the wanted modes with no continuation; `Err` if a dense
@@ -214,6 +225,7 @@ pub fn track(
         .map(|(i, &label)| TrackedBranch {
             label,
             modes: vec![Some(i)],
+            vanished_after: None,
         })
         .collect();
     for k in 1..points.len() {
@@ -231,6 +243,12 @@ pub fn track(
             if let (Some(i), None) = (last, next)
                 && i < before.wanted
             {
+                let step = after.friction_coefficient - before.friction_coefficient;
+                if may_vanish(&before.modes[i], step) {
+                    branch.vanished_after = Some(k - 1);
+                    branch.modes.push(None);
+                    continue;
+                }
                 return Ok(Err(Lost {
                     label: branch.label,
                     frequency: before.modes[i].eigenvalue.im,
@@ -269,7 +287,11 @@ fn adopt_newcomers(
         let mut modes = vec![None; k];
         modes.push(Some(i));
         let label = BranchLabel { harmonic, branch };
-        branches.push(TrackedBranch { label, modes });
+        branches.push(TrackedBranch {
+            label,
+            modes,
+            vanished_after: None,
+        });
     }
 }
 
@@ -286,7 +308,10 @@ fn match_modes(
 ) -> Result<Vec<Option<usize>>, LinalgError> {
     let overlaps = overlaps(from, to, model);
     let mut links = clear_links(from, to, &overlaps);
-    let is_clear = links.iter().take(needed).all(Option::is_some);
+    let step = to.0 - from.0;
+    let needed_links = links.iter().zip(from.1).take(needed);
+    let mut open = needed_links.filter(|(link, mode)| link.is_none() && !may_vanish(mode, step));
+    let is_clear = open.next().is_none();
     if is_clear {
         return Ok(links);
     }
@@ -358,10 +383,10 @@ fn link_by_extrapolation(
 ) {
     let step = to.0 - from.0;
     for i in 0..needed.min(links.len()) {
-        if links[i].is_some() {
+        let a = &from.1[i];
+        if links[i].is_some() || may_vanish(a, step) {
             continue;
         }
-        let a = &from.1[i];
         let distance = |j: usize| (to.1[j].eigenvalue - a.eigenvalue).norm();
         let free = (0..to.1.len()).filter(|j| !links.contains(&Some(*j)));
         let nearest = free.min_by(|&j, &k| distance(j).total_cmp(&distance(k)));

@@ -103,12 +103,16 @@ impl FrictionlessModes {
                 found => found,
             };
         }
-        let (factors, shift, unheld) = match tangent.is_gyroscopic {
-            true => inertia.factorize_positive()?,
-            false => (inertia.factorize_stiffness()?, 0.0, 0),
+        let turning = match tangent.is_gyroscopic {
+            true => Some(inertia.factorize_positive()?),
+            false => None,
         };
+        let unheld = turning.as_ref().map_or(0, |(.., unheld)| *unheld);
         let wanted = match limit {
-            ModeLimit::Lowest(count) => (count + unheld).min(tangent.stiffness.dimension()),
+            ModeLimit::Lowest(count) if unheld > 0 => {
+                count.max((count + unheld).min(tangent.stiffness.dimension()))
+            }
+            ModeLimit::Lowest(count) => count,
             ModeLimit::MaxFrequency(limit_hz) if tangent.is_gyroscopic => {
                 let omega = TAU * limit_hz;
                 let turning = gyroscopic_count(tangent, omega)? + unheld;
@@ -126,6 +130,10 @@ impl FrictionlessModes {
         }
         let request = (wanted.max(1) + GUARD_MODES).min(unknowns);
         let undamped = Linearization::Reduced(RayleighDamping::default());
+        let (factors, shift) = match turning {
+            Some((factors, shift, _)) => (factors, shift),
+            None => (inertia.factorize_stiffness()?, 0.0),
+        };
         let operator = ShiftInverted {
             matrices: &StructureMatrices::at(tangent, undamped, 0.0),
             factors: &factors,

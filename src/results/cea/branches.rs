@@ -99,6 +99,7 @@ mod tests {
             ],
             intervals: Vec::new(),
             crossings: Vec::new(),
+            vanished: Vec::new(),
         };
         let all = branches(&sweep);
         let lengths = |branch: usize, changes: &[f64]| -> Vec<usize> {

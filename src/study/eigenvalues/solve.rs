@@ -97,6 +97,7 @@ fn solve_with(
     notes.extend(rate_note);
     notes.extend(uncertainty_note(case, &found.sweep));
     notes.extend(damping_note(case, &found.sweep));
+    notes.extend(vanished_note(&found.sweep));
     notes.extend(friction_note(case, model));
     let reading = match with_reading {
         true => read(case, model, found.tangent.as_ref(), &found.sweep),
@@ -290,6 +291,25 @@ fn damping_note(case: &Case, sweep: &FrictionSweep) -> Option<String> {
         "a mode is damped by a factor of {factor:.2}: motions beyond critical damping (1) do not oscillate and are \
          not listed; {cause}"
     ))
+}
+
+/// The modes of a whole mesh that friction across slow sliding damps beyond the critical.
+fn vanished_note(sweep: &FrictionSweep) -> Option<String> {
+    let all = sweep.vanished.iter().map(|mode| {
+        let (frequency, friction) = (mode.frequency_hz, mode.friction_coefficient);
+        format!("{frequency:.0} Hz from friction {friction} on")
+    });
+    let all: Vec<String> = all.collect();
+    let (shown, rest) = all.split_at(all.len().min(MISSING_SHOWN));
+    let more = if rest.is_empty() { "" } else { ", ..." };
+    (!all.is_empty()).then(|| {
+        format!(
+            "{} modes near critical damping are not followed beyond it ({}{more}): friction across the sliding is a dashpot of mu p / V, which \
+             grows as the sliding slows down, and holds that motion in the limit",
+            all.len(),
+            shown.join(", "),
+        )
+    })
 }
 
 /// The motions that friction across the sliding keeps from oscillating, and those that it damps.

@@ -140,6 +140,8 @@ fn joined(mut parts: Vec<FrictionSweep>, frictions: &[f64]) -> FrictionSweep {
             .map(|point| (*point).clone())
     });
     let points = points.collect();
+    let vanished = parts.iter().flat_map(|part| part.vanished.iter().copied());
+    let vanished = vanished.collect();
     let mut found: Vec<(UnstableInterval, Option<ModeVectors>)> = Vec::new();
     let pairs = parts
         .into_iter()
@@ -164,6 +166,7 @@ fn joined(mut parts: Vec<FrictionSweep>, frictions: &[f64]) -> FrictionSweep {
         points,
         intervals,
         crossings,
+        vanished,
     }
 }
 

@@ -106,6 +106,7 @@ pub fn sweep(count: usize) -> FrictionSweep {
         points,
         intervals,
         crossings: Vec::new(),
+        vanished: Vec::new(),
     }
 }
 

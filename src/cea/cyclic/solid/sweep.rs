@@ -187,6 +187,7 @@ pub fn solid_sweep_with_waves(
             points,
             crossings: vec![None; intervals.len()],
             intervals,
+            vanished: Vec::new(),
         },
         coverage,
         dofs: tangent.unknown_of().iter().flatten().count() * sector.sector_count(),

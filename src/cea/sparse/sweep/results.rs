@@ -1,11 +1,13 @@
 //! What a sweep found: points, unstable intervals, shapes.
 
 use super::{MAX_REPAIRS, SETTLED, SparseSweep};
+use crate::cea::VanishedMode;
 use crate::cea::sparse::branches::{BranchLabel, TrackedBranch};
 use crate::cea::sparse::onset::{FoundInterval, OnsetFinder, State};
 use crate::cea::{CeaError, ComplexMode, FrictionPoint, FrictionSweep, SweepRequest};
 use crate::linalg::c64;
 use rayon::prelude::*;
+use std::f64::consts::TAU;
 
 impl SparseSweep<'_> {
     /// The result, with shapes and critical friction coefficients.
@@ -42,7 +44,23 @@ impl SparseSweep<'_> {
             points,
             intervals: found.into_iter().map(|own| own.interval).collect(),
             crossings,
+            vanished: self.vanished(branches),
         })
+    }
+
+    /// The modes whose branches end.
+    fn vanished(&self, branches: &[TrackedBranch]) -> Vec<VanishedMode> {
+        let ended = branches.iter().filter_map(|branch| {
+            let point = &self.points[branch.vanished_after?];
+            let last = branch.modes[branch.vanished_after?]?;
+            Some(VanishedMode {
+                frequency_hz: point.modes[last].eigenvalue.im / TAU,
+                friction_coefficient: point.friction_coefficient,
+            })
+        });
+        let mut ended: Vec<VanishedMode> = ended.collect();
+        ended.sort_by(|a, b| a.friction_coefficient.total_cmp(&b.friction_coefficient));
+        ended
     }
 
     /// Unstable intervals of all branches; where a crossing misses its residual, the basis grows there.
