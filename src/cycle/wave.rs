@@ -144,7 +144,7 @@ impl<'a> Wave<'a> {
     }
 
     /// Fourier transform along both phases, the first one contiguous.
-    fn transform(&self, values: &mut Vec<c64>, plans: &[Arc<dyn Fft<f64>>; 2]) {
+    fn transform(&self, values: &mut [c64], plans: &[Arc<dyn Fft<f64>>; 2]) {
         plans[0].process(values);
         let [first, second] = self.sides;
         if second > 1 {

@@ -439,6 +439,6 @@ fn tie_surfaces(
 fn named(section: &str, name: &str, error: PairError) -> PrestressError {
     PrestressError::Pair {
         name: format!("{section}.{name}"),
-        error,
+        error: Box::new(error),
     }
 }

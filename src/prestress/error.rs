@@ -65,7 +65,7 @@ pub enum PrestressError {
         /// Section and name of the tie or contact.
         name: String,
         /// Why not.
-        error: crate::contact::PairError,
+        error: Box<crate::contact::PairError>,
     },
     /// Contact that stiffens beside rigid contact.
     #[error(

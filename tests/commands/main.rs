@@ -36,6 +36,7 @@ mod reading;
 mod results;
 mod rotor;
 mod signal_command;
+mod slow_sliding;
 mod survival;
 mod sweep;
 mod transient_command;

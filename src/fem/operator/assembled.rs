@@ -171,12 +171,12 @@ impl AssembledOperator {
     }
 }
 
+/// Block of 3 x 3 by rows and its column node.
+type NodeBlock = (u32, [f64; 9]);
+
 /// Blocks of `M^-1 K` by row, each with its column node, ascending.
-fn node_blocks(
-    stiffness: &Triplets,
-    masses: &[f64],
-) -> Result<Vec<Vec<(u32, [f64; 9])>>, OperatorError> {
-    let mut rows: Vec<Vec<(u32, [f64; 9])>> = vec![Vec::new(); masses.len() / 3];
+fn node_blocks(stiffness: &Triplets, masses: &[f64]) -> Result<Vec<Vec<NodeBlock>>, OperatorError> {
+    let mut rows: Vec<Vec<NodeBlock>> = vec![Vec::new(); masses.len() / 3];
     for &(row, column, value) in &stiffness.entries {
         if masses[row] == 0.0 || masses[column] == 0.0 {
             continue;

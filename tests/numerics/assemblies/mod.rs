@@ -325,7 +325,7 @@ fn a_motion_that_leaves_surfaces_at_rest_is_refused() {
     match found.unwrap_err() {
         PrestressError::Pair { name, error } => {
             assert_eq!(name, "contacts.pad");
-            assert!(matches!(error, PairError::NoSliding { .. }));
+            assert!(matches!(*error, PairError::NoSliding { .. }));
         }
         other => panic!("{other}"),
     }

@@ -17,6 +17,8 @@ use crate::linalg::c64;
 use crate::results::cea::MeshError;
 use std::f64::consts::TAU;
 
+/// Damping factor from which on a frequency says little of a mode.
+const MOST_DAMPED: f64 = 0.2;
 /// Modes for which the estimate is made at every friction value; of more, at the ends and at the case's own friction.
 const MOST_MODES: usize = 256;
 
@@ -49,6 +51,7 @@ pub(super) fn mesh_errors(
     for (_, point) in points.iter().enumerate().filter(|(k, _)| is_wanted(*k)) {
         let numbered = point.modes.iter().enumerate();
         let (modes, pairs): (Vec<_>, Vec<_>) = numbered
+            .filter(|(_, mode)| mode.damping_factor() < MOST_DAMPED)
             .filter_map(|(i, mode)| {
                 let pair = [mode.left.as_deref()?, mode.shape.as_deref()?];
                 Some(((i + 1, mode), pair))
