@@ -13,7 +13,7 @@ impl SparseSweep<'_> {
     /// The result, with shapes and critical friction coefficients.
     ///
     /// # Errors
-    /// As [`sweep`].
+    /// As [`crate::cea::sparse::sweep`].
     pub fn finish(
         &mut self,
         request: &SweepRequest<'_>,
