@@ -16,6 +16,7 @@ mod assembly;
 mod dampings;
 mod map;
 mod model;
+mod notes;
 mod reading;
 mod sensitivity;
 mod sliding;

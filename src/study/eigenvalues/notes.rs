@@ -1,0 +1,227 @@
+//! What is said beside the results of an eigenvalue analysis.
+
+use super::SlidingModel;
+use super::model::Model;
+use super::sliding::SteadyState;
+use crate::case::{Body, Case};
+use crate::cea::cyclic::{Coverage, Overdamped};
+use crate::cea::{CeaError, FrictionSweep};
+use std::f64::consts::TAU;
+
+/// Things of one kind that a note lists.
+pub(super) const MISSING_SHOWN: usize = 4;
+/// What the tables of moduli give to which part of the analysis.
+pub(super) fn table_notes(case: &Case) -> Vec<String> {
+    let regions = 0..case.body.region_count();
+    let tables = regions.filter_map(|region| case.materials().table(region));
+    let notes = tables.map(|table| {
+        let [low, high] = table.range_hz();
+        format!(
+            "{} = \"{}\": each mode is solved at its own frequency (Im / 2 pi), {low} to {high} Hz; the base state, and what \
+             damping.stiffness_coefficient multiplies, have the modulus of the lowest one, {:e} Pa",
+            table.key(),
+            table.file(),
+            table.static_modulus()
+        )
+    });
+    notes.collect()
+}
+
+pub(super) fn instead_note(error: &CeaError) -> String {
+    let why = match error {
+        CeaError::LostHarmonic { harmonic, friction } => {
+            format!(
+                "a branch of harmonic {harmonic} could not be followed up to friction {friction}"
+            )
+        }
+        CeaError::Unproven { harmonic, .. } => {
+            format!("harmonic {harmonic} may hold further modes")
+        }
+        other => other.to_string(),
+    };
+    format!("{why}: the whole mesh was solved instead, as with cea.method = \"sparse\"")
+}
+
+/// Relative uncertainty of an eigenvalue from which on the digits that are printed are in doubt.
+const DOUBTFUL: f64 = 1e-8;
+
+/// What an ill-conditioned model does to its eigenvalues.
+pub(super) fn uncertainty_note(case: &Case, sweep: &FrictionSweep) -> Option<String> {
+    let modes = sweep.points.iter().flat_map(|point| &point.modes);
+    let worst = modes.map(|mode| mode.uncertainty).fold(0.0, f64::max);
+    if worst < DOUBTFUL {
+        return None;
+    }
+    let penalty = case
+        .contact
+        .stiffness
+        .normal_stiffness
+        .map_or_else(String::new, |stiffness| {
+            let size = stiffness * case.body.contact_length() / case.material.young_modulus;
+            let length = match &case.body {
+                Body::Imported(_) | Body::Assembly(_) => "the size of the contact",
+                Body::Annulus(_) | Body::Revolution(_) => "geometry.inner_radius",
+            };
+            format!(
+                "contact.normal_stiffness times {length} is {size:.1e} times \
+             material.young_modulus (from 1e6 on leave it out: rigid contact); "
+            )
+        });
+    Some(format!(
+        "rounding of the matrices alone leaves eigenvalues uncertain by up to {worst:.0e} (relative): {penalty}\
+         material.poisson_ratio is {}, contact.friction_coefficient {}, and where branches meet no digit is safe",
+        case.material.poisson_ratio, case.contact.sliding.friction_coefficient,
+    ))
+}
+
+/// What damping near the critical one hides.
+pub(super) fn damping_note(case: &Case, sweep: &FrictionSweep) -> Option<String> {
+    let modes = || sweep.points.iter().flat_map(|point| &point.modes);
+    let largest = modes()
+        .map(|mode| mode.damping_factor())
+        .fold(0.0, f64::max);
+    let size = modes()
+        .map(|mode| mode.eigenvalue.norm())
+        .fold(0.0, f64::max);
+    let at_limit = case
+        .damping
+        .rayleigh
+        .damping_factor(size.max(f64::MIN_POSITIVE));
+    if largest.max(at_limit) <= 0.5 {
+        return None;
+    }
+    let (factor, cause) = match case.body {
+        Body::Revolution(_) if at_limit <= 0.5 => (
+            largest,
+            "the dashpot of friction across the sliding, mu p / V, causes it, and grows as the sliding slows down",
+        ),
+        _ => (
+            largest.max(at_limit),
+            "damping.mass_coefficient and damping.stiffness_coefficient set it",
+        ),
+    };
+    Some(format!(
+        "a mode is damped by a factor of {factor:.2}: motions beyond critical damping (1) do not oscillate and are \
+         not listed; {cause}"
+    ))
+}
+
+/// The modes of a whole mesh that friction across slow sliding damps beyond the critical.
+pub(super) fn vanished_note(sweep: &FrictionSweep) -> Option<String> {
+    let all = sweep.vanished.iter().map(|mode| {
+        let (frequency, friction) = (mode.frequency_hz, mode.friction_coefficient);
+        format!("{frequency:.0} Hz from friction {friction} on")
+    });
+    let all: Vec<String> = all.collect();
+    let (shown, rest) = all.split_at(all.len().min(MISSING_SHOWN));
+    let more = if rest.is_empty() { "" } else { ", ..." };
+    (!all.is_empty()).then(|| {
+        format!(
+            "{} modes near critical damping are not followed beyond it ({}{more}): friction across the sliding is a dashpot of mu p / V, which \
+             grows as the sliding slows down, and holds that motion in the limit",
+            all.len(),
+            shown.join(", "),
+        )
+    })
+}
+
+/// The motions that friction across the sliding keeps from oscillating, and those that it damps.
+pub(super) fn overdamped_note(
+    case: &Case,
+    model: &SlidingModel,
+    overdamped: &[Overdamped],
+) -> Option<String> {
+    let most = overdamped.iter().max_by_key(|own| own.count);
+    let (most, solid) = (most.filter(|own| own.count > 0)?, model.solid()?);
+    let [slowest, fastest] = most.decay;
+    let friction = most.friction_coefficient;
+    Some(format!(
+        "at friction {friction} {} motions (each wave of a pair counted) decay without oscillating, at {slowest:.3e} to \
+         {fastest:.3e} 1/s, and are not listed: the dashpot of friction across the sliding, mu p / V = {:.3e} Pa s/m at the mean \
+         pressure and radius, overdamps them; it grows as contact.rotation_speed_rpm = {} falls, and holds that motion in the limit",
+        most.count,
+        solid.dashpot_across(friction),
+        case.number("contact.rotation_speed_rpm")
+            .unwrap_or(case.contact.sliding.rotation_speed * 60.0 / TAU),
+    ))
+}
+
+/// What a friction law does at the speed of sliding.
+pub(super) fn friction_note(case: &Case, model: &SlidingModel) -> Option<String> {
+    case.contact.sliding.decay?;
+    let friction = case.contact.sliding.friction_coefficient;
+    let (law, pressure) = match &model.state {
+        SteadyState::Solid(solid) => solid.mean_friction(),
+        // Each contact has its own.
+        SteadyState::Assembly(_) => return None,
+        SteadyState::Plane(base) => {
+            let pressures = base.pressures(friction);
+            let mean = pressures.iter().sum::<f64>() / pressures.len().max(1) as f64;
+            (base.friction, mean)
+        }
+    };
+    Some(format!(
+        "friction falls with speed: friction coefficients are those of high speed; in steady sliding friction is {:.4} \
+         times as large, and at contact.friction_coefficient = {friction} its fall is a dashpot of {:.3e} Pa s/m on the \
+         tangential motion of the edge (mean pressure {pressure:.3e} Pa)",
+        law.drag.abs(),
+        friction * pressure * law.slope,
+    ))
+}
+
+/// Which harmonics were solved, and why no other can hold a mode of the range.
+pub(super) fn coverage_note(model: &Model, coverage: &Coverage) -> String {
+    match model {
+        Model::SolidSectors(_) => format!(
+            "harmonics {} hold modes at rest (by inertia counts, up to {} of {}) and were followed from {:.0} Hz downwards",
+            ranges(&coverage.followed),
+            coverage
+                .counted_empty
+                .last()
+                .unwrap_or(&coverage.largest_harmonic),
+            coverage.largest_harmonic,
+            coverage.margin_hz,
+        ),
+        Model::Sectors(..) | Model::Whole(_) | Model::Assembly(_) => proof_note(coverage),
+    }
+}
+
+fn proof_note(coverage: &Coverage) -> String {
+    let mut note = format!(
+        "harmonics 0 to {}: {} hold modes and were followed from {:.0} Hz downwards",
+        coverage.largest_harmonic,
+        ranges(&coverage.followed),
+        coverage.margin_hz,
+    );
+    for (harmonics, why) in [
+        (&coverage.proven_empty, "are proven to hold none"),
+        (
+            &coverage.counted_empty,
+            "hold none by count at quarters of the friction range",
+        ),
+    ] {
+        if !harmonics.is_empty() {
+            note += &format!("; {} {why}", ranges(harmonics));
+        }
+    }
+    note + &format!(" below {:.0} Hz", coverage.limit_hz)
+}
+
+/// Rising numbers with neighbours drawn together: `0-4, 7`.
+fn ranges(numbers: &[usize]) -> String {
+    let mut groups: Vec<(usize, usize)> = Vec::new();
+    for &number in numbers {
+        match groups.last_mut() {
+            Some((_, last)) if *last + 1 == number => *last = number,
+            _ => groups.push((number, number)),
+        }
+    }
+    let texts = groups.iter().map(|&(first, last)| {
+        if first == last {
+            first.to_string()
+        } else {
+            format!("{first}-{last}")
+        }
+    });
+    texts.collect::<Vec<_>>().join(", ")
+}
