@@ -95,6 +95,7 @@ fn show(bar: &ProgressBar, progress: SweepProgress) {
     bar.set_message(match progress.stage {
         SweepStage::Blocks => "blocks of modes",
         SweepStage::Values => "friction values",
+        SweepStage::Diameters => "nodal diameters",
         SweepStage::MapPoints => "points of the map",
     });
     bar.set_length(progress.total as u64);
@@ -239,6 +240,7 @@ mod tests {
             axial_share: None,
             shape: Some(shape),
             left: None,
+            nodal_diameters: None,
             wave: None,
         };
         let values = cea.solved_friction_coefficients();

@@ -3,6 +3,7 @@
 use super::boundaries::NamedCondition;
 use super::contact::{Contact, friction_decay, no_rigid_losses};
 use super::elastic::loss_factor;
+use super::imported::whole_body;
 use super::modifications::{Modification, reshaped};
 use super::normal_law::normal_law;
 use super::raw::MeshBytes;
@@ -13,7 +14,7 @@ use crate::contact::{ContactStiffness, Motion, PairFriction, SlidingContact};
 use crate::fem::{
     ElasticMaterial, MaterialField, PlaneFormulation, RegionMaterial, RotationFrame, TabledMaterial,
 };
-use crate::mesh::{Mesh, MeshFileError};
+use crate::mesh::{CyclicSymmetry, Mesh, MeshFileError};
 use crate::prestress::{Assembly, BaseChoice, PrestressError, SlidingSurfaces, TiedSurfaces};
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -79,6 +80,8 @@ pub(super) struct AssemblyParts {
     contacts: Vec<NamedContact>,
     ties: Vec<(String, [String; 2])>,
     base: BaseChoice,
+    /// Of a file that has one sector.
+    pub symmetry: Option<CyclicSymmetry>,
 }
 
 struct NamedContact {
@@ -161,6 +164,7 @@ pub(super) fn sections(
         contacts,
         ties,
         base,
+        symmetry: None,
     };
     (parts, common)
 }
@@ -293,7 +297,7 @@ pub(super) fn assemble(
         let message = format!("{}: {error}", bytes.file);
         (message, "makes no bodies".to_owned())
     };
-    let file = bytes.read().map_err(unusable)?;
+    let file = whole_body(bytes, parts.symmetry.as_ref(), scale).map_err(unusable)?;
     let misfit = |(key, why): (String, String)| (format!("{key}: {why}"), "not so".to_owned());
     let (file, _) = reshaped(file, scale, "", modifications).map_err(misfit)?;
     let mesh = Mesh::from_solids(&file, scale, conditions).map_err(unusable)?;

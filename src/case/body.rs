@@ -88,6 +88,12 @@ impl Body {
         self.grid().is_some()
     }
 
+    /// Whether it was made of one sector of a mesh file.
+    pub fn is_of_sectors(&self) -> bool {
+        self.whole_mesh()
+            .is_some_and(|mesh| mesh.symmetry.is_some())
+    }
+
     /// Number of equal sectors, if the body has them.
     pub fn sector_count(&self) -> Option<usize> {
         self.grid().map(|grid| grid.circumferential_elements)

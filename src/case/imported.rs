@@ -13,8 +13,8 @@ use super::tables::{TableFiles, modulus_table};
 use super::words::CounterfaceWord;
 use crate::fem::{ElasticMaterial, RayleighDamping, RegionMaterial, TabledMaterial};
 use crate::mesh::{
-    BodyPart, BodySpecification, CounterfaceSpecification, GmshFile, Mesh, MeshFileError,
-    SolidContact,
+    BodyPart, BodySpecification, CounterfaceSpecification, CyclicSymmetry, GmshFile, Mesh,
+    MeshFileError, SolidContact,
 };
 use std::path::Path;
 use std::sync::Arc;
@@ -158,6 +158,8 @@ pub(super) fn materials(
 /// Everything that makes a body of a mesh file but the file.
 pub(super) struct BodyParts {
     pub scale: f64,
+    /// Of a file that has one sector.
+    pub symmetry: Option<CyclicSymmetry>,
     pub place: ContactPlace,
     /// How far the bodies are pushed into each other, m.
     pub interference: f64,
@@ -175,6 +177,63 @@ pub(super) fn mesh_bytes(raw: &RawCase, file: &str) -> Result<MeshBytes, (String
     let label = |message| (message, "not readable".to_owned());
     let bytes = inclusion::mesh_file(&folder.join(file)).map_err(label)?;
     Ok(MeshBytes::new(file.to_owned(), bytes))
+}
+
+/// Refuses `mesh.sectors` where there is no file.
+pub(super) fn refuse_sectors(mesh: &Section<'_>) {
+    if mesh.optional_count("sectors").is_some() {
+        mesh.reject(
+            "sectors",
+            "mesh.sectors is for a mesh file (mesh.file) that has one sector of the body"
+                .to_owned(),
+            "a generated body is made of sectors anyway".to_owned(),
+            Some("leave it out".to_owned()),
+        );
+    }
+}
+
+/// The symmetry that `mesh.sectors` says, about an axis of some direction through a point (m).
+pub(super) fn symmetry(
+    mesh: &Section<'_>,
+    axis: Result<[[f64; 3]; 2], &str>,
+) -> Option<CyclicSymmetry> {
+    let count = mesh.optional_count("sectors").filter(|count| *count > 1)?;
+    match axis {
+        Ok([direction, point]) => Some(CyclicSymmetry {
+            count,
+            point,
+            direction,
+        }),
+        Err(why) => {
+            mesh.reject(
+                "sectors",
+                format!("mesh.sectors needs one axis that the sectors turn about, but {why}"),
+                "about which axis?".to_owned(),
+                Some("mesh the whole body, and leave mesh.sectors out".to_owned()),
+            );
+            None
+        }
+    }
+}
+
+/// The body that a mesh file describes: what it has, or all the sectors of which it has one.
+///
+/// # Errors
+/// A file that cannot be read; a sector that does not meet its copies.
+pub(super) fn whole_body(
+    mesh: &MeshBytes,
+    symmetry: Option<&CyclicSymmetry>,
+    scale: f64,
+) -> Result<Arc<GmshFile>, MeshFileError> {
+    let read = mesh.read()?;
+    let Some(symmetry) = symmetry else {
+        return Ok(read);
+    };
+    let in_file = CyclicSymmetry {
+        point: symmetry.point.map(|x| x / scale),
+        ..*symmetry
+    };
+    read.repeated(&in_file).map(Arc::new)
 }
 
 /// Why a mesh file does not describe the body, and the key of the case to blame.
@@ -212,6 +271,7 @@ impl ImportError {
             BodyPart::Center => ("contact.center".to_owned(), "not the centre of the curve"),
             BodyPart::Material(name) => (format!("materials.{name}"), "no such surface"),
             BodyPart::Scale => ("mesh.scale".to_owned(), "metres?"),
+            BodyPart::Sectors => ("mesh.sectors".to_owned(), "the sector does not fit"),
         };
         Self::new(&key, message, label)
     }
@@ -225,7 +285,7 @@ pub(super) fn import(
 ) -> Result<ImportedBody, ImportError> {
     let shown = &mesh.file;
     let unusable = |error: MeshFileError| ImportError::of(error, shown);
-    let read = mesh.read().map_err(unusable)?;
+    let read = whole_body(mesh, parts.symmetry.as_ref(), parts.scale).map_err(unusable)?;
     let misfit = |(key, why): (String, String)| {
         let message = format!("{key}: {why}");
         ImportError::new(&key, message, "does not fit the body")

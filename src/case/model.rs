@@ -74,6 +74,7 @@ fn unmodified(
         boundaries::no_axial_support(root, &conditions);
     }
     let Some(file) = file else {
+        imported::refuse_sectors(&mesh);
         let axial = solid::axial_elements(&geometry, &mesh, is_solid);
         let sectors = Surroundings::Sectors {
             is_plane: !is_solid,
@@ -150,8 +151,15 @@ fn unmodified(
         },
     };
     let mut tables = TableFiles::of(raw);
+    let axis = match place.counterface {
+        CounterfaceSpecification::Cylinder { center: [x, y], .. } => {
+            Ok([[0.0, 0.0, 1.0], [x, y, 0.0]])
+        }
+        CounterfaceSpecification::Plane { .. } => Err("the counterface is a plane"),
+    };
     let parts = BodyParts {
         scale,
+        symmetry: imported::symmetry(&mesh, axis),
         place,
         interference: contact.sliding.interference,
         boundaries: conditions,
@@ -218,7 +226,12 @@ fn assembly_model(
         );
     }
     let mut tables = TableFiles::of(raw);
-    let (parts, contact) = assembly::sections(root, &mut tables);
+    let (mut parts, contact) = assembly::sections(root, &mut tables);
+    let axis = match root.has("motion") {
+        true => parts.axis(),
+        false => Ok([[0.0, 0.0, 1.0], [0.0; 3]]),
+    };
+    parts.symmetry = imported::symmetry(mesh, axis);
     let solids = Surroundings::Solids { axis: parts.axis() };
     let own = materials(root, material, &solids, &mut tables);
     let reject = |(message, label): (String, String)| mesh.reject("file", message, label, None);

@@ -51,6 +51,7 @@ impl<S> Instability<S> {
         let (critical_friction, frequency_hz) = place(&self.onset);
         UnstableInterval {
             harmonic,
+            nodal_diameters: None,
             branch,
             direction,
             critical_friction,

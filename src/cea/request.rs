@@ -62,6 +62,8 @@ pub enum SweepStage {
     Blocks,
     /// Friction coefficients.
     Values,
+    /// Numbers of nodal diameters of a body with cyclic symmetry.
+    Diameters,
     /// Values of the second parameter of a stability map.
     MapPoints,
 }

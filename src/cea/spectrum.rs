@@ -14,6 +14,9 @@ pub struct ComplexMode {
     pub branch: usize,
     /// +1 travels with the rotor, -1 against it, 0 stands (`n = 0`, or degenerate at `mu = 0`).
     pub direction: i8,
+    /// Nodal diameters of a body that was made of one sector and solved by waves around it: of all that differ by multiples of the
+    /// number of sectors, or add up to one, the lowest.
+    pub nodal_diameters: Option<usize>,
     /// Relative residual of the quadratic problem,
     /// `|(lambda^2 M + lambda C + K) phi| / ((|lambda|^2 |M| + |lambda| |C| + |K|) |phi|)`.
     pub residual: f64,
@@ -130,6 +133,8 @@ pub fn keeping_ties(frequencies: impl Iterator<Item = f64>, count: usize) -> usi
 pub struct UnstableInterval {
     /// Circumferential harmonic.
     pub harmonic: usize,
+    /// See [`ComplexMode::nodal_diameters`].
+    pub nodal_diameters: Option<usize>,
     /// Branch within the harmonic.
     pub branch: usize,
     /// Travelling direction (see [`ComplexMode::direction`]).

@@ -150,6 +150,7 @@ impl Mesh {
         }
         mesh.boundaries = boundaries;
         mesh.check_held()?;
+        mesh.take_symmetry(file.symmetry, specification.scale);
         Ok(mesh)
     }
 }

@@ -9,6 +9,7 @@ mod coincidence;
 mod collection;
 mod counterface;
 mod curve;
+mod cyclic_symmetry;
 mod deck;
 mod element;
 mod faces;
@@ -21,6 +22,7 @@ mod nastran;
 mod plane_body;
 mod quality;
 mod refinement;
+mod repetition;
 mod rim;
 mod sector;
 mod sectors;
@@ -35,6 +37,7 @@ pub use body::{BodySpecification, CounterfaceSpecification};
 pub use boundary::{Boundary, BoundaryCondition, BoundaryFace, ElasticSupport, NodalSupport};
 pub use coincidence::{UnmergedNodes, coincident_nodes};
 pub use counterface::Counterface;
+pub use cyclic_symmetry::CyclicSymmetry;
 pub use deck::included_text;
 pub use element::{ElementKind, FaceKind, FacePoint, QuadraturePoint, Shape};
 pub use format::MeshFormat;
@@ -99,6 +102,8 @@ pub struct Mesh {
     pub patches: Vec<DampedPatch>,
     /// Sums of displacements of a solid body that vanish: `(node, axis, coefficient)` along the global axes.
     pub equations: Vec<Equation>,
+    /// Symmetry of a mesh that was made of one sector.
+    pub symmetry: Option<CyclicSymmetry>,
 }
 
 /// A sum of displacements that vanishes: nodes with an axis and a coefficient.
@@ -126,6 +131,7 @@ impl Default for Mesh {
             attachments: Vec::new(),
             patches: Vec::new(),
             equations: Vec::new(),
+            symmetry: None,
         }
     }
 }

@@ -119,6 +119,7 @@ impl GmshFile {
             surfaces: surfaces.filter(|(_, faces)| !faces.is_empty()).collect(),
             node_sets: node_sets.filter(|(_, nodes)| !nodes.is_empty()).collect(),
             elements,
+            symmetry: None,
             ..self.clone()
         }
     }
@@ -150,6 +151,7 @@ impl GmshFile {
         };
         Some(Self {
             points: self.points.iter().map(place).collect(),
+            symmetry: None,
             ..self.clone()
         })
     }

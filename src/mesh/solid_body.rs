@@ -73,6 +73,7 @@ impl Mesh {
         let equations = equations.map(|own| own.iter().filter_map(place).collect());
         mesh.equations = equations.collect();
         mesh.turn_frames_to_guides();
+        mesh.take_symmetry(file.symmetry, scale);
         Ok(mesh)
     }
 
@@ -125,7 +126,7 @@ impl Mesh {
     }
 
     /// Orthonormal directions in which boundary conditions hold each node of a solid body.
-    fn held_directions(&self) -> BTreeMap<u32, Vec<Vector3<f64>>> {
+    pub(super) fn held_directions(&self) -> BTreeMap<u32, Vec<Vector3<f64>>> {
         let mut held: BTreeMap<u32, Vec<Vector3<f64>>> = BTreeMap::new();
         let mut hold = |node: u32, direction: Vector3<f64>| {
             let basis = held.entry(node).or_default();
@@ -203,7 +204,7 @@ impl Mesh {
 }
 
 /// Nodes, elements and regions of the solid elements of a file.
-fn solid_elements(
+pub(super) fn solid_elements(
     file: &GmshFile,
     scale: f64,
     index_of: &[Option<u32>],

@@ -2,9 +2,7 @@
 
 use super::cholesky::CholeskySolver;
 use super::complementarity::{PressedRange, PressedState, Pressing};
-use super::condensed::CondensedContact;
 use super::elimination::Elimination;
-use super::penalty::PenaltyContact;
 use super::rotation::Rotation;
 use super::tangent::{BodyTerms, ContactDofs, ContactPart, SlidingTangent};
 use super::{PrestressError, TangentOptions};
@@ -285,12 +283,7 @@ impl<'a> Assembly<'a> {
             stiffnesses: stiffnesses.collect(),
             points: &points,
         };
-        // Points on springs leave the matrices sparse; rigid ones need the bodies' response to each.
-        match PenaltyContact::new(&pressing)? {
-            Some(bodies) => bodies.range(friction_coefficients),
-            None if pressing.laws.iter().any(Option::is_some) => Err(PrestressError::MixedContacts),
-            None => CondensedContact::new(&pressing)?.range(friction_coefficients),
-        }
+        pressing.states(self.mesh, friction_coefficients)
     }
 
     /// Bodies that are tied at most, under their loads.

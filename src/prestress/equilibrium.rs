@@ -4,10 +4,8 @@ use super::PrestressError;
 use super::SectorSliding;
 use super::cholesky::CholeskySolver;
 use super::complementarity::{PressedState, Pressing};
-use super::condensed::CondensedContact;
 use super::elimination::Elimination;
 use super::friction_polynomial::evaluate;
-use super::penalty::PenaltyContact;
 use crate::contact::{ContactInterface, NormalLaw, Point, SlidingContact, SteadyFriction};
 use crate::fem::{Triplets, assemble_supports};
 use crate::mesh::{AnnulusMesh, Mesh, SectorMesh};
@@ -274,14 +272,7 @@ impl SlidingRange {
             laws: vec![law; points.len()],
             points: &points,
         };
-        let springs = match law {
-            Some(_) => PenaltyContact::new(&pressing)?,
-            None => None,
-        };
-        let found = match springs {
-            Some(bodies) => bodies.range(friction_coefficients)?,
-            None => CondensedContact::new(&pressing)?.range(friction_coefficients)?,
-        };
+        let found = pressing.states(mesh, friction_coefficients)?;
         if let Some(state) = found.states.iter().find(|_| mesh.is_cyclic) {
             check_pressed(&interface, &state.normal_forces(friction_coefficients[0]))?;
         }

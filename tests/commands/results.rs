@@ -44,6 +44,7 @@ fn mode(real_hz: f64, frequency_hz: f64, harmonic: usize, direction: i8) -> Comp
         axial_share: None,
         shape: None,
         left: None,
+        nodal_diameters: None,
         wave: None,
     }
 }
@@ -71,6 +72,7 @@ fn sweep(mesh: &AnnulusMesh) -> FrictionSweep {
         ],
         intervals: vec![UnstableInterval {
             harmonic: 2,
+            nodal_diameters: None,
             branch: 0,
             direction: -1,
             critical_friction: 0.138_2,

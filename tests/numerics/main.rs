@@ -21,6 +21,7 @@ mod cea_sparse;
 mod continuum;
 mod continuum_reference;
 mod convergence;
+mod cyclic_symmetry;
 mod eigen_linear_algebra;
 mod fem_statics;
 mod free_part;

@@ -103,6 +103,7 @@ fn mode(
         axial_share: Some(pair.axial_share).filter(|share| !share.is_nan()),
         shape: wants_shape.then(|| (producer.expand)(problem.harmonic, waves, &pair.x)),
         left: None,
+        nodal_diameters: None,
         wave: wants_wave.then(|| ModeWave {
             unknowns: (producer.unknowns)(problem.harmonic, &pair.x),
             is_backward: waves == Waves::Backward,

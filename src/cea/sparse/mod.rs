@@ -46,6 +46,7 @@ pub use linearization::Linearization;
 pub use mode::ReducedMode;
 pub use onset::{FoundInterval, OnsetFinder};
 pub use pairs::{ModePair, mode_pairs};
+pub(super) use point::normalize;
 pub use point::{ModeCheck, PointSolver, SolvedPoint};
 pub use projected::ProjectedMatrices;
 pub use reduced::ReducedModel;

@@ -299,7 +299,7 @@ fn length(vector: &[c64]) -> f64 {
 }
 
 /// Scales a nodal vector so that its largest entry is 1; what it was divided by.
-fn normalize(shape: &mut [c64]) -> c64 {
+pub fn normalize(shape: &mut [c64]) -> c64 {
     let zero = c64::new(0.0, 0.0);
     let largest = shape.iter().fold(zero, |best, &v| {
         if v.norm_sqr() > best.norm_sqr() {

@@ -7,7 +7,7 @@ mod version2;
 mod version4;
 
 use super::model_data::ModelData;
-use super::{ElementKind, Equation, FaceKind};
+use super::{CyclicSymmetry, ElementKind, Equation, FaceKind};
 use cursor::Cursor;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -53,6 +53,8 @@ pub enum BodyPart {
     Material(String),
     /// The scale of the coordinates.
     Scale,
+    /// The number of sectors.
+    Sectors,
 }
 
 /// Edge of a physical curve, as indices into the nodes: its ends and, where quadratic, its middle.
@@ -84,6 +86,8 @@ pub struct GmshFile {
     pub equations: Vec<Equation>,
     /// What the file holds beside the mesh.
     pub model: ModelData,
+    /// Symmetry of a body that was made of one sector, in the unit of the file.
+    pub symmetry: Option<CyclicSymmetry>,
 }
 
 /// One element of a file.

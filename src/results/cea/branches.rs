@@ -84,6 +84,7 @@ mod tests {
             axial_share: None,
             shape: None,
             left: None,
+            nodal_diameters: None,
             wave: None,
         };
         let point = |friction_coefficient: f64, own: &[usize]| FrictionPoint {

@@ -57,7 +57,10 @@ pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, Fol
 /// Those of the writer.
 pub fn write_eigenvalues(out: &mut dyn Write, report: &CeaReport<'_>) -> io::Result<()> {
     // A body without symmetry has modes without a harmonic.
-    let harmonic = |mode: &ComplexMode| report.has_harmonics.then_some(mode.harmonic);
+    let harmonic = |mode: &ComplexMode| match report.has_harmonics {
+        true => Some(mode.harmonic),
+        false => mode.nodal_diameters,
+    };
     let direction = |mode: &ComplexMode| report.has_harmonics.then_some(mode.direction);
     let mesh_error = |friction: f64, mode: usize| {
         let reading = report.reading.as_ref()?;
@@ -101,7 +104,8 @@ pub fn write_stability(
 ) -> io::Result<()> {
     let columns: &[Column<'_, (&UnstableInterval, Option<f64>)>] = &[
         ("harmonic", &|i| {
-            has_harmonics.then_some(i.0.harmonic).into()
+            let own = has_harmonics.then_some(i.0.harmonic);
+            own.or(i.0.nodal_diameters).into()
         }),
         ("branch", &|i| i.0.branch.into()),
         ("direction", &|i| {

@@ -1,10 +1,11 @@
 //! Eigenvalues of an assembly of solid bodies.
 
 use super::Progress;
-use super::states::sweep_states;
+use super::states::{States, StatesSweep, used_symmetry};
 use crate::case::{AssemblyBody, Case};
-use crate::cea::{CeaError, FrictionSweep, SweepRequest};
+use crate::cea::{CeaError, SweepRequest};
 use crate::fem::solid_stress;
+use crate::mesh::CyclicSymmetry;
 use crate::prestress::{
     Assembly, BaseChoice, Joined, PressedRange, PressedState, PrestressError, SlidingTangent,
     TangentOptions,
@@ -23,6 +24,8 @@ pub struct AssemblyModel {
     pub options: TangentOptions,
     /// The bodies with their surfaces paired.
     pub joined: Arc<Joined>,
+    /// The symmetry that the eigenvalue analysis uses.
+    pub symmetry: Option<CyclicSymmetry>,
 }
 
 impl AssemblyModel {
@@ -44,6 +47,7 @@ impl AssemblyModel {
         let assembly = body.assembled()?;
         let range = assembly.range(&frictions)?;
         Ok(Self {
+            symmetry: used_symmetry(case, &body.mesh),
             body: body.clone(),
             range,
             options,
@@ -63,20 +67,26 @@ impl AssemblyModel {
         &self.range.states[*own.expect("the case's own friction coefficient comes last")]
     }
 
-    /// Solves the eigenproblems at the friction coefficients that it was made for; gives the number of unknowns too.
+    /// Solves the eigenproblems at the friction coefficients that it was made for.
     ///
     /// # Errors
     /// Those of the solver.
-    pub fn sweep(
+    pub(super) fn sweep(
         &self,
         request: &SweepRequest<'_>,
         progress: &Progress<'_>,
-    ) -> Result<(FrictionSweep, usize), CeaError> {
+    ) -> Result<StatesSweep, CeaError> {
         let assembly = self.assembly();
         let range = &self.range;
         let tangent = |k: usize| Ok(assembly.tangent(&range.states[k], &self.options)?);
-        let changes = (range.state_of.as_slice(), range.changes.as_slice());
-        sweep_states(range.states.len(), changes, request, progress, &tangent)
+        let states = States {
+            count: range.states.len(),
+            state_of: &range.state_of,
+            changes: &range.changes,
+            tangent: &tangent,
+            symmetry: self.symmetry.map(|own| (own, self.body.mesh.node_count())),
+        };
+        states.sweep(request, progress)
     }
 
     /// The tangent at the case's own friction coefficient.

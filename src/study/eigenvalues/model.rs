@@ -31,12 +31,14 @@ impl Solver {
         refuse_rest(case)?;
         let is_lossy = case.has_structural_damping();
         match (&case.body, method) {
-            (Body::Imported(_) | Body::Assembly(_), CeaMethod::Cyclic) => Err(case.error_at(
-                "cea.method",
-                "cea.method = \"cyclic\" needs the symmetry of the built-in annulus".to_owned(),
-                "an imported mesh has no sectors".to_owned(),
-                Some("use \"auto\" or \"sparse\"".to_owned()),
-            )),
+            (Body::Imported(_) | Body::Assembly(_), CeaMethod::Cyclic) if !case.body.is_of_sectors() => {
+                Err(case.error_at(
+                    "cea.method",
+                    "cea.method = \"cyclic\" needs a body of equal sectors".to_owned(),
+                    "the mesh file has the whole body".to_owned(),
+                    Some("give a mesh of one sector with mesh.sectors, or use \"auto\" or \"sparse\"".to_owned()),
+                ))
+            }
             (Body::Revolution(_), CeaMethod::Sparse) => Err(case.error_at(
                 "cea.method",
                 "cea.method = \"sparse\" is for plane bodies".to_owned(),
@@ -141,6 +143,8 @@ pub struct Spectrum {
     pub overdamped: Vec<Overdamped>,
     /// What the waves of the modes belong to; none of a body solved on its whole mesh.
     pub tangent: Option<WaveTangent>,
+    /// Whether a body made of one sector was solved by waves around it.
+    pub is_by_diameters: bool,
 }
 
 impl Model {
@@ -238,6 +242,7 @@ impl Model {
                     overdamped: Vec::new(),
                     sweep: found.sweep,
                     tangent: Some(WaveTangent::Plane(Box::new(found.tangent))),
+                    is_by_diameters: false,
                 })
             }
             Self::SolidSectors(model) => {
@@ -256,33 +261,16 @@ impl Model {
                     overdamped: found.overdamped,
                     sweep: found.sweep,
                     tangent: Some(WaveTangent::Solid(Box::new(found.tangent))),
+                    is_by_diameters: false,
                 })
             }
             Self::Whole(whole) => {
-                let (sweep, dofs) = whole.sweep(case, request, progress)?;
-                Ok(Spectrum {
-                    dofs,
-                    sensitivities: None,
-                    without_sensitivities: 0,
-                    notes: whole.changes_note().into_iter().collect(),
-                    coverage: None,
-                    overdamped: Vec::new(),
-                    sweep,
-                    tangent: None,
-                })
+                let found = whole.sweep(case, request, progress)?;
+                Ok(found.into_spectrum(whole.changes_note().into_iter().collect()))
             }
             Self::Assembly(model) => {
-                let (sweep, dofs) = model.sweep(request, progress)?;
-                Ok(Spectrum {
-                    dofs,
-                    sensitivities: None,
-                    without_sensitivities: 0,
-                    notes: assembly::notes(model),
-                    coverage: None,
-                    overdamped: Vec::new(),
-                    sweep,
-                    tangent: None,
-                })
+                let found = model.sweep(request, progress)?;
+                Ok(found.into_spectrum(assembly::notes(model)))
             }
         }
     }
@@ -295,6 +283,7 @@ impl Model {
                 // Its boundaries have supports.
                 mesh: case.mesh().ok()?,
                 range: whole.range.clone(),
+                symmetry: whole.symmetry,
                 options,
             }))),
             // A centrifugal load depends on the density.
@@ -305,6 +294,7 @@ impl Model {
                     joined: body.assembled().ok()?.joined(),
                     body: body.clone(),
                     range: assembly.range.clone(),
+                    symmetry: assembly.symmetry,
                     options,
                 })))
             }

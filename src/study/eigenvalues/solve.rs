@@ -116,7 +116,11 @@ fn solve_with(
     Ok(Solution {
         reading,
         dofs: found.dofs,
-        method,
+        method: if found.is_by_diameters {
+            "cyclic"
+        } else {
+            method
+        },
         sensitivities: match of_body {
             Some(of_body) => Some(of_body),
             None => sensitivities.map(|branches| sensitivity_report(case, branches)),

@@ -1,14 +1,18 @@
 //! Friction sweep of a whole mesh whose contact nodes open or close within the range.
 
 use super::Progress;
-use crate::case::Case;
+use super::model::Spectrum;
+use crate::case::{Case, Cea, CeaMethod};
 use crate::cea::sparse;
 use crate::cea::{
     CeaError, FrictionPoint, FrictionSweep, ModeVectors, PartWatch, SweepRequest, UnstableInterval,
+    sweep_by_diameters,
 };
 use crate::fem::assemble_stiffness;
-use crate::mesh::Mesh;
-use crate::prestress::{SlidingRange, SlidingTangent, SteadySliding, TangentOptions};
+use crate::mesh::{CyclicSymmetry, Mesh};
+use crate::prestress::{
+    CyclicTangent, SlidingRange, SlidingTangent, SteadySliding, TangentOptions,
+};
 use std::sync::Arc;
 
 /// A whole mesh and its steady sliding.
@@ -19,6 +23,8 @@ pub struct WholeMesh {
     pub range: SlidingRange,
     /// How the tangent is taken.
     pub options: TangentOptions,
+    /// The symmetry that the eigenvalue analysis uses.
+    pub symmetry: Option<CyclicSymmetry>,
 }
 
 impl WholeMesh {
@@ -38,6 +44,7 @@ impl WholeMesh {
         let range =
             SlidingRange::solve_with(&mesh, &stiffness, sliding, options.contact.law, &frictions)?;
         Ok(Self {
+            symmetry: used_symmetry(case, &mesh),
             mesh,
             range,
             options,
@@ -58,21 +65,26 @@ impl WholeMesh {
     }
 
     /// Solves the sparse eigenproblems at the friction coefficients that it was made for: each base state has a tangent and a
-    /// sweep of its own, which the friction coefficients where one state gives way to the next end and begin. Gives the number
-    /// of unknowns too.
+    /// sweep of its own, which the friction coefficients where one state gives way to the next end and begin.
     ///
     /// # Errors
     /// Those of the solver.
-    pub fn sweep(
+    pub(super) fn sweep(
         &self,
         case: &Case,
         request: &SweepRequest<'_>,
         progress: &Progress<'_>,
-    ) -> Result<(FrictionSweep, usize), CeaError> {
+    ) -> Result<StatesSweep, CeaError> {
         let range = &self.range;
         let tangent = |k: usize| Ok(self.tangent(case, &range.states[k]));
-        let changes = (range.state_of.as_slice(), range.changes.as_slice());
-        sweep_states(range.states.len(), changes, request, progress, &tangent)
+        let states = States {
+            count: range.states.len(),
+            state_of: &range.state_of,
+            changes: &range.changes,
+            tangent: &tangent,
+            symmetry: self.symmetry.map(|own| (own, self.mesh.node_count())),
+        };
+        states.sweep(request, progress)
     }
 
     /// Where contact nodes open or close.
@@ -89,42 +101,113 @@ impl WholeMesh {
     }
 }
 
-/// Sweeps over base states: each has a tangent and a sweep of its own, which the friction coefficients where one state gives
-/// way to the next end and begin. Gives the number of unknowns too.
-pub(super) fn sweep_states(
-    count: usize,
-    (state_of, changes): (&[usize], &[f64]),
-    request: &SweepRequest<'_>,
-    progress: &Progress<'_>,
-    tangent: &dyn Fn(usize) -> Result<SlidingTangent, CeaError>,
-) -> Result<(FrictionSweep, usize), CeaError> {
-    let frictions = request.friction_coefficients;
-    let (mut parts, mut dofs) = (Vec::new(), 0);
-    for k in 0..count {
-        let own = frictions.iter().zip(state_of);
-        let mut values: Vec<f64> = own.filter(|(_, s)| **s == k).map(|(mu, _)| *mu).collect();
-        if values.is_empty() {
-            continue;
+/// The symmetry of a mesh that the eigenvalue analysis of a case uses: none where the whole mesh is asked for.
+pub(super) fn used_symmetry(case: &Case, mesh: &Mesh) -> Option<CyclicSymmetry> {
+    let is_whole = |cea: &Cea| cea.method == CeaMethod::Sparse;
+    mesh.symmetry
+        .filter(|_| !case.cea.as_ref().is_some_and(is_whole))
+}
+
+/// Base states over the friction coefficients of a sweep.
+pub(super) struct States<'a> {
+    /// How many there are.
+    pub count: usize,
+    /// Which one each friction coefficient has.
+    pub state_of: &'a [usize],
+    /// Friction coefficients at which one gives way to the next.
+    pub changes: &'a [f64],
+    /// The tangent of each.
+    pub tangent: &'a dyn Fn(usize) -> Result<SlidingTangent, CeaError>,
+    /// Symmetry of the mesh, and the number of its nodes.
+    pub symmetry: Option<(CyclicSymmetry, usize)>,
+}
+
+/// What a sweep over base states found.
+pub(super) struct StatesSweep {
+    pub sweep: FrictionSweep,
+    /// Unknowns of the whole mesh.
+    pub dofs: usize,
+    /// What keeps a mesh of equal sectors from being solved by waves around it.
+    pub asymmetry: Option<String>,
+    /// Whether waves around it were solved.
+    pub is_by_diameters: bool,
+}
+
+impl StatesSweep {
+    /// As the spectrum of a model that has `notes` of its own.
+    pub fn into_spectrum(self, mut notes: Vec<String>) -> Spectrum {
+        let why = self.asymmetry.map(|why| {
+            format!("the whole mesh was solved, not waves around it one number of nodal diameters after the other: {why}")
+        });
+        notes.extend(why);
+        Spectrum {
+            dofs: self.dofs,
+            sensitivities: None,
+            without_sensitivities: 0,
+            notes,
+            coverage: None,
+            overdamped: Vec::new(),
+            sweep: self.sweep,
+            tangent: None,
+            is_by_diameters: self.is_by_diameters,
         }
-        // Branches are followed up to the change on either side.
-        values.extend(k.checked_sub(1).and_then(|before| changes.get(before)));
-        values.extend(changes.get(k));
-        values.sort_by(f64::total_cmp);
-        values.dedup();
-        let tangent = tangent(k)?;
-        dofs = dofs.max(tangent.unknowns.len());
-        let part = SweepRequest {
-            friction_coefficients: &values,
-            ..*request
-        };
-        let watch = PartWatch {
-            whole: progress,
-            prefix: format!("state-{k}-"),
-            is_heard: true,
-        };
-        parts.push(sparse::sweep(&tangent, &part, &watch)?);
     }
-    Ok((joined(parts, frictions), dofs))
+}
+
+impl States<'_> {
+    /// A sweep of each state with its tangent, which the friction coefficients where one gives way to the next end and begin.
+    ///
+    /// # Errors
+    /// Those of the solver.
+    pub(super) fn sweep(
+        &self,
+        request: &SweepRequest<'_>,
+        progress: &Progress<'_>,
+    ) -> Result<StatesSweep, CeaError> {
+        let frictions = request.friction_coefficients;
+        let (mut parts, mut dofs, mut asymmetry) = (Vec::new(), 0, None);
+        for k in 0..self.count {
+            let own = frictions.iter().zip(self.state_of);
+            let mut values: Vec<f64> = own.filter(|(_, s)| **s == k).map(|(mu, _)| *mu).collect();
+            if values.is_empty() {
+                continue;
+            }
+            // Branches are followed up to the change on either side.
+            values.extend(k.checked_sub(1).and_then(|before| self.changes.get(before)));
+            values.extend(self.changes.get(k));
+            values.sort_by(f64::total_cmp);
+            values.dedup();
+            let tangent = (self.tangent)(k)?;
+            dofs = dofs.max(tangent.unknowns.len());
+            let part = SweepRequest {
+                friction_coefficients: &values,
+                ..*request
+            };
+            let watch = PartWatch {
+                whole: progress,
+                prefix: format!("state-{k}-"),
+                is_heard: true,
+            };
+            let waves = self
+                .symmetry
+                .as_ref()
+                .map(|(symmetry, node_count)| CyclicTangent::new(&tangent, symmetry, *node_count));
+            parts.push(match waves {
+                Some(Ok(waves)) => sweep_by_diameters(&tangent, &waves, &part, &watch)?,
+                Some(Err(why)) => {
+                    asymmetry.get_or_insert(why);
+                    sparse::sweep(&tangent, &part, &watch)?
+                }
+                None => sparse::sweep(&tangent, &part, &watch)?,
+            });
+        }
+        Ok(StatesSweep {
+            is_by_diameters: self.symmetry.is_some() && asymmetry.is_none(),
+            sweep: joined(parts, frictions),
+            dofs,
+            asymmetry,
+        })
+    }
 }
 
 /// One sweep of the parts: each is labelled like the one before by the nearest eigenvalues where they meet.
@@ -187,7 +270,9 @@ fn relabel(before: &FrictionSweep, after: &mut FrictionSweep) {
     let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
     for (i, old) in last.modes.iter().enumerate() {
         for (j, new) in first.modes.iter().enumerate() {
-            pairs.push(((old.eigenvalue - new.eigenvalue).norm(), i, j));
+            if old.nodal_diameters == new.nodal_diameters {
+                pairs.push(((old.eigenvalue - new.eigenvalue).norm(), i, j));
+            }
         }
     }
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -28,6 +28,7 @@ fn sweep() -> FrictionSweep {
     }
     let interval = |branch, critical_friction| UnstableInterval {
         harmonic: 0,
+        nodal_diameters: None,
         branch,
         direction: 0,
         critical_friction,

@@ -68,6 +68,7 @@ pub fn modes(friction: f64, mesh: Option<&Mesh>) -> Vec<ComplexMode> {
                 axial_share: None,
                 shape: mesh.map(|mesh| shape(mesh, harmonic, branch, direction, friction)),
                 left: None,
+                nodal_diameters: None,
                 wave: None,
             });
         }
@@ -92,6 +93,7 @@ pub fn sweep(count: usize) -> FrictionSweep {
         if split > 0.0 && critical < 1.0 {
             intervals.push(UnstableInterval {
                 harmonic,
+                nodal_diameters: None,
                 branch,
                 direction: -1,
                 critical_friction: critical,

@@ -170,6 +170,7 @@ impl SparseSweep<'_> {
                     harmonic: label.harmonic,
                     branch: label.branch,
                     direction,
+                    nodal_diameters: None,
                     residual: check.residual,
                     uncertainty: check.uncertainty,
                     contact_share: check.contact_share,

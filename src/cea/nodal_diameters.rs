@@ -1,0 +1,298 @@
+//! Sweep over the friction coefficient of a body with cyclic symmetry, one number of nodal diameters after the other.
+
+use super::sparse::{self, FrictionlessModes, normalize};
+use super::{
+    CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeLimit, ModeVectors, PartWatch,
+    SweepProgress, SweepRequest, SweepStage, SweepWatch, keeping_ties,
+};
+use crate::linalg::c64;
+use crate::prestress::{CyclicTangent, SlidingTangent};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Modes of each number of nodal diameters beyond those that are among the lowest without friction.
+const GUARD: usize = 2;
+
+/// Complex modes of `whole` and where their branches turn unstable, from the waves of each number of nodal diameters: the spectrum of
+/// [`sparse::sweep`], from problems of twice the unknowns of one sector. Branches are ranked over all numbers of diameters.
+///
+/// # Errors
+/// Those of [`sparse::sweep`].
+pub fn sweep_by_diameters(
+    whole: &SlidingTangent,
+    cyclic: &CyclicTangent<'_>,
+    request: &SweepRequest<'_>,
+    watch: &dyn SweepWatch,
+) -> Result<FrictionSweep, CeaError> {
+    let all = 0..=cyclic.highest();
+    let tangents: Vec<SlidingTangent> = all.into_par_iter().map(|n| cyclic.harmonic(n)).collect();
+    let mut counts = counts(&tangents, request.limit)?;
+    let mut parts: Vec<Option<FrictionSweep>> = vec![None; tangents.len()];
+    loop {
+        solve(&tangents, &counts, request, watch, &mut parts)?;
+        let short = match request.limit {
+            ModeLimit::Lowest(count) => short_of(&parts, count, &counts),
+            ModeLimit::MaxFrequency(_) => Vec::new(),
+        };
+        // Friction brings modes of some number of diameters among the lowest: more of these.
+        if short.is_empty() {
+            break;
+        }
+        for n in short {
+            parts[n] = None;
+            let more = counts[n].map_or(GUARD, |count| 2 * count);
+            counts[n] = Some(more.min(tangents[n].unknowns.len()));
+        }
+    }
+    let parts = parts.into_iter().enumerate();
+    let parts = parts.filter_map(|(n, part)| Some(expanded((whole, cyclic), n, part?)));
+    Ok(merged(parts.collect(), request.limit))
+}
+
+/// How many modes of each number of nodal diameters are asked for: none where no mode is low enough; `None` for a limit in frequency,
+/// which says it by itself.
+fn counts(tangents: &[SlidingTangent], limit: ModeLimit) -> Result<Vec<Option<usize>>, CeaError> {
+    let ModeLimit::Lowest(wanted) = limit else {
+        return Ok(vec![None; tangents.len()]);
+    };
+    let mut asked = vec![(2 * wanted).div_ceil(tangents.len()) + GUARD; tangents.len()];
+    let mut found: Vec<Vec<f64>> = vec![Vec::new(); tangents.len()];
+    loop {
+        // Frequencies without friction, as many as may be among the lowest of all.
+        let solved: Result<Vec<Vec<f64>>, CeaError> = tangents
+            .par_iter()
+            .zip(&asked)
+            .zip(&found)
+            .map(|((tangent, &count), known)| {
+                let count = count.min(tangent.unknowns.len());
+                if known.len() >= count {
+                    return Ok(known.clone());
+                }
+                let limit = ModeLimit::Lowest(count);
+                let modes = FrictionlessModes::compute(tangent, limit)?;
+                Ok(modes.frequencies)
+            })
+            .collect();
+        found = solved?;
+        let mut all: Vec<f64> = found.iter().flatten().copied().collect();
+        all.sort_by(f64::total_cmp);
+        let highest = match wanted <= all.len() {
+            true => all[keeping_ties(all.iter().copied(), wanted) - 1],
+            false => f64::INFINITY,
+        };
+        let is_short = |n: usize| {
+            let last = found[n].last().copied().unwrap_or(0.0);
+            last <= highest && found[n].len() < tangents[n].unknowns.len()
+        };
+        let short: Vec<usize> = (0..tangents.len()).filter(|&n| is_short(n)).collect();
+        if short.is_empty() {
+            let low = |own: &Vec<f64>| own.iter().filter(|f| **f <= highest).count();
+            let counts = found.iter().zip(tangents);
+            let counts = counts.map(|(own, t)| Some((low(own) + GUARD).min(t.unknowns.len())));
+            return Ok(counts.collect());
+        }
+        short.into_iter().for_each(|n| asked[n] *= 2);
+    }
+}
+
+/// Sweeps the numbers of nodal diameters that have none yet.
+fn solve(
+    tangents: &[SlidingTangent],
+    counts: &[Option<usize>],
+    request: &SweepRequest<'_>,
+    watch: &dyn SweepWatch,
+    parts: &mut [Option<FrictionSweep>],
+) -> Result<(), CeaError> {
+    let solved = AtomicUsize::new(0);
+    let found: Vec<Result<Option<FrictionSweep>, CeaError>> = tangents
+        .par_iter()
+        .enumerate()
+        .zip(&*parts)
+        .map(|((n, tangent), known)| {
+            if known.is_some() {
+                return Ok(None);
+            }
+            let own = SweepRequest {
+                limit: counts[n].map_or(request.limit, ModeLimit::Lowest),
+                ..*request
+            };
+            let quiet = PartWatch {
+                whole: watch,
+                prefix: match counts[n] {
+                    Some(count) => format!("diameters-{n}-of-{count}-"),
+                    None => format!("diameters-{n}-"),
+                },
+                is_heard: false,
+            };
+            let sweep = sparse::sweep(tangent, &own, &quiet);
+            watch.reached(SweepProgress {
+                stage: SweepStage::Diameters,
+                solved: solved.fetch_add(1, Ordering::Relaxed) + 1,
+                total: tangents.len(),
+            });
+            sweep.map(Some)
+        })
+        .collect();
+    // No mode below the limit is an answer, unless it is that of all.
+    let mut empty: Option<CeaError> = None;
+    for (part, own) in parts.iter_mut().zip(found) {
+        match own {
+            Ok(None) => {}
+            Ok(sweep) => *part = sweep,
+            Err(CeaError::NoModes {
+                limit_hz,
+                lowest_hz,
+            }) => {
+                let least = match empty {
+                    Some(CeaError::NoModes { lowest_hz, .. }) => lowest_hz,
+                    _ => f64::INFINITY,
+                };
+                empty = Some(CeaError::NoModes {
+                    limit_hz,
+                    lowest_hz: lowest_hz.min(least),
+                });
+            }
+            Err(error) => return Err(error),
+        }
+    }
+    match empty.filter(|_| parts.iter().all(Option::is_none)) {
+        Some(error) => Err(error),
+        None => Ok(()),
+    }
+}
+
+/// Numbers of nodal diameters of which all listed modes are among the `count` lowest at some friction coefficient: more may be.
+fn short_of(parts: &[Option<FrictionSweep>], count: usize, counts: &[Option<usize>]) -> Vec<usize> {
+    let frequencies = |n: usize, k: usize| {
+        let point = parts[n].as_ref().map(|part| &part.points[k]);
+        let modes = point.into_iter().flat_map(|point| &point.modes);
+        modes.map(|mode| mode.eigenvalue.im)
+    };
+    let points = parts.iter().flatten().map(|part| part.points.len()).max();
+    let is_short = |&n: &usize| {
+        (0..points.unwrap_or(0)).any(|k| {
+            let mut all: Vec<f64> = (0..parts.len()).flat_map(|n| frequencies(n, k)).collect();
+            all.sort_by(f64::total_cmp);
+            let Some(&last) = all.get(keeping_ties(all.iter().copied(), count) - 1) else {
+                return false;
+            };
+            let own: Vec<f64> = frequencies(n, k).collect();
+            let is_cut = counts[n].is_some_and(|asked| own.len() >= asked);
+            is_cut && own.last().is_some_and(|highest| *highest <= last)
+        })
+    };
+    (0..parts.len()).filter(is_short).collect()
+}
+
+/// The sweep of waves of `n` nodal diameters with vectors over all dofs of the body.
+fn expanded(
+    (whole, cyclic): (&SlidingTangent, &CyclicTangent<'_>),
+    n: usize,
+    mut part: FrictionSweep,
+) -> FrictionSweep {
+    let vectors = |right: &[c64], left: Option<&Vec<c64>>, mu: f64| {
+        let mut right = whole.displacement(&cyclic.expand(n, right));
+        let scale = normalize(&mut right) / cyclic.weight(n);
+        let left = left.map(|left| {
+            let mut left = whole.left_displacement(&cyclic.expand(n, left), mu);
+            left.iter_mut().for_each(|v| *v *= scale);
+            left
+        });
+        (right, left)
+    };
+    for point in &mut part.points {
+        for mode in &mut point.modes {
+            mode.nodal_diameters = Some(n);
+            if let Some(shape) = mode.shape.take() {
+                let own = vectors(&shape, mode.left.as_ref(), point.friction_coefficient);
+                (mode.shape, mode.left) = (Some(own.0), own.1);
+            }
+        }
+    }
+    let crossings = part.intervals.iter_mut().zip(&mut part.crossings);
+    for (interval, crossing) in crossings {
+        interval.nodal_diameters = Some(n);
+        if let Some(ModeVectors { right, left, .. }) = crossing {
+            let own = vectors(right, Some(left), interval.critical_friction);
+            *right = own.0;
+            *left = own.1.expect("there is a left vector where one was given");
+        }
+    }
+    part
+}
+
+/// One sweep of those of all numbers of nodal diameters, its branches ranked by their frequency where they begin.
+fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
+    let mut begins: Vec<(f64, f64, usize, usize)> = Vec::new();
+    for (part, sweep) in parts.iter().enumerate() {
+        let mut first: BTreeMap<usize, (f64, f64)> = BTreeMap::new();
+        for point in &sweep.points {
+            for mode in &point.modes {
+                let here = (point.friction_coefficient, mode.eigenvalue.im);
+                let known = first.entry(mode.branch).or_insert(here);
+                if here.0 < known.0 {
+                    *known = here;
+                }
+            }
+        }
+        begins.extend(
+            first
+                .iter()
+                .map(|(&branch, &(mu, omega))| (mu, omega, part, branch)),
+        );
+    }
+    begins.sort_by(|a, b| (a.0.total_cmp(&b.0)).then(a.1.total_cmp(&b.1)));
+    let ranks = begins.iter().enumerate();
+    let rank_of: BTreeMap<(usize, usize), usize> = ranks
+        .map(|(rank, &(_, _, part, branch))| ((part, branch), rank))
+        .collect();
+    for (part, sweep) in parts.iter_mut().enumerate() {
+        let modes = sweep.points.iter_mut().flat_map(|point| &mut point.modes);
+        modes.for_each(|mode| mode.branch = rank_of[&(part, mode.branch)]);
+    }
+
+    // All modes at each friction coefficient, as many as are wanted.
+    let count = parts.first().map_or(0, |part| part.points.len());
+    let points = (0..count).map(|k| {
+        let own = parts
+            .iter()
+            .flat_map(|part| part.points[k].modes.iter().cloned());
+        let mut modes: Vec<ComplexMode> = own.collect();
+        modes.sort_by(|a, b| a.eigenvalue.im.total_cmp(&b.eigenvalue.im));
+        if let ModeLimit::Lowest(wanted) = limit {
+            let frequencies = modes.iter().map(|mode| mode.eigenvalue.im);
+            modes.truncate(keeping_ties(frequencies, wanted));
+        }
+        FrictionPoint {
+            friction_coefficient: parts[0].points[k].friction_coefficient,
+            modes,
+        }
+    });
+    let points: Vec<FrictionPoint> = points.collect();
+    let is_listed = |branch: usize| {
+        let mut modes = points.iter().flat_map(|point| &point.modes);
+        modes.any(|mode| mode.branch == branch)
+    };
+    let (mut found, mut vanished) = (Vec::new(), Vec::new());
+    for (part, sweep) in parts.into_iter().enumerate() {
+        vanished.extend(sweep.vanished);
+        for (mut interval, crossing) in sweep.intervals.into_iter().zip(sweep.crossings) {
+            let rank = rank_of.get(&(part, interval.branch));
+            let Some(rank) = rank.filter(|rank| is_listed(**rank)) else {
+                continue;
+            };
+            interval.branch = *rank;
+            found.push((interval, crossing));
+        }
+    }
+    found.sort_by(|(a, _), (b, _)| a.critical_friction.total_cmp(&b.critical_friction));
+    vanished.sort_by(|a, b| a.friction_coefficient.total_cmp(&b.friction_coefficient));
+    let (intervals, crossings) = found.into_iter().unzip();
+    FrictionSweep {
+        points,
+        intervals,
+        crossings,
+        vanished,
+    }
+}

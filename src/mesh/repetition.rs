@@ -1,0 +1,345 @@
+//! A body of equal sectors from one of them.
+
+use super::coincidence::coincident_nodes;
+use super::faces::{FaceKey, face_key};
+use super::gmsh::{BodyPart, CurveEdge, FileElement, GmshFile, MeshFileError};
+use super::plane_body::{plane_body, used_nodes};
+use super::solid_body::solid_elements;
+use super::{BoundaryFace, CyclicSymmetry, Mesh};
+use nalgebra::Vector3;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Distance up to which a node of one cut face lies where one of the other comes to lie, over the shortest edge of the sector.
+const MATCHED: f64 = 1e-3;
+/// Most nodes of a mesh: indices of dofs are 32 bits wide.
+const MOST_NODES: usize = (u32::MAX / 3) as usize;
+/// Nodes that a message names.
+const NAMED: usize = 4;
+
+fn misfit(message: String) -> MeshFileError {
+    let part = BodyPart::Sectors;
+    MeshFileError::Request { part, message }
+}
+
+impl GmshFile {
+    /// The whole body whose sector is in the file: `symmetry.count` copies, each turned by `2 pi / count` against the one before and
+    /// joined to it where its first cut face meets the other's second. Coordinates and `symmetry.point` have one unit.
+    ///
+    /// The cut faces are found: faces that the turn by one sector brings onto another, node by node and in the same regions. Nodes
+    /// come sector by sector in equal order; those of the first keep their numbers, further ones add a multiple of a power of ten.
+    ///
+    /// # Errors
+    /// [`MeshFileError::Request`] where no faces meet, where they meet but their nodes do not, where a node lies on the axis.
+    pub fn repeated(&self, symmetry: &CyclicSymmetry) -> Result<Self, MeshFileError> {
+        let count = symmetry.count;
+        let index_of = used_nodes(self)?;
+        if index_of.len().saturating_mul(count) > MOST_NODES {
+            return Err(misfit(format!(
+                "{count} sectors of {} nodes have more than {MOST_NODES}",
+                index_of.len()
+            )));
+        }
+        let sector = match self.dimension {
+            3 => solid_elements(self, 1.0, &index_of)?,
+            _ => plane_body(self, 1.0)?,
+        };
+        let cut = Cut::of(&sector, symmetry)?;
+        cut.check_faces(&sector, symmetry)?;
+
+        // Nodes of the second cut face are those of the first of the next sector.
+        let own: Vec<usize> = (0..sector.node_count())
+            .filter(|node| !cut.first_of.contains_key(&(*node as u32)))
+            .collect();
+        let mut place = vec![0; sector.node_count()];
+        own.iter()
+            .enumerate()
+            .for_each(|(rank, &node)| place[node] = rank);
+        let moved = |node: u32, j: usize| -> u32 {
+            let (node, j) = match cut.first_of.get(&node) {
+                Some(&first) => (first, (j + 1) % count),
+                None => (node, j),
+            };
+            (j * own.len() + place[node as usize]) as u32
+        };
+        let of_file = |node: &u32, j: usize| {
+            let known = index_of[*node as usize].expect("every node has an element");
+            moved(known, j)
+        };
+        let largest = |labels: &mut dyn Iterator<Item = usize>| labels.max().unwrap_or(0);
+        let stride = |largest: usize| 10_usize.saturating_pow(largest.max(1).ilog10() + 1);
+        let node_stride = stride(largest(&mut sector.labels.iter().copied()));
+        let element_stride = stride(largest(&mut self.elements.iter().map(|e| e.label)));
+
+        let (mut points, mut labels, mut elements) = (Vec::new(), Vec::new(), Vec::new());
+        let mut equations = Vec::new();
+        for j in 0..count {
+            let turn = symmetry.turn(j);
+            for &node in &own {
+                points.push(symmetry.turned(&turn, sector.nodes[node]));
+                labels.push(sector.labels[node] + j * node_stride);
+            }
+            elements.extend(self.elements.iter().map(|element| FileElement {
+                label: element.label + j * element_stride,
+                nodes: element.nodes.iter().map(|node| of_file(node, j)).collect(),
+                ..element.clone()
+            }));
+            // Axes of equations turn with their sector.
+            equations.extend(self.equations.iter().map(|equation| {
+                let terms = equation.iter().flat_map(|&(node, axis, factor)| {
+                    let node = of_file(&node, j);
+                    (0..3).map(move |k| (node, k, factor * turn[(k, axis)]))
+                });
+                terms.filter(|term| term.2 != 0.0).collect()
+            }));
+        }
+        let curves = self.curves.iter().map(|(name, edges)| {
+            let copies = (0..count).flat_map(|j| {
+                let node = move |node: u32| of_file(&node, j);
+                edges
+                    .iter()
+                    .map(move |&(p, q, middle)| (node(p), node(q), middle.map(node)))
+            });
+            (name.clone(), copies.collect::<Vec<CurveEdge>>())
+        });
+        let surfaces = self.surfaces.iter().map(|(name, faces)| {
+            let copies = (0..count).flat_map(|j| {
+                let face = move |nodes: &Vec<u32>| nodes.iter().map(|n| of_file(n, j)).collect();
+                faces.iter().map(move |(kind, nodes)| (*kind, face(nodes)))
+            });
+            (name.clone(), copies.collect::<Vec<_>>())
+        });
+        let node_sets = self.node_sets.iter().map(|(name, nodes)| {
+            let copies = (0..count).flat_map(|j| nodes.iter().map(move |node| of_file(node, j)));
+            let copies: BTreeSet<u32> = copies.collect();
+            (name.clone(), copies.into_iter().collect::<Vec<u32>>())
+        });
+        Ok(Self {
+            curves: curves.collect(),
+            surfaces: surfaces.collect(),
+            node_sets: node_sets.collect(),
+            is_used: vec![true; points.len()],
+            dimension: self.dimension,
+            model: self.model.clone(),
+            symmetry: Some(*symmetry),
+            points,
+            labels,
+            elements,
+            equations,
+        })
+    }
+}
+
+/// The two cut faces of a sector.
+struct Cut {
+    /// Node of the first for each of the second.
+    first_of: BTreeMap<u32, u32>,
+    /// The same the other way round.
+    second_of: BTreeMap<u32, u32>,
+    /// The faces that bound the sector.
+    outer: Vec<BoundaryFace>,
+}
+
+impl Cut {
+    /// Pairs the nodes of the outline that the turn by one sector brings onto each other.
+    fn of(sector: &Mesh, symmetry: &CyclicSymmetry) -> Result<Self, MeshFileError> {
+        let outer = sector.outer_faces();
+        let shortest = outer.iter().flat_map(|face| {
+            let corners = &face.nodes[..face.kind.corner_count()];
+            let pairs = (0..corners.len()).map(|i| [corners[i], corners[(i + 1) % corners.len()]]);
+            pairs.map(|[p, q]| away(sector, p, q))
+        });
+        let distance = MATCHED * shortest.fold(f64::INFINITY, f64::min);
+
+        // Nodes may pair with those of the same regions alone: bodies that touch have nodes in one place.
+        let mut regions_of: BTreeMap<u32, BTreeSet<usize>> = BTreeMap::new();
+        for face in &outer {
+            for &node in &face.nodes {
+                regions_of.entry(node).or_default();
+            }
+        }
+        for element in 0..sector.element_count() {
+            for node in sector.element_nodes(element) {
+                if let Some(regions) = regions_of.get_mut(node) {
+                    regions.insert(sector.region(element));
+                }
+            }
+        }
+        let mut alike: BTreeMap<&BTreeSet<usize>, Vec<u32>> = BTreeMap::new();
+        for (&node, regions) in &regions_of {
+            alike.entry(regions).or_default().push(node);
+        }
+        let turn = symmetry.turn(1);
+        let mut first_of = BTreeMap::new();
+        for nodes in alike.values() {
+            let places = nodes.iter().map(|&node| sector.nodes[node as usize]);
+            let turned = places.clone().map(|point| symmetry.turned(&turn, point));
+            let all: Vec<[f64; 3]> = places.chain(turned).collect();
+            for (own, other) in coincident_nodes(&all, distance) {
+                let [own, other] = [own as usize, other as usize];
+                if own < nodes.len() && other >= nodes.len() {
+                    first_of.insert(nodes[own], nodes[other - nodes.len()]);
+                }
+            }
+        }
+        if let Some((node, _)) = first_of.iter().find(|(second, first)| second == first) {
+            return Err(misfit(format!(
+                "node {} lies on the axis of the sectors and belongs to all of them: mesh the whole body, or leave a hole there",
+                sector.node_label(*node as usize)
+            )));
+        }
+        let second_of = first_of.iter().map(|(&second, &first)| (first, second));
+        Ok(Self {
+            second_of: second_of.collect(),
+            first_of,
+            outer,
+        })
+    }
+
+    /// Refuses a sector that does not meet its copy, or meets it with other faces.
+    fn check_faces(&self, sector: &Mesh, symmetry: &CyclicSymmetry) -> Result<(), MeshFileError> {
+        let degrees = 360.0 / symmetry.count as f64;
+        let key = |nodes: &[u32], face: &BoundaryFace| -> FaceKey {
+            face_key(&nodes[..face.kind.corner_count()])
+        };
+        let of_key: BTreeMap<FaceKey, &BoundaryFace> =
+            self.outer.iter().map(|f| (key(&f.nodes, f), f)).collect();
+        let turn = symmetry.turn(1);
+        // Faces that the turn brings onto others: cut faces look at each other there.
+        let mut is_cut: BTreeSet<FaceKey> = BTreeSet::new();
+        let mut is_overlapping = false;
+        for face in &self.outer {
+            let partners = face
+                .nodes
+                .iter()
+                .map(|node| self.second_of.get(node).copied());
+            let Some(partners) = partners.collect::<Option<Vec<u32>>>() else {
+                continue;
+            };
+            if let Some(partner) = of_key.get(&key(&partners, face)) {
+                let [own, other] = [face, *partner].map(|face| outward(sector, face));
+                is_overlapping |= (turn * own).dot(&other) > 0.0;
+                is_cut.extend([key(&face.nodes, face), key(&partners, face)]);
+            }
+        }
+        let reach = format!(
+            "its copy turned by 360 / {} = {degrees:.6} degrees about {}; the file reaches over {:.6} degrees",
+            symmetry.count,
+            symmetry.axis_text(),
+            symmetry.extent_degrees(&sector.nodes)
+        );
+        if is_overlapping {
+            return Err(misfit(format!(
+                "the sector overlaps {reach}: does the number of sectors fit it?"
+            )));
+        }
+        let others = self.faces_in_copy(sector, symmetry, &is_cut);
+        match others.first() {
+            Some(face) => {
+                let labels = face.nodes.iter().take(NAMED);
+                let labels = labels.map(|&node| sector.node_label(node as usize).to_string());
+                Err(misfit(format!(
+                    "{} of the sector {} its copy turned by {degrees:.6} degrees with other nodes (the first has the nodes {}): \
+                     mesh both cut faces alike (Periodic Curve or Periodic Surface in Gmsh)",
+                    match others.len() {
+                        1 => "1 face".to_owned(),
+                        count => format!("{count} faces"),
+                    },
+                    if others.len() == 1 { "meets" } else { "meet" },
+                    labels.collect::<Vec<_>>().join(", ")
+                )))
+            }
+            None if is_cut.is_empty() => Err(misfit(format!(
+                "no face of the sector meets {reach}: does the number of sectors fit it, and are the nodes of both cut faces alike?"
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    /// Faces beside the cut ones that lie in elements of a copy.
+    fn faces_in_copy(
+        &self,
+        sector: &Mesh,
+        symmetry: &CyclicSymmetry,
+        is_cut: &BTreeSet<FaceKey>,
+    ) -> Vec<&BoundaryFace> {
+        let has = |face: &BoundaryFace, nodes: &BTreeMap<u32, u32>| {
+            face.nodes.iter().any(|node| nodes.contains_key(node))
+        };
+        let is_beside = |face: &&BoundaryFace| {
+            let key = face_key(&face.nodes[..face.kind.corner_count()]);
+            !is_cut.contains(&key) && (has(face, &self.first_of) || has(face, &self.second_of))
+        };
+        let inside = Inside::of(sector);
+        let turns = [1, symmetry.count - 1].map(|j| symmetry.turn(j));
+        let is_in_copy = |face: &&BoundaryFace| {
+            let beyond = beyond(sector, face);
+            let mut turned = turns.iter().map(|turn| symmetry.turned(turn, beyond));
+            turned.any(|point| inside.has(sector, point))
+        };
+        let beside = self.outer.iter().filter(is_beside);
+        beside.filter(is_in_copy).collect()
+    }
+}
+
+fn away(sector: &Mesh, p: u32, q: u32) -> f64 {
+    let [p, q] = [p, q].map(|node| Vector3::from(sector.nodes[node as usize]));
+    (p - q).norm()
+}
+
+fn middle(sector: &Mesh, nodes: &[u32]) -> Vector3<f64> {
+    let sum = nodes.iter().fold(Vector3::zeros(), |sum, &node| {
+        sum + Vector3::from(sector.nodes[node as usize])
+    });
+    sum / nodes.len() as f64
+}
+
+/// A point a little outside a face, by a hundredth of its size.
+fn beyond(sector: &Mesh, face: &BoundaryFace) -> [f64; 3] {
+    let corners = &face.nodes[..face.kind.corner_count()];
+    let size = away(sector, corners[0], corners[1]);
+    (middle(sector, corners) + outward(sector, face) * (0.01 * size)).into()
+}
+
+/// Unit vector out of the body at a face, away from its element's middle where the face is bent.
+fn outward(sector: &Mesh, face: &BoundaryFace) -> Vector3<f64> {
+    let points = sector.face_points(face);
+    let areas = face.kind.quadrature().into_iter();
+    let areas = areas.map(|point| Vector3::from(face.kind.at(&points, point).area));
+    areas
+        .fold(Vector3::zeros(), |sum, area| sum + area)
+        .normalize()
+}
+
+/// Spheres about the elements of a sector: most elements are told from a point by them.
+struct Inside {
+    spheres: Vec<(Vector3<f64>, f64)>,
+}
+
+impl Inside {
+    fn of(sector: &Mesh) -> Self {
+        let sphere = |element: usize| {
+            let nodes = sector.element_nodes(element);
+            let center = middle(sector, nodes);
+            let reach = |&node: &u32| (Vector3::from(sector.nodes[node as usize]) - center).norm();
+            (center, nodes.iter().map(reach).fold(0.0, f64::max))
+        };
+        Self {
+            spheres: (0..sector.element_count()).map(sphere).collect(),
+        }
+    }
+
+    /// Whether a point lies in an element, whose faces are taken as plane.
+    fn has(&self, sector: &Mesh, point: [f64; 3]) -> bool {
+        let point = Vector3::from(point);
+        let near = self.spheres.iter().enumerate();
+        let mut near = near.filter(|(_, (center, radius))| (point - center).norm() < *radius);
+        near.any(|(element, _)| {
+            let faces = 0..sector.element_kind(element).faces().len();
+            let mut faces = faces.map(|face| sector.element_face(element, face));
+            faces.all(|face| {
+                let corners = &face.nodes[..face.kind.corner_count()];
+                (point - middle(sector, corners)).dot(&outward(sector, &face)) < 0.0
+            })
+        })
+    }
+}

@@ -1,0 +1,265 @@
+//! Tangents of a body with cyclic symmetry, one for each number of nodal diameters.
+
+use super::{SlidingTangent, TabledStiffness};
+use crate::fem::DofMap;
+use crate::linalg::{MatrixPolynomial, SparsityPattern, c64};
+use crate::mesh::CyclicSymmetry;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// Difference of entries of two sectors, over the largest one of the row, up to which they are alike.
+const ALIKE: f64 = 1e-8;
+
+/// The small motions of a body whose `N` sectors are alike, as waves of `n = 0 ... N / 2` nodal diameters:
+///
+/// ```text
+/// q_j = a cos(2 pi n j / N) + b sin(2 pi n j / N),   j = 0 ... N - 1,
+/// ```
+///
+/// with `q_j` the unknowns of sector `j` in frames that turn with it. Of a matrix whose rows of sector 0 have the blocks `A_j` in
+/// the columns of sector `j` such waves see
+///
+/// ```text
+/// [  C  S ] [a]
+/// [ -S  C ] [b],   C = sum_j A_j cos(2 pi n j / N),   S = sum_j A_j sin(2 pi n j / N),
+/// ```
+///
+/// of `n = 0` and `2 n = N` the first block alone. Source: Thomas, "Dynamics of rotationally periodic structures", Int. J. Numer.
+/// Meth. Eng. 14 (1979).
+pub struct CyclicTangent<'a> {
+    whole: &'a SlidingTangent,
+    count: usize,
+    /// Unknown of the whole body: place `i` of sector `j` at `j * size + i`.
+    at: Vec<usize>,
+    /// Entries in the rows of sector 0.
+    entries: Vec<Entry>,
+}
+
+/// An entry of the matrices in a row of sector 0.
+struct Entry {
+    /// Places within the sectors.
+    row: usize,
+    column: usize,
+    /// Sector of the column.
+    sector: usize,
+    /// Position in the pattern of the whole body.
+    position: usize,
+}
+
+impl<'a> CyclicTangent<'a> {
+    /// The waves of `whole`, the tangent of a mesh of `node_count` nodes that has the symmetry.
+    ///
+    /// # Errors
+    /// In words what differs from sector to sector: supports, loads or masses in one place only, an asymmetric state of contact.
+    pub fn new(
+        whole: &'a SlidingTangent,
+        symmetry: &CyclicSymmetry,
+        node_count: usize,
+    ) -> Result<Self, String> {
+        let count = symmetry.count;
+        // Unknowns by sector, in the order of their dofs.
+        let per_sector = whole.unknowns.unknown_of.len() / node_count * (node_count / count);
+        let mut places: Vec<Vec<[usize; 2]>> = vec![Vec::new(); count];
+        for (unknown, dof) in whole.unknowns.dofs.iter().enumerate() {
+            places[dof / per_sector].push([dof % per_sector, unknown]);
+        }
+        let dofs = |j: usize| places[j].iter().map(|place| place[0]);
+        if let Some(j) = (1..count).find(|&j| !dofs(j).eq(dofs(0))) {
+            return Err(format!(
+                "sector {} is held, tied or pressed otherwise than the first",
+                j + 1
+            ));
+        }
+        let size = places[0].len();
+        let at: Vec<usize> = places.iter().flatten().map(|place| place[1]).collect();
+        let mut place_of = vec![[0; 2]; at.len()];
+        for (k, &unknown) in at.iter().enumerate() {
+            place_of[unknown] = [k / size, k % size];
+        }
+        let pattern = whole.stiffness.pattern();
+        let rows = (0..size).flat_map(|row| pattern.row(at[row]).map(move |own| (row, own)));
+        let entries = rows.map(|(row, (position, column))| {
+            let [sector, column] = place_of[column];
+            Entry {
+                row,
+                column,
+                sector,
+                position,
+            }
+        });
+        let own = Self {
+            entries: entries.collect(),
+            whole,
+            count,
+            at,
+        };
+        own.check_alike()?;
+        Ok(own)
+    }
+
+    /// Refuses matrices that differ from sector to sector.
+    fn check_alike(&self) -> Result<(), String> {
+        let (size, whole) = (self.size(), self.whole);
+        let pattern = whole.stiffness.pattern();
+        let mut named = vec![
+            ("mass", &whole.mass),
+            ("damping", &whole.damping),
+            ("stiffness", &whole.stiffness),
+        ];
+        named.extend(
+            whole
+                .structural
+                .iter()
+                .map(|own| ("structural damping", own)),
+        );
+        let tabled = whole.tabled.iter().map(|own| &own.stiffness);
+        named.extend(tabled.map(|own| ("stiffness of a part with a table", own)));
+        for j in 1..self.count {
+            // Where the entries of sector 0 are in this one.
+            let copies = self.entries.iter().map(|entry| {
+                let column = (entry.sector + j) % self.count * size + entry.column;
+                pattern.position(self.at[j * size + entry.row], self.at[column])
+            });
+            let copies: Vec<Option<usize>> = copies.collect();
+            let entries = (0..size).map(|row| pattern.row(self.at[j * size + row]).count());
+            let is_same_count = entries.sum::<usize>() == self.entries.len();
+            for (what, matrix) in named.iter().filter(|(_, matrix)| is_filled(matrix)) {
+                // Powers of mu that almost cancel are held to the others.
+                let mut largest = vec![0.0_f64; size];
+                for values in matrix.coefficients() {
+                    for entry in &self.entries {
+                        let row = &mut largest[entry.row];
+                        *row = row.max(values[entry.position].abs());
+                    }
+                }
+                let differs = matrix.coefficients().iter().any(|values| {
+                    self.entries.iter().zip(&copies).any(|(entry, copy)| {
+                        let copy = copy.map_or(0.0, |position| values[position]);
+                        (copy - values[entry.position]).abs() > ALIKE * largest[entry.row]
+                    })
+                });
+                if differs || !is_same_count {
+                    return Err(format!(
+                        "the {what} of sector {} differs from that of the first",
+                        j + 1
+                    ));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Unknowns of one sector.
+    fn size(&self) -> usize {
+        self.at.len() / self.count
+    }
+
+    /// Largest number of nodal diameters, `N / 2`.
+    pub fn highest(&self) -> usize {
+        self.count / 2
+    }
+
+    /// Whether waves of `n` nodal diameters have a sine beside their cosine.
+    fn is_paired(&self, n: usize) -> bool {
+        n != 0 && 2 * n != self.count
+    }
+
+    /// `cos` and `sin` of `2 pi n j / N`.
+    fn phase(&self, n: usize, j: usize) -> [f64; 2] {
+        let (sin, cos) = (TAU * (n * j % self.count) as f64 / self.count as f64).sin_cos();
+        [cos, sin]
+    }
+
+    /// The tangent that waves of `n` nodal diameters see, over `a` and, where there is one, `b`: its vectors are those of a body
+    /// whose dofs are these unknowns.
+    pub fn harmonic(&self, n: usize) -> SlidingTangent {
+        let (size, whole) = (self.size(), self.whole);
+        let is_paired = self.is_paired(n);
+        let phases: Vec<[f64; 2]> = (0..self.count).map(|j| self.phase(n, j)).collect();
+        // Places of an entry's blocks with their factors.
+        let blocks = |entry: &Entry| {
+            let (row, column) = (entry.row, entry.column);
+            let [cos, sin] = phases[entry.sector];
+            let all = [
+                (row, column, cos),
+                (row, size + column, sin),
+                (size + row, column, -sin),
+                (size + row, size + column, cos),
+            ];
+            let kept = if is_paired { 4 } else { 1 };
+            all.into_iter().take(kept)
+        };
+        let positions = self.entries.iter().flat_map(blocks);
+        let positions = positions.map(|(row, column, _)| (row, column));
+        let dimension = if is_paired { 2 * size } else { size };
+        let pattern = Arc::new(SparsityPattern::from_positions(dimension, positions));
+        let of_waves = |matrix: &MatrixPolynomial| {
+            let coefficients = matrix.coefficients().iter().map(|values| {
+                let terms = self.entries.iter().flat_map(|entry| {
+                    let value = values[entry.position];
+                    blocks(entry).map(move |(row, column, factor)| (row, column, factor * value))
+                });
+                terms.collect()
+            });
+            let coefficients: Vec<Vec<(usize, usize, f64)>> = coefficients.collect();
+            MatrixPolynomial::on_pattern(&pattern, &coefficients)
+        };
+        let in_sector: Vec<Option<usize>> = {
+            let mut place = vec![None; self.at.len()];
+            (0..size).for_each(|i| place[self.at[i]] = Some(i));
+            place
+        };
+        let touched = |unknowns: &[usize]| -> Vec<usize> {
+            let own: Vec<usize> = unknowns.iter().filter_map(|&u| in_sector[u]).collect();
+            let second = own.iter().filter(|_| is_paired).map(|i| size + i);
+            own.iter().copied().chain(second).collect()
+        };
+        let tabled = whole.tabled.iter().map(|own| TabledStiffness {
+            gain: own.gain.clone(),
+            stiffness: of_waves(&own.stiffness),
+        });
+        SlidingTangent {
+            mass: of_waves(&whole.mass),
+            damping: of_waves(&whole.damping),
+            stiffness: of_waves(&whole.stiffness),
+            structural: whole.structural.as_ref().map(of_waves),
+            tabled: tabled.collect(),
+            proportional: whole.proportional,
+            is_gyroscopic: whole.is_gyroscopic,
+            is_free: whole.is_free,
+            unknowns: DofMap::excluding(dimension, []),
+            contact_tangential: touched(&whole.contact_tangential),
+            contact_normal: touched(&whole.contact_normal),
+            contact_opposite: touched(&whole.contact_opposite),
+            distances: Vec::new(),
+            contact_angles: Vec::new(),
+            sliding_direction: whole.sliding_direction,
+            friction: Vec::new(),
+        }
+    }
+
+    /// A wave of `n` nodal diameters over all unknowns of the body.
+    pub fn expand(&self, n: usize, wave: &[c64]) -> Vec<c64> {
+        let size = self.size();
+        let mut all = vec![c64::new(0.0, 0.0); self.at.len()];
+        for j in 0..self.count {
+            let [cos, sin] = self.phase(n, j);
+            for i in 0..size {
+                let second = wave.get(size + i).map_or(c64::new(0.0, 0.0), |b| b * sin);
+                all[self.at[j * size + i]] = wave[i] * cos + second;
+            }
+        }
+        all
+    }
+
+    /// `|x|^2` of the whole body over that of the wave: `N`, or `N / 2` where there is a sine.
+    pub fn weight(&self, n: usize) -> f64 {
+        let half = if self.is_paired(n) { 0.5 } else { 1.0 };
+        half * self.count as f64
+    }
+}
+
+fn is_filled(matrix: &MatrixPolynomial) -> bool {
+    let mut values = matrix.coefficients().iter().flatten();
+    values.any(|value| *value != 0.0)
+}

@@ -1,0 +1,225 @@
+//! The pressed equilibrium of a body whose sectors are alike, from one of them.
+
+use super::PrestressError;
+use super::complementarity::{PressedRange, PressedState, Pressing};
+use super::condensed::CondensedContact;
+use super::elimination::Elimination;
+use super::penalty::PenaltyContact;
+use crate::contact::{Point, Row};
+use crate::fem::Triplets;
+use crate::mesh::{CyclicSymmetry, Mesh};
+use std::collections::BTreeMap;
+
+/// Difference of coefficients of two points' rows, over the largest one, up to which they are copies.
+const ALIKE: f64 = 1e-7;
+/// Gap, over the root of a point's share of the surface, that is none.
+const NO_GAP: f64 = 1e-4;
+/// Coefficients of a row, over the largest one, that are round-off.
+const ROUND_OFF: f64 = 1e-12;
+
+/// The sector of a pressed body and the copies of its points.
+struct SectorPressing {
+    stiffness: Triplets,
+    load: Vec<f64>,
+    elimination: Elimination,
+    points: Vec<Point>,
+    /// Point of the whole body that each of them is.
+    first: Vec<usize>,
+    /// Point of the sector that each point of the whole body is a copy of.
+    copy_of: Vec<usize>,
+    count: usize,
+}
+
+impl Pressing<'_> {
+    /// The states at every one of `friction_coefficients`, of a body of equal sectors from one of them: its loads and points are the
+    /// same in each, and so is its state, in frames that turn with it.
+    ///
+    /// # Errors
+    /// Those of [`PenaltyContact::range`] and [`CondensedContact::range`]; [`PrestressError::MixedContacts`].
+    pub fn states(
+        &self,
+        mesh: &Mesh,
+        friction_coefficients: &[f64],
+    ) -> Result<PressedRange, PrestressError> {
+        let sector = mesh.symmetry.as_ref();
+        let Some(sector) = sector.and_then(|own| SectorPressing::of(self, own)) else {
+            return self.states_of_all(friction_coefficients);
+        };
+        let of_first = |values: &[Option<f64>]| sector.first.iter().map(|&i| values[i]).collect();
+        let own = Pressing {
+            stiffness: &sector.stiffness,
+            load: sector.load.clone(),
+            elimination: sector.elimination.clone(),
+            points: &sector.points,
+            pushed: sector.first.iter().map(|&i| self.pushed[i]).collect(),
+            stiffnesses: of_first(&self.stiffnesses),
+            laws: sector.first.iter().map(|&i| self.laws[i]).collect(),
+        };
+        let range = own.states_of_all(friction_coefficients)?;
+        Ok(sector.of_all(range))
+    }
+
+    /// Points on springs leave the matrices sparse; rigid ones need the bodies' response to each.
+    fn states_of_all(&self, friction_coefficients: &[f64]) -> Result<PressedRange, PrestressError> {
+        match PenaltyContact::new(self)? {
+            Some(bodies) => bodies.range(friction_coefficients),
+            None if self.laws.iter().any(Option::is_some) => Err(PrestressError::MixedContacts),
+            None => CondensedContact::new(self)?.range(friction_coefficients),
+        }
+    }
+}
+
+/// A row with the place of each dof in its sector, and the sectors counted from that of the row.
+type SectorRow = Vec<([usize; 2], f64)>;
+
+impl SectorPressing {
+    /// The sector of a pressed body; `None` where ties or equations join sectors, or loads and points differ from one to another.
+    fn of(whole: &Pressing<'_>, symmetry: &CyclicSymmetry) -> Option<Self> {
+        let (count, total) = (symmetry.count, whole.load.len());
+        let size = total / count;
+        if size * count != total || whole.elimination.combinations().next().is_some() {
+            return None;
+        }
+        let load = whole.load[..size].to_vec();
+        let largest = load.iter().fold(0.0_f64, |m, force| m.max(force.abs()));
+        let mut loads = whole.load.iter().enumerate();
+        if !loads.all(|(dof, force)| (force - load[dof % size]).abs() <= ALIKE * largest) {
+            return None;
+        }
+        let unknowns = whole.elimination.unknowns();
+        let is_held = |dof: usize| unknowns.unknown_of[dof].is_none();
+        if (0..total).any(|dof| is_held(dof) != is_held(dof % size))
+            || !turns_with_body(whole.stiffness, size, total)
+        {
+            return None;
+        }
+        let (first, copy_of) = copies(whole, size, count)?;
+        let folded = |row: &Row| -> Row {
+            let mut sum: BTreeMap<usize, f64> = BTreeMap::new();
+            for &(dof, value) in row {
+                *sum.entry(dof % size).or_default() += value;
+            }
+            sum.into_iter().collect()
+        };
+        let points = first.iter().map(|&i| {
+            let point = &whole.points[i];
+            Point {
+                normal: folded(&point.normal),
+                lift: folded(&point.lift),
+                slip: folded(&point.slip),
+                across: folded(&point.across),
+                tilt: folded(&point.tilt),
+                stretch: folded(&point.stretch),
+                ..point.clone()
+            }
+        });
+        let entries = whole.stiffness.entries.iter();
+        let entries = entries.filter(|(row, ..)| *row < size);
+        let entries = entries.map(|&(row, column, value)| (row, column % size, value));
+        Some(Self {
+            stiffness: Triplets {
+                entries: entries.collect(),
+            },
+            elimination: Elimination::holding(size, (0..size).filter(|&dof| is_held(dof))),
+            points: points.collect(),
+            load,
+            first,
+            copy_of,
+            count,
+        })
+    }
+
+    /// The states of the whole body.
+    fn of_all(&self, range: PressedRange) -> PressedRange {
+        let repeated = |values: Vec<f64>| values.repeat(self.count);
+        let spread = |values: Vec<f64>| self.copy_of.iter().map(|&i| values[i]).collect();
+        let states = range.states.into_iter().map(|state| PressedState {
+            displacements: state.displacements.into_iter().map(repeated).collect(),
+            normal_forces: state.normal_forces.into_iter().map(spread).collect(),
+            stiffnesses: state.stiffnesses.into_iter().map(spread).collect(),
+            is_pressed: self.copy_of.iter().map(|&i| state.is_pressed[i]).collect(),
+        });
+        PressedRange {
+            states: states.collect(),
+            ..range
+        }
+    }
+}
+
+/// The points of the first sector, and for every point which of them it is a copy of; `None` where one has none.
+fn copies(whole: &Pressing<'_>, size: usize, count: usize) -> Option<(Vec<usize>, Vec<usize>)> {
+    // Points that touch the same places of their sectors, by the sector in which they lie.
+    let mut alike: BTreeMap<Vec<[usize; 2]>, Vec<(usize, usize, SectorRow)>> = BTreeMap::new();
+    for (i, point) in whole.points.iter().enumerate() {
+        let (sector, row) = within_sector(&point.normal, size, count)?;
+        let places = row.iter().map(|entry| entry.0).collect();
+        alike.entry(places).or_default().push((sector, i, row));
+    }
+    // Gaps that vanish are round-off beside the size of a point.
+    let closeness = |k: usize| {
+        let size = NO_GAP * whole.points[k].weight.sqrt();
+        whole.pushed[k].abs().max(size)
+    };
+    let mut firsts: Vec<usize> = Vec::new();
+    let mut first_of = vec![usize::MAX; whole.points.len()];
+    for group in alike.values() {
+        let own: Vec<&(usize, usize, SectorRow)> = group.iter().filter(|p| p.0 == 0).collect();
+        if own.len() * count != group.len() {
+            return None;
+        }
+        for (_, i, row) in group {
+            let is_copy = |(_, k, other): &&&(usize, usize, SectorRow)| {
+                let largest = other.iter().fold(0.0_f64, |m, entry| m.max(entry.1.abs()));
+                let mut pairs = row.iter().zip(other);
+                let [a, b] = [&whole.points[*i], &whole.points[*k]];
+                pairs.all(|(a, b)| (a.1 - b.1).abs() <= ALIKE * largest)
+                    && (a.weight - b.weight).abs() <= ALIKE * b.weight
+                    && (whole.pushed[*i] - whole.pushed[*k]).abs() <= ALIKE * closeness(*k)
+            };
+            first_of[*i] = own.iter().find(is_copy)?.1;
+        }
+        firsts.extend(own.iter().map(|p| p.1));
+    }
+    firsts.sort_unstable();
+    let place = |i: &usize| firsts.binary_search(i).ok();
+    let copy_of = first_of.iter().map(place).collect::<Option<Vec<usize>>>()?;
+    Some((firsts, copy_of))
+}
+
+/// The sector of a row, whose dofs lie there and in the next one at most, and the row as seen from there.
+fn within_sector(row: &Row, size: usize, count: usize) -> Option<(usize, SectorRow)> {
+    let largest = row.iter().fold(0.0_f64, |m, entry| m.max(entry.1.abs()));
+    let own = row
+        .iter()
+        .filter(|entry| entry.1.abs() > ROUND_OFF * largest);
+    let sectors: Vec<usize> = own.clone().map(|(dof, _)| dof / size).collect();
+    let ahead = |from: usize, dof: usize| (dof / size + count - from) % count;
+    let is_first = |from: &&usize| own.clone().all(|(dof, _)| ahead(**from, *dof) <= 1);
+    let sector = *sectors.iter().find(is_first)?;
+    // Of two sectors each is the next of the other.
+    if count == 2 && sectors.iter().any(|other| *other != sector) {
+        return None;
+    }
+    let place = |&(dof, value): &(usize, f64)| ([ahead(sector, dof), dof % size], value);
+    let mut row: SectorRow = own.map(place).collect();
+    row.sort_by_key(|entry| entry.0);
+    Some((sector, row))
+}
+
+/// Whether a matrix takes a vector that is turned by one sector to what it makes of the vector, turned.
+fn turns_with_body(matrix: &Triplets, size: usize, total: usize) -> bool {
+    // Any vector that has no symmetry of its own.
+    let own: Vec<f64> = (0..total)
+        .map(|dof| (1.0 + dof as f64).sqrt().fract() - 0.5)
+        .collect();
+    let turned = |values: &[f64]| -> Vec<f64> {
+        (0..total)
+            .map(|dof| values[(dof + total - size) % total])
+            .collect()
+    };
+    let first = turned(&matrix.multiply(total, &own));
+    let second = matrix.multiply(total, &turned(&own));
+    let largest = first.iter().fold(0.0_f64, |m, value| m.max(value.abs()));
+    let mut pairs = first.iter().zip(&second);
+    pairs.all(|(a, b)| (a - b).abs() <= ALIKE * largest)
+}

@@ -1,0 +1,236 @@
+//! Bodies from a mesh of one of their sectors, solved by waves around them, against their whole mesh.
+
+use crate::bricks::{Block, file_of};
+use frictionsim::case::{Case, CaseErrors};
+use frictionsim::cea::{ComplexMode, Unwatched};
+use frictionsim::results::cea::Reading;
+use frictionsim::study::eigenvalues::{SlidingModel, Solution, solve};
+use std::f64::consts::TAU;
+use std::fmt::Write;
+use std::fs;
+use std::path::PathBuf;
+
+/// One of `count` sectors of a disc as a file in MSH 2.2: bent cut faces, uneven elements, and a hole, the boundary "screw", off the
+/// middle. Nodes within the second cut face lie `shift` elements farther out than those of the first.
+fn disc_sector(count: usize, [around, radial]: [usize; 2], shift: f64) -> String {
+    let [inner, outer] = [0.0205, 0.0905];
+    let node = |i: usize, j: usize| 1 + i * (radial + 1) + j;
+    let (mut nodes, mut elements) = (String::new(), String::new());
+    let is_hole = |i: usize, j: usize| {
+        let [t, r] = [
+            (i as f64 + 0.5) / around as f64,
+            (j as f64 + 0.5) / radial as f64,
+        ];
+        (0.3..0.55).contains(&t) && (0.6..0.8).contains(&r)
+    };
+    for i in 0..=around {
+        for j in 0..=radial {
+            let (mut t, mut r) = (i as f64, j as f64);
+            let is_within = 0 < j && j < radial;
+            if is_within && 0 < i && i < around {
+                t += 0.15 * (7.0 * t + 3.0 * r).sin();
+                r += 0.15 * (5.0 * t - 2.0 * r).cos();
+            }
+            if is_within && i == around {
+                r += shift;
+            }
+            let share = r / radial as f64;
+            let angle = TAU / count as f64 * (t / around as f64 + 0.15 * share * share);
+            let radius = inner + (outer - inner) * share;
+            let [x, y] = [radius * angle.cos(), radius * angle.sin()];
+            writeln!(nodes, "{} {x:?} {y:?} 0", node(i, j)).unwrap();
+        }
+    }
+    let mut total = 0;
+    let mut add = |kind: usize, group: usize, list: &[usize]| {
+        total += 1;
+        let list: Vec<String> = list.iter().map(usize::to_string).collect();
+        writeln!(
+            elements,
+            "{total} {kind} 2 {group} {group} {}",
+            list.join(" ")
+        )
+        .unwrap();
+    };
+    for i in 0..around {
+        add(1, 1, &[node(i, 0), node(i + 1, 0)]);
+        for j in (0..radial).filter(|&j| !is_hole(i, j)) {
+            let [a, b] = [i, i + 1];
+            add(
+                3,
+                2,
+                &[node(a, j), node(a, j + 1), node(b, j + 1), node(b, j)],
+            );
+            // Edges towards the hole.
+            let sides = [
+                (i > 0 && is_hole(i - 1, j), [node(a, j), node(a, j + 1)]),
+                (is_hole(i + 1, j), [node(b, j), node(b, j + 1)]),
+                (j > 0 && is_hole(i, j - 1), [node(a, j), node(b, j)]),
+                (is_hole(i, j + 1), [node(a, j + 1), node(b, j + 1)]),
+            ];
+            for (_, edge) in sides.into_iter().filter(|side| side.0) {
+                add(1, 3, &edge);
+            }
+        }
+    }
+    let node_count = (around + 1) * (radial + 1);
+    format!(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"inner\"\n2 2 \"disc\"\n1 3 \"screw\"\n$EndPhysicalNames\n\
+         $Nodes\n{node_count}\n{nodes}$EndNodes\n$Elements\n{total}\n{elements}$EndElements\n"
+    )
+}
+
+/// A case beside its mesh, solved by one of the methods.
+fn read(name: &str, mesh: &[u8], text: &str, method: &str) -> Result<Case, CaseErrors> {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("sectors-{name}"));
+    fs::create_dir_all(&folder).unwrap();
+    fs::write(folder.join("sector.msh"), mesh).unwrap();
+    let path = folder.join("case.toml");
+    let method = format!("cea.method={method}");
+    Case::parse(path.to_str().unwrap(), text.as_bytes(), &[method])
+}
+
+fn screwed_disc(sectors: usize, more: &str) -> String {
+    format!(
+        "[mesh]\nfile = \"sector.msh\"\nsectors = {sectors}\n[boundaries.screw]\ncondition = \"clamped\"\n\
+         [material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0\nformulation = \"plane-strain\"\n\
+         [damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7\n\
+         [contact]\nboundary = \"inner\"\nfriction_coefficient = 0.4\ninterference = 25e-6\nrotation_speed_rpm = 610.0\n{more}"
+    )
+}
+
+fn solved(name: &str, mesh: &[u8], text: &str, method: &str) -> Solution {
+    let case = read(name, mesh, text, method).unwrap_or_else(|e| panic!("{e}"));
+    let cea = case.cea.clone().unwrap();
+    let model = SlidingModel::new(&case, &cea).unwrap();
+    solve(&case, &cea, &model, &Unwatched).unwrap()
+}
+
+/// Eigenvalues at every friction value and critical frictions are those of the whole mesh. Estimates of the mesh's error, which stand on
+/// right and left vectors over the whole body, are so to the accuracy of left vectors, corrected in two different bases.
+fn assert_same(name: &str, mesh: &[u8], text: &str) {
+    let [waves, whole] = ["cyclic", "sparse"].map(|method| solved(name, mesh, text, method));
+    assert_eq!([waves.method, whole.method], ["cyclic", "sparse"]);
+    let mut worst = [0.0_f64; 3];
+    for (a, b) in waves.sweep.points.iter().zip(&whole.sweep.points) {
+        assert_eq!(a.modes.len(), b.modes.len());
+        for mode in &b.modes {
+            let apart = |other: &&ComplexMode| {
+                (other.eigenvalue - mode.eigenvalue).norm() / mode.eigenvalue.norm()
+            };
+            let nearest = a.modes.iter().min_by(|x, y| apart(x).total_cmp(&apart(y)));
+            worst[0] = worst[0].max(apart(&nearest.unwrap()));
+        }
+        let [of_waves, of_whole] = [&waves, &whole].map(|own| own.reading.as_ref().unwrap());
+        // Pairs without friction have no vectors of their own.
+        for mode in (1..=a.modes.len()).filter(|_| a.friction_coefficient > 0.0) {
+            let at = |own: &Reading| own.mesh_error(a.friction_coefficient, mode).unwrap();
+            let [own, other] = [at(of_waves), at(of_whole)];
+            worst[2] = worst[2].max((own - other).abs() / other.abs());
+        }
+    }
+    let [waves, whole] = [&waves, &whole].map(|own| &own.sweep.intervals);
+    assert_eq!(waves.len(), whole.len());
+    for (a, b) in waves.iter().zip(whole) {
+        assert!(a.nodal_diameters.is_some() && b.nodal_diameters.is_none());
+        worst[1] = worst[1].max((a.critical_friction - b.critical_friction).abs());
+    }
+    println!("{} critical; worst {worst:?}", waves.len());
+    assert!(
+        worst[0] < 1e-9 && worst[1] < 1e-9 && worst[2] < 0.2,
+        "{worst:?}"
+    );
+}
+
+/// Consistency check: waves around the body against its whole mesh, with rigid contact and with a springy one, of an odd and an even
+/// number of sectors.
+#[test]
+fn waves_around_a_plane_body_have_the_spectrum_of_its_whole_mesh() {
+    let analysis = "[cea]\nmodes = 20\nfriction_coefficients = [0.0, 0.2, 0.4, 0.6]\n";
+    let cases = [
+        (3, "", [20, 8]),
+        (4, "normal_stiffness = 7.4e12\n", [14, 8]),
+    ];
+    for (count, contact, size) in cases {
+        let mesh = disc_sector(count, size, 0.0);
+        let text = screwed_disc(count, &format!("{contact}{analysis}"));
+        assert_same(&format!("disc-{count}"), mesh.as_bytes(), &text);
+    }
+}
+
+/// The same of solid bodies: a ring between two rings of lining, cut along bent faces, pressed by a load that the base state solves.
+#[test]
+fn waves_around_solid_bodies_have_the_spectrum_of_their_whole_mesh() {
+    let block = |name, z: [f64; 2], layers| Block {
+        name,
+        origin: [0.07, 0.0, z[0]],
+        size: [0.05, TAU / 6.0, z[1] - z[0]],
+        counts: [3, 4, layers],
+    };
+    let blocks = [
+        block("below", [-0.02, -0.008], 1),
+        block("ring", [-0.008, 0.008], 2),
+        block("above", [0.008, 0.02], 1),
+    ];
+    let mesh = file_of(&blocks, |[r, t, z]| {
+        let angle = t + 0.1 * (60.0 * (r - 0.07)).sin();
+        [r * angle.cos(), r * angle.sin(), z]
+    });
+    let lining = |name: &str| {
+        format!("[materials.{name}]\nyoung_modulus = 5e9\npoisson_ratio = 0.25\ndensity = 2500.0\n")
+    };
+    let contact = |name: &str, own: &str, counter: &str| {
+        format!(
+            "[contacts.{name}]\nsurface = \"{own}\"\ncounter = \"{counter}\"\nfriction_coefficient = 0.4\nnormal_stiffness = 1e12\n"
+        )
+    };
+    let text = format!(
+        "[mesh]\nfile = \"sector.msh\"\nsectors = 6\n\
+         [material]\nyoung_modulus = 1.1e11\npoisson_ratio = 0.28\ndensity = 7200.0\n{}{}\
+         [damping]\nmass_coefficient = 0.0\nstiffness_coefficient = 1e-8\n\
+         [boundaries.ring_x0]\ncondition = \"clamped\"\n[boundaries.below_z0]\ncondition = \"clamped\"\n\
+         [boundaries.above_z1]\ncondition = \"pressure\"\npressure = 1e6\n\
+         [boundaries.above_x1]\ncondition = \"support\"\nnormal_stiffness = 1e11\ntangential_stiffness = 1e11\n\
+         [motion.ring]\naxis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = 300.0\n{}{}\
+         [cea]\nmodes = 16\nfriction_coefficients = [0.0, 0.3, 0.6]\n",
+        lining("below"),
+        lining("above"),
+        contact("below", "below_z1", "ring_z0"),
+        contact("above", "above_z0", "ring_z1"),
+    );
+    assert_same("ring", &mesh, &text);
+}
+
+/// A body that differs in one place has the spectrum of its whole mesh, and says why.
+#[test]
+fn a_body_with_one_mass_is_solved_whole() {
+    let more = "[cea]\nmodes = 6\nfriction_coefficients = [0.0, 0.4]\n[modifications.lump]\nat = { x = 0.0905, y = 0.0 }\nmass = 0.5\n";
+    let mesh = disc_sector(3, [14, 6], 0.0);
+    let text = screwed_disc(3, more);
+    let [auto, whole] =
+        ["auto", "sparse"].map(|method| solved("mass", mesh.as_bytes(), &text, method));
+    assert_eq!(auto.sweep, whole.sweep);
+    assert_eq!(auto.method, "sparse");
+    let note = auto.notes.iter().find(|note| note.contains("whole mesh"));
+    assert!(note.unwrap().contains("mass of sector"), "{note:?}");
+}
+
+/// Sectors that do not meet their copies are refused with what does not fit.
+#[test]
+fn sectors_that_do_not_meet_are_refused() {
+    let refused = |name: &str, sectors: usize, shift: f64| {
+        let mesh = disc_sector(3, [14, 6], shift);
+        let text = screwed_disc(sectors, "[cea]\nmodes = 6\n");
+        let case = read(name, mesh.as_bytes(), &text, "auto");
+        case.unwrap_err().to_string()
+    };
+    let wrong = refused("wrong-count", 5, 0.0);
+    assert!(
+        wrong.contains("mesh.sectors") && wrong.contains("72.000000 degrees"),
+        "{wrong}"
+    );
+    assert!(wrong.contains("138.000000 degrees"), "{wrong}");
+    let shifted = refused("other-nodes", 3, 0.3);
+    assert!(shifted.contains("with other nodes"), "{shifted}");
+    assert!(shifted.contains("Periodic Curve"), "{shifted}");
+}
