@@ -53,23 +53,46 @@ fn own_modes(out: &mut String, report: &CeaReport<'_>) {
             " (listed; --verbose lists those of every friction value)"
         },
     );
-    head(out, "", report.has_harmonics);
+    head(out, "", Names::of(report));
     for (index, mode) in point.modes.iter().enumerate() {
         if is_short || mode.is_unstable() {
             let mark = if mode.is_unstable() { "unstable" } else { "" };
-            mode_line(out, mark, index, mode, report.has_harmonics);
+            mode_line(out, mark, index, mode, Names::of(report));
+        }
+    }
+}
+
+/// What modes of a body are named by.
+#[derive(Clone, Copy)]
+enum Names {
+    /// Harmonic, rank within it and sense of travel.
+    Harmonics,
+    /// Number of nodal diameters, and rank among all.
+    Diameters,
+    /// Rank alone.
+    Ranks,
+}
+
+impl Names {
+    fn of(report: &CeaReport<'_>) -> Self {
+        let mut modes = report.sweep.points.iter().flat_map(|point| &point.modes);
+        match report.has_harmonics {
+            true => Self::Harmonics,
+            false if modes.any(|mode| mode.nodal_diameters.is_some()) => Self::Diameters,
+            false => Self::Ranks,
         }
     }
 }
 
 /// The head of a table of modes; without symmetry they have neither harmonic nor sense of travel.
-fn head(out: &mut String, first: &str, has_harmonics: bool) {
-    let [names, units] = match has_harmonics {
-        true => [
+fn head(out: &mut String, first: &str, names: Names) {
+    let [names, units] = match names {
+        Names::Harmonics => [
             format!("{:>3} {:>6}  {:<8} ", "n", "branch", "travels"),
             " ".repeat(21),
         ],
-        false => [format!("{:>6} ", "branch"), " ".repeat(7)],
+        Names::Diameters => [format!("{:>3} {:>6} ", "n", "branch"), " ".repeat(11)],
+        Names::Ranks => [format!("{:>6} ", "branch"), " ".repeat(7)],
     };
     let _ = writeln!(
         out,
@@ -83,15 +106,19 @@ fn head(out: &mut String, first: &str, has_harmonics: bool) {
     );
 }
 
-fn mode_line(out: &mut String, first: &str, index: usize, mode: &ComplexMode, has_harmonics: bool) {
-    let name = match has_harmonics {
-        true => format!(
+fn mode_line(out: &mut String, first: &str, index: usize, mode: &ComplexMode, names: Names) {
+    let name = match names {
+        Names::Harmonics => format!(
             "{:>3} {:>6}  {:<8} ",
             mode.harmonic,
             mode.branch,
             direction_name(mode.direction)
         ),
-        false => format!("{:>6} ", mode.branch),
+        Names::Diameters => {
+            let diameters = mode.nodal_diameters.unwrap_or(0);
+            format!("{diameters:>3} {:>6} ", mode.branch)
+        }
+        Names::Ranks => format!("{:>6} ", mode.branch),
     };
     let _ = writeln!(
         out,
@@ -105,12 +132,12 @@ fn mode_line(out: &mut String, first: &str, index: usize, mode: &ComplexMode, ha
 
 /// One block for each friction value; neighbouring values without instability share a line.
 fn unstable_modes(out: &mut String, report: &CeaReport<'_>) {
-    head(out, "friction", report.has_harmonics);
+    head(out, "friction", Names::of(report));
     let mut stable: Option<(f64, f64)> = None;
     for point in report.tabulated() {
         if point.modes.iter().any(|mode| mode.is_unstable()) {
             stable_line(out, stable.take());
-            unstable_lines(out, point, report.has_harmonics);
+            unstable_lines(out, point, Names::of(report));
         } else {
             let friction = point.friction_coefficient;
             stable = Some((stable.map_or(friction, |range| range.0), friction));
@@ -127,13 +154,13 @@ fn stable_line(out: &mut String, range: Option<(f64, f64)>) {
     };
 }
 
-fn unstable_lines(out: &mut String, point: &FrictionPoint, has_harmonics: bool) {
+fn unstable_lines(out: &mut String, point: &FrictionPoint, names: Names) {
     let mut friction = point.friction_coefficient.to_string();
     for (index, mode) in point.modes.iter().enumerate() {
         if !mode.is_unstable() {
             continue;
         }
-        mode_line(out, &friction, index, mode, has_harmonics);
+        mode_line(out, &friction, index, mode, names);
         friction.clear();
     }
 }
@@ -150,22 +177,28 @@ fn critical_frictions(out: &mut String, report: &CeaReport<'_>) {
         return;
     }
     let numbers = report.mode_numbers();
+    let names = Names::of(report);
     let name = |interval: &UnstableInterval| {
         let branch = branch_of(interval);
-        match (report.has_harmonics, numbers.get(&branch)) {
-            (true, _) => format!(
+        let number = numbers.get(&branch).map_or("-".into(), usize::to_string);
+        match names {
+            Names::Harmonics => format!(
                 "{:>3} {:>6}  {:<8}",
                 branch.0,
                 branch.1,
                 direction_name(branch.2)
             ),
-            (false, Some(number)) => format!("{number:>4} {:>6}", branch.1),
-            (false, None) => format!("{:>4} {:>6}", "-", branch.1),
+            Names::Diameters => {
+                let diameters = interval.nodal_diameters.unwrap_or(0);
+                format!("{number:>4} {diameters:>3} {:>6}", branch.1)
+            }
+            Names::Ranks => format!("{number:>4} {:>6}", branch.1),
         }
     };
-    let names = match report.has_harmonics {
-        true => format!("{:>3} {:>6}  {:<8}", "n", "branch", "travels"),
-        false => format!("{:>4} {:>6}", "mode", "branch"),
+    let names = match names {
+        Names::Harmonics => format!("{:>3} {:>6}  {:<8}", "n", "branch", "travels"),
+        Names::Diameters => format!("{:>4} {:>3} {:>6}", "mode", "n", "branch"),
+        Names::Ranks => format!("{:>4} {:>6}", "mode", "branch"),
     };
     let _ = writeln!(out, "\ncritical friction");
     let _ = writeln!(

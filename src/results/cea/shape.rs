@@ -51,7 +51,9 @@ impl ModeShape<'_> {
             ""
         };
         if !self.has_harmonics {
-            return unstable.trim().to_owned();
+            let diameters = self.mode.nodal_diameters;
+            let diameters = diameters.map_or(String::new(), |n| format!("*n* = {n}"));
+            return format!("{diameters}{unstable}").trim().to_owned();
         }
         format!("*n* = {}{arrow}{unstable}", self.mode.harmonic)
     }
