@@ -392,6 +392,12 @@ impl AssemblyBody {
         regions.map(|&region| self.mesh.regions[region].as_str())
     }
 
+    /// Whether motions are those in a frame that turns with the bodies.
+    pub fn turns_with_its_frame(&self) -> bool {
+        let turning = Some(RotationFrame::Turning);
+        self.motions.iter().any(|motion| motion.inertia == turning)
+    }
+
     /// Half the largest extent of the bodies, m.
     pub fn size(&self) -> f64 {
         let extent = |axis: usize| {

@@ -46,6 +46,35 @@ fn excess_of_mean(x: f64) -> f64 {
 }
 
 impl NormalLaw {
+    /// Springs that do not stiffen, `p = k g`.
+    pub fn linear(stiffness: f64) -> Self {
+        Self::Cubic {
+            stiffness,
+            cubic_stiffness: 0.0,
+        }
+    }
+
+    /// The approach up to which the stiffness stays within a few times that at rest, m; without bound where it does not change.
+    pub fn soft_approach(self) -> f64 {
+        match self {
+            Self::Cubic {
+                stiffness,
+                cubic_stiffness,
+            } => (stiffness / cubic_stiffness).sqrt(),
+            Self::Exponential { height, .. } => height,
+        }
+    }
+
+    /// The approach of the force that the tangent at `from` has at `to`, m: Newton's iteration in the force, of which the approach
+    /// is a concave function, so that no step runs away. `to` itself where the tangent pulls.
+    pub fn newton_approach(self, from: f64, to: f64) -> f64 {
+        let closed = from.max(0.0);
+        match self.pressure(closed) + self.stiffness(closed) * (to - closed) {
+            pressure if pressure > 0.0 => self.approach(pressure),
+            _ => to,
+        }
+    }
+
     /// `p(g)`, Pa.
     pub fn pressure(self, approach: f64) -> f64 {
         match self {
@@ -147,6 +176,10 @@ impl NormalLaw {
     /// `g` at a pressure of zero or more, m.
     pub fn approach(self, pressure: f64) -> f64 {
         match self {
+            Self::Cubic {
+                stiffness,
+                cubic_stiffness: 0.0,
+            } => pressure / stiffness,
             // The one real root, by the hyperbolic form of Cardano's formula.
             Self::Cubic {
                 stiffness,
