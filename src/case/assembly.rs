@@ -286,7 +286,7 @@ pub(super) fn assemble(
     bytes: &MeshBytes,
     scale: f64,
     conditions: &[NamedCondition],
-    (common, own): (&ElasticMaterial, &[(String, TabledMaterial)]),
+    (common, own): (&TabledMaterial, &[(String, TabledMaterial)]),
     (parts, modifications): (AssemblyParts, &[Modification]),
 ) -> Result<AssemblyBody, (String, String)> {
     let unusable = |error: MeshFileError| {
@@ -303,24 +303,15 @@ pub(super) fn assemble(
     let surface = |name: &str, key: &str| named(&boundaries, name, key, "surface");
 
     // Materials of regions; those without a section of their own have the common one.
-    let solid = |elastic: ElasticMaterial| ElasticMaterial {
-        formulation: PlaneFormulation::ThreeDimensional,
-        ..elastic
+    let solid = |material: &TabledMaterial| {
+        let mut solid = material.clone();
+        solid.own.elastic.formulation = PlaneFormulation::ThreeDimensional;
+        solid
     };
-    let everywhere = TabledMaterial::from(RegionMaterial {
-        elastic: solid(*common),
-        damping: None,
-    });
-    let mut materials = vec![everywhere; mesh.regions.len()];
+    let mut materials = vec![solid(common); mesh.regions.len()];
     for (name, material) in own {
         let place = region(name, &format!("[materials.{name}]"))?;
-        materials[place] = TabledMaterial {
-            own: RegionMaterial {
-                elastic: solid(material.own.elastic),
-                ..material.own
-            },
-            table: material.table.clone(),
-        };
+        materials[place] = solid(material);
     }
     let mut motions = Vec::new();
     for (name, motion) in parts.motions {
