@@ -11,7 +11,7 @@ use super::suggestion;
 use super::tables::{TableFiles, topography};
 use crate::contact::{ContactStiffness, Motion, PairFriction, SlidingContact};
 use crate::fem::{
-    ElasticMaterial, MaterialField, PlaneFormulation, RegionMaterial, RotationFrame, TabledMaterial,
+    MaterialField, PlaneFormulation, RotationFrame, TabledMaterial,
 };
 use crate::mesh::{Mesh, MeshFileError};
 use crate::prestress::{Assembly, BaseChoice, PrestressError, SlidingSurfaces, TiedSurfaces};

@@ -360,7 +360,7 @@ fn annulus(
             true => BoundaryCondition::Clamped,
             false => boundaries::outer_edge(root, conditions, shaft.is_some()),
         },
-        shaft: shaft.map(|(shaft, _)| shaft),
+        shaft: shaft.as_ref().map(|(shaft, _)| *shaft),
     };
     check_mesh(mesh, &annulus);
     (annulus, shaft.map(|(_, material)| material))

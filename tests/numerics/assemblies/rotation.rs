@@ -9,7 +9,7 @@ use frictionsim::prestress::{Assembly, BaseChoice, PrestressError, TiedSurfaces}
 use std::f64::consts::TAU;
 
 /// Springs softer than the ring.
-pub(super) const SOFT: ElasticSupport = ElasticSupport {
+const SOFT: ElasticSupport = ElasticSupport {
     normal_stiffness: 2e6,
     tangential_stiffness: 3e6,
     axial_stiffness: 0.0,
