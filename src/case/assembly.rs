@@ -10,9 +10,7 @@ use super::reader::Section;
 use super::suggestion;
 use super::tables::{TableFiles, topography};
 use crate::contact::{ContactStiffness, Motion, PairFriction, SlidingContact};
-use crate::fem::{
-    MaterialField, PlaneFormulation, RotationFrame, TabledMaterial,
-};
+use crate::fem::{MaterialField, PlaneFormulation, RotationFrame, TabledMaterial};
 use crate::mesh::{Mesh, MeshFileError};
 use crate::prestress::{Assembly, BaseChoice, PrestressError, SlidingSurfaces, TiedSurfaces};
 use std::f64::consts::TAU;

@@ -2,9 +2,7 @@
 
 use super::assembly::AssemblyBody;
 use super::imported::ImportedBody;
-use crate::fem::{
-    AnnulusMaterials, ElasticMaterial, MaterialField, ModulusTable, RayleighDamping,
-};
+use crate::fem::{AnnulusMaterials, ElasticMaterial, MaterialField, ModulusTable, RayleighDamping};
 use crate::mesh::{
     AnnulusMesh, AnnulusSpecification, BoundaryCondition, Counterface, Mesh, MeshError,
     SolidContact, SolidSpecification,

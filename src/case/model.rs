@@ -84,8 +84,7 @@ fn unmodified(
         };
         place_axes(root, &["material"], material, &sectors);
         let parts = (conditions.as_slice(), is_solid);
-        let (mut annulus, mut shaft) =
-            annulus(root, [&geometry, &mesh], parts, (material, tables));
+        let (mut annulus, mut shaft) = annulus(root, [&geometry, &mesh], parts, (material, tables));
         if let Some(shaft) = &mut shaft {
             let path = ["materials", "shaft"];
             place_axes(root, &path, &mut shaft.own.elastic, &sectors);

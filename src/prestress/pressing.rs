@@ -186,9 +186,9 @@ pub(super) fn press_rigidly(
     })
 }
 
-/// Springs that push and do not pull, `K u + int k (u_n - delta + g) n dA = f + int p(g) n dA` over the points of the face where
-/// they are pressed: Newton's method on the approach `g` of the rings, so that the tangent of the eigenvalue analysis is the
-/// derivative of this state.
+/// Springs that push and do not pull, `K u + int k (u_n - delta + g) n dA = f + int s g n dA` over the points of the face where
+/// they are pressed, `s g = p(g)`: Newton's method on the approach `g` of the rings, so that the tangent of the eigenvalue analysis
+/// is the derivative of this state.
 pub(super) fn press_on_springs(
     sector: &SolidSector,
     terms: &[&SolidMatrix],
@@ -263,13 +263,17 @@ impl Springs<'_> {
         self.matrix(&|approach| self.law.stiffness(approach))
     }
 
-    /// `int p(g) n dA`, N.
+    /// `int s(g) n n^T dA`, N/m, whose force at the approaches is that of the pressure.
+    pub fn secant(&self) -> SolidMatrix {
+        self.matrix(&|approach| self.law.secant(approach)[0])
+    }
+
+    /// `int s g n dA`, N.
     fn push(&self) -> Vec<f64> {
-        let pressed = self.matrix(&|approach| self.law.pressure(approach));
-        let unit = field(self.sector, &vec![1.0; self.approaches.len()]);
-        System::new(self.sector, &[&pressed])
+        let system = System::new(self.sector, &[&self.secant()]);
+        system
             .stiffness
-            .multiply(&unit)
+            .multiply(&field(self.sector, self.approaches))
     }
 
     /// A normal term with a weight that follows the approach.

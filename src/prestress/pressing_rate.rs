@@ -121,9 +121,8 @@ impl SolidSlidingRate {
         Ok(())
     }
 
-    /// `(K + S) u' = -K' u + int p' n dA + S' (delta n - u - g n)`, where `p'` is what the law does at the same approach, and `S'`
-    /// has the change of the springs with that and with the approach, and the motion of the ends of the pressed part; the last two
-    /// follow `u'`.
+    /// `(K + S) u' = -K' u + P' g n + (P - S) g' n + S' (delta n - u - g n)` with the secant stiffness `P` and the tangent `S` of the
+    /// springs, whose changes are those of the law, of the approach, and of the ends of the pressed part; the last two follow `u'`.
     fn press_on_springs(
         &mut self,
         base: &SolidSliding,
@@ -146,7 +145,8 @@ impl SolidSlidingRate {
         let fit = field(sector, &vec![base.contact.interference; rings]);
         let left = distance(sector, &fit, &base.pressed_displacement);
         let left = distance(sector, &left, &field(sector, &base.approaches));
-        let unit = field(sector, &vec![1.0; rings]);
+        let own = field(sector, &base.approaches);
+        let secant = System::new(sector, &[&springs.secant()]);
         let added = changed.stiffness.multiply(&base.pressed_displacement);
         let mut moved = vec![0.0; system.dofs];
         for _ in 0..STEPS {
@@ -155,9 +155,13 @@ impl SolidSlidingRate {
             self.pressed_displacement = whole.solve(&load, &vec![None; system.dofs])?;
             self.approaches = approaches(sector, 0.0, &self.pressed_displacement);
             let [pushes, stiffer] = self.spring_rates(&springs);
-            let pushes = System::new(sector, &[&pushes]).stiffness.multiply(&unit);
+            let pushes = System::new(sector, &[&pushes]).stiffness.multiply(&own);
             let stiffer = System::new(sector, &[&stiffer]).stiffness.multiply(&left);
-            let next: Vec<f64> = pushes.iter().zip(stiffer).map(|(a, b)| a + b).collect();
+            let nearer = field(sector, &self.approaches);
+            let [along, back] = [&secant, &spring].map(|of| of.stiffness.multiply(&nearer));
+            let next: Vec<f64> = (0..system.dofs)
+                .map(|dof| pushes[dof] + stiffer[dof] + (along[dof] - back[dof]))
+                .collect();
             let changes = next.iter().zip(&moved).map(|(a, b)| (a - b).abs());
             let change = changes.fold(0.0, f64::max);
             let scale = load.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
@@ -189,8 +193,8 @@ impl SolidSlidingRate {
         rates.unwrap_or_default()
     }
 
-    /// What changes the push of the springs beside their own stiffness, and their stiffness: the law's numbers, the approach, and
-    /// the motion of the ends of the pressed part.
+    /// Changes of the secant and of the tangent stiffness of the springs: by the law's numbers, the approach, and the motion of the
+    /// ends of the pressed part.
     fn spring_rates(&self, springs: &Springs<'_>) -> [SolidMatrix; 2] {
         let (sector, law) = (springs.sector, springs.law);
         let faces = sector.contact_elements();
@@ -217,9 +221,13 @@ impl SolidSlidingRate {
             sum
         };
         [
-            matrix(&|g, _| self.by_law(law, g)[0], &|g| {
-                [law.pressure(g), law.stiffness(g)]
-            }),
+            matrix(
+                &|g, moved| {
+                    let closed = g.max(f64::MIN_POSITIVE);
+                    self.by_law(law, closed)[0] / closed + law.secant(g)[1] * moved
+                },
+                &|g| law.secant(g),
+            ),
             matrix(
                 &|g, moved| self.by_law(law, g)[1] + law.curvature(g) * moved,
                 &|g| [law.stiffness(g), law.curvature(g)],

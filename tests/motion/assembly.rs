@@ -318,14 +318,16 @@ fn losing(mesh: &Mesh) -> (RelaxedMaterials, Vec<TabledMaterial>) {
     let upper = mesh.regions.iter().position(|name| name == "upper");
     let chain = || MaxwellChain::fit(&|_| c64::new(1.0, 0.01), BAND);
     let count = mesh.regions.len();
-    let in_time = RelaxedMaterials::of(&STEEL, count, |region| {
-        (Some(region) == upper).then(chain)
-    });
+    let in_time = RelaxedMaterials::of(&STEEL, count, |region| (Some(region) == upper).then(chain));
     let chain = chain();
     let rows = (0..=400).map(|i| {
         let frequency = BAND[0] * (BAND[1] / BAND[0]).powf(f64::from(i) / 400.0);
         let ratio = chain.ratio(frequency);
-        [frequency, STEEL.young_modulus * ratio.re, ratio.im / ratio.re]
+        [
+            frequency,
+            STEEL.young_modulus * ratio.re,
+            ratio.im / ratio.re,
+        ]
     });
     let table = ModulusTable::new("materials.upper.table", "chain.csv", rows.collect());
     let own = |young_modulus| RegionMaterial {
