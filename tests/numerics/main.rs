@@ -43,4 +43,5 @@ mod solid_refinement;
 mod solids;
 mod structural_damping;
 mod tabled;
+mod tabled_disc;
 mod two_bodies;
