@@ -11,9 +11,7 @@ use super::reader::Section;
 use super::suggestion;
 use super::tables::{TableFiles, topography};
 use crate::contact::{ContactStiffness, Motion, PairFriction, SlidingContact};
-use crate::fem::{
-    ElasticMaterial, MaterialField, PlaneFormulation, RegionMaterial, RotationFrame, TabledMaterial,
-};
+use crate::fem::{MaterialField, PlaneFormulation, RotationFrame, TabledMaterial};
 use crate::mesh::{CyclicSymmetry, Mesh, MeshFileError};
 use crate::prestress::{Assembly, BaseChoice, PrestressError, SlidingSurfaces, TiedSurfaces};
 use std::f64::consts::TAU;
@@ -290,7 +288,7 @@ pub(super) fn assemble(
     bytes: &MeshBytes,
     scale: f64,
     conditions: &[NamedCondition],
-    (common, own): (&ElasticMaterial, &[(String, TabledMaterial)]),
+    (common, own): (&TabledMaterial, &[(String, TabledMaterial)]),
     (parts, modifications): (AssemblyParts, &[Modification]),
 ) -> Result<AssemblyBody, (String, String)> {
     let unusable = |error: MeshFileError| {
@@ -307,24 +305,15 @@ pub(super) fn assemble(
     let surface = |name: &str, key: &str| named(&boundaries, name, key, "surface");
 
     // Materials of regions; those without a section of their own have the common one.
-    let solid = |elastic: ElasticMaterial| ElasticMaterial {
-        formulation: PlaneFormulation::ThreeDimensional,
-        ..elastic
+    let solid = |material: &TabledMaterial| {
+        let mut solid = material.clone();
+        solid.own.elastic.formulation = PlaneFormulation::ThreeDimensional;
+        solid
     };
-    let everywhere = TabledMaterial::from(RegionMaterial {
-        elastic: solid(*common),
-        damping: None,
-    });
-    let mut materials = vec![everywhere; mesh.regions.len()];
+    let mut materials = vec![solid(common); mesh.regions.len()];
     for (name, material) in own {
         let place = region(name, &format!("[materials.{name}]"))?;
-        materials[place] = TabledMaterial {
-            own: RegionMaterial {
-                elastic: solid(material.own.elastic),
-                ..material.own
-            },
-            table: material.table.clone(),
-        };
+        materials[place] = solid(material);
     }
     let mut motions = Vec::new();
     for (name, motion) in parts.motions {
@@ -394,6 +383,12 @@ impl AssemblyBody {
             .filter(|motion| motion.inertia.is_some());
         let regions = turning.flat_map(|motion| &motion.regions);
         regions.map(|&region| self.mesh.regions[region].as_str())
+    }
+
+    /// Whether motions are those in a frame that turns with the bodies.
+    pub fn turns_with_its_frame(&self) -> bool {
+        let turning = Some(RotationFrame::Turning);
+        self.motions.iter().any(|motion| motion.inertia == turning)
     }
 
     /// Half the largest extent of the bodies, m.

@@ -5,7 +5,7 @@ use super::imported::ImportedBody;
 use super::modifications::{Misfit, Modification, reshaped};
 use super::node::Nodes;
 use super::reader::Section;
-use crate::fem::RegionMaterial;
+use crate::fem::{RegionMaterial, TabledMaterial};
 use crate::mesh::{
     Attachment, BodySpecification, CounterfaceSpecification, DampedPatch, GmshFile, Mesh,
     MeshFileError,
@@ -42,11 +42,12 @@ pub(super) fn reshaped_annulus(
     };
     let body = Mesh::from_gmsh(&file, &specification);
     let body = body.map_err(|error: MeshFileError| (key, error.to_string()))?;
-    let material = RegionMaterial {
+    let own = RegionMaterial {
         elastic: annulus.materials.annulus,
         damping: None,
     };
-    let materials = vec![material.into()];
+    let table = annulus.tables[0].clone();
+    let materials = vec![TabledMaterial { own, table }];
     Ok(ImportedBody::new(body, materials, file, specification))
 }
 

@@ -2,7 +2,7 @@
 
 use super::assembly::AssemblyBody;
 use super::imported::ImportedBody;
-use crate::fem::{AnnulusMaterials, ElasticMaterial, MaterialField};
+use crate::fem::{AnnulusMaterials, ElasticMaterial, MaterialField, ModulusTable, RayleighDamping};
 use crate::mesh::{
     AnnulusMesh, AnnulusSpecification, BoundaryCondition, Counterface, Mesh, MeshError,
     SolidContact, SolidSpecification,
@@ -11,12 +11,28 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// A plane annulus that is generated from radii and element counts, with or without a deformable shaft in it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Annulus {
     /// Radii, element counts, and what holds the outer edge.
     pub specification: AnnulusSpecification,
-    /// The materials of disc and shaft.
+    /// The materials of disc and shaft, with the moduli of the lowest frequency of their tables.
     pub materials: AnnulusMaterials,
+    /// Modulus and loss factor over frequency of disc and shaft.
+    pub tables: [Option<Arc<ModulusTable>>; 2],
+}
+
+impl MaterialField for Annulus {
+    fn of(&self, region: usize) -> &ElasticMaterial {
+        self.materials.of(region)
+    }
+
+    fn own_damping(&self, region: usize) -> Option<RayleighDamping> {
+        self.materials.own_damping(region)
+    }
+
+    fn table(&self, region: usize) -> Option<&Arc<ModulusTable>> {
+        self.tables[region].as_ref()
+    }
 }
 
 /// A body of revolution in three dimensions that is generated from radii, thickness and element counts.
@@ -253,7 +269,7 @@ impl Body {
     /// The material of each region of the mesh.
     pub fn materials(&self) -> &dyn MaterialField {
         match self {
-            Self::Annulus(annulus) => &annulus.materials,
+            Self::Annulus(annulus) => annulus,
             Self::Revolution(revolution) => &revolution.material,
             Self::Imported(imported) => &imported.materials,
             Self::Assembly(assembly) => &assembly.materials,

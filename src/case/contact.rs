@@ -112,21 +112,6 @@ pub(super) fn contact(
         ..ContactStiffness::default()
     };
     let (law, stiffness) = normal_law(&section, stiffness);
-    if law.is_some() && is_solid {
-        section.reject(
-            "normal_law",
-            "contact.normal_law on a body of revolution in three dimensions: its base state is solved ring by ring, for rigid \
-             contact with pressures that have no bound at the edges of the face, and a stiffness that follows the pressure would \
-             have none either"
-                .to_owned(),
-            "for plane bodies and assemblies".to_owned(),
-            Some(
-                "give normal_stiffness at the mean pressure, or a mesh file with [contacts.*], whose base state is solved on the \
-                 springs of the law"
-                    .to_owned(),
-            ),
-        );
-    }
     let contact = Contact {
         sliding: SlidingContact {
             decay: friction_decay(&section),

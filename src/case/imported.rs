@@ -121,23 +121,21 @@ pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
     }
 }
 
-/// `[materials.*]`: elasticity in place of the common one, damping of its own, and tables over frequency where the case's files can
-/// be read.
+/// `[materials.*]`: elasticity in place of the common one, damping of its own, and tables over frequency.
 pub(super) fn materials(
     root: &Section<'_>,
     common: &ElasticMaterial,
-    files: Option<&mut TableFiles<'_>>,
+    files: &mut TableFiles<'_>,
 ) -> Vec<(String, TabledMaterial)> {
     let all = root.section("materials", false);
     let names: Vec<&str> = all.remaining().into_iter().map(|(name, _)| name).collect();
-    let mut files = files;
     let read = names.into_iter().map(|name| {
         let section = all.section(name, false);
         let coefficients = [
             section.optional_number("mass_coefficient"),
             section.optional_number("stiffness_coefficient"),
         ];
-        let table = modulus_table(&section, files.as_deref_mut());
+        let table = modulus_table(&section, files);
         let elastic = elastic(&section, common.formulation, table.as_deref());
         let damping = match coefficients {
             [None, None] => None,
@@ -165,7 +163,7 @@ pub(super) struct BodyParts {
     pub interference: f64,
     pub boundaries: Vec<NamedCondition>,
     pub materials: Vec<(String, TabledMaterial)>,
-    pub common: ElasticMaterial,
+    pub common: TabledMaterial,
 }
 
 /// The mesh file that `mesh.file` names, relative to the case; read once. An error is a message and a label.
@@ -325,13 +323,8 @@ pub(super) fn import(
     }
     let material = |region: &String| {
         let own = parts.materials.iter().find(|(name, _)| name == region);
-        let common = || {
-            TabledMaterial::from(RegionMaterial {
-                elastic: parts.common,
-                damping: None,
-            })
-        };
-        own.map_or_else(common, |(_, material)| material.clone())
+        let own = own.map_or(&parts.common, |(_, material)| material);
+        own.clone()
     };
     let materials = mesh.regions.iter().map(material).collect();
     Ok(ImportedBody::new(mesh, materials, read, specification))

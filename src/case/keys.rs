@@ -114,6 +114,7 @@ pub const KEYS: &[CaseKey] = &[
     key("material.axes", Directions(words::<AxesWord>), "", Value("\"global\""), "\"cylindrical\"", "where its axes lie: along x, y, z; radial, circumferential, axial about the axis of the motion; or along the first of two vectors and in the plane of both"),
     key("material.density", Number(Positive), "kg/m3", Required, "1228.0", "the density"),
     key("material.loss_factor", Number(NotNegative), "", Value("0.0"), "0.01", "the structural damping eta of the material: stiffness K (1 + i eta) in `cea` and `frf`, a Maxwell chain fitted over the band of cea.max_frequency_hz in `transient`"),
+    key("material.table", Text, "", Otherwise("one modulus at every frequency"), "\"lining.csv\"", "modulus and loss factor over frequency, as materials.*.table"),
     key("material.formulation", Choice(words::<PlaneFormulation>), "", Value("\"plane-strain\""), "\"plane-strain\"", "the out-of-plane assumption, or none"),
 
     key("materials.*.young_modulus", Number(Positive), "Pa", RequiredUnless("required, or young_moduli"), "2.1e11", "Young's modulus of a physical surface, or of the `shaft`"),
@@ -147,7 +148,7 @@ pub const KEYS: &[CaseKey] = &[
     key("contact.direction", Numbers(Finite), "", Otherwise("[1, 0]"), "[1.0, 0.0]", "the direction in which a plane slides, with the body on its left"),
     key("contact.speed", Number(Finite), "m/s", Otherwise("needed by counterface = \"plane\""), "1.5", "the speed of a plane, or of another body along a straight contact curve"),
     key("contact.normal_stiffness", NumberOr(Positive, "rigid"), "Pa/m", Otherwise("rigid"), "7.4e12", "the normal stiffness of the contact (left out or \"rigid\" = rigid)").used_by(COMPLIANT, "its contact is rigid"),
-    key("contact.normal_law", Choice(words::<NormalLawWord>), "", Value("\"linear\""), "\"exponential\"", "pressure over the approach g of a plane body's edge and its counterface, as of contacts: such a law carries the base state too").used_by(COMPLIANT, "its contact is rigid"),
+    key("contact.normal_law", Choice(words::<NormalLawWord>), "", Value("\"linear\""), "\"exponential\"", "pressure over the approach g of the body and its counterface, as of contacts: such a law carries the base state too").used_by(COMPLIANT, "its contact is rigid"),
     key("contact.cubic_stiffness", Number(Positive), "Pa/m3", Otherwise("needed by normal_law = \"cubic\""), "1e25", "the coefficient c of that law; k is normal_stiffness").used_by(COMPLIANT, "its contact is rigid"),
     key("contact.reference_pressure", Number(Positive), "Pa", Otherwise("needed by normal_law = \"exponential\""), "1e5", "the pressure p_r of that law").used_by(COMPLIANT, "its contact is rigid"),
     key("contact.height", Number(Positive), "m", Otherwise("needed by normal_law = \"exponential\""), "1e-6", "the height h of that law, of the roughness").used_by(COMPLIANT, "its contact is rigid"),

@@ -165,14 +165,15 @@ impl Case {
         let (effective, taken) = taken::effective(&mut raw);
         let root = Section::root(&findings, &effective, end);
         let title = title(&raw, root.optional_text("title").unwrap_or_default());
-        let mut material = model::material(&root);
+        let mut tables = tables::TableFiles::of(&raw);
+        let mut common = model::material(&root, &mut tables);
         let model::Model {
             body,
             thickness,
             mesh,
-            tables,
             contact,
-        } = model::model(&root, &raw, &mut material);
+        } = model::model(&root, &raw, &mut common, &mut tables);
+        let (material, tables) = (common.own.elastic, tables.into_read());
         let damping = model::damping(&root);
         let cea = cea::cea(&root, body.as_ref(), contact.sliding.friction_coefficient);
         let transient = transient::transient(&root, body.as_ref(), &contact.sliding);

@@ -8,11 +8,11 @@ use super::contact::{Contact, contact};
 use super::elastic::{Surroundings, elastic, place_axes};
 use super::imported::{self, BodyParts};
 use super::modifications::{self, Modification};
-use super::raw::{MeshBytes, RawCase, TableBytes};
+use super::raw::{MeshBytes, RawCase};
 use super::reader::Section;
 use super::shaft;
 use super::solid;
-use super::tables::TableFiles;
+use super::tables::{TableFiles, modulus_table};
 use super::words::{FilePart, UnitsWord};
 use crate::fem::{
     AnnulusMaterials, ElasticMaterial, RayleighDamping, RegionMaterial, TabledMaterial,
@@ -38,15 +38,18 @@ pub(super) struct Model {
     pub body: Option<Body>,
     pub thickness: f64,
     pub mesh: Option<MeshBytes>,
-    /// Tables beside the case.
-    pub tables: Vec<TableBytes>,
     pub contact: Contact,
 }
 
 /// The generated body, or that of a mesh file, with its modifications.
-pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &mut ElasticMaterial) -> Model {
+pub(super) fn model(
+    root: &Section<'_>,
+    raw: &RawCase,
+    material: &mut TabledMaterial,
+    tables: &mut TableFiles<'_>,
+) -> Model {
     let changes = modifications::sections(root);
-    let mut model = unmodified(root, raw, material, &changes);
+    let mut model = unmodified(root, raw, (material, tables), &changes);
     if let Some(body) = &mut model.body {
         attachments::attach(root, &changes, body, model.thickness);
     }
@@ -57,9 +60,10 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &mut ElasticMat
 fn unmodified(
     root: &Section<'_>,
     raw: &RawCase,
-    material: &mut ElasticMaterial,
+    (common, tables): (&mut TabledMaterial, &mut TableFiles<'_>),
     changes: &[Modification],
 ) -> Model {
+    let material = &mut common.own.elastic;
     let conditions = boundaries::all(root);
     let is_pressed = conditions
         .iter()
@@ -80,11 +84,14 @@ fn unmodified(
             is_plane: !is_solid,
         };
         place_axes(root, &["material"], material, &sectors);
-        let (mut annulus, mut shaft_material) =
-            annulus(root, &geometry, &mesh, (&conditions, is_solid), material);
-        if let Some(shaft) = &mut shaft_material {
+        let parts = (conditions.as_slice(), is_solid);
+        let (mut annulus, mut shaft) = annulus(root, [&geometry, &mesh], parts, (material, tables));
+        if let Some(shaft) = &mut shaft {
             let path = ["materials", "shaft"];
-            place_axes(root, &path, &mut shaft.elastic, &sectors);
+            place_axes(root, &path, &mut shaft.own.elastic, &sectors);
+        }
+        if is_solid && common.table.is_some() {
+            refuse_table(root);
         }
         geometry.close();
         mesh.close();
@@ -94,8 +101,9 @@ fn unmodified(
                 specification: annulus,
                 materials: AnnulusMaterials {
                     annulus: *material,
-                    shaft: shaft_material,
+                    shaft: shaft.as_ref().map(|shaft| shaft.own),
                 },
+                tables: [common.table.clone(), shaft.and_then(|shaft| shaft.table)],
             })
             .and_then(|annulus| plane_annulus(root, annulus, changes)),
             Some(axial_elements) => {
@@ -117,7 +125,6 @@ fn unmodified(
             body,
             thickness,
             mesh: None,
-            tables: Vec::new(),
             contact,
         };
     };
@@ -129,7 +136,7 @@ fn unmodified(
         .is_some_and(|read| read.dimension == 3);
     let is_lone_solid = is_file_solid && !root.has("contact");
     if root.has("contacts") || root.has("ties") || is_lone_solid {
-        let parts = (conditions.as_slice(), material);
+        let parts = (conditions.as_slice(), common, tables);
         let file = (&mesh, file.as_str(), scale);
         let model = assembly_model(root, raw, file, parts, (thickness, changes));
         mesh.close();
@@ -150,7 +157,6 @@ fn unmodified(
             CounterfaceSpecification::Plane { .. } => None,
         },
     };
-    let mut tables = TableFiles::of(raw);
     let axis = match place.counterface {
         CounterfaceSpecification::Cylinder { center: [x, y], .. } => {
             Ok([[0.0, 0.0, 1.0], [x, y, 0.0]])
@@ -163,8 +169,8 @@ fn unmodified(
         place,
         interference: contact.sliding.interference,
         boundaries: conditions,
-        materials: materials(root, material, &plane, &mut tables),
-        common: *material,
+        materials: materials(root, material, &plane, tables),
+        common: common.clone(),
     };
     let reject = |(message, label): (String, String)| mesh.reject("file", message, label, None);
     let bytes = imported::mesh_bytes(raw, &file).map_err(&reject).ok();
@@ -182,9 +188,20 @@ fn unmodified(
         body: body.map(Body::Imported),
         thickness,
         mesh: bytes,
-        tables: tables.into_read(),
         contact,
     }
+}
+
+/// The harmonics of a body of revolution come in pairs of one real problem.
+fn refuse_table(root: &Section<'_>) {
+    root.section("material", true).reject(
+        "table",
+        "material.table: a body of revolution in three dimensions is solved harmonic by harmonic from one real problem, whose roots \
+         come in conjugate pairs: with a modulus over frequency they do not"
+            .to_owned(),
+        "not of a body of revolution in three dimensions".to_owned(),
+        Some("use a plane formulation, or describe the body by mesh.file".to_owned()),
+    );
 }
 
 /// A plane annulus, as a whole mesh where modifications break its symmetry.
@@ -211,7 +228,7 @@ fn assembly_model(
     root: &Section<'_>,
     raw: &RawCase,
     (mesh, file, scale): (&Section<'_>, &str, f64),
-    (conditions, material): (&[NamedCondition], &mut ElasticMaterial),
+    (conditions, common, tables): (&[NamedCondition], &mut TabledMaterial, &mut TableFiles<'_>),
     (thickness, changes): (f64, &[Modification]),
 ) -> Model {
     let _ = mesh.optional_count("axial_elements");
@@ -225,26 +242,24 @@ fn assembly_model(
             Some("describe it under [contacts.NAME]".to_owned()),
         );
     }
-    let mut tables = TableFiles::of(raw);
-    let (mut parts, contact) = assembly::sections(root, &mut tables);
+    let (mut parts, contact) = assembly::sections(root, tables);
     let axis = match root.has("motion") {
         true => parts.axis(),
         false => Ok([[0.0, 0.0, 1.0], [0.0; 3]]),
     };
     parts.symmetry = imported::symmetry(mesh, axis);
     let solids = Surroundings::Solids { axis: parts.axis() };
-    let own = materials(root, material, &solids, &mut tables);
+    let own = materials(root, &mut common.own.elastic, &solids, tables);
     let reject = |(message, label): (String, String)| mesh.reject("file", message, label, None);
     let bytes = imported::mesh_bytes(raw, file).map_err(&reject).ok();
     let body = bytes.as_ref().and_then(|bytes| {
-        let body = assembly::assemble(bytes, scale, conditions, (material, &own), (parts, changes));
+        let body = assembly::assemble(bytes, scale, conditions, (common, &own), (parts, changes));
         body.map_err(&reject).ok()
     });
     Model {
         body: body.map(Body::Assembly),
         thickness,
         mesh: bytes,
-        tables: tables.into_read(),
         contact,
     }
 }
@@ -276,7 +291,7 @@ fn materials(
     tables: &mut TableFiles<'_>,
 ) -> Vec<(String, TabledMaterial)> {
     place_axes(root, &["material"], common, body);
-    let mut own = imported::materials(root, common, Some(tables));
+    let mut own = imported::materials(root, common, tables);
     for (name, material) in &mut own {
         let elastic = &mut material.own.elastic;
         place_axes(root, &["materials", name], elastic, body);
@@ -313,11 +328,10 @@ fn ignore_generated(geometry: &Section<'_>, mesh: &Section<'_>) {
 
 fn annulus(
     root: &Section<'_>,
-    geometry: &Section<'_>,
-    mesh: &Section<'_>,
+    [geometry, mesh]: [&Section<'_>; 2],
     (conditions, is_solid): (&[NamedCondition], bool),
-    material: &ElasticMaterial,
-) -> (AnnulusSpecification, Option<RegionMaterial>) {
+    (material, tables): (&ElasticMaterial, &mut TableFiles<'_>),
+) -> (AnnulusSpecification, Option<TabledMaterial>) {
     let inner_radius = geometry.number("inner_radius");
     let outer_radius = geometry.number("outer_radius");
     if outer_radius <= inner_radius {
@@ -331,7 +345,14 @@ fn annulus(
             Some("both are radii in metres; are they swapped?".to_owned()),
         );
     }
-    let shaft = shaft::shaft(root, [geometry, mesh], inner_radius, conditions, material);
+    let shaft = shaft::shaft(
+        root,
+        [geometry, mesh],
+        inner_radius,
+        conditions,
+        material,
+        tables,
+    );
     if is_solid && shaft.is_some() {
         geometry.reject(
             "shaft_inner_radius",
@@ -351,7 +372,7 @@ fn annulus(
             true => BoundaryCondition::Clamped,
             false => boundaries::outer_edge(root, conditions, shaft.is_some()),
         },
-        shaft: shaft.map(|(shaft, _)| shaft),
+        shaft: shaft.as_ref().map(|(shaft, _)| *shaft),
     };
     check_mesh(mesh, &annulus);
     (annulus, shaft.map(|(_, material)| material))
@@ -384,12 +405,16 @@ fn check_mesh(mesh: &Section<'_>, annulus: &AnnulusSpecification) {
     }
 }
 
-pub(super) fn material(root: &Section<'_>) -> ElasticMaterial {
+pub(super) fn material(root: &Section<'_>, tables: &mut TableFiles<'_>) -> TabledMaterial {
     let section = root.section("material", true);
     let formulation = section.choice("formulation");
-    let material = elastic(&section, formulation, None);
+    let table = modulus_table(&section, tables);
+    let own = RegionMaterial {
+        elastic: elastic(&section, formulation, table.as_deref()),
+        damping: None,
+    };
     section.close();
-    material
+    TabledMaterial { own, table }
 }
 
 pub(super) fn damping(root: &Section<'_>) -> Damping {

@@ -4,8 +4,9 @@
 use super::boundaries::NamedCondition;
 use super::imported;
 use super::reader::Section;
+use super::tables::TableFiles;
 use super::{Case, CaseErrors};
-use crate::fem::{ElasticMaterial, RegionMaterial};
+use crate::fem::{ElasticMaterial, TabledMaterial};
 use crate::mesh::{BoundaryCondition, ShaftSpecification};
 
 /// The shaft, if the case has one, and its material.
@@ -15,10 +16,11 @@ pub(super) fn shaft(
     contact_radius: f64,
     boundaries: &[NamedCondition],
     material: &ElasticMaterial,
-) -> Option<(ShaftSpecification, RegionMaterial)> {
+    tables: &mut TableFiles<'_>,
+) -> Option<(ShaftSpecification, TabledMaterial)> {
     let bore = geometry.optional_number("shaft_inner_radius");
     let elements = mesh.optional_count("shaft_radial_elements");
-    let found = materials(root, material, bore.is_some());
+    let found = materials(root, material, bore.is_some(), tables);
     let Some(bore) = bore else {
         if elements.is_some() {
             mesh.reject(
@@ -67,7 +69,8 @@ fn materials(
     root: &Section<'_>,
     material: &ElasticMaterial,
     has_shaft: bool,
-) -> Option<RegionMaterial> {
+    tables: &mut TableFiles<'_>,
+) -> Option<TabledMaterial> {
     let all = root.section("materials", false);
     for (name, _) in all.remaining() {
         let (message, help) = match (name, has_shaft) {
@@ -84,9 +87,9 @@ fn materials(
         let label = "the annulus has one material".to_owned();
         all.reject(name, message, label, Some(help.to_owned()));
     }
-    let read = imported::materials(root, material, None);
+    let read = imported::materials(root, material, tables);
     let mut shafts = read.into_iter().filter(|(name, _)| name == "shaft");
-    shafts.next().map(|(_, material)| material.own)
+    shafts.next().map(|(_, material)| material)
 }
 
 fn bore_condition(root: &Section<'_>, boundaries: &[NamedCondition]) -> BoundaryCondition {

@@ -66,10 +66,10 @@ fn read_file(path: &Path) -> Result<Arc<[u8]>, String> {
     Ok(bytes.into())
 }
 
-/// The table of a section of `[materials.*]`, where it has one; `files` is none for a body whose analyses do not take it.
+/// The table of `[material]` or of a section of `[materials.*]`, where it has one.
 pub(super) fn modulus_table(
     section: &Section<'_>,
-    files: Option<&mut TableFiles<'_>>,
+    files: &mut TableFiles<'_>,
 ) -> Option<Arc<ModulusTable>> {
     let file = section.optional_text("table")?;
     let reject = |message: String, label: &str, help: &str| {
@@ -78,15 +78,6 @@ pub(super) fn modulus_table(
             label.to_owned(),
         );
         section.reject("table", message, label, Some(help.to_owned()));
-    };
-    let Some(files) = files else {
-        reject(
-            "the bodies of an annulus are solved harmonic by harmonic from one real problem, which a modulus over frequency has not"
-                .to_owned(),
-            "needs a mesh file",
-            "describe the body by mesh.file, or give young_modulus and loss_factor",
-        );
-        return None;
     };
     let readable = files.bytes(&file);
     let rows = readable.and_then(|bytes| read_moduli(&bytes, &file).map_err(|e| e.to_string()));

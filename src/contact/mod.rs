@@ -92,8 +92,8 @@ pub struct ContactStiffness {
     pub tangential_damping: f64,
     /// Whether the normal stiffness carries the base state of a body in three dimensions too; otherwise that is rigid contact's.
     pub is_base_compliant: bool,
-    /// How a contact of a plane body stiffens with pressure, `normal_stiffness` then without pressure; `None` where it does not.
-    /// Such a law carries the base state too.
+    /// How the contact stiffens with pressure, `normal_stiffness` then without pressure; `None` where it does not. Such a law
+    /// carries the base state too.
     pub law: Option<NormalLaw>,
     /// A normal dashpot of so many times the stiffness of the law at the base state's pressure, s.
     pub law_damping: f64,
@@ -102,9 +102,10 @@ pub struct ContactStiffness {
 }
 
 impl ContactStiffness {
-    /// Stiffness of the springs that carry the base state, Pa/m; `None` is rigid contact.
-    pub fn base_stiffness(&self) -> Option<f64> {
-        self.normal_stiffness.filter(|_| self.is_base_compliant)
+    /// The springs that carry the base state of a body in three dimensions; `None` is rigid contact.
+    pub fn base_law(&self) -> Option<NormalLaw> {
+        let linear = self.normal_stiffness.filter(|_| self.is_base_compliant);
+        self.law.or(linear.map(NormalLaw::linear))
     }
 
     /// The same with the dashpot `beta_R k_n` of a stiffness damping that acts on the contact too.

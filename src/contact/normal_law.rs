@@ -46,6 +46,56 @@ fn excess_of_mean(x: f64) -> f64 {
 }
 
 impl NormalLaw {
+    /// Springs that do not stiffen, `p = k g`.
+    pub fn linear(stiffness: f64) -> Self {
+        Self::Cubic {
+            stiffness,
+            cubic_stiffness: 0.0,
+        }
+    }
+
+    /// The approach up to which the stiffness stays within a few times that at rest, m; without bound where it does not change.
+    pub fn soft_approach(self) -> f64 {
+        match self {
+            Self::Cubic {
+                stiffness,
+                cubic_stiffness,
+            } => (stiffness / cubic_stiffness).sqrt(),
+            Self::Exponential { height, .. } => height,
+        }
+    }
+
+    /// The approach of the force that the tangent at `from` has at `to`, m: Newton's iteration in the force, of which the approach
+    /// is a concave function, so that no step runs away. `to` itself where the tangent pulls.
+    pub fn newton_approach(self, from: f64, to: f64) -> f64 {
+        let closed = from.max(0.0);
+        match self.pressure(closed) + self.stiffness(closed) * (to - closed) {
+            pressure if pressure > 0.0 => self.approach(pressure),
+            _ => to,
+        }
+    }
+
+    /// `p(g) / g` and its derivative, Pa/m and Pa/m2, of an approach of zero or more.
+    pub fn secant(self, approach: f64) -> [f64; 2] {
+        match self {
+            Self::Cubic {
+                stiffness,
+                cubic_stiffness,
+            } => {
+                let cubic = cubic_stiffness * approach;
+                [stiffness + cubic * approach, 2.0 * cubic]
+            }
+            // Below, the difference of both stiffnesses is round-off.
+            Self::Exponential { height, .. } if approach < 1e-6 * height => {
+                [self.stiffness(0.0), 0.5 * self.curvature(0.0)]
+            }
+            Self::Exponential { .. } => {
+                let secant = self.pressure(approach) / approach;
+                [secant, (self.stiffness(approach) - secant) / approach]
+            }
+        }
+    }
+
     /// `p(g)`, Pa.
     pub fn pressure(self, approach: f64) -> f64 {
         match self {
@@ -147,6 +197,10 @@ impl NormalLaw {
     /// `g` at a pressure of zero or more, m.
     pub fn approach(self, pressure: f64) -> f64 {
         match self {
+            Self::Cubic {
+                stiffness,
+                cubic_stiffness: 0.0,
+            } => pressure / stiffness,
             // The one real root, by the hyperbolic form of Cardano's formula.
             Self::Cubic {
                 stiffness,
@@ -206,6 +260,15 @@ mod tests {
                 assert!((found * (b - a) - change).abs() < 1e-14 * scale);
             }
             assert_eq!(law.mean_pressure(2e-6, 2e-6), law.pressure(2e-6));
+            for approach in [0.0, 1e-13, 2e-6] {
+                let [secant, slope] = law.secant(approach);
+                let [before, after] = [0.999, 1.001].map(|k| law.secant(k * 2e-6)[0]);
+                let difference = (after - before) / 4e-9;
+                assert!(
+                    (secant * approach - law.pressure(approach)).abs() <= 1e-6 * secant * approach
+                );
+                assert!(approach < 1e-6 || (slope / difference - 1.0).abs() < 1e-6);
+            }
             let slope = (law.stiffness(2.001e-6) - law.stiffness(1.999e-6)) / 2e-9;
             assert!((law.curvature(2e-6) / slope - 1.0).abs() < 1e-6);
         }

@@ -57,6 +57,7 @@ pub(super) fn each_support(sector: &SolidSector) -> Vec<(&'static str, [SolidMat
                     column: component,
                     weight: &|_, _, _| value,
                     span: &whole_element,
+                    is_nodal: false,
                 };
                 sum.extend(face_matrix(sector, &elements, &term));
             }

@@ -2,7 +2,7 @@
 
 use super::PrestressError;
 use super::face_conditions::pressure_load;
-use crate::contact::SlidingContact;
+use crate::contact::{NormalLaw, SlidingContact};
 use crate::fem::sector::MirrorParity;
 use crate::fem::solid::{FaceTerm, SolidMatrix, face_matrix, half_bandwidth};
 use crate::linalg::banded::{BandedFactor, BandedMatrix};
@@ -10,6 +10,9 @@ use crate::mesh::{FaceElement, SolidSector};
 
 /// Choices of what is pressed that are tried before the search is given up.
 const SETS: usize = 200;
+
+/// Approach at which every ring begins pressed where nothing is pushed in, m: any positive one.
+const LEAST_APPROACH: f64 = 1e-9;
 
 /// Change of `delta - u_n` relative to the largest at which springs are settled: Newton's method, whose next change is its square.
 const SETTLED: f64 = 1e-10;
@@ -183,48 +186,62 @@ pub(super) fn press_rigidly(
     })
 }
 
-/// Springs that push and do not pull, `K u + int k (u_n - delta) n dA = f` over the points of the face where `u_n < delta`: the
-/// tangent of the eigenvalue analysis is the derivative of this state.
+/// Springs that push and do not pull, `K u + int k (u_n - delta + g) n dA = f + int s g n dA` over the points of the face where
+/// they are pressed, `s g = p(g)`: Newton's method on the approach `g` of the rings, so that the tangent of the eigenvalue analysis
+/// is the derivative of this state.
 pub(super) fn press_on_springs(
     sector: &SolidSector,
     terms: &[&SolidMatrix],
     contact: &SlidingContact,
-    stiffness: f64,
+    law: NormalLaw,
 ) -> Result<Pressing, PrestressError> {
     let face = sector.specification.contact.face();
     let (inward, component) = (face.inward_sign(), face.normal_component());
     let load = pressure_load(sector);
-    let pushed = pushed(sector, contact.interference);
-    let mut values = vec![contact.interference; sector.rings.len()];
+    let rings = sector.rings.len();
+    let pushed = field(sector, &vec![contact.interference; rings]);
+    let start = contact.interference.max(LEAST_APPROACH);
+    let mut values = vec![start.min(law.soft_approach()); rings];
     for _ in 0..SETS {
-        let springs = springs(sector, stiffness, &values);
-        let system = System::new(sector, &[terms, &[&springs]].concat());
-        let spring = System::new(sector, &[&springs]);
-        let push = spring.stiffness.multiply(&pushed);
-        let loads: Vec<f64> = load.iter().zip(&push).map(|(a, b)| a + b).collect();
+        // The tangent at the approaches found last, and what it pushes with.
+        let springs = Springs {
+            sector,
+            law,
+            approaches: &values,
+        };
+        let tangent = springs.tangent();
+        let spring = System::new(sector, &[&tangent]);
+        let own = springs.push();
+        let system = System::new(sector, &[terms, &[&tangent]].concat());
+        let known = spring
+            .stiffness
+            .multiply(&distance(sector, &pushed, &field(sector, &values)));
+        let loads = load.iter().zip(&own).zip(&known);
+        let loads: Vec<f64> = loads.map(|((a, b), c)| a + b + c).collect();
         let displacement = system.solve(&loads, &vec![None; system.dofs])?;
-        let last = std::mem::replace(
-            &mut values,
-            approaches(sector, contact.interference, &displacement),
-        );
-        let changes = values.iter().zip(&last).map(|(a, b)| (a - b).abs());
-        let scale = values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-        if changes.fold(0.0, f64::max) > SETTLED * scale {
+
+        // The approaches of the forces there.
+        let found = approaches(sector, contact.interference, &displacement);
+        let pairs = values.iter().zip(&found);
+        let next: Vec<f64> = pairs.map(|(a, b)| law.newton_approach(*a, *b)).collect();
+        let changes = next.iter().zip(&values).map(|(a, b)| (a - b).abs());
+        let change = changes.fold(0.0, f64::max);
+        let scale = next.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        if change > SETTLED * scale {
+            values = next;
             continue;
         }
-        let forces = spring
-            .stiffness
-            .multiply(&distance(sector, &pushed, &displacement));
+        let left = distance(sector, &pushed, &displacement);
+        let left = distance(sector, &left, &field(sector, &values));
+        let forces = own.iter().zip(spring.stiffness.multiply(&left));
+        let forces: Vec<f64> = forces.map(|(own, more)| own + more).collect();
         let nodes = sector.rings.iter().flat_map(|ring| &ring.nodes);
         let nodes = nodes.map(|&node| (node, inward * forces[3 * node + component]));
         return Ok(Pressing {
             normal_forces: nodes.filter(|(_, force)| *force != 0.0).collect(),
-            is_pressed: values.iter().map(|approach| *approach > 0.0).collect(),
-            pressures: values
-                .iter()
-                .map(|approach| stiffness * approach.max(0.0))
-                .collect(),
-            approaches: values,
+            is_pressed: found.iter().map(|approach| *approach > 0.0).collect(),
+            pressures: found.iter().map(|g| law.pressure(g.max(0.0))).collect(),
+            approaches: found,
             displacement,
         });
     }
@@ -233,29 +250,83 @@ pub(super) fn press_on_springs(
     })
 }
 
-/// Springs on the part of the face where the rings' values are positive.
-pub(super) fn springs(sector: &SolidSector, stiffness: f64, values: &[f64]) -> SolidMatrix {
-    let component = sector.specification.contact.face().normal_component();
-    let term = FaceTerm {
-        row: component,
-        column: component,
-        weight: &|_, _, _| stiffness,
-        span: &|element| pressed_span(sector, values, element),
-    };
-    face_matrix(sector, &sector.contact_elements(), &term)
+/// The springs of the face where the rings' approaches are positive.
+pub(super) struct Springs<'a> {
+    pub sector: &'a SolidSector,
+    pub law: NormalLaw,
+    pub approaches: &'a [f64],
 }
 
-/// The displacement of the face that fits the rotor.
-pub(super) fn pushed(sector: &SolidSector, interference: f64) -> Vec<f64> {
-    let face = sector.specification.contact.face();
-    let mut pushed = vec![0.0; 3 * sector.node_count()];
-    for node in sector.rings.iter().flat_map(|ring| &ring.nodes) {
-        pushed[3 * node + face.normal_component()] = face.inward_sign() * interference;
+impl Springs<'_> {
+    /// `int k(g) n n^T dA`, N/m.
+    pub fn tangent(&self) -> SolidMatrix {
+        self.matrix(&|approach| self.law.stiffness(approach))
     }
-    pushed
+
+    /// `int s(g) n n^T dA`, N/m, whose force at the approaches is that of the pressure.
+    pub fn secant(&self) -> SolidMatrix {
+        self.matrix(&|approach| self.law.secant(approach)[0])
+    }
+
+    /// `int s g n dA`, N.
+    fn push(&self) -> Vec<f64> {
+        let system = System::new(self.sector, &[&self.secant()]);
+        system
+            .stiffness
+            .multiply(&field(self.sector, self.approaches))
+    }
+
+    /// A normal term with a weight that follows the approach.
+    fn matrix(&self, weight: &dyn Fn(f64) -> f64) -> SolidMatrix {
+        let at = |element: &FaceElement, _: f64, along: f64| weight(self.approach(element, along));
+        let faces = self.sector.contact_elements();
+        face_matrix(
+            self.sector,
+            &faces,
+            &self.term(&at, &|element| self.span(element)),
+        )
+    }
+
+    /// A normal term on some part of each element.
+    pub fn term<'a>(
+        &self,
+        weight: &'a dyn Fn(&FaceElement, f64, f64) -> f64,
+        span: &'a dyn Fn(&FaceElement) -> [f64; 2],
+    ) -> FaceTerm<'a> {
+        let component = self.sector.specification.contact.face().normal_component();
+        FaceTerm {
+            row: component,
+            column: component,
+            weight,
+            span,
+            is_nodal: true,
+        }
+    }
+
+    /// The approach at a point of an element, zero where it is open, m.
+    pub fn approach(&self, element: &FaceElement, along: f64) -> f64 {
+        along_element(self.sector, self.approaches, element, along).max(0.0)
+    }
+
+    /// See [`pressed_span`].
+    pub fn span(&self, element: &FaceElement) -> [f64; 2] {
+        pressed_span(self.sector, self.approaches, element)
+    }
 }
 
-/// What is left to it along the normal.
+/// A normal displacement of the face, towards the body, that is the same all over each ring.
+pub(super) fn field(sector: &SolidSector, values: &[f64]) -> Vec<f64> {
+    let face = sector.specification.contact.face();
+    let mut field = vec![0.0; 3 * sector.node_count()];
+    for (ring, value) in sector.rings.iter().zip(values) {
+        for node in &ring.nodes {
+            field[3 * node + face.normal_component()] = face.inward_sign() * value;
+        }
+    }
+    field
+}
+
+/// What is left to `pushed` along the normal.
 pub(super) fn distance(sector: &SolidSector, pushed: &[f64], displacement: &[f64]) -> Vec<f64> {
     let component = sector.specification.contact.face().normal_component();
     let pairs = pushed.iter().zip(displacement).enumerate();

@@ -2,12 +2,12 @@
 
 use super::face_conditions::supports;
 use super::pressing::{
-    System, approaches, distance, pressed_span, pressed_span_rate, pushed, springs,
+    Springs, System, along_element, approaches, distance, field, pressed_span_rate, slope_along,
 };
 use super::{Parameter, PrestressError, SolidSliding};
-use crate::contact::SteadyFriction;
-use crate::fem::solid::{FaceTerm, MovingSpan, SolidMatrix, face_matrix_rate};
-use crate::mesh::SolidSector;
+use crate::contact::{LawParameter, NormalLaw, SteadyFriction};
+use crate::fem::solid::{MovingSpan, SolidMatrix, face_matrix, face_matrix_rate};
+use crate::mesh::{FaceElement, SolidSector};
 
 /// Steps of the derivative of a pressed part that moves, and the change relative to the largest at which they are given up; each
 /// is smaller than the last by what the springs' Newton steps leave, the difference between a ring's mean and its nodes.
@@ -19,8 +19,8 @@ const SETTLED: f64 = 1e-14;
 pub(super) struct SolidChange<'a> {
     /// Elastic stiffness, for each unit of the parameter.
     pub elastic: Option<&'a SolidMatrix>,
-    /// Stiffness of the springs that carry the base state, for each unit of the parameter.
-    pub normal_stiffness: f64,
+    /// The number of the springs' law that the parameter is, where they carry the base state.
+    pub law_parameter: Option<LawParameter>,
     /// The parameter, which may be one of the friction law.
     pub parameter: Parameter,
 }
@@ -35,7 +35,7 @@ pub(super) struct SolidSlidingRate {
     pub normal_forces: Vec<f64>,
     pub pressures: Vec<f64>,
     pub approaches: Vec<f64>,
-    pub normal_stiffness: f64,
+    law_parameter: Option<LawParameter>,
     parameter: Parameter,
 }
 
@@ -58,16 +58,16 @@ impl SolidSlidingRate {
             normal_forces: vec![0.0; base.normal_forces.len()],
             pressures: vec![0.0; rings],
             approaches: vec![0.0; rings],
-            normal_stiffness: change.normal_stiffness,
+            law_parameter: change.law_parameter,
             parameter: change.parameter,
         };
         let [springs, _] = supports(sector);
         let system = System::new(sector, &[elastic, &springs]);
         let changed = System::new(sector, change.elastic.as_slice());
-        if change.elastic.is_some() || change.normal_stiffness != 0.0 {
-            match base.normal_stiffness {
+        if change.elastic.is_some() || change.law_parameter.is_some() {
+            match base.law {
                 None => rate.press_rigidly(base, sector, [&system, &changed])?,
-                Some(_) => rate.press_on_springs(base, sector, [&system, &changed])?,
+                Some(law) => rate.press_on_springs(base, sector, law, [&system, &changed])?,
             }
         }
         rate.shear(base, sector, [&system, &changed])?;
@@ -121,36 +121,47 @@ impl SolidSlidingRate {
         Ok(())
     }
 
-    /// `(K + S) u' = -K' u + S' (delta n - u)`, where `S'` has the change of the springs and the motion of the ends of the pressed
-    /// part, which follows `u'`.
+    /// `(K + S) u' = -K' u + P' g n + (P - S) g' n + S' (delta n - u - g n)` with the secant stiffness `P` and the tangent `S` of the
+    /// springs, whose changes are those of the law, of the approach, and of the ends of the pressed part; the last two follow `u'`.
     fn press_on_springs(
         &mut self,
         base: &SolidSliding,
         sector: &SolidSector,
+        law: NormalLaw,
         [system, changed]: [&System; 2],
     ) -> Result<(), PrestressError> {
         let face = sector.specification.contact.face();
         let (inward, component) = (face.inward_sign(), face.normal_component());
-        let stiffness = base.normal_stiffness.unwrap_or(0.0);
-        let pressed = springs(sector, stiffness, &base.approaches);
-        let spring = System::new(sector, &[&pressed]);
+        let rings = base.approaches.len();
+        let springs = Springs {
+            sector,
+            law,
+            approaches: &base.approaches,
+        };
+        let spring = System::new(sector, &[&springs.tangent()]);
         let mut whole = System::new(sector, &[]);
         whole.stiffness.add_scaled(1.0, &system.stiffness);
         whole.stiffness.add_scaled(1.0, &spring.stiffness);
-        let fit = pushed(sector, base.contact.interference);
+        let fit = field(sector, &vec![base.contact.interference; rings]);
         let left = distance(sector, &fit, &base.pressed_displacement);
-        let stiffer = self.normal_stiffness / stiffness;
-        let mut push = spring.stiffness.multiply(&left);
-        push.iter_mut().for_each(|force| *force *= stiffer);
+        let left = distance(sector, &left, &field(sector, &base.approaches));
+        let own = field(sector, &base.approaches);
+        let secant = System::new(sector, &[&springs.secant()]);
         let added = changed.stiffness.multiply(&base.pressed_displacement);
         let mut moved = vec![0.0; system.dofs];
         for _ in 0..STEPS {
-            let forces = push.iter().zip(&moved).zip(&added);
-            let load: Vec<f64> = forces.map(|((push, moved), a)| push + moved - a).collect();
+            let forces = moved.iter().zip(&added);
+            let load: Vec<f64> = forces.map(|(moved, a)| moved - a).collect();
             self.pressed_displacement = whole.solve(&load, &vec![None; system.dofs])?;
             self.approaches = approaches(sector, 0.0, &self.pressed_displacement);
-            let rates = self.spring_motion(base, sector, stiffness);
-            let next = System::new(sector, &[&rates]).stiffness.multiply(&left);
+            let [pushes, stiffer] = self.spring_rates(&springs);
+            let pushes = System::new(sector, &[&pushes]).stiffness.multiply(&own);
+            let stiffer = System::new(sector, &[&stiffer]).stiffness.multiply(&left);
+            let nearer = field(sector, &self.approaches);
+            let [along, back] = [&secant, &spring].map(|of| of.stiffness.multiply(&nearer));
+            let next: Vec<f64> = (0..system.dofs)
+                .map(|dof| pushes[dof] + stiffer[dof] + (along[dof] - back[dof]))
+                .collect();
             let changes = next.iter().zip(&moved).map(|(a, b)| (a - b).abs());
             let change = changes.fold(0.0, f64::max);
             let scale = load.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
@@ -164,39 +175,64 @@ impl SolidSlidingRate {
         let back = spring.stiffness.multiply(&back);
         let nodes = base.normal_forces.iter().map(|(node, _)| {
             let dof = 3 * node + component;
-            inward * (push[dof] + moved[dof] + back[dof])
+            inward * (moved[dof] + back[dof])
         });
         self.normal_forces = nodes.collect();
         let rings = base.approaches.iter().zip(&self.approaches);
         let pressure = |(own, rate): (&f64, &f64)| match *own > 0.0 {
-            true => self.normal_stiffness * own + stiffness * rate,
+            true => self.by_law(law, *own)[0] + law.stiffness(*own) * rate,
             false => 0.0,
         };
         self.pressures = rings.map(pressure).collect();
         Ok(())
     }
 
-    /// What the motion of the ends of the pressed part does to the springs.
-    fn spring_motion(
-        &self,
-        base: &SolidSliding,
-        sector: &SolidSector,
-        stiffness: f64,
-    ) -> SolidMatrix {
-        let component = sector.specification.contact.face().normal_component();
-        let term = FaceTerm {
-            row: component,
-            column: component,
-            weight: &|_, _, _| stiffness,
-            span: &|element| pressed_span(sector, &base.approaches, element),
+    /// What the parameter does to pressure and stiffness of the law at the same approach.
+    pub fn by_law(&self, law: NormalLaw, approach: f64) -> [f64; 2] {
+        let rates = self.law_parameter.and_then(|own| law.rates(own, approach));
+        rates.unwrap_or_default()
+    }
+
+    /// Changes of the secant and of the tangent stiffness of the springs: by the law's numbers, the approach, and the motion of the
+    /// ends of the pressed part.
+    fn spring_rates(&self, springs: &Springs<'_>) -> [SolidMatrix; 2] {
+        let (sector, law) = (springs.sector, springs.law);
+        let faces = sector.contact_elements();
+        let span = |element: &FaceElement| springs.span(element);
+        let ends = (springs.approaches, self.approaches.as_slice());
+        let ends = |element: &FaceElement| pressed_span_rate(sector, ends, element);
+        let matrix = |rate: &dyn Fn(f64, f64) -> f64, value: &dyn Fn(f64) -> [f64; 2]| {
+            let rate = |element: &FaceElement, _: f64, along: f64| {
+                let moved = along_element(sector, &self.approaches, element, along);
+                rate(springs.approach(element, along), moved)
+            };
+            let at = |element: &FaceElement, along: f64| value(springs.approach(element, along));
+            let own = |element: &FaceElement, _: f64, along: f64| at(element, along)[0];
+            let slope = |element: &FaceElement, _: f64, along: f64| {
+                at(element, along)[1] * slope_along(sector, springs.approaches, element, along)
+            };
+            let moving = MovingSpan {
+                rate: &ends,
+                weight_slope: &slope,
+            };
+            let mut sum = face_matrix(sector, &faces, &springs.term(&rate, &span));
+            let term = springs.term(&own, &span);
+            sum.extend(face_matrix_rate(sector, &faces, &term, &moving));
+            sum
         };
-        let moving = MovingSpan {
-            rate: &|element| {
-                pressed_span_rate(sector, (&base.approaches, &self.approaches), element)
-            },
-            weight_slope: &|_, _, _| 0.0,
-        };
-        face_matrix_rate(sector, &sector.contact_elements(), &term, &moving)
+        [
+            matrix(
+                &|g, moved| {
+                    let closed = g.max(f64::MIN_POSITIVE);
+                    self.by_law(law, closed)[0] / closed + law.secant(g)[1] * moved
+                },
+                &|g| law.secant(g),
+            ),
+            matrix(
+                &|g, moved| self.by_law(law, g)[1] + law.curvature(g) * moved,
+                &|g| [law.stiffness(g), law.curvature(g)],
+            ),
+        ]
     }
 
     /// The displacement that friction causes.

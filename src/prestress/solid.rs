@@ -3,7 +3,7 @@
 use super::PrestressError;
 use super::face_conditions::supports;
 use super::pressing::{System, along_element, press_on_springs, press_rigidly, pressed_span};
-use crate::contact::{SlidingContact, SteadyFriction};
+use crate::contact::{NormalLaw, SlidingContact, SteadyFriction};
 use crate::fem::solid::{SolidMatrix, whole_element};
 use crate::mesh::{FaceElement, SolidSector};
 
@@ -15,9 +15,9 @@ use crate::mesh::{FaceElement, SolidSector};
 ///
 /// with `u_n` towards the body. Friction drags along `e_theta` only, which harmonic zero does not couple to the other two
 /// components: pressure and pressed rings do not depend on `mu`, and `u(mu) = u_0 + mu u_1`. The contact is rigid here whatever
-/// stiffness the eigenvalue analysis gives it, unless that is asked to carry the base state too
-/// ([`ContactStiffness::is_base_compliant`](crate::contact::ContactStiffness)): then `p = max(0, k (delta - u_n))` all over
-/// the face. Vectors hold `(u_r, u_theta, u_z)` of each sector node.
+/// stiffness the eigenvalue analysis gives it, unless that is asked to carry the base state too or stiffens with pressure
+/// ([`ContactStiffness::base_law`](crate::contact::ContactStiffness::base_law)): then `p = p(delta - u_n)` of its law all over the
+/// face where that is positive, at the nodes of linear elements. Vectors hold `(u_r, u_theta, u_z)` of each sector node.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SolidSliding {
     /// Displacement without friction `u_0`, m.
@@ -33,8 +33,8 @@ pub struct SolidSliding {
     pub pressures: Vec<f64>,
     /// `delta - u_n` at each ring, m: below zero it is a gap.
     pub approaches: Vec<f64>,
-    /// Stiffness of the springs that carry the base state, Pa/m; `None` is rigid contact.
-    pub normal_stiffness: Option<f64>,
+    /// The springs that carry the base state; `None` is rigid contact.
+    pub law: Option<NormalLaw>,
     /// Sense of the friction force `s`, +1 or -1.
     pub sliding_direction: f64,
     /// The rotor.
@@ -55,7 +55,7 @@ impl SolidSliding {
         Self::solve_with(sector, elastic, contact, None)
     }
 
-    /// [`Self::solve`] with springs of `normal_stiffness` (Pa/m) between face and rotor, where there are some.
+    /// [`Self::solve`] with springs of a `law` between face and rotor, where there are some.
     ///
     /// # Errors
     /// As [`Self::solve`].
@@ -63,13 +63,13 @@ impl SolidSliding {
         sector: &SolidSector,
         elastic: &SolidMatrix,
         contact: &SlidingContact,
-        normal_stiffness: Option<f64>,
+        law: Option<NormalLaw>,
     ) -> Result<Self, PrestressError> {
         let [springs, _] = supports(sector);
         let system = System::new(sector, &[elastic, &springs]);
-        let pressing = match normal_stiffness {
+        let pressing = match law {
             None => press_rigidly(sector, &system, contact)?,
-            Some(stiffness) => press_on_springs(sector, &[elastic, &springs], contact, stiffness)?,
+            Some(law) => press_on_springs(sector, &[elastic, &springs], contact, law)?,
         };
         if !pressing.is_pressed.contains(&true) {
             let distances = pressing.approaches.iter().map(|approach| -approach);
@@ -93,7 +93,7 @@ impl SolidSliding {
             is_pressed: pressing.is_pressed,
             pressures: pressing.pressures,
             approaches: pressing.approaches,
-            normal_stiffness,
+            law,
             sliding_direction,
             contact: *contact,
         })
@@ -135,9 +135,9 @@ impl SolidSliding {
     /// Pressure along the contact by the places of the rings, for the elements of the face: through the two rings at the ends of an
     /// element, and the one at its middle where there is one.
     pub fn pressure_along(&self, sector: &SolidSector, element: &FaceElement, along: f64) -> f64 {
-        match self.normal_stiffness {
-            Some(stiffness) if sector.is_quadratic() => {
-                stiffness * along_element(sector, &self.approaches, element, along).max(0.0)
+        match self.law {
+            Some(law) if sector.is_quadratic() => {
+                law.pressure(along_element(sector, &self.approaches, element, along).max(0.0))
             }
             _ => along_element(sector, &self.pressures, element, along).max(0.0),
         }
@@ -145,7 +145,7 @@ impl SolidSliding {
 
     /// The part of an element of the face that is pressed, see [`span`](crate::fem::solid::FaceTerm::span). Of quadratic elements in rigid contact it is all.
     pub fn pressed_span(&self, sector: &SolidSector, element: &FaceElement) -> [f64; 2] {
-        match self.normal_stiffness {
+        match self.law {
             None if sector.is_quadratic() => whole_element(element),
             None => pressed_span(sector, &self.pressures, element),
             Some(_) => pressed_span(sector, &self.approaches, element),

@@ -3,7 +3,7 @@
 use super::SolidSliding;
 use super::pressing::{along_element, pressed_span_rate, slope_along};
 use super::pressing_rate::SolidSlidingRate;
-use crate::contact::ContactStiffness;
+use crate::contact::{ContactStiffness, NormalLaw};
 use crate::fem::solid::{FaceTerm, MovingSpan, SolidMatrix, face_matrix, face_matrix_rate};
 use crate::mesh::{FaceElement, SolidSector};
 
@@ -86,59 +86,71 @@ impl Face<'_> {
     fn terms(&self, contact: &ContactStiffness, stiffness_rate: f64) -> ContactTerms {
         let face = self.sector.specification.contact.face();
         let (normal, side) = (face.normal_component(), face.across_component());
-        let pressed = |row, column, value: Weight, factor: &dyn Fn(&FaceElement, f64) -> Weight| {
-            self.term(row, column, &|element, radius, along| match self
+        let pressed = |row,
+                       column,
+                       value: &dyn Fn(&FaceElement, f64) -> Weight,
+                       factor: &dyn Fn(&FaceElement, f64) -> Weight| {
+            self.term([row, column], true, &|element, radius, along| match self
                 .pressure(element, along)
                 .value
                 > 0.0
             {
-                true => value.times(factor(element, radius)),
+                true => value(element, along).times(factor(element, radius)),
                 false => Weight::default(),
             })
         };
         let one = |_: &FaceElement, _: f64| constant(1.0, 0.0);
         let inwards = constant(face.inward_sign(), 0.0);
         let drag = |element: &FaceElement, r: f64| inwards.times(self.friction(element, r).0);
-        let law = |value: f64, rate: f64| match value {
-            0.0 => Default::default(),
-            value => [
-                pressed(normal, normal, constant(value, rate), &one),
-                pressed(1, normal, constant(value, rate), &drag),
-            ],
+        let normal_and_drag = |value: &dyn Fn(&FaceElement, f64) -> Weight| {
+            [
+                pressed(normal, normal, value, &one),
+                pressed(1, normal, value, &drag),
+            ]
         };
-        let mut dashpots: [SolidMatrix; 2] = law(contact.normal_damping, 0.0);
+        let dashpot = |value: f64| move |_: &FaceElement, _: f64| constant(value, 0.0);
+        let mut dashpots: [SolidMatrix; 2] = match contact.normal_damping {
+            0.0 => Default::default(),
+            damping => normal_and_drag(&dashpot(damping)),
+        };
         let tangential = contact.tangential_damping;
         if tangential != 0.0 {
             for component in [1, side] {
-                let term = pressed(component, component, constant(tangential, 0.0), &one);
+                let term = pressed(component, component, &dashpot(tangential), &one);
                 dashpots[0].extend(term);
             }
         }
-        let mut friction_dashpots = self.term(side, side, &|element, radius, along| {
+        let mut friction_dashpots = self.term([side, side], false, &|element, radius, along| {
             let (drag, _) = self.friction(element, radius);
             let size = drag.times(constant(self.base.sliding_direction, 0.0));
             let weight = self.pressure(element, along).times(size);
             weight.over(self.speed(element, radius))
         });
         if self.base.contact.decay.is_some() {
-            friction_dashpots.extend(self.term(1, 1, &|element, radius, along| {
+            friction_dashpots.extend(self.term([1, 1], false, &|element, radius, along| {
                 let (_, slope) = self.friction(element, radius);
                 self.pressure(element, along).times(slope)
             }));
         }
         ContactTerms {
-            penalty: law(contact.normal_stiffness.unwrap_or(0.0), stiffness_rate),
+            penalty: match (self.base.law, contact.normal_stiffness) {
+                (Some(law), _) => {
+                    normal_and_drag(&|element, along| self.spring(law, element, along))
+                }
+                (None, Some(own)) => normal_and_drag(&|_, _| constant(own, stiffness_rate)),
+                (None, None) => Default::default(),
+            },
             dashpots,
             friction_dashpots,
         }
     }
 
     /// The matrix of a term, or its derivative: of the weight where the points are, and of the points that move with the ends of the
-    /// pressed part.
+    /// pressed part. `is_nodal` as in [`FaceTerm`].
     fn term(
         &self,
-        row: usize,
-        column: usize,
+        [row, column]: [usize; 2],
+        is_nodal: bool,
         weight: &dyn Fn(&FaceElement, f64, f64) -> Weight,
     ) -> SolidMatrix {
         let faces = self.sector.contact_elements();
@@ -148,6 +160,7 @@ impl Face<'_> {
             column,
             weight,
             span: &span,
+            is_nodal,
         };
         let value = |element: &FaceElement, r: f64, at: f64| weight(element, r, at).value;
         let Some(changes) = self.rate else {
@@ -156,7 +169,7 @@ impl Face<'_> {
         let rate = |element: &FaceElement, r: f64, at: f64| weight(element, r, at).rate;
         let mut result = face_matrix(self.sector, &faces, &of(&rate));
         let moving = MovingSpan {
-            rate: &|element| match self.base.normal_stiffness {
+            rate: &|element| match self.base.law {
                 Some(_) => {
                     let approaches = (&self.base.approaches[..], &changes.approaches[..]);
                     pressed_span_rate(self.sector, approaches, element)
@@ -180,12 +193,14 @@ impl Face<'_> {
             let own = self.rate.map(values);
             own.map_or(0.0, |values| along_element(sector, values, element, along))
         };
-        match base.normal_stiffness {
-            Some(stiffness) if sector.is_quadratic() => {
-                let stiffer = self.rate.map_or(0.0, |rate| rate.normal_stiffness);
+        match base.law {
+            Some(law) if sector.is_quadratic() => {
+                let approach = along_element(sector, &base.approaches, element, along);
+                let stiffness = law.stiffness(approach);
+                let [by_law, _] = self.rate.map_or([0.0; 2], |r| r.by_law(law, approach));
                 Weight {
                     value,
-                    rate: stiffer / stiffness * value + stiffness * rate_of(|r| &r.approaches),
+                    rate: by_law + stiffness * rate_of(|r| &r.approaches),
                     slope: stiffness * slope_along(sector, &base.approaches, element, along),
                 }
             }
@@ -194,6 +209,22 @@ impl Face<'_> {
                 rate: rate_of(|r| &r.pressures),
                 slope: slope_along(sector, &base.pressures, element, along),
             },
+        }
+    }
+
+    /// Stiffness of the springs at a point.
+    fn spring(&self, law: NormalLaw, element: &FaceElement, along: f64) -> Weight {
+        let (base, sector) = (self.base, self.sector);
+        let approach = along_element(sector, &base.approaches, element, along).max(0.0);
+        let curvature = law.curvature(approach);
+        let rate = self.rate.map_or(0.0, |rate| {
+            let moved = along_element(sector, &rate.approaches, element, along);
+            rate.by_law(law, approach)[1] + curvature * moved
+        });
+        Weight {
+            value: law.stiffness(approach),
+            rate,
+            slope: curvature * slope_along(sector, &base.approaches, element, along),
         }
     }
 

@@ -4,6 +4,7 @@ use super::pressing_rate::{SolidChange, SolidSlidingRate};
 use super::solid_contact::contact_term_rates;
 use super::solid_tangent::{SolidTerms, turning_forces};
 use super::{Parameter, PrestressError, SolidHarmonic, SolidTangent};
+use crate::contact::LawParameter;
 use crate::fem::sector::MirrorParity;
 use crate::fem::solid::{self, SolidMatrix};
 use crate::fem::{ElasticMaterial, RayleighDamping};
@@ -60,7 +61,7 @@ impl SolidTangent {
             Parameter::PoissonRatio(0) => {
                 self.follow(&mut rate, parameter, Some(material.poisson_rate()))?;
             }
-            Parameter::NormalStiffness if self.options.contact.normal_stiffness.is_some() => {
+            Parameter::NormalStiffness | Parameter::NormalLaw(_) if self.has(parameter) => {
                 self.follow(&mut rate, parameter, None)?;
             }
             Parameter::StaticFrictionRatio | Parameter::DecaySpeed
@@ -71,6 +72,18 @@ impl SolidTangent {
             _ => return Ok(None),
         }
         Ok(Some(rate))
+    }
+
+    /// Whether the contact has springs of that parameter.
+    fn has(&self, parameter: Parameter) -> bool {
+        let own = law_parameter(parameter);
+        match (self.options.contact.law, own) {
+            (Some(law), Some(own)) => law.rates(own, 0.0).is_some(),
+            _ => {
+                own == Some(LawParameter::Stiffness)
+                    && self.options.contact.normal_stiffness.is_some()
+            }
+        }
     }
 
     /// What changes with the base state, and with the elastic constants at `material` for each unit of the parameter.
@@ -85,10 +98,7 @@ impl SolidTangent {
         let stiffer = f64::from(u8::from(parameter == Parameter::NormalStiffness));
         let change = SolidChange {
             elastic: elastic.as_ref(),
-            normal_stiffness: match contact.is_base_compliant {
-                true => stiffer,
-                false => 0.0,
-            },
+            law_parameter: law_parameter(parameter).filter(|_| base.law.is_some()),
             parameter,
         };
         let state = SolidSlidingRate::new(base, sector, &self.terms.elastic, &change)?;
@@ -151,5 +161,14 @@ impl SolidTangent {
         let rigid = self.rigid().into_iter().zip(&rate.drags);
         harmonic.rigid = rigid.map(|((n, t, _), drag)| (n, t, *drag)).collect();
         harmonic
+    }
+}
+
+/// The number of a contact's law that a parameter is.
+fn law_parameter(parameter: Parameter) -> Option<LawParameter> {
+    match parameter {
+        Parameter::NormalStiffness => Some(LawParameter::Stiffness),
+        Parameter::NormalLaw(own) => Some(own),
+        _ => None,
     }
 }

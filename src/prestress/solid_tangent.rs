@@ -57,8 +57,7 @@ impl SolidTangent {
             return Err(PrestressError::AtRest);
         }
         let elastic = solid::stiffness(sector, material);
-        let base =
-            SolidSliding::solve_with(sector, &elastic, contact, options.contact.base_stiffness())?;
+        let base = SolidSliding::solve_with(sector, &elastic, contact, options.contact.base_law())?;
         let stress = match options.geometric_stiffness {
             true => prestress(sector, material, &base),
             false => Default::default(),

@@ -14,7 +14,8 @@ use std::f64::consts::FRAC_PI_2;
 /// Mass, damping, stiffness and contact rows of a case's body around steady sliding at its own friction coefficient.
 ///
 /// # Errors
-/// A case without `[cea]`, a body of revolution, whose problem is one of complex matrices for each harmonic; no steady sliding.
+/// A case without `[cea]`, a body of revolution, whose problem is one of complex matrices for each harmonic; solid bodies from a mesh
+/// file; no steady sliding.
 pub fn matrices(case: &Case) -> Result<ExportedSystem, StudyError> {
     let cea = case.require_cea()?;
     if case.body.revolution().is_some() {
@@ -25,6 +26,16 @@ pub fn matrices(case: &Case) -> Result<ExportedSystem, StudyError> {
                 .to_owned(),
             "a body of revolution".to_owned(),
             Some("use a plane formulation, or an imported mesh".to_owned()),
+        )));
+    }
+    if case.body.assembly().is_some() {
+        return Err(StudyError::Case(case.error_at(
+            "mesh.file",
+            "the files name unknowns and contact points of one plane body; those of solid bodies that are tied and slide on each other \
+             are combinations of theirs"
+                .to_owned(),
+            "solid bodies".to_owned(),
+            Some("use a plane body; `cea` and `frf` solve solid bodies themselves".to_owned()),
         )));
     }
     if case.has_structural_damping() {

@@ -85,8 +85,8 @@ impl SolidTransientModel<'_> {
     /// Where there is none.
     pub fn base(&self) -> Result<SolidSliding, PrestressError> {
         let elastic = solid::stiffness(self.sector, self.material);
-        let stiffness = self.stiffness.base_stiffness();
-        SolidSliding::solve_with(self.sector, &elastic, &self.contact, stiffness)
+        let law = self.stiffness.base_law();
+        SolidSliding::solve_with(self.sector, &elastic, &self.contact, law)
     }
 
     /// Displacement of steady sliding over all dofs, m.

@@ -7,7 +7,11 @@ use frictionsim::contact::{
     ContactStiffness, FrictionDecay, Motion, NormalLaw, PairFriction, SlidingContact,
 };
 use frictionsim::fem::operator::SimdLevel;
-use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping};
+use frictionsim::fem::{
+    ElasticMaterial, MassKind, MaterialField, MaxwellChain, ModulusTable, PlaneFormulation,
+    RayleighDamping, RegionMaterial, RelaxedMaterials, TabledMaterial,
+};
+use frictionsim::linalg::c64;
 use frictionsim::mesh::{BoundaryCondition, GmshFile, Mesh};
 use frictionsim::prestress::{
     Assembly, BaseChoice, DampingModel, SlidingSurfaces, TangentOptions, TiedSurfaces,
@@ -64,6 +68,7 @@ fn mesh(plate: [usize; 3]) -> Mesh {
 
 fn assembly<'a>(
     mesh: &'a Mesh,
+    materials: &'a dyn MaterialField,
     (normal_stiffness, law): (Option<f64>, Option<NormalLaw>),
     decay: Option<FrictionDecay>,
     speed: f64,
@@ -95,7 +100,7 @@ fn assembly<'a>(
     };
     Assembly::at_nodes(
         mesh,
-        &STEEL,
+        materials,
         &[tie],
         &[contact],
         &[motion],
@@ -190,7 +195,7 @@ const SPRINGS: [(Option<f64>, Option<NormalLaw>); 3] = [
 fn steady_sliding_of_an_assembly_is_an_equilibrium_of_its_transient() {
     let mesh = mesh([4, 3, 1]);
     for springs in SPRINGS {
-        let assembly = assembly(&mesh, springs, None, 10.0);
+        let assembly = assembly(&mesh, &STEEL, springs, None, 10.0);
         let (record, speed) = run(&assembly, &settings(InitialState::SteadySliding, 1e-4, 0.0));
         let counts = record.rows.last().unwrap().counts;
         let state = &assembly.range(&[FRICTION]).unwrap().states[0];
@@ -213,7 +218,7 @@ fn steady_sliding_of_an_assembly_is_an_equilibrium_of_its_transient() {
 fn the_energy_of_an_assembly_closes_from_rest_to_sliding() {
     let mesh = mesh([4, 3, 1]);
     for springs in SPRINGS {
-        let assembly = assembly(&mesh, springs, None, 0.05);
+        let assembly = assembly(&mesh, &STEEL, springs, None, 0.05);
         let (record, _) = run(&assembly, &settings(InitialState::Rest, 1e-3, 0.05));
         let sum = |of: fn(&frictionsim::transient::SampleRow) -> u64| -> u64 {
             record.rows.iter().map(of).sum()
@@ -239,7 +244,7 @@ fn the_energy_of_an_assembly_closes_from_rest_to_sliding() {
 fn an_assembly_goes_on_from_a_saved_state_bit_by_bit() {
     let mesh = mesh([4, 3, 1]);
     for springs in SPRINGS {
-        let assembly = assembly(&mesh, springs, None, 0.05);
+        let assembly = assembly(&mesh, &STEEL, springs, None, 0.05);
         let body = TransientBody::from(model(&assembly));
         let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar);
         let operator = operator.unwrap();
@@ -266,33 +271,112 @@ fn a_vibration_of_an_assembly_grows_as_its_eigenvalue_says() {
         decay_speed: 1.0,
     };
     for springs in SPRINGS {
-        let assembly = assembly(&mesh, springs, Some(decay), 10.0);
-        let modes = modes(&assembly);
-        let (record, _) = run(
-            &assembly,
-            &settings(InitialState::SteadySliding, 4e-3, 1e-6),
-        );
-        let analysis = TransientAnalysis::without_symmetry(&record);
-        let stage = analysis.growth[0].stage.as_ref().unwrap();
-        let found = [stage.rate_per_s.value, stage.frequency_hz.value.abs()];
-        // Several modes grow; the strongest vibration is one of them.
-        let distance = |mode: &&ComplexMode| (mode.frequency_hz() - found[1]).abs();
-        let own = modes
-            .iter()
-            .min_by(|a, b| distance(a).total_cmp(&distance(b)))
-            .unwrap();
-        let expected = [std::f64::consts::TAU * own.real_hz(), own.frequency_hz()];
-        println!(
-            "{springs:?}: {found:?}, eigenvalue {expected:?}, residual {:e}",
-            analysis.largest_residual
-        );
-        assert!(
-            (found[0] / expected[0] - 1.0).abs() < 0.01,
-            "{found:?} {expected:?}"
-        );
-        assert!(
-            (found[1] / expected[1] - 1.0).abs() < 1e-3,
-            "{found:?} {expected:?}"
-        );
+        let assembly = assembly(&mesh, &STEEL, springs, Some(decay), 10.0);
+        let settings = settings(InitialState::SteadySliding, 4e-3, 1e-6);
+        grows_as_one_of(&modes(&assembly), &run(&assembly, &settings).0);
     }
+}
+
+/// Compares the strongest vibration of a record with the mode next to it, which it gives: several grow.
+fn grows_as_one_of(modes: &[ComplexMode], record: &Recorder) -> [f64; 2] {
+    let analysis = TransientAnalysis::without_symmetry(record);
+    let stage = analysis.growth[0].stage.as_ref().unwrap();
+    let found = [stage.rate_per_s.value, stage.frequency_hz.value.abs()];
+    let expected = nearest(modes, found[1]);
+    println!(
+        "{found:?}, eigenvalue {expected:?}, residual {:e}",
+        analysis.largest_residual
+    );
+    assert!(analysis.largest_residual < 1e-10);
+    assert!(
+        (found[0] / expected[0] - 1.0).abs() < 0.01,
+        "{found:?} {expected:?}"
+    );
+    assert!(
+        (found[1] / expected[1] - 1.0).abs() < 1e-3,
+        "{found:?} {expected:?}"
+    );
+    expected
+}
+
+/// Growth (1/s) and frequency (Hz) of the mode next to a frequency.
+fn nearest(modes: &[ComplexMode], frequency_hz: f64) -> [f64; 2] {
+    let distance = |mode: &&ComplexMode| (mode.frequency_hz() - frequency_hz).abs();
+    let own = modes
+        .iter()
+        .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        .unwrap();
+    [std::f64::consts::TAU * own.real_hz(), own.frequency_hz()]
+}
+
+/// Band of the losses, Hz.
+const BAND: [f64; 2] = [200.0, 2e5];
+
+/// Materials in time, a chain in place of the losses of the upper block, and those of the eigenvalue analysis, which have the
+/// modulus of that chain as a table.
+fn losing(mesh: &Mesh) -> (RelaxedMaterials, Vec<TabledMaterial>) {
+    let upper = mesh.regions.iter().position(|name| name == "upper");
+    let chain = || MaxwellChain::fit(&|_| c64::new(1.0, 0.01), BAND);
+    let count = mesh.regions.len();
+    let in_time = RelaxedMaterials::of(&STEEL, count, |region| (Some(region) == upper).then(chain));
+    let chain = chain();
+    let rows = (0..=400).map(|i| {
+        let frequency = BAND[0] * (BAND[1] / BAND[0]).powf(f64::from(i) / 400.0);
+        let ratio = chain.ratio(frequency);
+        [
+            frequency,
+            STEEL.young_modulus * ratio.re,
+            ratio.im / ratio.re,
+        ]
+    });
+    let table = ModulusTable::new("materials.upper.table", "chain.csv", rows.collect());
+    let own = |young_modulus| RegionMaterial {
+        elastic: ElasticMaterial {
+            young_modulus,
+            ..STEEL
+        },
+        damping: None,
+    };
+    let mut materials = vec![TabledMaterial::from(own(STEEL.young_modulus)); count];
+    materials[upper.unwrap()] = TabledMaterial {
+        own: own(table.static_modulus()),
+        table: Some(std::sync::Arc::new(table)),
+    };
+    (in_time, materials)
+}
+
+/// Cross-method: with a Maxwell chain in the upper block a vibration grows as the eigenvalue with the modulus of its own frequency,
+/// another rate than without losses, and energy of springs and dashpots are in the balance; a run goes on to the same bits.
+#[test]
+fn losses_of_an_assembly_slow_its_growth_as_the_eigenvalue_says() {
+    let mesh = mesh([5, 4, 1]);
+    let (in_time, tabled) = losing(&mesh);
+    let decay = Some(FrictionDecay {
+        static_ratio: 4.0,
+        decay_speed: 1.0,
+    });
+    let springs = SPRINGS[1];
+    let lossless = modes(&assembly(&mesh, &STEEL, springs, decay, 10.0));
+    let expected = modes(&assembly(&mesh, &tabled, springs, decay, 10.0));
+    let stepped = assembly(&mesh, &in_time, springs, decay, 10.0);
+    let whole = settings(InitialState::SteadySliding, 4e-3, 1e-6);
+    let [rate, frequency] = grows_as_one_of(&expected, &run(&stepped, &whole).0);
+    let [without, _] = nearest(&lossless, frequency);
+    println!("{rate} 1/s, {without} 1/s without losses");
+    assert!(without > 1.02 * rate, "{rate} {without}");
+
+    let body = TransientBody::from(model(&stepped));
+    let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar);
+    let operator = operator.unwrap();
+    let [first, whole] = [2e-4, 4e-4].map(|end| settings(InitialState::SteadySliding, end, 0.05));
+    let ran = |mut run: CentralDifference<'_>| {
+        let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
+        run.run(&mut record).unwrap();
+        run.state()
+    };
+    let start = |settings| CentralDifference::start(body, operator.as_ref(), settings);
+    let half = ran(start(&first).unwrap());
+    assert!(half.relaxation.iter().flatten().any(|z| *z != 0.0));
+    let resumed = CentralDifference::resume(body, operator.as_ref(), &whole, &half);
+    assert_eq!(ran(resumed.unwrap()), ran(start(&whole).unwrap()));
 }

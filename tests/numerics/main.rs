@@ -44,4 +44,5 @@ mod solid_refinement;
 mod solids;
 mod structural_damping;
 mod tabled;
+mod tabled_disc;
 mod two_bodies;

@@ -15,6 +15,8 @@ pub struct FaceTerm<'a> {
     /// The part of an element that it acts on, from -1 to 1 along it; of a linear element the nodes at those of its ends that
     /// belong to it.
     pub span: &'a dyn Fn(&FaceElement) -> [f64; 2],
+    /// Whether the weight of a linear element is taken at its nodes; else at its Gauss points.
+    pub is_nodal: bool,
 }
 
 /// All of an element.
@@ -56,16 +58,20 @@ pub fn face_matrix(
         for ([x, y], share) in face_quadrature(sector.is_quadratic()) {
             let point = ([x, middle + half * y], half * share);
             let (values, area) = face.values_at(sector, point);
-            let weight = area * (term.weight)(face, face.radius_at(sector, point.0), point.0[1]);
+            let radius = face.radius_at(sector, point.0);
+            let weight = |along: f64| area * (term.weight)(face, radius, along);
             if !sector.is_quadratic() {
                 for (a, value) in values.iter().enumerate() {
                     // Corners 0 and 1 lie at the beginning of the element.
+                    let end = [-1.0, 1.0][a / 2];
                     if span[a / 2].abs() == 1.0 {
+                        let weight = weight(if term.is_nodal { end } else { point.0[1] });
                         matrix[(3 * a + term.row, 3 * a + term.column)] += weight * value;
                     }
                 }
                 continue;
             }
+            let weight = weight(point.0[1]);
             let ahead = angles_ahead(sector, face, point.0);
             let [rows, columns] = [term.row, term.column].map(|c| along(&values, &ahead, c));
             for (j, column) in columns.iter().enumerate() {

@@ -183,10 +183,11 @@ pub fn notes(model: &AssemblyModel) -> Vec<String> {
     });
     let rotors: Vec<&str> = body.rotors().collect();
     let turning = (!rotors.is_empty()).then(|| {
-        format!(
-            "{} with Coriolis, transport and centrifugal terms, in the frame at rest",
-            rotors.join(", ")
-        )
+        let terms = match body.turns_with_its_frame() {
+            true => "Coriolis and centrifugal terms, in the frame that turns with it",
+            false => "Coriolis, transport and centrifugal terms, in the frame at rest",
+        };
+        format!("{} with {terms}", rotors.join(", "))
     });
     let free = model.assembly().is_free().then(|| {
         "nothing holds the bodies: their rigid motions, at frequency zero, are not listed; the modes are those of free parts"

@@ -51,7 +51,7 @@ pub fn watched_map(
             let mass = point.cea.as_ref().map_or(cea.mass, |own| own.mass);
             let options = tangent_options(point, mass);
             let frictions = request.friction_coefficients;
-            let model = Model::with_solver(point, *solver, options, frictions)?;
+            let model = Model::with_solver(point, solver.clone(), options, frictions)?;
             let own = PartWatch {
                 whole: watch,
                 prefix: format!("map-{number}-"),

@@ -10,7 +10,7 @@ use crate::prestress::{SectorTangent, SlidingTangent, SolidTangent, TangentOptio
 use crate::study::tangent_options;
 
 /// The eigenvalue solver that a body gets.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Solver {
     /// The harmonics of a plane annulus.
     Sectors(Annulus),
@@ -60,7 +60,7 @@ impl Solver {
     pub fn by_symmetry(case: &Case) -> Self {
         match &case.body {
             Body::Annulus(_) if case.has_structural_damping() => Self::WholeMesh,
-            Body::Annulus(annulus) => Self::Sectors(*annulus),
+            Body::Annulus(annulus) => Self::Sectors(annulus.clone()),
             Body::Revolution(revolution) => Self::SolidSectors(*revolution),
             Body::Imported(_) => Self::WholeMesh,
             Body::Assembly(_) => Self::Assembly,

@@ -27,8 +27,8 @@ impl SolidBody {
     pub fn new(case: &Case, specification: &SolidSpecification) -> Result<Self, StudyError> {
         let sector = SolidSector::generate(specification)?;
         let elastic = solid::stiffness(&sector, &case.material);
-        let stiffness = case.contact.stiffness.base_stiffness();
-        let base = SolidSliding::solve_with(&sector, &elastic, &case.contact.sliding, stiffness)?;
+        let law = case.contact.stiffness.base_law();
+        let base = SolidSliding::solve_with(&sector, &elastic, &case.contact.sliding, law)?;
         let plane = AnnulusSpecification {
             outer: BoundaryCondition::Clamped,
             ..specification.annulus

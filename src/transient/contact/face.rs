@@ -69,11 +69,18 @@ impl LagrangeContact {
             })
         };
         let compliance = stiffness.normal_stiffness.map(|normal_stiffness| {
-            let law = [normal_stiffness, stiffness.normal_damping];
-            let given_way: Vec<f64> = match stiffness.is_base_compliant {
+            let given_way: Vec<f64> = match base.is_some_and(|base| base.law.is_some()) {
                 true => interface.nodes.iter().map(approach).collect(),
                 false => vec![0.0; count],
             };
+            if let Some(law) = stiffness.law {
+                let damping = given_way.iter().zip(areas).map(|(g, area)| {
+                    let spring = law.stiffness(g.max(0.0));
+                    area * (stiffness.normal_damping + stiffness.law_damping * spring)
+                });
+                return CompliantContact::stiffening(law, areas, damping.collect());
+            }
+            let law = [normal_stiffness, stiffness.normal_damping];
             CompliantContact::of(law, areas, &forces).beyond(&given_way)
         });
         let dashpots = areas.iter().map(|area| stiffness.tangential_damping * area);

@@ -1,14 +1,16 @@
 //! Frequency responses of assemblies against their eigenvalues (cross-method: the response knows no modes).
 
+use super::rotation::{ring, turning as spinning};
 use super::{OPTIONS, PRESSED, STEEL, boundary, mesh_of, sliding, stacked, turning};
 use crate::bricks::{Block, file_of};
 use frictionsim::cea::sparse::sweep;
 use frictionsim::cea::{ModeLimit, SweepRequest};
-use frictionsim::fem::RayleighDamping;
+use frictionsim::fem::{RayleighDamping, RotationFrame};
 use frictionsim::frf::{Axis, Direction, FrfError, FrfSystem, Terminal, direct_response};
-use frictionsim::linalg::c64;
+use frictionsim::linalg::{MatrixPolynomial, c64};
 use frictionsim::mesh::{BoundaryCondition, Mesh};
 use frictionsim::prestress::{Assembly, BaseChoice, SlidingTangent, TangentOptions, TiedSurfaces};
+use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 
 const DAMPED: TangentOptions = TangentOptions {
@@ -141,4 +143,77 @@ fn tied_halves_respond_like_the_whole() {
             "{whole} {halves}"
         );
     }
+}
+
+/// Independent: all unknowns as one dense system of real numbers, `[A -B; B A] [x; y] = [f; 0]` with `A = K - omega^2 M` and
+/// `B = omega C`, for a ring that its bore holds in both frames. Undamped and gyroscopic, its matrix is Hermitian: each port answers its own
+/// force with a real figure, and two ports each other with conjugate ones.
+#[test]
+fn a_turning_ring_responds_like_the_dense_system_of_its_matrices() {
+    for frame in [RotationFrame::Rest, RotationFrame::Turning] {
+        let (mesh, seam) = ring([2, 24, 1], BoundaryCondition::Clamped);
+        let motion = spinning(300.0, [0.0; 3], frame);
+        let (ties, motions) = ([seam], [motion]);
+        let closed = BaseChoice::Closed;
+        let assembly = Assembly::new(&mesh, &STEEL, &ties, &[], &motions, closed).unwrap();
+        let range = assembly.range(&[0.0]).unwrap();
+        let tangent = assembly.tangent(&range.states[0], &OPTIONS).unwrap();
+        let system = FrfSystem::tied(&tangent);
+        let node = node_at(&mesh, [0.0, 0.15, 0.005]);
+        let ports = [Direction::X, Direction::Y].map(|direction| {
+            let terminal = terminal(node, direction);
+            system.port(&mesh, None, terminal, "force_node").unwrap()
+        });
+        let unknowns = [0, 1].map(|axis| tangent.unknowns.unknown_of[3 * node + axis].unwrap());
+        let lines = [400.0, 850.0, 2000.0];
+        for line in lines {
+            let mut found = [[c64::new(0.0, 0.0); 2]; 2];
+            for ((force, unknown), row) in ports.iter().zip(unknowns).zip(&mut found) {
+                let exact = dense_response(&tangent, TAU * line, unknown);
+                let exact = unknowns.map(|unknown| exact[unknown]);
+                let largest = exact[0].norm().max(exact[1].norm());
+                for ((observed, exact), place) in ports.iter().zip(exact).zip(row) {
+                    let response =
+                        direct_response(&system, force.clone(), observed.clone(), &[line]);
+                    *place = response.unwrap().receptance[0];
+                    let error = (*place - exact).norm() / largest;
+                    println!("{frame:?} {line} Hz: {place} {exact} {error:.1e}");
+                    assert!(error < 1e-9, "{place} {exact}");
+                }
+            }
+            let [[xx, xy], [yx, yy]] = found;
+            let scale = xx.norm();
+            assert!(xx.im.abs() < 1e-9 * scale && yy.im.abs() < 1e-9 * scale);
+            assert!((xy - yx.conj()).norm() < 1e-9 * scale && xy.im.abs() > 1e-5 * scale);
+        }
+    }
+}
+
+/// All unknowns under a force of 1 N on one of them, by LU of the whole real system.
+fn dense_response(tangent: &SlidingTangent, omega: f64, force: usize) -> Vec<c64> {
+    let n = tangent.mass.dimension();
+    let dense = |p: &MatrixPolynomial| {
+        let (mut dense, values) = (DMatrix::zeros(n, n), p.evaluate(0.0));
+        for column in 0..n {
+            for (k, row) in p.pattern().column(column) {
+                dense[(row, column)] += values[k];
+            }
+        }
+        dense
+    };
+    let real = dense(&tangent.stiffness) - dense(&tangent.mass) * (omega * omega);
+    let imaginary = dense(&tangent.damping) * omega;
+    let mut whole = DMatrix::zeros(2 * n, 2 * n);
+    for (row, column, block) in [
+        (0, 0, &real),
+        (n, n, &real),
+        (0, n, &-&imaginary),
+        (n, 0, &imaginary),
+    ] {
+        whole.view_mut((row, column), (n, n)).copy_from(block);
+    }
+    let mut load = DVector::zeros(2 * n);
+    load[force] = 1.0;
+    let x = whole.lu().solve(&load).unwrap();
+    (0..n).map(|k| c64::new(x[k], x[n + k])).collect()
 }

@@ -8,13 +8,23 @@ use frictionsim::mesh::{BoundaryCondition, ElasticSupport, Mesh};
 use frictionsim::prestress::{Assembly, BaseChoice, PrestressError, TiedSurfaces};
 use std::f64::consts::TAU;
 
-/// A ring of 40 x 4 x 1 bricks, r 50 to 150 mm, 10 mm thick, its two ends glued.
-fn ring(bore: BoundaryCondition) -> (Mesh, TiedSurfaces) {
+/// Springs softer than the ring.
+const SOFT: ElasticSupport = ElasticSupport {
+    normal_stiffness: 2e6,
+    tangential_stiffness: 3e6,
+    axial_stiffness: 0.0,
+    normal_damping: 0.0,
+    tangential_damping: 0.0,
+    loss_factor: 0.0,
+};
+
+/// A ring of bricks along radius, angle and axis, r 50 to 150 mm, 10 mm thick, its two ends glued.
+pub(super) fn ring(counts: [usize; 3], bore: BoundaryCondition) -> (Mesh, TiedSurfaces) {
     let block = Block {
         name: "ring",
         origin: [0.05, 0.0, -0.005],
         size: [0.1, TAU, 0.01],
-        counts: [4, 40, 1],
+        counts,
     };
     let file = file_of(&[block], |[radius, angle, z]| {
         let (sin, cos) = angle.sin_cos();
@@ -30,18 +40,21 @@ fn ring(bore: BoundaryCondition) -> (Mesh, TiedSurfaces) {
 }
 
 /// The ring turns about an axis parallel to its own.
-fn turning(rotation_speed: f64, center: [f64; 3]) -> Motion {
+pub(super) fn turning(rotation_speed: f64, center: [f64; 3], frame: RotationFrame) -> Motion {
     Motion {
         regions: vec![0],
         axis: [0.0, 0.0, 1.0],
         center,
         rotation_speed,
-        inertia: Some(RotationFrame::Rest),
+        inertia: Some(frame),
     }
 }
 
 fn frequencies(mesh: &Mesh, seam: &TiedSurfaces, speed: f64, count: usize) -> Vec<f64> {
-    let (ties, motion) = (std::slice::from_ref(seam), turning(speed, [0.0; 3]));
+    let (ties, motion) = (
+        std::slice::from_ref(seam),
+        turning(speed, [0.0; 3], RotationFrame::Rest),
+    );
     let closed = BaseChoice::Closed;
     let assembly = Assembly::new(mesh, &STEEL, ties, &[], &[motion], closed).unwrap();
     let found = eigenvalues(&assembly, 0.0, count);
@@ -58,12 +71,7 @@ fn frequencies(mesh: &Mesh, seam: &TiedSurfaces, speed: f64, count: usize) -> Ve
 /// translations whatever the speed. Coriolis, transport and the centrifugal stress hold each other in balance there.
 #[test]
 fn a_rotor_on_soft_springs_tilts_as_a_rigid_gyroscope() {
-    let soft = ElasticSupport {
-        normal_stiffness: 2e6,
-        tangential_stiffness: 3e6,
-        ..ElasticSupport::default()
-    };
-    let (mesh, seam) = ring(BoundaryCondition::Support(soft));
+    let (mesh, seam) = ring([4, 40, 1], BoundaryCondition::Support(SOFT));
     let mass = assemble_mass(&mesh, &STEEL, MassKind::Consistent);
     let [springs, _] = assemble_supports(&mesh);
     let form = |matrix: &frictionsim::fem::Triplets, motion: fn([f64; 3]) -> [f64; 3]| -> f64 {
@@ -100,7 +108,7 @@ fn a_rotor_on_soft_springs_tilts_as_a_rigid_gyroscope() {
 /// Theory: in the frame at rest the two waves of `n` nodal diameters stand `2 n Omega` apart.
 #[test]
 fn waves_of_a_turning_ring_split_by_twice_the_harmonic_times_the_speed() {
-    let (mesh, seam) = ring(BoundaryCondition::Clamped);
+    let (mesh, seam) = ring([4, 40, 1], BoundaryCondition::Clamped);
     let speed = 60.0;
     let at_rest = frequencies(&mesh, &seam, 0.0, 7);
     let turning = frequencies(&mesh, &seam, speed, 7);
@@ -130,8 +138,8 @@ fn waves_of_a_turning_ring_split_by_twice_the_harmonic_times_the_speed() {
 
 #[test]
 fn a_body_that_is_none_of_revolution_about_the_axis_has_no_rotation_terms() {
-    let (mesh, seam) = ring(BoundaryCondition::Clamped);
-    let (ties, motion) = ([seam], turning(60.0, [0.03, 0.0, 0.0]));
+    let (mesh, seam) = ring([4, 40, 1], BoundaryCondition::Clamped);
+    let (ties, motion) = ([seam], turning(60.0, [0.03, 0.0, 0.0], RotationFrame::Rest));
     let closed = BaseChoice::Closed;
     let found = Assembly::new(&mesh, &STEEL, &ties, &[], &[motion], closed);
     let error = found.err().unwrap();

@@ -6,7 +6,7 @@ use crate::solids::response::{at, sliding};
 use faer::{Mat, c64};
 use frictionsim::cea::cyclic::{SolidModel, solid_sweep};
 use frictionsim::cea::{ModeLimit, SweepRequest, UnstableInterval};
-use frictionsim::contact::{ContactStiffness, FrictionDecay};
+use frictionsim::contact::{ContactStiffness, FrictionDecay, NormalLaw};
 use frictionsim::frf::Direction::Tangential;
 use frictionsim::frf::cyclic_response;
 use frictionsim::linalg::ComplexDenseLu;
@@ -99,6 +99,28 @@ fn on_a_base_state_that_springs_carry_the_response_has_the_poles_of_the_eigenval
         model.options.contact = ContactStiffness {
             normal_stiffness: Some(1e12),
             is_base_compliant: true,
+            ..ContactStiffness::default()
+        };
+        has_poles_at_onsets(&model);
+    }
+}
+
+/// A contact that stiffens carries the base state, and the tangent has its stiffness at the pressure there.
+#[test]
+fn on_a_contact_that_stiffens_the_response_has_the_poles_of_the_eigenvalue_analysis() {
+    for (element, divisions) in [
+        (ElementKind::Quad4, [24, 6, 2]),
+        (ElementKind::Quad8, [16, 4, 1]),
+    ] {
+        let mut model = disc(element, divisions);
+        model.options.geometric_stiffness = true;
+        let law = NormalLaw::Exponential {
+            reference_pressure: 2e5,
+            height: 2e-6,
+        };
+        model.options.contact = ContactStiffness {
+            normal_stiffness: Some(law.stiffness(0.0)),
+            law: Some(law),
             ..ContactStiffness::default()
         };
         has_poles_at_onsets(&model);

@@ -2,6 +2,7 @@
 
 use crate::solids::model::{disc, modes};
 use frictionsim::cea::cyclic::SolidModel;
+use frictionsim::contact::NormalLaw;
 use frictionsim::fem::solid;
 use frictionsim::mesh::{BoundaryCondition, ElementKind, SolidContact, SolidSector};
 use frictionsim::prestress::{PrestressError, SolidSliding};
@@ -21,8 +22,8 @@ fn ringed(element: ElementKind, divisions: [usize; 3]) -> SolidModel {
 fn base(model: &SolidModel) -> Result<(SolidSector, SolidSliding), PrestressError> {
     let sector = SolidSector::generate(&model.specification).unwrap();
     let elastic = solid::stiffness(&sector, &model.material);
-    let stiffness = model.options.contact.base_stiffness();
-    let base = SolidSliding::solve_with(&sector, &elastic, &model.contact, stiffness)?;
+    let law = model.options.contact.base_law();
+    let base = SolidSliding::solve_with(&sector, &elastic, &model.contact, law)?;
     Ok((sector, base))
 }
 
@@ -76,6 +77,63 @@ fn springs_that_carry_the_base_state_stand_in_series_with_a_layer() {
                 "{pressure} {exact}"
             );
         }
+    }
+}
+
+/// Independent check: the same of contact that stiffens, by `approach / 2` in the springs: each law has the pressure there that the
+/// rest strains the layer with. Five times as stiff as the layer there, the interface leaves twice as much of the face's error in the
+/// pressure as the springs above.
+#[test]
+fn contact_that_stiffens_shares_the_distance_with_a_layer() {
+    let angle: f64 = TAU / 24.0;
+    let (chord, parabola) = (angle.powi(2) / 6.0, angle.powi(4));
+    for (element, tolerance) in [(ElementKind::Quad4, chord), (ElementKind::Quad8, parabola)] {
+        let mut model = layer(element);
+        let [lambda, shear] = model.material.solid_lame_constants();
+        let exact = (lambda + 2.0 * shear) * 2.5e-6 / 0.009;
+        let laws = [
+            NormalLaw::Exponential {
+                reference_pressure: exact / f64::exp_m1(5.0),
+                height: 5e-7,
+            },
+            NormalLaw::Cubic {
+                stiffness: 0.1 * exact / 2.5e-6,
+                cubic_stiffness: 0.9 * exact / 2.5e-6_f64.powi(3),
+            },
+        ];
+        for law in laws {
+            model.options.contact.law = Some(law);
+            let (sector, base) = base(&model).unwrap();
+            let nodal: f64 = base.normal_forces.iter().map(|(_, force)| force).sum();
+            let area: f64 = sector.rings.iter().map(|ring| ring.area).sum();
+            for pressure in base.pressures.iter().chain(&[nodal / area]) {
+                assert!(
+                    (pressure / exact - 1.0).abs() < tolerance,
+                    "{law:?}: {pressure} {exact}"
+                );
+            }
+            for approach in &base.approaches {
+                assert!((approach / 2.5e-6 - 1.0).abs() < tolerance, "{approach}");
+            }
+        }
+    }
+}
+
+/// Theory: contact that hardly stiffens is the linear one, in the base state and in its spectrum.
+#[test]
+fn a_law_that_hardly_stiffens_is_springs() {
+    let mut linear = ringed(ElementKind::Quad8, [24, 7, 1]);
+    compliant(&mut linear, 3e11);
+    let mut own = linear;
+    own.options.contact.law = Some(NormalLaw::Cubic {
+        stiffness: 3e11,
+        cubic_stiffness: 1e8,
+    });
+    let [linear, own] = [linear, own].map(|model| modes(&model, 0.5, 4000.0));
+    assert_eq!(linear.len(), own.len());
+    for (a, b) in linear.iter().zip(&own) {
+        let error = (a.eigenvalue - b.eigenvalue).norm() / a.eigenvalue.norm();
+        assert!(error < 1e-8, "{a:?} {b:?}");
     }
 }
 

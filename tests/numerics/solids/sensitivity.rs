@@ -4,7 +4,7 @@ use crate::solids::model::disc;
 use faer::c64;
 use frictionsim::cea::cyclic::{Sensitivity, SolidModel, solid_sensitivities, solid_sweep};
 use frictionsim::cea::{ModeBranch, ModeLimit, SweepRequest};
-use frictionsim::contact::{ContactStiffness, FrictionDecay};
+use frictionsim::contact::{ContactStiffness, FrictionDecay, NormalLaw};
 use frictionsim::mesh::{
     BoundaryCondition, ElasticSupport, ElementKind, SolidContact, SolidSector,
 };
@@ -59,11 +59,23 @@ fn compare(model: &SolidModel, what: &str) {
             eigenvalues(&changed, FRICTION)
         }
     };
-    let k_n = model.options.contact.normal_stiffness;
+    let contact = model.options.contact;
+    let (cubic, exponential) = match contact.law {
+        Some(NormalLaw::Cubic {
+            cubic_stiffness, ..
+        }) => (Some(cubic_stiffness), None),
+        Some(NormalLaw::Exponential {
+            reference_pressure,
+            height,
+        }) => (None, Some([reference_pressure, height])),
+        None => (None, None),
+    };
+    let k_n = contact.normal_stiffness.filter(|_| exponential.is_none());
+    let [p_r, height] = [0, 1].map(|k| exponential.map(|own| own[k]));
     let decay = model.contact.decay;
     type Of = fn(&Sensitivity) -> Option<c64>;
     type Change = fn(&mut SolidModel, f64);
-    let checks: [(&str, Option<f64>, f64, Of, Change); 8] = [
+    let checks: [(&str, Option<f64>, f64, Of, Change); 11] = [
         (
             "nu",
             Some(1.0),
@@ -107,6 +119,50 @@ fn compare(model: &SolidModel, what: &str) {
             |m, h| {
                 if let Some(k) = &mut m.options.contact.normal_stiffness {
                     *k += h;
+                }
+                if let Some(NormalLaw::Cubic { stiffness, .. }) = &mut m.options.contact.law {
+                    *stiffness += h;
+                }
+            },
+        ),
+        (
+            "c",
+            cubic,
+            0.004 * cubic.unwrap_or(0.0),
+            |s| s.normal_law[0],
+            |m, h| {
+                let law = &mut m.options.contact.law;
+                if let Some(NormalLaw::Cubic {
+                    cubic_stiffness, ..
+                }) = law
+                {
+                    *cubic_stiffness += h;
+                }
+            },
+        ),
+        (
+            "p_r",
+            p_r,
+            0.004 * p_r.unwrap_or(0.0),
+            |s| s.normal_law[1],
+            |m, h| {
+                let law = &mut m.options.contact.law;
+                if let Some(NormalLaw::Exponential {
+                    reference_pressure, ..
+                }) = law
+                {
+                    *reference_pressure += h;
+                }
+            },
+        ),
+        (
+            "h",
+            height,
+            0.002 * height.unwrap_or(0.0),
+            |s| s.normal_law[2],
+            |m, h| {
+                if let Some(NormalLaw::Exponential { height, .. }) = &mut m.options.contact.law {
+                    *height += h;
                 }
             },
         ),
@@ -190,6 +246,18 @@ const COMPLIANT: ContactStiffness = ContactStiffness {
     is_base_compliant: true,
 };
 
+/// Of about the stiffness of the body where it is pressed.
+const LAWS: [NormalLaw; 2] = [
+    NormalLaw::Exponential {
+        reference_pressure: 2e6,
+        height: 4e-5,
+    },
+    NormalLaw::Cubic {
+        stiffness: 1e11,
+        cubic_stiffness: 1e19,
+    },
+];
+
 /// A strong prestress, so that its share cannot hide, and friction that falls with the speed.
 fn strained(element: ElementKind, contact: ContactStiffness) -> SolidModel {
     let divisions = match element {
@@ -261,11 +329,41 @@ fn sensitivities_with_a_base_state_on_springs_equal_finite_differences() {
     }
 }
 
+/// The stiffness follows the pressure, and that the approach.
+#[test]
+fn sensitivities_of_a_contact_that_stiffens_equal_finite_differences() {
+    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+        for law in LAWS {
+            let contact = ContactStiffness {
+                law: Some(law),
+                normal_stiffness: Some(law.stiffness(0.0)),
+                is_base_compliant: false,
+                ..COMPLIANT
+            };
+            compare(
+                &strained(element, contact),
+                &format!("{law:?}, {element:?}"),
+            );
+        }
+    }
+}
+
+/// As stiff at rest as the springs of a body that is partly open.
+const SOFT: NormalLaw = NormalLaw::Cubic {
+    stiffness: 2e9,
+    cubic_stiffness: 2e18,
+};
+
 /// A plate bends away under the ring that presses it: the end of the pressed part moves with every parameter.
 #[test]
 fn sensitivities_follow_the_end_of_what_is_pressed() {
-    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+    let laws = [None, Some(SOFT)];
+    for (element, law) in [ElementKind::Quad4, ElementKind::Quad8]
+        .map(|e| laws.map(|law| (e, law)))
+        .concat()
+    {
         let mut model = strained(element, COMPLIANT);
+        model.options.contact.law = law;
         model.specification.annulus.radial_elements = 5;
         model.specification.contact = SolidContact::Ring {
             inner_radius: 0.03,
@@ -280,6 +378,6 @@ fn sensitivities_follow_the_end_of_what_is_pressed() {
         let tangent = tangent.unwrap();
         let pressed = &tangent.base().is_pressed;
         assert!(pressed.contains(&true) && pressed.contains(&false));
-        compare(&model, &format!("partly open, {element:?}"));
+        compare(&model, &format!("partly open, {law:?}, {element:?}"));
     }
 }

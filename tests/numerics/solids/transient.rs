@@ -2,7 +2,7 @@
 
 use crate::solids::model::{disc, modes};
 use frictionsim::cea::cyclic::SolidModel;
-use frictionsim::contact::ContactStatus;
+use frictionsim::contact::{ContactStatus, NormalLaw};
 use frictionsim::fem::operator::{OperatorError, SimdLevel, StiffnessOperator};
 use frictionsim::fem::{MassKind, RayleighDamping};
 use frictionsim::mesh::{
@@ -147,6 +147,22 @@ fn a_wave_under_a_ring_that_opens_in_part_grows_at_the_rate_of_the_eigenvalue_an
     let base = body(&model, &sector).base().unwrap();
     assert!(base.is_pressed.contains(&true) && base.is_pressed.contains(&false));
     grows_as_predicted(&model, 3, 4e3, 0.03);
+}
+
+/// The law itself is stepped, from the base state that it carries.
+#[test]
+fn a_wave_on_a_contact_that_stiffens_grows_at_the_rate_of_the_eigenvalue_analysis() {
+    let mut model = ringed([24, 7, 2]);
+    model.contact.friction_coefficient = 0.1;
+    model.contact.rotation_speed = 6000.0 * TAU / 60.0;
+    let law = NormalLaw::Exponential {
+        reference_pressure: 1e5,
+        height: 1e-6,
+    };
+    model.options.contact.law = Some(law);
+    model.options.contact.normal_stiffness = Some(law.stiffness(0.0));
+    model.options.damping_model = DampingModel::BodyOnly;
+    grows_as_predicted(&model, 1, 7e3, 0.01);
 }
 
 /// Watches the disc of Coulomb's law at every contact node.

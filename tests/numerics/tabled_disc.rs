@@ -1,0 +1,100 @@
+//! The built-in disc and its shaft with moduli over frequency, by case.
+
+use faer::c64;
+use frictionsim::case::Case;
+use frictionsim::study::eigenvalues::modes_and_onsets;
+use std::fs;
+use std::path::PathBuf;
+
+/// A lining whose modulus and losses rise over the modes of a disc.
+const LINING: &str = "\
+frequency_hz,young_modulus,loss_factor
+100,2.3e9,0.0004
+2000,2.4e9,0.0006
+6000,2.6e9,0.0008
+20000,2.9e9,0.0010
+";
+
+/// The disc of the paper, of a material and with sections of its own.
+fn disc_of(material: &str, sections: &str) -> Case {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("tabled-disc");
+    fs::create_dir_all(&folder).unwrap();
+    fs::write(folder.join("lining.csv"), LINING).unwrap();
+    let text = format!(
+        r#"
+[geometry]
+inner_radius = 0.0205
+outer_radius = 0.0905
+{sections}
+[material]
+{material}
+poisson_ratio = 0.3805
+density = 1228.0
+[contact]
+friction_coefficient = 0.3
+interference = 25e-6
+rotation_speed_rpm = 610.0
+[cea]
+max_frequency_hz = 12000.0
+friction_coefficients = {{ from = 0.0, to = 0.6, count = 7 }}
+geometric_stiffness = false
+"#
+    );
+    let path = folder.join("disc.toml");
+    Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]).unwrap()
+}
+
+const GRID: &str = "[mesh]\ncircumferential_elements = 24\nradial_elements = 4\n";
+
+/// Independent: the generated disc with constants that are those of its table at the frequency of an onset turns unstable at the
+/// same friction there; with those of the lowest frequency it does not.
+#[test]
+fn an_onset_has_the_modulus_of_its_own_frequency() {
+    let case = disc_of("table = \"lining.csv\"", GRID);
+    let table = case.materials().table(0).unwrap();
+    let found = modes_and_onsets(&case).unwrap().intervals;
+    let crossed = found.iter().filter(|own| !own.unstable_from_start);
+    let crossed: Vec<_> = crossed.collect();
+    assert!(!crossed.is_empty(), "{found:?}");
+    for onset in crossed.iter().take(2) {
+        let nearest = |[modulus, loss_factor]: [f64; 2]| {
+            let material = format!("young_modulus = {modulus:?}\nloss_factor = {loss_factor:?}");
+            let frozen = modes_and_onsets(&disc_of(&material, GRID))
+                .unwrap()
+                .intervals;
+            let distance = |own: f64| (own - onset.critical_friction).abs();
+            let distances = frozen.iter().map(|own| distance(own.critical_friction));
+            distances.fold(f64::INFINITY, f64::min)
+        };
+        let [own, lowest] = [onset.frequency_hz, 100.0].map(|f| nearest(table.at(f)));
+        println!("{onset:?}: {own:e}, {lowest:e}");
+        assert!(own < 1e-7 && lowest > 1e-4, "{onset:?} {own:e} {lowest:e}");
+    }
+}
+
+/// Theory: a shaft whose table has one modulus and one loss factor is one of that material.
+#[test]
+fn a_flat_table_of_a_shaft_is_its_material() {
+    let modes = |own: &str| -> Vec<c64> {
+        let grid = GRID.replace("radial", "shaft_radial_elements = 2\nradial");
+        let sections = format!(
+            "shaft_inner_radius = 0.006\n{grid}[materials.shaft]\n{own}\npoisson_ratio = 0.3\ndensity = 1200.0\n"
+        );
+        let case = disc_of("young_modulus = 2.5e9", &sections);
+        let points = modes_and_onsets(&case).unwrap().points;
+        points
+            .iter()
+            .flat_map(|point| point.modes.iter().map(|mode| mode.eigenvalue))
+            .collect()
+    };
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("tabled-disc");
+    fs::create_dir_all(&folder).unwrap();
+    let flat = "frequency_hz,young_modulus,loss_factor\n0,3e9,0.1\n50000,3e9,0.1\n";
+    fs::write(folder.join("flat.csv"), flat).unwrap();
+    let constant = modes("young_modulus = 3e9\nloss_factor = 0.1");
+    let tabled = modes("table = \"flat.csv\"");
+    assert_eq!(constant.len(), tabled.len());
+    for (a, b) in constant.iter().zip(&tabled) {
+        assert!((a - b).norm() < 1e-8 * a.norm(), "{a} {b}");
+    }
+}
