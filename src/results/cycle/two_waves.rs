@@ -1,6 +1,6 @@
 //! Motions of two frequencies: words, tables, summary.
 
-use super::CycleReport;
+use super::{CycleFrame, CycleReport};
 use crate::cycle::{Measured, TwoWaveBranch, TwoWaveMotion};
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::quantity::significant;
@@ -31,6 +31,8 @@ pub struct FoundTwoWaves {
     pub is_confirmed: bool,
     /// Its branch over the case's parameter.
     pub branch: Option<TwoWaveBranch>,
+    /// The whole field over one period of the first wave; the second is elsewhere by then.
+    pub frames: Vec<CycleFrame>,
 }
 
 /// A motion of two frequencies in the summary.
