@@ -24,7 +24,7 @@ pub fn write_fields(folder: &OutputFolder, report: &CycleReport<'_>) -> Result<(
         let n = result.family.harmonic;
         let group = format!("limit cycle of {n} nodal diameters");
         let stem = format!("cycle-{}", result.family.tag());
-        let frames = write_frames(folder, report, (&stem, &group), &result.frames)?;
+        let frames = write_frames(folder, report, &stem, &group, &result.frames)?;
         if let Some(first) = frames.first() {
             waves.push(PvdEntry {
                 time: (place + 1) as f64,
@@ -37,7 +37,7 @@ pub fn write_fields(folder: &OutputFolder, report: &CycleReport<'_>) -> Result<(
         let group = format!("waves of {first} and {second} nodal diameters together");
         let stem = format!("two-waves-n{first}-n{second}");
         if let Ok(found) = &own.outcome {
-            write_frames(folder, report, (&stem, &group), &found.frames)?;
+            write_frames(folder, report, &stem, &group, &found.frames)?;
         }
     }
     if !waves.is_empty() {
@@ -46,11 +46,12 @@ pub fn write_fields(folder: &OutputFolder, report: &CycleReport<'_>) -> Result<(
     Ok(())
 }
 
-/// Frames of one motion, whose files begin with `stem`, and of several a list over the time.
+/// Writes the frames of one motion of the `group`, whose files begin with `stem`, and of several a list over the time.
 fn write_frames(
     folder: &OutputFolder,
     report: &CycleReport<'_>,
-    (stem, group): (&str, &str),
+    stem: &str,
+    group: &str,
     frames: &[CycleFrame],
 ) -> Result<Vec<PvdEntry>, FolderError> {
     let mut entries = Vec::new();
