@@ -7,6 +7,7 @@ use super::profile::{Profile, Redraw};
 use super::session::{available_memory, gibibytes};
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::Case;
+use crate::results::cea::KeptSteps;
 use crate::results::cycle::{doubt, print, write};
 use crate::study::cycle::CycleStudy;
 use clap::Args;
@@ -17,8 +18,8 @@ use clap::Args;
 /// steady contact problem along its phase; follows it over a parameter (cycle.continuation). On any other body, plane or solid: finds
 /// the periodic motion that each growing mode ends in, as a fixed point of the transient's own steps over one period. Says
 /// whether it is stable, and lets a short transient confirm it. Needs a cycle section in the case. On these bodies Ctrl-C and
-/// SIGTERM keep the cycles and the points of branches that are done, and --resume continues to the same tables as an
-/// uninterrupted run.
+/// SIGTERM keep the cycles and the points of branches that are done, on the annulus the motions of two frequencies, and --resume
+/// continues to the same tables as an uninterrupted run.
 #[derive(Args)]
 pub struct Arguments {
     /// The case and how to run it.
@@ -28,6 +29,10 @@ pub struct Arguments {
     #[arg(long, conflicts_with = "force")]
     pub resume: bool,
 }
+
+/// What an interrupted search for motions of two frequencies leaves.
+const KEPT: &str =
+    "motions of two frequencies that are done are kept: the same command with --resume goes on";
 
 /// What the rest of the program asks of this command.
 pub const PROFILE: Profile = Profile {
@@ -39,8 +44,8 @@ pub const PROFILE: Profile = Profile {
         ("branch-nN.csv", "one row for each cycle of a branch"),
         ("stability-nN.csv", "exponents of perturbations"),
         (
-            "two-waves-nN-nM.csv",
-            "one row for each motion of two frequencies",
+            "two-waves-nN-nM.csv, .vtu",
+            "one row for each motion of two frequencies; its field over one period of the first wave",
         ),
         ("cycles.pvd, cycle-nN.vtu", "fields over one period"),
         (
@@ -82,10 +87,14 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let families = study.family_count() as u64;
     let bar = terminal::progress(session.options.output.is_quiet(), families, "families");
-    terminal::catch_signals(terminal::NOTHING_KEPT);
+    let steps = KeptSteps::new(&folder, arguments.resume, &|_| {});
+    terminal::catch_signals(match study.choices.two_frequencies {
+        true => KEPT,
+        false => terminal::NOTHING_KEPT,
+    });
     let results = study.run(study.choices.frames, &|| bar.inc(1));
     bar.finish_and_clear();
-    let two_waves = study.two_waves(&results);
+    let two_waves = study.two_waves(&results, &steps);
     let mut report = study.report(results, session.wall_seconds());
     report.two_waves = two_waves;
     CycleStudy::refuse_nothing(&report)?;
@@ -98,6 +107,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(drawing) = session.options.output.drawing() {
         figures::draw_record(&folder, case, &summary, &drawing)?;
     }
+    steps.discard();
     session
         .options
         .output

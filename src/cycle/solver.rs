@@ -2,6 +2,7 @@
 
 use super::branch::{Branch, Step};
 use super::cycle_branch::{BranchEnd, CycleBranch, Turning};
+use super::field::{HarmonicField, summed};
 use super::grid::PhaseGrid;
 use super::limit_cycle::LimitCycle;
 use super::onset::{DiscModel, MODES, largest_linear_wave, refined};
@@ -11,7 +12,6 @@ use super::wave::Wave;
 use super::{CycleError, Family, Onset, WaveBody};
 use crate::cea::ModeLimit;
 use crate::fem::{ElasticMaterial, RayleighDamping};
-use crate::linalg::c64;
 use crate::mesh::{AnnulusSpecification, ElementKind};
 use std::f64::consts::TAU;
 
@@ -323,25 +323,14 @@ impl CycleSolver {
         let profiles = cycle.profiles(&wave);
         // Clamped nodes have no place in a profile.
         let rays = self.specification.radial_elements + 1;
-        let (sectors, harmonic) = (self.body.sector_count, self.body.harmonic());
-        let mut fields = [0, 1].map(|_| vec![0.0; 2 * rays * sectors]);
-        for sector in 0..sectors {
-            for (k, (rate, profile)) in profiles.iter().enumerate() {
-                // Whole turns taken out first, so that high harmonics lose no digits.
-                let turns = (k as isize * harmonic * sector as isize).rem_euclid(sectors as isize);
-                let later = k as f64 * cycle.state.frequency * time;
-                let turn = c64::from_polar(1.0, TAU * turns as f64 / sectors as f64 + later);
-                for (i, value) in profile.iter().enumerate() {
-                    for component in 0..2 {
-                        let dof = 2 * (sector * rays + i) + component;
-                        let amplitude = value[component] * turn;
-                        fields[0][dof] += amplitude.re;
-                        fields[1][dof] += (amplitude * rate).re;
-                    }
-                }
-            }
-        }
-        fields
+        let harmonics = profiles.into_iter().enumerate();
+        let harmonics = harmonics.map(|(k, (rate, profile))| HarmonicField {
+            around: k as isize * self.body.harmonic(),
+            phase: k as f64 * cycle.state.frequency * time,
+            rate,
+            profile,
+        });
+        summed(harmonics, [rays, self.body.sector_count])
     }
 }
 

@@ -16,6 +16,16 @@ pub enum PointState {
     SlipBackward,
 }
 
+/// Contact states by their codes.
+const POINT_STATES: [PointState; 4] = [
+    PointState::Open,
+    PointState::Stick,
+    PointState::SlipForward,
+    PointState::SlipBackward,
+];
+/// Columns of a state.
+pub(super) const STATE_COLUMNS: usize = 4;
+
 impl PointState {
     /// `T / (mu N)` where it is fixed: +1 or -1 in slip, else 0.
     pub fn drag(self) -> f64 {
@@ -161,6 +171,52 @@ impl WaveState {
                 slip => self.tangential[i] = slip.drag() * friction * self.normal[i],
             }
         }
+    }
+
+    /// Everything but the operating point, as columns of numbers.
+    pub(super) fn columns(&self) -> [Vec<f64>; STATE_COLUMNS] {
+        let second = self.second.iter();
+        let second = second.flat_map(|own| [own.frequency, own.origin, own.points as f64]);
+        let code = |state: &PointState| POINT_STATES.iter().position(|own| own == state);
+        [
+            self.normal.clone(),
+            self.tangential.clone(),
+            (self.contact.iter().filter_map(code))
+                .map(|code| code as f64)
+                .collect(),
+            [self.frequency, self.origin]
+                .into_iter()
+                .chain(second)
+                .collect(),
+        ]
+    }
+
+    /// The state of [`Self::columns`] at an operating point; none where they are no state.
+    pub(super) fn from_columns(columns: &[Vec<f64>], point: OperatingPoint) -> Option<Self> {
+        let [normal, tangential, contact, scalars] = columns else {
+            return None;
+        };
+        let [frequency, origin, ref second @ ..] = scalars[..] else {
+            return None;
+        };
+        let second = match *second {
+            [frequency, origin, points] => Some(SecondPhase {
+                frequency,
+                origin,
+                points: points as usize,
+            }),
+            _ => None,
+        };
+        let state = |code: &f64| POINT_STATES.get(*code as usize).copied();
+        Some(Self {
+            normal: normal.clone(),
+            tangential: tangential.clone(),
+            frequency,
+            contact: contact.iter().map(state).collect::<Option<_>>()?,
+            origin,
+            second,
+            point,
+        })
     }
 
     /// Fractions of points that stick, slip, and are open.

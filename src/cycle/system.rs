@@ -377,14 +377,21 @@ impl<'a> System<'a> {
     }
 
     fn solved(&self, mut matrix: Mat<f64>, mut right_side: Vec<f64>) -> Option<Vec<f64>> {
-        // Rows of one size, so that pivots are chosen fairly.
-        for row in 0..self.size() {
-            let largest = (0..self.size()).fold(0.0_f64, |m, j| m.max(matrix[(row, j)].abs()));
-            if largest > 0.0 {
-                (0..self.size()).for_each(|j| matrix[(row, j)] /= largest);
-                right_side[row] /= largest;
-            }
+        // Rows of one size, so that pivots are chosen fairly; column by column, as the matrix lies in memory.
+        let mut largest = vec![0.0_f64; self.size()];
+        for j in 0..self.size() {
+            let rows = largest.iter_mut().enumerate();
+            rows.for_each(|(row, largest)| *largest = largest.max(matrix[(row, j)].abs()));
         }
+        for own in largest.iter_mut().filter(|own| **own == 0.0) {
+            *own = 1.0;
+        }
+        for j in 0..self.size() {
+            let rows = largest.iter().enumerate();
+            rows.for_each(|(row, largest)| matrix[(row, j)] /= largest);
+        }
+        let rows = right_side.iter_mut().zip(&largest);
+        rows.for_each(|(own, largest)| *own /= largest);
         let count = right_side.len();
         let columns = MatMut::from_column_major_slice_mut(&mut right_side, count, 1);
         DenseLu::factorize(matrix).solve_in_place(columns);

@@ -2,10 +2,29 @@
 
 use super::folder::{FolderError, OutputFolder};
 use super::reopening::{SUMMARY, read_own};
+use crate::cycle::CriticalValue;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::path::Path;
+
+/// Where along a parameter steady sliding loses its stability.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CriticalSummary {
+    /// Key of the case.
+    pub key: String,
+    /// Value, in its units.
+    pub value: f64,
+}
+
+impl From<CriticalValue> for CriticalSummary {
+    fn from(own: CriticalValue) -> Self {
+        Self {
+            key: own.parameter.key().to_owned(),
+            value: own.parameter.in_key_units(own.value),
+        }
+    }
+}
 
 /// The summary of a command, a plain struct whose fields are the keys of `summary.json` in their order.
 ///

@@ -6,8 +6,8 @@
 use crate::oscillator::{EventDriven, oscillator};
 use frictionsim::case::Case;
 use frictionsim::cea::{SweepProgress, SweepWatch, Unwatched};
-use frictionsim::cycle::BranchEnd;
 use frictionsim::cycle::periodic::PeriodicBranch;
+use frictionsim::cycle::{BranchEnd, Parameter};
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::results::periodic::FoundCycle;
 use frictionsim::study::cycle::PeriodicStudy;
@@ -99,6 +99,10 @@ fn cycles_beside_stable_sliding_are_found_from_where_a_mode_grows() {
     let motion = &results[0].outcome.as_ref().unwrap().motion;
     let report = study.report(results.clone(), 0.0);
     assert!(report.is_stable() && report.stable_sliding().is_none());
+    // Between the case's own speed and that at which a mode grows: the onset beside the branch.
+    let critical = report.critical.unwrap();
+    assert_eq!(critical.parameter, Parameter::Speed);
+    assert!((critical.value / onset - 1.0).abs() < 1e-3, "{critical}");
     // The large one of both cycles, as integration has it.
     let reference = EventDriven::new(&case);
     let (frequency, stick) = reference.run(LARGE, 1.2e-8, 200, 20).unwrap();

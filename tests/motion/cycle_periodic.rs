@@ -5,7 +5,7 @@
 
 use frictionsim::case::Case;
 use frictionsim::cea::Unwatched;
-use frictionsim::cycle::Verdict;
+use frictionsim::cycle::{Parameter, Verdict};
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::results::periodic::{FoundCycle, PeriodicResult};
 use frictionsim::study::cycle::{CycleStudy, PeriodicStudy};
@@ -200,6 +200,59 @@ fn below_the_onset_steady_sliding_is_said_to_be_stable() {
         text.contains("none of 10 modes") && text.contains("friction_coefficient = 0.5"),
         "{text}"
     );
+    // The critical friction that it tells of: a mode grows above it, none below.
+    let critical = report.critical.unwrap();
+    assert_eq!(critical.parameter, Parameter::FrictionCoefficient);
+    assert!(text.contains(&critical.to_string()), "{text}");
+    for (factor, growing) in [(0.998, 0), (1.002, 1)] {
+        let friction = factor * critical.value;
+        let case = block(&[&format!("contact.friction_coefficient={friction}")]);
+        let study = PeriodicStudy::new(&case, SimdLevel::detect()).unwrap();
+        assert_eq!(study.sought_count(), growing, "{friction}");
+    }
+}
+
+/// At the damping that is told of the lowest onset of the disc is the case's friction.
+#[test]
+fn the_critical_damping_of_stable_sliding_is_where_the_onset_is_the_friction() {
+    let at = |damping: f64| {
+        let case = shipped(
+            "limit-cycle.toml",
+            &[
+                "mesh.circumferential_elements=45",
+                "mesh.radial_elements=9",
+                "contact.friction_coefficient=0.05",
+                &format!("damping.stiffness_coefficient={damping:e}"),
+                "cycle={ continuation = { key = \"damping.stiffness_coefficient\", from = 0.0, to = 4.5e-7, count = 5 } }",
+            ],
+        );
+        let study = CycleStudy::new(&case, SimdLevel::detect()).unwrap();
+        let report = study.report(Vec::new(), 0.0);
+        (report.critical, report.lowest_onset.unwrap())
+    };
+    let (critical, onset) = at(4.5e-7);
+    let critical = critical.unwrap();
+    assert!(onset.friction_coefficient > 0.05 && critical.value < 4.5e-7);
+    let (_, there) = at(critical.value);
+    assert!((there.friction_coefficient / 0.05 - 1.0).abs() < 1e-3, "{there:?}");
+}
+
+/// The nodes of the pad stick together in slow sliding, at whole steps: shorter ones than the case's are needed for a motion that
+/// repeats itself, which is that of a transient of 0.1 s (15368.5 Hz, stick 0.375).
+#[test]
+fn the_cycle_of_a_pad_in_slow_sliding_is_found_with_shorter_steps() {
+    let case = shipped(
+        "pad-on-disc.toml",
+        &[
+            "contact.rotation_speed_rpm=5.0",
+            "cycle={ onsets = \"lowest\", confirmation_periods = 0, stability = \"none\" }",
+        ],
+    );
+    let results = cycles(&case);
+    let motion = &found(&results[0]).motion;
+    assert!(motion.residual < 1e-4 && motion.steps > 400, "{} {}", motion.residual, motion.steps);
+    assert!((motion.frequency_hz / 15_368.5 - 1.0).abs() < 1e-3, "{}", motion.frequency_hz);
+    assert!((motion.fractions[0] - 0.375).abs() < 0.01, "{:?}", motion.fractions);
 }
 
 /// The same cycle by two methods: a wave along its phase, and a motion of the whole mesh.

@@ -131,9 +131,22 @@ fn the_cycle_of_a_ring_on_a_layer_is_that_of_its_transient() {
 
 /// Keeps every step of a search, and gives back those of an earlier one.
 #[derive(Default)]
-struct Kept {
-    earlier: BTreeMap<String, Vec<Vec<f64>>>,
-    steps: Mutex<Vec<(String, Vec<Vec<f64>>)>>,
+pub struct Kept {
+    /// What an earlier search has left.
+    pub earlier: BTreeMap<String, Vec<Vec<f64>>>,
+    /// Every step kept, in its order.
+    pub steps: Mutex<Vec<(String, Vec<Vec<f64>>)>>,
+}
+
+impl Kept {
+    /// What a search leaves that stops after so many of its steps.
+    pub fn after(self, count: usize) -> Self {
+        let steps = self.steps.into_inner().unwrap();
+        Self {
+            earlier: steps.into_iter().take(count).collect(),
+            ..Self::default()
+        }
+    }
 }
 
 impl SweepWatch for Kept {
@@ -162,13 +175,9 @@ fn a_branch_of_solid_bodies_goes_on_after_an_interruption_bit_by_bit() {
     };
     let first = Kept::default();
     let whole = run(&first);
-    let steps = first.steps.into_inner().unwrap();
-    let half = steps.len() / 2;
-    assert!(half > 1, "{half}");
-    let resumed = run(&Kept {
-        earlier: steps[..half].iter().cloned().collect(),
-        ..Kept::default()
-    });
+    let count = first.steps.lock().unwrap().len();
+    assert!(count > 2, "{count}");
+    let resumed = run(&first.after(count - 1));
     assert_eq!(whole.len(), resumed.len());
     for (a, b) in whole.iter().zip(&resumed) {
         let (a, b) = (found(a), found(b));

@@ -1,7 +1,9 @@
 //! Motions of two frequencies: balance on both phases against a transient of the mesh, energy, and birth where the cycle loses
 //! its stability.
 
+use crate::cycle_solids::Kept;
 use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use frictionsim::cea::Unwatched;
 use frictionsim::contact::{ContactStatus, SlidingContact};
 use frictionsim::cycle::{BranchEnd, CycleSolver, LimitCycle, OperatingPoint, Parameter};
 use frictionsim::fem::operator::SimdLevel;
@@ -30,7 +32,7 @@ fn two_waves_that_live_together_have_the_frequencies_of_a_transient() {
     let solver = solver();
     let cycle = cycle(&solver, 1000.0);
     let stepping = solver.stepping(SimdLevel::detect()).unwrap();
-    let found = stepping.two_waves(&cycle, 2, None).unwrap();
+    let found = stepping.two_waves(&cycle, 2, None, &Unwatched).unwrap();
     let own = found.motion.state.frequencies();
     for (own, stepped) in own.iter().zip(found.settled.frequencies) {
         assert!((own / stepped - 1.0).abs() < 1e-3, "{own} {stepped}");
@@ -64,10 +66,18 @@ fn two_waves_are_born_where_the_cycle_loses_its_stability() {
     let stepping = solver.stepping(SimdLevel::detect()).unwrap();
     let rpm = TAU / 60.0;
     let above = cycle(&solver, 700.0);
-    let found = stepping.two_waves(&above, 2, Some(41)).unwrap();
     let speed = Parameter::RotationSpeed;
     let values = [500.0 * rpm, 650.0 * rpm, 800.0 * rpm];
-    let branch = found.waves.follow(&found.motion, speed, &values);
+    let run = |kept: &Kept| {
+        let found = stepping.two_waves(&above, 2, Some(41), kept).unwrap();
+        found.waves.follow(&found.motion, speed, &values, kept)
+    };
+    let kept = Kept::default();
+    let branch = run(&kept);
+    // What an interrupted search has kept, and the rest anew, is the same bit by bit.
+    let count = kept.steps.lock().unwrap().len();
+    let resumed = run(&kept.after(count / 2));
+    assert!(count > 6 && format!("{resumed:?}") == format!("{branch:?}"));
     assert_eq!(branch.ends, [BranchEnd::Birth, BranchEnd::Range]);
     let [stable, unstable] = [560.0, 700.0].map(|speed| {
         let cycle = cycle(&solver, speed);

@@ -155,6 +155,9 @@ impl PeriodicBranch {
     }
 }
 
+/// Points of one half of a branch, from the start on, places of folds among them, and why it ends.
+type Half = (Vec<Point>, Vec<usize>, BranchEnd);
+
 /// What a branch is followed with.
 pub struct BranchRequest<'a, 'b> {
     /// The parameter.
@@ -202,8 +205,7 @@ impl BranchRequest<'_, '_> {
             found: found.clone(),
         };
         // Down from it, up from it.
-        let mut halves = Vec::new();
-        for (name, direction) in [("down", -1.0), ("up", 1.0)] {
+        let half = |name: &str, direction: f64| -> Result<Half, TransientError> {
             let leads_out = match direction > 0.0 {
                 true => start >= most,
                 false => start <= least,
@@ -215,11 +217,10 @@ impl BranchRequest<'_, '_> {
                 true => BranchEnd::Range,
                 false => half.run(name, self.watch)?,
             };
-            halves.push((half.points, half.folds, end));
-        }
-        let [down, up] = &mut halves[..] else {
-            unreachable!("two halves");
+            Ok((half.points, half.folds, end))
         };
+        let (down, up) = rayon::join(|| half("down", -1.0), || half("up", 1.0));
+        let (mut down, mut up) = (down?, up?);
         // One list in the order of the branch.
         let shift = down.0.len() - 1;
         let mut folds: Vec<usize> = down.1.iter().map(|i| shift - i).collect();

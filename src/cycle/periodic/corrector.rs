@@ -8,17 +8,21 @@ use super::vector::{add, difference, norm};
 use crate::transient::TransientError;
 
 /// Residual of a point, relative to the amplitude of the vibration.
-pub(super) const TOLERANCE: f64 = 1e-8;
+pub(super) const TOLERANCE: f64 = 1e-6;
+/// Residual of a cycle that is one for sure.
+pub(super) const GOOD: f64 = 1e-5;
 /// What its closure may miss, in units of the scales.
 const CLOSED: f64 = 1e-7;
 /// Most periods for a point.
 const MOST: usize = 80;
 /// Periods without a residual half as large as before after which the search ends.
 const PATIENCE: usize = 12;
-/// Differences kept.
-const DEPTH: usize = 24;
 /// Longest step relative to the amplitude, of the period relative to it, and of the parameter in units of its scale.
 const LONGEST: [f64; 3] = [0.3, 0.05, 0.1];
+/// Secants that are kept however far they lead.
+const FEWEST: usize = 3;
+/// Share of the last residual above which a step has gained nothing: older secants are of another status of the nodes.
+const GAINED: f64 = 0.7;
 /// Residual that is no neighbour's any more.
 const ASTRAY: f64 = 0.7;
 
@@ -95,16 +99,44 @@ impl Point {
 
     /// The motion `share` of the way from here to another one and beyond.
     pub fn towards(&self, other: &Self, share: f64) -> Guess {
-        let (own, far) = (&self.found.state, &other.found.state);
-        let mut motion = own.motion.clone();
-        add(&mut motion, share, &difference(&far.motion, &own.motion));
-        Guess {
-            value: self.value + share * (other.value - self.value),
+        Guess::combined([(self, 1.0 - share), (other, share)].into_iter())
+    }
+}
+
+impl Guess {
+    /// The sum of several points, each times its weight; the weights make up one.
+    fn combined<'p>(points: impl Iterator<Item = (&'p Point, f64)>) -> Self {
+        let mut guess = Self {
+            value: 0.0,
             state: PeriodicState {
-                motion,
-                period: own.period + share * (far.period - own.period),
+                motion: Vec::new(),
+                period: 0.0,
             },
+        };
+        for (point, weight) in points {
+            let own = &point.found.state;
+            guess.state.motion.resize(own.motion.len(), 0.0);
+            add(&mut guess.state.motion, weight, &own.motion);
+            guess.state.period += weight * own.period;
+            guess.value += weight * point.value;
         }
+        guess
+    }
+
+    /// The polynomial through points at the places `at` of a coordinate along the branch, continued to `to`.
+    pub fn through(points: &[&Point], at: &[f64], to: f64) -> Self {
+        let weight = |i: usize| {
+            let others = at.iter().enumerate().filter(|(j, _)| *j != i);
+            others
+                .map(|(_, other)| (to - other) / (at[i] - other))
+                .product::<f64>()
+        };
+        Self::combined(
+            points
+                .iter()
+                .enumerate()
+                .map(|(i, point)| (*point, weight(i))),
+        )
     }
 }
 
@@ -140,10 +172,10 @@ impl<'b, 'a> Corrector<'b, 'a> {
     /// One that knows nothing yet.
     pub fn new(map: PeriodMap<'a>, tune: Tune<'b, 'a>, scales: Place) -> Self {
         Self {
+            secants: SecantSpace::along_branch(map.unknowns()),
             map,
             tune,
             scales,
-            secants: SecantSpace::along_branch(DEPTH),
             weight: 1.0,
         }
     }
@@ -210,7 +242,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
         let found = self.search(near, guess.clone(), goal);
         let is_good = |found: &Result<Point, PeriodicError>| {
             let residual = found.as_ref().map(|point| point.found.residual);
-            residual.is_ok_and(|residual| residual < TOLERANCE)
+            residual.is_ok_and(|residual| residual < GOOD)
         };
         if is_good(&found) || matches!(found, Err(PeriodicError::Stepping(_))) {
             return found;
@@ -272,6 +304,9 @@ impl<'b, 'a> Corrector<'b, 'a> {
             }
             // One step of the secants.
             if let Some(last) = last.take() {
+                if periods > 1 && norm(&image.residual) > GAINED * norm(&last.residual) {
+                    self.secants.keep_latest(periods);
+                }
                 self.secants.push(Change {
                     motion: difference(&guess.state.motion, &last.guess.state.motion),
                     period: guess.state.period - last.guess.state.period,
@@ -291,19 +326,25 @@ impl<'b, 'a> Corrector<'b, 'a> {
         }
     }
 
-    /// The next guess.
-    fn step(&self, guess: &Guess, image: &PeriodImage, closure: f64) -> Guess {
+    /// The next guess: by the secants, of which the older half goes as long as they lead too far.
+    fn step(&mut self, guess: &Guess, image: &PeriodImage, closure: f64) -> Guess {
         let closure = self.weight * closure;
-        let (step, period, value) = self.secants.step(&image.residual, closure, &image.rate);
-        let lengths = [
-            norm(&step) / image.vibration,
-            period.abs() / guess.state.period,
-            value.abs(),
-        ];
-        let shares = lengths.iter().zip(LONGEST);
-        let share = shares.fold(1.0_f64, |share, (length, longest)| {
-            share.min(longest / length.max(f64::MIN_POSITIVE))
-        });
+        let ((step, period, value), share) = loop {
+            let (step, period, value) = self.secants.step(&image.residual, closure, &image.rate);
+            let lengths = [
+                norm(&step) / image.vibration,
+                period.abs() / guess.state.period,
+                value.abs(),
+            ];
+            let shares = lengths.iter().zip(LONGEST);
+            let share = shares.fold(1.0_f64, |share, (length, longest)| {
+                share.min(longest / length.max(f64::MIN_POSITIVE))
+            });
+            if share == 1.0 || self.secants.count() <= FEWEST {
+                break ((step, period, value), share);
+            }
+            self.secants.keep_latest(self.secants.count() / 2);
+        };
         let mut next = guess.clone();
         add(&mut next.state.motion, share, &step);
         next.state.period += share * period;

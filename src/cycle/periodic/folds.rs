@@ -1,6 +1,6 @@
 //! Folds of a branch: those at which it bends, and corners.
 
-use super::corrector::{Goal, Place, Point};
+use super::corrector::{GOOD, Goal, Place, Point};
 use super::follower::{ALONG, Follower};
 use crate::transient::TransientError;
 
@@ -8,8 +8,6 @@ use crate::transient::TransientError;
 /// may be.
 const CORNERS: [f64; 3] = [0.005, 0.02, 0.002];
 const FAR: f64 = 20.0;
-/// Residual of a cycle that is one for sure.
-const GOOD: f64 = 1e-6;
 /// Motions spent on a fold.
 const REFINED: usize = 12;
 /// Difference of the parameter, in units of its scale, to which a fold is found.

@@ -14,10 +14,12 @@ pub(super) const ALONG: f64 = 0.3;
 const STRAIGHT: f64 = 0.3;
 /// Amplitude, over the largest of the branch, at which a cycle has shrunk into steady sliding.
 const BORN: f64 = 0.02;
+/// Points that the next one is guessed from.
+const KNOWN: usize = 3;
 /// Points for each value asked for, and besides, after which a branch is given up.
 const POINTS: [usize; 2] = [6, 60];
 /// Points between two at which what is done is kept.
-const BLOCK: usize = 10;
+const BLOCK: usize = 20;
 /// Ends by their codes.
 const ENDS: [BranchEnd; 5] = [
     BranchEnd::Range,
@@ -63,7 +65,7 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
 
     /// Follows the half to its end.
     ///
-    /// What is done is kept under `name` at every tenth point, with all that the way on depends on; there the secants are
+    /// What is done is kept under `name` at every twentieth point, with all that the way on depends on; there the secants are
     /// forgotten, so that a search which goes on takes the same course as one that was never interrupted.
     ///
     /// # Errors
@@ -202,24 +204,33 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
         (Some(goal), self.length)
     }
 
-    /// Where the step probably leads: on along the last one.
+    /// Where the step probably leads: on along the last points.
     fn guess(&self, goal: &Goal, reach: f64) -> Guess {
         let here = self.here();
-        let before = self.points.len().checked_sub(2).map(|i| &self.points[i]);
-        let mut guess = match before {
-            Some(before) => {
-                let [from, to] = [before, here].map(|point| point.place(self.corrector.scales));
-                let step = (to[0] - from[0]).hypot(to[1] - from[1]);
-                before.towards(here, 1.0 + reach / step)
-            }
-            None => here.towards(here, 0.0),
-        };
-        match goal {
-            Goal::Value(value) => guess.value = *value,
-            Goal::Length { .. } if before.is_none() => {
-                guess.value += reach * self.tangent[0] * self.corrector.scales[0];
-            }
-            Goal::Length { .. } => {}
+        if self.points.len() == 1 {
+            let mut guess = here.towards(here, 0.0);
+            guess.value = match goal {
+                Goal::Value(value) => *value,
+                Goal::Length { .. } => {
+                    guess.value + reach * self.tangent[0] * self.corrector.scales[0]
+                }
+            };
+            return guess;
+        }
+        // A fold may be a corner: no point before it says anything of the way on.
+        let count = self.points.len();
+        let since = self.folds.last().map_or(0, |&fold| fold.min(count - 2));
+        let last = &self.points[since.max(count.saturating_sub(KNOWN))..];
+        let scales = self.corrector.scales;
+        let mut at = vec![0.0];
+        for pair in last.windows(2) {
+            let [from, to] = [&pair[0], &pair[1]].map(|point| point.place(scales));
+            at.push(at[at.len() - 1] + (to[0] - from[0]).hypot(to[1] - from[1]));
+        }
+        let points: Vec<&Point> = last.iter().collect();
+        let mut guess = Guess::through(&points, &at, at[at.len() - 1] + reach);
+        if let Goal::Value(value) = goal {
+            guess.value = *value;
         }
         guess
     }

@@ -1,11 +1,15 @@
 //! Newton's method on the differences of past iterates, plain periods on what they do not hold.
 
-use super::vector::{add, dot, norm, orthogonalize};
+use super::vector::{add, dot, norm};
+use std::collections::VecDeque;
 
-/// Share of a difference that must lie beyond the others, lest it says nothing new.
-const NEW: f64 = 1e-7;
+/// Share of a difference that must lie beyond later ones, lest it says nothing new.
+const NEW: f64 = 1e-6;
 /// The same on a branch.
-const NEW_ALONG: f64 = 1e-3;
+const NEW_ALONG: f64 = 0.05;
+/// Fewest and most differences kept, and numbers that all their motions may have.
+const DEPTHS: [usize; 2] = [24, 100];
+const NUMBERS: usize = 16_000_000;
 
 /// What changes from one iterate to the next.
 #[derive(Clone, Debug, Default)]
@@ -34,72 +38,65 @@ pub struct Change {
 /// point down one more row of the residual: `dc = w . (dp, da)` of each secant. A change of `p` alone, or from one point of the
 /// branch to the next, is a secant like any other.
 ///
+/// The least squares go through the products `dr . dr`, the latest difference first: an older one that says little new beside
+/// later ones is left out, of another point of the branch, where the map is another, as well as of this one.
+///
 /// Source: D. G. Anderson, "Iterative procedures for nonlinear integral equations", J. ACM 12 (1965), here with the period
 /// as an unknown; R. Haelterman, J. Degroote and others call it a multi-secant quasi-Newton method.
 #[derive(Clone, Debug)]
 pub struct SecantSpace {
     depth: usize,
-    /// Share of a difference that must lie beyond the others, lest it says nothing new.
+    /// Share of a difference that must lie beyond later ones, lest it says nothing new.
     least: f64,
-    is_along_branch: bool,
     /// `w` of the closure.
     closure: [f64; 2],
-    /// Oldest first, along a branch latest first, of unit length; the closure's part is the last entry of each residual.
-    changes: Vec<Change>,
-    /// Orthonormal basis of the `dr`.
-    basis: Vec<Vec<f64>>,
-    /// Columns of the triangle `dr = basis . column`.
-    triangle: Vec<Vec<f64>>,
+    /// Latest first, of unit length, each with its products `dr . dr` with itself and, from the next one on, with later ones.
+    changes: VecDeque<(Change, Vec<f64>)>,
 }
 
 impl SecantSpace {
-    /// An empty space that keeps at most so many differences.
-    pub fn new(depth: usize) -> Self {
-        Self {
-            depth,
-            least: NEW,
-            is_along_branch: false,
-            closure: [0.0; 2],
-            changes: Vec::new(),
-            basis: Vec::new(),
-            triangle: Vec::new(),
-        }
+    /// An empty space for so many unknowns.
+    pub fn new(unknowns: usize) -> Self {
+        Self::with_least(unknowns, NEW)
     }
 
     /// One whose differences come from several points of a branch, between which the map bends: those that say little new
     /// beside later ones are left out.
-    pub fn along_branch(depth: usize) -> Self {
+    pub fn along_branch(unknowns: usize) -> Self {
+        Self::with_least(unknowns, NEW_ALONG)
+    }
+
+    fn with_least(unknowns: usize, least: f64) -> Self {
+        let [fewest, most] = DEPTHS;
         Self {
-            least: NEW_ALONG,
-            is_along_branch: true,
-            ..Self::new(depth)
+            depth: (NUMBERS / unknowns.max(1)).clamp(fewest, most),
+            least,
+            closure: [0.0; 2],
+            changes: VecDeque::new(),
         }
+    }
+
+    /// How many differences there are.
+    pub fn count(&self) -> usize {
+        self.changes.len()
+    }
+
+    /// Forgets all but so many of the latest.
+    pub fn keep_latest(&mut self, count: usize) {
+        self.changes.truncate(count);
     }
 
     /// Forgets everything.
     pub fn clear(&mut self) {
         self.changes.clear();
-        self.basis.clear();
-        self.triangle.clear();
     }
 
-    /// Gives the closure other weights, and what is known of its changes with them.
+    /// Gives the closure other weights.
     pub fn aim(&mut self, closure: [f64; 2]) {
         self.closure = closure;
-        let known = std::mem::take(&mut self.changes);
-        self.build(known);
     }
 
-    /// The basis of these changes, in their order.
-    fn build(&mut self, changes: Vec<Change>) {
-        self.clear();
-        for mut change in changes {
-            change.residual.pop();
-            self.append(change);
-        }
-    }
-
-    /// Adds a difference of iterates with that of their residuals; where there are too many, the older half goes.
+    /// Adds a difference of iterates with that of their residuals; where there are too many, the oldest goes.
     pub fn push(&mut self, mut change: Change) {
         let length = match norm(&change.motion) {
             0.0 => change.place[0].abs(),
@@ -112,75 +109,86 @@ impl SecantSpace {
         let values = values.chain(&mut change.place);
         values.for_each(|value| *value /= length);
         change.period /= length;
-        if self.is_along_branch {
-            // The latest first: older ones are left out beside it where they say the same of another point.
-            let mut known = std::mem::take(&mut self.changes);
-            known.truncate(self.depth - 1);
-            self.clear();
-            self.append(change);
-            let latest = std::mem::take(&mut self.changes);
-            return self.build(latest.into_iter().chain(known).collect());
+        self.changes.truncate(self.depth - 1);
+        for (other, products) in &mut self.changes {
+            products.push(dot(&change.residual, &other.residual));
         }
-        if self.changes.len() >= self.depth {
-            let kept = self.changes.split_off(self.depth / 2);
-            self.build(kept);
-        }
-        self.append(change);
-    }
-
-    fn append(&mut self, mut change: Change) {
-        let [by_value, by_amplitude] = self.closure;
-        let [value, amplitude] = change.place;
-        change
-            .residual
-            .push(by_value * value + by_amplitude * amplitude);
-        let mut own = change.residual.clone();
-        let mut column = orthogonalize(&mut own, &self.basis);
-        let length = norm(&own);
-        if !(length > self.least * norm(&change.residual)) {
-            return;
-        }
-        own.iter_mut().for_each(|value| *value /= length);
-        column.push(length);
-        self.basis.push(own);
-        self.triangle.push(column);
-        self.changes.push(change);
+        let own = dot(&change.residual, &change.residual);
+        self.changes.push_front((change, vec![own]));
     }
 
     /// The step from an iterate with this residual, this closure and this rate `x'` at its end: `dx`, `dT` and that of the
     /// parameter.
     pub fn step(&self, residual: &[f64], closure: f64, rate: &[f64]) -> (Vec<f64>, f64, f64) {
-        // The change of the period takes what no secant holds.
-        let mut beyond = rate.to_vec();
-        beyond.push(0.0);
-        orthogonalize(&mut beyond, &self.basis);
-        let length = dot(&beyond, &beyond);
-        let mut step = residual.to_vec();
-        step.push(closure);
-        let mut delay = 0.0;
-        if length > 1e-16 * dot(rate, rate) {
-            delay = -dot(&beyond, &step) / length;
-        }
-        add(&mut step, delay, rate);
+        let changes = || self.changes.iter().map(|(change, _)| change);
+        let [by_value, by_amplitude] = self.closure;
+        let closures: Vec<f64> = changes()
+            .map(|own| by_value * own.place[0] + by_amplitude * own.place[1])
+            .collect();
+        // Products of each difference with those after it; the change of the period, which takes what they do not hold, is last.
+        let count = self.changes.len();
+        let along: Vec<f64> = changes().map(|own| dot(&own.residual, rate)).collect();
+        let product = |i: usize, j: usize| match (i < count, j < count) {
+            (true, true) => {
+                let products = &self.changes[i].1;
+                products[i - j] + closures[i] * closures[j]
+            }
+            (false, true) => along[j],
+            _ => dot(rate, rate),
+        };
+        let mut against: Vec<f64> = changes()
+            .zip(&closures)
+            .map(|(own, own_closure)| -dot(&own.residual, residual) - own_closure * closure)
+            .collect();
+        against.push(-dot(rate, residual));
+        let factors = least_squares(&product, &against, self.least);
 
-        // The triangle from its last row up.
-        let mut wanted: Vec<f64> = self.basis.iter().map(|unit| -dot(unit, &step)).collect();
-        for last in (0..wanted.len()).rev() {
-            let column = &self.triangle[last];
-            wanted[last] /= column[last];
-            let factor = wanted[last];
-            add(&mut wanted[..last], -factor, &column[..last]);
+        // What they make of the residual, and the motion that goes with it.
+        let mut step = residual.to_vec();
+        add(&mut step, factors[count], rate);
+        let (mut period, mut value) = (factors[count], 0.0);
+        for (factor, change) in factors.iter().zip(changes()) {
+            if *factor != 0.0 {
+                add(&mut step, *factor, &change.motion);
+                add(&mut step, *factor, &change.residual);
+                period += factor * change.period;
+                value += factor * change.place[0];
+            }
         }
-        let (mut period, mut value) = (delay, 0.0);
-        for (factor, change) in wanted.iter().zip(&self.changes) {
-            add(&mut step, *factor, &change.motion);
-            add(&mut step, *factor, &change.residual);
-            period += factor * change.period;
-            value += factor * change.place[0];
-        }
-        step.pop();
         (step, period, value)
     }
+}
+
+/// Solves `sum_j a_ij g_j = b_i` by Cholesky's factorization, `a` symmetric (`product(i, j)` for `j <= i`); rows that lie, but
+/// for a share `least`, among those before them are left out, their `g` zero.
+fn least_squares(product: &dyn Fn(usize, usize) -> f64, against: &[f64], least: f64) -> Vec<f64> {
+    let mut kept: Vec<usize> = Vec::new();
+    let mut rows: Vec<Vec<f64>> = Vec::new();
+    let mut solved: Vec<f64> = Vec::new();
+    for (i, wanted) in against.iter().enumerate() {
+        let mut row: Vec<f64> = Vec::with_capacity(kept.len() + 1);
+        for (&j, other) in kept.iter().zip(&rows) {
+            let own = product(i, j) - dot(&row, &other[..row.len()]);
+            row.push(own / other[row.len()]);
+        }
+        let whole = product(i, i);
+        let beyond = whole - dot(&row, &row);
+        if !(beyond > least * least * whole) {
+            continue;
+        }
+        let diagonal = beyond.sqrt();
+        solved.push((wanted - dot(&row, &solved)) / diagonal);
+        row.push(diagonal);
+        kept.push(i);
+        rows.push(row);
+    }
+    let mut factors = vec![0.0; against.len()];
+    for last in (0..kept.len()).rev() {
+        let own = solved[last] / rows[last][last];
+        factors[kept[last]] = own;
+        add(&mut solved[..last], -own, &rows[last][..last]);
+    }
+    factors
 }
 
 #[cfg(test)]
@@ -208,7 +216,7 @@ mod tests {
             (0..n).map(|i| own(i) + (period - 2.0) * shift[i]).collect()
         };
         let (mut x, mut period) = (vec![0.0; n], 1.9);
-        let mut space = SecantSpace::new(20);
+        let mut space = SecantSpace::new(n);
         let mut last: Option<(Vec<f64>, f64, Vec<f64>)> = None;
         for _ in 0..n + 4 {
             let r = residual(&x, period);

@@ -29,6 +29,25 @@ pub struct Measured {
     origins: [f64; 2],
 }
 
+impl Measured {
+    /// Its numbers, one after the other.
+    pub(super) fn numbers(&self) -> Vec<f64> {
+        [self.frequencies, self.amplitudes, self.origins].concat()
+    }
+
+    /// The waves of [`Self::numbers`]; none where these are no waves.
+    pub(super) fn from_numbers(numbers: &[f64]) -> Option<Self> {
+        let &[a, b, c, d, e, f] = numbers else {
+            return None;
+        };
+        Some(Self {
+            frequencies: [a, b],
+            amplitudes: [c, d],
+            origins: [e, f],
+        })
+    }
+}
+
 /// The contact edge of a transient, look by look.
 pub struct History {
     /// Time between two looks, s.

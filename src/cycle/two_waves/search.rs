@@ -1,10 +1,12 @@
 //! From a cycle that loses its stability to the motion of two frequencies beside it.
 
+use super::super::state::WaveState;
 use super::super::stepping::MeshStepping;
 use super::super::system::Closure;
 use super::super::{CycleError, LimitCycle, Parameter};
 use super::history::{History, Measured};
 use super::{TwoWaveMotion, TwoWaves};
+use crate::cea::SweepWatch;
 
 /// Velocity of the seed of the second wave, in units of the slip speed.
 const SEED: f64 = 0.05;
@@ -71,7 +73,8 @@ impl MeshStepping<'_> {
     /// a grid of `side` points along either phase or as many as resolve them.
     ///
     /// A transient leaves the cycle, seeded with the second wave, until both amplitudes are constant; its contact forces over both
-    /// phases are the start of the balance. A transient from what is found confirms it.
+    /// phases are the start of the balance. A transient from what is found confirms it. `watch` keeps it, and recalls what an
+    /// interrupted search has found.
     ///
     /// # Errors
     /// [`NoTwoWaves`].
@@ -80,13 +83,68 @@ impl MeshStepping<'_> {
         cycle: &LimitCycle,
         second: isize,
         side: Option<usize>,
+        watch: &dyn SweepWatch,
     ) -> Result<TwoWaveSearch, NoTwoWaves> {
         let harmonics = [self.solver.body().harmonic(), second];
-        let (point, other) = (&cycle.state.point, second.unsigned_abs());
+        let grid = |settled: &Measured| {
+            TwoWaves::new(&self.solver.model(), harmonics, settled.frequencies, side)
+        };
+        if let Some([settled, confirmation, state @ ..]) = watch.recall("found").as_deref()
+            && let Some(settled) = Measured::from_numbers(settled)
+            && let Some(state) = WaveState::from_columns(state, cycle.state.point)
+        {
+            let waves = grid(&settled)?;
+            return Ok(TwoWaveSearch {
+                motion: waves.motion(state),
+                confirmation: Measured::from_numbers(confirmation),
+                settled,
+                waves,
+            });
+        }
+        let (settled, history) = self.settled_waves(cycle, harmonics)?;
+
+        // The balance of both waves, and a transient from it.
+        let point = &cycle.state.point;
+        let waves = grid(&settled)?;
+        let start = history.state(&waves, &settled, point);
+        let parameter = Parameter::FrictionCoefficient;
+        let value = Closure::Value(point.contact.friction_coefficient);
+        let [a, b] = settled
+            .frequencies
+            .map(|omega| omega / std::f64::consts::TAU);
+        let state = waves.solved(&start, parameter, value);
+        let motion = waves.motion(state.ok_or(NoTwoWaves::NotConverged(a, b))?);
+        let shape = [
+            self.solver.specification.radial_elements + 1,
+            self.solver.specification.circumferential_elements,
+        ];
+        let (mut run, steps) = self.start_from(cycle, None, |time_step| {
+            let [displacement, _] = waves.field(&motion, 0.0, shape);
+            let [_, velocity] = waves.field(&motion, -0.5 * time_step, shape);
+            [displacement, velocity]
+        })?;
+        let confirmation = History::of(&mut run, harmonics, steps, WINDOWS[1]).measured();
+        let numbers = [Some(settled), confirmation].map(|own| own.as_ref().map(Measured::numbers));
+        let mut columns = numbers.map(Option::unwrap_or_default).to_vec();
+        columns.extend(motion.state.columns());
+        watch.keep("found", &columns);
+        Ok(TwoWaveSearch {
+            waves,
+            motion,
+            confirmation,
+            settled,
+        })
+    }
+
+    /// What a transient from a cycle, seeded with a second wave, settles on.
+    fn settled_waves(
+        &self,
+        cycle: &LimitCycle,
+        harmonics: [isize; 2],
+    ) -> Result<(Measured, History), NoTwoWaves> {
+        let (point, other) = (&cycle.state.point, harmonics[1].unsigned_abs());
         let surface_speed = point.contact.rotation_speed * self.solver.body().radius;
         let (mut run, steps) = self.start(cycle, Some((other, SEED * surface_speed)))?;
-
-        // Until neither amplitude changes any more.
         let [window, last] = WINDOWS;
         let (mut before, mut is_constant) = (f64::NAN, false);
         for _ in 0..LOOKS {
@@ -115,32 +173,6 @@ impl MeshStepping<'_> {
         let history = History::of(&mut run, harmonics, steps, last);
         let settled = history.measured();
         let settled = settled.ok_or(NoTwoWaves::Vanishes(other, LOOKS * window))?;
-
-        // The balance of both waves, and a transient from it.
-        let waves = TwoWaves::new(&self.solver.model(), harmonics, settled.frequencies, side)?;
-        let start = history.state(&waves, &settled, point);
-        let parameter = Parameter::FrictionCoefficient;
-        let value = Closure::Value(point.contact.friction_coefficient);
-        let [a, b] = settled
-            .frequencies
-            .map(|omega| omega / std::f64::consts::TAU);
-        let state = waves.solved(&start, parameter, value);
-        let motion = waves.motion(state.ok_or(NoTwoWaves::NotConverged(a, b))?);
-        let shape = [
-            self.solver.specification.radial_elements + 1,
-            self.solver.specification.circumferential_elements,
-        ];
-        let (mut run, steps) = self.start_from(cycle, None, |time_step| {
-            let [displacement, _] = waves.field(&motion, 0.0, shape);
-            let [_, velocity] = waves.field(&motion, -0.5 * time_step, shape);
-            [displacement, velocity]
-        })?;
-        let confirmation = History::of(&mut run, harmonics, steps, last).measured();
-        Ok(TwoWaveSearch {
-            waves,
-            motion,
-            confirmation,
-            settled,
-        })
+        Ok((settled, history))
     }
 }

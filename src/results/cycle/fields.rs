@@ -1,6 +1,6 @@
 //! Whole fields of limit cycles, for ParaView.
 
-use super::{CycleReport, CycleResult};
+use super::CycleReport;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::vtu::{EncodedMesh, Field, PvdEntry, write_pvd, write_vtu};
 
@@ -14,23 +14,30 @@ pub struct CycleFrame {
 }
 
 /// Writes each frame as a VTU file, `cycles.pvd` over the waves at time zero and, where there are several frames,
-/// `cycle-nN.pvd` over the time.
+/// `cycle-nN.pvd` over the time; of a motion of two waves likewise `two-waves-nN-nM.vtu`, over one period of the first.
 ///
 /// # Errors
 /// Those of the folder.
 pub fn write_fields(folder: &OutputFolder, report: &CycleReport<'_>) -> Result<(), FolderError> {
     let mut waves = Vec::new();
     for (place, result) in report.results.iter().enumerate() {
-        let frames = write_frames(folder, report, result)?;
+        let n = result.family.harmonic;
+        let group = format!("limit cycle of {n} nodal diameters");
+        let stem = format!("cycle-{}", result.family.tag());
+        let frames = write_frames(folder, report, &stem, &group, &result.frames)?;
         if let Some(first) = frames.first() {
             waves.push(PvdEntry {
                 time: (place + 1) as f64,
                 ..first.clone()
             });
         }
-        if frames.len() > 1 {
-            let name = format!("cycle-{}.pvd", result.family.tag());
-            folder.write(&name, |out| write_pvd(out, &frames))?;
+    }
+    for own in &report.two_waves {
+        let [first, second] = own.harmonics;
+        let group = format!("waves of {first} and {second} nodal diameters together");
+        let stem = format!("two-waves-n{first}-n{second}");
+        if let Ok(found) = &own.outcome {
+            write_frames(folder, report, &stem, &group, &found.frames)?;
         }
     }
     if !waves.is_empty() {
@@ -39,17 +46,19 @@ pub fn write_fields(folder: &OutputFolder, report: &CycleReport<'_>) -> Result<(
     Ok(())
 }
 
+/// Writes the frames of one motion of the `group`, whose files begin with `stem`, and of several a list over the time.
 fn write_frames(
     folder: &OutputFolder,
     report: &CycleReport<'_>,
-    result: &CycleResult,
+    stem: &str,
+    group: &str,
+    frames: &[CycleFrame],
 ) -> Result<Vec<PvdEntry>, FolderError> {
-    let (tag, n) = (result.family.tag(), result.family.harmonic);
     let mut entries = Vec::new();
-    for (i, frame) in result.frames.iter().enumerate() {
+    for (i, frame) in frames.iter().enumerate() {
         let name = match i {
-            0 => format!("cycle-{tag}.vtu"),
-            _ => format!("cycle-{tag}-{i:03}.vtu"),
+            0 => format!("{stem}.vtu"),
+            _ => format!("{stem}-{i:03}.vtu"),
         };
         let [displacement, velocity] = &frame.fields;
         folder.write(&name, |out| {
@@ -62,9 +71,12 @@ fn write_frames(
         })?;
         entries.push(PvdEntry {
             time: frame.time,
-            group: format!("limit cycle of {n} nodal diameters"),
+            group: group.to_owned(),
             file: name,
         });
+    }
+    if entries.len() > 1 {
+        folder.write(&format!("{stem}.pvd"), |out| write_pvd(out, &entries))?;
     }
     Ok(entries)
 }

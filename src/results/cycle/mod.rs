@@ -16,8 +16,8 @@ pub use summary::{CycleSummary, FamilySummary, LimitCycleSummary, summary};
 pub use two_waves::{FoundTwoWaves, TwoWaveResult, TwoWaveSummary};
 
 use crate::cycle::{
-    Confirmation, CycleBranch, CyclePowers, CycleStability, Family, LimitCycle, Onset, PhasePoint,
-    StabilityChange,
+    Confirmation, CriticalValue, CycleBranch, CyclePowers, CycleStability, Family, LimitCycle,
+    Onset, PhasePoint, StabilityChange,
 };
 use crate::mesh::Mesh;
 use crate::results::cycle_figures::CycleRecord;
@@ -83,11 +83,17 @@ impl CycleReport<'_> {
         Some(match onset {
             Some(onset) => format!(
                 "{friction} < {:.4}: steady sliding is stable, so no limit cycle is sought; the first wave to grow has {} \
-                 nodal diameters and {:.2} Hz (raise contact.friction_coefficient above {:.4})",
+                 nodal diameters and {:.2} Hz ({})",
                 onset.friction_coefficient,
                 onset.harmonic,
                 onset.frequency / TAU,
-                onset.friction_coefficient,
+                match self.critical {
+                    Some(critical) => format!("sliding loses its stability at {critical}"),
+                    None => format!(
+                        "raise contact.friction_coefficient above {:.4}",
+                        onset.friction_coefficient
+                    ),
+                },
             ),
             None => {
                 format!("steady sliding is stable at contact.friction_coefficient = {friction}")
@@ -120,6 +126,8 @@ pub struct CycleReport<'a> {
     pub friction_coefficient: f64,
     /// The onset of lowest friction among those looked for, where there is one.
     pub lowest_onset: Option<Onset>,
+    /// Where along the parameter of the case sliding loses its stability, where it is stable at its own operating point.
+    pub critical: Option<CriticalValue>,
     /// One entry for each harmonic.
     pub results: Vec<CycleResult>,
     /// Motions of two waves that live together.

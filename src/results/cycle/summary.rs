@@ -7,7 +7,9 @@ use crate::cycle::periodic::velocity_level;
 use crate::cycle::{CycleBranch, LimitCycle, Onset};
 use crate::results::extent::Extent;
 use crate::results::manifest::Manifest;
-use crate::results::summary::{Entry, MeanPowers, StatusFractions, Summary, present};
+use crate::results::summary::{
+    CriticalSummary, Entry, MeanPowers, StatusFractions, Summary, present,
+};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::f64::consts::TAU;
@@ -25,6 +27,9 @@ pub struct CycleSummary {
     pub steady_sliding_stable: bool,
     /// The lowest onset of all.
     pub lowest_onset: Option<OnsetSummary>,
+    /// Where along the parameter of the case sliding loses its stability, where it is stable at its own operating point.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub critical_value: Option<CriticalSummary>,
     /// What powers are of, in the tables too.
     #[serde(default)]
     pub extent: Extent,
@@ -172,6 +177,7 @@ pub fn summary(report: &CycleReport<'_>, manifest: &Manifest) -> CycleSummary {
         wall_s: report.wall_s,
         steady_sliding_stable: report.stable_sliding().is_some(),
         lowest_onset: report.lowest_onset.as_ref().map(OnsetSummary::from),
+        critical_value: report.critical.map(CriticalSummary::from),
         extent: report.extent,
         cycles: families.collect(),
         two_waves: pairs.collect(),

@@ -1,7 +1,7 @@
 //! Motions of two frequencies: words, tables, summary.
 
-use super::CycleReport;
-use crate::cycle::{Measured, TwoWaveBranch, TwoWaveMotion};
+use super::{CycleFrame, CycleReport};
+use crate::cycle::{BranchEnd, Measured, TwoWaveBranch, TwoWaveMotion};
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::quantity::significant;
 use crate::results::table::{Column, write_rows};
@@ -31,6 +31,8 @@ pub struct FoundTwoWaves {
     pub is_confirmed: bool,
     /// Its branch over the case's parameter.
     pub branch: Option<TwoWaveBranch>,
+    /// The whole field over one period of the first wave; the second is elsewhere by then.
+    pub frames: Vec<CycleFrame>,
 }
 
 /// A motion of two frequencies in the summary.
@@ -87,9 +89,17 @@ impl TwoWaveSummary {
                 .map(|own| own.frequencies.map(|omega| omega / TAU)),
             is_confirmed: found.map(|found| found.is_confirmed),
             births,
-            ends: branch.map(|branch| branch.ends.map(|end| end.describe().to_owned())),
+            ends: branch.map(|branch| branch.ends.map(|end| described(end).to_owned())),
             error: result.outcome.as_ref().err().cloned(),
         }
+    }
+}
+
+/// Why a branch of two waves ends, in words.
+fn described(end: BranchEnd) -> &'static str {
+    match end {
+        BranchEnd::Birth => "one wave vanishes",
+        other => other.describe(),
     }
 }
 
@@ -173,8 +183,8 @@ pub fn print_two_waves(out: &mut String, result: &TwoWaveResult) {
             out,
             "{name}: {} motions over {key} ({}; {}){born}",
             branch.motions.len(),
-            branch.ends[0].describe(),
-            branch.ends[1].describe(),
+            described(branch.ends[0]),
+            described(branch.ends[1]),
         );
     }
 }

@@ -19,6 +19,7 @@ pub use summary::{
 };
 
 use crate::contact::ContactInterface;
+use crate::cycle::CriticalValue;
 use crate::cycle::periodic::{
     FloquetMultipliers, MotionConfirmation, PeriodicBranch, PeriodicMotion, Sound,
 };
@@ -116,6 +117,8 @@ pub struct PeriodicReport<'a> {
     pub highest_hz: f64,
     /// The mode that grows fastest or decays slowest.
     pub least_stable: Option<SoughtMode>,
+    /// Where sliding loses its stability, where it is stable at the case's own operating point.
+    pub critical: Option<CriticalValue>,
     /// One entry for each mode that grows, fastest first.
     pub results: Vec<PeriodicResult>,
     /// Wall time of the run, s.
@@ -173,9 +176,16 @@ impl PeriodicReport<'_> {
                 mode.frequency_hz, mode.growth_rate
             )
         });
+        let advice = self.critical.map_or_else(
+            || {
+                "raise the friction coefficient; `cea` over cea.friction_coefficients finds the onsets"
+                    .to_owned()
+            },
+            |critical| format!("it loses its stability at {critical}"),
+        );
         Some(format!(
             "steady sliding is stable at contact.friction_coefficient = {}, so no limit cycle is born there: none of {} modes up \
-             to {:.0} Hz grows{slowest} (raise the friction coefficient; `cea` over cea.friction_coefficients finds the onsets)",
+             to {:.0} Hz grows{slowest} ({advice})",
             self.friction_coefficient, self.modes, self.highest_hz,
         ))
     }

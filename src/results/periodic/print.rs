@@ -28,6 +28,9 @@ pub fn print(report: &PeriodicReport<'_>) -> String {
         report.results.len(),
         report.modes,
     );
+    if let Some(critical) = report.critical {
+        let _ = writeln!(out, "steady sliding loses its stability at {critical}\n");
+    }
     let _ = writeln!(out, "{:>4} {:>9} {}", "mode", "growth", printed_heading());
     for result in &report.results {
         result_line(&mut out, report, result);

@@ -7,7 +7,9 @@ use crate::cycle::periodic::{
 };
 use crate::results::extent::Extent;
 use crate::results::manifest::Manifest;
-use crate::results::summary::{Entry, MeanPowers, StatusFractions, Summary, present};
+use crate::results::summary::{
+    CriticalSummary, Entry, MeanPowers, StatusFractions, Summary, present,
+};
 use serde::{Deserialize, Serialize};
 
 /// `summary.json` of `frictionsim cycle` on a body without symmetry.
@@ -25,6 +27,9 @@ pub struct PeriodicSummary {
     pub modes: usize,
     /// The mode that grows fastest or decays slowest.
     pub least_stable: Option<ModeSummary>,
+    /// Where sliding loses its stability, where it is stable at the case's own operating point.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub critical_value: Option<CriticalSummary>,
     /// What powers are of, in the tables too.
     pub extent: Extent,
     /// The modes that grow, each with its cycle or why there is none.
@@ -255,6 +260,7 @@ pub fn summary(report: &PeriodicReport<'_>, manifest: &Manifest) -> PeriodicSumm
         steady_sliding_stable: report.is_stable(),
         modes: report.modes,
         least_stable: report.least_stable.map(ModeSummary::from),
+        critical_value: report.critical.map(CriticalSummary::from),
         extent: report.extent,
         cycles: cycles.collect(),
         manifest: manifest.clone(),

@@ -1,8 +1,13 @@
 //! Limit cycles that a case asks for, and the parameter over which they are followed.
 
+use super::critical::{candidates, critical};
+use super::operating_point;
 use crate::case::{Case, CaseErrors, Cycle, OnsetChoice};
 use crate::cea::ModeLimit;
-use crate::cycle::{CycleError, CycleSolver, DiscModel, Family, MODES, Onset, Parameter};
+use crate::cycle::{
+    CriticalValue, CycleError, CycleSolver, DiscModel, Family, LARGEST_FRICTION, MODES, Onset,
+    Parameter,
+};
 use crate::study::StudyError;
 use crate::study::eigenvalues::asked_modes;
 
@@ -58,6 +63,37 @@ pub fn next_onset(case: &Case, friction: f64) -> Option<Onset> {
         highest *= 2.0;
     }
     None
+}
+
+/// The value of a parameter towards its range at which the lowest onset comes down to the case's friction coefficient; none of
+/// parameters that no onset depends on: sliding at constant friction knows neither speed nor interference.
+pub fn critical_value(case: &Case, parameter: Parameter, values: &[f64]) -> Option<CriticalValue> {
+    let mut point = operating_point(case);
+    let (model, here) = (disc_model(case).ok()?, parameter.of(&point));
+    let friction = point.contact.friction_coefficient;
+    if parameter == Parameter::FrictionCoefficient {
+        let onset = next_onset(case, friction)?;
+        return Some(CriticalValue {
+            parameter,
+            value: onset.friction_coefficient,
+        });
+    }
+    if parameter.is_of_contact() {
+        return None;
+    }
+    let mut growth = |value: f64| {
+        parameter.set(&mut point, value);
+        let damping = point.damping;
+        let other = DiscModel { damping, ..model };
+        let onsets = other.onsets(LARGEST_FRICTION, mode_limit(case)).ok()?;
+        let lowest = onsets.first().map(|onset| onset.friction_coefficient);
+        Some(friction - lowest.unwrap_or(LARGEST_FRICTION))
+    };
+    let growing = candidates(values, here);
+    let growing = growing
+        .into_iter()
+        .find(|&value| growth(value).is_some_and(|own| own > 0.0))?;
+    critical(parameter, growth, [here, growing])
 }
 
 /// The disc of a case as its limit cycles see it.

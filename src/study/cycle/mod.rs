@@ -14,6 +14,7 @@
 //! ```
 
 mod along;
+mod critical;
 mod families;
 mod periodic;
 mod two_waves;
@@ -24,15 +25,15 @@ pub use periodic::{PeriodicStudy, boundary_of_modes};
 use super::{StudyError, extent_of};
 use crate::case::{Case, Cycle, StabilityChoice};
 use crate::cycle::{
-    CycleError, CycleSolver, CycleStability, Family, LimitCycle, MeshStepping, Onset,
-    OperatingPoint, Parameter,
+    CriticalValue, CycleError, CycleSolver, CycleStability, Family, LimitCycle, MeshStepping,
+    Onset, OperatingPoint, Parameter,
 };
 use crate::fem::lumped_masses;
 use crate::fem::operator::SimdLevel;
 use crate::mesh::AnnulusMesh;
 use crate::results::cycle::{Absence, CycleFrame, CycleReport, CycleResult, known};
 use along::{along, changes};
-use families::{Sought, continuation, next_onset, solvers};
+use families::{Sought, continuation, critical_value, next_onset, solvers};
 use rayon::prelude::*;
 use std::time::Instant;
 
@@ -47,6 +48,8 @@ pub struct CycleStudy<'a> {
     continuation: Option<(Parameter, Vec<f64>)>,
     /// Every onset below the case's friction coefficient; where there is none, those of the harmonics sought.
     onsets: Vec<Onset>,
+    /// Where along the parameter of `continuation` sliding loses its stability, where it is stable at the case's own.
+    critical: Option<CriticalValue>,
     solvers: Vec<Sought>,
 }
 
@@ -62,8 +65,13 @@ impl<'a> CycleStudy<'a> {
         let point = operating_point(case);
         let friction = point.contact.friction_coefficient;
         let mut onsets = model.onsets(friction, mode_limit(case))?;
+        let continuation = continuation(case, choices, true)?;
+        let mut critical = None;
         let solvers = solvers(case, choices, &onsets)?;
         if onsets.is_empty() {
+            let along = continuation.as_ref();
+            critical =
+                along.and_then(|(parameter, values)| critical_value(case, *parameter, values));
             onsets = solvers.iter().flatten().map(|s| *s.onset()).collect();
             onsets.extend(next_onset(case, friction));
             onsets.sort_by(|a, b| a.friction_coefficient.total_cmp(&b.friction_coefficient));
@@ -74,7 +82,8 @@ impl<'a> CycleStudy<'a> {
             annulus: AnnulusMesh::generate(&model.specification)?,
             simd,
             point,
-            continuation: continuation(case, choices, true)?,
+            continuation,
+            critical,
             solvers,
             onsets,
         })
@@ -123,6 +132,7 @@ impl<'a> CycleStudy<'a> {
             extent: extent_of(self.case),
             friction_coefficient: self.point.contact.friction_coefficient,
             lowest_onset: self.onsets.first().copied(),
+            critical: self.critical,
             results,
             two_waves: Vec::new(),
             wall_s,
@@ -204,9 +214,10 @@ impl<'a> CycleStudy<'a> {
             }
             _ => None,
         };
-        let frames = found
-            .as_ref()
-            .map_or(Vec::new(), |cycle| frames(solver, cycle, frame_count));
+        let frames = found.as_ref().map_or(Vec::new(), |cycle| {
+            let field = |time| solver.field(cycle, time);
+            frames(field, 1.0 / cycle.frequency_hz(), frame_count)
+        });
         let velocity = found.as_ref().ok();
         let velocity = velocity.map(|cycle| self.velocity(&solver.field(cycle, 0.0)[1]));
         let cycle = found.map_err(|error| self.absence(solver, &error));
@@ -276,16 +287,13 @@ fn settle(stepping: &MeshStepping<'_>, cycle: &mut LimitCycle) -> Result<CycleSt
     Ok(settled.stability)
 }
 
-/// The whole field at `count` times over one period.
-fn frames(solver: &CycleSolver, cycle: &LimitCycle, count: usize) -> Vec<CycleFrame> {
-    let period = 1.0 / cycle.frequency_hz();
-    (0..count)
-        .map(|i| {
-            let time = period * i as f64 / count as f64;
-            CycleFrame {
-                time,
-                fields: solver.field(cycle, time),
-            }
+/// The whole field, given for a time, at `count` times over one period (s).
+fn frames(field: impl Fn(f64) -> [Vec<f64>; 2], period: f64, count: usize) -> Vec<CycleFrame> {
+    let times = (0..count).map(|i| period * i as f64 / count as f64);
+    times
+        .map(|time| CycleFrame {
+            time,
+            fields: field(time),
         })
         .collect()
 }

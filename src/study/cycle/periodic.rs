@@ -6,16 +6,17 @@ mod steady;
 
 use super::super::transient::SteppedMesh;
 use super::super::{StudyError, extent_of};
+use super::critical::{candidates, critical};
 use super::families::continuation;
 use super::operating_point;
 use crate::case::{Case, Cycle, OnsetChoice, StabilityChoice, TimeStep};
 use crate::cea::{ComplexMode, PartWatch, SweepWatch};
-use crate::cycle::Parameter;
 use crate::cycle::periodic::{
     BranchRequest, FloquetMultipliers, Found, GrowingMode, KeptMotion, MotionConfirmation,
     MotionRequest, PeriodMap, PeriodicBranch, PeriodicError, PeriodicMotion, REMAINDER, Sound,
     balanced_start, find, two_frequencies,
 };
+use crate::cycle::{CriticalValue, Parameter};
 use crate::fem::operator::{SimdLevel, StiffnessOperator};
 use crate::results::periodic::{FoundCycle, PeriodicReport, PeriodicResult, SoughtMode};
 use crate::transient::{OperatorChoice, TransientBody, TransientError};
@@ -24,7 +25,7 @@ use rayon::prelude::*;
 use std::time::Instant;
 
 use faces::faces_in_air;
-use steady::{Steady, onset};
+use steady::Steady;
 
 /// Instants of the contact over a period where the case names no number.
 const INSTANTS: usize = 180;
@@ -40,6 +41,8 @@ pub struct PeriodicStudy<'a> {
     least_stable: Option<SoughtMode>,
     /// Value of the parameter at which the search starts, where no mode grows at the case's own.
     start: Option<f64>,
+    /// Where sliding loses its stability, where it is stable at the case's own operating point.
+    critical: Option<CriticalValue>,
     /// Steady sliding where the search starts.
     steady: Steady,
     /// The modes whose cycles are sought, by falling growth: places among all.
@@ -51,7 +54,7 @@ impl<'a> PeriodicStudy<'a> {
     /// Steady sliding and its modes, with the lumped mass and without the geometric stiffness, as the transient has them.
     ///
     /// Where none of them grows at the case's own operating point, and a range of a parameter is to be gone through, the search
-    /// starts at the end of the range at which one does: the cycles that are born there may live on beside stable sliding.
+    /// starts in the range where one does, at its ends first: the cycles that are born there may live on beside stable sliding.
     ///
     /// # Errors
     /// A bad case; a body without a state of steady sliding; those of the eigenvalue solver.
@@ -61,12 +64,24 @@ impl<'a> PeriodicStudy<'a> {
         let continuation = continuation(case, choices, stepped.mesh.has_round_contact())?;
         let mut steady = Steady::of(case, &stepped)?;
         let own = steady.least_stable().map(|place| sought(&steady, place));
-        let mut start = None;
-        if let (true, Some((parameter, values))) = (steady.growing().is_empty(), &continuation) {
-            let here = parameter.of(&operating_point(case));
-            if let Some((value, other)) = growing_end((case, &stepped), *parameter, values, here)? {
-                (start, steady) = (Some(value), other);
+        let (mut start, mut critical) = (None, None);
+        match (steady.growing().is_empty(), &continuation) {
+            (true, Some((parameter, values))) => {
+                let here = parameter.of(&operating_point(case));
+                let of = (case, &stepped);
+                if let Some((value, other)) = first_growing(of, *parameter, values, here)? {
+                    critical = onset(of, *parameter, [here, value]);
+                    (start, steady) = (Some(value), other);
+                }
             }
+            (true, None) => {
+                let found = Steady::critical_friction(case, &stepped);
+                critical = found.map(|value| CriticalValue {
+                    parameter: Parameter::FrictionCoefficient,
+                    value,
+                });
+            }
+            (false, _) => {}
         }
         let mut places = steady.growing();
         if choices.onsets == OnsetChoice::Lowest {
@@ -78,6 +93,7 @@ impl<'a> PeriodicStudy<'a> {
             simd,
             least_stable: own,
             start,
+            critical,
             steady,
             sought: places,
             continuation,
@@ -165,7 +181,8 @@ impl<'a> PeriodicStudy<'a> {
         let parameter = branch.parameter;
         let onsets = branch.beyond(growing).into_iter().flatten();
         branch.onsets = onsets
-            .filter_map(|stable| onset((self.case, &self.stepped), parameter, stable, growing))
+            .filter_map(|stable| onset((self.case, &self.stepped), parameter, [stable, growing]))
+            .map(|found| found.value)
             .collect();
         branch
     }
@@ -328,6 +345,7 @@ impl<'a> PeriodicStudy<'a> {
                 .last()
                 .map_or(0.0, ComplexMode::frequency_hz),
             least_stable: self.least_stable,
+            critical: self.critical,
             results,
             wall_s,
         }
@@ -359,22 +377,30 @@ fn sought(steady: &Steady, place: usize) -> SoughtMode {
     }
 }
 
-/// The end of a range of a parameter, the one nearer to `here` first, at which a mode grows.
-fn growing_end(
+/// The first value of a range of a parameter, both ends before what lies between, at which a mode grows.
+fn first_growing(
     of: (&Case, &SteppedMesh<'_>),
     parameter: Parameter,
     values: &[f64],
     here: f64,
 ) -> Result<Option<(f64, Steady)>, StudyError> {
-    let mut ends = [values[0], values[values.len() - 1]];
-    ends.sort_by(|a, b| (a - here).abs().total_cmp(&(b - here).abs()));
-    for value in ends {
+    for value in candidates(values, here) {
         let steady = Steady::at(of, parameter, value)?;
         if !steady.growing().is_empty() {
             return Ok(Some((value, steady)));
         }
     }
     Ok(None)
+}
+
+/// The value of a parameter between one at which steady sliding is stable and one at which a mode grows, where it does neither.
+fn onset(
+    of: (&Case, &SteppedMesh<'_>),
+    parameter: Parameter,
+    ends: [f64; 2],
+) -> Option<CriticalValue> {
+    let growth = |value: f64| Some(Steady::at(of, parameter, value).ok()?.growth_rate());
+    critical(parameter, growth, ends)
 }
 
 /// Names the cycle that another mode has led to before.

@@ -1,13 +1,15 @@
 //! Motions of two frequencies beside the cycles that lose their stability to another wave.
 
-use super::CycleStudy;
+use super::{CycleStudy, frames};
+use crate::cea::{PartWatch, SweepWatch};
 use crate::cycle::{CycleSolver, LimitCycle, MeshStepping, Verdict};
 use crate::results::cycle::{CycleResult, FoundTwoWaves, TwoWaveResult, known};
 
 impl CycleStudy<'_> {
     /// For each family the motion in which its wave and the one that grows on it live together: from the cycle at the case's own
-    /// operating point where it is unstable, else from the first unstable one of its branch.
-    pub fn two_waves(&self, results: &[CycleResult]) -> Vec<TwoWaveResult> {
+    /// operating point where it is unstable, else from the first unstable one of its branch. `watch` keeps what is done for a search
+    /// that goes on after an interruption.
+    pub fn two_waves(&self, results: &[CycleResult], watch: &dyn SweepWatch) -> Vec<TwoWaveResult> {
         if !self.choices.two_frequencies {
             return Vec::new();
         }
@@ -23,7 +25,13 @@ impl CycleStudy<'_> {
                 own.outcome.is_ok() && own.harmonics == [harmonics[1], harmonics[0]]
             };
             if found.iter().find(is_same).is_none() {
-                found.push(self.beside(solver, cycle, harmonics));
+                let [first, second] = harmonics;
+                let watch = PartWatch {
+                    whole: watch,
+                    prefix: format!("two-waves-n{first}-n{second}-"),
+                    is_heard: false,
+                };
+                found.push(self.beside(solver, cycle, harmonics, &watch));
             }
         }
         found
@@ -34,6 +42,7 @@ impl CycleStudy<'_> {
         solver: &CycleSolver,
         cycle: &LimitCycle,
         harmonics: [usize; 2],
+        watch: &dyn SweepWatch,
     ) -> TwoWaveResult {
         let onset = self.onsets_of(harmonics[1]).into_iter().next();
         let direction = onset.map_or(-1, |onset| isize::from(onset.direction));
@@ -42,16 +51,28 @@ impl CycleStudy<'_> {
             .stepping(self.simd)
             .map_err(|error| error.to_string());
         let search = |stepping: &MeshStepping<'_>| {
-            let found = stepping.two_waves(cycle, second, None);
+            let found = stepping.two_waves(cycle, second, None, watch);
             let found = found.map_err(|error| error.to_string())?;
-            let branch = self
-                .continuation
-                .as_ref()
-                .map(|(parameter, values)| found.waves.follow(&found.motion, *parameter, values));
+            let (waves, motion) = (&found.waves, &found.motion);
+            let branch = self.continuation.as_ref();
+            let branch =
+                branch.map(|(parameter, values)| waves.follow(motion, *parameter, values, watch));
+            // Over one period of the first wave; the second has moved on by then.
+            let specification = &self.annulus.specification;
+            let shape = [
+                specification.radial_elements + 1,
+                specification.circumferential_elements,
+            ];
+            let frames = frames(
+                |time| waves.field(motion, time, shape),
+                1.0 / motion.frequencies_hz()[0],
+                self.choices.frames,
+            );
             Ok(FoundTwoWaves {
                 is_confirmed: found.agrees(),
                 confirmation: found.confirmation,
                 sides: found.waves.sides(),
+                frames,
                 motion: found.motion,
                 branch,
             })

@@ -1,7 +1,7 @@
 //! What each analysis is held to.
 
 use super::{Answer, Bench, Cell};
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::path::Path;
 
 /// A cell of the table: the body's bench, and that of the same body described otherwise.
@@ -408,11 +408,48 @@ fn basin(bench: &Bench, _: Option<&Bench>) -> Cell {
         answer => answer,
     };
     let (summary, _) = done!(answer);
-    let runs = summary["runs"].as_array().map_or(0, Vec::len);
-    let transients = summary["transients"].as_u64();
-    verdict(runs > 1 && transients == Some(runs as u64), || {
-        summary.to_string()
-    })
+    verdict(is_boundary(&summary), || summary.to_string())
+}
+
+/// Whether both ends of the range were tried, the larger seed of the second rival leaves it with the larger share at saturation, and
+/// winner and bounds are those of the runs.
+fn is_boundary(summary: &Value) -> bool {
+    let runs = summary["runs"].as_array().cloned().unwrap_or_default();
+    let rivals = &summary["harmonics"];
+    let [Some(first), Some(last)] = [runs.first(), runs.get(1)] else {
+        return false;
+    };
+    let is_whole = [first, last].map(|run| &run["seed_ratio"]) == [&json!(0.5), &json!(2.0)];
+    let is_known = |run: &Value| [&rivals[0], &rivals[1]].contains(&&run["winner"]);
+    let ratios = [first, last].map(|run| run["saturation_ratio"].as_f64());
+    let is_seeded = match ratios {
+        [Some(low), Some(high)] => high > low,
+        _ => true,
+    };
+    // The last run that either rival has won, from its end of the range.
+    let won = |rival: &Value| {
+        let own = runs.iter().filter(|run| run["winner"] == *rival);
+        let seed = |run: &Value| run["seed_ratio"].as_f64().unwrap();
+        let mut own: Vec<&Value> = own.collect();
+        own.sort_by(|a, b| seed(a).total_cmp(&seed(b)));
+        own
+    };
+    let (firsts, seconds) = (won(&rivals[0]), won(&rivals[1]));
+    let bound =
+        |run: Option<&&Value>| run.map_or(Value::Null, |run| run["saturation_ratio"].clone());
+    let bounds = &summary["boundary"];
+    let alone = match (firsts.is_empty(), seconds.is_empty()) {
+        (true, _) => rivals[1].clone(),
+        (_, true) => rivals[0].clone(),
+        _ => Value::Null,
+    };
+    is_whole
+        && is_seeded
+        && runs.iter().all(is_known)
+        && summary["transients"] == json!(runs.len())
+        && summary["winner"] == alone
+        && bounds["low"] == bound(firsts.last())
+        && bounds["high"] == bound(seconds.first())
 }
 
 /// A point of the sweep is the analysis alone.

@@ -1,8 +1,8 @@
-//! Steady sliding at one operating point, and where along a parameter it loses its stability.
+//! Steady sliding at one operating point.
 
 use super::super::operating_point;
 use crate::case::{Body, Case};
-use crate::cea::{CeaError, ComplexMode, SweepRequest, Unwatched, sparse};
+use crate::cea::{CeaError, ComplexMode, FrictionSweep, SweepRequest, Unwatched, sparse};
 use crate::cycle::Parameter;
 use crate::fem::MassKind;
 use crate::prestress::{Assembly, TangentOptions};
@@ -12,10 +12,8 @@ use crate::study::{StudyError, tangent_options};
 
 /// Modes of lowest frequency that are looked at where the case has no `[cea]`.
 const MODES: usize = 30;
-/// Spectra spent on an onset.
-const SPECTRA: usize = 14;
-/// Share of the interval that an onset is known to.
-const NEAR: f64 = 1e-5;
+/// Largest friction coefficient at which a loss of stability is looked for where no range of a parameter is given.
+const LARGEST_FRICTION: f64 = 2.0;
 
 /// Steady sliding and its modes, with the lumped mass and without the geometric stiffness, as the transient has them.
 pub struct Steady {
@@ -32,23 +30,16 @@ impl Steady {
     /// A body without a state of steady sliding; those of the eigenvalue solver.
     pub fn of(case: &Case, stepped: &SteppedMesh<'_>) -> Result<Self, StudyError> {
         let friction = case.contact.sliding.friction_coefficient;
-        let mut options = tangent_options(case, MassKind::Lumped);
-        options.geometric_stiffness = false;
-        let request = SweepRequest {
-            friction_coefficients: &[friction],
-            limit: asked_modes(case, MODES),
-            shapes_at: &[friction],
-        };
         if let Some(assembly) = &stepped.assembly {
-            return Self::of_assembly(assembly, &options, &request);
+            let request = SweepRequest {
+                friction_coefficients: &[friction],
+                limit: asked_modes(case, MODES),
+                shapes_at: &[friction],
+            };
+            return Self::of_assembly(assembly, &options_in_time(case), &request);
         }
-        let solver = match &case.body {
-            Body::Revolution(_) => Solver::by_symmetry(case),
-            _ => Solver::WholeMesh,
-        };
-        let model = Model::with_solver(case, solver, options, &[friction])?;
-        let found = model.spectrum(case, &request, false, &Unwatched)?;
-        let point = found.sweep.points.into_iter().next();
+        let (model, sweep) = sweep_in_time(case, &[friction], &[friction])?;
+        let point = sweep.points.into_iter().next();
         let modes = point.map_or_else(Vec::new, |point| point.modes);
         let base = match &model {
             Model::Whole(whole) => whole.base().displacement(friction),
@@ -105,6 +96,21 @@ impl Steady {
         Self::of(&other, &SteppedMesh::of(&other)?)
     }
 
+    /// The lowest critical friction coefficient above the case's own, at which sliding is stable; none up to 2, nor of solid bodies,
+    /// where each value has a contact of its own.
+    pub fn critical_friction(case: &Case, stepped: &SteppedMesh<'_>) -> Option<f64> {
+        let friction = case.contact.sliding.friction_coefficient;
+        if stepped.assembly.is_some() || friction <= 0.0 {
+            return None;
+        }
+        let doubled = std::iter::successors(Some(friction), |friction| Some(2.0 * friction));
+        let mut frictions: Vec<f64> = doubled.take_while(|own| *own < LARGEST_FRICTION).collect();
+        frictions.push(LARGEST_FRICTION);
+        let (_, sweep) = sweep_in_time(case, &frictions, &[]).ok()?;
+        let critical = sweep.intervals.iter().map(|own| own.critical_friction);
+        critical.min_by(f64::total_cmp)
+    }
+
     /// Places of the modes that grow, fastest first.
     pub fn growing(&self) -> Vec<usize> {
         let modes = &self.modes;
@@ -127,42 +133,30 @@ impl Steady {
     }
 }
 
-/// The value of a parameter between one at which steady sliding is stable and one at which it is not: where its fastest mode
-/// neither grows nor decays, by false position; none where it is not stable at the first.
-pub fn onset(
-    of: (&Case, &SteppedMesh<'_>),
-    parameter: Parameter,
-    stable: f64,
-    growing: f64,
-) -> Option<f64> {
-    let growth = |value: f64| {
-        let steady = Steady::at(of, parameter, value).ok()?;
-        Some(steady.growth_rate())
+/// What the transient has: lumped mass, no geometric stiffness.
+fn options_in_time(case: &Case) -> TangentOptions {
+    TangentOptions {
+        geometric_stiffness: false,
+        ..tangent_options(case, MassKind::Lumped)
+    }
+}
+
+/// The modes of a case over friction as the transient has them, with their shapes at some of the values.
+fn sweep_in_time(
+    case: &Case,
+    frictions: &[f64],
+    shapes_at: &[f64],
+) -> Result<(Model, FrictionSweep), StudyError> {
+    let solver = match &case.body {
+        Body::Revolution(_) => Solver::by_symmetry(case),
+        _ => Solver::WholeMesh,
     };
-    let (mut low, mut high) = ((stable, growth(stable)?), (growing, growth(growing)?));
-    if low.1 > 0.0 || high.1 <= 0.0 {
-        return None;
-    }
-    let width = (growing - stable).abs();
-    let (mut kept, mut value) = ([0_u32; 2], stable);
-    for _ in 0..SPECTRA {
-        // Illinois: the end that stays gives way.
-        let [a, b] = [
-            low.1 * 0.5_f64.powi(kept[0].saturating_sub(1) as i32),
-            high.1 * 0.5_f64.powi(kept[1].saturating_sub(1) as i32),
-        ];
-        let next = low.0 + (high.0 - low.0) * (a / (a - b)).clamp(0.02, 0.98);
-        let rate = growth(next)?;
-        let has_moved = (next - value).abs();
-        value = next;
-        if rate <= 0.0 {
-            (low, kept) = ((next, rate), [0, kept[1] + 1]);
-        } else {
-            (high, kept) = ((next, rate), [kept[0] + 1, 0]);
-        }
-        if (high.0 - low.0).abs() < NEAR * width || has_moved < 0.1 * NEAR * width {
-            break;
-        }
-    }
-    Some(value)
+    let request = SweepRequest {
+        friction_coefficients: frictions,
+        limit: asked_modes(case, MODES),
+        shapes_at,
+    };
+    let model = Model::with_solver(case, solver, options_in_time(case), frictions)?;
+    let found = model.spectrum(case, &request, false, &Unwatched)?;
+    Ok((model, found.sweep))
 }
