@@ -76,6 +76,24 @@ impl SparsityPattern {
         })
     }
 
+    /// `A^T x` for each column of `x` and each of several matrices, given by their nonzeros in the order of the pattern.
+    pub fn multiply_transpose_each<const N: usize>(
+        &self,
+        values: [&[f64]; N],
+        x: MatRef<'_, f64>,
+    ) -> [Mat<f64>; N] {
+        self.by_lanes(x, |input, index| {
+            let mut sums = [[0.0; LANES]; N];
+            for (place, row) in self.column(index) {
+                let source = input[row];
+                for (sum, values) in sums.iter_mut().zip(&values) {
+                    *sum = add_multiple(*sum, values[place], source);
+                }
+            }
+            sums
+        })
+    }
+
     /// `A x + B y` for each pair of columns, with `A` and `B` given by their nonzeros sorted by rows
     /// ([`Self::by_rows`]); for few columns, of which [`Self::multiply`] would interleave empty ones.
     pub fn multiply_sum(&self, values: [&[f64]; 2], x: [MatRef<'_, f64>; 2]) -> Mat<f64> {

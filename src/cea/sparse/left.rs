@@ -1,7 +1,8 @@
 //! Left vectors that a basis of right ones does not hold.
 
 use super::StiffnessFactors;
-use crate::linalg::{Mat, MatrixPolynomial, c64};
+use crate::linalg::dense::column;
+use crate::linalg::{Mat, SparsityPattern, c64};
 use crate::prestress::SlidingTangent;
 
 /// Corrections of a left vector; each takes two digits or so where the contact is.
@@ -23,52 +24,51 @@ pub struct OpenPair {
 
 /// `T(lambda)^T` and `T'(lambda)^T` at a friction coefficient, parts without tables.
 struct Transposed<'a> {
-    /// Mass, damping, stiffness and structural damping, with their entries at the friction coefficient.
-    parts: [Option<(&'a MatrixPolynomial, Vec<f64>)>; 4],
+    pattern: &'a SparsityPattern,
+    /// Entries of mass, damping and stiffness at the friction coefficient.
+    values: [Vec<f64>; 3],
+    /// Those of structural damping.
+    structural: Option<Vec<f64>>,
 }
 
 impl<'a> Transposed<'a> {
     fn at(tangent: &'a SlidingTangent, mu: f64) -> Self {
-        let at = |matrix: &'a MatrixPolynomial| (matrix, matrix.evaluate(mu));
         let own = [&tangent.mass, &tangent.damping, &tangent.stiffness];
-        let [mass, damping, stiffness] = own.map(|matrix| Some(at(matrix)));
-        let structural = tangent.structural.as_ref().map(at);
+        let structural = tangent.structural.as_ref();
         Self {
-            parts: [mass, damping, stiffness, structural],
+            pattern: tangent.stiffness.pattern(),
+            values: own.map(|matrix| matrix.evaluate(mu)),
+            structural: structural.map(|matrix| matrix.evaluate(mu)),
         }
     }
 
     /// `sum_k factors_k A_k^T w` of several vectors, each with factors of its own.
     fn images(&self, vectors: &[(&[c64], [c64; 4])]) -> Vec<Vec<c64>> {
-        let (size, width) = (
-            vectors.first().map_or(0, |own| own.0.len()),
-            2 * vectors.len(),
-        );
-        let mut image = vec![0.0; size * width];
-        for (k, part) in self.parts.iter().enumerate() {
-            let Some((matrix, values)) = part else {
-                continue;
-            };
-            // Real and imaginary parts of all vectors side by side: each entry of the matrix is read once.
-            let mut row = vec![0.0; width];
-            for i in 0..size {
-                for (parts, (w, factors)) in row.chunks_exact_mut(2).zip(vectors) {
-                    let value = factors[k] * w[i];
-                    parts.copy_from_slice(&[value.re, value.im]);
-                }
-                for (position, j) in matrix.pattern().row(i) {
-                    let value = values[position];
-                    let sums = image[j * width..(j + 1) * width].iter_mut();
-                    sums.zip(&row).for_each(|(sum, x)| *sum += value * x);
-                }
-            }
+        let size = self.pattern.dimension();
+        // Real and imaginary parts of all vectors side by side: each entry of the matrices is read once.
+        let parts = Mat::from_fn(size, 2 * vectors.len(), |i, column| {
+            let value = vectors[column / 2].0[i];
+            if column % 2 == 0 { value.re } else { value.im }
+        });
+        let pattern = self.pattern;
+        let values = self.values.each_ref().map(Vec::as_slice);
+        let mut products = pattern
+            .multiply_transpose_each(values, parts.as_ref())
+            .to_vec();
+        if let Some(values) = &self.structural {
+            products.extend(pattern.multiply_transpose_each([values], parts.as_ref()));
         }
-        let of = |m: usize| -> Vec<c64> {
-            let rows = image.chunks_exact(width);
-            rows.map(|row| c64::new(row[2 * m], row[2 * m + 1]))
-                .collect()
+        let of = |(m, (_, factors)): (usize, &(&[c64], [c64; 4]))| {
+            let mut image = vec![c64::new(0.0, 0.0); size];
+            for (product, factor) in products.iter().zip(factors) {
+                let pairs = [2 * m, 2 * m + 1].map(|c| column(product.as_ref(), c));
+                let entries = pairs[0].iter().zip(pairs[1]);
+                let sums = image.iter_mut().zip(entries);
+                sums.for_each(|(sum, (re, im))| *sum += factor * c64::new(*re, *im));
+            }
+            image
         };
-        (0..vectors.len()).map(of).collect()
+        vectors.iter().enumerate().map(of).collect()
     }
 
     /// `T(lambda)^T w` of some pairs.
