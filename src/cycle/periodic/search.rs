@@ -10,10 +10,6 @@ pub const TOLERANCE: f64 = 1e-9;
 /// Residual with which it is taken where no more is to be had: friction that falls with speed jumps a little where a node sets out.
 pub const ACCEPTED: f64 = 1e-4;
 
-/// Residual up to which the steps may be what keeps a motion from repeating itself, and how many times as many are taken then.
-const ROUGH: f64 = 5e-3;
-const FINER: usize = 4;
-
 /// Plain periods before the first secant, at least, and at most where the motion is still far from repeating itself: what the
 /// start has of fast motions goes, and what attracts draws it near.
 const PLAIN: [usize; 2] = [4, 30];
@@ -88,23 +84,10 @@ impl Found {
 /// A motion that dies, leaves its counterface, grows without bound or does not repeat itself.
 pub fn find(map: &mut PeriodMap<'_>, start: PeriodicState) -> Result<Found, PeriodicError> {
     let first = map.periods();
-    let mut nearest = None;
-    let mut result = attempt(map, start.clone(), PLAIN, &mut nearest);
-    if let Err(PeriodicError::NotConverged { .. }) = result {
-        result = attempt(map, start, [LONG; 2], &mut nearest);
-    }
-    // Nodes that stick together do so at whole steps: shorter ones leave less of it.
-    if let (Err(PeriodicError::NotConverged { residual, .. }), Some(state)) = (&result, nearest)
-        && *residual < ROUGH
-    {
-        let steps = map.steps();
-        map.step_in(FINER * steps);
-        let finer = attempt(map, state, PLAIN, &mut None);
-        match finer {
-            Ok(_) => result = finer,
-            Err(_) => map.step_in(steps),
-        }
-    }
+    let result = match attempt(map, start.clone(), PLAIN) {
+        Err(PeriodicError::NotConverged { .. }) => attempt(map, start, [LONG; 2]),
+        result => result,
+    };
     let periods = map.periods() - first;
     match result {
         Ok(found) => Ok(Found { periods, ..found }),
@@ -121,12 +104,11 @@ pub fn find(map: &mut PeriodMap<'_>, start: PeriodicState) -> Result<Found, Peri
     }
 }
 
-/// A search with so many plain periods first, at least and at most; the state that came nearest to itself is left in `nearest`.
+/// A search with so many plain periods first, at least and at most.
 fn attempt(
     map: &mut PeriodMap<'_>,
     start: PeriodicState,
     [least, most]: [usize; 2],
-    nearest: &mut Option<PeriodicState>,
 ) -> Result<Found, PeriodicError> {
     let first = map.periods();
     let mut search = Search {
@@ -151,7 +133,6 @@ fn attempt(
         let is_stuck = !search.is_plain && search.spent >= search.improved.0 + PATIENCE;
         let is_spent = search.spent >= MOST + least || is_stuck;
         if search.best_residual() < TOLERANCE || is_spent {
-            *nearest = search.best.as_ref().map(|best| best.state.clone());
             return search.finish();
         }
         let is_far = image.relative_residual() > NEAR && search.is_plain;

@@ -14,6 +14,8 @@ use crate::study::{StudyError, tangent_options};
 const MODES: usize = 30;
 /// Largest friction coefficient at which a loss of stability is looked for where no range of a parameter is given.
 const LARGEST_FRICTION: f64 = 2.0;
+/// Ratio of one friction coefficient looked at to the one before.
+const RISE: f64 = 1.25;
 
 /// Steady sliding and its modes, with the lumped mass and without the geometric stiffness, as the transient has them.
 pub struct Steady {
@@ -103,12 +105,18 @@ impl Steady {
         if stepped.assembly.is_some() || friction <= 0.0 {
             return None;
         }
-        let doubled = std::iter::successors(Some(friction), |friction| Some(2.0 * friction));
-        let mut frictions: Vec<f64> = doubled.take_while(|own| *own < LARGEST_FRICTION).collect();
-        frictions.push(LARGEST_FRICTION);
-        let (_, sweep) = sweep_in_time(case, &frictions, &[]).ok()?;
-        let critical = sweep.intervals.iter().map(|own| own.critical_friction);
-        critical.min_by(f64::total_cmp)
+        // Upwards, a few values at a time: beyond some friction there may be no state of steady sliding.
+        let mut low = friction;
+        while low < LARGEST_FRICTION {
+            let frictions = [low, RISE * low, RISE * RISE * low];
+            let (_, sweep) = sweep_in_time(case, &frictions, &[]).ok()?;
+            let critical = sweep.intervals.iter().map(|own| own.critical_friction);
+            if let Some(found) = critical.min_by(f64::total_cmp) {
+                return Some(found);
+            }
+            low = frictions[2];
+        }
+        None
     }
 
     /// Places of the modes that grow, fastest first.
