@@ -83,6 +83,13 @@ pub struct Joined {
     rotation: Option<Rotation>,
 }
 
+impl Joined {
+    /// The contacts with their points.
+    pub fn contacts(&self) -> &[(SlidingSurfaces, ContactSurface)] {
+        &self.contacts
+    }
+}
+
 impl<'a> Assembly<'a> {
     /// Pairs the surfaces of `ties` and `contacts`, and eliminates the ties.
     ///
@@ -190,7 +197,7 @@ impl<'a> Assembly<'a> {
 
     /// The contacts with their points.
     pub fn contacts(&self) -> &[(SlidingSurfaces, ContactSurface)] {
-        &self.joined.contacts
+        self.joined.contacts()
     }
 
     /// The mesh of all bodies.

@@ -1,21 +1,23 @@
 //! The matrices that the eigenvalue analysis of a case solves, by power of the friction coefficient.
 
 use super::StudyError;
-use super::eigenvalues::{Solver, WholeMesh};
+use super::eigenvalues::{Model, Solver};
 use super::tangent_options;
 use crate::case::{Case, CeaMethod};
+use crate::cea::CeaError;
+use crate::contact::{Point, Row};
 use crate::linalg::{MarketMatrix, MatrixPolynomial};
+use crate::mesh::Mesh;
 use crate::prestress::SlidingTangent;
 use crate::results::matrices::{
     ExportedContactPoint, ExportedMatrix, ExportedSystem, ExportedUnknown, MatrixRole,
 };
-use std::f64::consts::FRAC_PI_2;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Mass, damping, stiffness and contact rows of a case's body around steady sliding at its own friction coefficient.
 ///
 /// # Errors
-/// A case without `[cea]`, a body of revolution, whose problem is one of complex matrices for each harmonic; solid bodies from a mesh
-/// file; no steady sliding.
+/// A case without `[cea]`, a body of revolution, whose problem is one of complex matrices for each harmonic; no steady sliding.
 pub fn matrices(case: &Case) -> Result<ExportedSystem, StudyError> {
     let cea = case.require_cea()?;
     if case.body.revolution().is_some() {
@@ -28,16 +30,6 @@ pub fn matrices(case: &Case) -> Result<ExportedSystem, StudyError> {
             Some("use a plane formulation, or an imported mesh".to_owned()),
         )));
     }
-    if case.body.assembly().is_some() {
-        return Err(StudyError::Case(case.error_at(
-            "mesh.file",
-            "the files name unknowns and contact points of one plane body; those of solid bodies that are tied and slide on each other \
-             are combinations of theirs"
-                .to_owned(),
-            "solid bodies".to_owned(),
-            Some("use a plane body; `cea` and `frf` solve solid bodies themselves".to_owned()),
-        )));
-    }
     if case.has_structural_damping() {
         let refusal = case.loss_error(
             "the files hold one real problem, and structural damping makes the stiffness complex"
@@ -48,19 +40,25 @@ pub fn matrices(case: &Case) -> Result<ExportedSystem, StudyError> {
         return Err(StudyError::Case(refusal));
     }
     // The whole mesh, whatever the case's own method; what no method solves is refused.
-    Solver::of(case, CeaMethod::Auto)?;
+    let solver = match Solver::of(case, CeaMethod::Auto)? {
+        Solver::Assembly => Solver::Assembly,
+        _ => Solver::WholeMesh,
+    };
     let frictions = cea.solved_friction_coefficients();
-    let model = WholeMesh::solve(case, tangent_options(case, cea.mass), &frictions)?;
-    let state = model.base();
-    let tangent = model.tangent(case, state);
+    let options = tangent_options(case, cea.mass);
+    let model = Model::with_solver(case, solver, options, &frictions)?;
+    let body = SlidingBody::of(case, &model)?;
     let friction = case.contact.sliding.friction_coefficient;
     let largest = frictions.iter().copied().fold(friction, f64::max);
     let smallest = frictions.iter().copied().fold(friction, f64::min);
     // The polynomials are those of one set of pressed points, which changes at `changes`.
-    let changes = &model.range.changes;
-    let below = changes.iter().copied().filter(|change| *change <= friction);
-    let above = changes.iter().copied().filter(|change| *change > friction);
+    let below = body.changes.iter().copied();
+    let below = below.filter(|change| *change <= friction);
+    let above = body.changes.iter().copied();
+    let above = above.filter(|change| *change > friction);
+    let tangent = &body.tangent;
     let mut system = ExportedSystem {
+        dimension: body.mesh.dimension,
         friction_coefficient: friction,
         friction_range: [
             below.fold(smallest, f64::max),
@@ -70,7 +68,7 @@ pub fn matrices(case: &Case) -> Result<ExportedSystem, StudyError> {
             .proportional
             .map(|rayleigh| [rayleigh.mass_coefficient, rayleigh.stiffness_coefficient]),
         matrices: Vec::new(),
-        unknowns: unknowns(&model, &tangent),
+        unknowns: unknowns(body.mesh, tangent),
         contact: Vec::new(),
     };
     let matrices = &mut system.matrices;
@@ -83,8 +81,84 @@ pub fn matrices(case: &Case) -> Result<ExportedSystem, StudyError> {
     matrices.extend(powers("K", &tangent.stiffness, |friction_power| {
         MatrixRole::Stiffness { friction_power }
     }));
-    contact_rows(&model, &tangent, &mut system);
+    contact_rows(&body, &mut system);
     Ok(system)
+}
+
+/// A body or an assembly that slides, at the case's own friction coefficient.
+struct SlidingBody<'a> {
+    mesh: &'a Mesh,
+    tangent: SlidingTangent,
+    /// Friction coefficients at which contact points open or close.
+    changes: &'a [f64],
+    points: Vec<SlidingPoint<'a>>,
+}
+
+/// A contact point and its state.
+struct SlidingPoint<'a> {
+    point: &'a Point,
+    exported: ExportedContactPoint,
+}
+
+impl<'a> SlidingBody<'a> {
+    fn of(case: &Case, model: &'a Model) -> Result<Self, StudyError> {
+        let friction = case.contact.sliding.friction_coefficient;
+        match model {
+            Model::Assembly(own) => {
+                let forces = own.base().normal_forces(friction);
+                let contacts = own.joined.contacts().iter();
+                let all = contacts.flat_map(|(contact, surface)| {
+                    let points = surface.points.iter().zip(&surface.sites);
+                    points.map(move |(point, site)| (contact, point, *site))
+                });
+                let points = all
+                    .enumerate()
+                    .map(|(i, (contact, point, site))| SlidingPoint {
+                        point,
+                        exported: ExportedContactPoint {
+                            node: None,
+                            contact: Some(contact.name.clone()),
+                            place: site.position,
+                            is_pressed: own.base().is_pressed[i],
+                            weight: point.weight,
+                            normal_force: forces.get(i).copied().unwrap_or(0.0),
+                        },
+                    });
+                Ok(Self {
+                    mesh: &own.body.mesh,
+                    tangent: own.own_tangent().map_err(CeaError::from)?,
+                    changes: &own.range.changes,
+                    points: points.collect(),
+                })
+            }
+            Model::Whole(own) => {
+                let base = own.base();
+                let forces = base.normal_forces(friction);
+                let nodes = base.interface.nodes.iter().map(|&node| node as usize);
+                let points = nodes.zip(&base.points).enumerate();
+                let points = points.map(|(i, (node, point))| SlidingPoint {
+                    point,
+                    exported: ExportedContactPoint {
+                        node: Some(own.mesh.node_label(node)),
+                        contact: None,
+                        place: own.mesh.nodes[node],
+                        is_pressed: base.is_pressed[i],
+                        weight: point.weight,
+                        normal_force: forces[i],
+                    },
+                });
+                Ok(Self {
+                    mesh: &own.mesh,
+                    tangent: own.tangent(case, base),
+                    changes: &own.range.changes,
+                    points: points.collect(),
+                })
+            }
+            Model::Sectors(..) | Model::SolidSectors(_) => {
+                unreachable!("the solver was chosen for a whole mesh")
+            }
+        }
+    }
 }
 
 /// The coefficients of a polynomial that are not zero, and always the one without friction.
@@ -118,17 +192,15 @@ fn powers<'a>(
 }
 
 /// Node, direction and place of every unknown.
-fn unknowns(model: &WholeMesh, tangent: &SlidingTangent) -> Vec<ExportedUnknown> {
-    let mesh = &model.mesh;
+fn unknowns(mesh: &Mesh, tangent: &SlidingTangent) -> Vec<ExportedUnknown> {
+    let distances: BTreeSet<usize> = tangent.distances.iter().map(|own| own.0).collect();
     let unknown = |&dof: &usize| {
-        let (node, axis) = (dof / 2, dof % 2);
-        let angle = mesh.frame_angles()[node] + FRAC_PI_2 * axis as f64;
-        let [x, y] = mesh.plane_node(node);
+        let (node, axis) = (dof / mesh.dimension, dof % mesh.dimension);
         ExportedUnknown {
             node: mesh.node_label(node),
-            is_distance: tangent.distances.iter().any(|(normal, _)| *normal == dof),
-            direction: [angle.cos(), angle.sin(), 0.0],
-            place: [x, y, 0.0],
+            is_distance: distances.contains(&dof),
+            direction: mesh.frame(node).column(axis).into_owned().into(),
+            place: mesh.nodes[node],
         }
     };
     tangent.unknowns.dofs.iter().map(unknown).collect()
@@ -136,21 +208,40 @@ fn unknowns(model: &WholeMesh, tangent: &SlidingTangent) -> Vec<ExportedUnknown>
 
 /// The contact points and their motion along the normal and along the sliding. In rigid contact the normal motion of a pressed point
 /// is no unknown: its row is empty.
-fn contact_rows(model: &WholeMesh, tangent: &SlidingTangent, system: &mut ExportedSystem) {
-    let (base, interface) = (model.base(), &model.base().interface);
-    let normal_forces = base.normal_forces(system.friction_coefficient);
-    let unknown_of = &tangent.unknowns.unknown_of;
+fn contact_rows(body: &SlidingBody<'_>, system: &mut ExportedSystem) {
+    let combined: BTreeMap<usize, &Row> = {
+        let distances = body.tangent.distances.iter();
+        distances.map(|(dof, row)| (*dof, row)).collect()
+    };
+    // A row over all dofs as one over the unknowns, without what cancels.
+    let over_unknowns = |row: &Row| -> Row {
+        let mut sum: BTreeMap<usize, f64> = BTreeMap::new();
+        let mut largest = 0.0_f64;
+        for &(dof, value) in row {
+            let own = [(dof, 1.0)];
+            let parts = combined.get(&dof).map_or(&own[..], |row| row.as_slice());
+            for &(part, share) in parts {
+                largest = largest.max((value * share).abs());
+                if let Some(unknown) = body.tangent.unknowns.unknown_of[part] {
+                    *sum.entry(unknown).or_default() += value * share;
+                }
+            }
+        }
+        let kept = sum.into_iter();
+        kept.filter(|entry| entry.1.abs() > 1e-14 * largest)
+            .collect()
+    };
     let (mut normal, mut slip) = (Vec::new(), Vec::new());
-    for (i, &node) in interface.nodes.iter().enumerate() {
-        normal.extend(unknown_of[interface.normal_dof(i)].map(|unknown| (i, unknown, 1.0)));
-        let along = interface.slip(i);
-        slip.extend(along.filter_map(|(dof, share)| Some((i, unknown_of[dof]?, share))));
-        system.contact.push(ExportedContactPoint {
-            node: model.mesh.node_label(node as usize),
-            is_pressed: base.is_pressed[i],
-            length: interface.tributary_lengths[i],
-            normal_force: normal_forces[i],
-        });
+    for (i, own) in body.points.iter().enumerate() {
+        let rows = [
+            (&own.point.normal, &mut normal),
+            (&own.point.slip, &mut slip),
+        ];
+        for (row, entries) in rows {
+            let row = over_unknowns(row).into_iter();
+            entries.extend(row.map(|(unknown, share)| (i, unknown, share)));
+        }
+        system.contact.push(own.exported.clone());
     }
     for (name, role, entries) in [
         ("contact_normal", MatrixRole::ContactNormal, normal),
@@ -160,7 +251,7 @@ fn contact_rows(model: &WholeMesh, tangent: &SlidingTangent, system: &mut Export
             name: name.to_owned(),
             role,
             matrix: MarketMatrix {
-                rows: interface.len(),
+                rows: body.points.len(),
                 columns: system.unknowns.len(),
                 entries,
             },

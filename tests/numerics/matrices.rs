@@ -3,6 +3,7 @@
 //! Independent check: `disk_brake100` of the NLEVP collection (licence beside the data) with eigenvalues computed to 40 digits elsewhere.
 //! Consistency check: the exported matrices of a body without symmetry, solved densely, have the eigenvalues of `cea`.
 
+use crate::bricks::{Block, file_of};
 use assert_cmd::Command;
 use frictionsim::cea::quadratic_modes;
 use frictionsim::linalg::{MarketMatrix, Mat, c64};
@@ -148,24 +149,96 @@ fn exported_matrices_solved_densely_have_the_eigenvalues_of_the_analysis() {
                 String::from_utf8_lossy(&output.stderr)
             );
         }
-        let [mass, damping, stiffness] = assembled(&folder.path().join("matrices"), 0.3);
-        let found = quadratic_modes(mass.as_ref(), damping.as_ref(), stiffness.as_ref()).unwrap();
-        let table = fs::read_to_string(folder.path().join("cea/eigenvalues.csv")).unwrap();
-        let mut rows = table
-            .lines()
-            .map(|line| line.split(',').collect::<Vec<_>>());
-        let header = rows.next().unwrap();
-        let column = |name: &str| header.iter().position(|own| *own == name).unwrap();
-        let mut count = 0;
-        for row in rows {
-            let part = |name: &str| TAU * row[column(name)].parse::<f64>().unwrap();
-            let listed = c64::new(part("real_hz"), part("frequency_hz"));
-            let distances = found.iter().map(|mode| (mode.eigenvalue - listed).norm());
-            let error = distances.fold(f64::INFINITY, f64::min) / listed.norm();
-            assert!(error < 1e-9, "{listed}: {error:e}");
-            count += 1;
+        assert!(listed_modes_found(&folder, 0.3) >= 6);
+    }
+}
+
+/// How many modes `cea` lists, all of them among the dense ones of the exported matrices.
+fn listed_modes_found(folder: &TempDir, friction: f64) -> usize {
+    let [mass, damping, stiffness] = assembled(&folder.path().join("matrices"), friction);
+    let found = quadratic_modes(mass.as_ref(), damping.as_ref(), stiffness.as_ref()).unwrap();
+    let table = fs::read_to_string(folder.path().join("cea/eigenvalues.csv")).unwrap();
+    let mut rows = table
+        .lines()
+        .map(|line| line.split(',').collect::<Vec<_>>());
+    let header = rows.next().unwrap();
+    let column = |name: &str| header.iter().position(|own| *own == name).unwrap();
+    let mut count = 0;
+    for row in rows {
+        let part = |name: &str| TAU * row[column(name)].parse::<f64>().unwrap();
+        let listed = c64::new(part("real_hz"), part("frequency_hz"));
+        let distances = found.iter().map(|mode| (mode.eigenvalue - listed).norm());
+        let error = distances.fold(f64::INFINITY, f64::min) / listed.norm();
+        assert!(error < 1e-9, "{listed}: {error:e}");
+        count += 1;
+    }
+    count
+}
+
+/// Whether an unknown is a vertical motion of the upper block, whose nodes come second in the file.
+fn lifted(out: &Path, unknown: usize) -> f64 {
+    let unknowns = fs::read_to_string(out.join("unknowns.csv")).unwrap();
+    let row: Vec<&str> = unknowns
+        .lines()
+        .nth(1 + unknown)
+        .unwrap()
+        .split(',')
+        .collect();
+    let is_high = row[1].parse::<usize>().unwrap() > 18;
+    if is_high {
+        row[5].parse().unwrap()
+    } else {
+        0.0
+    }
+}
+
+/// Two blocks that slide on each other, on springs and rigidly, and the rows of their contact.
+#[test]
+fn exported_matrices_of_solid_bodies_have_the_eigenvalues_of_the_analysis() {
+    let block = |name, z: f64, counts| Block {
+        name,
+        origin: [0.0, 0.0, z],
+        size: [0.02, 0.02, 0.01],
+        counts,
+    };
+    let blocks = [block("low", 0.0, [2, 2, 1]), block("high", 0.01, [3, 2, 1])];
+    let text = "[mesh]\nfile = \"block.msh\"\n[material]\nyoung_modulus = 2e10\npoisson_ratio = 0.3\ndensity = 2500.0\n\
+        [damping]\nmass_coefficient = 10.0\nstiffness_coefficient = 1e-7\n\
+        [boundaries.low_z0]\ncondition = \"clamped\"\n[boundaries.high_z1]\ncondition = \"pressure\"\npressure = 1e6\n\
+        [boundaries.high_x1]\ncondition = \"support\"\nnormal_stiffness = 1e12\ntangential_stiffness = 1e12\n\
+        [motion.low]\naxis = [0.0, 0.0, 1.0]\ncenter = [0.0, -0.2, 0.0]\nrotation_speed_rpm = 100.0\n\
+        [contacts.face]\nsurface = \"high_z0\"\ncounter = \"low_z1\"\nfriction_coefficient = 0.4\n\
+        [cea]\nfriction_coefficients = [0.4]\nmodes = 6\n";
+    for contact in [&["contacts.face.normal_stiffness=1e13"][..], &[]] {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("block.msh"), file_of(&blocks, |p| p)).unwrap();
+        fs::write(folder.path().join("block.toml"), text).unwrap();
+        for command in ["cea", "matrices"] {
+            let output = run(&folder, command, contact);
+            let said = String::from_utf8_lossy(&output.stderr);
+            assert!(output.status.success(), "{said}");
         }
-        assert!(count >= 6);
+        assert!(listed_modes_found(&folder, 0.4) >= 6);
+        // Each point parts by one where the upper block is lifted by one; pressed rigid points do not part.
+        let out = folder.path().join("matrices");
+        let text = fs::read_to_string(out.join("contact_normal.mtx")).unwrap();
+        let normal = MarketMatrix::read(&text).unwrap();
+        let mut parted = vec![0.0; normal.rows];
+        for &(point, unknown, share) in &normal.entries {
+            parted[point] += share * lifted(&out, unknown);
+        }
+        let expected = if contact.is_empty() { 0.0 } else { 1.0 };
+        assert!(
+            parted.iter().all(|own| (own - expected).abs() < 1e-12),
+            "{parted:?}"
+        );
+        let points = fs::read_to_string(out.join("contact.csv")).unwrap();
+        assert!(points.starts_with("point,contact,status,area_m2,normal_force_n,x_m,y_m,z_m\n"));
+        let forces = points.lines().skip(1);
+        let sum: f64 = forces
+            .map(|line| line.split(',').nth(4).unwrap().parse::<f64>().unwrap())
+            .sum();
+        assert!((sum / 400.0 - 1.0).abs() < 0.2, "{sum}");
     }
 }
 

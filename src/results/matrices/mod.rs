@@ -39,17 +39,17 @@ pub struct ExportedMatrix {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum MatrixRole {
-    /// Coefficient of `mu^power` in the mass `M`, kg/m.
+    /// Coefficient of `mu^power` in the mass `M`, kg/m; of solid bodies kg.
     Mass {
         /// Power of the friction coefficient.
         friction_power: usize,
     },
-    /// In the damping `C`, Pa s.
+    /// In the damping `C`, Pa s; N s/m.
     Damping {
         /// Power of the friction coefficient.
         friction_power: usize,
     },
-    /// In the stiffness `K`, Pa.
+    /// In the stiffness `K`, Pa; N/m.
     Stiffness {
         /// Power of the friction coefficient.
         friction_power: usize,
@@ -76,19 +76,25 @@ pub struct ExportedUnknown {
 /// One contact point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExportedContactPoint {
-    /// Number of its node.
-    pub node: usize,
+    /// Number of its node; none of a point of a solid face.
+    pub node: Option<usize>,
+    /// Name of its contact, of solid bodies.
+    pub contact: Option<String>,
+    /// Where it is, m.
+    pub place: [f64; 3],
     /// Whether it is pressed; an open one has no contact terms.
     pub is_pressed: bool,
-    /// Tributary length, m.
-    pub length: f64,
-    /// Normal force at the case's friction coefficient, N/m.
+    /// Its share of the surface: a length, m; of solid bodies an area, m2.
+    pub weight: f64,
+    /// Normal force at the case's friction coefficient, N/m; of solid bodies N.
     pub normal_force: f64,
 }
 
 /// Everything that the command exports.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExportedSystem {
+    /// 2 of plane bodies, whose matrices are for each metre of thickness; 3 of solid ones.
+    pub dimension: usize,
     /// Friction coefficient of the case.
     pub friction_coefficient: f64,
     /// Friction coefficients between which the same contact points are pressed, so that the matrices hold.
@@ -162,12 +168,15 @@ impl Summary for MatricesSummary {
 }
 
 impl MatrixRole {
-    fn unit(self) -> &'static str {
-        match self {
-            Self::Mass { .. } => "kg/m",
-            Self::Damping { .. } => "Pa s",
-            Self::Stiffness { .. } => "Pa",
-            Self::ContactNormal | Self::ContactSlip => "1",
+    fn unit(self, dimension: usize) -> &'static str {
+        match (self, dimension) {
+            (Self::Mass { .. }, 3) => "kg",
+            (Self::Mass { .. }, _) => "kg/m",
+            (Self::Damping { .. }, 3) => "N s/m",
+            (Self::Damping { .. }, _) => "Pa s",
+            (Self::Stiffness { .. }, 3) => "N/m",
+            (Self::Stiffness { .. }, _) => "Pa",
+            (Self::ContactNormal | Self::ContactSlip, _) => "1",
         }
     }
 
@@ -193,7 +202,7 @@ impl MatricesSummary {
         let entry = |own: &ExportedMatrix| MatrixEntry {
             name: own.name.clone(),
             role: own.role,
-            unit: own.role.unit().to_owned(),
+            unit: own.role.unit(system.dimension).to_owned(),
             rows: own.matrix.rows,
             columns: own.matrix.columns,
             entries: own.matrix.entries.len(),
@@ -206,7 +215,10 @@ impl MatricesSummary {
             wall_s,
             dofs: system.unknowns.len(),
             equation: EQUATION.to_owned(),
-            units: "SI; lambda in rad/s; matrices per metre of thickness".to_owned(),
+            units: match system.dimension {
+                3 => "SI; lambda in rad/s".to_owned(),
+                _ => "SI; lambda in rad/s; matrices per metre of thickness".to_owned(),
+            },
             friction_coefficient: system.friction_coefficient,
             friction_range: system.friction_range,
             proportional_damping: system.proportional_damping,
@@ -228,7 +240,11 @@ pub fn write_matrices(
     summary: &MatricesSummary,
 ) -> Result<(), FolderError> {
     for own in &system.matrices {
-        let comment = format!("{}, {}", own.role.meaning(), own.role.unit());
+        let comment = format!(
+            "{}, {}",
+            own.role.meaning(),
+            own.role.unit(system.dimension)
+        );
         folder.write_bulk(&format!("{}.mtx", own.name), |out| {
             own.matrix.write(&comment, out)
         })?;
@@ -283,28 +299,39 @@ fn write_unknowns(folder: &OutputFolder, system: &ExportedSystem) -> Result<(), 
     Ok(())
 }
 
-/// Writes the contact points.
+/// Writes the contact points: nodes of a plane body, points of faces of solid ones.
 fn write_contact(folder: &OutputFolder, system: &ExportedSystem) -> Result<(), FolderError> {
     folder.write(CONTACT, |out| {
-        let columns = [
-            "point",
-            "node",
-            "status",
-            "length_m",
-            "normal_force_n_per_m",
-        ];
-        let mut table = Table::new(out, &columns)?;
+        let columns: &[&str] = match system.dimension {
+            3 => &[
+                "point",
+                "contact",
+                "status",
+                "area_m2",
+                "normal_force_n",
+                "x_m",
+                "y_m",
+                "z_m",
+            ],
+            _ => &[
+                "point",
+                "node",
+                "status",
+                "length_m",
+                "normal_force_n_per_m",
+            ],
+        };
+        let mut table = Table::new(out, columns)?;
         for (k, own) in system.contact.iter().enumerate() {
             let status = if own.is_pressed { "slip" } else { "open" };
-            let numbers = [own.length, own.normal_force].map(format_number);
-            let [length, force] = numbers;
-            table.row([
-                k.to_string(),
-                own.node.to_string(),
-                status.to_owned(),
-                length,
-                force,
-            ])?;
+            let node = own.node.map(|node| node.to_string());
+            let name = own.contact.clone().or(node).unwrap_or_default();
+            let mut row = vec![k.to_string(), name, status.to_owned()];
+            row.extend([own.weight, own.normal_force].map(format_number));
+            if system.dimension == 3 {
+                row.extend(own.place.map(format_number));
+            }
+            table.row(row)?;
         }
         table.finish()
     })?;

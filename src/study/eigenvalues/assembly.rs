@@ -62,7 +62,7 @@ impl AssemblyModel {
     }
 
     /// The state at the case's own friction coefficient.
-    pub(super) fn base(&self) -> &PressedState {
+    pub(in crate::study) fn base(&self) -> &PressedState {
         let own = self.range.state_of.last();
         &self.range.states[*own.expect("the case's own friction coefficient comes last")]
     }
