@@ -202,6 +202,48 @@ fn waves_around_solid_bodies_have_the_spectrum_of_their_whole_mesh() {
     assert_same("ring", &mesh, &text);
 }
 
+/// The same of a ring that turns with the inertia of its rotation, in both frames. In the frame at rest the waves of `n` diameters stand
+/// `n Omega` beside those of the turning frame, but for what linear elements of 9 degrees make of the transport.
+#[test]
+fn waves_around_a_turning_ring_have_the_spectrum_of_its_whole_mesh() {
+    let ring = Block {
+        name: "ring",
+        origin: [0.05, 0.0, -0.005],
+        size: [0.1, TAU / 20.0, 0.01],
+        counts: [3, 2, 1],
+    };
+    let mesh = file_of(&[ring], |[r, t, z]| [r * t.cos(), r * t.sin(), z]);
+    let text = |frame: &str| {
+        format!(
+            "[mesh]\nfile = \"sector.msh\"\nsectors = 20\n[material]\nyoung_modulus = 2.1e11\npoisson_ratio = 0.3\n\
+             density = 7850.0\n[boundaries.ring_x0]\ncondition = \"clamped\"\n[motion.ring]\naxis = [0.0, 0.0, 1.0]\n\
+             rotation_speed_rpm = 6000.0\nrotation_terms = true\nframe = \"{frame}\"\n[cea]\nmodes = 12\n\
+             friction_coefficients = [0.0]\n"
+        )
+    };
+    let mut of_frame = Vec::new();
+    for frame in ["rest", "turning"] {
+        let [waves, whole] = ["cyclic", "sparse"].map(|method| {
+            let found = solved(&format!("turning-{frame}"), &mesh, &text(frame), method);
+            found.sweep.points[0].modes.clone()
+        });
+        assert_eq!(waves.len(), whole.len());
+        for (a, b) in waves.iter().zip(&whole) {
+            let apart = (a.eigenvalue - b.eigenvalue).norm();
+            assert!(apart < 1e-9 * b.eigenvalue.norm(), "{a:?} {b:?}");
+        }
+        of_frame.push(waves);
+    }
+    for n in 0..=2 {
+        let lowest = |modes: &[ComplexMode]| {
+            let mut own = modes.iter().filter(|m| m.nodal_diameters == Some(n));
+            own.next().unwrap().frequency_hz()
+        };
+        let [rest, turning] = [&of_frame[0], &of_frame[1]].map(|modes| lowest(modes));
+        assert!((turning - rest - 100.0 * n as f64).abs() < 0.5 * (1 + n) as f64);
+    }
+}
+
 /// A body that differs in one place has the spectrum of its whole mesh, and says why.
 #[test]
 fn a_body_with_one_mass_is_solved_whole() {
