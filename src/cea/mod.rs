@@ -7,7 +7,6 @@
 mod branch;
 pub mod cyclic;
 mod error;
-mod nodal_diameters;
 mod onset;
 mod quadratic;
 mod request;
@@ -17,7 +16,6 @@ mod watch;
 
 pub use branch::{BranchPoint, ModeBranch};
 pub use error::CeaError;
-pub use nodal_diameters::sweep_by_diameters;
 pub use quadratic::{QuadraticMode, quadratic_modes};
 pub use request::{ModeLimit, SweepProgress, SweepRequest, SweepStage};
 pub use spectrum::{

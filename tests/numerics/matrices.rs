@@ -205,7 +205,7 @@ fn exported_matrices_of_solid_bodies_have_the_eigenvalues_of_the_analysis() {
     let text = "[mesh]\nfile = \"block.msh\"\n[material]\nyoung_modulus = 2e10\npoisson_ratio = 0.3\ndensity = 2500.0\n\
         [damping]\nmass_coefficient = 10.0\nstiffness_coefficient = 1e-7\n\
         [boundaries.low_z0]\ncondition = \"clamped\"\n[boundaries.high_z1]\ncondition = \"pressure\"\npressure = 1e6\n\
-        [boundaries.high_x1]\ncondition = \"support\"\nnormal_stiffness = 1e12\ntangential_stiffness = 1e12\n\
+        [boundaries.high_x1]\ncondition = \"support\"\nnormal_stiffness = 1e12\ntangential_stiffness = 1e10\n\
         [motion.low]\naxis = [0.0, 0.0, 1.0]\ncenter = [0.0, -0.2, 0.0]\nrotation_speed_rpm = 100.0\n\
         [contacts.face]\nsurface = \"high_z0\"\ncounter = \"low_z1\"\nfriction_coefficient = 0.4\n\
         [cea]\nfriction_coefficients = [0.4]\nmodes = 6\n";
@@ -238,7 +238,8 @@ fn exported_matrices_of_solid_bodies_have_the_eigenvalues_of_the_analysis() {
         let sum: f64 = forces
             .map(|line| line.split(',').nth(4).unwrap().parse::<f64>().unwrap())
             .sum();
-        assert!((sum / 400.0 - 1.0).abs() < 0.2, "{sum}");
+        // 1 MPa on 400 mm2, but for what the springs of the side bear.
+        assert!((sum / 400.0 - 1.0).abs() < 0.02, "{sum}");
     }
 }
 

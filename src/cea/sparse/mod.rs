@@ -10,7 +10,7 @@
 //! 4. [`track`]: branches continued from `mu = 0`, so that none is lost on the way.
 //! 5. [`OnsetFinder`]: critical friction coefficients by root finding on the branches.
 //!
-//! [`sweep`] does all of this. Where stiffness depends on frequency every mode is solved at its own, in the projected problem and in
+//! [`sweep`] does all of this; [`sweep_by_diameters`] does it for a body with cyclic symmetry, by waves around it. Where stiffness depends on frequency every mode is solved at its own, in the projected problem and in
 //! its residual; the basis starts from the stiffness at the highest frequency wanted.
 
 mod basis;
@@ -24,6 +24,7 @@ mod inertia;
 mod left;
 mod linearization;
 mod mode;
+mod nodal_diameters;
 mod onset;
 mod open_residuals;
 mod own_frequency;
@@ -44,9 +45,9 @@ pub use factors::{FactorCache, StiffnessFactors};
 pub use frictionless::FrictionlessModes;
 pub use linearization::Linearization;
 pub use mode::ReducedMode;
+pub use nodal_diameters::sweep_by_diameters;
 pub use onset::{FoundInterval, OnsetFinder};
 pub use pairs::{ModePair, mode_pairs};
-pub(super) use point::normalize;
 pub use point::{ModeCheck, PointSolver, SolvedPoint};
 pub use projected::ProjectedMatrices;
 pub use reduced::ReducedModel;

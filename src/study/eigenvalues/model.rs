@@ -1,7 +1,7 @@
 //! Models of the eigenvalue solvers, and the choice of the solver for a body.
 
 use super::assembly::{self, AssemblyModel};
-use super::states::WholeMesh;
+use super::states::{StatesSweep, WholeMesh};
 use super::{Progress, StudyError};
 use crate::case::{Annulus, Body, Case, CaseErrors, Cea, CeaMethod, ModeSelection, Revolution};
 use crate::cea::cyclic::{self, Coverage, Overdamped, Sensitivity, SolidModel, SolidSweep};
@@ -147,6 +147,25 @@ pub struct Spectrum {
     pub is_by_diameters: bool,
 }
 
+/// The spectrum of a body that was swept over its base states, with notes of its own.
+fn spectrum_of(found: StatesSweep, mut notes: Vec<String>) -> Spectrum {
+    let why = found.asymmetry.map(|why| {
+        format!("the whole mesh was solved, not waves around it one number of nodal diameters after the other: {why}")
+    });
+    notes.extend(why);
+    Spectrum {
+        dofs: found.dofs,
+        sensitivities: None,
+        without_sensitivities: 0,
+        notes,
+        coverage: None,
+        overdamped: Vec::new(),
+        sweep: found.sweep,
+        tangent: None,
+        is_by_diameters: found.is_by_diameters,
+    }
+}
+
 impl Model {
     /// The model of a case for its eigenvalue analysis.
     ///
@@ -266,11 +285,14 @@ impl Model {
             }
             Self::Whole(whole) => {
                 let found = whole.sweep(case, request, progress)?;
-                Ok(found.into_spectrum(whole.changes_note().into_iter().collect()))
+                Ok(spectrum_of(
+                    found,
+                    whole.changes_note().into_iter().collect(),
+                ))
             }
             Self::Assembly(model) => {
                 let found = model.sweep(request, progress)?;
-                Ok(found.into_spectrum(assembly::notes(model)))
+                Ok(spectrum_of(found, assembly::notes(model)))
             }
         }
     }

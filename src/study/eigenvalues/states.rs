@@ -1,12 +1,10 @@
 //! Friction sweep of a whole mesh whose contact nodes open or close within the range.
 
 use super::Progress;
-use super::model::Spectrum;
 use crate::case::{Case, Cea, CeaMethod};
 use crate::cea::sparse;
 use crate::cea::{
     CeaError, FrictionPoint, FrictionSweep, ModeVectors, PartWatch, SweepRequest, UnstableInterval,
-    sweep_by_diameters,
 };
 use crate::fem::assemble_stiffness;
 use crate::mesh::{CyclicSymmetry, Mesh};
@@ -133,27 +131,6 @@ pub(super) struct StatesSweep {
     pub is_by_diameters: bool,
 }
 
-impl StatesSweep {
-    /// As the spectrum of a model that has `notes` of its own.
-    pub fn into_spectrum(self, mut notes: Vec<String>) -> Spectrum {
-        let why = self.asymmetry.map(|why| {
-            format!("the whole mesh was solved, not waves around it one number of nodal diameters after the other: {why}")
-        });
-        notes.extend(why);
-        Spectrum {
-            dofs: self.dofs,
-            sensitivities: None,
-            without_sensitivities: 0,
-            notes,
-            coverage: None,
-            overdamped: Vec::new(),
-            sweep: self.sweep,
-            tangent: None,
-            is_by_diameters: self.is_by_diameters,
-        }
-    }
-}
-
 impl States<'_> {
     /// A sweep of each state with its tangent, which the friction coefficients where one gives way to the next end and begin.
     ///
@@ -193,7 +170,7 @@ impl States<'_> {
                 .as_ref()
                 .map(|(symmetry, node_count)| CyclicTangent::new(&tangent, symmetry, *node_count));
             parts.push(match waves {
-                Some(Ok(waves)) => sweep_by_diameters(&tangent, &waves, &part, &watch)?,
+                Some(Ok(waves)) => sparse::sweep_by_diameters(&tangent, &waves, &part, &watch)?,
                 Some(Err(why)) => {
                     asymmetry.get_or_insert(why);
                     sparse::sweep(&tangent, &part, &watch)?

@@ -1,7 +1,8 @@
 //! Sweep over the friction coefficient of a body with cyclic symmetry, one number of nodal diameters after the other.
 
-use super::sparse::{self, FrictionlessModes, normalize};
-use super::{
+use super::point::normalize;
+use super::{FrictionlessModes, sweep};
+use crate::cea::{
     CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeLimit, ModeVectors, PartWatch,
     SweepProgress, SweepRequest, SweepStage, SweepWatch, keeping_ties,
 };
@@ -15,10 +16,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 const GUARD: usize = 2;
 
 /// Complex modes of `whole` and where their branches turn unstable, from the waves of each number of nodal diameters: the spectrum of
-/// [`sparse::sweep`], from problems of twice the unknowns of one sector. Branches are ranked over all numbers of diameters.
+/// [`sweep`], from problems of twice the unknowns of one sector. Branches are ranked over all numbers of diameters.
 ///
 /// # Errors
-/// Those of [`sparse::sweep`].
+/// Those of [`sweep`].
 pub fn sweep_by_diameters(
     whole: &SlidingTangent,
     cyclic: &CyclicTangent<'_>,
@@ -125,13 +126,13 @@ fn solve(
                 },
                 is_heard: false,
             };
-            let sweep = sparse::sweep(tangent, &own, &quiet);
+            let found = sweep(tangent, &own, &quiet);
             watch.reached(SweepProgress {
                 stage: SweepStage::Diameters,
                 solved: solved.fetch_add(1, Ordering::Relaxed) + 1,
                 total: tangents.len(),
             });
-            sweep.map(Some)
+            found.map(Some)
         })
         .collect();
     // No mode below the limit is an answer, unless it is that of all.
