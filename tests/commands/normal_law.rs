@@ -97,8 +97,7 @@ fn numbers_that_a_law_lacks_or_does_not_have_are_said_with_their_key() {
     let solid = DISC
         .replace("plane-strain", "three-dimensional")
         .replace("[mesh]", "thickness = 0.009\n[mesh]\naxial_elements = 2");
-    let message = read(&solid, &[]).unwrap_err();
-    assert!(message.contains("ring by ring"), "{message}");
+    read(&solid, &[]).unwrap();
     // Rotating waves, where transients and basins begin, are those of rigid contact.
     let wave = "transient={ duration=1e-4, initial=\"limit-cycle\", limit_cycle_harmonic=1 }";
     let message = read(DISC, &[wave]).unwrap_err();
