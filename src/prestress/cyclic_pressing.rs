@@ -35,7 +35,7 @@ impl Pressing<'_> {
     /// same in each, and so is its state, in frames that turn with it.
     ///
     /// # Errors
-    /// Those of [`PenaltyContact::range`] and [`CondensedContact::range`]; [`PrestressError::MixedContacts`].
+    /// [`PrestressError::MixedContacts`]; no state of sliding, as in [`CondensedContact::range`].
     pub fn states(
         &self,
         mesh: &Mesh,
@@ -146,39 +146,43 @@ impl SectorPressing {
     }
 }
 
+/// A point of contact by the sector in which it lies.
+struct PlacedPoint {
+    sector: usize,
+    point: usize,
+    normal: SectorRow,
+    slip: SectorRow,
+}
+
 /// The points of the first sector, and for every point which of them it is a copy of; `None` where one has none.
 fn copies(whole: &Pressing<'_>, size: usize, count: usize) -> Option<(Vec<usize>, Vec<usize>)> {
-    // Points that touch the same places of their sectors, by the sector in which they lie.
-    let mut alike: BTreeMap<Vec<[usize; 2]>, Vec<(usize, usize, SectorRow)>> = BTreeMap::new();
-    for (i, point) in whole.points.iter().enumerate() {
-        let (sector, row) = within_sector(&point.normal, size, count)?;
-        let places = row.iter().map(|entry| entry.0).collect();
-        alike.entry(places).or_default().push((sector, i, row));
+    // Points that touch the same places of their sectors.
+    let mut alike: BTreeMap<Vec<[usize; 2]>, Vec<PlacedPoint>> = BTreeMap::new();
+    for (point, own) in whole.points.iter().enumerate() {
+        let sector = sector_of(&own.normal, size, count)?;
+        let [normal, slip] =
+            [&own.normal, &own.slip].map(|row| seen_from(sector, row, size, count));
+        let places = normal.iter().map(|entry| entry.0).collect();
+        alike.entry(places).or_default().push(PlacedPoint {
+            sector,
+            point,
+            normal,
+            slip,
+        });
     }
-    // Gaps that vanish are round-off beside the size of a point.
-    let closeness = |k: usize| {
-        let size = NO_GAP * whole.points[k].weight.sqrt();
-        whole.pushed[k].abs().max(size)
-    };
     let mut firsts: Vec<usize> = Vec::new();
     let mut first_of = vec![usize::MAX; whole.points.len()];
     for group in alike.values() {
-        let own: Vec<&(usize, usize, SectorRow)> = group.iter().filter(|p| p.0 == 0).collect();
+        let own: Vec<&PlacedPoint> = group.iter().filter(|p| p.sector == 0).collect();
         if own.len() * count != group.len() {
             return None;
         }
-        for (_, i, row) in group {
-            let is_copy = |(_, k, other): &&&(usize, usize, SectorRow)| {
-                let largest = other.iter().fold(0.0_f64, |m, entry| m.max(entry.1.abs()));
-                let mut pairs = row.iter().zip(other);
-                let [a, b] = [&whole.points[*i], &whole.points[*k]];
-                pairs.all(|(a, b)| (a.1 - b.1).abs() <= ALIKE * largest)
-                    && (a.weight - b.weight).abs() <= ALIKE * b.weight
-                    && (whole.pushed[*i] - whole.pushed[*k]).abs() <= ALIKE * closeness(*k)
-            };
-            first_of[*i] = own.iter().find(is_copy)?.1;
+        for placed in group {
+            let mut own = own.iter();
+            let first = own.find(|first| is_copy(whole, placed, first))?;
+            first_of[placed.point] = first.point;
         }
-        firsts.extend(own.iter().map(|p| p.1));
+        firsts.extend(own.iter().map(|p| p.point));
     }
     firsts.sort_unstable();
     let place = |i: &usize| firsts.binary_search(i).ok();
@@ -186,24 +190,52 @@ fn copies(whole: &Pressing<'_>, size: usize, count: usize) -> Option<(Vec<usize>
     Some((firsts, copy_of))
 }
 
-/// The sector of a row, whose dofs lie there and in the next one at most, and the row as seen from there.
-fn within_sector(row: &Row, size: usize, count: usize) -> Option<(usize, SectorRow)> {
+/// Whether a point is another one turned: the same share of the surface, the same gap, the same rows.
+fn is_copy(whole: &Pressing<'_>, own: &PlacedPoint, first: &PlacedPoint) -> bool {
+    let are_same = |a: &SectorRow, b: &SectorRow| {
+        let bound = ALIKE * b.iter().fold(0.0_f64, |m, entry| m.max(entry.1.abs()));
+        let mut pairs = a.iter().zip(b);
+        a.len() == b.len() && pairs.all(|(a, b)| a.0 == b.0 && (a.1 - b.1).abs() <= bound)
+    };
+    let weights = [own, first].map(|p| whole.points[p.point].weight);
+    let pushed = [own, first].map(|p| whole.pushed[p.point]);
+    // Gaps that vanish are round-off beside the size of a point.
+    let size = pushed[1].abs().max(NO_GAP * weights[1].sqrt());
+    are_same(&own.normal, &first.normal)
+        && are_same(&own.slip, &first.slip)
+        && (weights[0] - weights[1]).abs() <= ALIKE * weights[1]
+        && (pushed[0] - pushed[1]).abs() <= ALIKE * size
+}
+
+/// Entries of a row that are more than round-off.
+fn entries(row: &Row) -> impl Iterator<Item = &(usize, f64)> + Clone {
     let largest = row.iter().fold(0.0_f64, |m, entry| m.max(entry.1.abs()));
-    let own = row
-        .iter()
-        .filter(|entry| entry.1.abs() > ROUND_OFF * largest);
-    let sectors: Vec<usize> = own.clone().map(|(dof, _)| dof / size).collect();
-    let ahead = |from: usize, dof: usize| (dof / size + count - from) % count;
-    let is_first = |from: &&usize| own.clone().all(|(dof, _)| ahead(**from, *dof) <= 1);
-    let sector = *sectors.iter().find(is_first)?;
+    row.iter()
+        .filter(move |entry| entry.1.abs() > ROUND_OFF * largest)
+}
+
+/// The sector of a row, whose dofs lie there and in the next one at most.
+fn sector_of(row: &Row, size: usize, count: usize) -> Option<usize> {
+    let sectors = entries(row).map(|(dof, _)| dof / size);
+    let reaches = |from: &usize| {
+        let mut others = sectors.clone();
+        others.all(|other| (other + count - from) % count <= 1)
+    };
+    let sector = sectors.clone().find(reaches)?;
     // Of two sectors each is the next of the other.
-    if count == 2 && sectors.iter().any(|other| *other != sector) {
-        return None;
-    }
-    let place = |&(dof, value): &(usize, f64)| ([ahead(sector, dof), dof % size], value);
-    let mut row: SectorRow = own.map(place).collect();
+    let is_split = sectors.clone().any(|other| other != sector);
+    (count > 2 || !is_split).then_some(sector)
+}
+
+/// A row with its sectors counted from one of them.
+fn seen_from(sector: usize, row: &Row, size: usize, count: usize) -> SectorRow {
+    let place = |&(dof, value): &(usize, f64)| {
+        let ahead = (dof / size + count - sector) % count;
+        ([ahead, dof % size], value)
+    };
+    let mut row: SectorRow = entries(row).map(place).collect();
     row.sort_by_key(|entry| entry.0);
-    Some((sector, row))
+    row
 }
 
 /// Whether a matrix takes a vector that is turned by one sector to what it makes of the vector, turned.
