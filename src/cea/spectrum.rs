@@ -164,6 +164,26 @@ pub struct FrictionSweep {
     pub vanished: Vec<VanishedMode>,
 }
 
+impl FrictionSweep {
+    /// A sweep put together of parts: intervals with the modes where they begin in order of critical friction, ended modes in order of
+    /// friction.
+    pub fn joined(
+        points: Vec<FrictionPoint>,
+        mut found: Vec<(UnstableInterval, Option<ModeVectors>)>,
+        mut vanished: Vec<VanishedMode>,
+    ) -> Self {
+        found.sort_by(|(a, _), (b, _)| a.critical_friction.total_cmp(&b.critical_friction));
+        vanished.sort_by(|a, b| a.friction_coefficient.total_cmp(&b.friction_coefficient));
+        let (intervals, crossings) = found.into_iter().unzip();
+        Self {
+            points,
+            intervals,
+            crossings,
+            vanished,
+        }
+    }
+}
+
 /// A mode that damping of friction takes beyond the critical one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VanishedMode {

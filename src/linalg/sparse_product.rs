@@ -25,6 +25,23 @@ fn add_multiple(mut sum: [f64; LANES], value: f64, source: [f64; LANES]) -> [f64
     sum
 }
 
+/// The sums over nonzeros `(place, source)` of each matrix's value there times the lanes of the source.
+#[inline(always)]
+fn lane_sums<const N: usize>(
+    values: [&[f64]; N],
+    input: &[[f64; LANES]],
+    nonzeros: impl Iterator<Item = (usize, usize)>,
+) -> [[f64; LANES]; N] {
+    let mut sums = [[0.0; LANES]; N];
+    for (place, source) in nonzeros {
+        let source = input[source];
+        for (sum, values) in sums.iter_mut().zip(&values) {
+            *sum = add_multiple(*sum, values[place], source);
+        }
+    }
+    sums
+}
+
 /// `sum(index, [x_j, y_j])` at each entry of each pair of columns.
 fn gathered(
     dimension: usize,
@@ -65,14 +82,9 @@ impl SparsityPattern {
     ) -> [Mat<f64>; N] {
         // By rows, so that sums stay in registers: scattering by columns waits for its own stores.
         self.by_lanes(x, |input, index| {
-            let mut sums = [[0.0; LANES]; N];
-            for place in self.row_range(index) {
-                let source = input[self.row_columns()[place] as usize];
-                for (sum, values) in sums.iter_mut().zip(&values) {
-                    *sum = add_multiple(*sum, values[place], source);
-                }
-            }
-            sums
+            let places = self.row_range(index);
+            let nonzeros = places.map(|place| (place, self.row_columns()[place] as usize));
+            lane_sums(values, input, nonzeros)
         })
     }
 
@@ -83,14 +95,7 @@ impl SparsityPattern {
         x: MatRef<'_, f64>,
     ) -> [Mat<f64>; N] {
         self.by_lanes(x, |input, index| {
-            let mut sums = [[0.0; LANES]; N];
-            for (place, row) in self.column(index) {
-                let source = input[row];
-                for (sum, values) in sums.iter_mut().zip(&values) {
-                    *sum = add_multiple(*sum, values[place], source);
-                }
-            }
-            sums
+            lane_sums(values, input, self.column(index))
         })
     }
 

@@ -287,13 +287,5 @@ fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
             found.push((interval, crossing));
         }
     }
-    found.sort_by(|(a, _), (b, _)| a.critical_friction.total_cmp(&b.critical_friction));
-    vanished.sort_by(|a, b| a.friction_coefficient.total_cmp(&b.friction_coefficient));
-    let (intervals, crossings) = found.into_iter().unzip();
-    FrictionSweep {
-        points,
-        intervals,
-        crossings,
-        vanished,
-    }
+    FrictionSweep::joined(points, found, vanished)
 }

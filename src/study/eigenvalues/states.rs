@@ -220,14 +220,7 @@ fn joined(mut parts: Vec<FrictionSweep>, frictions: &[f64]) -> FrictionSweep {
             _ => found.push((interval, crossing)),
         }
     }
-    found.sort_by(|(a, _), (b, _)| a.critical_friction.total_cmp(&b.critical_friction));
-    let (intervals, crossings) = found.into_iter().unzip();
-    FrictionSweep {
-        points,
-        intervals,
-        crossings,
-        vanished,
-    }
+    FrictionSweep::joined(points, found, vanished)
 }
 
 /// Gives the branches of `after` the numbers that their nearest eigenvalues have in `before` where both meet.

@@ -1,0 +1,121 @@
+use super::*;
+use crate::contact::SlidingContact;
+use crate::fem::{ElasticMaterial, MassKind, PlaneFormulation, assemble_stiffness};
+use crate::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
+
+fn turning(rotation_speed: f64) -> SlidingContact {
+    SlidingContact {
+        decay: None,
+        friction_coefficient: 0.3,
+        interference: 25e-6,
+        rotation_speed,
+    }
+}
+
+fn disc(element: ElementKind) -> (Mesh, ElasticMaterial) {
+    let mesh = AnnulusMesh::generate(&AnnulusSpecification {
+        inner_radius: 0.0205,
+        outer_radius: 0.0905,
+        circumferential_elements: 24,
+        radial_elements: 6,
+        radial_grading: 1.2,
+        element,
+        outer: BoundaryCondition::Clamped,
+        shaft: None,
+    });
+    let material = ElasticMaterial {
+        young_modulus: 2.5e9,
+        poisson_ratio: 0.3805,
+        density: 1228.0,
+        formulation: PlaneFormulation::PlaneStrain,
+        ..ElasticMaterial::PLAIN
+    };
+    (mesh.unwrap().mesh, material)
+}
+
+/// Independent check (objectivity): a rigid rotation of everything costs no elastic force, and the
+/// turned stress balances the turned contact forces, for the pressed and for the sheared state.
+#[test]
+fn rigid_rotation_leaves_the_prestressed_edge_in_balance() {
+    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+        let (mesh, material) = disc(element);
+        let elastic = assemble_stiffness(&mesh, &material);
+        let base = SteadySliding::solve(&mesh, &elastic, &turning(-60.0)).unwrap();
+        let state = PressedPoints {
+            is_pressed: &base.is_pressed,
+            normal_forces: &base.normal_forces,
+            stiffnesses: &[],
+        };
+        let options = ContactStiffness::default();
+        let mut prestress = linearized(&base.points, &state, &options).turning;
+        for (terms, displacement) in prestress.iter_mut().zip(&base.displacements) {
+            let stress = assemble_geometric_stiffness(&mesh, &material, displacement);
+            terms.entries.extend(stress.entries);
+        }
+        let total = mesh.dof_count();
+        let rotation: Vec<f64> = (0..mesh.node_count())
+            .flat_map(|node| [0.0, mesh.nodes[node][0].hypot(mesh.nodes[node][1])])
+            .collect();
+        let free = DofMap::clamped(&mesh);
+        for terms in &prestress {
+            let force = terms.multiply(total, &rotation);
+            let scale = terms
+                .entries
+                .iter()
+                .fold(0.0_f64, |m, &(_, _, value)| m.max(value.abs()));
+            for dof in &free.dofs {
+                // Each row sums a dozen terms of size `scale * radius`.
+                assert!(
+                    force[*dof].abs() < 1e-11 * scale * 0.0905,
+                    "{element:?} {dof}"
+                );
+            }
+        }
+        let elastic_force = elastic.multiply(total, &rotation);
+        assert!(elastic_force.iter().all(|f| f.abs() < 1e-6), "{element:?}");
+    }
+}
+
+#[test]
+fn every_matrix_is_symmetric_without_friction() {
+    let (mesh, material) = disc(ElementKind::Quad4);
+    let elastic = assemble_stiffness(&mesh, &material);
+    let base = SteadySliding::solve(&mesh, &elastic, &turning(60.0)).unwrap();
+    for normal_stiffness in [None, Some(7.4e12)] {
+        let tangent = SlidingTangent::linearize(
+            &mesh,
+            &material,
+            &elastic,
+            &base,
+            &TangentOptions {
+                mass: MassKind::Consistent,
+                geometric_stiffness: true,
+                damping: RayleighDamping {
+                    mass_coefficient: 40.0,
+                    stiffness_coefficient: 4.5e-7,
+                },
+                damping_model: DampingModel::WholeTangent,
+                contact: ContactStiffness {
+                    normal_stiffness,
+                    normal_damping: 0.0,
+                    tangential_damping: 3.0,
+                    ..ContactStiffness::default()
+                },
+            },
+        );
+        for polynomial in [&tangent.mass, &tangent.damping, &tangent.stiffness] {
+            let values = polynomial.evaluate(0.0);
+            let pattern = polynomial.pattern();
+            let scale = values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+            for column in 0..pattern.dimension() {
+                let range =
+                    pattern.column_pointers()[column]..pattern.column_pointers()[column + 1];
+                for place in range {
+                    let row = pattern.row_indices()[place];
+                    let mirrored = pattern.position(column, row).map_or(0.0, |p| values[p]);
+                    assert!((values[place] - mirrored).abs() <= 1e-12 * scale);
+                }
+            }
+        }
+    }
+}
