@@ -29,6 +29,8 @@ pub struct State {
 pub struct FoundInterval {
     /// The interval.
     pub interval: UnstableInterval,
+    /// Relative residual of the mode at its onset, see [`super::ModeCheck::residual`].
+    residual: f64,
     found: Instability<State>,
 }
 
@@ -36,6 +38,17 @@ impl FoundInterval {
     /// The mode at its critical friction; `None` where it is unstable from the start.
     pub fn onset(&self) -> Option<&State> {
         (!self.found.from_start).then_some(&self.found.onset)
+    }
+
+    /// What is wrong with the mode at its onset, if that misses the bound of converged pairs.
+    pub fn miss(&self) -> Option<CeaError> {
+        let is_met = self.residual <= RESIDUAL_BOUND;
+        (!is_met).then(|| CeaError::NotConverged {
+            friction_coefficient: self.found.onset.mu,
+            frequency_hz: self.found.onset.mode.eigenvalue.im / TAU,
+            residual: self.residual,
+            bound: RESIDUAL_BOUND,
+        })
     }
 
     /// Modes at its ends that lie within the range.
@@ -60,8 +73,8 @@ impl OnsetFinder<'_> {
     /// All unstable intervals of one branch, if it is among the wanted modes anywhere.
     ///
     /// # Errors
-    /// If a dense decomposition fails, or the mode at a crossing does not satisfy the full problem.
-    pub fn intervals(&mut self, branch: &TrackedBranch) -> Result<Vec<FoundInterval>, CeaError> {
+    /// If a dense decomposition fails.
+    pub fn intervals(&mut self, branch: &TrackedBranch) -> Result<Vec<FoundInterval>, LinalgError> {
         let places = || branch.modes.iter().zip(self.points);
         let is_wanted = |(index, point): (&Option<usize>, &SolvedPoint)| {
             index.is_some_and(|i| i < point.wanted)
@@ -83,48 +96,34 @@ impl OnsetFinder<'_> {
         for run in states.split(Option::is_none) {
             let run: Vec<State> = run.iter().flatten().cloned().collect();
             for found in instabilities(self, &run)? {
-                intervals.push(self.report(branch, found)?);
+                intervals.push(self.report(branch, found));
             }
         }
         Ok(intervals)
     }
 
-    fn report(
-        &self,
-        branch: &TrackedBranch,
-        found: Instability<State>,
-    ) -> Result<FoundInterval, CeaError> {
+    fn report(&self, branch: &TrackedBranch, found: Instability<State>) -> FoundInterval {
         let State { mu, mode } = &found.onset;
         let check = &self
             .solver
             .check(self.model, *mu, std::slice::from_ref(mode))[0];
-        if check.residual.is_nan() || check.residual > RESIDUAL_BOUND {
-            return Err(CeaError::NotConverged {
-                friction_coefficient: *mu,
-                frequency_hz: mode.eigenvalue.im / TAU,
-                residual: check.residual,
-                bound: RESIDUAL_BOUND,
-            });
-        }
         let label = branch.label;
         let direction = self.solver.edge.direction(&check.edge, label.harmonic);
         let name = (label.harmonic, label.branch, direction);
-        Ok(FoundInterval {
+        FoundInterval {
             interval: found.interval(name, |state| self.point(state)),
+            residual: check.residual,
             found,
-        })
+        }
     }
 
     /// The intervals of a branch that were `known` in a smaller basis, by Newton's steps from their ends; nothing where one does
     /// not settle near where it was.
-    ///
-    /// # Errors
-    /// If the mode at a crossing does not satisfy the full problem.
     pub fn again(
         &self,
         branch: &TrackedBranch,
         known: &[FoundInterval],
-    ) -> Result<Option<Vec<FoundInterval>>, CeaError> {
+    ) -> Option<Vec<FoundInterval>> {
         let mut intervals = Vec::new();
         for FoundInterval { found, .. } in known {
             let onset = match found.from_start {
@@ -136,16 +135,16 @@ impl OnsetFinder<'_> {
                 .as_ref()
                 .map(|end| self.crossing_near(end));
             let (Some(onset), false) = (onset, matches!(end, Some(None))) else {
-                return Ok(None);
+                return None;
             };
             let instability = Instability {
                 onset,
                 restabilized: end.flatten(),
                 from_start: found.from_start,
             };
-            intervals.push(self.report(branch, instability)?);
+            intervals.push(self.report(branch, instability));
         }
-        Ok(Some(intervals))
+        Some(intervals)
     }
 
     /// The crossing near `known`.

@@ -63,66 +63,73 @@ impl SparseSweep<'_> {
         ended
     }
 
-    /// Unstable intervals of all branches; where a crossing misses its residual, the basis grows there.
+    /// Unstable intervals of all branches; where the mode at a crossing misses its residual, the basis grows there.
     ///
-    /// Of the quadratic problem the basis holds the modes of a few friction coefficients only: the modes at crossings
-    /// are corrected until these settle.
+    /// Of the quadratic problem the basis holds the modes of a few friction coefficients only: the modes at crossings are
+    /// corrected until these settle, one by one. Only where that does not help are all modes computed anew there.
     fn intervals(&mut self, branches: &[TrackedBranch]) -> Result<Vec<FoundInterval>, CeaError> {
-        let mut repairs = 0;
         let mut settled: Vec<f64> = Vec::new();
         let mut known: Vec<Vec<FoundInterval>> = Vec::new();
+        let mut repairs = 0;
         loop {
-            let solver = self.point_solver();
-            let finder = || OnsetFinder {
+            let found = self.find_intervals(branches, &known)?;
+            let all = || found.iter().flatten();
+            let crossings = || all().flat_map(FoundInterval::crossings);
+            let places: Vec<f64> = crossings().map(|state| state.mu).collect();
+            let mut pairs = places.iter().zip(&settled);
+            let has_settled = places.len() == settled.len()
+                && pairs.all(|(new, old)| (new - old).abs() <= SETTLED);
+            let is_spent = repairs >= MAX_REPAIRS;
+            let mut has_grown = false;
+            if self.builder.is_sampling() && !has_settled && !is_spent {
+                for State { mu, mode } in crossings() {
+                    has_grown |= self.builder.refine_mode(*mu, mode);
+                }
+            }
+            if !has_grown {
+                let Some(miss) = all().find_map(FoundInterval::miss) else {
+                    return Ok(found.into_iter().flatten().collect());
+                };
+                match miss {
+                    CeaError::NotConverged {
+                        friction_coefficient,
+                        ..
+                    } if !is_spent => self.builder.improve_at(friction_coefficient)?,
+                    error => return Err(error),
+                };
+            }
+            // What a basis that missed a crossing says about the other branches is worth no more: all are looked at again.
+            known = match all().any(|own| own.miss().is_some()) {
+                true => Vec::new(),
+                false => found,
+            };
+            settled = places;
+            repairs += 1;
+        }
+    }
+
+    /// The intervals of each branch in the basis as it is; in a basis that grew, crossings are near where they were.
+    fn find_intervals(
+        &self,
+        branches: &[TrackedBranch],
+        known: &[Vec<FoundInterval>],
+    ) -> Result<Vec<Vec<FoundInterval>>, CeaError> {
+        let solver = self.point_solver();
+        let of_branch = |i: usize| {
+            let mut finder = OnsetFinder {
                 solver: &solver,
                 model: &self.builder.model,
                 points: &self.points,
                 lowest: self.lowest,
             };
-            // In a basis that grew, crossings are near where they were.
-            let found: Result<Vec<_>, CeaError> = (0..branches.len())
-                .into_par_iter()
-                .map(|i| {
-                    let again = known.get(i).map(|own| finder().again(&branches[i], own));
-                    match again {
-                        Some(Ok(Some(intervals))) => Ok(intervals),
-                        Some(Err(error)) => Err(error),
-                        Some(Ok(None)) | None => finder().intervals(&branches[i]),
-                    }
-                })
-                .collect();
-            match found {
-                Ok(found) => {
-                    let crossings = || found.iter().flatten().flat_map(FoundInterval::crossings);
-                    let places: Vec<f64> = crossings().map(|state| state.mu).collect();
-                    let pairs = || places.iter().zip(&settled);
-                    let has_settled = places.len() == settled.len()
-                        && pairs().all(|(new, old)| (new - old).abs() <= SETTLED);
-                    let is_final =
-                        !self.builder.is_sampling() || has_settled || repairs >= MAX_REPAIRS;
-                    let mut has_grown = false;
-                    if !is_final {
-                        for State { mu, mode } in crossings() {
-                            has_grown |= self.builder.refine_mode(*mu, mode);
-                        }
-                    }
-                    if !has_grown {
-                        return Ok(found.into_iter().flatten().collect());
-                    }
-                    settled = places;
-                    known = found;
-                    repairs += 1;
-                }
-                Err(CeaError::NotConverged {
-                    friction_coefficient,
-                    ..
-                }) if repairs < MAX_REPAIRS => {
-                    self.builder.improve_at(friction_coefficient)?;
-                    repairs += 1;
-                }
-                Err(error) => return Err(error),
+            let again = known.get(i).and_then(|own| finder.again(&branches[i], own));
+            match again {
+                Some(intervals) => Ok(intervals),
+                None => finder.intervals(&branches[i]),
             }
-        }
+        };
+        let found: Result<Vec<_>, _> = (0..branches.len()).into_par_iter().map(of_branch).collect();
+        Ok(found?)
     }
 
     fn friction_point(
