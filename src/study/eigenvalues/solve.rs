@@ -61,6 +61,7 @@ fn solve_with(
             friction_coefficients: &frictions,
             limit: mode_limit(cea),
             shapes_at: &shapes_at(of),
+            count_modes: false,
         };
         of.spectrum_with_waves(case, (&request, waves_at), with_rates, progress)
     };

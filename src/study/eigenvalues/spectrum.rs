@@ -66,6 +66,7 @@ pub fn modes_with_shapes_below(
         friction_coefficients: &cea.friction_coefficients,
         limit: mode_limit(&cea),
         shapes_at,
+        count_modes: false,
     };
     let found = model.spectrum(case, &request, with_rates, &Unwatched)?;
     let point = found.sweep.points.into_iter().next();
@@ -88,6 +89,7 @@ pub fn modes_at_own_friction(
         friction_coefficients: &[case.contact.sliding.friction_coefficient],
         limit,
         shapes_at: &[],
+        count_modes: false,
     };
     let solver = Solver::by_symmetry(case);
     let frictions = request.friction_coefficients;
@@ -135,6 +137,7 @@ pub fn unstable_intervals(
         friction_coefficients: &frictions,
         limit: mode_limit(&cea),
         shapes_at: &[],
+        count_modes: false,
     };
     let options = tangent_options(case, cea.mass);
     let model = Model::with_solver(case, solver, options, &frictions)?;

@@ -1,0 +1,119 @@
+//! Counts of the modes of a sweep, and the search for those that are missing.
+
+use super::{FEW_VALUES, SparseSweep};
+use crate::cea::sparse::count::{ModeCounter, Winding};
+use crate::cea::sparse::point::SolvedPoint;
+use crate::cea::sparse::{RESIDUAL_BOUND, TRACKING_MARGIN};
+use crate::cea::{CeaError, CountedRegion, ModeCount, ModeLimit};
+use crate::linalg::c64;
+use std::f64::consts::TAU;
+
+/// How much farther the sides of the region are put where an eigenvalue lies on its edge.
+const FARTHER: [f64; 3] = [1.0, 1.37, 0.83];
+/// Relative distance of the upper end of a region from the nearest known frequency.
+const CLEARANCE: f64 = 1e-6;
+
+impl SparseSweep<'_> {
+    /// Counts the modes by the argument principle: at each friction value asked for where these are few, else at the first, the middle
+    /// and the last one and at each where another number of modes is unstable than before. Where some are missing an independent
+    /// iteration searches for them.
+    ///
+    /// # Errors
+    /// [`CeaError::Uncountable`]; those of the search.
+    pub fn count(&mut self) -> Result<Vec<ModeCount>, CeaError> {
+        let counter = ModeCounter::new(self.tangent)?;
+        let mut counts = Vec::new();
+        for k in self.counted_values() {
+            let mut count = self.count_at(&counter, k);
+            if let Ok(missing @ 1..) = count.missing {
+                self.builder
+                    .search(self.grid[k], TRACKING_MARGIN + missing as usize)?;
+                self.solve()?;
+                let before = count;
+                count = self.count_at(&counter, k);
+                count.determinants += before.determinants;
+                count.recovered = count.known.saturating_sub(before.known);
+            }
+            counts.push(count);
+        }
+        Ok(counts)
+    }
+
+    fn counted_values(&self) -> Vec<usize> {
+        let all: Vec<usize> = (self.first_asked()..self.grid.len()).collect();
+        if all.len() <= FEW_VALUES {
+            return all;
+        }
+        let unstable = |k: usize| {
+            let modes = &self.points[k].modes[..self.points[k].wanted];
+            let uncertain = self.points[k].checks.iter().map(|check| check.uncertainty);
+            let pairs = modes.iter().zip(uncertain);
+            let growing = pairs.filter(|(m, u)| m.eigenvalue.re > u * m.eigenvalue.norm());
+            growing.count()
+        };
+        let (first, last) = (all[0], all[all.len() - 1]);
+        let mut chosen = vec![first, all[all.len() / 2], last];
+        chosen.extend(
+            all[1..]
+                .iter()
+                .filter(|&&k| unstable(k) != unstable(k - 1)),
+        );
+        chosen.sort_unstable();
+        chosen.dedup();
+        chosen
+    }
+
+    fn count_at(&self, counter: &ModeCounter<'_>, k: usize) -> ModeCount {
+        let point = &self.points[k];
+        let converged = point.modes.iter().zip(&point.checks);
+        let converged = converged.filter(|(_, check)| check.residual <= RESIDUAL_BOUND);
+        let known: Vec<c64> = converged.map(|(mode, _)| mode.eigenvalue).collect();
+        let top = upper_end(point, &known, self.limit);
+        let inside: Vec<c64> = known.iter().copied().filter(|own| own.im < top).collect();
+        let mut outcome = Err(String::new());
+        let mut region = CountedRegion::about(&inside, top, FARTHER[0]);
+        for factor in FARTHER {
+            region = CountedRegion::about(&inside, top, factor);
+            let found = counter.count(point.friction_coefficient, &known, &region);
+            let is_final = found.is_ok();
+            outcome = found.map_err(|error| error.to_string());
+            if is_final {
+                break;
+            }
+        }
+        let winding = outcome.as_ref().ok();
+        ModeCount {
+            friction_coefficient: point.friction_coefficient,
+            region,
+            known: inside.iter().filter(|own| region.holds(**own)).count(),
+            recovered: 0,
+            near: winding.and_then(|own| own.near),
+            determinants: winding.map_or(0, |own| own.determinants),
+            missing: outcome.map(|Winding { missing, .. }| missing),
+        }
+    }
+}
+
+/// Angular frequency up to which the modes of a point are counted: the limit where one is given and no known mode is there, else the
+/// middle of the first gap above the modes wanted.
+fn upper_end(point: &SolvedPoint, known: &[c64], limit: ModeLimit) -> f64 {
+    let wanted = &point.modes[..point.wanted];
+    let highest = wanted.iter().fold(0.0_f64, |m, mode| m.max(mode.eigenvalue.im));
+    let limit = match limit {
+        ModeLimit::MaxFrequency(hz) => TAU * hz,
+        ModeLimit::Lowest(_) => highest,
+    };
+    let is_clear = |own: &c64| (own.im - limit).abs() > CLEARANCE * limit;
+    if known.iter().all(is_clear) {
+        return limit;
+    }
+    let mut above: Vec<f64> = point.modes.iter().map(|mode| mode.eigenvalue.im).collect();
+    above.retain(|own| *own >= limit * (1.0 - CLEARANCE));
+    above.sort_by(f64::total_cmp);
+    let mut gaps = above.windows(2);
+    let gap = gaps.find(|pair| pair[1] - pair[0] > 4.0 * CLEARANCE * pair[1]);
+    match gap {
+        Some(pair) => 0.5 * (pair[0] + pair[1]),
+        None => 1.02 * above.last().copied().unwrap_or(limit),
+    }
+}
