@@ -196,11 +196,7 @@ fn eliminate(matrix: &mut Mat<c64>, width: usize) -> c64 {
     let pivots = pivots.as_ref();
     permute_rows_in_place(right.rb_mut(), rows, MemStack::new(&mut memory));
     solve_unit_lower_triangular_in_place(pivots, right.rb_mut(), Par::Seq);
-    solve_lower_triangular_in_place(
-        pivots.transpose(),
-        below.rb_mut().transpose_mut(),
-        Par::Seq,
-    );
+    solve_lower_triangular_in_place(pivots.transpose(), below.rb_mut().transpose_mut(), Par::Seq);
     let minus = c64::new(-1.0, 0.0);
     matmul(
         rest,

@@ -1,6 +1,8 @@
 //! The sparse eigenvalue sweep against closed forms, dense decompositions, other linearisations and the
 //! paper's Table 1 (independent checks, unless a test says otherwise).
 
+mod counts;
+
 use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use crate::table_1::TABLE_1;
 use faer::{Mat, c64};

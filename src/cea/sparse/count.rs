@@ -250,11 +250,11 @@ fn integral(piece: &[Sample; 3]) -> Option<[c64; 2]> {
     let [from, middle, to] = piece;
     let whole = to.at - from.at;
     let mut sums = [c64::new(0.0, 0.0); 2];
-    for [near, far, other] in [[from, middle, to], [middle, to, from]] {
-        let weights = match std::ptr::eq(near, from) {
-            true => [5.0, 8.0, -1.0],
-            false => [8.0, 5.0, -1.0],
-        };
+    let halves = [
+        ([from, middle, to], [5.0, 8.0, -1.0]),
+        ([middle, to, from], [8.0, 5.0, -1.0]),
+    ];
+    for ([near, far, other], weights) in halves {
         let slopes = near.slope * weights[0] + far.slope * weights[1] + other.slope * weights[2];
         let predicted = whole * slopes / 24.0;
         let error = least(far.ln - near.ln - predicted);
@@ -264,8 +264,8 @@ fn integral(piece: &[Sample; 3]) -> Option<[c64; 2]> {
         let change = predicted + error;
         let length = far.at - near.at;
         sums[0] += change;
-        sums[1] += 0.5 * (near.at + far.at) * change
-            - length * length * (near.slope - far.slope) / 12.0;
+        sums[1] +=
+            0.5 * (near.at + far.at) * change - length * length * (near.slope - far.slope) / 12.0;
     }
     Some(sums)
 }

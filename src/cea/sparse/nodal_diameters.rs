@@ -3,8 +3,8 @@
 use super::point::normalize;
 use super::{FrictionlessModes, sweep};
 use crate::cea::{
-    CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeCount, ModeLimit, ModeVectors, PartWatch,
-    SweepProgress, SweepRequest, SweepStage, SweepWatch, keeping_ties,
+    CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeCount, ModeLimit, ModeVectors,
+    PartWatch, SweepProgress, SweepRequest, SweepStage, SweepWatch, keeping_ties,
 };
 use crate::linalg::c64;
 use crate::prestress::{CyclicTangent, SlidingTangent};

@@ -59,14 +59,8 @@ pub fn sweep(
     let mut sweep = SparseSweep::prepare(&tangent, request, watch)?;
     sweep.cover()?;
     sweep.solve()?;
-    let mut branches = sweep.track()?;
-    let mut counts = Vec::new();
-    if request.count_modes {
-        counts = sweep.count()?;
-        if counts.iter().any(|count| count.recovered > 0) {
-            branches = sweep.track()?;
-        }
-    }
+    let branches = sweep.track()?;
+    let (branches, counts) = sweep.count(request, branches)?;
     let found = sweep.finish(request, &branches)?;
     Ok(FrictionSweep { counts, ..found })
 }

@@ -21,6 +21,7 @@ pub(in crate::study) fn analysis(case: &Case, frictions: &[f64], limit_hz: f64) 
             modes,
             shapes_at,
             map: None,
+            count_modes: false,
             ..cea.clone()
         },
         None => Cea {
@@ -32,6 +33,7 @@ pub(in crate::study) fn analysis(case: &Case, frictions: &[f64], limit_hz: f64) 
             shapes_at,
             map: None,
             sensitivities: None,
+            count_modes: false,
         },
     }
 }

@@ -4,7 +4,8 @@ use super::Progress;
 use crate::case::{Case, Cea, CeaMethod};
 use crate::cea::sparse;
 use crate::cea::{
-    CeaError, FrictionPoint, FrictionSweep, ModeCount, ModeVectors, PartWatch, SweepRequest, UnstableInterval,
+    CeaError, FrictionPoint, FrictionSweep, ModeCount, ModeVectors, PartWatch, SweepRequest,
+    UnstableInterval,
 };
 use crate::fem::assemble_stiffness;
 use crate::mesh::{CyclicSymmetry, Mesh};
