@@ -13,7 +13,7 @@ const STEP_BELOW: f64 = 0.02;
 /// Steps in the shortest piece of the edge: an eigenvalue this near lies on it.
 const SHORTEST: f64 = 20.0;
 /// Difference of the logarithm of the determinant and of what its slopes predict that is none.
-const AGREEMENT: f64 = 0.4;
+const AGREEMENT: f64 = 0.25;
 /// Pieces of the edge beyond which the count is given up.
 const MOST_PIECES: usize = 600;
 
@@ -258,7 +258,7 @@ fn integral(piece: &[Sample; 3]) -> Option<[c64; 2]> {
         let slopes = near.slope * weights[0] + far.slope * weights[1] + other.slope * weights[2];
         let predicted = whole * slopes / 24.0;
         let error = least(far.ln - near.ln - predicted);
-        if !(error.norm() <= AGREEMENT) {
+        if error.norm().is_nan() || error.norm() > AGREEMENT {
             return None;
         }
         let change = predicted + error;

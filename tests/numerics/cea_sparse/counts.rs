@@ -178,17 +178,40 @@ fn sweep_of_a_disc_is_complete_by_count() {
             }
             assert!(result.points[2].modes.iter().any(|mode| mode.is_unstable()));
 
-            // Without one of the unstable modes one is missing.
-            let modes = result.points[2].modes.iter();
+            // Without one of the unstable modes one is missing; those above the region are known as well.
+            let more = SweepRequest {
+                limit: ModeLimit::Lowest(40),
+                ..request
+            };
+            let all = sweep(&tangent, &more, &|_| {}).unwrap();
+            let modes = all.points[2].modes.iter();
             let known: Vec<c64> = modes.map(|mode| mode.eigenvalue).collect();
             let unstable = known.iter().position(|own| own.re > 0.0).unwrap();
             let lost = known[unstable];
             let rest: Vec<c64> = known.iter().copied().filter(|own| *own != lost).collect();
             let counter = ModeCounter::new(&tangent).unwrap();
-            let found = counter.count(0.7, &rest, &result.counts[2].region).unwrap();
+            let region = &result.counts[2].region;
+            let found = counter.count(0.7, &rest, region).unwrap();
             assert_eq!(found.missing, 1);
             let near = found.near.unwrap();
-            assert!((near - lost).norm() < 5e-3 * lost.norm(), "{near} {lost}");
+            let top = TAU * region.frequencies_hz[1];
+            assert!((near - lost).norm() < 5e-3 * top, "{near} {lost}");
         }
     }
+}
+
+/// Bit for bit the same on any number of threads.
+#[test]
+fn counts_do_not_depend_on_the_number_of_threads() {
+    let tangent = problem(40, chain(40), None);
+    let spectrum = dense_eigenvalues(&tangent, 3.5);
+    let top = gap(&spectrum, 15..25);
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let pool = pool.build().unwrap();
+        pool.install(|| missing(&tangent, 3.5, &spectrum[1..], top))
+    };
+    let one = on(1);
+    assert_eq!(one.0, 1);
+    assert!([2, 5].iter().all(|&threads| on(threads) == one));
 }
