@@ -41,20 +41,23 @@ struct Front {
     places: Vec<usize>,
 }
 
-impl DeterminantAnalysis {
-    /// Analyses a pattern (approximate minimum degree of its symmetric hull).
-    ///
-    /// # Errors
-    /// If the analysis runs out of memory or index range.
-    pub fn new(pattern: &SparsityPattern) -> Result<Self, LinalgError> {
+/// Which unknowns are eliminated together.
+struct Order {
+    /// Unknowns of each front by their place in the order of elimination, rising.
+    unknowns: Vec<Vec<usize>>,
+    /// Place after the last one that each front eliminates.
+    ends: Vec<usize>,
+    /// Place of each unknown of the matrix; all in their own order without.
+    places: Option<Vec<usize>>,
+}
+
+impl Order {
+    /// Approximate minimum degree of the symmetric hull of a pattern, neighbours of alike structure in one front.
+    fn of(pattern: &SparsityPattern) -> Result<Self, LinalgError> {
         let n = pattern.dimension();
-        let failure = |reason: String| LinalgError::Factorization {
-            dimension: n,
-            reason,
-        };
-        let nonzeros = || (0..n).flat_map(|j| pattern.column(j).map(move |(at, i)| (at, i, j)));
-        let both = nonzeros().flat_map(|(_, i, j)| [(i, j), (j, i)]);
-        let hull = SparsityPattern::from_positions(n, both);
+        let nonzeros = (0..n).flat_map(|j| pattern.column(j).map(move |(_, i)| (i, j)));
+        let hull = nonzeros.flat_map(|(i, j)| [(i, j), (j, i)]);
+        let hull = SparsityPattern::from_positions(n, hull);
         let parameters = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
             ..Default::default()
@@ -65,56 +68,78 @@ impl DeterminantAnalysis {
             SymmetricOrdering::Amd,
             parameters,
         )
-        .map_err(|error| failure(format!("{error:?}")))?;
+        .map_err(|error| LinalgError::Factorization {
+            dimension: n,
+            reason: format!("{error:?}"),
+        })?;
         let SymbolicCholeskyRaw::Supernodal(blocks) = symbolic.raw() else {
             unreachable!("the analysis forces supernodes");
         };
+        let (begins, ends) = (blocks.supernode_begin(), blocks.supernode_end());
+        let unknowns = (0..blocks.n_supernodes()).map(|s| {
+            let mut own: Vec<usize> = (begins[s]..ends[s]).collect();
+            own.extend_from_slice(blocks.supernode(s).pattern());
+            own.sort_unstable();
+            own
+        });
+        Ok(Self {
+            unknowns: unknowns.collect(),
+            ends: ends.to_vec(),
+            places: symbolic.perm().map(|perm| perm.arrays().1.to_vec()),
+        })
+    }
 
-        // Unknowns of each front by their place in the order of elimination, rising.
-        let ends = blocks.supernode_end();
-        let unknowns: Vec<Vec<usize>> = (0..blocks.n_supernodes())
-            .map(|s| {
-                let mut own: Vec<usize> = (blocks.supernode_begin()[s]..ends[s]).collect();
-                let first = own.len();
-                own.extend_from_slice(blocks.supernode(s).pattern());
-                own[first..].sort_unstable();
-                own
-            })
-            .collect();
-        let front_of = |place: usize| ends.partition_point(|&end| end <= place);
-        let place_in = |front: usize, place: usize| {
-            let found = unknowns[front].binary_search(&place);
-            found.map_err(|_| failure("a front lacks an unknown".to_owned()))
-        };
-        let mut fronts: Vec<Front> = (0..unknowns.len())
-            .map(|s| Front {
-                width: ends[s] - blocks.supernode_begin()[s],
-                size: unknowns[s].len(),
-                entries: Vec::new(),
-                children: Vec::new(),
-                places: Vec::new(),
-            })
-            .collect();
+    /// The front that eliminates what has a place.
+    fn front_of(&self, place: usize) -> usize {
+        self.ends.partition_point(|&end| end <= place)
+    }
+
+    fn place_in(&self, front: usize, place: usize) -> usize {
+        let found = self.unknowns[front].binary_search(&place);
+        found.expect("a front holds all unknowns that those before it leave coupled")
+    }
+}
+
+impl DeterminantAnalysis {
+    /// Analyses a pattern.
+    ///
+    /// # Errors
+    /// If the analysis runs out of memory or index range.
+    pub fn new(pattern: &SparsityPattern) -> Result<Self, LinalgError> {
+        let order = Order::of(pattern)?;
+        let fronts = order.unknowns.iter().zip(&order.ends);
+        let fronts = fronts.map(|(unknowns, &end)| Front {
+            width: unknowns.partition_point(|&place| place < end),
+            size: unknowns.len(),
+            entries: Vec::new(),
+            children: Vec::new(),
+            places: Vec::new(),
+        });
+        let mut fronts: Vec<Front> = fronts.collect();
+
+        // What a front leaves goes to the one that eliminates the first of it.
         for s in 0..fronts.len() {
-            let left = &unknowns[s][fronts[s].width..];
+            let left = &order.unknowns[s][fronts[s].width..];
             let Some(&next) = left.first() else { continue };
-            let parent = front_of(next);
-            let places: Result<_, _> = left.iter().map(|&place| place_in(parent, place)).collect();
-            fronts[s].places = places?;
+            let parent = order.front_of(next);
+            let places = left.iter().map(|&place| order.place_in(parent, place));
+            fronts[s].places = places.collect();
             fronts[parent].children.push(s);
         }
 
         // Each nonzero belongs where the first of its two unknowns is eliminated.
-        let order = symbolic.perm().map(|perm| perm.arrays().1);
-        let place = |unknown: usize| order.map_or(unknown, |order| order[unknown]);
-        for (at, i, j) in nonzeros() {
-            let (row, column) = (place(i), place(j));
-            let front = front_of(row.min(column));
-            let own = [at, place_in(front, row)?, place_in(front, column)?];
-            fronts[front].entries.push(own.map(|index| index as u32));
+        let place = |unknown: usize| order.places.as_ref().map_or(unknown, |all| all[unknown]);
+        for j in 0..pattern.dimension() {
+            for (at, i) in pattern.column(j) {
+                let (row, column) = (place(i), place(j));
+                let front = order.front_of(row.min(column));
+                let [row, column] = [row, column].map(|own| order.place_in(front, own));
+                let own = [at, row, column].map(|index| index as u32);
+                fronts[front].entries.push(own);
+            }
         }
         Ok(Self {
-            dimension: n,
+            dimension: pattern.dimension(),
             fronts,
         })
     }
