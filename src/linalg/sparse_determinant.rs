@@ -72,8 +72,14 @@ impl Order {
             dimension: n,
             reason: format!("{error:?}"),
         })?;
+        let places = symbolic.perm().map(|perm| perm.arrays().1.to_vec());
         let SymbolicCholeskyRaw::Supernodal(blocks) = symbolic.raw() else {
-            unreachable!("the analysis forces supernodes");
+            // A diagonal matrix, where nothing is to be eliminated.
+            return Ok(Self {
+                unknowns: (0..n).map(|place| vec![place]).collect(),
+                ends: (1..=n).collect(),
+                places,
+            });
         };
         let (begins, ends) = (blocks.supernode_begin(), blocks.supernode_end());
         let unknowns = (0..blocks.n_supernodes()).map(|s| {
@@ -85,7 +91,7 @@ impl Order {
         Ok(Self {
             unknowns: unknowns.collect(),
             ends: ends.to_vec(),
-            places: symbolic.perm().map(|perm| perm.arrays().1.to_vec()),
+            places,
         })
     }
 
