@@ -43,6 +43,7 @@ fn main() {
             friction_coefficients: &values,
             limit: mode_limit(&cea),
             shapes_at: &[],
+            count_modes: false,
         };
         let folder = Path::new(folder).join(format!("state-{k}"));
         write_matrices(&folder, &tangent);

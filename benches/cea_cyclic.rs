@@ -35,6 +35,7 @@ fn solve(circumferential: usize, radial: usize, values: usize) -> CyclicSweep {
         friction_coefficients: &frictions,
         limit: ModeLimit::Lowest(30),
         shapes_at: &[],
+        count_modes: false,
     };
     sweep(
         &specification,

@@ -202,6 +202,7 @@ fn eigenvalues(divisions: [usize; 3]) -> f64 {
         friction_coefficients: &frictions,
         limit: ModeLimit::Lowest(30),
         shapes_at: &[],
+        count_modes: false,
     };
     let clock = Instant::now();
     let found = solid_sweep(&model, &request).expect("the disc can be solved");

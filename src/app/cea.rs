@@ -256,6 +256,7 @@ mod tests {
                 intervals: Vec::new(),
                 crossings: Vec::new(),
                 vanished: Vec::new(),
+                counts: Vec::new(),
             },
             dofs: 100,
             method: "sparse",

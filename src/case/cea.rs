@@ -34,6 +34,8 @@ pub struct Cea {
     pub map: Option<CeaMap>,
     /// Whether derivatives are computed; where the case does not say, of bodies that are solved harmonic by harmonic.
     pub sensitivities: Option<bool>,
+    /// Whether the modes of a whole mesh are counted under friction.
+    pub count_modes: bool,
 }
 
 impl Cea {
@@ -95,6 +97,7 @@ pub(super) fn cea(
         sensitivities: section
             .has("sensitivities")
             .then(|| section.flag("sensitivities")),
+        count_modes: section.flag("count_modes"),
     };
     section.close();
     Some(cea)

@@ -173,6 +173,25 @@ pub enum CeaError {
         /// Its frequency, Hz.
         frequency_hz: f64,
     },
+    /// A count of modes that an eigenvalue on its edge forbids.
+    #[error(
+        "not counted: an eigenvalue lies at or near {frequency_hz:.1} Hz with a growth rate of about {growth_rate:.1} 1/s, on the edge \
+         of where modes are counted; move cea.max_frequency_hz or cea.modes"
+    )]
+    Uncounted {
+        /// Its frequency, Hz.
+        frequency_hz: f64,
+        /// Its growth rate, 1/s.
+        growth_rate: f64,
+    },
+    /// Stiffness over which modes cannot be counted.
+    #[error(
+        "cea.count_modes needs matrices that are analytic in the eigenvalue: {key} is a table over frequency"
+    )]
+    Uncountable {
+        /// Case key of the table.
+        key: String,
+    },
     /// A branch that could not be continued, after a search for it.
     #[error(
         "the branch at {frequency_hz:.1} Hz (harmonic {harmonic}, branch {branch}) is lost between \

@@ -5,6 +5,7 @@
 //! symmetric one. [`quadratic_modes`] solves small dense matrices whole, wherever they come from.
 
 mod branch;
+mod counted;
 pub mod cyclic;
 mod error;
 mod onset;
@@ -15,6 +16,7 @@ mod spectrum;
 mod watch;
 
 pub use branch::{BranchPoint, ModeBranch};
+pub use counted::{CountedRegion, ModeCount};
 pub use error::CeaError;
 pub use quadratic::{QuadraticMode, quadratic_modes};
 pub use request::{ModeLimit, SweepProgress, SweepRequest, SweepStage};

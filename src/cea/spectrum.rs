@@ -1,5 +1,6 @@
 //! Results of a complex eigenvalue analysis, the same for every solver.
 
+use super::ModeCount;
 use crate::linalg::c64;
 use std::f64::consts::TAU;
 
@@ -162,6 +163,8 @@ pub struct FrictionSweep {
     pub crossings: Vec<Option<ModeVectors>>,
     /// Modes of a whole mesh that cease to oscillate, by rising friction.
     pub vanished: Vec<VanishedMode>,
+    /// Counts of the modes of a whole mesh, where they were asked for.
+    pub counts: Vec<ModeCount>,
 }
 
 impl FrictionSweep {
@@ -180,6 +183,7 @@ impl FrictionSweep {
             intervals,
             crossings,
             vanished,
+            counts: Vec::new(),
         }
     }
 }

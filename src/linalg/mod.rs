@@ -16,6 +16,7 @@ mod matrix_market;
 mod polynomial;
 mod quadratic_krylov;
 mod sparse_cholesky;
+mod sparse_determinant;
 mod sparse_ldl;
 mod sparse_lu;
 mod sparse_product;
@@ -34,6 +35,7 @@ pub use quadratic_krylov::{
     QuadraticKrylovSettings, QuadraticOperator, QuadraticPairs, quadratic_krylov,
 };
 pub use sparse_cholesky::SparseCholesky;
+pub use sparse_determinant::DeterminantAnalysis;
 pub use sparse_ldl::{LdlAnalysis, SparseLdl};
 pub use sparse_lu::{ComplexSparseLu, LuAnalysis, SparseLu};
 

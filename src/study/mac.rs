@@ -62,6 +62,7 @@ pub fn assurance(
         shapes_at: vec![friction],
         map: None,
         sensitivities: Some(false),
+        count_modes: false,
         ..cea.clone()
     };
     let model = SlidingModel::new(case, &own)?;

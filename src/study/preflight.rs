@@ -76,7 +76,7 @@ pub fn preflight(case: &Case, available: f64) -> Result<Preflight, StudyError> {
         && is_small
     {
         // A harmonic of a plane annulus is solved at once; anything else takes the time of the run itself.
-        Solver::of(case, cea.method)?;
+        Solver::of_analysis(case, cea)?;
         if let Solver::Sectors(annulus) = Solver::by_symmetry(case) {
             let modes = found.cost.cea.map_or(0, |cost| cost.modes);
             let sectors = annulus.specification.circumferential_elements.max(1);

@@ -30,6 +30,7 @@ mod mac;
 mod materials;
 mod measured_surface;
 mod mesh_files;
+mod mode_counts;
 mod normal_law;
 mod plot;
 mod reading;

@@ -82,6 +82,7 @@ fn sweep(mesh: &AnnulusMesh) -> FrictionSweep {
         }],
         crossings: Vec::new(),
         vanished: Vec::new(),
+        counts: Vec::new(),
     }
 }
 

@@ -1,6 +1,8 @@
 //! The sparse eigenvalue sweep against closed forms, dense decompositions, other linearisations and the
 //! paper's Table 1 (independent checks, unless a test says otherwise).
 
+mod counts;
+
 use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use crate::table_1::TABLE_1;
 use faer::{Mat, c64};
@@ -112,6 +114,7 @@ fn run(tangent: &SlidingTangent, values: &[f64], limit: ModeLimit) -> FrictionSw
         friction_coefficients: values,
         limit,
         shapes_at: &[],
+        count_modes: false,
     };
     sweep(tangent, &request, &|_| {}).unwrap()
 }
@@ -327,6 +330,7 @@ fn sweep_is_bitwise_equal_on_one_and_two_threads() {
         friction_coefficients: &values,
         limit: ModeLimit::MaxFrequency(15_000.0),
         shapes_at: &[values[3]],
+        count_modes: false,
     };
     let on_threads = |count| {
         let pool = rayon::ThreadPoolBuilder::new()
@@ -378,6 +382,7 @@ fn sweep_goes_on_from_any_step_to_the_same_bits() {
             friction_coefficients: &values,
             limit: ModeLimit::Lowest(6),
             shapes_at: &[],
+            count_modes: false,
         };
         let first = Kept::default();
         let whole = sweep(&tangent, &request, &first).unwrap();
@@ -453,6 +458,7 @@ fn bad_requests_are_refused_with_the_bound() {
             friction_coefficients: values,
             limit,
             shapes_at: &[],
+            count_modes: false,
         };
         sweep(&tangent, &request, &|_| {}).unwrap_err()
     };

@@ -69,6 +69,7 @@ fn harmonics_and_whole_mesh_have_the_same_spectrum() {
             friction_coefficients: &frictions,
             limit: ModeLimit::Lowest(12),
             shapes_at: &[],
+            count_modes: false,
         };
         let sliding = contact(610.0);
         let own = cyclic::sweep(&specification, &POLYCARBONATE, &options, &sliding, &request);
@@ -124,6 +125,7 @@ fn the_frequency_of_a_block_follows_the_pressure_on_it() {
             friction_coefficients: &[0.0],
             limit: ModeLimit::Lowest(3),
             shapes_at: &[],
+            count_modes: false,
         };
         let modes = &sparse::sweep(&tangent, &request, &|_| {}).unwrap().points[0].modes;
         let expected = ((pressure + 1e5) * WIDTH / (5e-4 * MASS)).sqrt();
@@ -147,6 +149,7 @@ fn a_law_that_hardly_stiffens_is_linear_contact() {
         friction_coefficients: &[0.0, 0.4],
         limit: ModeLimit::Lowest(12),
         shapes_at: &[],
+        count_modes: false,
     };
     let spectrum = |stiffness: ContactStiffness, sliding: SlidingContact| {
         let mut options = paper_options();

@@ -44,6 +44,7 @@ fn modes(mesh: &Mesh, count: usize) -> Vec<ComplexMode> {
         friction_coefficients: &[contact.friction_coefficient],
         limit: ModeLimit::Lowest(count),
         shapes_at: &[],
+        count_modes: false,
     };
     let found = sweep(&tangent, &request, &|_| {}).unwrap();
     found.points.into_iter().next().unwrap().modes

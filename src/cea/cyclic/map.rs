@@ -98,6 +98,7 @@ pub fn map_of<M: Sync>(
         friction_coefficients: &frictions,
         limit,
         shapes_at: &[],
+        count_modes: false,
     };
     let solve = |(value, model): &(f64, M)| StabilityMapPoint {
         value: *value,

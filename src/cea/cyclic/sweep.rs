@@ -236,6 +236,7 @@ fn finish(tangent: SectorTangent, found: Found, verdict: Verdict) -> CyclicSweep
             crossings: vec![None; intervals.len()],
             intervals,
             vanished: Vec::new(),
+            counts: Vec::new(),
         },
         branches,
         coverage,

@@ -8,13 +8,15 @@
 //! 3. [`PointSolver`]: the projected problem at each friction coefficient, in parallel; every mode is
 //!    held to its residual in the full matrices, and the basis grows where one fails.
 //! 4. [`track`]: branches continued from `mu = 0`, so that none is lost on the way.
-//! 5. [`OnsetFinder`]: critical friction coefficients by root finding on the branches.
+//! 5. [`ModeCounter`], where asked for: eigenvalues counted by the argument principle.
+//! 6. [`OnsetFinder`]: critical friction coefficients by root finding on the branches.
 //!
 //! [`sweep`] does all of this; [`sweep_by_diameters`] does it for a body with cyclic symmetry, by waves around it. Where stiffness depends on frequency every mode is solved at its own, in the projected problem and in
 //! its residual; the basis starts from the stiffness at the highest frequency wanted.
 
 mod basis;
 mod branches;
+mod count;
 mod edge;
 mod factors;
 #[cfg(test)]
@@ -40,6 +42,7 @@ mod term;
 
 pub use basis::BasisBuilder;
 pub use branches::{BranchLabel, Lost, TrackedBranch, label_frictionless, track};
+pub use count::{ModeCounter, Winding};
 pub use edge::ContactEdge;
 pub use factors::{FactorCache, StiffnessFactors};
 pub use frictionless::FrictionlessModes;

@@ -3,8 +3,8 @@
 use super::point::normalize;
 use super::{FrictionlessModes, sweep};
 use crate::cea::{
-    CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeLimit, ModeVectors, PartWatch,
-    SweepProgress, SweepRequest, SweepStage, SweepWatch, keeping_ties,
+    CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeCount, ModeLimit, ModeVectors,
+    PartWatch, SweepProgress, SweepRequest, SweepStage, SweepWatch, keeping_ties,
 };
 use crate::linalg::c64;
 use crate::prestress::{CyclicTangent, SlidingTangent};
@@ -271,6 +271,7 @@ fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
         }
     });
     let points: Vec<FrictionPoint> = points.collect();
+    let counts = merged_counts(&parts, &points);
     let is_listed = |branch: usize| {
         let mut modes = points.iter().flat_map(|point| &point.modes);
         modes.any(|mode| mode.branch == branch)
@@ -287,5 +288,44 @@ fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
             found.push((interval, crossing));
         }
     }
-    FrictionSweep::joined(points, found, vanished)
+    FrictionSweep {
+        counts,
+        ..FrictionSweep::joined(points, found, vanished)
+    }
+}
+
+/// One count of those of all numbers of diameters at each friction coefficient that all of them counted at, over the frequencies that
+/// they share.
+fn merged_counts(parts: &[FrictionSweep], points: &[FrictionPoint]) -> Vec<ModeCount> {
+    let counted = points.iter().filter_map(|point| {
+        let mu = point.friction_coefficient;
+        let own = parts.iter().map(|part| {
+            let mut counts = part.counts.iter();
+            counts.find(|count| count.friction_coefficient == mu)
+        });
+        let own: Vec<&ModeCount> = own.collect::<Option<_>>()?;
+        let (first, rest) = own.split_first()?;
+        let mut whole = (*first).clone();
+        for count in rest {
+            let ([low, high], [left, right]) =
+                (count.region.frequencies_hz, count.region.growth_rates);
+            let region = &mut whole.region;
+            let [least, most] = region.frequencies_hz;
+            region.frequencies_hz = [least.max(low), most.min(high)];
+            let [decay, growth] = region.growth_rates;
+            region.growth_rates = [decay.max(left), growth.min(right)];
+            whole.recovered += count.recovered;
+            whole.determinants += count.determinants;
+            whole.near = whole.near.or(count.near);
+            whole.missing = match (whole.missing, &count.missing) {
+                (Ok(known), Ok(more)) => Ok(known + more),
+                (Ok(_), Err(why)) => Err(why.clone()),
+                (Err(why), _) => Err(why),
+            };
+        }
+        let below = |mode: &&ComplexMode| mode.frequency_hz() < whole.region.frequencies_hz[1];
+        whole.known = point.modes.iter().filter(below).count();
+        Some(whole)
+    });
+    counted.collect()
 }

@@ -1,5 +1,6 @@
 //! The stages of a sweep.
 
+mod counts;
 mod results;
 
 use super::basis::BasisBuilder;
@@ -59,7 +60,9 @@ pub fn sweep(
     sweep.cover()?;
     sweep.solve()?;
     let branches = sweep.track()?;
-    sweep.finish(request, &branches)
+    let (branches, counts) = sweep.count(request, branches)?;
+    let found = sweep.finish(request, &branches)?;
+    Ok(FrictionSweep { counts, ..found })
 }
 
 /// The tangent with its stiffness as it is at about the highest frequency wanted, where it depends on frequency: below that, as many
@@ -393,6 +396,7 @@ mod tests {
                 friction_coefficients: &[0.0, 0.1, 0.2, 0.3],
                 limit: ModeLimit::Lowest(6),
                 shapes_at: &[],
+                count_modes: false,
             };
             let mut sweep = SparseSweep::prepare(&tangent, &request, &Unwatched).unwrap();
             sweep.cover().unwrap();

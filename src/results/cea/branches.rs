@@ -101,6 +101,7 @@ mod tests {
             intervals: Vec::new(),
             crossings: Vec::new(),
             vanished: Vec::new(),
+            counts: Vec::new(),
         };
         let all = branches(&sweep);
         let lengths = |branch: usize, changes: &[f64]| -> Vec<usize> {

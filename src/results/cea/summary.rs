@@ -1,10 +1,11 @@
 //! `summary.json` of a complex eigenvalue analysis.
 
 use super::{BaseState, CeaReport};
-use crate::cea::{ComplexMode, UnstableInterval};
+use crate::cea::{ComplexMode, ModeCount, UnstableInterval};
 use crate::results::manifest::Manifest;
 use crate::results::summary::{Entry, Summary, present};
 use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
 
 /// `summary.json` of `frictionsim cea`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -45,6 +46,51 @@ pub struct CeaSummary {
     /// Fraction of the contact nodes that are open, where some may be.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_open_fraction: Option<f64>,
+    /// Counts of the modes by the argument principle, where they were asked for.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub mode_counts: Vec<CountSummary>,
+}
+
+/// The modes at one friction value, counted independently of the list.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CountSummary {
+    /// The friction coefficient.
+    pub friction_coefficient: f64,
+    /// Frequencies between which was counted, Hz.
+    pub frequencies_hz: [f64; 2],
+    /// Growth rates between which was counted, 1/s.
+    pub growth_rates: [f64; 2],
+    /// Eigenvalues counted; none where that failed.
+    pub counted: Option<i64>,
+    /// Modes known there.
+    pub known: usize,
+    /// Those of them that only a search found that the count gave rise to.
+    pub recovered: usize,
+    /// Whether the two are the same.
+    pub is_complete: bool,
+    /// Frequency and growth rate (Hz, 1/s) about which the missing ones lie.
+    pub missing_near: Option<[f64; 2]>,
+    /// Why there is no count.
+    pub failure: Option<String>,
+    /// Determinants that were taken.
+    pub determinants: usize,
+}
+
+impl CountSummary {
+    fn of(count: &ModeCount) -> Self {
+        Self {
+            friction_coefficient: count.friction_coefficient,
+            frequencies_hz: count.region.frequencies_hz,
+            growth_rates: count.region.growth_rates,
+            counted: count.counted(),
+            known: count.known,
+            recovered: count.recovered,
+            is_complete: count.is_complete(),
+            missing_near: count.near.map(|near| [near.im / TAU, near.re]),
+            failure: count.missing.as_ref().err().cloned(),
+            determinants: count.determinants,
+        }
+    }
 }
 
 /// Modes at one friction value.
@@ -257,5 +303,6 @@ pub fn summary(report: &CeaReport<'_>, manifest: &Manifest) -> CeaSummary {
         notes: report.notes.clone(),
         manifest: manifest.clone(),
         contact_open_fraction: may_open.then(|| base.open as f64 / nodes as f64),
+        mode_counts: report.sweep.counts.iter().map(CountSummary::of).collect(),
     }
 }

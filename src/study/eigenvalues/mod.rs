@@ -81,6 +81,7 @@ pub fn modes_and_onsets(case: &Case) -> Result<FrictionSweep, StudyError> {
             true => &[],
             false => &cea.shapes_at,
         },
+        count_modes: false,
     };
     let model = Model::new(case, &cea)?;
     let sweep = model.spectrum(case, &request, false, &Unwatched)?.sweep;

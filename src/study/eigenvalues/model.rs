@@ -56,6 +56,18 @@ impl Solver {
         }
     }
 
+    /// [`Self::of`] for an analysis.
+    ///
+    /// # Errors
+    /// As [`Self::of`]; counts of modes where the argument principle does not apply.
+    pub fn of_analysis(case: &Case, cea: &Cea) -> Result<Self, CaseErrors> {
+        let solver = Self::of(case, cea.method)?;
+        if cea.count_modes {
+            refuse_uncountable(case, &solver)?;
+        }
+        Ok(solver)
+    }
+
     /// The solver that uses all the symmetry of the body of a case.
     pub fn by_symmetry(case: &Case) -> Self {
         match &case.body {
@@ -102,6 +114,28 @@ fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
         ),
         "must not be zero for an eigenvalue analysis".to_owned(),
         Some("give a speed, however small; its sign is the sense of the sliding".to_owned()),
+    ))
+}
+
+/// Refuses to count modes where the argument principle does not apply.
+fn refuse_uncountable(case: &Case, solver: &Solver) -> Result<(), CaseErrors> {
+    let mut tables = (0..case.body.region_count()).filter_map(|r| case.materials().table(r));
+    let (why, help) = match (solver, tables.next()) {
+        (Solver::SolidSectors(_), _) => (
+            "the harmonics of a body of revolution are counted at rest (by inertia) and followed from there".to_owned(),
+            "leave it out; a mesh file of the whole body can be counted",
+        ),
+        (_, Some(table)) => (
+            format!("{} is a table over frequency, and no analytic function of the eigenvalue", table.key()),
+            "leave it out, or give the material one modulus",
+        ),
+        _ => return Ok(()),
+    };
+    Err(case.error_at(
+        "cea.count_modes",
+        format!("cea.count_modes = true: {why}"),
+        "modes cannot be counted".to_owned(),
+        Some(help.to_owned()),
     ))
 }
 
@@ -172,7 +206,7 @@ impl Model {
     /// # Errors
     /// A method that the body does not have; those of [`Self::with_solver`].
     pub fn new(case: &Case, cea: &Cea) -> Result<Self, StudyError> {
-        let solver = Solver::of(case, cea.method)?;
+        let solver = Solver::of_analysis(case, cea)?;
         let options = tangent_options(case, cea.mass);
         let frictions = cea.solved_friction_coefficients();
         Ok(Self::with_solver(case, solver, options, &frictions)?)

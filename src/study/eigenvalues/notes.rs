@@ -3,10 +3,57 @@
 use super::SlidingModel;
 use super::model::Model;
 use super::sliding::SteadyState;
-use crate::case::{Body, Case};
+use crate::case::{Body, Case, Cea};
 use crate::cea::cyclic::{Coverage, Overdamped};
-use crate::cea::{CeaError, FrictionSweep};
+use crate::cea::{CeaError, FrictionSweep, ModeCount};
 use std::f64::consts::TAU;
+
+/// What the counts of modes say.
+pub(super) fn count_notes(cea: &Cea, sweep: &FrictionSweep, is_by_harmonics: bool) -> Vec<String> {
+    if cea.count_modes && is_by_harmonics {
+        return vec![
+            "cea.count_modes: the harmonics of an annulus are always counted, as said above"
+                .to_owned(),
+        ];
+    }
+    sweep.counts.iter().map(count_note).collect()
+}
+
+fn count_note(count: &ModeCount) -> String {
+    let ModeCount {
+        friction_coefficient: friction,
+        region,
+        known,
+        recovered,
+        ..
+    } = count;
+    let ([low, high], [left, right]) = (region.frequencies_hz, region.growth_rates);
+    let searched = match recovered {
+        0 => String::new(),
+        _ => format!(" ({recovered} of them found by a search that the count gave rise to)"),
+    };
+    let near = count.near.map_or_else(String::new, |near| {
+        format!(
+            " near {:.0} Hz, growth rate {:.0} 1/s",
+            near.im / TAU,
+            near.re
+        )
+    });
+    let counted = count.counted().unwrap_or_default();
+    let what = format!("counted {counted} modes below {high:.1} Hz at friction {friction}");
+    let place = format!("{low:.1} Hz and above, growth rates {left:.3e} to {right:.3e} 1/s");
+    match &count.missing {
+        Ok(0) => format!("{what}: complete{searched}; {place}"),
+        Ok(missing @ 1..) => format!(
+            "ALARM: {what}, but {known} are listed: {missing} missing{near}, and a search did not find them{searched}; {place}"
+        ),
+        Ok(excess) => format!(
+            "ALARM: {what}, but {known} are listed: {} of them are none{near}; {place}",
+            -excess
+        ),
+        Err(why) => format!("modes at friction {friction}: {why}"),
+    }
+}
 
 /// Things of one kind that a note lists.
 pub(super) const MISSING_SHOWN: usize = 4;

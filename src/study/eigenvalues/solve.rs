@@ -2,8 +2,8 @@
 
 use super::model::{Model, Solver, mode_limit};
 use super::notes::{
-    MISSING_SHOWN, coverage_note, damping_note, friction_note, instead_note, overdamped_note,
-    table_notes, uncertainty_note, vanished_note,
+    MISSING_SHOWN, count_notes, coverage_note, damping_note, friction_note, instead_note,
+    overdamped_note, table_notes, uncertainty_note, vanished_note,
 };
 use super::reading::{read, shapes_needed};
 use super::sensitivity::body_sensitivities;
@@ -61,6 +61,7 @@ fn solve_with(
             friction_coefficients: &frictions,
             limit: mode_limit(cea),
             shapes_at: &shapes_at(of),
+            count_modes: cea.count_modes && with_reading,
         };
         of.spectrum_with_waves(case, (&request, waves_at), with_rates, progress)
     };
@@ -85,6 +86,7 @@ fn solve_with(
         .iter()
         .map(|c| coverage_note(&model.model, c))
         .collect();
+    notes.extend(count_notes(cea, &found.sweep, found.coverage.is_some()));
     notes.extend(instead);
     notes.extend(found.notes);
     notes.extend(overdamped_note(case, model, &found.overdamped));

@@ -21,6 +21,7 @@ pub(in crate::study) fn analysis(case: &Case, frictions: &[f64], limit_hz: f64) 
             modes,
             shapes_at,
             map: None,
+            count_modes: false,
             ..cea.clone()
         },
         None => Cea {
@@ -32,6 +33,7 @@ pub(in crate::study) fn analysis(case: &Case, frictions: &[f64], limit_hz: f64) 
             shapes_at,
             map: None,
             sensitivities: None,
+            count_modes: false,
         },
     }
 }
@@ -66,6 +68,7 @@ pub fn modes_with_shapes_below(
         friction_coefficients: &cea.friction_coefficients,
         limit: mode_limit(&cea),
         shapes_at,
+        count_modes: false,
     };
     let found = model.spectrum(case, &request, with_rates, &Unwatched)?;
     let point = found.sweep.points.into_iter().next();
@@ -88,6 +91,7 @@ pub fn modes_at_own_friction(
         friction_coefficients: &[case.contact.sliding.friction_coefficient],
         limit,
         shapes_at: &[],
+        count_modes: false,
     };
     let solver = Solver::by_symmetry(case);
     let frictions = request.friction_coefficients;
@@ -135,6 +139,7 @@ pub fn unstable_intervals(
         friction_coefficients: &frictions,
         limit: mode_limit(&cea),
         shapes_at: &[],
+        count_modes: false,
     };
     let options = tangent_options(case, cea.mass);
     let model = Model::with_solver(case, solver, options, &frictions)?;

@@ -4,7 +4,8 @@ use super::Progress;
 use crate::case::{Case, Cea, CeaMethod};
 use crate::cea::sparse;
 use crate::cea::{
-    CeaError, FrictionPoint, FrictionSweep, ModeVectors, PartWatch, SweepRequest, UnstableInterval,
+    CeaError, FrictionPoint, FrictionSweep, ModeCount, ModeVectors, PartWatch, SweepRequest,
+    UnstableInterval,
 };
 use crate::fem::assemble_stiffness;
 use crate::mesh::{CyclicSymmetry, Mesh};
@@ -202,6 +203,11 @@ fn joined(mut parts: Vec<FrictionSweep>, frictions: &[f64]) -> FrictionSweep {
     let points = points.collect();
     let vanished = parts.iter().flat_map(|part| part.vanished.iter().copied());
     let vanished = vanished.collect();
+    let counts = parts.iter().flat_map(|part| part.counts.clone());
+    let mut counts: Vec<ModeCount> = counts
+        .filter(|count| frictions.contains(&count.friction_coefficient))
+        .collect();
+    counts.dedup_by(|b, a| a.friction_coefficient == b.friction_coefficient);
     let mut found: Vec<(UnstableInterval, Option<ModeVectors>)> = Vec::new();
     let pairs = parts
         .into_iter()
@@ -220,7 +226,10 @@ fn joined(mut parts: Vec<FrictionSweep>, frictions: &[f64]) -> FrictionSweep {
             _ => found.push((interval, crossing)),
         }
     }
-    FrictionSweep::joined(points, found, vanished)
+    FrictionSweep {
+        counts,
+        ..FrictionSweep::joined(points, found, vanished)
+    }
 }
 
 /// Gives the branches of `after` the numbers that their nearest eigenvalues have in `before` where both meet.

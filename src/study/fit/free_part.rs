@@ -36,6 +36,7 @@ pub(super) fn shaped_modes(case: &Case, cea: &Cea) -> Result<Vec<ComplexMode>, S
         friction_coefficients: frictions,
         limit: mode_limit(cea),
         shapes_at: frictions,
+        count_modes: false,
     };
     let found = model.spectrum(case, &request, false, &Unwatched)?;
     let point = found.sweep.points.into_iter().next();

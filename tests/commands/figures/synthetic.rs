@@ -109,6 +109,7 @@ pub fn sweep(count: usize) -> FrictionSweep {
         intervals,
         crossings: Vec::new(),
         vanished: Vec::new(),
+        counts: Vec::new(),
     }
 }
 

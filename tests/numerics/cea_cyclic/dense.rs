@@ -101,6 +101,7 @@ fn worst_difference(
         friction_coefficients: frictions,
         limit: ModeLimit::MaxFrequency(limit_hz),
         shapes_at: &[],
+        count_modes: false,
     };
     let cyclic = sweep(specification, material, options, contact, &request).unwrap();
     let mesh = AnnulusMesh::generate(specification).unwrap();

@@ -16,6 +16,7 @@ fn eigenvalue_of(model: &CyclicModel, like: &Sensitivity, friction: f64) -> c64 
         friction_coefficients: &[friction],
         limit: ModeLimit::MaxFrequency(17600.0),
         shapes_at: &[],
+        count_modes: false,
     };
     let found = sweep(
         &model.specification,
@@ -72,6 +73,7 @@ fn sensitivities_equal_finite_differences() {
             friction_coefficients: &[0.0, friction],
             limit: ModeLimit::MaxFrequency(12000.0),
             shapes_at: &[],
+            count_modes: false,
         };
         let found = sweep(
             &model.specification,
@@ -207,6 +209,7 @@ fn sensitivities_of_stiffening_contact_equal_finite_differences() {
             friction_coefficients: &[0.0, friction],
             limit: ModeLimit::MaxFrequency(12000.0),
             shapes_at: &[],
+            count_modes: false,
         };
         let (specification, material) = (&model.specification, &model.material);
         let found = sweep(specification, material, &options, &contact, &request).unwrap();

@@ -76,6 +76,7 @@ fn unstable_intervals_do_not_depend_on_the_grid() {
             friction_coefficients: frictions,
             limit: ModeLimit::MaxFrequency(20000.0),
             shapes_at: &[],
+            count_modes: false,
         };
         let specification = annulus(ElementKind::Quad4, 40, 10);
         sweep(
@@ -190,6 +191,7 @@ fn stability_map_equals_single_sweeps_and_survives_failing_points() {
             friction_coefficients: &[1.0],
             limit,
             shapes_at: &[],
+            count_modes: false,
         };
         let single = sweep(
             &model.specification,
@@ -229,6 +231,7 @@ fn impossible_requests_name_their_key() {
             friction_coefficients: &frictions,
             limit,
             shapes_at: &[],
+            count_modes: false,
         };
         let (material, options) = (POLYCARBONATE, paper_options());
         let outcome = sweep(
@@ -262,6 +265,7 @@ fn branches_are_followed_past_an_eigenvalue_predicted_to_the_last_bit() {
             friction_coefficients: &frictions,
             limit: ModeLimit::MaxFrequency(17_500.0),
             shapes_at: &[],
+            count_modes: false,
         };
         let found = sweep(
             &specification,

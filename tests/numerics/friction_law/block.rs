@@ -122,6 +122,7 @@ fn growth_rate(mesh: &Mesh, speed: f64) -> f64 {
         friction_coefficients: &[0.3],
         limit: ModeLimit::Lowest(1),
         shapes_at: &[],
+        count_modes: false,
     };
     let found = sweep(&tangent, &request, &|_| {}).unwrap();
     let mode = &found.points[0].modes[0];

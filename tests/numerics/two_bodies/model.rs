@@ -160,6 +160,7 @@ pub fn modes_of(
         friction_coefficients: &[0.3],
         limit,
         shapes_at,
+        count_modes: false,
     };
     let found = sweep(&tangent, &request, &|_| {}).unwrap();
     found.points.into_iter().next().unwrap().modes

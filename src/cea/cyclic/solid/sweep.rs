@@ -188,6 +188,7 @@ pub fn solid_sweep_with_waves(
             crossings: vec![None; intervals.len()],
             intervals,
             vanished: Vec::new(),
+            counts: Vec::new(),
         },
         coverage,
         dofs: tangent.unknown_of().iter().flatten().count() * sector.sector_count(),

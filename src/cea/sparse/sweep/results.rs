@@ -45,6 +45,7 @@ impl SparseSweep<'_> {
             intervals: found.into_iter().map(|own| own.interval).collect(),
             crossings,
             vanished: self.vanished(branches),
+            counts: Vec::new(),
         })
     }
 

@@ -37,6 +37,7 @@ impl Steady {
                 friction_coefficients: &[friction],
                 limit: asked_modes(case, MODES),
                 shapes_at: &[friction],
+                count_modes: false,
             };
             return Self::of_assembly(assembly, &options_in_time(case), &request);
         }
@@ -163,6 +164,7 @@ fn sweep_in_time(
         friction_coefficients: frictions,
         limit: asked_modes(case, MODES),
         shapes_at,
+        count_modes: false,
     };
     let model = Model::with_solver(case, solver, options_in_time(case), frictions)?;
     let found = model.spectrum(case, &request, false, &Unwatched)?;

@@ -1,0 +1,75 @@
+//! Counts of eigenvalues, apart from how they were found.
+
+use crate::linalg::c64;
+use std::f64::consts::TAU;
+
+/// Largest growth or decay that a count covers, at least, relative to the upper end of the frequencies (rad/s).
+const WIDTH: f64 = 0.2;
+/// The same relative to the modes listed.
+const BEYOND_LISTED: f64 = 1.5;
+/// Lower end of the frequencies relative to the upper one, at most: near zero overdamped motions live.
+const SLOWEST: f64 = 0.02;
+
+/// A rectangle of the upper half plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CountedRegion {
+    /// Range of `Im lambda / 2 pi`, Hz.
+    pub frequencies_hz: [f64; 2],
+    /// Range of `Re lambda`, 1/s.
+    pub growth_rates: [f64; 2],
+}
+
+impl CountedRegion {
+    /// About all eigenvalues `listed`, up to the angular frequency `top`; its sides stand `factor` times as far as usual.
+    pub fn about(listed: &[c64], top: f64, factor: f64) -> Self {
+        let lowest = listed.iter().fold(f64::INFINITY, |m, own| m.min(own.im));
+        let reach = |sign: f64| {
+            let rates = listed.iter().map(|own| BEYOND_LISTED * sign * own.re);
+            factor * rates.fold(WIDTH * top, f64::max)
+        };
+        Self {
+            frequencies_hz: [(SLOWEST * top).min(0.5 * lowest) / TAU, top / TAU],
+            growth_rates: [-reach(-1.0), reach(1.0)],
+        }
+    }
+
+    /// Whether an eigenvalue lies inside.
+    pub fn holds(&self, eigenvalue: c64) -> bool {
+        let frequency_hz = eigenvalue.im / TAU;
+        let [low, high] = self.frequencies_hz;
+        let [left, right] = self.growth_rates;
+        low < frequency_hz && frequency_hz < high && left < eigenvalue.re && eigenvalue.re < right
+    }
+}
+
+/// The modes at one friction coefficient, counted independently of how they were found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModeCount {
+    /// Friction coefficient.
+    pub friction_coefficient: f64,
+    /// Where eigenvalues were counted.
+    pub region: CountedRegion,
+    /// Modes that are known there.
+    pub known: usize,
+    /// How many of these only a search found that the count gave rise to.
+    pub recovered: usize,
+    /// Eigenvalues there that none of them is, negative where some of them are none; why it could not be counted.
+    pub missing: Result<i64, String>,
+    /// Mean of the missing ones.
+    pub near: Option<c64>,
+    /// Determinants that were taken.
+    pub determinants: usize,
+}
+
+impl ModeCount {
+    /// Eigenvalues counted, where they could be.
+    pub fn counted(&self) -> Option<i64> {
+        let missing = self.missing.as_ref().ok()?;
+        Some(self.known as i64 + missing)
+    }
+
+    /// Whether as many were counted as are known.
+    pub fn is_complete(&self) -> bool {
+        self.missing == Ok(0)
+    }
+}

@@ -1,0 +1,197 @@
+//! Counts of the modes of a sweep, and the search for those that are missing.
+
+use super::{FEW_VALUES, SparseSweep};
+use crate::cea::sparse::branches::TrackedBranch;
+use crate::cea::sparse::count::{ModeCounter, Winding};
+use crate::cea::sparse::point::SolvedPoint;
+use crate::cea::sparse::{RESIDUAL_BOUND, TRACKING_MARGIN};
+use crate::cea::{CeaError, CountedRegion, ModeCount, ModeLimit, SweepRequest};
+use crate::linalg::c64;
+use std::f64::consts::TAU;
+
+/// How much farther the sides of the region are put where an eigenvalue lies on its edge.
+const FARTHER: [f64; 3] = [1.0, 1.37, 0.83];
+/// Relative distance of the upper end of a region from the nearest known frequency.
+const CLEARANCE: f64 = 1e-6;
+/// How often the upper end is lowered where an eigenvalue above the lowest modes is counted.
+const LOWERINGS: usize = 4;
+
+impl SparseSweep<'_> {
+    /// Counts the modes by the argument principle: at each friction value asked for where these are few, else at the first, the middle
+    /// and the last one and at each where another number of modes is unstable than before. Where some are missing an independent
+    /// iteration searches for them, and `branches` are followed anew. Nothing where no counts are asked for.
+    ///
+    /// # Errors
+    /// [`CeaError::Uncountable`]; those of the search.
+    pub fn count(
+        &mut self,
+        request: &SweepRequest<'_>,
+        branches: Vec<TrackedBranch>,
+    ) -> Result<(Vec<TrackedBranch>, Vec<ModeCount>), CeaError> {
+        if !request.count_modes {
+            return Ok((branches, Vec::new()));
+        }
+        let counter = ModeCounter::new(self.tangent)?;
+        let mut counts = Vec::new();
+        for k in self.counted_values() {
+            let mut count = self.count_at(&counter, k);
+            if let Ok(missing @ 1..) = count.missing {
+                self.builder
+                    .search(self.grid[k], TRACKING_MARGIN + missing as usize)?;
+                self.solve()?;
+                let before = count;
+                count = self.count_at(&counter, k);
+                count.determinants += before.determinants;
+                count.recovered = count.known.saturating_sub(before.known);
+            }
+            counts.push(count);
+        }
+        let has_changed = counts.iter().any(|count| count.recovered > 0);
+        let branches = if has_changed { self.track()? } else { branches };
+        Ok((branches, counts))
+    }
+
+    fn counted_values(&self) -> Vec<usize> {
+        let all: Vec<usize> = (self.first_asked()..self.grid.len()).collect();
+        if all.len() <= FEW_VALUES {
+            return all;
+        }
+        let unstable = |k: usize| {
+            let modes = &self.points[k].modes[..self.points[k].wanted];
+            let uncertain = self.points[k].checks.iter().map(|check| check.uncertainty);
+            let pairs = modes.iter().zip(uncertain);
+            let growing = pairs.filter(|(m, u)| m.eigenvalue.re > u * m.eigenvalue.norm());
+            growing.count()
+        };
+        let (first, last) = (all[0], all[all.len() - 1]);
+        let mut chosen = vec![first, all[all.len() / 2], last];
+        chosen.extend(all[1..].iter().filter(|&&k| unstable(k) != unstable(k - 1)));
+        chosen.sort_unstable();
+        chosen.dedup();
+        chosen
+    }
+
+    fn count_at(&self, counter: &ModeCounter<'_>, k: usize) -> ModeCount {
+        let point = &self.points[k];
+        let converged = point.modes.iter().zip(&point.checks);
+        let converged = converged.filter(|(_, check)| check.residual <= RESIDUAL_BOUND);
+        let known: Vec<c64> = converged.map(|(mode, _)| mode.eigenvalue).collect();
+        let mut top = upper_end(point, &known, self.limit);
+        let mut count = count_below(counter, point, &known, top);
+        let highest = highest(point);
+        for _ in 0..LOWERINGS {
+            let above = count.near.filter(|near| near.im > highest);
+            // Of the lowest modes one above all that are listed is none.
+            let (Some(above), ModeLimit::Lowest(_)) = (above, self.limit) else {
+                break;
+            };
+            let determinants = count.determinants;
+            top = 0.5 * (highest + above.im.min(top));
+            count = count_below(counter, point, &known, top);
+            count.determinants += determinants;
+        }
+        count
+    }
+}
+
+/// The count at a point whose converged modes are `known`, up to the angular frequency `top`.
+fn count_below(
+    counter: &ModeCounter<'_>,
+    point: &SolvedPoint,
+    known: &[c64],
+    top: f64,
+) -> ModeCount {
+    let inside: Vec<c64> = known.iter().copied().filter(|own| own.im < top).collect();
+    let mut outcome = Err(String::new());
+    let mut region = CountedRegion::about(&inside, top, FARTHER[0]);
+    for factor in FARTHER {
+        region = CountedRegion::about(&inside, top, factor);
+        let found = counter.count(point.friction_coefficient, known, &region);
+        let is_final = found.is_ok();
+        outcome = found.map_err(|error| error.to_string());
+        if is_final {
+            break;
+        }
+    }
+    let winding = outcome.as_ref().ok();
+    ModeCount {
+        friction_coefficient: point.friction_coefficient,
+        region,
+        known: inside.iter().filter(|own| region.holds(**own)).count(),
+        recovered: 0,
+        near: winding.and_then(|own| own.near),
+        determinants: winding.map_or(0, |own| own.determinants),
+        missing: outcome.map(|Winding { missing, .. }| missing),
+    }
+}
+
+/// Highest angular frequency among the modes wanted.
+fn highest(point: &SolvedPoint) -> f64 {
+    let wanted = &point.modes[..point.wanted];
+    wanted.iter().fold(0.0, |m, mode| mode.eigenvalue.im.max(m))
+}
+
+/// Angular frequency up to which the modes of a point are counted: the limit where one is given and no known mode is there, else the
+/// middle of the first gap above the modes wanted.
+fn upper_end(point: &SolvedPoint, known: &[c64], limit: ModeLimit) -> f64 {
+    let limit = match limit {
+        ModeLimit::MaxFrequency(hz) => TAU * hz,
+        ModeLimit::Lowest(_) => highest(point),
+    };
+    let is_clear = |own: &c64| (own.im - limit).abs() > CLEARANCE * limit;
+    if known.iter().all(is_clear) {
+        return limit;
+    }
+    let mut above: Vec<f64> = point.modes.iter().map(|mode| mode.eigenvalue.im).collect();
+    above.retain(|own| *own >= limit * (1.0 - CLEARANCE));
+    above.sort_by(f64::total_cmp);
+    let mut gaps = above.windows(2);
+    let gap = gaps.find(|pair| pair[1] - pair[0] > 4.0 * CLEARANCE * pair[1]);
+    match gap {
+        Some(pair) => 0.5 * (pair[0] + pair[1]),
+        None => 1.02 * above.last().copied().unwrap_or(limit),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cea::Unwatched;
+    use crate::cea::sparse::fixtures::string_on_belt;
+
+    /// Consistency check: a mode taken away from one point is counted as missing there, located, and found again, with proportional and
+    /// with general damping.
+    #[test]
+    fn mode_dropped_on_purpose_is_counted_and_recovered() {
+        for is_proportional in [true, false] {
+            let tangent = string_on_belt(60, 0.4, is_proportional);
+            let request = SweepRequest {
+                friction_coefficients: &[0.0, 0.1, 0.2, 0.3],
+                limit: ModeLimit::Lowest(6),
+                shapes_at: &[],
+                count_modes: true,
+            };
+            let mut sweep = SparseSweep::prepare(&tangent, &request, &Unwatched).unwrap();
+            sweep.cover().unwrap();
+            sweep.solve().unwrap();
+            let branches = sweep.track().unwrap();
+            let counter = ModeCounter::new(&tangent).unwrap();
+            assert!(sweep.count_at(&counter, 2).is_complete());
+            let lost = sweep.points[2].modes.remove(3).eigenvalue;
+            sweep.points[2].checks.remove(3);
+            sweep.points[2].wanted -= 1;
+            let count = sweep.count_at(&counter, 2);
+            assert_eq!(count.missing, Ok(1), "{count:?}");
+            let near = count.near.unwrap();
+            let top = TAU * count.region.frequencies_hz[1];
+            assert!((near - lost).norm() < 5e-3 * top, "{near} {lost}");
+            let (branches, counts) = sweep.count(&request, branches).unwrap();
+            assert!(counts.iter().all(ModeCount::is_complete), "{counts:?}");
+            let recovered: Vec<usize> = counts.iter().map(|count| count.recovered).collect();
+            assert_eq!(recovered, [0, 0, 1, 0]);
+            let found = sweep.points[2].modes[3].eigenvalue;
+            assert!((found - lost).norm() < 1e-9 * lost.norm());
+            assert!(branches.len() >= 6);
+        }
+    }
+}
