@@ -60,7 +60,7 @@ pub use contact::Contact;
 pub use convergence::Convergence;
 pub use cost::{CeaCost, Cost, CycleCost, FrfCost, StudyCost, TransientCost};
 pub use cycle::{Continuation, Cycle};
-pub use diagnostic::{CaseErrors, Diagnostic, Location, Source};
+pub use diagnostic::{CaseErrors, Diagnostic, Location, Remedy, Source};
 pub use file_sections::FileSection;
 pub use fit::{Fit, FitParameter};
 pub use frf::Frf;
@@ -291,12 +291,9 @@ impl Case {
         };
         match self.raw.find(key) {
             None => Ok(found),
-            Some(_) => Err(self.error_at(
-                key,
-                message.to_owned(),
-                "not used".to_owned(),
-                Some(remedy.to_owned()),
-            )),
+            Some(_) => {
+                Err(self.error_at(key, message.to_owned(), "not used", Some(remedy.to_owned())))
+            }
         }
     }
 
@@ -305,12 +302,11 @@ impl Case {
         if self.contact.stiffness.law.is_some() {
             return Err(self.error_at(
                 "contact.normal_law",
-                "rotating waves are those of rigid contact, whose pressure is another one than on a contact that stiffens".to_owned(),
-                "stiffens with pressure".to_owned(),
-                Some(
-                    "`cycle` seeks the motions of the whole mesh of such a disc; or leave contact.normal_law out"
-                        .to_owned(),
-                ),
+                "rotating waves are those of rigid contact, whose pressure is another one than \
+                 on a contact that stiffens",
+                "stiffens with pressure",
+                "`cycle` seeks the motions of the whole mesh of such a disc; or leave \
+                 contact.normal_law out",
             ));
         }
         if self.contact.sliding.decay.is_none() {
@@ -318,13 +314,10 @@ impl Case {
         }
         Err(self.error_at(
             "contact.static_friction_ratio",
-            "limit cycles are computed for a constant friction coefficient only".to_owned(),
-            "friction falls with speed here".to_owned(),
-            Some(
-                "follow the transient to its limit cycle instead ([transient] with \
-                 stop_when_settled = true), or set contact.static_friction_ratio = 1.0"
-                    .to_owned(),
-            ),
+            "limit cycles are computed for a constant friction coefficient only",
+            "friction falls with speed here",
+            "follow the transient to its limit cycle instead ([transient] with \
+                 stop_when_settled = true), or set contact.static_friction_ratio = 1.0",
         ))
     }
 
@@ -334,9 +327,9 @@ impl Case {
         }
         Err(self.error_at(
             "mesh.element",
-            "mesh.element = \"quad8\" is for the complex eigenvalue analysis only".to_owned(),
+            "mesh.element = \"quad8\" is for the complex eigenvalue analysis only",
             label.to_owned(),
-            Some("add --set mesh.element=quad4, and refine the mesh if need be".to_owned()),
+            "add --set mesh.element=quad4, and refine the mesh if need be",
         ))
     }
 
@@ -391,11 +384,8 @@ impl Case {
             Body::Imported(_) => Err(self.error_at(
                 "mesh.file",
                 format!("{waves} need the rotational symmetry of the built-in annulus"),
-                "an imported mesh has no sectors".to_owned(),
-                Some(
-                    "describe the disc by [geometry] and element counts instead of mesh.file"
-                        .to_owned(),
-                ),
+                "an imported mesh has no sectors",
+                "describe the disc by [geometry] and element counts instead of mesh.file",
             )),
         }
     }
@@ -481,9 +471,9 @@ impl Case {
         let end = self.raw.text.trim_end().len();
         self.raw.errors(vec![Diagnostic::error(
             format!("the case has no [{section}] section, so there is no {analysis} to run"),
-            "the case ends here".to_owned(),
+            "the case ends here",
             Location::new(0, end..end),
-            Some(format!("add\n{remedy}")),
+            format!("add\n{remedy}"),
         )])
     }
 
@@ -491,12 +481,12 @@ impl Case {
     pub fn error_at(
         &self,
         key: &str,
-        message: String,
-        label: String,
-        help: Option<String>,
+        message: impl Into<String>,
+        label: impl Into<String>,
+        help: impl Remedy,
     ) -> CaseErrors {
         let at = self.raw.place(key);
-        let help = help.or_else(|| suggestion::usage(key));
+        let help = help.remedy().or_else(|| suggestion::usage(key));
         self.raw
             .errors(vec![Diagnostic::error(message, label, at, help)])
     }
