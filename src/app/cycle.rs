@@ -134,7 +134,7 @@ pub fn check_memory(case: &Case) -> Result<(), Failure> {
             gibibytes(bytes),
             gibibytes(available)
         ),
-        "too many phases for this machine".to_owned(),
-        Some("lower cycle.phases, or leave it out".to_owned()),
+        "too many phases for this machine",
+        "lower cycle.phases, or leave it out",
     )))
 }

@@ -5,12 +5,10 @@ use super::{Failure, RunOptions, Session};
 use crate::case::{AssemblyBody, Case, ModeSelection};
 use crate::mesh::{AnnulusMesh, SolidSector, SolidSpecification};
 use crate::results::mesh::{
-    MeshStatistics, MeshSummary, draw_mesh, print, write_mesh, write_solid_mesh,
+    MeshStatistics, MeshSummary, SolidMeshStatistics, draw_mesh, draw_solids, print, print_solids,
+    write_mesh, write_revolution,
 };
-use crate::results::solid_mesh::{self, SolidMeshStatistics, SolidMeshSummary};
-use crate::results::{
-    DrawingOptions, OutputFolder, read_summary, solid_mesh_figure, write_summary,
-};
+use crate::results::{DrawingOptions, OutputFolder, read_summary, write_summary};
 use clap::Args;
 use std::collections::BTreeMap;
 
@@ -49,8 +47,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let solid = revolution.map(|body| generate(&body.specification));
     let solid = solid.transpose()?;
     match &solid {
-        Some(sector) => write_solid_mesh(&folder, sector)?,
-        None => write_mesh(&folder, &mesh)?,
+        Some(sector) => write_revolution(&folder, sector)?,
+        None => write_mesh(&folder, &mesh, mesh.contact_edge().nodes.iter().copied())?,
     }
     let mut statistics = MeshStatistics::new(&mesh, annulus.as_ref(), shortest_wave(case));
     if let Some(sector) = &solid {
@@ -65,6 +63,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         title: case.title.clone(),
         wall_s: session.wall_seconds(),
         mesh: statistics,
+        notes: Vec::new(),
         not_used: case.taken.not_used(),
         manifest: session.manifest.clone(),
     };
@@ -86,13 +85,15 @@ fn run_solid(
     let roles = roles(assembly);
     let densities = (0..mesh.regions.len()).map(|region| case.materials().of(region).density);
     let densities: Vec<f64> = densities.collect();
-    solid_mesh::write(&folder, mesh, &roles)?;
+    let contacts = roles.iter().filter(|role| *role.1 == "contact");
+    let contact_nodes = contacts.flat_map(|role| mesh.boundaries[*role.0].nodes.iter().copied());
+    write_mesh(&folder, mesh, contact_nodes)?;
     let statistics = SolidMeshStatistics::new(mesh, &densities, &roles);
     if let Some(drawing) = session.options.output.drawing() {
         let words = (case.title.as_str(), &roles);
-        solid_mesh_figure::draw(&folder, mesh, words, &statistics, &drawing)?;
+        draw_solids(&folder, mesh, words, &statistics, &drawing)?;
     }
-    let summary = SolidMeshSummary {
+    let summary = MeshSummary {
         command: "mesh".to_owned(),
         title: case.title.clone(),
         wall_s: session.wall_seconds(),
@@ -102,7 +103,7 @@ fn run_solid(
         manifest: session.manifest.clone(),
     };
     let object = write_summary(&folder, &summary)?;
-    let text = solid_mesh::print(&summary);
+    let text = print_solids(&summary);
     session.options.output.finish(folder, &text, &object)
 }
 
@@ -127,13 +128,13 @@ fn roles(assembly: &AssemblyBody) -> BTreeMap<usize, &'static str> {
 /// Those of the drawing and of the folder.
 pub fn redraw(folder: &OutputFolder, case: &Case, options: &DrawingOptions) -> Result<(), Failure> {
     if let Some(assembly) = case.body.assembly() {
-        let summary: SolidMeshSummary = read_summary(folder.path())?;
+        let summary: MeshSummary<SolidMeshStatistics> = read_summary(folder.path())?;
         let words = (case.title.as_str(), &roles(assembly));
-        solid_mesh_figure::draw(folder, &assembly.mesh, words, &summary.mesh, options)?;
+        draw_solids(folder, &assembly.mesh, words, &summary.mesh, options)?;
         return Ok(());
     }
     let mesh = case.mesh().map_err(Failure::usage)?;
-    let summary: MeshSummary = read_summary(folder.path())?;
+    let summary: MeshSummary<MeshStatistics> = read_summary(folder.path())?;
     let probes = &case.output.probes;
     draw_mesh(folder, &mesh, (&case.title, probes), &summary.mesh, options)?;
     Ok(())

@@ -3,7 +3,7 @@
 use super::boundaries::NamedCondition;
 use super::contact::{Contact, friction_decay, no_rigid_losses};
 use super::elastic::loss_factor;
-use super::imported::whole_body;
+use super::imported::{ImportError, whole_body};
 use super::modifications::{Modification, reshaped};
 use super::normal_law::normal_law;
 use super::raw::MeshBytes;
@@ -128,19 +128,18 @@ pub(super) fn sections(
     if bases.iter().any(|other| *other != base) {
         root.reject(
             "contacts",
-            "contacts are \"solved\" and \"closed\" in one case: one that is free of stress and one that is not have no common equilibrium"
-                .to_owned(),
-            "one state for all".to_owned(),
-            Some("give every contact the same `state`".to_owned()),
+            "contacts are \"solved\" and \"closed\" in one case: one that is free of stress \
+             and one that is not have no common equilibrium",
+            "one state for all",
+            "give every contact the same `state`",
         );
     }
     if root.has("contact") {
         root.reject(
             "contact",
-            "[contact] and [contacts.*] in one case: the one is the short form of the other"
-                .to_owned(),
-            "one of the two".to_owned(),
-            Some("leave [contact] out".to_owned()),
+            "[contact] and [contacts.*] in one case: the one is the short form of the other",
+            "one of the two",
+            "leave [contact] out",
         );
     }
     let first = contacts.first();
@@ -174,7 +173,7 @@ fn motion(section: &Section<'_>) -> Motion {
             section.reject(
                 key,
                 format!("{} needs three numbers", section.name(key)),
-                "must be [x, y, z]".to_owned(),
+                "must be [x, y, z]",
                 None,
             );
             None
@@ -190,7 +189,7 @@ fn motion(section: &Section<'_>) -> Motion {
         section.reject(
             "axis",
             format!("{} = [0, 0, 0] points nowhere", section.name("axis")),
-            "must not be zero".to_owned(),
+            "must not be zero",
             None,
         );
     }
@@ -216,8 +215,8 @@ fn inertia(section: &Section<'_>) -> Option<RotationFrame> {
                 "{} has no effect without the inertia of rotation",
                 section.name("frame")
             ),
-            "needs rotation_terms = true".to_owned(),
-            Some("give rotation_terms = true, or leave frame out".to_owned()),
+            "needs rotation_terms = true",
+            "give rotation_terms = true, or leave frame out",
         );
     }
     None
@@ -239,8 +238,8 @@ fn contact(
                 "{} has no effect on a contact that is closed and free of stress",
                 section.name("gap")
             ),
-            "beside state = \"closed\"".to_owned(),
-            Some("leave one of the two out".to_owned()),
+            "beside state = \"closed\"",
+            "leave one of the two out",
         );
     }
     let decay = friction_decay(section);
@@ -263,8 +262,8 @@ fn contact(
                 "{} has no effect on a rigid contact",
                 section.name("normal_damping")
             ),
-            "needs normal_stiffness".to_owned(),
-            Some("give normal_stiffness, or leave normal_damping out".to_owned()),
+            "needs normal_stiffness",
+            "give normal_stiffness, or leave normal_damping out",
         );
     }
     NamedContact {
@@ -283,20 +282,17 @@ fn contact(
     }
 }
 
-/// The solid bodies of a mesh file. An error is a message and a label.
+/// The solid bodies of a mesh file.
 pub(super) fn assemble(
     bytes: &MeshBytes,
     scale: f64,
     conditions: &[NamedCondition],
     (common, own): (&TabledMaterial, &[(String, TabledMaterial)]),
     (parts, modifications): (AssemblyParts, &[Modification]),
-) -> Result<AssemblyBody, (String, String)> {
-    let unusable = |error: MeshFileError| {
-        let message = format!("{}: {error}", bytes.file);
-        (message, "makes no bodies".to_owned())
-    };
+) -> Result<AssemblyBody, ImportError> {
+    let unusable = |error: MeshFileError| ImportError::of(error, &bytes.file);
     let file = whole_body(bytes, parts.symmetry.as_ref(), scale).map_err(unusable)?;
-    let misfit = |(key, why): (String, String)| (format!("{key}: {why}"), "not so".to_owned());
+    let misfit = ImportError::misfit;
     let (file, _) = reshaped(file, scale, "", modifications).map_err(misfit)?;
     let mesh = Mesh::from_solids(&file, scale, conditions).map_err(unusable)?;
     let region =
@@ -312,13 +308,13 @@ pub(super) fn assemble(
     };
     let mut materials = vec![solid(common); mesh.regions.len()];
     for (name, material) in own {
-        let place = region(name, &format!("[materials.{name}]"))?;
+        let place = region(name, &format!("materials.{name}"))?;
         materials[place] = solid(material);
     }
     let mut motions = Vec::new();
     for (name, motion) in parts.motions {
         motions.push(Motion {
-            regions: vec![region(&name, &format!("[motion.{name}]"))?],
+            regions: vec![region(&name, &format!("motion.{name}"))?],
             ..motion
         });
     }
@@ -361,7 +357,7 @@ pub(super) fn assemble(
 }
 
 /// Place of a name among those of a mesh file.
-fn named(known: &[String], name: &str, key: &str, what: &str) -> Result<usize, (String, String)> {
+fn named(known: &[String], name: &str, key: &str, what: &str) -> Result<usize, ImportError> {
     known.iter().position(|other| other == name).ok_or_else(|| {
         let hint = suggestion::nearest(name, known.iter().map(String::as_str))
             .map_or_else(String::new, |near| format!("; did you mean \"{near}\"?"));
@@ -370,7 +366,7 @@ fn named(known: &[String], name: &str, key: &str, what: &str) -> Result<usize, (
             "{key}: the mesh file has no {what} \"{name}\"; it has {}{hint}",
             list.join(", ")
         );
-        (message, "names none of its parts".to_owned())
+        ImportError::new(key, message, "names none of its parts")
     })
 }
 

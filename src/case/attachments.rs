@@ -87,8 +87,8 @@ pub(super) fn attach(
             section.reject(
                 "radius",
                 format!("{} holds no element's middle", section.name("radius")),
-                "no element within it".to_owned(),
-                Some("center and radius are in metres".to_owned()),
+                "no element within it",
+                "center and radius are in metres",
             );
         }
         patches.push(DampedPatch {
@@ -104,9 +104,9 @@ pub(super) fn attach(
         }
         None => root.reject(
             "modifications",
-            "modifications break the rotational symmetry that this body is solved by".to_owned(),
-            "a body of revolution in three dimensions".to_owned(),
-            Some("give the body as a mesh file (mesh.file)".to_owned()),
+            "modifications break the rotational symmetry that this body is solved by",
+            "a body of revolution in three dimensions",
+            "give the body as a mesh file (mesh.file)",
         ),
     }
 }

@@ -18,9 +18,8 @@ pub(super) fn basin(root: &Section<'_>, body: Option<&Body>) -> Option<BasinRequ
     {
         section.reject(
             "modes",
-            "basin.modes must name two different modes, or one that competes with steady sliding"
-                .to_owned(),
-            "one or two of them".to_owned(),
+            "basin.modes must name two different modes, or one that competes with steady sliding",
+            "one or two of them",
             None,
         );
     }
@@ -37,7 +36,7 @@ pub(super) fn basin(root: &Section<'_>, body: Option<&Body>) -> Option<BasinRequ
     if pair.len() != 2 || pair[0] == pair[1] {
         section.reject(
             "harmonics",
-            "basin.harmonics must name two different harmonics".to_owned(),
+            "basin.harmonics must name two different harmonics",
             format!("{} of them, two are compared", pair.len()),
             None,
         );

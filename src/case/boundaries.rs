@@ -42,8 +42,8 @@ fn condition(section: &Section<'_>) -> BoundaryCondition {
                 "{} has no effect on a support without springs",
                 section.name("loss_factor")
             ),
-            "nothing is lost".to_owned(),
-            Some("give a stiffness, or leave loss_factor out".to_owned()),
+            "nothing is lost",
+            "give a stiffness, or leave loss_factor out",
         );
     }
     let pressure = section.optional_number("pressure");
@@ -54,9 +54,7 @@ fn condition(section: &Section<'_>) -> BoundaryCondition {
             key,
             format!("{} has no effect here", section.name(key)),
             format!("needs condition = \"{needs}\""),
-            Some(format!(
-                "change the condition to \"{needs}\", or leave {key} out"
-            )),
+            format!("change the condition to \"{needs}\", or leave {key} out"),
         );
     };
     if word != ConditionWord::Support {
@@ -106,8 +104,8 @@ pub(super) fn no_axial_support(root: &Section<'_>, boundaries: &[NamedCondition]
             section.reject(
                 name,
                 format!("boundaries.{name}.axial_stiffness has no effect on a plane body"),
-                "needs material.formulation = \"three-dimensional\"".to_owned(),
-                Some("leave axial_stiffness out".to_owned()),
+                "needs material.formulation = \"three-dimensional\"",
+                "leave axial_stiffness out",
             );
         }
     }

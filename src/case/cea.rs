@@ -76,8 +76,8 @@ pub(super) fn cea(
     if friction_coefficients.is_empty() && section.is_empty_list("friction_coefficients") {
         section.reject(
             "friction_coefficients",
-            "cea.friction_coefficients is empty".to_owned(),
-            "at least one value".to_owned(),
+            "cea.friction_coefficients is empty",
+            "at least one value",
             None,
         );
     }
@@ -132,22 +132,19 @@ pub(super) fn mode_selection(section: &Section<'_>, unknowns: u128) -> ModeSelec
         (Some(limit), Some(_)) => {
             section.reject(
                 "modes",
-                "cea.modes and cea.max_frequency_hz exclude each other".to_owned(),
-                "give one of the two".to_owned(),
-                Some("keep one of the two".to_owned()),
+                "cea.modes and cea.max_frequency_hz exclude each other",
+                "give one of the two",
+                "keep one of the two",
             );
             ModeSelection::BelowHz(limit)
         }
         (None, None) => {
             section.reject(
                 "max_frequency_hz",
-                "cea.max_frequency_hz (or cea.modes) is missing".to_owned(),
-                "says not which modes to find".to_owned(),
-                Some(
-                    "add `max_frequency_hz = 17500.0` (all modes below it) \
-                     or `modes = 28` (the lowest ones)"
-                        .to_owned(),
-                ),
+                "cea.max_frequency_hz (or cea.modes) is missing",
+                "says not which modes to find",
+                "add `max_frequency_hz = 17500.0` (all modes below it) \
+                     or `modes = 28` (the lowest ones)",
             );
             ModeSelection::BelowHz(f64::NAN)
         }
@@ -163,9 +160,9 @@ fn cea_map(cea: &Section<'_>) -> Option<CeaMap> {
     if section.has("key") && key == "contact.friction_coefficient" {
         section.reject(
             "key",
-            "cea.map.key = \"contact.friction_coefficient\" is already the first parameter of the map"
-                .to_owned(),
-            "another parameter".to_owned(),
+            "cea.map.key = \"contact.friction_coefficient\" is already the first parameter of \
+             the map",
+            "another parameter",
             None,
         );
     }
@@ -173,8 +170,8 @@ fn cea_map(cea: &Section<'_>) -> Option<CeaMap> {
     if !section.has("values") || section.is_empty_list("values") {
         section.reject(
             "values",
-            "cea.map.values is missing or empty".to_owned(),
-            "at least one value".to_owned(),
+            "cea.map.values is missing or empty",
+            "at least one value",
             None,
         );
     }

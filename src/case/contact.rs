@@ -69,8 +69,8 @@ pub(super) fn contact(
                 section.reject(
                     key,
                     format!("contact.{key} is for a body from a mesh file (mesh.file)"),
-                    "not used by the built-in annulus".to_owned(),
-                    Some("leave it out".to_owned()),
+                    "not used by the built-in annulus",
+                    "leave it out",
                 );
             }
         }
@@ -81,9 +81,9 @@ pub(super) fn contact(
     if is_annulus && !is_solid && interference == 0.0 && !is_pressed {
         section.reject(
             "interference",
-            "contact.interference = 0.0 must be positive and finite".to_owned(),
-            "must be positive and finite".to_owned(),
-            Some("without it nothing presses the disc".to_owned()),
+            "contact.interference = 0.0 must be positive and finite",
+            "must be positive and finite",
+            "without it nothing presses the disc",
         );
     }
     let rotation_speed = match place.plane_speed {
@@ -96,11 +96,11 @@ pub(super) fn contact(
     if is_solid && rotation_speed == 0.0 && section.has("rotation_speed_rpm") {
         section.reject(
             "rotation_speed_rpm",
-            "contact.rotation_speed_rpm = 0: at rest friction holds a three-dimensional body across the sliding too, as by \
-             an infinite dashpot (mu p / V): there is no steady sliding"
-                .to_owned(),
-            "must not be zero in three dimensions".to_owned(),
-            Some("give a small positive speed instead".to_owned()),
+            "contact.rotation_speed_rpm = 0: at rest friction holds a three-dimensional body \
+             across the sliding too, as by an infinite dashpot (mu p / V): there is no steady \
+             sliding",
+            "must not be zero in three dimensions",
+            "give a small positive speed instead",
         );
     }
     let stiffness = ContactStiffness {
@@ -131,8 +131,8 @@ pub(super) fn contact(
                 "contact.normal_damping = {} has no effect on a rigid contact",
                 stiffness.normal_damping
             ),
-            "needs contact.normal_stiffness".to_owned(),
-            Some("give contact.normal_stiffness, or leave normal_damping out".to_owned()),
+            "needs contact.normal_stiffness",
+            "give contact.normal_stiffness, or leave normal_damping out",
         );
     }
     if is_rigid {
@@ -170,8 +170,8 @@ pub(super) fn no_rigid_losses(section: &Section<'_>, stiffness: &ContactStiffnes
                 "{} has no effect on a rigid contact, which stores no energy",
                 section.name("loss_factor")
             ),
-            "needs normal_stiffness".to_owned(),
-            Some("give normal_stiffness, or leave loss_factor out".to_owned()),
+            "needs normal_stiffness",
+            "give normal_stiffness, or leave loss_factor out",
         );
     }
 }
@@ -191,23 +191,17 @@ pub(super) fn friction_decay(section: &Section<'_>) -> Option<FrictionDecay> {
                 "{} = {static_ratio} needs decay_speed",
                 section.name("static_friction_ratio")
             ),
-            "falls over no speed".to_owned(),
-            Some(
-                "give the speed over which friction falls, for example decay_speed = 0.2"
-                    .to_owned(),
-            ),
+            "falls over no speed",
+            "give the speed over which friction falls, for example decay_speed = 0.2",
         );
     }
     if decay.is_some() && !section.has("static_friction_ratio") {
         section.reject(
             "decay_speed",
-            "contact.decay_speed has no effect without contact.static_friction_ratio".to_owned(),
-            "friction does not fall".to_owned(),
-            Some(
-                "give static friction over kinetic, for example static_friction_ratio = 1.4, or \
-                 leave decay_speed out"
-                    .to_owned(),
-            ),
+            "contact.decay_speed has no effect without contact.static_friction_ratio",
+            "friction does not fall",
+            "give static friction over kinetic, for example static_friction_ratio = 1.4, or \
+                 leave decay_speed out",
         );
     }
     decay.filter(|decay| decay.static_ratio > 1.0)

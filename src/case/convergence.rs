@@ -103,9 +103,9 @@ pub(super) fn read(root: &Section<'_>, body: Option<&Body>, has: [bool; 3]) -> O
     if root.has("modifications") {
         root.reject(
             "modifications",
-            "[modifications] are places of one mesh: a finer one would have others".to_owned(),
-            "not beside [convergence]".to_owned(),
-            Some("leave one of the two sections out, and compare meshes by hand".to_owned()),
+            "[modifications] are places of one mesh: a finer one would have others",
+            "not beside [convergence]",
+            "leave one of the two sections out, and compare meshes by hand",
         );
     }
     let factors = match section.numbers("factors") {
@@ -146,12 +146,9 @@ pub(super) fn read(root: &Section<'_>, body: Option<&Body>, has: [bool; 3]) -> O
     if !time_step_factors.is_empty() && !analyses.contains(&Analysis::Transient) {
         section.reject(
             "time_step_factors",
-            "convergence.time_step_factors needs a [transient]".to_owned(),
-            "there is no transient in this case".to_owned(),
-            Some(
-                "add a [transient] section of quad4 elements, or leave time_step_factors out"
-                    .to_owned(),
-            ),
+            "convergence.time_step_factors needs a [transient]",
+            "there is no transient in this case",
+            "add a [transient] section of quad4 elements, or leave time_step_factors out",
         );
     }
     section.close();
@@ -213,11 +210,11 @@ fn check_splits(section: &Section<'_>, mesh: &Mesh, factors: &[f64]) {
         section.reject(
             "factors",
             format!(
-                "convergence.factors holds {factor}: an imported mesh is refined by splitting each element into four, a solid one \
-                 into eight"
+                "convergence.factors holds {factor}: an imported mesh is refined by splitting \
+                 each element into four, a solid one into eight"
             ),
-            "powers of two: 1, 2, 4, ...".to_owned(),
-            Some("leave it out for [1, 2, 4]".to_owned()),
+            "powers of two: 1, 2, 4, ...",
+            "leave it out for [1, 2, 4]",
         );
         return;
     }
@@ -228,9 +225,10 @@ fn check_splits(section: &Section<'_>, mesh: &Mesh, factors: &[f64]) {
         section.reject(
             "factors",
             format!(
-                "the mesh of convergence.factors = {finest} would have {nodes:.0} nodes, above the limit of {limit}"
+                "the mesh of convergence.factors = {finest} would have {nodes:.0} nodes, above \
+                 the limit of {limit}"
             ),
-            "too many elements".to_owned(),
+            "too many elements",
             None,
         );
     }
@@ -334,11 +332,10 @@ fn analyses(
         if all.is_empty() && !section.has("analyses") {
             section.reject(
                 "analyses",
-                "[convergence] has nothing to study: the case has neither [cea] nor a [transient] or a \
-                 [cycle] that its elements can run"
-                    .to_owned(),
-                "no analysis in the case".to_owned(),
-                Some("add\n[cea]\nmax_frequency_hz = 17500.0".to_owned()),
+                "[convergence] has nothing to study: the case has neither [cea] nor a \
+                 [transient] or a [cycle] that its elements can run",
+                "no analysis in the case",
+                "add\n[cea]\nmax_frequency_hz = 17500.0",
             );
         }
         return all;
@@ -348,7 +345,8 @@ fn analyses(
             section.reject(
                 "analyses",
                 format!("convergence.analyses names \"{word}\", which this case cannot run"),
-                "an analysis needs its own section; a transient also needs quad4 elements, a cycle quad4 elements and the built-in annulus".to_owned(),
+                "an analysis needs its own section; a transient also needs quad4 elements, a \
+                 cycle quad4 elements and the built-in annulus",
                 None,
             );
         }

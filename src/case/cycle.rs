@@ -93,16 +93,16 @@ impl Case {
             true => self.error_at(
                 key,
                 format!("{key} = {value}: limit cycles need a cylinder that turns"),
-                "must be positive here".to_owned(),
-                Some("a cylinder turning backwards gives the mirror image".to_owned()),
+                "must be positive here",
+                "a cylinder turning backwards gives the mirror image",
             ),
             false => self.error_at(
                 key,
                 format!(
                     "{key} = {value}: the contact sticks at rest, and no limit cycle lives there"
                 ),
-                "must not be zero here".to_owned(),
-                Some("give a speed; its sign is the sense of the sliding".to_owned()),
+                "must not be zero here",
+                "give a speed; its sign is the sense of the sliding",
             ),
         })
     }
@@ -157,7 +157,7 @@ impl Case {
                 "{key} is not used: the limit cycles of this body are motions of the whole mesh, one for each mode that grows, \
                  and no rotating waves"
             ),
-            "not used".to_owned(),
+            "not used",
             self.raw.place(key),
             None,
         ))
@@ -185,9 +185,9 @@ pub(super) fn cycle(root: &Section<'_>, body: Option<&Body>) -> Option<Cycle> {
     if two_frequencies && stability == StabilityChoice::None {
         section.reject(
             "two_frequencies",
-            "cycle.two_frequencies needs to know which cycles lose their stability".to_owned(),
-            "needs cycle.stability".to_owned(),
-            Some("cycle.stability = \"point\" or \"branch\"".to_owned()),
+            "cycle.two_frequencies needs to know which cycles lose their stability",
+            "needs cycle.stability",
+            "cycle.stability = \"point\" or \"branch\"",
         );
     }
     let inner = section.section("continuation", false);
@@ -204,9 +204,9 @@ pub(super) fn cycle(root: &Section<'_>, body: Option<&Body>) -> Option<Cycle> {
     if stability == StabilityChoice::Branch && continuation.is_none() {
         section.reject(
             "stability",
-            "cycle.stability = \"branch\" needs [cycle.continuation]".to_owned(),
-            "needs [cycle.continuation]".to_owned(),
-            Some("add that table, or use \"point\"".to_owned()),
+            "cycle.stability = \"branch\" needs [cycle.continuation]",
+            "needs [cycle.continuation]",
+            "add that table, or use \"point\"",
         );
     }
     inner.close();
@@ -239,15 +239,15 @@ fn check_continuation(section: &Section<'_>, continuation: &Continuation) {
         section.reject(
             "key",
             format!("limit cycles cannot be followed over {key}"),
-            "not one of the parameters of a cycle".to_owned(),
-            Some(format!("one of {}", known.join(", "))),
+            "not one of the parameters of a cycle",
+            format!("one of {}", known.join(", ")),
         );
     }
     if from.min(*to) < 0.0 {
         section.reject(
             if *from < 0.0 { "from" } else { "to" },
             format!("{key} cannot be negative along a branch"),
-            "must not be negative".to_owned(),
+            "must not be negative",
             None,
         );
     } else if *spacing == Spacing::Logarithmic && (*from == 0.0 || *to == 0.0) {
@@ -256,15 +256,15 @@ fn check_continuation(section: &Section<'_>, continuation: &Continuation) {
             format!(
                 "cycle.continuation.spacing = \"log\" needs two positive ends, not {from} and {to}"
             ),
-            "both ends must be positive".to_owned(),
-            Some("use \"linear\"".to_owned()),
+            "both ends must be positive",
+            "use \"linear\"",
         );
     }
     if from == to {
         section.reject(
             "to",
             format!("cycle.continuation.to = {to} equals from"),
-            "must differ from `from`".to_owned(),
+            "must differ from `from`",
             None,
         );
     }

@@ -48,14 +48,43 @@ pub struct Diagnostic {
     pub help: Option<String>,
 }
 
+/// What to do about an error, if anything.
+pub trait Remedy {
+    /// In words.
+    fn remedy(self) -> Option<String>;
+}
+
+impl Remedy for &str {
+    fn remedy(self) -> Option<String> {
+        Some(self.to_owned())
+    }
+}
+
+impl Remedy for String {
+    fn remedy(self) -> Option<String> {
+        Some(self)
+    }
+}
+
+impl Remedy for Option<String> {
+    fn remedy(self) -> Option<String> {
+        self
+    }
+}
+
 impl Diagnostic {
     /// An error at a place.
-    pub fn error(message: String, label: String, at: Location, help: Option<String>) -> Self {
+    pub fn error(
+        message: impl Into<String>,
+        label: impl Into<String>,
+        at: Location,
+        help: impl Remedy,
+    ) -> Self {
         Self {
-            message,
-            label,
+            message: message.into(),
+            label: label.into(),
             at,
-            help,
+            help: help.remedy(),
         }
     }
 }

@@ -30,11 +30,12 @@ pub(super) fn loss_factor(section: &Section<'_>) -> f64 {
         section.reject(
             "loss_factor",
             format!(
-                "{} = {loss_factor} is beyond any material's: at 1 half of the strain energy is lost in a sixth of a cycle",
+                "{} = {loss_factor} is beyond any material's: at 1 half of the strain energy \
+                 is lost in a sixth of a cycle",
                 section.name("loss_factor")
             ),
-            "at most 1".to_owned(),
-            Some("steel has about 0.001, cast iron 0.002, a lining 0.01 to 0.1, rubber 0.1 to 1".to_owned()),
+            "at most 1",
+            "steel has about 0.001, cast iron 0.002, a lining 0.01 to 0.1, rubber 0.1 to 1",
         );
     }
     loss_factor
@@ -73,8 +74,8 @@ pub(super) fn elastic(
                         "{} beside the keys of an orthotropic material",
                         section.name(key)
                     ),
-                    "isotropic or orthotropic".to_owned(),
-                    Some("leave out the constants of the one or of the other".to_owned()),
+                    "isotropic or orthotropic",
+                    "leave out the constants of the one or of the other",
                 );
             }
         }
@@ -93,8 +94,8 @@ pub(super) fn elastic(
         section.reject(
             "axes",
             format!("{} is for an orthotropic material", section.name("axes")),
-            "an isotropic material has no axes".to_owned(),
-            Some("give young_moduli, poisson_ratios and shear_moduli, or leave it out".to_owned()),
+            "an isotropic material has no axes",
+            "give young_moduli, poisson_ratios and shear_moduli, or leave it out",
         );
     }
     let [young_modulus, poisson_ratio] = ISOTROPIC.map(|key| {
@@ -124,11 +125,8 @@ fn tabled(section: &Section<'_>, plain: ElasticMaterial, table: &ModulusTable) -
         section.reject(
             key,
             format!("{} beside {}", section.name(key), section.name("table")),
-            "the table gives modulus and loss factor".to_owned(),
-            Some(
-                "leave out the one or the other; poisson_ratio and density stand beside a table"
-                    .to_owned(),
-            ),
+            "the table gives modulus and loss factor",
+            "leave out the one or the other; poisson_ratio and density stand beside a table",
         );
     }
     if !section.has("poisson_ratio") {
@@ -154,7 +152,7 @@ fn orthotropy(section: &Section<'_>) -> Orthotropy {
             section.reject(
                 key,
                 format!("{} has {given} of three numbers", section.name(key)),
-                "one for each of three axes".to_owned(),
+                "one for each of three axes",
                 None,
             );
         }
@@ -179,15 +177,13 @@ fn orthotropy(section: &Section<'_>) -> Orthotropy {
         section.reject(
             "poisson_ratios",
             format!(
-                "{}: {name} = {value} would give some strain a negative energy; beside the other constants it must lie \
-                 between {low:.6} and {high:.6}",
+                "{}: {name} = {value} would give some strain a negative energy; beside the \
+                 other constants it must lie between {low:.6} and {high:.6}",
                 section.name("poisson_ratios")
             ),
             format!("{name} is too large"),
-            Some(
-                "nu_ij is the contraction along j under a stress along i: nu_ij / E_i = nu_ji / E_j; are the axes swapped?"
-                    .to_owned(),
-            ),
+            "nu_ij is the contraction along j under a stress along i: nu_ij / E_i = nu_ji / \
+             E_j; are the axes swapped?",
         );
     }
     orthotropy
@@ -217,7 +213,7 @@ fn axes(section: &Section<'_>) -> MaterialAxes {
         section.reject(
             "axes",
             format!("{} needs two vectors", section.name("axes")),
-            "must be [[x, y, z], [x, y, z]]".to_owned(),
+            "must be [[x, y, z], [x, y, z]]",
             None,
         );
         return MaterialAxes::global();
@@ -226,8 +222,8 @@ fn axes(section: &Section<'_>) -> MaterialAxes {
         section.reject(
             "axes",
             format!("the vectors of {} are parallel", section.name("axes")),
-            "span no plane".to_owned(),
-            Some("the first is axis 1, the second lies in the plane of axes 1 and 2".to_owned()),
+            "span no plane",
+            "the first is axis 1, the second lies in the plane of axes 1 and 2",
         );
         MaterialAxes::global()
     })

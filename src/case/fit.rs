@@ -44,8 +44,8 @@ pub(super) fn fit(root: &Section<'_>) -> Option<Fit> {
     if given && inner.is_given() && inner.remaining().is_empty() {
         section.reject(
             "parameters",
-            "fit.parameters is empty".to_owned(),
-            "at least one parameter".to_owned(),
+            "fit.parameters is empty",
+            "at least one parameter",
             None,
         );
     }
@@ -61,7 +61,7 @@ pub(super) fn fit(root: &Section<'_>) -> Option<Fit> {
 fn bounds(section: &Section<'_>, parameter: ModelParameter, entry: &RawEntry) -> FitParameter {
     let key = &parameter.key;
     let reject = |message: String, label: &str, help: &str| {
-        section.reject_there(&entry.item.at, message, label.to_owned(), help);
+        section.reject_placed(&entry.item.at, message, label.to_owned(), help);
     };
     let help = "bounds are [0.3, 0.45] or { from = 1e10, to = 1e13, scale = \"log\" }";
     let mut scale = Spacing::Linear;

@@ -49,8 +49,8 @@ pub(super) fn read(root: &Section<'_>, nodes: &Nodes<'_>) -> Option<Frf> {
     if !section.has("frequencies_hz") || section.is_empty_list("frequencies_hz") {
         section.reject(
             "frequencies_hz",
-            "frf.frequencies_hz is missing or empty".to_owned(),
-            "at least one frequency".to_owned(),
+            "frf.frequencies_hz is missing or empty",
+            "at least one frequency",
             None,
         );
     }
@@ -64,11 +64,8 @@ pub(super) fn read(root: &Section<'_>, nodes: &Nodes<'_>) -> Option<Frf> {
             section.reject(
                 key,
                 format!("frf.{key} = \"{name}\": a plane body does not move along its axis"),
-                "the body is plane".to_owned(),
-                Some(
-                    "use \"radial\" or \"tangential\", or material.formulation = \"three-dimensional\""
-                        .to_owned(),
-                ),
+                "the body is plane",
+                "use \"radial\" or \"tangential\", or material.formulation = \"three-dimensional\"",
             );
         }
         direction

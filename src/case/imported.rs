@@ -54,7 +54,7 @@ pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
             section.reject(
                 key,
                 format!("{} needs two numbers", section.name(key)),
-                "must be [x, y]".to_owned(),
+                "must be [x, y]",
                 None,
             );
             default
@@ -81,8 +81,8 @@ pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
             if direction == [0.0; 2] {
                 section.reject(
                     "direction",
-                    "contact.direction = [0, 0] has no direction".to_owned(),
-                    "must not be zero".to_owned(),
+                    "contact.direction = [0, 0] has no direction",
+                    "must not be zero",
                     None,
                 );
             }
@@ -182,10 +182,9 @@ pub(super) fn refuse_sectors(mesh: &Section<'_>) {
     if mesh.optional_count("sectors").is_some() {
         mesh.reject(
             "sectors",
-            "mesh.sectors is for a mesh file (mesh.file) that has one sector of the body"
-                .to_owned(),
-            "a generated body is made of sectors anyway".to_owned(),
-            Some("leave it out".to_owned()),
+            "mesh.sectors is for a mesh file (mesh.file) that has one sector of the body",
+            "a generated body is made of sectors anyway",
+            "leave it out",
         );
     }
 }
@@ -206,8 +205,8 @@ pub(super) fn symmetry(
             mesh.reject(
                 "sectors",
                 format!("mesh.sectors needs one axis that the sectors turn about, but {why}"),
-                "about which axis?".to_owned(),
-                Some("mesh the whole body, and leave mesh.sectors out".to_owned()),
+                "about which axis?",
+                "mesh the whole body, and leave mesh.sectors out",
             );
             None
         }
@@ -243,7 +242,13 @@ pub(super) struct ImportError {
 }
 
 impl ImportError {
-    fn new(key: &str, message: String, label: &str) -> Self {
+    /// What a modification or a motion asks for that the body does not have.
+    pub(super) fn misfit((key, why): (String, String)) -> Self {
+        let message = format!("{key}: {why}");
+        Self::new(&key, message, "does not fit the body")
+    }
+
+    pub(super) fn new(key: &str, message: String, label: &str) -> Self {
         Self {
             key: key.to_owned(),
             message,
@@ -252,8 +257,13 @@ impl ImportError {
         }
     }
 
+    /// Reports it at its key.
+    pub(super) fn report(self, raw: &RawCase, mesh: &Section<'_>) {
+        mesh.reject_placed(&raw.place(&self.key), self.message, self.label, self.help);
+    }
+
     /// An error of the mesh file `file`, at the key that asked for what the mesh does not have.
-    fn of(error: MeshFileError, file: &str) -> Self {
+    pub(super) fn of(error: MeshFileError, file: &str) -> Self {
         let message = format!("{file}: {error}");
         let MeshFileError::Request { part, .. } = error else {
             return Self::new("mesh.file", message, "cannot be used");
@@ -284,10 +294,7 @@ pub(super) fn import(
     let shown = &mesh.file;
     let unusable = |error: MeshFileError| ImportError::of(error, shown);
     let read = whole_body(mesh, parts.symmetry.as_ref(), parts.scale).map_err(unusable)?;
-    let misfit = |(key, why): (String, String)| {
-        let message = format!("{key}: {why}");
-        ImportError::new(&key, message, "does not fit the body")
-    };
+    let misfit = ImportError::misfit;
     let boundary = &parts.place.boundary;
     let (read, way) = reshaped(read, parts.scale, boundary, modifications).map_err(misfit)?;
     let specification = BodySpecification {

@@ -43,7 +43,7 @@ pub(super) fn improve(root: &Section<'_>) -> Improve {
                 "improve.min_frequency_hz = {} is not below improve.max_frequency_hz = {}",
                 frequencies_hz[0], frequencies_hz[1]
             ),
-            "no mode lies between them".to_owned(),
+            "no mode lies between them",
             None,
         );
     }

@@ -37,6 +37,7 @@ mod raw;
 mod reader;
 pub mod reference;
 mod relaxed;
+mod requirements;
 mod rules;
 mod shaft;
 mod shown;
@@ -60,7 +61,7 @@ pub use contact::Contact;
 pub use convergence::Convergence;
 pub use cost::{CeaCost, Cost, CycleCost, FrfCost, StudyCost, TransientCost};
 pub use cycle::{Continuation, Cycle};
-pub use diagnostic::{CaseErrors, Diagnostic, Location, Source};
+pub use diagnostic::{CaseErrors, Diagnostic, Location, Remedy, Source};
 pub use file_sections::FileSection;
 pub use fit::{Fit, FitParameter};
 pub use frf::Frf;
@@ -255,149 +256,12 @@ impl Case {
         Err(self.raw.errors(all))
     }
 
-    /// The complex eigenvalue analysis.
-    ///
-    /// # Errors
-    /// A case without `[cea]`, with what to add.
-    pub fn require_cea(&self) -> Result<&Cea, CaseErrors> {
-        let remedy = "[cea]\nmax_frequency_hz = 17500.0";
-        let cea = self.cea.as_ref();
-        cea.ok_or_else(|| self.lacks("cea", "complex eigenvalue analysis", remedy))
-    }
-
-    /// The two waves that compete.
-    ///
-    /// # Errors
-    /// A case without `[basin]`, a body that the transient cannot step, and keys of another kind of body.
-    pub fn require_basin(&self) -> Result<&crate::cycle::BasinRequest, CaseErrors> {
-        let remedy = "[basin]\nharmonics = [1, 2]";
-        self.refuse_losses_in_time("the search for a basin")?;
-        self.refuse_what_has_no_cycle()?;
-        let found = self.basin.as_ref();
-        let found = found.ok_or_else(|| self.lacks("basin", "search for a basin", remedy))?;
-        // Each kind of body has keys of its own.
-        let is_wave = self.has_rotating_waves();
-        let (key, message, remedy) = match is_wave {
-            true => (
-                "basin.modes",
-                "basin.modes is not used: the limit cycles of this disc are rotating waves",
-                "name two of them by basin.harmonics",
-            ),
-            false => (
-                "basin.harmonics",
-                "basin.harmonics is not used: the limit cycles of this body are motions of the whole mesh, born from its modes",
-                "name one or two modes by basin.modes, as `cycle` numbers them",
-            ),
-        };
-        match self.raw.find(key) {
-            None => Ok(found),
-            Some(_) => Err(self.error_at(
-                key,
-                message.to_owned(),
-                "not used".to_owned(),
-                Some(remedy.to_owned()),
-            )),
-        }
-    }
-
-    /// Limit cycles are sought under a constant friction coefficient.
-    fn require_constant_friction(&self) -> Result<(), CaseErrors> {
-        if self.contact.stiffness.law.is_some() {
-            return Err(self.error_at(
-                "contact.normal_law",
-                "rotating waves are those of rigid contact, whose pressure is another one than on a contact that stiffens".to_owned(),
-                "stiffens with pressure".to_owned(),
-                Some(
-                    "`cycle` seeks the motions of the whole mesh of such a disc; or leave contact.normal_law out"
-                        .to_owned(),
-                ),
-            ));
-        }
-        if self.contact.sliding.decay.is_none() {
-            return Ok(());
-        }
-        Err(self.error_at(
-            "contact.static_friction_ratio",
-            "limit cycles are computed for a constant friction coefficient only".to_owned(),
-            "friction falls with speed here".to_owned(),
-            Some(
-                "follow the transient to its limit cycle instead ([transient] with \
-                 stop_when_settled = true), or set contact.static_friction_ratio = 1.0"
-                    .to_owned(),
-            ),
-        ))
-    }
-
-    fn require_quad4(&self, label: &str) -> Result<(), CaseErrors> {
-        if !self.body.is_quadratic() {
-            return Ok(());
-        }
-        Err(self.error_at(
-            "mesh.element",
-            "mesh.element = \"quad8\" is for the complex eigenvalue analysis only".to_owned(),
-            label.to_owned(),
-            Some("add --set mesh.element=quad4, and refine the mesh if need be".to_owned()),
-        ))
-    }
-
-    /// The parameter study.
-    ///
-    /// # Errors
-    /// A case without `[sweep]`, with what to add.
-    pub fn require_sweep(&self) -> Result<&Sweep, CaseErrors> {
-        let remedy = "[sweep]\n\"contact.friction_coefficient\" = [0.2, 0.3, 0.4]";
-        let sweep = self.sweep.as_ref();
-        sweep.ok_or_else(|| self.lacks("sweep", "parameter study", remedy))
-    }
-
-    /// The frequency response.
-    ///
-    /// # Errors
-    /// A case without `[frf]`, with what to add.
-    pub fn require_frf(&self) -> Result<&Frf, CaseErrors> {
-        let remedy =
-            "[frf]\nforce_node = 36\nfrequencies_hz = { from = 1.0, to = 10000.0, count = 10000 }";
-        let frf = self.frf.as_ref();
-        frf.ok_or_else(|| self.lacks("frf", "frequency response", remedy))
-    }
-
     /// Whether the response is solved harmonic by harmonic where nothing else is asked for: of equal sectors, but not of disc and
     /// shaft apart, which are two bodies.
     pub fn responds_by_harmonics(&self, frf: &Frf) -> bool {
         let has_shaft = self.body.grid().is_some_and(|grid| grid.shaft.is_some());
         let is_apart = frf.boundary != crate::frf::FrfBoundary::Sliding;
         self.has_sectors() && !(has_shaft && is_apart)
-    }
-
-    /// The convergence study.
-    ///
-    /// # Errors
-    /// A case without `[convergence]`, with what to add.
-    pub fn require_convergence(&self) -> Result<&Convergence, CaseErrors> {
-        let remedy = "[convergence]\nfactors = [1, 1.5, 2.25]";
-        let study = self.convergence.as_ref();
-        study.ok_or_else(|| self.lacks("convergence", "convergence study", remedy))
-    }
-
-    /// The plane annulus of an analysis that no other body has; `waves` says what needs its sectors, `search` what takes
-    /// plane bodies only.
-    ///
-    /// # Errors
-    /// A body from a mesh file, and one in three dimensions.
-    pub fn require_annulus(&self, waves: &str, search: &str) -> Result<&Annulus, CaseErrors> {
-        match &self.body {
-            Body::Annulus(annulus) => Ok(annulus),
-            Body::Revolution(_) | Body::Assembly(_) => Err(self.not_plane(search)),
-            Body::Imported(_) => Err(self.error_at(
-                "mesh.file",
-                format!("{waves} need the rotational symmetry of the built-in annulus"),
-                "an imported mesh has no sectors".to_owned(),
-                Some(
-                    "describe the disc by [geometry] and element counts instead of mesh.file"
-                        .to_owned(),
-                ),
-            )),
-        }
     }
 
     /// The body's mesh, of one in three dimensions that of its section across the axis.
@@ -439,64 +303,16 @@ impl Case {
         self.body.has_lossy_supports() || self.has_lossy_contacts()
     }
 
-    /// An error at the first loss factor of the case.
-    pub fn loss_error(&self, message: String, label: &str, help: &str) -> CaseErrors {
-        let keys = |section: &str| -> Vec<String> {
-            let names = match self.raw.find(section).map(|item| &item.value) {
-                Some(RawValue::Table(sections)) => sections.keys().cloned().collect(),
-                _ => Vec::new(),
-            };
-            let own = names.iter();
-            own.map(|name| format!("{section}.{name}.loss_factor"))
-                .collect()
-        };
-        let shared = ["material.loss_factor", "contact.loss_factor"].map(str::to_owned);
-        let own = ["materials", "boundaries", "contacts"].map(keys);
-        let mut keys = shared.into_iter().chain(own.into_iter().flatten());
-        let is_lossy = |key: &String| self.number(key).is_some_and(|value| value > 0.0);
-        let mut regions = 0..self.body.region_count();
-        let table = regions.find_map(|region| self.materials().table(region));
-        let key = keys.find(is_lossy);
-        let key = key.or_else(|| table.map(|table| table.key().to_owned()));
-        let key = key.unwrap_or_else(|| "material.loss_factor".to_owned());
-        let message = format!("{key}: {message}");
-        self.error_at(&key, message, label.to_owned(), Some(help.to_owned()))
-    }
-
-    /// Refuses structural damping in an analysis over time.
-    pub(super) fn refuse_losses_in_time(&self, what: &str) -> Result<(), CaseErrors> {
-        if !self.has_structural_damping() {
-            return Ok(());
-        }
-        Err(self.loss_error(
-            format!(
-                "{what} is over time, and a stiffness K (1 + i eta) belongs to one frequency: in time it would act before its cause"
-            ),
-            "for `cea` and `frf`",
-            "use damping.stiffness_coefficient = eta / (2 pi f), which loses as much at the frequency f, and set loss_factor = 0",
-        ))
-    }
-
-    fn lacks(&self, section: &str, analysis: &str, remedy: &str) -> CaseErrors {
-        let end = self.raw.text.trim_end().len();
-        self.raw.errors(vec![Diagnostic::error(
-            format!("the case has no [{section}] section, so there is no {analysis} to run"),
-            "the case ends here".to_owned(),
-            Location::new(0, end..end),
-            Some(format!("add\n{remedy}")),
-        )])
-    }
-
     /// An error at a dotted key: at its value where the case gives one, else at its section.
     pub fn error_at(
         &self,
         key: &str,
-        message: String,
-        label: String,
-        help: Option<String>,
+        message: impl Into<String>,
+        label: impl Into<String>,
+        help: impl Remedy,
     ) -> CaseErrors {
         let at = self.raw.place(key);
-        let help = help.or_else(|| suggestion::usage(key));
+        let help = help.remedy().or_else(|| suggestion::usage(key));
         self.raw
             .errors(vec![Diagnostic::error(message, label, at, help)])
     }

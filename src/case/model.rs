@@ -146,9 +146,9 @@ fn unmodified(
     if is_solid {
         mesh.reject(
             "file",
-            "mesh.file describes a plane body; three-dimensional bodies are generated".to_owned(),
-            "material.formulation is \"three-dimensional\"".to_owned(),
-            Some("give radii and element counts, or a plane formulation".to_owned()),
+            "mesh.file describes a plane body; three-dimensional bodies are generated",
+            "material.formulation is \"three-dimensional\"",
+            "give radii and element counts, or a plane formulation",
         );
     }
     let plane = Surroundings::Plane {
@@ -175,13 +175,8 @@ fn unmodified(
     let reject = |(message, label): (String, String)| mesh.reject("file", message, label, None);
     let bytes = imported::mesh_bytes(raw, &file).map_err(&reject).ok();
     let body = bytes.as_ref().and_then(|bytes| {
-        let refuse = |error: imported::ImportError| {
-            let at = raw.place(&error.key);
-            mesh.reject_placed(&at, error.message, error.label, error.help);
-        };
-        imported::import(bytes, &parts, changes)
-            .map_err(refuse)
-            .ok()
+        let body = imported::import(bytes, &parts, changes);
+        body.map_err(|error| error.report(raw, &mesh)).ok()
     });
     mesh.close();
     Model {
@@ -196,11 +191,11 @@ fn unmodified(
 fn refuse_table(root: &Section<'_>) {
     root.section("material", true).reject(
         "table",
-        "material.table: a body of revolution in three dimensions is solved harmonic by harmonic from one real problem, whose roots \
-         come in conjugate pairs: with a modulus over frequency they do not"
-            .to_owned(),
-        "not of a body of revolution in three dimensions".to_owned(),
-        Some("use a plane formulation, or describe the body by mesh.file".to_owned()),
+        "material.table: a body of revolution in three dimensions is solved harmonic by \
+         harmonic from one real problem, whose roots come in conjugate pairs: with a modulus \
+         over frequency they do not",
+        "not of a body of revolution in three dimensions",
+        "use a plane formulation, or describe the body by mesh.file",
     );
 }
 
@@ -212,12 +207,7 @@ fn plane_annulus(root: &Section<'_>, annulus: Annulus, changes: &[Modification])
     }
     let reject = |(key, why): modifications::Misfit| {
         let message = format!("{key}: {why}");
-        root.reject(
-            "modifications",
-            message,
-            "does not fit the disc".to_owned(),
-            None,
-        );
+        root.reject("modifications", message, "does not fit the disc", None);
     };
     let body = attachments::reshaped_annulus(&annulus, changes);
     body.map_err(reject).ok().map(Body::Imported)
@@ -236,10 +226,9 @@ fn assembly_model(
         let _ = root.section("contact", false);
         root.reject(
             "contact",
-            "[contact] is for a body with one contact: this case has [contacts.*] or [ties.*]"
-                .to_owned(),
-            "beside the contacts of an assembly".to_owned(),
-            Some("describe it under [contacts.NAME]".to_owned()),
+            "[contact] is for a body with one contact: this case has [contacts.*] or [ties.*]",
+            "beside the contacts of an assembly",
+            "describe it under [contacts.NAME]",
         );
     }
     let (mut parts, contact) = assembly::sections(root, tables);
@@ -254,7 +243,7 @@ fn assembly_model(
     let bytes = imported::mesh_bytes(raw, file).map_err(&reject).ok();
     let body = bytes.as_ref().and_then(|bytes| {
         let body = assembly::assemble(bytes, scale, conditions, (common, &own), (parts, changes));
-        body.map_err(&reject).ok()
+        body.map_err(|error| error.report(raw, mesh)).ok()
     });
     Model {
         body: body.map(Body::Assembly),
@@ -275,9 +264,9 @@ fn length_factor(mesh: &Section<'_>) -> f64 {
     if mesh.has("scale") {
         mesh.reject(
             "scale",
-            "mesh.units and mesh.scale both scale the coordinates".to_owned(),
-            "beside mesh.units".to_owned(),
-            Some("leave one of them out".to_owned()),
+            "mesh.units and mesh.scale both scale the coordinates",
+            "beside mesh.units",
+            "leave one of them out",
         );
     }
     10f64.powi(units.length())
@@ -342,7 +331,7 @@ fn annulus(
                  geometry.inner_radius = {inner_radius}"
             ),
             format!("must be above {inner_radius}"),
-            Some("both are radii in metres; are they swapped?".to_owned()),
+            "both are radii in metres; are they swapped?",
         );
     }
     let shaft = shaft::shaft(
@@ -356,9 +345,9 @@ fn annulus(
     if is_solid && shaft.is_some() {
         geometry.reject(
             "shaft_inner_radius",
-            "a deformable shaft turns in a plane annulus only".to_owned(),
-            "the body is three-dimensional".to_owned(),
-            Some("leave the shaft out, or use a plane formulation".to_owned()),
+            "a deformable shaft turns in a plane annulus only",
+            "the body is three-dimensional",
+            "leave the shaft out, or use a plane formulation",
         );
     }
     let annulus = AnnulusSpecification {
@@ -385,8 +374,8 @@ fn check_mesh(mesh: &Section<'_>, annulus: &AnnulusSpecification) {
         mesh.reject(
             "circumferential_elements",
             format!("the mesh would have {nodes} nodes, above the limit of {limit}"),
-            "too many elements".to_owned(),
-            Some("lower mesh.circumferential_elements or mesh.radial_elements".to_owned()),
+            "too many elements",
+            "lower mesh.circumferential_elements or mesh.radial_elements",
         );
     }
     // Sizes that differ by more than this leave elements without width in double precision.
@@ -399,8 +388,8 @@ fn check_mesh(mesh: &Section<'_>, annulus: &AnnulusSpecification) {
                 annulus.radial_grading,
                 ratio.abs().exp()
             ),
-            "at most a factor 1e6 over all elements".to_owned(),
-            Some("bring mesh.radial_grading nearer to 1".to_owned()),
+            "at most a factor 1e6 over all elements",
+            "bring mesh.radial_grading nearer to 1",
         );
     }
 }

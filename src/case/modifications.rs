@@ -52,7 +52,7 @@ fn modification(section: &Section<'_>) -> Modification {
         section.reject(
             key,
             format!("{} has {} numbers", section.name(key), numbers.len()),
-            "must be [x, y], or [x, y, z] on solid bodies".to_owned(),
+            "must be [x, y], or [x, y, z] on solid bodies",
             None,
         );
         None

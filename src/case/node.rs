@@ -62,10 +62,10 @@ impl Nodes<'_> {
             }
         };
         if let (2, Some(z)) = (body.dimension(), z) {
-            section.reject_there(
+            section.reject_placed(
                 at,
                 format!("{}: z = {z} of a plane body", section.name(key)),
-                "the body is plane".to_owned(),
+                "the body is plane",
                 "leave z out",
             );
             return None;
@@ -121,7 +121,7 @@ fn numbered(
     };
     let nodes = body.node_count();
     if number as u128 > nodes && nodes > 0 {
-        section.reject_there(
+        section.reject_placed(
             at,
             format!("{what} does not exist: the mesh has nodes 1 to {nodes}"),
             format!("must be at most {nodes}"),
@@ -143,15 +143,16 @@ fn labelled(
     let found = labels.binary_search(&number).ok();
     if found.is_none() {
         let ends = [labels.first(), labels.last()].map(|label| label.map_or(0, |&n| n));
-        section.reject_there(
+        section.reject_placed(
             at,
             format!(
-                "{what} does not exist: the elements of the mesh file have {} nodes, numbered {} to {}",
+                "{what} does not exist: the elements of the mesh file have {} nodes, numbered \
+                 {} to {}",
                 labels.len(),
                 ends[0],
                 ends[1]
             ),
-            "no node of the body".to_owned(),
+            "no node of the body",
             "give its position instead, { x = .., y = .. } in metres",
         );
     }

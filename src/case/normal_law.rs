@@ -34,8 +34,8 @@ pub(super) fn normal_law(
                     "{} has no effect with normal_law = \"{of_word}\"",
                     section.name(key)
                 ),
-                "not a number of this law".to_owned(),
-                Some("leave it out, or give the law that it belongs to".to_owned()),
+                "not a number of this law",
+                "leave it out, or give the law that it belongs to",
             );
         }
         if laws.contains(&word) && word != NormalLawWord::Linear && !section.has(key) {
@@ -45,11 +45,12 @@ pub(super) fn normal_law(
             section.reject(
                 key,
                 format!(
-                    "{} = \"rigid\" does not stiffen: normal_law = \"cubic\" is k g + c g^3, with k the normal stiffness",
+                    "{} = \"rigid\" does not stiffen: normal_law = \"cubic\" is k g + c g^3, \
+                     with k the normal stiffness",
                     section.name(key)
                 ),
-                "needs a number".to_owned(),
-                Some("give k in Pa/m, or leave normal_law out".to_owned()),
+                "needs a number",
+                "give k in Pa/m, or leave normal_law out",
             );
         }
     }

@@ -66,7 +66,7 @@ fn path(
         _ => {
             diagnostics.push(Diagnostic::error(
                 format!("`{text}` is not a key"),
-                "expected a dotted key".to_owned(),
+                "expected a dotted key",
                 Location::new(source, 0..text.len()),
                 Some(help.to_owned()),
             ));
@@ -95,7 +95,7 @@ fn remove(
     if taken.is_none() && !keys::is_key_or_section(&name) {
         diagnostics.push(Diagnostic::error(
             format!("unknown key `{name}`"),
-            "nothing to remove".to_owned(),
+            "nothing to remove",
             Location::new(source, 0..name.len()),
             suggestion::nearest_key(&name).map(|near| format!("did you mean `{near}`?")),
         ));
@@ -112,8 +112,8 @@ fn parse(
                 for example --set contact.friction_coefficient=0.4";
     let Some(equals) = assignment(text) else {
         diagnostics.push(Diagnostic::error(
-            "the override has no `=`".to_owned(),
-            "expected KEY=VALUE".to_owned(),
+            "the override has no `=`",
+            "expected KEY=VALUE",
             Location::new(source, 0..text.len()),
             Some(help.to_owned()),
         ));
@@ -224,9 +224,9 @@ fn insert(
             Some(slot) => *slot = item,
             None => diagnostics.push(Diagnostic::error(
                 format!("{key}[{part}] is beyond the {count} numbers of the case's {key}"),
-                "no such place in the list".to_owned(),
+                "no such place in the list",
                 item.at,
-                Some(format!("places are counted from 1: [1] to [{count}]")),
+                format!("places are counted from 1: [1] to [{count}]"),
             )),
         }
         return;

@@ -95,14 +95,14 @@ fn collect<'a>(
                 collect(section, format!("{name}.{key}"), entry, found);
             }
         }
-        (_, Err(reason)) => section.reject_there(
+        (_, Err(reason)) => section.reject_placed(
             &entry.key_at,
             format!(
                 "\"{name}\" in {} cannot be varied",
                 section.name("").trim_end_matches('.')
             ),
-            "no continuous parameter".to_owned(),
-            &reason,
+            "no continuous parameter",
+            reason,
         ),
     }
 }
@@ -118,7 +118,7 @@ fn also(section: &Section<'_>, name: &str, entry: &RawEntry) -> Vec<String> {
     let mut keys = Vec::new();
     for item in given.item.listed() {
         let refuse = |message: String, help: &str| {
-            section.reject_there(&item.at, message, "not a key to tie".to_owned(), help);
+            section.reject_placed(&item.at, message, "not a key to tie", help);
         };
         match &item.value {
             RawValue::String(key) => match bound_of(key) {
@@ -141,10 +141,10 @@ pub(super) fn number(section: &Section<'_>, entry: &RawEntry, value: Option<&Raw
         let found = value.map_or("missing".to_owned(), |v| {
             format!("{} is given", v.shortened())
         });
-        section.reject_there(
+        section.reject_placed(
             &entry.item.at,
             format!("a finite number is needed: {found}"),
-            "not a number".to_owned(),
+            "not a number",
             "write numbers in SI units",
         );
         f64::NAN
@@ -157,11 +157,11 @@ pub(super) fn only(section: &Section<'_>, table: &RawTable, known: &[&str]) {
         .iter()
         .filter(|(key, _)| !known.contains(&key.as_str()))
     {
-        section.reject_there(
+        section.reject_placed(
             &entry.key_at,
             format!("unknown key `{key}`"),
-            "not known here".to_owned(),
-            &format!("it takes {}", known.join(", ")),
+            "not known here",
+            format!("it takes {}", known.join(", ")),
         );
     }
 }
@@ -175,10 +175,10 @@ pub(super) fn refuse_twice<'a>(
     for parameter in parameters {
         for key in std::iter::once(&parameter.key).chain(&parameter.also) {
             if seen.contains(&key.as_str()) {
-                section.reject_there(
+                section.reject_placed(
                     &parameter.at,
                     format!("{key} is set twice"),
-                    "set by another entry already".to_owned(),
+                    "set by another entry already",
                     "vary each key once",
                 );
             }

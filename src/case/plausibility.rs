@@ -302,7 +302,7 @@ fn steep_friction(case: &Case) -> Option<Diagnostic> {
     let contact = &case.contact.sliding;
     let decay = contact.decay?;
     let [mass, step] = edge_inertia(case)?;
-    let fall = -contact.friction_coefficient * decay.slope(0.0);
+    let fall = contact.friction_coefficient * decay.steepest_fall();
     let most = mass / (lame_pressure(case)? * fall);
     (step > most).then(|| {
         warning(
@@ -423,12 +423,7 @@ impl Case {
         });
         let say = |(analysis, key): (&str, &CaseKey)| {
             let message = format!("{} is not used by {analysis}: {}", key.name, key.otherwise);
-            Diagnostic::error(
-                message,
-                "not used".to_owned(),
-                self.raw.place(key.name),
-                None,
-            )
+            Diagnostic::error(message, "not used", self.raw.place(key.name), None)
         };
         let mut said: Vec<Diagnostic> = ignored.map(say).collect();
         said.extend(self.ignored_harmonics(command));

@@ -338,9 +338,9 @@ fn parse_document(text: &str, source: usize, diagnostics: &mut Vec<Diagnostic>) 
     if let (false, Some(other)) = (errors.is_empty(), foreign(text)) {
         diagnostics.push(Diagnostic::error(
             format!("this is {other}, not a case"),
-            "expected a section such as [geometry], or a key".to_owned(),
+            "expected a section such as [geometry], or a key",
             Location::new(source, 0..text.find('\n').unwrap_or(text.len())),
-            Some("`frictionsim init` writes a case to start from".to_owned()),
+            "`frictionsim init` writes a case to start from",
         ));
         return RawTable::new();
     }

@@ -5,7 +5,7 @@ mod choices;
 mod lists;
 mod places;
 
-use super::diagnostic::{Diagnostic, Location};
+use super::diagnostic::{Diagnostic, Location, Remedy};
 use super::key::{Bound, CaseKey, Default, Kind};
 use super::value::{RawEntry, RawItem, RawTable, RawValue, cut};
 use super::{keys, suggestion};
@@ -27,7 +27,13 @@ pub(super) struct Findings {
 }
 
 impl Findings {
-    fn push(&self, message: String, label: String, at: Location, help: Option<String>) {
+    fn push(
+        &self,
+        message: impl Into<String>,
+        label: impl Into<String>,
+        at: Location,
+        help: impl Remedy,
+    ) {
         let error = Diagnostic::error(message, label, at, help);
         self.errors.borrow_mut().push(error);
     }
@@ -121,23 +127,24 @@ impl<'a> Section<'a> {
     }
 
     /// Reports an error at a key, with the key's meaning as remedy unless another is given.
-    pub fn reject(&self, key: &str, message: String, label: String, help: Option<String>) {
-        let help = help.or_else(|| suggestion::usage(&self.name(key)));
+    pub fn reject(
+        &self,
+        key: &str,
+        message: impl Into<String>,
+        label: impl Into<String>,
+        help: impl Remedy,
+    ) {
+        let help = help.remedy().or_else(|| suggestion::usage(&self.name(key)));
         self.findings.push(message, label, self.place(key), help);
     }
 
     /// Reports an error at a place of its own.
-    pub fn reject_there(&self, at: &Location, message: String, label: String, help: &str) {
-        self.reject_placed(at, message, label, Some(help.to_owned()));
-    }
-
-    /// As [`Self::reject_there`], where there may be no remedy to name.
     pub fn reject_placed(
         &self,
         at: &Location,
-        message: String,
-        label: String,
-        help: Option<String>,
+        message: impl Into<String>,
+        label: impl Into<String>,
+        help: impl Remedy,
     ) {
         self.findings.push(message, label, at.clone(), help);
     }
@@ -210,17 +217,17 @@ impl<'a> Section<'a> {
                     RawValue::Table(table) => section.table = Some(table),
                     other => self.findings.push(
                         format!("`{}` is {}, not a section", section.path, other.kind()),
-                        "expected a section".to_owned(),
+                        "expected a section",
                         entry.item.at.clone(),
-                        Some(format!("write its keys below [{}]", section.path)),
+                        format!("write its keys below [{}]", section.path),
                     ),
                 }
             }
             None if required => self.findings.push(
                 format!("missing section [{}]", section.path),
-                "the case ends without it".to_owned(),
+                "the case ends without it",
                 self.at.clone(),
-                Some("`frictionsim init` writes a complete case to start from".to_owned()),
+                "`frictionsim init` writes a complete case to start from",
             ),
             None => {}
         }

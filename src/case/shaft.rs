@@ -25,10 +25,9 @@ pub(super) fn shaft(
         if elements.is_some() {
             mesh.reject(
                 "shaft_radial_elements",
-                "mesh.shaft_radial_elements is for a deformable shaft, and the case has none"
-                    .to_owned(),
-                "the cylinder is rigid".to_owned(),
-                Some("give geometry.shaft_inner_radius, or leave it out".to_owned()),
+                "mesh.shaft_radial_elements is for a deformable shaft, and the case has none",
+                "the cylinder is rigid",
+                "give geometry.shaft_inner_radius, or leave it out",
             );
         }
         return None;
@@ -47,13 +46,10 @@ pub(super) fn shaft(
     if found.is_none() {
         geometry.reject(
             "shaft_inner_radius",
-            "the shaft of geometry.shaft_inner_radius has no material".to_owned(),
-            "needs [materials.shaft]".to_owned(),
-            Some(
-                "add [materials.shaft] with young_modulus, poisson_ratio and density, or leave shaft_inner_radius out \
-                 for a rigid cylinder"
-                    .to_owned(),
-            ),
+            "the shaft of geometry.shaft_inner_radius has no material",
+            "needs [materials.shaft]",
+            "add [materials.shaft] with young_modulus, poisson_ratio and density, or leave \
+             shaft_inner_radius out for a rigid cylinder",
         );
     }
     let shaft = ShaftSpecification {
@@ -105,12 +101,9 @@ fn bore_condition(root: &Section<'_>, boundaries: &[NamedCondition]) -> Boundary
         Some(_) => {
             root.section("boundaries", false).reject(
                 "bore",
-                "nothing holds the shaft against the friction that turns it".to_owned(),
-                "must hold the bore tangentially".to_owned(),
-                Some(
-                    "use condition = \"clamped\", or \"support\" with tangential_stiffness above 0"
-                        .to_owned(),
-                ),
+                "nothing holds the shaft against the friction that turns it",
+                "must hold the bore tangentially",
+                "use condition = \"clamped\", or \"support\" with tangential_stiffness above 0",
             );
             BoundaryCondition::Clamped
         }
@@ -131,8 +124,8 @@ impl Case {
         Err(self.error_at(
             key,
             format!("{what} takes the cylinder as rigid, and {key} gives a deformable shaft"),
-            "not with a deformable shaft".to_owned(),
-            Some(format!("leave {key} out")),
+            "not with a deformable shaft",
+            format!("leave {key} out"),
         ))
     }
 }

@@ -22,9 +22,9 @@ pub(super) fn axial_elements(
         if mesh.has("axial_elements") {
             mesh.reject(
                 "axial_elements",
-                "mesh.axial_elements has no effect on a plane body".to_owned(),
-                "needs material.formulation = \"three-dimensional\"".to_owned(),
-                Some("set that formulation, or leave mesh.axial_elements out".to_owned()),
+                "mesh.axial_elements has no effect on a plane body",
+                "needs material.formulation = \"three-dimensional\"",
+                "set that formulation, or leave mesh.axial_elements out",
             );
             let _ = mesh.optional_count("axial_elements");
         }
@@ -33,9 +33,9 @@ pub(super) fn axial_elements(
     if !geometry.has("thickness") {
         geometry.reject(
             "thickness",
-            "geometry.thickness is missing: a three-dimensional body needs one".to_owned(),
-            "no thickness to divide into mesh.axial_elements".to_owned(),
-            Some("give it in metres, for example thickness = 0.009".to_owned()),
+            "geometry.thickness is missing: a three-dimensional body needs one",
+            "no thickness to divide into mesh.axial_elements",
+            "give it in metres, for example thickness = 0.009",
         );
     }
     Some(mesh.count("axial_elements"))
@@ -57,17 +57,17 @@ pub(super) fn contact(
             section.reject(
                 key,
                 format!("contact.{key} is for a ring on the top face of a three-dimensional body"),
-                "needs contact.boundary = \"top\"".to_owned(),
-                Some(format!(
+                "needs contact.boundary = \"top\"",
+                format!(
                     "set it (and material.formulation = \"three-dimensional\"), or leave {key} out"
-                )),
+                ),
             );
         }
         if is_solid && section.has("boundary") && !section.is_text("boundary", "inner") {
             section.reject(
                 "boundary",
-                "contact.boundary of a three-dimensional body is \"inner\" or \"top\"".to_owned(),
-                "no such face of contact".to_owned(),
+                "contact.boundary of a three-dimensional body is \"inner\" or \"top\"",
+                "no such face of contact",
                 suggestion::nearest(&section.text("boundary"), ["inner", "top"].into_iter())
                     .map(|near| format!("did you mean \"{near}\"?")),
             );
@@ -80,18 +80,24 @@ pub(super) fn contact(
         if !(value >= low && value <= high) && high > low {
             section.reject(
                 key,
-                format!("contact.{key} = {value} lies outside the face, which reaches from {low} to {high} m"),
+                format!(
+                    "contact.{key} = {value} lies outside the face, which reaches from {low} \
+                     to {high} m"
+                ),
                 format!("between {low} and {high}"),
-                Some("a ring lies between geometry.inner_radius and geometry.outer_radius".to_owned()),
+                "a ring lies between geometry.inner_radius and geometry.outer_radius",
             );
         }
     }
     if inner >= outer {
         section.reject(
             "ring_outer_radius",
-            format!("contact.ring_outer_radius = {outer} must be above contact.ring_inner_radius = {inner}"),
+            format!(
+                "contact.ring_outer_radius = {outer} must be above contact.ring_inner_radius = \
+                 {inner}"
+            ),
             format!("must be above {inner}"),
-            Some("are they swapped?".to_owned()),
+            "are they swapped?",
         );
     }
     SolidContact::Ring {
@@ -152,9 +158,10 @@ pub(super) fn conditions(
     if !conditions.iter().any(holds) {
         section.reject(
             "outer",
-            "nothing holds the body against the friction that turns it".to_owned(),
-            "must hold a face tangentially".to_owned(),
-            Some("use condition = \"clamped\" on a face, or \"support\" with tangential_stiffness above 0".to_owned()),
+            "nothing holds the body against the friction that turns it",
+            "must hold a face tangentially",
+            "use condition = \"clamped\" on a face, or \"support\" with tangential_stiffness \
+             above 0",
         );
     }
     conditions
@@ -177,8 +184,9 @@ impl Case {
         self.error_at(
             "material.formulation",
             format!("material.formulation = \"three-dimensional\": {what} plane bodies only"),
-            "a three-dimensional body".to_owned(),
-            Some("`cea`, `transient`, `cycle`, `basin`, `frf`, `sweep` and `convergence` take it; else use \"plane-stress\" or \"plane-strain\"".to_owned()),
+            "a three-dimensional body",
+            "`cea`, `transient`, `cycle`, `basin`, `frf`, `sweep` and `convergence` take it; \
+             else use \"plane-stress\" or \"plane-strain\"",
         )
     }
 }

@@ -65,9 +65,9 @@ impl FreeSystem {
         if names.len() > 1 {
             all.reject(
                 names[1],
-                "several superelements without a body have nothing in common".to_owned(),
-                "the second one".to_owned(),
-                Some("give each a case of its own".to_owned()),
+                "several superelements without a body have nothing in common",
+                "the second one",
+                "give each a case of its own",
             );
         }
         let mut digest = Sha256::new_with_prefix(raw.canonical());
@@ -112,9 +112,10 @@ pub(super) fn refuse_attached(root: &Section<'_>) {
     }
     root.reject(
         "superelements",
-        "superelements are solved free-standing; joining them to a mesh at interface nodes is not supported".to_owned(),
-        "beside a body".to_owned(),
-        Some("leave [geometry] and [mesh] out, or solve the superelement in a case of its own".to_owned()),
+        "superelements are solved free-standing; joining them to a mesh at interface nodes is \
+         not supported",
+        "beside a body",
+        "leave [geometry] and [mesh] out, or solve the superelement in a case of its own",
     );
 }
 
@@ -150,19 +151,14 @@ fn superelement(
                 section.name("mass"),
             );
             let help = "all matrices of a superelement are square and of one size".to_owned();
-            section.reject(key, message, "another size".to_owned(), Some(help));
+            section.reject(key, message, "another size", Some(help));
             return None;
         }
     }
     if size == 0 || size > MOST_UNKNOWNS {
         let message = format!("{} has {size} unknowns", section.name("mass"));
         let label = format!("1 to {MOST_UNKNOWNS} unknowns");
-        section.reject(
-            "mass",
-            message,
-            label,
-            Some("reduce the system further".to_owned()),
-        );
+        section.reject("mass", message, label, "reduce the system further");
         return None;
     }
     let own = Superelement {
@@ -191,12 +187,7 @@ fn is_determined(section: &Section<'_>, own: &Superelement) -> bool {
         own.name
     );
     let help = "remove its row and column from every matrix".to_owned();
-    section.reject(
-        "stiffness",
-        message,
-        "an empty column".to_owned(),
-        Some(help),
-    );
+    section.reject("stiffness", message, "an empty column", Some(help));
     false
 }
 

@@ -99,10 +99,10 @@ pub(super) fn read(root: &Section<'_>) -> Option<Sweep> {
         .collect();
     refuse_twice(&section, &keys);
     if keys.is_empty() {
-        section.reject_there(
+        section.reject_placed(
             &section.place(""),
-            "[sweep] sweeps nothing".to_owned(),
-            "no key with values".to_owned(),
+            "[sweep] sweeps nothing",
+            "no key with values",
             "add for example `\"contact.friction_coefficient\" = [0.2, 0.3, 0.4]`",
         );
     }
@@ -132,11 +132,11 @@ fn swept<'a>(
                 swept(section, format!("{name}.{key}"), entry, entries);
             }
         }
-        _ => section.reject_there(
+        _ => section.reject_placed(
             &entry.key_at,
             format!("unknown key `{name}` in [sweep]"),
-            "not a case key that can be swept".to_owned(),
-            &suggestion::nearest_key(&name).map_or_else(
+            "not a case key that can be swept",
+            suggestion::nearest_key(&name).map_or_else(
                 || "a swept key is a dotted case key in quotes".to_owned(),
                 |near| format!("did you mean \"{near}\"?"),
             ),
@@ -176,7 +176,7 @@ fn fits(section: &Section<'_>, combination: Combination, entries: &[(String, &Ra
     }
     let longest = entries.iter().max_by_key(|(_, entry)| length(entry));
     if let Some((name, entry)) = longest {
-        section.reject_there(
+        section.reject_placed(
             &entry.item.at,
             format!("[sweep] has {count} {what}, most of them for \"{name}\""),
             format!("at most {MOST_POINTS}"),
@@ -205,11 +205,11 @@ fn also(section: &Section<'_>, key: &str, entry: &RawEntry) -> Vec<String> {
         let is_key = keys::find(&name).is_some() && !name.starts_with("sweep.");
         if !is_key {
             let near = suggestion::nearest_key(&name);
-            section.reject_there(
+            section.reject_placed(
                 &item.at,
                 format!("\"{key}\" in [sweep] also sets {name}"),
-                "not a case key that can be swept".to_owned(),
-                &near.map_or_else(
+                "not a case key that can be swept",
+                near.map_or_else(
                     || "`also` names dotted case keys that take the same values".to_owned(),
                     |near| format!("did you mean \"{near}\"?"),
                 ),
@@ -226,10 +226,10 @@ fn refuse_twice(section: &Section<'_>, swept: &[SweptKey]) {
     for key in swept {
         for name in key.names() {
             if seen.contains(&name) {
-                section.reject_there(
+                section.reject_placed(
                     &key.at,
                     format!("[sweep] sets {name} twice"),
-                    "set by another entry already".to_owned(),
+                    "set by another entry already",
                     "sweep each key once",
                 );
             }
@@ -252,10 +252,10 @@ fn values(section: &Section<'_>, key: String, entry: &RawEntry) -> SweptKey {
         other => vec![other.to_string()],
     };
     if values.is_empty() && matches!(entry.item.value, RawValue::Array(_)) {
-        section.reject_there(
+        section.reject_placed(
             &entry.item.at,
             format!("\"{key}\" in [sweep] has no values"),
-            "at least one value".to_owned(),
+            "at least one value",
             "list its values or give a range { from, to, count }",
         );
     }
@@ -272,7 +272,7 @@ fn check_lengths(section: &Section<'_>, sweep: &Sweep) {
         && let Some((first, rest)) = sweep.keys.split_first()
         && let Some(other) = rest.iter().find(|k| k.values.len() != first.values.len())
     {
-        section.reject_there(
+        section.reject_placed(
             &other.at,
             format!(
                 "\"{}\" has {} values but \"{}\" has {}",
@@ -281,7 +281,7 @@ fn check_lengths(section: &Section<'_>, sweep: &Sweep) {
                 first.key,
                 first.values.len()
             ),
-            "zipped keys need equally many values".to_owned(),
+            "zipped keys need equally many values",
             "give them the same count, or combine = \"grid\"",
         );
     }

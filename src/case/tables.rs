@@ -128,8 +128,8 @@ pub(super) fn topography(
             section.reject(
                 "gap",
                 format!("{}: {reason}", section.name("gap")),
-                "not a measured surface".to_owned(),
-                Some("its columns are x, y, z and gap, all in m".to_owned()),
+                "not a measured surface",
+                "its columns are x, y, z and gap, all in m",
             );
         })
         .ok()

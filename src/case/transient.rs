@@ -89,10 +89,10 @@ impl Case {
         if assembly.base == BaseChoice::Closed {
             return Err(self.error_at(
                 "contacts",
-                "contacts with state = \"closed\" are free of stress: without a normal force there is no friction to step in time"
-                    .to_owned(),
-                "steps in time need state = \"solved\"".to_owned(),
-                Some("press the bodies together (condition = \"pressure\"), or leave `state` out".to_owned()),
+                "contacts with state = \"closed\" are free of stress: without a normal force \
+                 there is no friction to step in time",
+                "steps in time need state = \"solved\"",
+                "press the bodies together (condition = \"pressure\"), or leave `state` out",
             ));
         }
         if assembly
@@ -102,10 +102,10 @@ impl Case {
         {
             return Err(self.error_at(
                 "motion",
-                "rotation_terms are not stepped in time: the gyroscopic forces of the last half step would feed the motion"
-                    .to_owned(),
-                "with rotation_terms = false".to_owned(),
-                Some("use `frictionsim cea`, or leave rotation_terms out".to_owned()),
+                "rotation_terms are not stepped in time: the gyroscopic forces of the last \
+                 half step would feed the motion",
+                "with rotation_terms = false",
+                "use `frictionsim cea`, or leave rotation_terms out",
             ));
         }
         Ok(())
@@ -191,7 +191,7 @@ fn initial(section: &Section<'_>, body: Option<&Body>) -> InitialState {
             section.reject(
                 key,
                 format!("transient.{key} is given, but the run does not start on a limit cycle"),
-                "only with initial = \"limit-cycle\"".to_owned(),
+                "only with initial = \"limit-cycle\"",
                 None,
             );
         }
@@ -405,10 +405,10 @@ fn probes(section: &Section<'_>, nodes: &Nodes<'_>) -> (Vec<usize>, Vec<PlacedNo
             continue;
         };
         if probes.contains(&(node + 1)) {
-            section.reject_there(
+            section.reject_placed(
                 &named.1,
                 format!("output.probes names node {} twice", nodes.label(node)),
-                "must not be listed twice".to_owned(),
+                "must not be listed twice",
                 "leave one of them out",
             );
         }

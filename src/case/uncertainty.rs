@@ -59,8 +59,8 @@ pub(super) fn uncertainty(root: &Section<'_>) -> Option<Uncertainty> {
     if given && inner.is_given() && inner.remaining().is_empty() {
         section.reject(
             "distributions",
-            "uncertainty.distributions is empty".to_owned(),
-            "at least one parameter".to_owned(),
+            "uncertainty.distributions is empty",
+            "at least one parameter",
             None,
         );
     }
@@ -70,19 +70,19 @@ pub(super) fn uncertainty(root: &Section<'_>) -> Option<Uncertainty> {
             "distributions",
             format!("{} parameters are uncertain", found.len()),
             format!("at most {MOST}"),
-            Some("leave out those with little influence".to_owned()),
+            "leave out those with little influence",
         );
     }
     for (key, count) in [("samples", Some(samples)), ("index_samples", index_samples)] {
         if count.is_some_and(|count| count > 1_000_000) {
             let message = format!("uncertainty.{key} is above a million");
-            section.reject(key, message, "at most 1000000".to_owned(), None);
+            section.reject(key, message, "at most 1000000", None);
         }
     }
     if index_samples.is_some_and(|count| count > samples) {
         section.reject(
             "index_samples",
-            "uncertainty.index_samples is above uncertainty.samples".to_owned(),
+            "uncertainty.index_samples is above uncertainty.samples",
             format!("at most {samples}"),
             None,
         );
@@ -106,7 +106,7 @@ fn uncertain(
     let help = "a distribution is { normal = [mean, deviation] }, { log_normal = [median, deviation of the logarithm] } \
                 or { uniform = [from, to] }";
     let reject = |message: String, label: &str, help: &str| {
-        section.reject_there(&entry.item.at, message, label.to_owned(), help);
+        section.reject_placed(&entry.item.at, message, label.to_owned(), help);
     };
     let words = ["normal", "log_normal", "uniform"];
     let mut given = None;

@@ -208,9 +208,9 @@ pub(super) fn convert(
             Err(_) => {
                 errors.push(Diagnostic::error(
                     format!("the integer {integer} does not fit 64 bits"),
-                    "out of range".to_owned(),
+                    "out of range",
                     Location::new(source, span),
-                    Some("write it with a decimal point if it is meant as a number".to_owned()),
+                    "write it with a decimal point if it is meant as a number",
                 ));
                 RawValue::Integer(0)
             }

@@ -47,6 +47,16 @@ impl FrictionDecay {
         -self.excess(slip_speed) / self.decay_speed
     }
 
+    /// Its second derivative, s2/m2.
+    pub fn curvature(&self, slip_speed: f64) -> f64 {
+        -self.slope(slip_speed) / self.decay_speed
+    }
+
+    /// Largest fall of `mu(v) / mu` with `|v|`, s/m.
+    pub fn steepest_fall(&self) -> f64 {
+        -self.slope(0.0)
+    }
+
     /// `(q - 1) exp(-|v| / v_c)`.
     fn excess(&self, slip_speed: f64) -> f64 {
         (self.static_ratio - 1.0) * (-slip_speed.abs() / self.decay_speed).exp()

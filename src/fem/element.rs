@@ -3,7 +3,10 @@
 //! A plane element is integrated as a solid one of unit thickness whose gradients along z vanish: strains have six components,
 //! and the material says what they mean ([`ElasticMaterial::elasticity_at`]).
 
+mod mass;
 mod strain;
+
+pub use mass::{consistent_mass, lumped_mass};
 
 use super::{ElasticMaterial, PlaneFormulation};
 use crate::mesh::{ElementKind, Mesh, QuadraturePoint};
@@ -311,41 +314,6 @@ impl ElementGeometry {
         self.rotate_scalar(scalar)
     }
 
-    /// Element consistent mass `M_e = ∫ rho N_I N_J I dV` in nodal frames, kg, in the plane for each metre of thickness.
-    pub fn consistent_mass(&self, material: &ElasticMaterial) -> DMatrix<f64> {
-        self.rotate_scalar(self.scalar_mass(material))
-    }
-
-    /// Element lumped mass of each node, kg, in the plane for each metre of thickness: row sums for linear kinds; for quadratic
-    /// ones, whose row sums are not positive at the corners, the diagonal scaled to the element's mass (Hinton, Rock and
-    /// Zienkiewicz 1976).
-    pub fn lumped_mass(&self, material: &ElasticMaterial) -> Vec<f64> {
-        let scalar = self.scalar_mass(material);
-        let full = DMatrix::from_fn(scalar.nrows(), scalar.ncols(), |row, column| {
-            scalar[(row.min(column), row.max(column))]
-        });
-        if !self.kind.is_quadratic() {
-            return full.row_iter().map(|row| row.sum()).collect();
-        }
-        let scale = full.sum() / full.diagonal().sum();
-        full.diagonal().iter().map(|value| value * scale).collect()
-    }
-
-    /// Upper triangle of `∫ rho N_I N_J dV`.
-    fn scalar_mass(&self, material: &ElasticMaterial) -> DMatrix<f64> {
-        let count = self.node_count();
-        let mut scalar = DMatrix::zeros(count, count);
-        for point in self.integration_points() {
-            for column in 0..count {
-                let weighted = material.density * point.measure * point.values[column];
-                for row in 0..=column {
-                    scalar[(row, column)] += point.values[row] * weighted;
-                }
-            }
-        }
-        scalar
-    }
-
     /// Expands the upper triangle of `s_IJ` into `s_IJ F_I^T F_J`, `F_I` node I's frame.
     pub fn rotate_scalar(&self, scalar: DMatrix<f64>) -> DMatrix<f64> {
         let (count, dimension) = (scalar.nrows(), self.dimension());
@@ -465,16 +433,6 @@ pub fn displacement_stiffness(
 ) -> DMatrix<f64> {
     let values = nodal_values(mesh, element, base);
     ElementGeometry::new(mesh, element).displacement_stiffness(material, &values)
-}
-
-/// Element consistent mass of a mesh, see [`ElementGeometry::consistent_mass`].
-pub fn consistent_mass(mesh: &Mesh, element: usize, material: &ElasticMaterial) -> DMatrix<f64> {
-    ElementGeometry::new(mesh, element).consistent_mass(material)
-}
-
-/// Element lumped mass of a mesh, see [`ElementGeometry::lumped_mass`].
-pub fn lumped_mass(mesh: &Mesh, element: usize, material: &ElasticMaterial) -> Vec<f64> {
-    ElementGeometry::new(mesh, element).lumped_mass(material)
 }
 
 /// Makes a matrix whose upper triangle was filled exactly symmetric.

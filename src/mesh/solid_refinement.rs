@@ -1,8 +1,9 @@
-//! Uniform refinement of solid bodies: every element into eight alike.
+//! Uniform refinement of solid bodies: every element into eight alike, pyramids into six of them and four tetrahedra.
 
 use super::faces::{FaceKey, face_key};
 use super::gmsh::MeshFileError;
 use super::{Boundary, BoundaryFace, ElementKind, Mesh, NodalFrames};
+use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Most nodes of a mesh: indices are 32 bits wide, with room for three unknowns at each.
@@ -15,7 +16,7 @@ const STEPS: f64 = 64.0;
 type Place = Vec<(u32, u8)>;
 
 impl Mesh {
-    /// The same solid bodies with every element split into eight alike; nodes keep their numbers, new ones follow them.
+    /// The same solid bodies with every element split into eight alike, a pyramid into ten parts; nodes keep their numbers, new ones follow them.
     ///
     /// New nodes lie where the element's own shape functions put them: quadratic edges stay the parabolas that they are, and
     /// what the mesh leaves out of a curved surface it goes on to leave out. Regions, boundaries and their conditions stay;
@@ -136,18 +137,19 @@ impl<'a> Refinement<'a> {
             .collect();
         let parts = self.parts[&kind].clone();
         for part in parts {
+            let child = kind.with_corners(part.len(), kind.is_quadratic());
             let mut at = part.clone();
             if kind.is_quadratic() {
                 let middle = |&[p, q]: &[usize; 2]| {
                     [0, 1, 2].map(|axis| 0.5 * (part[p][axis] + part[q][axis]))
                 };
-                at.extend(kind.edges().iter().map(middle));
+                at.extend(child.edges().iter().map(middle));
             }
             let nodes: Vec<(u32, Place)> =
                 at.into_iter().map(|at| self.node(kind, own, at)).collect();
             let number = self.fine.element_kinds.len() as u32;
             for key in &named {
-                self.split_face(key, kind, number, &nodes);
+                self.split_face(key, child, number, &nodes);
             }
             self.fine
                 .elements
@@ -155,7 +157,7 @@ impl<'a> Refinement<'a> {
             self.fine
                 .element_starts
                 .push(self.fine.elements.len() as u32);
-            self.fine.element_kinds.push(kind);
+            self.fine.element_kinds.push(child);
             let region = self.coarse.element_regions[element];
             self.fine.element_regions.push(region);
         }
@@ -163,7 +165,8 @@ impl<'a> Refinement<'a> {
 
     /// The node at a place of an element, a new one where no element has had it.
     fn node(&mut self, kind: ElementKind, own: &[u32], at: [f64; 3]) -> (u32, Place) {
-        let shares = linear(kind).shape_functions(at);
+        let linear = kind.with_corners(kind.corner_count(), false);
+        let shares = linear.shape_functions(at);
         let mut place: Place = own
             .iter()
             .zip(shares)
@@ -203,20 +206,11 @@ impl<'a> Refinement<'a> {
     }
 }
 
-/// The kind with the same corners and no mid-side nodes.
-fn linear(kind: ElementKind) -> ElementKind {
-    match kind {
-        ElementKind::Tet10 => ElementKind::Tet4,
-        ElementKind::Hex20 => ElementKind::Hex8,
-        ElementKind::Wedge15 => ElementKind::Wedge6,
-        other => other,
-    }
-}
-
-/// Corners of the eight parts of a parent element.
+/// Corners of the parts of a parent element.
 ///
 /// A brick and a wedge are halved along each edge; a tetrahedron has one part at each corner, and the octahedron between them
-/// is cut along one diagonal (Bey 1995), which keeps the parts of all further splits to three shapes.
+/// is cut along one diagonal (Bey 1995), which keeps the parts of all further splits to three shapes. A pyramid has one at
+/// each corner, one that hangs from the apex of these to the middle of the base, and tetrahedra between.
 fn parts_of(kind: ElementKind) -> Vec<Vec<[f64; 3]>> {
     let corners = &kind.node_places()[..kind.corner_count()];
     let between =
@@ -227,19 +221,12 @@ fn parts_of(kind: ElementKind) -> Vec<Vec<[f64; 3]>> {
             .collect()
     };
     let mut parts: Vec<Vec<[f64; 3]>> = (0..corners.len()).map(at_corner).collect();
-    match linear(kind) {
+    match kind.with_corners(corners.len(), false) {
         ElementKind::Tet4 => {
             let [a, b, c] = [between(0, 1), between(0, 2), between(0, 3)];
             let [d, e, f] = [between(1, 2), between(1, 3), between(2, 3)];
-            for mut inner in [[a, b, c, e], [a, b, d, e], [b, c, e, f], [b, d, e, f]] {
-                let edge = |k: usize| {
-                    nalgebra::Vector3::from(inner[k]) - nalgebra::Vector3::from(inner[0])
-                };
-                if edge(1).cross(&edge(2)).dot(&edge(3)) < 0.0 {
-                    inner.swap(0, 1);
-                }
-                parts.push(inner.into());
-            }
+            let inner = [[a, b, c, e], [a, b, d, e], [b, c, e, f], [b, d, e, f]];
+            parts.extend(inner.map(upright));
         }
         ElementKind::Wedge6 => {
             // The triangle amid those at the corners, in both layers.
@@ -255,7 +242,24 @@ fn parts_of(kind: ElementKind) -> Vec<Vec<[f64; 3]>> {
                 parts.push([flat(0), flat(3)].concat());
             }
         }
+        ElementKind::Pyramid5 => {
+            let foot = [0.0; 3];
+            let rising = |corner: usize| between(corner, 4);
+            parts.push(vec![rising(0), rising(3), rising(2), rising(1), foot]);
+            for (p, q) in [(0, 1), (1, 2), (2, 3), (3, 0)] {
+                parts.push(upright([between(p, q), foot, rising(p), rising(q)]));
+            }
+        }
         _ => {}
     }
     parts
+}
+
+/// Corners of a tetrahedron in an order of positive volume.
+fn upright(mut corners: [[f64; 3]; 4]) -> Vec<[f64; 3]> {
+    let edge = |k: usize| Vector3::from(corners[k]) - Vector3::from(corners[0]);
+    if edge(1).cross(&edge(2)).dot(&edge(3)) < 0.0 {
+        corners.swap(0, 1);
+    }
+    corners.into()
 }

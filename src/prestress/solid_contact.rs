@@ -230,12 +230,12 @@ impl Face<'_> {
 
     /// Drag and slope of the friction law at a radius.
     fn friction(&self, element: &FaceElement, radius: f64) -> (Weight, Weight) {
-        let (_, friction) = self.base.friction(radius);
+        let (surface_speed, friction) = self.base.friction(radius);
         let speed = self.speed(element, radius).slope;
         let rates = self.rate.map(|rate| rate.friction(self.base, radius));
         let (drag, slope) = rates.map_or((0.0, 0.0), |rate| (rate.drag, rate.slope));
         let decay = self.base.contact.decay;
-        let curvature = decay.map_or(0.0, |decay| -friction.slope / decay.decay_speed);
+        let curvature = decay.map_or(0.0, |decay| decay.curvature(surface_speed));
         (
             Weight {
                 value: friction.drag,

@@ -63,13 +63,11 @@ pub fn cycle_table(
     });
     let watts = format!("({})", extent.unit("W"));
     let names = columns.iter().map(|column| column.0.replace("(W)", &watts));
-    ReportTable {
-        caption: "Limit cycles at the case's own operating point".into(),
-        columns: names
-            .chain(["stable", "a transient stays on it", "why there is none"].map(String::from))
-            .collect(),
-        rows: rows.collect(),
-    }
+    ReportTable::new(
+        "Limit cycles at the case's own operating point",
+        names.chain(["stable", "a transient stays on it", "why there is none"].map(String::from)),
+        rows,
+    )
 }
 
 /// What decides of one cycle, each line with its `name` first.

@@ -23,8 +23,6 @@ pub mod quantity;
 pub mod report;
 mod response;
 pub mod signal;
-pub mod solid_mesh;
-pub mod solid_mesh_figure;
 mod store;
 pub mod summary;
 pub mod sweep;

@@ -35,6 +35,21 @@ pub struct ReportTable {
     pub rows: Vec<Vec<String>>,
 }
 
+impl ReportTable {
+    /// A table of these columns and rows.
+    pub fn new<C: ToString>(
+        caption: impl Into<String>,
+        columns: impl IntoIterator<Item = C>,
+        rows: impl IntoIterator<Item = Vec<String>>,
+    ) -> Self {
+        Self {
+            caption: caption.into(),
+            columns: columns.into_iter().map(|name| name.to_string()).collect(),
+            rows: rows.into_iter().collect(),
+        }
+    }
+}
+
 /// A part of a report.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReportSection {
@@ -55,22 +70,35 @@ impl ReportSection {
     /// The numbers that decide, name and value, which a report opens with.
     pub fn results(paragraphs: Vec<String>, rows: Vec<(String, String)>) -> Self {
         let rows = rows.into_iter().map(|(name, value)| vec![name, value]);
-        let table = ReportTable {
-            caption: String::new(),
-            columns: ["quantity", "value"].map(String::from).to_vec(),
-            rows: rows.collect(),
-        };
+        let table = ReportTable::new("", ["quantity", "value"], rows);
+        Self::new(RESULTS)
+            .with_paragraphs(paragraphs)
+            .with_tables([table])
+    }
+
+    /// An empty part.
+    pub fn new(heading: impl Into<String>) -> Self {
         Self {
-            heading: RESULTS.into(),
-            paragraphs,
-            tables: vec![table],
-            figures: Vec::new(),
+            heading: heading.into(),
+            ..Self::default()
         }
     }
 
-    /// The same with tables in the box.
+    /// The same with further paragraphs.
+    pub fn with_paragraphs(mut self, paragraphs: impl IntoIterator<Item = String>) -> Self {
+        self.paragraphs.extend(paragraphs);
+        self
+    }
+
+    /// The same with further tables.
     pub fn with_tables(mut self, tables: impl IntoIterator<Item = ReportTable>) -> Self {
         self.tables.extend(tables);
+        self
+    }
+
+    /// The same with further figures.
+    pub fn with_figures(mut self, figures: impl IntoIterator<Item = NamedFigure>) -> Self {
+        self.figures.extend(figures);
         self
     }
 

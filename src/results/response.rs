@@ -103,12 +103,14 @@ pub fn draw_response_report(
 ) -> Result<(), DrawingError> {
     let report = Report {
         title: summary.title.clone(),
-        sections: vec![ReportSection {
-            heading: "Frequency response".into(),
-            paragraphs: vec![summary.description.clone()],
-            tables: Vec::new(),
-            figures: draw_all(vec![Box::new(|| Ok(response_figure(response)))], options)?,
-        }],
+        sections: vec![
+            ReportSection::new("Frequency response")
+                .with_paragraphs([summary.description.clone()])
+                .with_figures(draw_all(
+                    vec![Box::new(|| Ok(response_figure(response)))],
+                    options,
+                )?),
+        ],
         manifest: folder.manifest().clone(),
     };
     write_report(folder, &report, options)

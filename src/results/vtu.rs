@@ -245,7 +245,7 @@ impl EncodedMesh {
         let types: Vec<u8> = mesh
             .element_kinds
             .iter()
-            .map(|kind| kind.vtk_type())
+            .map(|kind| kind.formats().vtk)
             .collect();
         let connectivity = mesh.elements.iter().map(|node| i64::from(*node));
         Ok(Self {

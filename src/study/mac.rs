@@ -126,11 +126,10 @@ pub(in crate::study) fn refuse_revolution(case: &Case) -> Result<(), StudyError>
     Err(case
         .error_at(
             "material.formulation",
-            "measured points are compared node by node, and the modes of this body are solved harmonic by harmonic, either \
-             sense of travel alone"
-                .to_owned(),
-            "a body of revolution in three dimensions".to_owned(),
-            Some("give the body as a mesh file (mesh.file)".to_owned()),
+            "measured points are compared node by node, and the modes of this body are solved \
+             harmonic by harmonic, either sense of travel alone",
+            "a body of revolution in three dimensions",
+            "give the body as a mesh file (mesh.file)",
         )
         .into())
 }

@@ -23,11 +23,10 @@ pub fn matrices(case: &Case) -> Result<ExportedSystem, StudyError> {
     if case.body.revolution().is_some() {
         return Err(StudyError::Case(case.error_at(
             "material.formulation",
-            "the matrices of a body of revolution in three dimensions are complex, one set for each harmonic: there is no one real \
-             problem to write"
-                .to_owned(),
-            "a body of revolution".to_owned(),
-            Some("use a plane formulation, or an imported mesh".to_owned()),
+            "the matrices of a body of revolution in three dimensions are complex, one set for \
+             each harmonic: there is no one real problem to write",
+            "a body of revolution",
+            "use a plane formulation, or an imported mesh",
         )));
     }
     if case.has_structural_damping() {

@@ -224,11 +224,11 @@ fn refuse_beyond_tables(case: &Case, frf: &Frf) -> Result<(), CaseErrors> {
             return Err(case.error_at(
                 key,
                 format!(
-                    "{key} = \"{file}\" holds {low} to {high} Hz, and frf asks for {line} Hz: a modulus beyond a table is not \
-                     guessed"
+                    "{key} = \"{file}\" holds {low} to {high} Hz, and frf asks for {line} Hz: \
+                     a modulus beyond a table is not guessed"
                 ),
-                "does not cover the lines".to_owned(),
-                Some("extend the table, or ask for lines within it".to_owned()),
+                "does not cover the lines",
+                "extend the table, or ask for lines within it",
             ));
         }
     }
@@ -246,9 +246,9 @@ fn cyclic(case: &Case, frf: &Frf) -> Result<System, StudyError> {
         Body::Imported(_) | Body::Assembly(_) => {
             return Err(StudyError::Case(case.error_at(
                 "frf.method",
-                "frf.method = \"cyclic\" needs the symmetry of the built-in annulus".to_owned(),
-                "an imported mesh has no sectors".to_owned(),
-                Some("use \"auto\", \"direct\" or \"reduced\"".to_owned()),
+                "frf.method = \"cyclic\" needs the symmetry of the built-in annulus",
+                "an imported mesh has no sectors",
+                "use \"auto\", \"direct\" or \"reduced\"",
             )));
         }
     };
@@ -321,8 +321,8 @@ fn whole(case: &Case, frf: &Frf, reduction: Reduction) -> Result<System, StudyEr
         return Err(StudyError::Case(case.error_at(
             "frf.method",
             format!("frf.method = \"{name}\" is for bodies that are solved on their whole mesh"),
-            "a body of revolution is solved harmonic by harmonic".to_owned(),
-            Some("use \"auto\" or \"cyclic\"".to_owned()),
+            "a body of revolution is solved harmonic by harmonic",
+            "use \"auto\" or \"cyclic\"",
         )));
     }
     if frf.boundary == FrfBoundary::Sliding {
@@ -408,9 +408,10 @@ fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
     }
     Err(case.error_at(
         "frf.boundary",
-        "frf.boundary = \"sliding\" at rest: the contact sticks, and there is no steady sliding to respond around".to_owned(),
-        "the speed is 0".to_owned(),
-        Some("give a speed, however small, or use \"clamped\" or \"free\"".to_owned()),
+        "frf.boundary = \"sliding\" at rest: the contact sticks, and there is no steady \
+         sliding to respond around",
+        "the speed is 0",
+        "give a speed, however small, or use \"clamped\" or \"free\"",
     ))
 }
 
@@ -418,10 +419,9 @@ fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
 fn disc_and_shaft_apart(case: &Case) -> CaseErrors {
     case.error_at(
         "frf.method",
-        "frf.method = \"cyclic\" takes one body, and without contact disc and shaft are two"
-            .to_owned(),
-        "disc and shaft do not touch here".to_owned(),
-        Some("use \"auto\", \"direct\" or \"reduced\"".to_owned()),
+        "frf.method = \"cyclic\" takes one body, and without contact disc and shaft are two",
+        "disc and shaft do not touch here",
+        "use \"auto\", \"direct\" or \"reduced\"",
     )
 }
 

@@ -4,20 +4,30 @@ use frictionsim::mesh::{ElementKind, FileElement, GmshFile};
 use std::collections::BTreeMap;
 
 /// Solid kinds.
-pub const SOLIDS: [ElementKind; 6] = [
+pub const SOLIDS: [ElementKind; 8] = [
     ElementKind::Tet4,
     ElementKind::Tet10,
     ElementKind::Hex8,
     ElementKind::Hex20,
     ElementKind::Wedge6,
     ElementKind::Wedge15,
+    ElementKind::Pyramid5,
+    ElementKind::Pyramid13,
 ];
 
-/// Corners of the linear elements that make up a cell whose corners are numbered as those of a brick.
+/// Corners of the linear elements that make up a cell whose corners are numbered as those of a brick, its middle being 8.
 fn parts(kind: ElementKind) -> &'static [&'static [usize]] {
     match kind {
         ElementKind::Hex8 | ElementKind::Hex20 => &[&[0, 1, 2, 3, 4, 5, 6, 7]],
         ElementKind::Wedge6 | ElementKind::Wedge15 => &[&[0, 1, 2, 4, 5, 6], &[0, 2, 3, 4, 6, 7]],
+        ElementKind::Pyramid5 | ElementKind::Pyramid13 => &[
+            &[0, 1, 2, 3, 8],
+            &[4, 7, 6, 5, 8],
+            &[0, 4, 5, 1, 8],
+            &[1, 5, 6, 2, 8],
+            &[2, 6, 7, 3, 8],
+            &[3, 7, 4, 0, 8],
+        ],
         // Six tetrahedra about the diagonal from corner 0 to corner 6: neighbouring cells match.
         _ => &[
             &[0, 1, 2, 6],
@@ -52,7 +62,7 @@ pub fn block(kind: ElementKind, cells: [usize; 3], map: impl Fn([f64; 3]) -> [f6
     for (i, j, k) in (0..cells[2])
         .flat_map(|k| (0..cells[1]).flat_map(move |j| (0..cells[0]).map(move |i| (i, j, k))))
     {
-        let around = [
+        let mut around = vec![
             corner(i, j, k),
             corner(i + 1, j, k),
             corner(i + 1, j + 1, k),
@@ -62,6 +72,11 @@ pub fn block(kind: ElementKind, cells: [usize; 3], map: impl Fn([f64; 3]) -> [f6
             corner(i + 1, j + 1, k + 1),
             corner(i, j + 1, k + 1),
         ];
+        if kind.corner_count() == 5 {
+            let ends = [around[0], around[6]].map(|node| places[node as usize]);
+            around.push(places.len() as u32);
+            places.push([0, 1, 2].map(|axis| 0.5 * (ends[0][axis] + ends[1][axis])));
+        }
         for part in parts(kind) {
             let mut nodes: Vec<u32> = part.iter().map(|&local| around[local]).collect();
             let corners = nodes.clone();

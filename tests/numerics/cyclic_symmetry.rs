@@ -276,3 +276,23 @@ fn sectors_that_do_not_meet_are_refused() {
     assert!(shifted.contains("with other nodes"), "{shifted}");
     assert!(shifted.contains("Periodic Curve"), "{shifted}");
 }
+
+/// A wrong number of sectors of solid bodies is reported at its key.
+#[test]
+fn a_wrong_number_of_solid_sectors_is_reported_where_it_is_given() {
+    let block = Block {
+        name: "ring",
+        origin: [0.07, 0.0, 0.0],
+        size: [0.05, TAU / 6.0, 0.01],
+        counts: [2, 4, 1],
+    };
+    let mesh = file_of(&[block], |[r, t, z]| [r * t.cos(), r * t.sin(), z]);
+    let text = "[mesh]\nfile = \"sector.msh\"\nsectors = 5\n\
+                [material]\nyoung_modulus = 1.1e11\npoisson_ratio = 0.28\ndensity = 7200.0\n\
+                [damping]\nmass_coefficient = 0.0\nstiffness_coefficient = 1e-8\n\
+                [boundaries.ring_x0]\ncondition = \"clamped\"\n[cea]\nmodes = 4\n";
+    let wrong = read("wrong-solid-count", &mesh, text, "auto").unwrap_err();
+    let wrong = wrong.to_string();
+    assert!(wrong.contains("case.toml:3"), "{wrong}");
+    assert!(wrong.contains("the sector does not fit"), "{wrong}");
+}

@@ -37,6 +37,7 @@ mod normal_law;
 mod orthotropy;
 mod plane_body;
 mod plane_spectrum;
+mod pyramids;
 mod relaxation;
 mod shaft;
 mod solid_elements;

@@ -385,6 +385,7 @@ fn quadratic_kinds_and_incompatible_bricks_agree_on_a_clamped_beam() {
     for (kind, cells, tolerance) in [
         (ElementKind::Tet10, [10, 2, 2], 0.01),
         (ElementKind::Wedge15, [8, 2, 2], 0.005),
+        (ElementKind::Pyramid13, [8, 2, 2], 0.005),
         (ElementKind::Hex8, [16, 4, 4], 0.02),
     ] {
         let found = beam(kind, cells);

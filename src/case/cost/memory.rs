@@ -56,12 +56,12 @@ impl Case {
         self.error_at(
             key,
             format!(
-                "{command} needs about {:.1} GiB of memory, {:.1} GiB are available: most of it for \
-                 {key}{given}",
+                "{command} needs about {:.1} GiB of memory, {:.1} GiB are available: most of \
+                 it for {key}{given}",
                 gibibytes(needed),
                 gibibytes(available)
             ),
-            "too much for this machine".to_owned(),
+            "too much for this machine",
             Some(remedy.to_owned()),
         )
     }

@@ -13,7 +13,7 @@ impl Section<'_> {
             self.reject(
                 key,
                 format!("{} is an empty list", self.name(key)),
-                "at least one word".to_owned(),
+                "at least one word",
                 None,
             );
         }
@@ -56,7 +56,7 @@ impl Section<'_> {
             self.reject(
                 key,
                 format!("{} = \"{name}\" is not a numeric case key", self.name(key)),
-                "must name a key whose value is a number".to_owned(),
+                "must name a key whose value is a number",
                 suggestion::nearest_key(&name)
                     .filter(|near| is_numeric(near))
                     .map(|near| format!("did you mean \"{near}\"?")),
@@ -81,7 +81,7 @@ impl Section<'_> {
                     ),
                     bound,
                     item.at.clone(),
-                    Some(format!("did you mean \"{near}\"?")),
+                    format!("did you mean \"{near}\"?"),
                 );
                 return None;
             }

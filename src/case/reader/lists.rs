@@ -51,7 +51,7 @@ impl<'a> Section<'a> {
         let highest = elements / 2;
         for (value, at) in &values {
             if *value > highest && elements > 0 {
-                self.reject_there(
+                self.reject_placed(
                     at,
                     format!(
                         "harmonic {value} in {} is above the mesh's highest, {highest}",
@@ -73,7 +73,7 @@ impl<'a> Section<'a> {
             self.reject(
                 key,
                 format!("{} has {} twice", self.name(key), pair[0]),
-                "every value once".to_owned(),
+                "every value once",
                 None,
             );
         }

@@ -3,6 +3,7 @@
 use super::block::{Block, fields};
 use super::element::{ElementType, element_type};
 use super::{Placed, Reader, Set};
+use crate::mesh::ElementKind;
 use crate::mesh::collection::CollectedElement;
 use crate::mesh::deck::{Place, quoted, real};
 use crate::mesh::gmsh::MeshFileError;
@@ -120,8 +121,9 @@ impl Reader<'_, '_> {
                         .any(|solid| name.starts_with(solid))
                 {
                     let message = format!(
-                        "elements of type {name} are not supported: tetrahedra, bricks and wedges (C3D4, C3D10, C3D8, C3D20, \
-                         C3D6, C3D15), and of plane bodies CPE and CPS with 3, 4, 6 or 8 nodes are"
+                        "elements of type {name} are not supported: {} (C3D4, C3D10, C3D8, C3D20, C3D6, C3D15, C3D5, \
+                         C3D13), and of plane bodies CPE and CPS with 3, 4, 6 or 8 nodes are",
+                        ElementKind::SOLID_SHAPES
                     );
                     return Err(self.deck.error(block.place, message));
                 }

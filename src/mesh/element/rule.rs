@@ -16,6 +16,19 @@ pub(super) const THREE: [(f64, f64); 3] = [
     (0.774_596_669_241_483_4, 5.0 / 9.0),
 ];
 
+/// Gauss-Jacobi points of `∫ f(c) c^2 dc` over `0 <= c <= 1`, exact to degree 3: `c = 2/3 -+ sqrt(2/45)`.
+pub(super) const TWO_TO_APEX: [(f64, f64); 2] = [
+    (0.455_848_155_988_774_7, 0.100_785_882_079_825_43),
+    (0.877_485_177_344_558_6, 0.232_547_451_253_507_9),
+];
+
+/// The same, exact to degree 5.
+pub(super) const THREE_TO_APEX: [(f64, f64); 3] = [
+    (0.294_997_790_111_501_6, 0.029_950_703_008_580_7),
+    (0.652_996_233_961_648_1, 0.146_246_269_259_866_02),
+    (0.927_005_975_926_850_3, 0.157_136_361_064_886_62),
+];
+
 /// Gauss points of a line.
 pub(super) fn line(points: &[(f64, f64)]) -> Vec<QuadraturePoint> {
     let points = points.iter();
@@ -53,6 +66,22 @@ pub(super) fn wedge(triangle: &[QuadraturePoint], line: &[(f64, f64)]) -> Vec<Qu
                 .map(move |&([x, y, _], w)| ([x, y, z], w * v))
         })
         .collect()
+}
+
+/// A rule of the square in each section of a pyramid times one over the distance `c` to the apex, whose weight is `c^2`.
+pub(super) fn pyramid(section: &[(f64, f64)], to_apex: &[(f64, f64)]) -> Vec<QuadraturePoint> {
+    let heights = to_apex.iter();
+    heights
+        .flat_map(|&(c, v)| {
+            let shrunk = move |([x, y, _], w): QuadraturePoint| ([c * x, c * y, 1.0 - c], w * v);
+            square(section).into_iter().map(shrunk)
+        })
+        .collect()
+}
+
+/// The places of a rule.
+pub(super) fn places(rule: Vec<QuadraturePoint>) -> Vec<[f64; 3]> {
+    rule.into_iter().map(|point| point.0).collect()
 }
 
 /// Three points, exact for polynomials of degree 2.

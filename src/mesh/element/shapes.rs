@@ -4,9 +4,17 @@
 pub type Shape = (f64, [f64; 3]);
 
 /// Corners of the square.
-pub(super) const SQUARE: [(f64, f64); 4] = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+pub(super) const SQUARE: [[f64; 3]; 4] = [
+    [-1.0, -1.0, 0.0],
+    [1.0, -1.0, 0.0],
+    [1.0, 1.0, 0.0],
+    [-1.0, 1.0, 0.0],
+];
 
-/// Corners of the tetrahedron; its first three are those of the triangle.
+/// Corners of the triangle.
+pub(super) const TRIANGLE: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+
+/// Corners of the tetrahedron.
 pub(super) const TETRAHEDRON: [[f64; 3]; 4] = [
     [0.0, 0.0, 0.0],
     [1.0, 0.0, 0.0],
@@ -24,7 +32,17 @@ pub(super) const WEDGE: [[f64; 3]; 6] = [
     [0.0, 1.0, 1.0],
 ];
 
-const BRICK_CORNERS: [[f64; 3]; 8] = [
+/// Corners of the pyramid: its base, then its apex.
+pub(super) const PYRAMID: [[f64; 3]; 5] = [
+    [-1.0, -1.0, 0.0],
+    [1.0, -1.0, 0.0],
+    [1.0, 1.0, 0.0],
+    [-1.0, 1.0, 0.0],
+    [0.0, 0.0, 1.0],
+];
+
+/// Corners of the brick.
+pub(super) const BRICK: [[f64; 3]; 8] = [
     [-1.0, -1.0, -1.0],
     [1.0, -1.0, -1.0],
     [1.0, 1.0, -1.0],
@@ -99,7 +117,7 @@ pub(super) fn quadratic_simplex(linear: &[Shape], edges: &[[usize; 2]]) -> Vec<S
 
 /// Bilinear functions of the square.
 pub(super) fn bilinear(xi: f64, eta: f64) -> Vec<Shape> {
-    let shape = |(a, b): (f64, f64)| {
+    let shape = |[a, b, _]: [f64; 3]| {
         let (p, q) = (1.0 + a * xi, 1.0 + b * eta);
         (0.25 * p * q, [0.25 * a * q, 0.25 * b * p, 0.0])
     };
@@ -108,7 +126,7 @@ pub(super) fn bilinear(xi: f64, eta: f64) -> Vec<Shape> {
 
 /// Serendipity functions of the square.
 pub(super) fn serendipity(xi: f64, eta: f64) -> Vec<Shape> {
-    let corner = SQUARE.iter().map(|&(a, b)| {
+    let corner = SQUARE.iter().map(|&[a, b, _]| {
         let (p, q) = (1.0 + a * xi, 1.0 + b * eta);
         let s = a * xi + b * eta - 1.0;
         let slopes = [0.25 * a * q * (s + p), 0.25 * b * p * (s + q), 0.0];
@@ -129,16 +147,6 @@ pub(super) fn serendipity(xi: f64, eta: f64) -> Vec<Shape> {
         along_eta(-1.0),
     ];
     corner.chain(middle).collect()
-}
-
-/// Parent coordinates of each node of a brick.
-pub(super) fn brick_places(is_quadratic: bool) -> Vec<[f64; 3]> {
-    let middles = if is_quadratic {
-        &BRICK_MIDDLES[..]
-    } else {
-        &[]
-    };
-    BRICK_CORNERS.iter().chain(middles).copied().collect()
 }
 
 /// Trilinear functions of a brick, or the serendipity functions
@@ -174,7 +182,8 @@ pub(super) fn brick(is_quadratic: bool, at: [f64; 3]) -> Vec<Shape> {
         let gradient = |k: usize| 0.125 * sign[k] * (others[k] * s + product);
         (0.125 * product * s, std::array::from_fn(gradient))
     };
-    brick_places(is_quadratic).into_iter().map(shape).collect()
+    let middles = BRICK_MIDDLES.iter().filter(|_| is_quadratic);
+    BRICK.iter().chain(middles).copied().map(shape).collect()
 }
 
 /// Linear functions of a wedge, `L_I (1 -+ zeta) / 2`.
@@ -220,4 +229,61 @@ pub(super) fn quadratic_wedge([xi, eta, zeta]: [f64; 3]) -> Vec<Shape> {
         between,
     ]
     .concat()
+}
+
+/// Smallest distance to the apex at which pyramids are evaluated: slopes at the apex are their limits along the axis.
+const NEAR_APEX: f64 = 1e-100;
+
+/// Rational functions of a pyramid, `c = 1 - zeta`: `N = (c + xi_I xi)(c + eta_I eta) / (4 c)` at the corners of the base,
+/// `zeta` at the apex. They are those of the square on the base and of a triangle on the other faces.
+///
+/// Source: G. Bedrosian, Shape functions and integration formulas for three-dimensional finite element analysis, Int. J.
+/// Numer. Meth. Engng. 35 (1992).
+pub(super) fn pyramid([xi, eta, zeta]: [f64; 3]) -> Vec<Shape> {
+    let c = (1.0 - zeta).max(NEAR_APEX);
+    let base = PYRAMID[..4].iter().map(|&[a, b, _]| {
+        let (p, q) = (c + a * xi, c + b * eta);
+        let value = p * q / (4.0 * c);
+        let slopes = [
+            0.25 * a * (q / c),
+            0.25 * b * (p / c),
+            0.25 * ((p / c) * (q / c) - (p + q) / c),
+        ];
+        (value, slopes)
+    });
+    base.chain([(zeta, [0.0, 0.0, 1.0])]).collect()
+}
+
+/// Rational functions of a quadratic pyramid, products of the linear ones `N` and linear polynomials:
+/// `N (xi_I xi + eta_I eta - 1)` at the corners of the base, `zeta (2 zeta - 1)` at the apex, `2 N (c - xi_I xi)` at the middle
+/// of an edge of the base along `xi`, `N` and `xi_I` those of one end, and `4 zeta N` at the middle of an edge to the apex.
+///
+/// Source: as for the linear pyramid.
+pub(super) fn quadratic_pyramid(at: [f64; 3]) -> Vec<Shape> {
+    let [xi, eta, zeta] = at;
+    let linear = pyramid(at);
+    // A linear function times a polynomial of value `f` and slopes `df`.
+    let times = |(n, dn): Shape, f: f64, df: [f64; 3]| -> Shape {
+        (
+            n * f,
+            std::array::from_fn(|axis| dn[axis] * f + n * df[axis]),
+        )
+    };
+    let corner = |(node, &[a, b, _]): (usize, &[f64; 3])| {
+        times(linear[node], a * xi + b * eta - 1.0, [a, b, 0.0])
+    };
+    // The middle of the edge of the base that begins at a corner and runs along an axis.
+    let side = |node: usize, axis: usize| {
+        let sign = PYRAMID[node][axis];
+        let mut slopes = [0.0, 0.0, -2.0];
+        slopes[axis] = -2.0 * sign;
+        times(linear[node], 2.0 * (1.0 - zeta - sign * at[axis]), slopes)
+    };
+    let apex = (zeta * (2.0 * zeta - 1.0), [0.0, 0.0, 4.0 * zeta - 1.0]);
+    let rising = |node: usize| times(linear[node], 4.0 * zeta, [0.0, 0.0, 4.0]);
+    let corners = PYRAMID[..4].iter().enumerate().map(corner);
+    corners
+        .chain([apex, side(0, 0), side(1, 1), side(2, 0), side(3, 1)])
+        .chain((0..4).map(rising))
+        .collect()
 }

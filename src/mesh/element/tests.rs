@@ -102,3 +102,28 @@ fn faces_point_outwards_and_close_around_every_element() {
         assert!(sum.iter().all(|s| s.abs() < 1e-14), "{kind:?} {sum:?}");
     }
 }
+
+/// Independent check: `∫ xi^p eta^q zeta^r` over the pyramid is `4 B(r + 1, p + q + 3) / ((p + 1)(q + 1))` for even powers.
+#[test]
+fn quadrature_of_pyramids_is_exact_to_its_degree() {
+    let factorial = |n: u32| (1..=n).map(f64::from).product::<f64>();
+    for (kind, degree) in [(ElementKind::Pyramid5, 3), (ElementKind::Pyramid13, 5)] {
+        let points = kind.quadrature();
+        for (p, q) in (0..=degree).flat_map(|p| (0..=degree - p).map(move |q| (p, q))) {
+            for r in 0..=degree - p - q {
+                let term = |&([x, y, z], w): &QuadraturePoint| {
+                    w * x.powi(p as i32) * y.powi(q as i32) * z.powi(r as i32)
+                };
+                let sum: f64 = points.iter().map(term).sum();
+                let is_even = p % 2 == 0 && q % 2 == 0;
+                let beta = factorial(r) * factorial(p + q + 2) / factorial(p + q + r + 3);
+                let exact =
+                    4.0 * beta * f64::from(u8::from(is_even)) / f64::from((p + 1) * (q + 1));
+                assert!(
+                    (sum - exact).abs() < 1e-15,
+                    "{kind:?} {p} {q} {r}: {sum} {exact}"
+                );
+            }
+        }
+    }
+}

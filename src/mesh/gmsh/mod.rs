@@ -224,9 +224,10 @@ struct Reader {
 
 /// Dimension, node count and, for plane and solid elements, the kind of Gmsh's element types.
 fn element_type(number: i64) -> Option<(i64, usize, Option<ElementKind>)> {
-    let known = ElementKind::ALL
-        .into_iter()
-        .find(|kind| i64::from(kind.gmsh_type()) == number);
+    let known = ElementKind::listed(|formats| {
+        let mut types = formats.gmsh.names.iter();
+        types.any(|&kind| i64::from(kind) == number)
+    });
     if let Some(kind) = known {
         return Some((kind.dimension() as i64, kind.node_count(), Some(kind)));
     }
@@ -234,12 +235,10 @@ fn element_type(number: i64) -> Option<(i64, usize, Option<ElementKind>)> {
         1 => (1, 2),
         8 => (1, 3),
         15 => (0, 1),
-        7 => (3, 5),
         10 => (2, 9),
         12 => (3, 27),
         13 => (3, 18),
         14 => (3, 14),
-        19 => (3, 13),
         _ => return None,
     };
     Some((dimension, nodes, None))
@@ -350,13 +349,12 @@ impl Reader {
                     Some(&tag) => self.name(dimension, tag),
                     None => self.name(dimension, NO_GROUP),
                 };
-                let order = kind.gmsh_order().into_iter();
                 let element = FileElement {
                     label,
                     kind,
                     region,
                     entity,
-                    nodes: order.map(|place| nodes[place]).collect(),
+                    nodes: kind.formats().gmsh.arranged(&nodes),
                 };
                 if kind.dimension() == 3 {
                     self.solids.push(element);
@@ -393,18 +391,15 @@ fn shape_of(
             "element {label} is a quadrilateral of nine nodes (type 10), which is not supported: set \
              Mesh.SecondOrderIncomplete = 1 for eight"
         ))),
-        Some((3, _, None)) if [12, 13].contains(&number) => Err(cursor.error(format!(
-            "element {label} has nodes inside its faces (type {number}), which is not supported: set \
-             Mesh.SecondOrderIncomplete = 1 for bricks of 20 and wedges of 15 nodes"
-        ))),
         Some((3, _, None)) => Err(cursor.error(format!(
-            "element {label} is a pyramid (type {number}), which is not supported: mesh the volume with tetrahedra, bricks or \
-             wedges"
+            "element {label} has nodes inside its faces (type {number}), which is not supported: set \
+             Mesh.SecondOrderIncomplete = 1 for bricks of 20, wedges of 15 and pyramids of 13 nodes"
         ))),
         Some(known) => Ok(known),
         None => Err(cursor.error(format!(
-            "element {label} has type {number}, which is not supported: use triangles, quadrilaterals, tetrahedra, bricks or \
-             wedges of first or second order"
+            "element {label} has type {number}, which is not supported: triangles, quadrilaterals, {} of first and second \
+             order are",
+            ElementKind::SOLID_SHAPES
         ))),
     }
 }

@@ -1,4 +1,4 @@
-//! `CTETRA`, `CHEXA`, `CPENTA`, and the shells that cover their faces.
+//! `CTETRA`, `CHEXA`, `CPENTA`, `CPYRAM`, and the shells that cover their faces.
 
 use super::Reader;
 use super::card::Card;
@@ -7,30 +7,8 @@ use crate::mesh::gmsh::{MeshFileError, SurfaceFace};
 use crate::mesh::{ElementKind, FaceKind};
 use std::collections::{BTreeMap, HashMap};
 
-/// Solid kinds by card: of first order, of second order.
-const SOLIDS: [(&str, [ElementKind; 2]); 3] = [
-    ("CTETRA", [ElementKind::Tet4, ElementKind::Tet10]),
-    ("CHEXA", [ElementKind::Hex8, ElementKind::Hex20]),
-    ("CPENTA", [ElementKind::Wedge6, ElementKind::Wedge15]),
-];
-
 /// Elements that are no solids and change the body where they are left out: refused, not listed.
-const REFUSED: [(&str, &str); 2] = [
-    (
-        "CPYRAM",
-        "pyramids are not supported: mesh with tetrahedra, bricks or wedges",
-    ),
-    ("CHACAB", "acoustic elements are not supported"),
-];
-
-/// For each node of a kind its place on the card: mid-side nodes of the edges along the height come before those of the top.
-fn order(kind: ElementKind) -> Vec<usize> {
-    match kind {
-        ElementKind::Hex20 => (0..12).chain(16..20).chain(12..16).collect(),
-        ElementKind::Wedge15 => (0..9).chain(12..15).chain(9..12).collect(),
-        _ => (0..kind.node_count()).collect(),
-    }
-}
+const REFUSED: [(&str, &str); 1] = [("CHACAB", "acoustic elements are not supported")];
 
 impl Reader<'_, '_> {
     pub(super) fn read_elements(&mut self) -> Result<(), MeshFileError> {
@@ -38,9 +16,15 @@ impl Reader<'_, '_> {
             if let Some((name, reason)) = REFUSED.iter().find(|refused| refused.0 == card.name) {
                 return Err(self.deck.error(card.place, format!("{name}: {reason}")));
             }
-            let solid = SOLIDS.iter().find(|solid| solid.0 == card.name);
-            if let Some((_, kinds)) = solid {
-                self.element(card, *kinds)?;
+            let of_order = |is_quadratic: bool| {
+                let mut kinds = ElementKind::ALL.into_iter();
+                kinds.find(|kind| {
+                    let cards = kind.formats().nastran.names;
+                    cards.contains(&&*card.name) && kind.is_quadratic() == is_quadratic
+                })
+            };
+            if let (Some(linear), Some(quadratic)) = (of_order(false), of_order(true)) {
+                self.element(card, [linear, quadratic])?;
             }
         }
         Ok(())
@@ -93,7 +77,7 @@ impl Reader<'_, '_> {
         self.collection.elements.push(CollectedElement {
             label,
             kind,
-            nodes: order(kind).into_iter().map(|place| listed[place]).collect(),
+            nodes: kind.formats().nastran.arranged(&listed),
             region: Some(region.into()),
         });
         Ok(())

@@ -217,8 +217,8 @@ impl Reader<'_, '_> {
         Ok(())
     }
 
-    /// The face that `G1` and `G3` or `G4` name: opposite corners of a quadrilateral; of a triangular face of a wedge `G1` alone;
-    /// of a tetrahedron a corner of the face and the corner that is not on it.
+    /// The face that `G1` and `G3` or `G4` name: opposite corners of a quadrilateral; of a triangular face of a wedge `G1` alone,
+    /// of a pyramid its two corners on the base; of a tetrahedron a corner of the face and the corner that is not on it.
     fn loaded_face(&self, card: &Card<'_>, element: usize) -> Result<SurfaceFace, MeshFileError> {
         let element = &self.collection.elements[element];
         let first = self.node(card.number(self.deck, 6)?, "PLOAD4", card.place)?;
@@ -229,14 +229,9 @@ impl Reader<'_, '_> {
         let found = match (element.kind.corner_count(), second) {
             (4, Some(apex)) => opposite(element, apex).filter(|_| first != apex),
             (6, None) => triangle(element, first),
-            (_, Some(second)) => element.face_with(&[first, second]).filter(|face| {
-                // Opposite corners are on one face alone.
-                let corners = &face.1[..face.0.corner_count()];
-                let place = |node| corners.iter().position(|&corner| corner == node);
-                place(first)
-                    .zip(place(second))
-                    .is_some_and(|(a, b)| a.abs_diff(b) == 2)
-            }),
+            (5, Some(second)) => sloping(element, [first, second])
+                .or_else(|| with_diagonal(element, [first, second])),
+            (_, Some(second)) => with_diagonal(element, [first, second]),
             _ => None,
         };
         found.ok_or_else(|| {
@@ -247,6 +242,23 @@ impl Reader<'_, '_> {
             self.deck.error(card.place, message)
         })
     }
+}
+
+/// The face on which two nodes are opposite corners.
+fn with_diagonal(element: &CollectedElement, ends: [u32; 2]) -> Option<SurfaceFace> {
+    element.face_with(&ends).filter(|face| {
+        let corners = &face.1[..face.0.corner_count()];
+        let place = |node| corners.iter().position(|&corner| corner == node);
+        let [a, b] = ends.map(place);
+        a.zip(b).is_some_and(|(a, b)| a.abs_diff(b) == 2)
+    })
+}
+
+/// The triangular face of a pyramid that stands on an edge of its base.
+fn sloping(element: &CollectedElement, ends: [u32; 2]) -> Option<SurfaceFace> {
+    let apex = element.nodes[4];
+    let face = element.face_with(&[ends[0], ends[1], apex]);
+    face.filter(|_| ends[0] != ends[1] && !ends.contains(&apex))
 }
 
 /// The face of a tetrahedron that lies opposite a corner.

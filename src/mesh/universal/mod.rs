@@ -49,37 +49,6 @@ struct Group {
     place: Place,
 }
 
-/// Kind of an element by its descriptor; none for what is no solid or plane element.
-fn kind_of(descriptor: usize) -> Option<ElementKind> {
-    Some(match descriptor {
-        111 => ElementKind::Tet4,
-        118 => ElementKind::Tet10,
-        112 => ElementKind::Wedge6,
-        113 => ElementKind::Wedge15,
-        115 => ElementKind::Hex8,
-        116 => ElementKind::Hex20,
-        41 | 51 | 91 => ElementKind::Tri3,
-        42 | 52 | 92 => ElementKind::Tri6,
-        44 | 54 | 94 => ElementKind::Quad4,
-        45 | 55 | 95 => ElementKind::Quad8,
-        _ => return None,
-    })
-}
-
-/// For each node of a kind its place in the file, where corners and middles take turns around each face.
-fn order(kind: ElementKind) -> Vec<usize> {
-    match kind {
-        ElementKind::Tri6 => vec![0, 2, 4, 1, 3, 5],
-        ElementKind::Quad8 => vec![0, 2, 4, 6, 1, 3, 5, 7],
-        ElementKind::Tet10 => vec![0, 2, 4, 9, 1, 3, 5, 6, 7, 8],
-        ElementKind::Wedge15 => vec![0, 2, 4, 9, 11, 13, 1, 3, 5, 10, 12, 14, 6, 7, 8],
-        ElementKind::Hex20 => vec![
-            0, 2, 4, 6, 12, 14, 16, 18, 1, 3, 5, 7, 13, 15, 17, 19, 8, 9, 10, 11,
-        ],
-        _ => (0..kind.node_count()).collect(),
-    }
-}
-
 /// Reads a universal file.
 ///
 /// # Errors
@@ -300,7 +269,9 @@ impl<'a> Reader<'_, 'a> {
         (label, descriptor): (usize, usize),
         nodes: &[u32],
     ) -> Result<(), MeshFileError> {
-        let entity = match kind_of(descriptor) {
+        let entity = match ElementKind::listed(|formats| {
+            formats.universal.names.contains(&descriptor)
+        }) {
             Some(kind) => {
                 if nodes.len() != kind.node_count() {
                     let message = format!(
@@ -314,7 +285,7 @@ impl<'a> Reader<'_, 'a> {
                 self.collection.elements.push(CollectedElement {
                     label,
                     kind,
-                    nodes: order(kind).into_iter().map(|place| nodes[place]).collect(),
+                    nodes: kind.formats().universal.arranged(nodes),
                     region: None,
                 });
                 Entity::Element(self.collection.elements.len() - 1)

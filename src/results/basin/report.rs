@@ -21,12 +21,9 @@ pub fn draw_basin(
         title: summary.title.clone(),
         sections: vec![
             ReportSection::results(vec![summary.answer()], results(summary)),
-            ReportSection {
-                heading: "Search".into(),
-                tables: vec![runs_table(summary)],
-                figures,
-                ..ReportSection::default()
-            },
+            ReportSection::new("Search")
+                .with_tables([runs_table(summary)])
+                .with_figures(figures),
         ],
         manifest: folder.manifest().clone(),
     };
@@ -128,18 +125,16 @@ fn runs_table(summary: &BasinSummary) -> ReportTable {
             significant(run.duration_s, 4),
         ]
     };
-    ReportTable {
-        caption: "Transients in the order of the search".into(),
-        columns: [
+    ReportTable::new(
+        "Transients in the order of the search",
+        [
             "transient",
             "ratio of the seeds",
             "ratio at saturation",
             "winner n",
             "end",
             "simulated time (s)",
-        ]
-        .map(String::from)
-        .to_vec(),
-        rows: summary.runs.iter().enumerate().map(row).collect(),
-    }
+        ],
+        summary.runs.iter().enumerate().map(row),
+    )
 }

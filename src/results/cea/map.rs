@@ -3,7 +3,7 @@
 use crate::cea::UnstableInterval;
 use crate::cea::cyclic::StabilityMapPoint;
 use crate::chart::{ChartError, Figure};
-use crate::results::charts::{CriticalBranch, critical_friction};
+use crate::results::charts::{BranchName, CriticalBranch, critical_friction};
 use crate::results::table::{Column, write_rows};
 use std::collections::BTreeSet;
 use std::io::{self, Write};
@@ -24,6 +24,14 @@ pub struct MapReport {
 }
 
 impl MapReport {
+    /// Harmonic or nodal diameters, where the body has them, branch and direction.
+    fn name(&self, own: &UnstableInterval) -> BranchName {
+        match self.has_harmonics {
+            true => (Some(own.harmonic), own.branch, own.direction),
+            false => (own.nodal_diameters, own.branch, 0),
+        }
+    }
+
     /// Writes one row for each value and branch that turns unstable; a value without instability or one
     /// that failed has one row, with the reason in the last column.
     ///
@@ -33,10 +41,7 @@ impl MapReport {
         type Row<'a> = (f64, Option<&'a UnstableInterval>, Option<String>);
         let columns: &[Column<'_, Row<'_>>] = &[
             (&self.key, &|row| row.0.into()),
-            ("harmonic", &|row| {
-                let harmonic = row.1.map(|i| i.harmonic);
-                harmonic.filter(|_| self.has_harmonics).into()
-            }),
+            ("harmonic", &|row| row.1.and_then(|i| self.name(i).0).into()),
             ("branch", &|row| row.1.map(|i| i.branch).into()),
             ("direction", &|row| {
                 let direction = row.1.map(|i| i.direction);
@@ -74,22 +79,16 @@ impl MapReport {
             .iter()
             .filter_map(|point| point.outcome.as_ref().ok());
         let intervals = found.flatten();
-        let branches: BTreeSet<_> = intervals
-            .map(|i| (i.harmonic, i.branch, i.direction))
-            .collect();
+        let branches: BTreeSet<BranchName> = intervals.map(|i| self.name(i)).collect();
         let values: Vec<f64> = self.points.iter().map(|point| point.value).collect();
-        let curve = |(n, branch, direction)| {
-            let critical =
-                |point: &StabilityMapPoint| point.critical_friction(n, branch, direction);
-            let critical = self
-                .points
-                .iter()
-                .map(|point| critical(point).unwrap_or(f64::NAN));
+        let curve = |branch: BranchName| {
+            let critical = self.points.iter().map(|point| {
+                let mut intervals = point.outcome.iter().flatten();
+                let own = intervals.find(|i| self.name(i) == branch);
+                own.map_or(f64::NAN, |i| i.critical_friction)
+            });
             CriticalBranch {
-                branch: match self.has_harmonics {
-                    true => (Some(n), branch, direction),
-                    false => (None, branch, 0),
-                },
+                branch,
                 critical: critical.collect(),
             }
         };

@@ -103,7 +103,7 @@ impl CeaReport<'_> {
     }
 
     /// A branch as figures and tables name it: by harmonic, rank and sense of travel, or without symmetry by the number that
-    /// its mode has at the case's own friction.
+    /// its mode has at the case's own friction, after its nodal diameters on a body of one sector.
     fn branch_name(&self, branch: Branch, numbers: &BTreeMap<Branch, usize>) -> String {
         match (self.has_harmonics, numbers.get(&branch)) {
             (true, _) => {
@@ -113,7 +113,13 @@ impl CeaReport<'_> {
                 };
                 format!("n = {}, branch {}{way}", branch.0, branch.1)
             }
-            (false, Some(number)) => format!("mode {number}"),
+            (false, Some(number)) => {
+                let own = self.own_point().map(|point| &point.modes[number - 1]);
+                match own.and_then(|mode| mode.nodal_diameters) {
+                    Some(n) => format!("n = {n}, mode {number}"),
+                    None => format!("mode {number}"),
+                }
+            }
             (false, None) => format!("branch {}", branch.1),
         }
     }

@@ -49,18 +49,10 @@ pub fn html_report(
     paragraphs.extend(report.notes.iter().cloned());
     let mut sections = vec![
         ReportSection::results(paragraphs, results(report)).with_tables([critical_table(report)]),
-        ReportSection {
-            heading: "Stability of steady sliding".into(),
-            figures,
-            ..ReportSection::default()
-        },
+        ReportSection::new("Stability of steady sliding").with_figures(figures),
     ];
     sections.extend(decisive(report));
-    sections.push(ReportSection {
-        heading: "Eigenvalues".into(),
-        tables: eigenvalue_tables(report),
-        ..ReportSection::default()
-    });
+    sections.push(ReportSection::new("Eigenvalues").with_tables(eigenvalue_tables(report)));
     Report {
         title: report.title.to_owned(),
         sections,
@@ -94,11 +86,10 @@ fn decisive(report: &CeaReport<'_>) -> Option<ReportSection> {
                 .to_owned(),
         );
     }
-    (!paragraphs.is_empty()).then(|| ReportSection {
-        heading: "What couples, and what decides".into(),
-        paragraphs,
-        tables,
-        figures: Vec::new(),
+    (!paragraphs.is_empty()).then(|| {
+        ReportSection::new("What couples, and what decides")
+            .with_paragraphs(paragraphs)
+            .with_tables(tables)
     })
 }
 
@@ -184,11 +175,11 @@ fn critical_table(report: &CeaReport<'_>) -> ReportTable {
         false => vec![format!("mode at friction {own}"), "branch".to_owned()],
     };
     let values = ["critical friction", "frequency (Hz)", "stable again at"];
-    ReportTable {
-        caption: "Critical friction of each branch that turns unstable".into(),
-        columns: names.into_iter().chain(values.map(String::from)).collect(),
-        rows: rows.collect(),
-    }
+    ReportTable::new(
+        "Critical friction of each branch that turns unstable",
+        names.into_iter().chain(values.map(String::from)),
+        rows,
+    )
 }
 
 /// All modes at the friction values that have shapes, or at the last value of the sweep.
@@ -228,12 +219,12 @@ fn eigenvalue_table(report: &CeaReport<'_>, point: &FrictionPoint) -> ReportTabl
         true => &["harmonic n", "branch", "travels", "stability"][..],
         false => &["branch", "stability"][..],
     });
-    ReportTable {
-        caption: format!(
+    ReportTable::new(
+        format!(
             "Eigenvalues at friction coefficient {}",
             point.friction_coefficient
         ),
-        columns: columns.into_iter().map(String::from).collect(),
-        rows: rows.collect(),
-    }
+        columns,
+        rows,
+    )
 }

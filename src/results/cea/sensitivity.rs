@@ -239,19 +239,17 @@ impl SensitivityReport {
             true => format!(", {} the rotor", direction_name(own.direction)),
             false => String::new(),
         };
-        ReportTable {
-            caption: format!(
+        ReportTable::new(
+            format!(
                 "One per cent more of each parameter changes {}{travels} ({frequency:.1} Hz, {} at {:.1} 1/s at friction {}) by",
                 self.name(own),
                 if rate > 0.0 { "grows" } else { "decays" },
                 rate.abs(),
                 own.friction_coefficient,
             ),
-            columns: ["parameter", "growth rate (1/s)", "frequency (Hz)"]
-                .map(String::from)
-                .to_vec(),
-            rows: changes.map(row).collect(),
-        }
+            ["parameter", "growth rate (1/s)", "frequency (Hz)"],
+            changes.map(row),
+        )
     }
 
     fn name(&self, row: &SensitivityRow) -> String {

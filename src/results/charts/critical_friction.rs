@@ -4,11 +4,14 @@ use super::palette::STABLE;
 use crate::chart::{Axis, Figure, Fill, Label, Line, Panel, Scale, look};
 use crate::results::parameter::parameter_axis;
 
+/// Harmonic or nodal diameters, of a body that has them; branch; direction.
+pub type BranchName = (Option<usize>, usize, i8);
+
 /// A branch that turns unstable, and its critical friction at each value of a parameter; `NaN` where it stays stable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CriticalBranch {
-    /// Harmonic, of a body that has them; branch; direction.
-    pub branch: (Option<usize>, usize, i8),
+    /// Its name.
+    pub branch: BranchName,
     /// Critical friction.
     pub critical: Vec<f64>,
 }

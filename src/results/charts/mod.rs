@@ -17,7 +17,7 @@ pub use contact::{
 pub use course::{
     ModeLine, Stage, run_axis, signal_panel, spectrogram_panels, spectrum_panel, with_stages,
 };
-pub use critical_friction::{CriticalBranch, critical_friction};
+pub use critical_friction::{BranchName, CriticalBranch, critical_friction};
 pub use disc::Disc;
 pub use motion::MovingBody;
 pub use solid::SolidView;

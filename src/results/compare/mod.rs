@@ -224,11 +224,7 @@ fn table_of(runs: &[ComparedRun], caption: String, quantities: &[&SharedQuantity
         row.extend(relative.map(Option::unwrap_or_default));
         row
     });
-    ReportTable {
-        caption,
-        columns,
-        rows: rows.collect(),
-    }
+    ReportTable::new(caption, columns, rows)
 }
 
 /// Most lines of the table for the terminal.
@@ -342,35 +338,26 @@ pub fn html_report(
         ];
         std::iter::once(&run.name).chain(own).cloned().collect()
     });
-    let made = ReportTable {
-        caption: "Inputs".into(),
-        columns: [
+    let made = ReportTable::new(
+        "Inputs",
+        [
             "run",
             "command",
             "case",
             "overrides",
             "version",
             "SHA-256 of the case",
-        ]
-        .map(String::from)
-        .to_vec(),
-        rows: made.collect(),
-    };
+        ],
+        made,
+    );
     let first = table_of(runs, "Key results".into(), &first_of(quantities));
-    let section = |heading: &str, tables: Vec<ReportTable>| ReportSection {
-        heading: heading.into(),
-        tables,
-        ..ReportSection::default()
-    };
+    let section =
+        |heading: &str, tables: Vec<ReportTable>| ReportSection::new(heading).with_tables(tables);
     Report {
         title: format!("Comparison of {}", names.join(", ")),
         sections: vec![
             ReportSection::results(without.collect(), counts).with_tables([first, made]),
-            ReportSection {
-                heading: "Figures over each other".into(),
-                figures,
-                ..ReportSection::default()
-            },
+            ReportSection::new("Figures over each other").with_figures(figures),
             section(
                 "Every shared number",
                 vec![

@@ -18,14 +18,7 @@ pub fn draw(
 ) -> Result<(), DrawingError> {
     let mut sections: Vec<ReportSection> = report.series.iter().map(section).collect();
     let figures = draw_all(vec![Box::new(|| Ok(convergence(report)))], options)?;
-    sections.insert(
-        0,
-        ReportSection {
-            heading: "Convergence".into(),
-            figures,
-            ..ReportSection::default()
-        },
-    );
+    sections.insert(0, ReportSection::new("Convergence").with_figures(figures));
     let html = Report {
         title: report.title.clone(),
         sections,
@@ -43,12 +36,9 @@ fn heading(series: &Series) -> String {
 }
 
 fn section(series: &Series) -> ReportSection {
-    ReportSection {
-        heading: heading(series),
-        paragraphs: series.notes.clone(),
-        tables: vec![table(series)],
-        figures: Vec::new(),
-    }
+    ReportSection::new(heading(series))
+        .with_paragraphs(series.notes.clone())
+        .with_tables([table(series)])
 }
 
 /// For each series the change of every quantity from level to level, relative to its size, over the resolution; and the orders
@@ -177,9 +167,9 @@ fn table(series: &Series) -> ReportTable {
         row.push(quantity.verdict.name().to_owned());
         row
     });
-    ReportTable {
-        caption: "Values on each level, Richardson-extrapolated from the three finest".into(),
-        rows: rows.collect(),
+    ReportTable::new(
+        "Values on each level, Richardson-extrapolated from the three finest",
         columns,
-    }
+        rows,
+    )
 }

@@ -38,21 +38,14 @@ fn html_report(summary: &Value, manifest: &Manifest) -> Report {
     let mut paragraphs =
         vec!["Waves that turn against the rotor without changing their shape.".to_owned()];
     paragraphs.extend(extent.note().map(|note| format!("{note}.")));
-    let figures = ReportSection {
-        heading: "Limit cycles".into(),
-        tables: vec![cycle_table(cycles, extent, &COLUMNS, &absence)],
-        ..ReportSection::default()
-    };
+    let figures = ReportSection::new("Limit cycles")
+        .with_tables([cycle_table(cycles, extent, &COLUMNS, &absence)]);
     let rows = cycles.iter().flat_map(|cycle| results(cycle, extent));
     let rows = rows.collect();
     let mut sections = vec![ReportSection::results(paragraphs, rows), figures];
     let branches: Vec<String> = cycles.iter().filter_map(branch_text).collect();
     if !branches.is_empty() {
-        sections.push(ReportSection {
-            heading: "Branches".into(),
-            paragraphs: branches,
-            ..ReportSection::default()
-        });
+        sections.push(ReportSection::new("Branches").with_paragraphs(branches));
     }
     Report {
         title: summary["title"].as_str().unwrap_or_default().to_owned(),

@@ -24,17 +24,11 @@ pub fn draw_report(
     let report = Report {
         title,
         sections: vec![
-            ReportSection {
-                heading: "Fitted parameters".into(),
-                paragraphs: paragraphs(summary),
-                tables: vec![parameters(summary)],
-                figures,
-            },
-            ReportSection {
-                heading: "Lines and modes".into(),
-                tables: vec![lines(summary)],
-                ..ReportSection::default()
-            },
+            ReportSection::new("Fitted parameters")
+                .with_paragraphs(paragraphs(summary))
+                .with_tables([parameters(summary)])
+                .with_figures(figures),
+            ReportSection::new("Lines and modes").with_tables([lines(summary)]),
         ],
         manifest: summary.manifest.clone(),
     };
@@ -77,13 +71,11 @@ fn parameters(summary: &FitSummary) -> ReportTable {
             fitted.unit.clone(),
         ]
     });
-    ReportTable {
-        caption: "Parameters with their 95 % intervals".into(),
-        columns: ["parameter", "value", "from", "to", "sought in", "unit"]
-            .map(String::from)
-            .to_vec(),
-        rows: rows.collect(),
-    }
+    ReportTable::new(
+        "Parameters with their 95 % intervals",
+        ["parameter", "value", "from", "to", "sought in", "unit"],
+        rows,
+    )
 }
 
 fn lines(summary: &FitSummary) -> ReportTable {
@@ -101,18 +93,16 @@ fn lines(summary: &FitSummary) -> ReportTable {
             },
         ]
     });
-    ReportTable {
-        caption: "Measured lines and their modes".into(),
-        columns: [
+    ReportTable::new(
+        "Measured lines and their modes",
+        [
             "measured (Hz)",
             "real part (Hz)",
             "model (Hz)",
             "real part (Hz)",
             "difference (%)",
             "mode",
-        ]
-        .map(String::from)
-        .to_vec(),
-        rows: rows.collect(),
-    }
+        ],
+        rows,
+    )
 }

@@ -40,17 +40,10 @@ fn html_report(summary: &IdentificationSummary) -> Report {
     Report {
         title: "Identified damping".into(),
         sections: vec![
-            ReportSection {
-                heading: "Rayleigh coefficients".into(),
-                paragraphs,
-                tables: vec![coefficient_table(summary)],
-                figures: Vec::new(),
-            },
-            ReportSection {
-                heading: "Modes".into(),
-                tables: vec![mode_table(&summary.modes)],
-                ..ReportSection::default()
-            },
+            ReportSection::new("Rayleigh coefficients")
+                .with_paragraphs(paragraphs)
+                .with_tables([coefficient_table(summary)]),
+            ReportSection::new("Modes").with_tables([mode_table(&summary.modes)]),
         ],
         manifest: summary.manifest.clone(),
     }
@@ -79,9 +72,9 @@ fn coefficient_table(summary: &IdentificationSummary) -> ReportTable {
         row.resize(7, String::new());
         row
     });
-    ReportTable {
-        caption: "Rayleigh coefficients with their 95 % intervals".into(),
-        columns: [
+    ReportTable::new(
+        "Rayleigh coefficients with their 95 % intervals",
+        [
             "estimator",
             "alpha_R (1/s)",
             "from",
@@ -89,11 +82,9 @@ fn coefficient_table(summary: &IdentificationSummary) -> ReportTable {
             "beta_R (s)",
             "from",
             "to",
-        ]
-        .map(String::from)
-        .to_vec(),
-        rows: rows.collect(),
-    }
+        ],
+        rows,
+    )
 }
 
 fn mode_table(modes: &[ModeSummary]) -> ReportTable {
@@ -111,9 +102,9 @@ fn mode_table(modes: &[ModeSummary]) -> ReportTable {
             mode.flag.clone().unwrap_or_default(),
         ]
     });
-    ReportTable {
-        caption: "Modes of the response".into(),
-        columns: [
+    ReportTable::new(
+        "Modes of the response",
+        [
             "mode",
             "frequency (Hz)",
             "damping factor (%)",
@@ -122,9 +113,7 @@ fn mode_table(modes: &[ModeSummary]) -> ReportTable {
             "by half-power (%)",
             "used",
             "remark",
-        ]
-        .map(String::from)
-        .to_vec(),
-        rows: rows.collect(),
-    }
+        ],
+        rows,
+    )
 }

@@ -119,13 +119,11 @@ pub(super) fn table_of_front(summary: &ImproveSummary) -> ReportTable {
         "critical friction, run again",
         "verdict",
     ];
-    ReportTable {
-        caption:
-            "Masses added and taken away that were run again, the lightest first (all: front.csv)"
-                .into(),
-        columns: columns.map(String::from).to_vec(),
-        rows: again(summary).map(row).collect(),
-    }
+    ReportTable::new(
+        "Masses added and taken away that were run again, the lightest first (all: front.csv)",
+        columns,
+        again(summary).map(row),
+    )
 }
 
 /// The points that were run again.

@@ -20,17 +20,9 @@ pub(super) fn report(
         title: summary.title.clone(),
         sections: [
             ReportSection::results(paragraphs.collect(), numbers(summary)),
-            ReportSection {
-                heading: "Candidates".into(),
-                tables: vec![table(summary)],
-                ..ReportSection::default()
-            },
+            ReportSection::new("Candidates").with_tables([table(summary)]),
             front_section(summary, of_front),
-            ReportSection {
-                heading: "Where it helps".into(),
-                figures,
-                ..ReportSection::default()
-            },
+            ReportSection::new("Where it helps").with_figures(figures),
         ]
         .into_iter()
         .filter(|section| !section.heading.is_empty())
@@ -44,12 +36,9 @@ fn front_section(summary: &ImproveSummary, figures: Vec<NamedFigure>) -> ReportS
     if summary.front.is_empty() {
         return ReportSection::default();
     }
-    ReportSection {
-        heading: "Mass against critical friction".into(),
-        tables: vec![table_of_front(summary)],
-        figures,
-        ..ReportSection::default()
-    }
+    ReportSection::new("Mass against critical friction")
+        .with_tables([table_of_front(summary)])
+        .with_figures(figures)
 }
 
 /// Name and value of what decides.
@@ -110,9 +99,9 @@ fn table(summary: &ImproveSummary) -> ReportTable {
             own.keys.join("; "),
         ]
     };
-    ReportTable {
-        caption: "Modifications, the best first: growth rates (1/s) and critical friction, predicted and run again".into(),
-        columns: [
+    ReportTable::new(
+        "Modifications, the best first: growth rates (1/s) and critical friction, predicted and run again",
+        [
             "rank",
             "kind",
             "where",
@@ -123,9 +112,7 @@ fn table(summary: &ImproveSummary) -> ReportTable {
             "critical friction, run again",
             "verdict",
             "keys",
-        ]
-        .map(String::from)
-        .to_vec(),
-        rows: summary.candidates.iter().map(row).collect(),
-    }
+        ],
+        summary.candidates.iter().map(row),
+    )
 }

@@ -31,11 +31,7 @@ pub fn draw_mac(
         sections: vec![
             ReportSection::results(paragraphs.collect(), results)
                 .with_tables([pairs_table(summary)]),
-            ReportSection {
-                heading: "Modal assurance".into(),
-                figures,
-                ..ReportSection::default()
-            },
+            ReportSection::new("Modal assurance").with_figures(figures),
         ],
         manifest: folder.manifest().clone(),
     };
@@ -87,9 +83,9 @@ fn pairs_table(summary: &MacSummary) -> ReportTable {
             shape.off_body.to_string(),
         ]
     };
-    ReportTable {
-        caption: "The mode of each shape".into(),
-        columns: [
+    ReportTable::new(
+        "The mode of each shape",
+        [
             "shape",
             "measured (Hz)",
             "mode",
@@ -97,9 +93,7 @@ fn pairs_table(summary: &MacSummary) -> ReportTable {
             "real part (Hz)",
             "MAC",
             "points off the body",
-        ]
-        .map(String::from)
-        .to_vec(),
-        rows: summary.pairs.iter().map(row).collect(),
-    }
+        ],
+        summary.pairs.iter().map(row),
+    )
 }

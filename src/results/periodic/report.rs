@@ -42,12 +42,9 @@ fn html_report(summary: &Value, manifest: &Manifest) -> Report {
     paragraphs.extend(extent.note().map(|note| format!("{note}.")));
     let rows = cycles.iter().flat_map(|cycle| results(cycle, extent));
     let rows = rows.collect();
-    let figures = ReportSection {
-        heading: "Limit cycles".into(),
-        paragraphs: cycles.iter().filter_map(branch_text).collect(),
-        tables: vec![cycle_table(cycles, extent, &COLUMNS, &absence)],
-        ..ReportSection::default()
-    };
+    let figures = ReportSection::new("Limit cycles")
+        .with_paragraphs(cycles.iter().filter_map(branch_text))
+        .with_tables([cycle_table(cycles, extent, &COLUMNS, &absence)]);
     Report {
         title: summary["title"].as_str().unwrap_or_default().to_owned(),
         sections: vec![ReportSection::results(paragraphs, rows), figures],

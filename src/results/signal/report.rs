@@ -40,12 +40,11 @@ fn html_report(summary: &SignalSummary) -> Report {
     }
     Report {
         title: "Lines of a signal".into(),
-        sections: vec![ReportSection {
-            heading: "Signal".into(),
-            paragraphs,
-            tables: summary.channels.iter().map(peak_table).collect(),
-            figures: Vec::new(),
-        }],
+        sections: vec![
+            ReportSection::new("Signal")
+                .with_paragraphs(paragraphs)
+                .with_tables(summary.channels.iter().map(peak_table)),
+        ],
         manifest: summary.manifest.clone(),
     }
 }
@@ -60,11 +59,9 @@ fn peak_table(channel: &ChannelSummary) -> ReportTable {
             channel.peak_text(peak),
         ]
     });
-    ReportTable {
-        caption: format!("Peaks of {} between {from:.4} and {to:.4} s", channel.name),
-        columns: ["peak", "frequency (Hz)", "amplitude", "what it is"]
-            .map(String::from)
-            .to_vec(),
-        rows: rows.collect(),
-    }
+    ReportTable::new(
+        format!("Peaks of {} between {from:.4} and {to:.4} s", channel.name),
+        ["peak", "frequency (Hz)", "amplitude", "what it is"],
+        rows,
+    )
 }

@@ -51,16 +51,8 @@ pub fn draw(
         title: report.title.to_owned(),
         sections: vec![
             ReportSection::results(paragraphs, results(report)),
-            ReportSection {
-                heading: "Study".into(),
-                figures,
-                ..ReportSection::default()
-            },
-            ReportSection {
-                heading: "Points".into(),
-                tables: points.into_iter().flatten().collect(),
-                ..ReportSection::default()
-            },
+            ReportSection::new("Study").with_figures(figures),
+            ReportSection::new("Points").with_tables(points.into_iter().flatten()),
         ],
         manifest: manifest.clone(),
     }
@@ -99,9 +91,9 @@ fn results(report: &SweepReport<'_>) -> Vec<(String, String)> {
 /// What a person wants first of every point; `points.csv` has all.
 fn points_table(report: &SweepReport<'_>) -> ReportTable {
     let mut rows = rows(report);
-    ReportTable {
-        caption: "Finished points (every quantity: points.csv)".into(),
-        columns: rows.remove(0),
+    ReportTable::new(
+        "Finished points (every quantity: points.csv)",
+        rows.remove(0),
         rows,
-    }
+    )
 }

@@ -126,11 +126,7 @@ impl<'a> OperatingMatrix<'a> {
                 "Unstable modes under every operating condition (unstable_modes.csv)".to_owned()
             }
         };
-        (!rows.is_empty()).then_some(ReportTable {
-            caption,
-            columns,
-            rows,
-        })
+        (!rows.is_empty()).then_some(ReportTable::new(caption, columns, rows))
     }
 }
 

@@ -52,21 +52,11 @@ pub fn html_report(
         title: summary.title.clone(),
         sections: vec![
             ReportSection::results(paragraphs, results(summary)),
-            ReportSection {
-                heading: "Course of the run".into(),
-                paragraphs: vec![course(summary)],
-                tables: Vec::new(),
-                figures: Vec::new(),
-            },
-            ReportSection {
-                heading: heading.into(),
-                paragraphs: Vec::new(),
-                tables: vec![
-                    motion_table(summary),
-                    growth_table(summary, predicted, growing_mode),
-                ],
-                figures: Vec::new(),
-            },
+            ReportSection::new("Course of the run").with_paragraphs([course(summary)]),
+            ReportSection::new(heading).with_tables([
+                motion_table(summary),
+                growth_table(summary, predicted, growing_mode),
+            ]),
         ],
         manifest: summary.manifest.clone(),
     }
@@ -166,18 +156,16 @@ fn motion_table(summary: &TransientSummary) -> ReportTable {
             ]
         })
     });
-    ReportTable {
-        caption: "Accelerations over the last fifth of the run".into(),
-        columns: [
+    ReportTable::new(
+        "Accelerations over the last fifth of the run",
+        [
             "node",
             "direction",
             "root mean square (m/s²)",
             "peak (m/s²)",
-        ]
-        .map(String::from)
-        .to_vec(),
-        rows: rows.collect(),
-    }
+        ],
+        rows,
+    )
 }
 
 fn growth_table(
@@ -218,17 +206,15 @@ fn growth_table(
             String::new(),
         ]
     });
-    ReportTable {
-        caption: "Growth in the linear stage".into(),
-        columns: [
+    ReportTable::new(
+        "Growth in the linear stage",
+        [
             "harmonic n",
             "rate (1/s)",
             "95 % interval",
             "rate of the eigenvalue analysis (1/s)",
             "frequency (Hz)",
-        ]
-        .map(String::from)
-        .to_vec(),
-        rows: fitted.chain(others).collect(),
-    }
+        ],
+        fitted.chain(others),
+    )
 }

@@ -92,11 +92,7 @@ pub fn draw_report(
                 indices_table(summary),
                 designs(summary),
             ]),
-            ReportSection {
-                heading: "Probability of squeal".into(),
-                figures,
-                ..ReportSection::default()
-            },
+            ReportSection::new("Probability of squeal").with_figures(figures),
         ],
         manifest: summary.manifest.clone(),
     };
@@ -137,14 +133,11 @@ fn indices_table(summary: &UncertaintySummary) -> ReportTable {
         let part = |value: f64| format!("{value:.3}");
         vec![key.clone(), part(index.first), part(index.total)]
     };
-    ReportTable {
-        caption: "Sobol's indices of the lowest critical friction: which parameter decides it"
-            .into(),
-        columns: ["parameter", "first order", "total"]
-            .map(String::from)
-            .to_vec(),
-        rows: rows.into_iter().map(row).collect(),
-    }
+    ReportTable::new(
+        "Sobol's indices of the lowest critical friction: which parameter decides it",
+        ["parameter", "first order", "total"],
+        rows.into_iter().map(row),
+    )
 }
 
 /// The changes of a design, one row for each parameter; no row where none were asked for.
@@ -160,13 +153,11 @@ fn designs(summary: &UncertaintySummary) -> ReportTable {
         vec![curve.key.clone(), reached, change]
     };
     let bound = summary.robust.as_ref().map_or(0.0, |robust| robust.bound);
-    ReportTable {
-        caption: format!("Designs: where the probability of squeal falls to {bound}"),
-        columns: ["parameter", "reached at", "change (%)"]
-            .map(String::from)
-            .to_vec(),
-        rows: rows.map(row).collect(),
-    }
+    ReportTable::new(
+        format!("Designs: where the probability of squeal falls to {bound}"),
+        ["parameter", "reached at", "change (%)"],
+        rows.map(row),
+    )
 }
 
 fn cheapest(robust: &RobustSummary) -> Option<String> {
@@ -187,17 +178,15 @@ fn families(summary: &UncertaintySummary) -> ReportTable {
             format!("{:.0}", family.frequency_hz),
         ]
     });
-    ReportTable {
-        caption: "Families of modes, followed across samples by harmonic and rank".into(),
-        columns: [
+    ReportTable::new(
+        "Families of modes, followed across samples by harmonic and rank",
+        [
             "mode",
             "unstable at the friction of the case",
             "turns unstable in the range",
             "median critical friction",
             "frequency (Hz)",
-        ]
-        .map(String::from)
-        .to_vec(),
-        rows: rows.collect(),
-    }
+        ],
+        rows,
+    )
 }

@@ -196,11 +196,11 @@ fn series(case: &Case, study: &Levels, outcomes: Vec<Timed>) -> Result<Vec<Serie
         return Err(StudyError::Case(case.error_at(
             "convergence.time_step_factors",
             format!(
-                "convergence.time_step_factors gives the time steps {} s: two are the same, as a step \
-                 divides output.sample_interval",
+                "convergence.time_step_factors gives the time steps {} s: two are the same, as \
+                 a step divides output.sample_interval",
                 levels.join(", ")
             ),
-            "factors further apart".to_owned(),
+            "factors further apart",
             None,
         )));
     }

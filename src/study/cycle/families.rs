@@ -34,15 +34,15 @@ pub fn continuation(
         return Err(StudyError::Case(case.error_at(
             "cycle.continuation.key",
             format!("limit cycles cannot be followed over {}", continuation.key),
-            "not one of the parameters of a cycle".to_owned(),
-            Some(format!("one of {}", known.join(", "))),
+            "not one of the parameters of a cycle",
+            format!("one of {}", known.join(", ")),
         )));
     };
     if continuation.from.min(continuation.to) < 0.0 {
         return Err(StudyError::Case(case.error_at(
             "cycle.continuation.from",
             format!("{} cannot be negative along a branch", continuation.key),
-            "must not be negative".to_owned(),
+            "must not be negative",
             None,
         )));
     }

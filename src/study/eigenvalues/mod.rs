@@ -118,9 +118,9 @@ pub fn refuse_no_modes(case: &Case, cea: &Cea, sweep: &FrictionSweep) -> Result<
     }
     let error = Diagnostic::error(
         format!("cea.max_frequency_hz = {limit}: there are no modes below it"),
-        "below the first mode".to_owned(),
+        "below the first mode",
         case.raw.place("cea.max_frequency_hz"),
-        Some("raise it, or ask for the lowest ones with `modes = 10` instead".to_owned()),
+        "raise it, or ask for the lowest ones with `modes = 10` instead",
     );
     // A slip of units comes first: the missing modes are its consequence.
     let all = [case.warnings.as_slice(), &[error]].concat();

@@ -31,19 +31,21 @@ impl Solver {
         refuse_rest(case)?;
         let is_lossy = case.has_structural_damping();
         match (&case.body, method) {
-            (Body::Imported(_) | Body::Assembly(_), CeaMethod::Cyclic) if !case.body.is_of_sectors() => {
+            (Body::Imported(_) | Body::Assembly(_), CeaMethod::Cyclic)
+                if !case.body.is_of_sectors() =>
+            {
                 Err(case.error_at(
                     "cea.method",
-                    "cea.method = \"cyclic\" needs a body of equal sectors".to_owned(),
-                    "the mesh file has the whole body".to_owned(),
-                    Some("give a mesh of one sector with mesh.sectors, or use \"auto\" or \"sparse\"".to_owned()),
+                    "cea.method = \"cyclic\" needs a body of equal sectors",
+                    "the mesh file has the whole body",
+                    "give a mesh of one sector with mesh.sectors, or use \"auto\" or \"sparse\"",
                 ))
             }
             (Body::Revolution(_), CeaMethod::Sparse) => Err(case.error_at(
                 "cea.method",
-                "cea.method = \"sparse\" is for plane bodies".to_owned(),
-                "the body is three-dimensional".to_owned(),
-                Some("use \"auto\" or \"cyclic\"".to_owned()),
+                "cea.method = \"sparse\" is for plane bodies",
+                "the body is three-dimensional",
+                "use \"auto\" or \"cyclic\"",
             )),
             (Body::Revolution(_), _) if is_lossy => {
                 Err(no_cyclic_losses(case, "the eigenvalue analysis"))
@@ -110,10 +112,11 @@ fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
     Err(case.error_at(
         key,
         format!(
-            "{key} = 0: the contact sticks at rest, and there is no steady sliding whose eigenvalues could be solved"
+            "{key} = 0: the contact sticks at rest, and there is no steady sliding whose \
+             eigenvalues could be solved"
         ),
-        "must not be zero for an eigenvalue analysis".to_owned(),
-        Some("give a speed, however small; its sign is the sense of the sliding".to_owned()),
+        "must not be zero for an eigenvalue analysis",
+        "give a speed, however small; its sign is the sense of the sliding",
     ))
 }
 

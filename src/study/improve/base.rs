@@ -275,8 +275,11 @@ fn nothing_grows(case: &Case, outlook: Outlook, window: Window) -> CaseErrors {
     };
     case.error_at(
         key,
-        format!("no mode {place} grows at friction {friction}: there is nothing to improve{beside}"),
-        "every mode decays".to_owned(),
-        Some("raise the friction coefficient above the lowest critical one that `cea` prints, or widen improve.min_frequency_hz and max_frequency_hz".to_owned()),
+        format!(
+            "no mode {place} grows at friction {friction}: there is nothing to improve{beside}"
+        ),
+        "every mode decays",
+        "raise the friction coefficient above the lowest critical one that `cea` prints, or \
+         widen improve.min_frequency_hz and max_frequency_hz",
     )
 }

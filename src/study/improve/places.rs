@@ -125,7 +125,7 @@ fn refuse_unknown(base: &Base<'_>, forbidden: &[String]) -> Result<(), CaseError
     Err(base.case.error_at(
         "improve.forbidden",
         format!("improve.forbidden names \"{unknown}\", which the body does not have"),
-        "no such region or boundary".to_owned(),
-        Some(format!("it has {}", names.join(", "))),
+        "no such region or boundary",
+        format!("it has {}", names.join(", ")),
     ))
 }

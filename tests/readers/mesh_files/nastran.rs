@@ -180,7 +180,7 @@ fn wrong_bulk_data_is_told_by_line_and_name() {
                 "SPC1    20      12x",
                 "directions 1 to 6 expected, found \"12x\"",
             ),
-            ("CHEXA   10", "CPYRAM  10", "pyramids are not supported"),
+            ("CHEXA   10", "CPYRAM  10", "CPYRAM 10 lacks node 9"),
         ],
     );
     assert!(super::error("a.bdf", "GRID,1,,0.,0.,0.\n").contains("no solid elements"));

@@ -70,7 +70,7 @@ fn rivals(case: &Case, request: &BasinRequest, steady: &Steady) -> Result<Vec<us
             "basin.modes",
             format!("basin.modes: there is no mode {beyond}, {count} are looked at"),
             format!("1 to {count}"),
-            Some("raise cea.modes, or cea.max_frequency_hz".to_owned()),
+            "raise cea.modes, or cea.max_frequency_hz",
         )));
     }
     Ok(asked.iter().map(|mode| mode - 1).collect())

@@ -1,47 +1,18 @@
-//! Results of `mesh` for solid bodies of a mesh file: statistics, VTU.
+//! Results of `mesh` for solid bodies of a mesh file.
 
-use super::folder::{FolderError, OutputFolder};
-use super::manifest::Manifest;
-use super::quantity::quantity;
-use super::summary::{Entry, Summary};
-use super::vtu::{EncodedMesh, Field, write_vtu};
-use crate::mesh::{BoundaryCondition, Mesh};
+use super::{ElementShapes, Measured, MeshSize, MeshSummary, condition_name};
+use crate::mesh::Mesh;
+use crate::results::quantity::quantity;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
-/// `summary.json` of `frictionsim mesh` on solid bodies.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SolidMeshSummary {
-    /// `mesh`.
-    pub command: String,
-    /// Title of the case.
-    pub title: String,
-    /// Wall time, s.
-    pub wall_s: f64,
-    /// Size and quality.
-    pub mesh: SolidMeshStatistics,
-    /// How the mesh file was read, and what was taken from it.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub notes: Vec<String>,
-    /// What of the mesh file is not used: keyword, place, count, reason.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub not_used: Vec<String>,
-    /// What it was made from.
-    pub manifest: Manifest,
-}
-
 /// Size and quality of the mesh of solid bodies.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SolidMeshStatistics {
-    /// Nodes.
-    pub nodes: usize,
-    /// Elements.
-    pub elements: usize,
-    /// Unknowns, three for each node, held ones included.
-    pub dofs: usize,
-    /// Nodes of the surfaces that slide on others.
-    pub contact_nodes: usize,
+    /// Counts; unknowns with those that are held.
+    #[serde(flatten)]
+    pub size: MeshSize,
     /// Elements of each kind.
     pub elements_by_kind: BTreeMap<String, usize>,
     /// Parts that no element connects.
@@ -50,14 +21,9 @@ pub struct SolidMeshStatistics {
     pub lowest_m: [f64; 3],
     /// Largest coordinates, m.
     pub highest_m: [f64; 3],
-    /// Shortest edge, m.
-    pub smallest_edge_m: f64,
-    /// Longest edge, m.
-    pub largest_edge_m: f64,
-    /// Largest ratio of the edges of one element.
-    pub largest_aspect_ratio: f64,
-    /// Smallest Jacobian determinant of an element over its largest.
-    pub worst_jacobian: f64,
+    /// Sizes and shapes of the elements.
+    #[serde(flatten)]
+    pub shape: ElementShapes,
     /// Centre of the element that has it, m.
     pub worst_element_at_m: [f64; 3],
     /// Volume, m3.
@@ -98,14 +64,9 @@ pub struct SolidBoundary {
     pub condition: String,
 }
 
-impl Summary for SolidMeshSummary {
-    fn headline(&self) -> Vec<Entry> {
-        vec![
-            Entry::new("mesh.nodes", self.mesh.nodes),
-            Entry::new("mesh.elements", self.mesh.elements),
-            Entry::new("mesh.dofs", self.mesh.dofs),
-            Entry::new("mesh.contact_nodes", self.mesh.contact_nodes),
-        ]
+impl Measured for SolidMeshStatistics {
+    fn size(&self) -> &MeshSize {
+        &self.size
     }
 }
 
@@ -149,18 +110,12 @@ impl SolidMeshStatistics {
             sum / worst.len() as f64
         });
         Self {
-            nodes: mesh.node_count(),
-            elements: mesh.element_count(),
-            dofs: mesh.dof_count(),
-            contact_nodes: contact_nodes.len(),
+            size: MeshSize::new(mesh, contact_nodes.len()),
             elements_by_kind: by_kind,
             bodies: 1 + mesh.bodies().into_iter().max().unwrap_or(0),
             lowest_m: [0, 1, 2].map(|axis| bound(axis, f64::min, f64::INFINITY)),
             highest_m: [0, 1, 2].map(|axis| bound(axis, f64::max, f64::NEG_INFINITY)),
-            smallest_edge_m: quality.smallest_edge,
-            largest_edge_m: quality.largest_edge,
-            largest_aspect_ratio: quality.largest_aspect_ratio,
-            worst_jacobian: quality.worst_jacobian,
+            shape: quality.into(),
             worst_element_at_m: centre,
             volume_m3: regions.iter().map(|region| region.volume_m3).sum(),
             mass_kg: regions.iter().map(|region| region.mass_kg).sum(),
@@ -189,22 +144,10 @@ fn boundaries_of(mesh: &Mesh, roles: &BTreeMap<usize, &'static str>) -> Vec<Soli
     boundaries.collect()
 }
 
-/// What a condition does, in a word.
-pub(super) fn condition_name(condition: BoundaryCondition) -> &'static str {
-    match condition {
-        BoundaryCondition::Clamped => "clamped",
-        BoundaryCondition::Support(_) => "support",
-        BoundaryCondition::Guide => "guide",
-        BoundaryCondition::Fixed(_) => "fixed",
-        BoundaryCondition::Pressure(_) => "pressure",
-        BoundaryCondition::Free => "free",
-    }
-}
-
 /// The summary as text.
-pub fn print(summary: &SolidMeshSummary) -> String {
+pub fn print_solids(summary: &MeshSummary<SolidMeshStatistics>) -> String {
     let mesh = &summary.mesh;
-    let text = |key: &str, value: f64| quantity(key).text(value);
+    let size = &mesh.size;
     let kinds = mesh.elements_by_kind.iter();
     let kinds: Vec<String> = kinds
         .map(|(kind, count)| format!("{count} {kind}"))
@@ -212,26 +155,23 @@ pub fn print(summary: &SolidMeshSummary) -> String {
     let plural = if mesh.bodies == 1 { "y" } else { "ies" };
     let mut out = format!(
         "{} nodes, {} elements ({}), {} unknowns, {} contact nodes, {} separate bod{plural}\n",
-        mesh.nodes,
-        mesh.elements,
+        size.nodes,
+        size.elements,
         kinds.join(", "),
-        mesh.dofs,
-        mesh.contact_nodes,
+        size.dofs,
+        size.contact_nodes,
         mesh.bodies,
     );
     let extent = |axis: usize| format!("{:.6} to {:.6}", mesh.lowest_m[axis], mesh.highest_m[axis]);
     let [x, y, z] = mesh.worst_element_at_m;
     let _ = writeln!(
         out,
-        "x {}, y {}, z {} m\nedges {} to {}, aspect ratio up to {}, worst Jacobian {:.3} at ({x:.6}, {y:.6}, {z:.6}) m\n\
+        "x {}, y {}, z {} m\n{} at ({x:.6}, {y:.6}, {z:.6}) m\n\
          volume {:.6e} m3, mass {:.6} kg",
         extent(0),
         extent(1),
         extent(2),
-        quantity("smallest_edge_m").number(mesh.smallest_edge_m),
-        text("largest_edge_m", mesh.largest_edge_m),
-        text("largest_aspect_ratio", mesh.largest_aspect_ratio),
-        mesh.worst_jacobian,
+        mesh.shape.text(),
         mesh.volume_m3,
         mesh.mass_kg,
     );
@@ -249,43 +189,9 @@ pub fn print(summary: &SolidMeshSummary) -> String {
             boundary.name,
             boundary.nodes,
             boundary.faces,
-            text("area_m2", boundary.area_m2),
+            quantity("area_m2").text(boundary.area_m2),
             boundary.condition
         );
     }
-    for line in &summary.not_used {
-        let _ = writeln!(out, "not used: {line}");
-    }
-    out
-}
-
-/// Writes `mesh.vtu` with node numbers, what is held, and the region of each element.
-///
-/// # Errors
-/// Those of the folder.
-pub fn write(
-    folder: &OutputFolder,
-    mesh: &Mesh,
-    roles: &BTreeMap<usize, &'static str>,
-) -> Result<(), FolderError> {
-    let ids = (0..mesh.node_count()).map(|node| mesh.node_label(node) as i64);
-    let mut surface = vec![0; mesh.node_count()];
-    mesh.held_dofs().for_each(|dof| surface[dof / 3] = 2);
-    for (&boundary, _) in roles.iter().filter(|role| *role.1 == "contact") {
-        for &node in &mesh.boundaries[boundary].nodes {
-            surface[node as usize] = 1;
-        }
-    }
-    let fields = [
-        Field::integers("node_id", ids.collect()),
-        // 1 contact, 2 held, 0 elsewhere.
-        Field::integers("edge", surface),
-    ];
-    // Counted from 1 in the order in which the summary lists them.
-    let regions = (0..mesh.element_count()).map(|element| mesh.region(element) as i64 + 1);
-    let regions = [Field::integers("region_id", regions.collect())];
-    folder.write("mesh.vtu", |out| {
-        write_vtu(out, &EncodedMesh::new(mesh)?, &[], &fields, &regions)
-    })?;
-    Ok(())
+    out + &summary.not_used_text()
 }

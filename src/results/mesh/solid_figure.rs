@@ -1,14 +1,13 @@
 //! The picture of solid bodies of a mesh file: regions and boundaries.
 
-use super::charts::{MovingBody, SolidView};
-use super::drawing::{DrawingError, DrawingOptions, draw_all, write_report};
-use super::folder::OutputFolder;
-use super::mesh::REGION_COLOURS;
-use super::quantity::quantity;
-use super::report::{Report, ReportSection, ReportTable};
-use super::solid_mesh::{SolidBoundary, SolidMeshStatistics, SolidRegion, condition_name};
+use super::solid::{SolidBoundary, SolidMeshStatistics, SolidRegion};
+use super::{REGION_COLOURS, condition_name, numbers};
 use crate::chart::{Figure, Motion, MotionState, Panel, SERIES, Surface, literal};
 use crate::mesh::{BoundaryFace, Mesh};
+use crate::results::charts::{MovingBody, SolidView};
+use crate::results::drawing::{DrawingError, DrawingOptions};
+use crate::results::folder::OutputFolder;
+use crate::results::report::ReportTable;
 use std::collections::BTreeMap;
 
 /// Draws `figures/mesh` and writes `report.html`: the regions by colour, then what holds, loads and touches the bodies, from the front
@@ -16,28 +15,17 @@ use std::collections::BTreeMap;
 ///
 /// # Errors
 /// Those of the drawing and of the folder.
-pub fn draw(
+pub fn draw_solids(
     folder: &OutputFolder,
     mesh: &Mesh,
     (title, roles): (&str, &BTreeMap<usize, &'static str>),
     statistics: &SolidMeshStatistics,
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
-    let figures = draw_all(vec![Box::new(|| Ok(figure(mesh, title, roles)))], options)?;
-    let report = Report {
-        title: title.to_owned(),
-        sections: vec![
-            ReportSection::results(Vec::new(), numbers(statistics))
-                .with_tables([region_table(statistics), boundary_table(statistics)]),
-            ReportSection {
-                heading: "Mesh".into(),
-                figures,
-                ..ReportSection::default()
-            },
-        ],
-        manifest: folder.manifest().clone(),
-    };
-    write_report(folder, &report, options)
+    let numbers = numbers(&statistics.size, &statistics.shape);
+    let tables = [region_table(statistics), boundary_table(statistics)];
+    let drawn = || figure(mesh, title, roles);
+    super::draw(folder, title, drawn, numbers, tables, options)
 }
 
 /// Colour of the boundaries of each kind, in the order of the legend; the last one of faces that nothing is said of.
@@ -82,10 +70,6 @@ fn figure(mesh: &Mesh, title: &str, roles: &BTreeMap<usize, &'static str>) -> Fi
         let surface = view.parts(condition, legend.clone());
         panel(surface, format!("boundaries, {from}"))
     });
-    let caption = match title {
-        "" => "Mesh".to_owned(),
-        title => literal(title),
-    };
     let body = MovingBody::with_elements(mesh);
     let colours = [
         ("regions", body.parts(region, &regions)),
@@ -96,7 +80,7 @@ fn figure(mesh: &Mesh, title: &str, roles: &BTreeMap<usize, &'static str>) -> Fi
         frequency_hz: 0.0,
         kind,
     });
-    Figure::new("mesh", caption)
+    Figure::new("mesh", super::caption(title))
         .columns(2)
         .panels(by_region.chain(by_condition))
         .motion(Motion {
@@ -139,24 +123,6 @@ fn sorted(face: &BoundaryFace) -> Vec<u32> {
     nodes
 }
 
-/// Sizes and quality, name and value.
-fn numbers(mesh: &SolidMeshStatistics) -> Vec<(String, String)> {
-    let row = |key: &str, value: f64| {
-        let quantity = quantity(key);
-        (quantity.caption.to_owned(), quantity.text(value))
-    };
-    vec![
-        row("nodes", mesh.nodes as f64),
-        row("elements", mesh.elements as f64),
-        row("dofs", mesh.dofs as f64),
-        row("contact_nodes", mesh.contact_nodes as f64),
-        row("smallest_edge_m", mesh.smallest_edge_m),
-        row("largest_edge_m", mesh.largest_edge_m),
-        row("largest_aspect_ratio", mesh.largest_aspect_ratio),
-        row("worst_jacobian", mesh.worst_jacobian),
-    ]
-}
-
 fn region_table(mesh: &SolidMeshStatistics) -> ReportTable {
     let row = |region: &SolidRegion| {
         vec![
@@ -166,13 +132,11 @@ fn region_table(mesh: &SolidMeshStatistics) -> ReportTable {
             format!("{:.6}", region.mass_kg),
         ]
     };
-    ReportTable {
-        caption: "Regions".into(),
-        columns: ["region", "elements", "volume (m3)", "mass (kg)"]
-            .map(String::from)
-            .to_vec(),
-        rows: mesh.regions.iter().map(row).collect(),
-    }
+    ReportTable::new(
+        "Regions",
+        ["region", "elements", "volume (m3)", "mass (kg)"],
+        mesh.regions.iter().map(row),
+    )
 }
 
 fn boundary_table(mesh: &SolidMeshStatistics) -> ReportTable {
@@ -185,11 +149,9 @@ fn boundary_table(mesh: &SolidMeshStatistics) -> ReportTable {
             boundary.condition.clone(),
         ]
     };
-    ReportTable {
-        caption: "Boundaries".into(),
-        columns: ["boundary", "nodes", "faces", "area (m2)", "condition"]
-            .map(String::from)
-            .to_vec(),
-        rows: mesh.boundaries.iter().map(row).collect(),
-    }
+    ReportTable::new(
+        "Boundaries",
+        ["boundary", "nodes", "faces", "area (m2)", "condition"],
+        mesh.boundaries.iter().map(row),
+    )
 }

@@ -1,0 +1,227 @@
+//! Results of `mesh`: statistics, VTU, picture.
+
+mod plane;
+mod plane_figure;
+mod solid;
+mod solid_figure;
+
+pub use plane::{
+    BoundaryStatistics, MeshStatistics, RegionStatistics, draw_mesh, print, write_revolution,
+};
+pub use solid::{SolidBoundary, SolidMeshStatistics, SolidRegion, print_solids};
+pub use solid_figure::draw_solids;
+
+use super::drawing::{DrawingError, DrawingOptions, draw_all, write_report};
+use super::folder::{FolderError, OutputFolder};
+use super::manifest::Manifest;
+use super::quantity::quantity;
+use super::report::{Report, ReportSection, ReportTable};
+use super::summary::{Entry, Summary};
+use super::vtu::{EncodedMesh, Field, write_vtu};
+use crate::chart::{Figure, literal};
+use crate::mesh::{BoundaryCondition, Mesh, MeshQuality};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+/// `summary.json` of `frictionsim mesh`, with the statistics of the kind of body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MeshSummary<S> {
+    /// `mesh`.
+    pub command: String,
+    /// Title of the case.
+    pub title: String,
+    /// Wall time, s.
+    pub wall_s: f64,
+    /// Size and quality.
+    pub mesh: S,
+    /// How the mesh file of solid bodies was read, and what was taken from it.
+    #[serde(default = "Vec::new", skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
+    /// What of the mesh file is not used: keyword, place, count, reason.
+    #[serde(default = "Vec::new", skip_serializing_if = "Vec::is_empty")]
+    pub not_used: Vec<String>,
+    /// What it was made from.
+    pub manifest: Manifest,
+}
+
+/// Statistics of a mesh of any kind.
+pub trait Measured: Serialize + DeserializeOwned {
+    /// Its counts.
+    fn size(&self) -> &MeshSize;
+}
+
+/// Counts of a mesh.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MeshSize {
+    /// Nodes.
+    pub nodes: usize,
+    /// Elements.
+    pub elements: usize,
+    /// Unknowns: two for each node in the plane, three in space.
+    pub dofs: usize,
+    /// Nodes of the contact edge, or of the surfaces that slide on others.
+    pub contact_nodes: usize,
+}
+
+/// Sizes and shapes of the elements of a mesh.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ElementShapes {
+    /// Shortest edge of any element, m.
+    pub smallest_edge_m: f64,
+    /// Longest edge, m.
+    pub largest_edge_m: f64,
+    /// Largest ratio of the edges of one element.
+    pub largest_aspect_ratio: f64,
+    /// Smallest Jacobian determinant of an element over its largest.
+    pub worst_jacobian: f64,
+}
+
+impl<S: Measured> Summary for MeshSummary<S> {
+    fn headline(&self) -> Vec<Entry> {
+        let size = self.mesh.size();
+        vec![
+            Entry::new("mesh.nodes", size.nodes),
+            Entry::new("mesh.elements", size.elements),
+            Entry::new("mesh.dofs", size.dofs),
+            Entry::new("mesh.contact_nodes", size.contact_nodes),
+        ]
+    }
+}
+
+impl<S> MeshSummary<S> {
+    /// A line for each thing of the mesh file that is not used.
+    fn not_used_text(&self) -> String {
+        let lines = self.not_used.iter();
+        lines.map(|line| format!("not used: {line}\n")).collect()
+    }
+}
+
+impl MeshSize {
+    /// Counts of a mesh with so many contact nodes.
+    fn new(mesh: &Mesh, contact_nodes: usize) -> Self {
+        Self {
+            nodes: mesh.node_count(),
+            elements: mesh.element_count(),
+            dofs: mesh.dof_count(),
+            contact_nodes,
+        }
+    }
+}
+
+impl From<MeshQuality> for ElementShapes {
+    fn from(own: MeshQuality) -> Self {
+        Self {
+            smallest_edge_m: own.smallest_edge,
+            largest_edge_m: own.largest_edge,
+            largest_aspect_ratio: own.largest_aspect_ratio,
+            worst_jacobian: own.worst_jacobian,
+        }
+    }
+}
+
+impl ElementShapes {
+    /// In one line.
+    fn text(&self) -> String {
+        format!(
+            "edges {} to {}, aspect ratio up to {}, worst Jacobian {:.3}",
+            quantity("smallest_edge_m").number(self.smallest_edge_m),
+            quantity("largest_edge_m").text(self.largest_edge_m),
+            quantity("largest_aspect_ratio").text(self.largest_aspect_ratio),
+            self.worst_jacobian,
+        )
+    }
+}
+
+/// What a condition does, in a word.
+fn condition_name(condition: BoundaryCondition) -> &'static str {
+    match condition {
+        BoundaryCondition::Clamped => "clamped",
+        BoundaryCondition::Support(_) => "support",
+        BoundaryCondition::Guide => "guide",
+        BoundaryCondition::Fixed(_) => "fixed",
+        BoundaryCondition::Pressure(_) => "pressure",
+        BoundaryCondition::Free => "free",
+    }
+}
+
+/// Colours of the elements of the regions, which take them in turns.
+const REGION_COLOURS: [&str; 6] = [
+    "#7d7d7d", "#b07d2b", "#4f8f5f", "#7a5c99", "#3f7fa8", "#a85858",
+];
+
+/// Caption of the picture of a case.
+fn caption(title: &str) -> String {
+    match title {
+        "" => "Mesh".to_owned(),
+        title => literal(title),
+    }
+}
+
+/// Writes `mesh.vtu` with node numbers, the nodes of the contact marked, what is held, and the region of each element.
+///
+/// # Errors
+/// Those of the folder.
+pub fn write_mesh(
+    folder: &OutputFolder,
+    mesh: &Mesh,
+    contact: impl IntoIterator<Item = u32>,
+) -> Result<(), FolderError> {
+    let ids = (0..mesh.node_count()).map(|node| mesh.node_label(node) as i64);
+    let mut edge = vec![0; mesh.node_count()];
+    mesh.held_dofs()
+        .for_each(|dof| edge[dof / mesh.dimension] = 2);
+    contact.into_iter().for_each(|node| edge[node as usize] = 1);
+    let fields = [
+        Field::integers("node_id", ids.collect()),
+        // 1 contact, 2 held, 0 elsewhere.
+        Field::integers("edge", edge),
+    ];
+    // Counted from 1 in the order in which the summary lists them.
+    let regions = (0..mesh.element_count()).map(|element| mesh.region(element) as i64 + 1);
+    let regions = [Field::integers("region_id", regions.collect())];
+    folder.write("mesh.vtu", |out| {
+        write_vtu(out, &EncodedMesh::new(mesh)?, &[], &fields, &regions)
+    })?;
+    Ok(())
+}
+
+/// A quantity with its value, in words.
+fn number(key: &str, value: f64) -> (String, String) {
+    let quantity = quantity(key);
+    (quantity.caption.to_owned(), quantity.text(value))
+}
+
+/// Sizes and quality, name and value.
+fn numbers(size: &MeshSize, shape: &ElementShapes) -> Vec<(String, String)> {
+    vec![
+        number("nodes", size.nodes as f64),
+        number("elements", size.elements as f64),
+        number("dofs", size.dofs as f64),
+        number("contact_nodes", size.contact_nodes as f64),
+        number("smallest_edge_m", shape.smallest_edge_m),
+        number("largest_edge_m", shape.largest_edge_m),
+        number("largest_aspect_ratio", shape.largest_aspect_ratio),
+        number("worst_jacobian", shape.worst_jacobian),
+    ]
+}
+
+/// Draws `figures/mesh` and writes `report.html` from a figure, numbers and tables.
+fn draw(
+    folder: &OutputFolder,
+    title: &str,
+    figure: impl Fn() -> Figure + Sync,
+    numbers: Vec<(String, String)>,
+    tables: [ReportTable; 2],
+    options: &DrawingOptions,
+) -> Result<(), DrawingError> {
+    let figures = draw_all(vec![Box::new(|| Ok(figure()))], options)?;
+    let report = Report {
+        title: title.to_owned(),
+        sections: vec![
+            ReportSection::results(Vec::new(), numbers).with_tables(tables),
+            ReportSection::new("Mesh").with_figures(figures),
+        ],
+        manifest: folder.manifest().clone(),
+    };
+    write_report(folder, &report, options)
+}

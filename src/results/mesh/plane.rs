@@ -1,0 +1,310 @@
+//! Results of `mesh` for plane bodies and bodies of revolution.
+
+use super::plane_figure::figure;
+use super::{
+    ElementShapes, Measured, MeshSize, MeshSummary, condition_name, draw, number, numbers,
+};
+use crate::mesh::{AnnulusMesh, Mesh, SolidContact, SolidSector};
+use crate::results::drawing::{DrawingError, DrawingOptions};
+use crate::results::folder::{FolderError, OutputFolder};
+use crate::results::quantity::quantity;
+use crate::results::report::ReportTable;
+use crate::results::summary::Summary;
+use crate::results::vtu::{EncodedMesh, Field, write_vtu};
+use serde::{Deserialize, Serialize};
+use std::fmt::Write as _;
+
+/// The summary as text.
+pub fn print(summary: &MeshSummary<MeshStatistics>) -> String {
+    let mesh = &summary.mesh;
+    let text = |key: &str, value: f64| quantity(key).text(value);
+    let counts = summary.headline();
+    let counts = counts.iter().map(|entry| {
+        let quantity = quantity(&entry.path);
+        format!("{} {}", quantity.cell(&entry.value), quantity.caption)
+    });
+    let mut out = format!(
+        "{}\n{}\n",
+        counts.collect::<Vec<_>>().join(", "),
+        mesh.shape.text()
+    );
+    if let (Some(elements), Some(nodes)) =
+        (mesh.elements_per_wavelength, mesh.contact_nodes_per_wave)
+    {
+        let _ = writeln!(
+            out,
+            "at the highest frequency {elements:.1} elements for each shear wavelength, {nodes:.1} contact nodes"
+        );
+    }
+    let area = text("area_m2", mesh.area_m2);
+    if let (Some(layers), Some(nodes)) = (mesh.axial_elements, mesh.nodes_per_sector) {
+        let _ = writeln!(
+            out,
+            "{layers} layers of bricks over the thickness; edges, quality and picture are of the section across the axis, area {area}\n\
+             node ids: 1 + j {nodes} + k, k in the sheet of a sector, j around from +x"
+        );
+        return out;
+    }
+    if let (Some(error), Some(nodes)) = (mesh.area_error, mesh.nodes_per_sector) {
+        let _ = writeln!(
+            out,
+            "area {area}, {} off the annulus\n\
+             node ids: 1 + j {nodes} + i, i outwards along a ray, j around from +x",
+            text("area_error", error),
+        );
+        return out;
+    }
+    let _ = writeln!(out, "area {area}");
+    for region in &mesh.regions {
+        let _ = writeln!(
+            out,
+            "region {}: {} elements, {:.6e} m2",
+            region.name, region.elements, region.area_m2
+        );
+    }
+    for boundary in &mesh.boundaries {
+        let _ = writeln!(
+            out,
+            "boundary {}: {} nodes, {:.6e} m, {}",
+            boundary.name, boundary.nodes, boundary.length_m, boundary.condition
+        );
+    }
+    out += &summary.not_used_text();
+    match mesh.unnamed_free_edges {
+        None | Some(0) => {}
+        Some(1) => out.push_str("1 free edge is in no physical curve\n"),
+        Some(count) => {
+            let _ = writeln!(out, "{count} free edges are in no physical curve");
+        }
+    }
+    out
+}
+
+/// Size and quality of a mesh.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MeshStatistics {
+    /// Counts.
+    #[serde(flatten)]
+    pub size: MeshSize,
+    /// Layers of bricks over the thickness of a body in three dimensions; edges, quality and areas are then of its plane
+    /// section across the axis.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axial_elements: Option<usize>,
+    /// On the annulus, nodes of one ray of corner nodes: node `1 + j (nodes_per_sector) + i`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub nodes_per_sector: Option<usize>,
+    /// Sizes and shapes of the elements.
+    #[serde(flatten)]
+    pub shape: ElementShapes,
+    /// Edges of one element alone that belong to no named boundary, of a mesh file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unnamed_free_edges: Option<usize>,
+    /// Area of the mesh, m2.
+    pub area_m2: f64,
+    /// Its relative difference to the annulus.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub area_error: Option<f64>,
+    /// Elements for each shear wavelength at the highest frequency of the case, where it has one: the largest edge
+    /// counts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub elements_per_wavelength: Option<f64>,
+    /// Contact nodes for each such wave, where they are farthest apart on average.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact_nodes_per_wave: Option<f64>,
+    /// Regions with their elements and areas.
+    pub regions: Vec<RegionStatistics>,
+    /// Boundaries with their nodes and lengths.
+    pub boundaries: Vec<BoundaryStatistics>,
+}
+
+/// One region of a mesh.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RegionStatistics {
+    /// Its name.
+    pub name: String,
+    /// Its elements.
+    pub elements: usize,
+    /// Its area, m2.
+    pub area_m2: f64,
+}
+
+/// One boundary of a mesh.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BoundaryStatistics {
+    /// Its name.
+    pub name: String,
+    /// Its nodes.
+    pub nodes: usize,
+    /// Its length, m.
+    pub length_m: f64,
+    /// What holds it, in a word.
+    pub condition: String,
+}
+
+impl Measured for MeshStatistics {
+    fn size(&self) -> &MeshSize {
+        &self.size
+    }
+}
+
+impl MeshStatistics {
+    /// Counts of the body of revolution whose plane section was measured.
+    pub fn turn(&mut self, sector: &SolidSector) {
+        let sectors = sector.sector_count();
+        self.size.nodes = sectors * sector.node_count();
+        self.size.elements = sectors * sector.elements.len();
+        self.size.dofs = 3 * self.size.nodes;
+        self.size.contact_nodes = sector
+            .rings
+            .iter()
+            .map(|ring| sectors * ring.nodes.len())
+            .sum();
+        self.axial_elements = Some(sector.specification.axial_elements);
+        self.nodes_per_sector = Some(sector.node_count());
+        if sector.specification.contact != SolidContact::Inner {
+            self.contact_nodes_per_wave = None;
+        }
+    }
+
+    /// Measures a mesh between its corner nodes; areas follow curved edges. `wavelength` is the shortest that the case
+    /// is about, m.
+    pub fn new(mesh: &Mesh, annulus: Option<&AnnulusMesh>, wavelength: Option<f64>) -> Self {
+        let quality = mesh.quality();
+        let mut regions: Vec<RegionStatistics> = mesh
+            .regions
+            .iter()
+            .map(|name| RegionStatistics {
+                name: name.clone(),
+                elements: 0,
+                area_m2: 0.0,
+            })
+            .collect();
+        for element in 0..mesh.element_count() {
+            let region = &mut regions[mesh.region(element)];
+            region.elements += 1;
+            region.area_m2 += mesh.element_area(element);
+        }
+        let area: f64 = regions.iter().map(|region| region.area_m2).sum();
+        let exact = |annulus: &AnnulusMesh| {
+            let spec = &annulus.specification;
+            let bore = spec
+                .shaft
+                .map_or(spec.inner_radius, |shaft| shaft.inner_radius);
+            std::f64::consts::PI * (spec.outer_radius.powi(2) - bore.powi(2))
+        };
+        let contact = mesh.contact_edge();
+        let contact_length: f64 = contact.tributary_lengths.iter().sum();
+        let spacing = contact_length / contact.nodes.len() as f64;
+        Self {
+            size: MeshSize::new(mesh, contact.nodes.len()),
+            axial_elements: None,
+            nodes_per_sector: annulus.map(AnnulusMesh::sector_node_count),
+            shape: quality.into(),
+            unnamed_free_edges: (!mesh.labels.is_empty())
+                .then(|| mesh.unnamed_edge_count())
+                .flatten(),
+            area_m2: area,
+            area_error: annulus.map(|annulus| (area / exact(annulus) - 1.0).abs()),
+            elements_per_wavelength: wavelength.map(|length| length / quality.largest_edge),
+            contact_nodes_per_wave: wavelength.map(|length| length / spacing),
+            regions,
+            boundaries: mesh
+                .boundaries
+                .iter()
+                .enumerate()
+                .map(|(b, boundary)| BoundaryStatistics {
+                    name: boundary.name.clone(),
+                    nodes: boundary.nodes.len(),
+                    length_m: boundary.tributary_lengths.iter().sum(),
+                    condition: match b {
+                        b if b == mesh.contact => "contact".to_owned(),
+                        b if Some(b) == mesh.opposite => COUNTERFACE.to_owned(),
+                        _ => condition_name(boundary.condition).to_owned(),
+                    },
+                })
+                .collect(),
+        }
+    }
+}
+
+/// What the boundary of the other body is that the contact slides on.
+const COUNTERFACE: &str = "counterface";
+
+/// Writes the bricks of a body of revolution.
+///
+/// # Errors
+/// Those of the folder.
+pub fn write_revolution(folder: &OutputFolder, sector: &SolidSector) -> Result<(), FolderError> {
+    let per_sector = sector.node_count();
+    let count = per_sector * sector.sector_count();
+    let edge_of = |node: usize| match node % per_sector {
+        node if sector.rings.iter().any(|ring| ring.nodes.contains(&node)) => 1,
+        node => 2 * i64::from((3 * node..3 * node + 3).any(|dof| sector.is_held(dof))),
+    };
+    let edge = (0..count).map(edge_of).collect();
+    let fields = [
+        Field::integers("node_id", (1..=count as i64).collect()),
+        // 1 contact, 2 held, 0 elsewhere.
+        Field::integers("edge", edge),
+    ];
+    folder.write("mesh.vtu", |out| {
+        write_vtu(out, &EncodedMesh::solid(sector)?, &[], &fields, &[])
+    })?;
+    Ok(())
+}
+
+/// Draws `figures/mesh` and writes `report.html`: elements by region, boundaries with their names, normals of the contact edge,
+/// probes (node numbers from 1); sizes and quality.
+///
+/// # Errors
+/// Those of the drawing and of the folder.
+pub fn draw_mesh(
+    folder: &OutputFolder,
+    mesh: &Mesh,
+    (title, probes): (&str, &[usize]),
+    statistics: &MeshStatistics,
+    options: &DrawingOptions,
+) -> Result<(), DrawingError> {
+    let row = |key: &str, value: Option<f64>| Some(number(key, value?));
+    let further = [
+        row("area_m2", Some(statistics.area_m2)),
+        row(
+            "elements_per_wavelength",
+            statistics.elements_per_wavelength,
+        ),
+        row("contact_nodes_per_wave", statistics.contact_nodes_per_wave),
+    ];
+    let mut numbers = numbers(&statistics.size, &statistics.shape);
+    numbers.extend(further.into_iter().flatten());
+    let tables = [region_table(statistics), boundary_table(statistics)];
+    let drawn = || figure(mesh, title, probes);
+    draw(folder, title, drawn, numbers, tables, options)
+}
+
+fn region_table(mesh: &MeshStatistics) -> ReportTable {
+    let row = |region: &RegionStatistics| {
+        let area = format!("{:.6e}", region.area_m2);
+        vec![region.name.clone(), region.elements.to_string(), area]
+    };
+    ReportTable::new(
+        "Regions",
+        ["region", "elements", "area (m2)"],
+        mesh.regions.iter().map(row),
+    )
+}
+
+fn boundary_table(mesh: &MeshStatistics) -> ReportTable {
+    let row = |boundary: &BoundaryStatistics| {
+        vec![
+            boundary.name.clone(),
+            boundary.nodes.to_string(),
+            format!("{:.6e}", boundary.length_m),
+            boundary.condition.clone(),
+        ]
+    };
+    ReportTable::new(
+        "Boundaries",
+        ["boundary", "nodes", "length (m)", "condition"],
+        mesh.boundaries.iter().map(row),
+    )
+}

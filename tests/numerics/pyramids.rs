@@ -1,0 +1,192 @@
+//! Pyramids between bricks and tetrahedra (theory: the patch test), and as Gmsh and Nastran number them (independent: their manuals).
+
+use frictionsim::fem::{ElasticMaterial, PlaneFormulation, assemble_stiffness, solid_stress};
+use frictionsim::mesh::{ElementKind, FileElement, GmshFile, Mesh};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+const STEEL: ElasticMaterial = ElasticMaterial {
+    young_modulus: 2e11,
+    poisson_ratio: 0.3,
+    density: 7850.0,
+    formulation: PlaneFormulation::ThreeDimensional,
+    ..ElasticMaterial::PLAIN
+};
+
+/// Three cells in a row: a brick, six pyramids, and tetrahedra with a pyramid on the side of the others.
+fn row(is_quadratic: bool) -> GmshFile {
+    let corner = |i: u32, j: u32, k: u32| i + 4 * (j + 2 * k);
+    let mut places: Vec<[f64; 3]> = Vec::new();
+    for (k, j, i) in (0..2).flat_map(|k| (0..2).flat_map(move |j| (0..4).map(move |i| (k, j, i)))) {
+        places.push([f64::from(i), f64::from(j), f64::from(k)]);
+    }
+    places.extend([[1.55, 0.45, 0.6], [2.4, 0.6, 0.45]]);
+    let cell = |i: u32| {
+        let ring = [(i, 0), (i + 1, 0), (i + 1, 1), (i, 1)];
+        [0, 1].map(|k| ring.map(|(i, j)| corner(i, j, k))).concat()
+    };
+    let mut elements = vec![cell(0)];
+    let sides = [
+        [0, 1, 2, 3],
+        [4, 7, 6, 5],
+        [0, 4, 5, 1],
+        [1, 5, 6, 2],
+        [2, 6, 7, 3],
+        [3, 7, 4, 0],
+    ];
+    for (number, middle) in [(1, 16), (2, 17)] {
+        for side in sides {
+            let [a, b, c, d] = side.map(|local: usize| cell(number)[local]);
+            match number == 2 && side != sides[5] {
+                true => elements.extend([vec![a, b, c, middle], vec![a, c, d, middle]]),
+                false => elements.push(vec![a, b, c, d, middle]),
+            }
+        }
+    }
+    // Middles of the edges, then a map of all that is linear, so that edges stay straight.
+    let mut file = GmshFile {
+        dimension: 3,
+        ..GmshFile::default()
+    };
+    let mut middles: BTreeMap<[u32; 2], u32> = BTreeMap::new();
+    for (number, mut nodes) in elements.into_iter().enumerate() {
+        let kind = ElementKind::Tet4.with_corners(nodes.len(), is_quadratic);
+        for &[start, end] in kind.edges().iter().filter(|_| is_quadratic) {
+            let mut ends = [nodes[start], nodes[end]];
+            ends.sort_unstable();
+            nodes.push(*middles.entry(ends).or_insert_with(|| {
+                let [p, q] = ends.map(|node| places[node as usize]);
+                places.push([0, 1, 2].map(|axis| 0.5 * (p[axis] + q[axis])));
+                places.len() as u32 - 1
+            }));
+        }
+        file.elements.push(FileElement {
+            label: number + 1,
+            kind,
+            region: "body".into(),
+            entity: 1,
+            nodes,
+        });
+    }
+    file.labels = (1..=places.len()).collect();
+    file.is_used = vec![true; places.len()];
+    let skewed = |[x, y, z]: [f64; 3]| [0.05 * x + 0.01 * y, 0.06 * y + 0.008 * z, 0.04 * z];
+    file.points = places.into_iter().map(skewed).collect();
+    file
+}
+
+/// Theory: in a body of bricks, pyramids and tetrahedra a linear displacement has a constant stress and no force inside.
+#[test]
+fn bricks_pyramids_and_tetrahedra_in_one_body_pass_the_patch_test() {
+    let gradient = [
+        [1e-3, 4e-4, -2e-4],
+        [3e-4, -7e-4, 5e-4],
+        [2e-4, -1e-4, 6e-4],
+    ];
+    let [lambda, shear] = STEEL.lame_constants();
+    let dilatation: f64 = (0..3).map(|k| gradient[k][k]).sum();
+    let exact = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)].map(|(i, j)| {
+        let volumetric = if i == j { lambda * dilatation } else { 0.0 };
+        volumetric + shear * (gradient[i][j] + gradient[j][i])
+    });
+    for is_quadratic in [false, true] {
+        let mesh = Mesh::from_solids(&row(is_quadratic), 1.0, &[]).unwrap();
+        let kinds: std::collections::BTreeSet<ElementKind> = (0..mesh.element_count())
+            .map(|e| mesh.element_kind(e))
+            .collect();
+        assert_eq!(kinds.len(), 3);
+        let nodes = mesh.nodes.iter();
+        let displacement: Vec<f64> = nodes
+            .flat_map(|place| gradient.map(|row| (0..3).map(|k| row[k] * place[k]).sum::<f64>()))
+            .collect();
+        let forces = assemble_stiffness(&mesh, &STEEL).multiply(mesh.dof_count(), &displacement);
+        let scale = forces.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
+        let mut is_outer = vec![false; mesh.node_count()];
+        for face in mesh.outer_faces() {
+            face.nodes
+                .iter()
+                .for_each(|&node| is_outer[node as usize] = true);
+        }
+        let inner: Vec<usize> = (0..mesh.dof_count())
+            .filter(|dof| !is_outer[dof / 3])
+            .collect();
+        assert!(inner.len() >= 6);
+        for dof in inner {
+            assert!(
+                forces[dof].abs() < 1e-12 * scale,
+                "{is_quadratic} {dof} {:e}",
+                forces[dof]
+            );
+        }
+        for stress in solid_stress(&mesh, &STEEL, &displacement) {
+            for (found, exact) in stress.0.iter().zip(exact) {
+                assert!((found - exact).abs() < 1e-10 * STEEL.young_modulus * 1e-3);
+            }
+        }
+    }
+}
+
+/// A body of all three shapes is refined into one without cracks, of the same volume.
+#[test]
+fn bodies_of_mixed_shapes_are_refined_without_cracks() {
+    for is_quadratic in [false, true] {
+        let coarse = Mesh::from_solids(&row(is_quadratic), 1.0, &[]).unwrap();
+        let fine = coarse.refined_solids().unwrap();
+        assert_eq!(fine.element_count(), 8 + 7 * 10 + 10 * 8);
+        assert_eq!(fine.outer_faces().len(), 4 * coarse.outer_faces().len());
+        let volume = [&coarse, &fine].map(|mesh| mesh.region_measures()[0]);
+        assert!((volume[1] / volume[0] - 1.0).abs() < 1e-13, "{volume:?}");
+    }
+}
+
+/// A pyramid of thirteen nodes with the parabolic edges of a bulging base; Gmsh's reference manual numbers the middles by the
+/// edges 01, 03, 04, 12, 14, 23, 24, 34.
+#[test]
+fn pyramids_of_gmsh_are_read_in_the_order_of_its_manual() {
+    let corners = [
+        [0.0, 0.0, 0.0],
+        [2.0, 0.0, 0.1],
+        [2.1, 1.0, 0.0],
+        [0.0, 1.2, 0.0],
+        [0.9, 0.6, 1.5],
+    ];
+    let edges = [
+        [0, 1],
+        [0, 3],
+        [0, 4],
+        [1, 2],
+        [1, 4],
+        [2, 3],
+        [2, 4],
+        [3, 4],
+    ];
+    let middle = |[p, q]: [usize; 2]| -> [f64; 3] {
+        std::array::from_fn(|axis| 0.5 * (corners[p][axis] + corners[q][axis]))
+    };
+    for (number, count) in [(7, 5), (19, 13)] {
+        let points: Vec<[f64; 3]> = corners
+            .into_iter()
+            .chain(edges.map(middle))
+            .take(count)
+            .collect();
+        let mut text = format!("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{count}\n");
+        for (node, [x, y, z]) in points.iter().enumerate() {
+            writeln!(text, "{} {x} {y} {z}", node + 1).unwrap();
+        }
+        let labels: Vec<String> = (1..=count).map(|node| node.to_string()).collect();
+        write!(
+            text,
+            "$EndNodes\n$Elements\n1\n1 {number} 2 1 1 {}\n$EndElements\n",
+            labels.join(" ")
+        )
+        .unwrap();
+        let mesh = Mesh::from_solids(&GmshFile::read(text.as_bytes()).unwrap(), 1.0, &[]).unwrap();
+        let kind = mesh.element_kind(0);
+        assert_eq!(kind.node_count(), count);
+        let nodes = mesh.element_nodes(0);
+        let place = |local: usize| mesh.nodes[nodes[local] as usize];
+        for (edge, &[p, q]) in kind.edges().iter().enumerate().filter(|_| count == 13) {
+            assert_eq!(place(5 + edge), middle([p, q]));
+        }
+    }
+}
