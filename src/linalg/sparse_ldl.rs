@@ -99,8 +99,13 @@ impl SparseLdl {
 
     /// Number of negative eigenvalues (Sylvester's law of inertia: the signs of `D`).
     pub fn negative_count(&self) -> usize {
-        let SymbolicCholeskyRaw::Supernodal(symbolic) = self.analysis.symbolic.raw() else {
-            unreachable!("the analysis forces supernodes");
+        let symbolic = match self.analysis.symbolic.raw() {
+            SymbolicCholeskyRaw::Supernodal(symbolic) => symbolic,
+            // A matrix without fill: `D` is the first entry of each column.
+            SymbolicCholeskyRaw::Simplicial(symbolic) => {
+                let columns = symbolic.col_ptr()[..symbolic.ncols()].iter();
+                return columns.filter(|&&first| self.factors[first] < 0.0).count();
+            }
         };
         let factors = supernodal::SupernodalLdltRef::new(symbolic, &self.factors);
         (0..symbolic.n_supernodes())
@@ -168,5 +173,25 @@ impl SparseLdl {
             });
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linalg::MatrixPolynomial;
+
+    /// Exact: springs to the ground alone, one of which pushes; nothing is coupled.
+    #[test]
+    fn diagonal_matrices_have_an_inertia_and_solutions() {
+        let diagonal = [4.0, -2.0, 8.0, 5.0];
+        let triplets = diagonal.iter().enumerate().map(|(i, v)| (i, i, *v));
+        let matrix = MatrixPolynomial::from_triplets(4, &[triplets.collect()]);
+        let analysis = LdlAnalysis::new(matrix.pattern()).unwrap();
+        let ldl = SparseLdl::factorize(&analysis, &matrix.evaluate(0.0)).unwrap();
+        assert_eq!(ldl.negative_count(), 1);
+        let mut x = Mat::from_fn(4, 1, |i, _| diagonal[i] * (i + 1) as f64);
+        ldl.solve_in_place(x.as_mut());
+        assert!((0..4).all(|i| (x[(i, 0)] - (i + 1) as f64).abs() < 1e-15));
     }
 }
