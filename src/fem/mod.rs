@@ -6,6 +6,7 @@
 
 mod assembly;
 mod discretization;
+mod dof_map;
 pub mod element;
 mod face;
 mod material;
@@ -21,13 +22,14 @@ mod stress;
 mod triplets;
 
 pub use assembly::{
-    DofMap, MassKind, assemble_displacement_stiffness, assemble_extra_damping,
+    MassKind, assemble_displacement_stiffness, assemble_extra_damping,
     assemble_geometric_stiffness, assemble_losses, assemble_mass, assemble_patch_damping,
     assemble_point_masses, assemble_pressures, assemble_region,
     assemble_region_geometric_stiffness, assemble_stiffness, assemble_structural_damping,
     assemble_support_losses, assemble_supports, assemble_tabled, element_matrices, lumped_masses,
 };
 pub use discretization::DiscretizationError;
+pub use dof_map::DofMap;
 pub use material::{
     AnnulusMaterials, ElasticMaterial, MaterialField, PlaneFormulation, RayleighDamping,
     RegionMaterial, RelaxedMaterials, TabledMaterial,

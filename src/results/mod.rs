@@ -19,6 +19,7 @@ pub mod mesh;
 mod npz;
 mod parameter;
 pub mod periodic;
+mod pvd;
 pub mod quantity;
 pub mod report;
 mod response;
@@ -39,6 +40,7 @@ pub use drawing::{
     figure_files, write_figures, write_report,
 };
 pub use extent::Extent;
+pub use pvd::{PvdEntry, write_pvd};
 pub use response::{
     RESPONSE_TABLE, ResponseSummary, draw_response_report, read_response_table, write_response,
 };
@@ -48,4 +50,4 @@ pub use store::{
 };
 pub use summary::{Summary, object, read_summary, write_summary};
 pub use table::{Table, format_number};
-pub use vtu::{EncodedMesh, Field, PvdEntry, cartesian_vectors, write_pvd, write_vtu};
+pub use vtu::{EncodedMesh, Field, cartesian_vectors, write_vtu};

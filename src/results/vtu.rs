@@ -321,7 +321,7 @@ fn compress(bytes: &[u8]) -> io::Result<Vec<u8>> {
 }
 
 /// A number to twelve digits: 0.0125, not 0.012499999999999999.
-fn rounded(value: f64) -> f64 {
+pub(super) fn rounded(value: f64) -> f64 {
     format!("{value:.11e}").parse().unwrap_or(value)
 }
 
@@ -440,41 +440,8 @@ fn array(
 }
 
 /// Text inside an XML attribute.
-fn escape(text: &str) -> String {
+pub(super) fn escape(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")
         .replace('"', "&quot;")
-}
-
-/// One file of a collection.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PvdEntry {
-    /// Time, or whatever the collection is ordered by.
-    pub time: f64,
-    /// Group that the file belongs to.
-    pub group: String,
-    /// File name relative to the collection.
-    pub file: String,
-}
-
-/// Writes a ParaView collection.
-///
-/// # Errors
-/// Those of the writer.
-pub fn write_pvd(out: &mut dyn Write, entries: &[PvdEntry]) -> io::Result<()> {
-    writeln!(out, "<?xml version=\"1.0\"?>")?;
-    writeln!(
-        out,
-        "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>"
-    )?;
-    for entry in entries {
-        writeln!(
-            out,
-            "<DataSet timestep=\"{:?}\" group=\"{}\" part=\"0\" file=\"{}\"/>",
-            rounded(entry.time),
-            escape(&entry.group),
-            escape(&entry.file)
-        )?;
-    }
-    writeln!(out, "</Collection>\n</VTKFile>")
 }

@@ -47,7 +47,7 @@ const fn listed<T>(names: &'static [T]) -> Listing<T> {
     Listing { names, order: &[] }
 }
 
-const TRI3: Formats = Formats {
+pub(super) const TRI3: Formats = Formats {
     vtk: 5,
     gmsh: listed(&[2]),
     universal: listed(&[41, 51, 91]),
@@ -55,7 +55,7 @@ const TRI3: Formats = Formats {
     abaqus: &[(&["3", "3H"], "")],
     abaqus_faces: &[&[0, 1], &[1, 2], &[2, 0]],
 };
-const TRI6: Formats = Formats {
+pub(super) const TRI6: Formats = Formats {
     vtk: 22,
     gmsh: listed(&[9]),
     universal: Listing {
@@ -65,7 +65,7 @@ const TRI6: Formats = Formats {
     abaqus: &[(&["6"], ""), (&["6M", "6H", "6MH"], DISPLACEMENTS)],
     ..TRI3
 };
-const QUAD4: Formats = Formats {
+pub(super) const QUAD4: Formats = Formats {
     vtk: 9,
     gmsh: listed(&[3]),
     universal: listed(&[44, 54, 94]),
@@ -73,7 +73,7 @@ const QUAD4: Formats = Formats {
     abaqus: &[(&["4"], ""), (&["4R", "4I", "4H", "4RH", "4IH"], FULL)],
     abaqus_faces: &[&[0, 1], &[1, 2], &[2, 3], &[3, 0]],
 };
-const QUAD8: Formats = Formats {
+pub(super) const QUAD8: Formats = Formats {
     vtk: 23,
     gmsh: listed(&[16]),
     universal: Listing {
@@ -83,7 +83,7 @@ const QUAD8: Formats = Formats {
     abaqus: &[(&["8"], ""), (&["8R", "8H", "8RH"], FULL)],
     ..QUAD4
 };
-const TET4: Formats = Formats {
+pub(super) const TET4: Formats = Formats {
     vtk: 10,
     gmsh: listed(&[4]),
     universal: listed(&[111]),
@@ -91,7 +91,7 @@ const TET4: Formats = Formats {
     abaqus: &[(&["4"], ""), (&["4H"], DISPLACEMENTS)],
     abaqus_faces: &[&[0, 1, 2], &[0, 3, 1], &[1, 3, 2], &[2, 3, 0]],
 };
-const TET10: Formats = Formats {
+pub(super) const TET10: Formats = Formats {
     vtk: 24,
     gmsh: Listing {
         names: &[11],
@@ -107,7 +107,7 @@ const TET10: Formats = Formats {
     ],
     ..TET4
 };
-const HEX8: Formats = Formats {
+pub(super) const HEX8: Formats = Formats {
     vtk: 12,
     gmsh: listed(&[5]),
     universal: listed(&[115]),
@@ -122,7 +122,7 @@ const HEX8: Formats = Formats {
         &[3, 7, 4, 0],
     ],
 };
-const HEX20: Formats = Formats {
+pub(super) const HEX20: Formats = Formats {
     vtk: 25,
     gmsh: Listing {
         names: &[17],
@@ -145,11 +145,11 @@ const HEX20: Formats = Formats {
     abaqus: &[(&["20"], ""), (&["20H"], FULL)],
     ..HEX8
 };
-const HEX20R: Formats = Formats {
+pub(super) const HEX20R: Formats = Formats {
     abaqus: &[(&["20R"], ""), (&["20RH"], DISPLACEMENTS)],
     ..HEX20
 };
-const WEDGE6: Formats = Formats {
+pub(super) const WEDGE6: Formats = Formats {
     vtk: 13,
     gmsh: listed(&[6]),
     universal: listed(&[112]),
@@ -163,7 +163,7 @@ const WEDGE6: Formats = Formats {
         &[2, 5, 3, 0],
     ],
 };
-const WEDGE15: Formats = Formats {
+pub(super) const WEDGE15: Formats = Formats {
     vtk: 26,
     gmsh: Listing {
         names: &[18],
@@ -180,7 +180,7 @@ const WEDGE15: Formats = Formats {
     abaqus: &[(&["15"], ""), (&["15H"], FULL)],
     ..WEDGE6
 };
-const PYRAMID5: Formats = Formats {
+pub(super) const PYRAMID5: Formats = Formats {
     vtk: 14,
     gmsh: listed(&[7]),
     universal: listed(&[]),
@@ -194,7 +194,7 @@ const PYRAMID5: Formats = Formats {
         &[3, 4, 0],
     ],
 };
-const PYRAMID13: Formats = Formats {
+pub(super) const PYRAMID13: Formats = Formats {
     vtk: 27,
     gmsh: Listing {
         names: &[19],
@@ -207,21 +207,7 @@ const PYRAMID13: Formats = Formats {
 impl ElementKind {
     /// Its numbers, names and orders in the formats of mesh files.
     pub(crate) fn formats(self) -> &'static Formats {
-        match self {
-            Self::Tri3 => &TRI3,
-            Self::Tri6 => &TRI6,
-            Self::Quad4 => &QUAD4,
-            Self::Quad8 => &QUAD8,
-            Self::Tet4 => &TET4,
-            Self::Tet10 => &TET10,
-            Self::Hex8 => &HEX8,
-            Self::Hex20 => &HEX20,
-            Self::Hex20R => &HEX20R,
-            Self::Wedge6 => &WEDGE6,
-            Self::Wedge15 => &WEDGE15,
-            Self::Pyramid5 => &PYRAMID5,
-            Self::Pyramid13 => &PYRAMID13,
-        }
+        self.row().formats
     }
 
     /// Element type of Gmsh's MSH format.

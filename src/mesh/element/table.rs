@@ -1,6 +1,7 @@
 //! Table of element kinds: a new kind is a variant, a row, and its numbers in [`super::formats`].
 
 use super::face::FaceKind;
+use super::formats::{self, Formats};
 use super::rule::{self, GAUSS, QuadraturePoint};
 use super::shapes::{self, Shape};
 
@@ -56,6 +57,8 @@ pub(super) struct Row {
     /// The face of a solid element that has the shape of this plane element.
     pub as_face: Option<FaceKind>,
     pub name: &'static str,
+    /// Its numbers, names and orders in the formats of mesh files.
+    pub formats: &'static Formats,
 }
 
 const THIRD: f64 = 1.0 / 3.0;
@@ -101,6 +104,7 @@ const PYRAMID_EDGES: [[usize; 2]; 8] = [
 ];
 
 const TRI3: Row = Row {
+    formats: &formats::TRI3,
     dimension: 2,
     corners: &shapes::TRIANGLE,
     is_quadratic: false,
@@ -118,6 +122,7 @@ const TRI3: Row = Row {
     name: "tri3",
 };
 const TRI6: Row = Row {
+    formats: &formats::TRI6,
     is_quadratic: true,
     faces: &[
         (FaceKind::Line3, &[0, 1, 3]),
@@ -132,6 +137,7 @@ const TRI6: Row = Row {
     ..TRI3
 };
 const QUAD4: Row = Row {
+    formats: &formats::QUAD4,
     dimension: 2,
     corners: &shapes::SQUARE,
     is_quadratic: false,
@@ -150,6 +156,7 @@ const QUAD4: Row = Row {
     name: "quad4",
 };
 const QUAD8: Row = Row {
+    formats: &formats::QUAD8,
     is_quadratic: true,
     faces: &[
         (FaceKind::Line3, &[0, 1, 4]),
@@ -172,6 +179,7 @@ const QUAD8: Row = Row {
     ..QUAD4
 };
 const TET4: Row = Row {
+    formats: &formats::TET4,
     dimension: 3,
     corners: &shapes::TETRAHEDRON,
     is_quadratic: false,
@@ -190,6 +198,7 @@ const TET4: Row = Row {
     name: "tet4",
 };
 const TET10: Row = Row {
+    formats: &formats::TET10,
     is_quadratic: true,
     faces: &[
         (FaceKind::Tri6, &[0, 2, 1, 6, 5, 4]),
@@ -205,6 +214,7 @@ const TET10: Row = Row {
     ..TET4
 };
 const HEX8: Row = Row {
+    formats: &formats::HEX8,
     dimension: 3,
     corners: &shapes::BRICK,
     is_quadratic: false,
@@ -225,6 +235,7 @@ const HEX8: Row = Row {
     name: "hex8",
 };
 const HEX20: Row = Row {
+    formats: &formats::HEX20,
     is_quadratic: true,
     faces: &[
         (FaceKind::Quad8, &[0, 3, 2, 1, 11, 10, 9, 8]),
@@ -241,11 +252,13 @@ const HEX20: Row = Row {
     ..HEX8
 };
 const HEX20R: Row = Row {
+    formats: &formats::HEX20R,
     quadrature: || rule::cube(&rule::TWO),
     name: "hex20r",
     ..HEX20
 };
 const WEDGE6: Row = Row {
+    formats: &formats::WEDGE6,
     dimension: 3,
     corners: &shapes::WEDGE,
     is_quadratic: false,
@@ -265,6 +278,7 @@ const WEDGE6: Row = Row {
     name: "wedge6",
 };
 const WEDGE15: Row = Row {
+    formats: &formats::WEDGE15,
     is_quadratic: true,
     faces: &[
         (FaceKind::Tri6, &[0, 2, 1, 8, 7, 6]),
@@ -285,6 +299,7 @@ const WEDGE15: Row = Row {
     ..WEDGE6
 };
 const PYRAMID5: Row = Row {
+    formats: &formats::PYRAMID5,
     dimension: 3,
     corners: &shapes::PYRAMID,
     is_quadratic: false,
@@ -304,6 +319,7 @@ const PYRAMID5: Row = Row {
     name: "pyramid5",
 };
 const PYRAMID13: Row = Row {
+    formats: &formats::PYRAMID13,
     is_quadratic: true,
     faces: &[
         (FaceKind::Quad8, &[0, 3, 2, 1, 8, 7, 6, 5]),

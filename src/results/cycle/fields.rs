@@ -2,7 +2,8 @@
 
 use super::CycleReport;
 use crate::results::folder::{FolderError, OutputFolder};
-use crate::results::vtu::{EncodedMesh, Field, PvdEntry, write_pvd, write_vtu};
+use crate::results::pvd::{PvdEntry, write_pvd};
+use crate::results::vtu::{EncodedMesh, Field, write_vtu};
 
 /// The whole field of a limit cycle at one time.
 #[derive(Clone, Debug, PartialEq)]

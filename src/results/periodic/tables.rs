@@ -8,8 +8,9 @@ use crate::cycle::periodic::{
 };
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::npz::NpzArchive;
+use crate::results::pvd::{PvdEntry, write_pvd};
 use crate::results::table::{Column, write_rows};
-use crate::results::vtu::{EncodedMesh, Field, PvdEntry, solid_vectors, write_pvd, write_vtu};
+use crate::results::vtu::{EncodedMesh, Field, solid_vectors, write_vtu};
 use std::f64::consts::TAU;
 use std::io::{self, Write};
 

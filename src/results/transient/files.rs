@@ -4,10 +4,11 @@ use super::contact::encode_contact;
 use super::{TransientReport, TransientSummary, summary};
 use crate::fem::{nodal_stress, revolved_stress, solid_stress};
 use crate::results::folder::{FolderError, OutputFolder};
+use crate::results::pvd::{PvdEntry, write_pvd};
 use crate::results::record::write_record;
 use crate::results::summary::write_summary;
 use crate::results::table::{Table, format_number};
-use crate::results::vtu::{EncodedMesh, Field, PvdEntry, solid_vectors, write_pvd, write_vtu};
+use crate::results::vtu::{EncodedMesh, Field, solid_vectors, write_vtu};
 use crate::transient::{Recorder, SampleRow, Snapshot};
 use std::io::{self, Write};
 

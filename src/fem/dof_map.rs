@@ -1,0 +1,55 @@
+//! The unknowns of a problem among the degrees of freedom of a mesh.
+
+use crate::mesh::Mesh;
+
+/// Which dofs are unknowns of a problem and where each stands among them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DofMap {
+    /// Position of each full dof among the unknowns; `None` where it is prescribed.
+    pub unknown_of: Vec<Option<usize>>,
+    /// Full dof of each unknown, ascending.
+    pub dofs: Vec<usize>,
+}
+
+impl DofMap {
+    /// All dofs but the given ones, of `total`.
+    pub fn excluding(total: usize, prescribed: impl IntoIterator<Item = usize>) -> Self {
+        let mut free = vec![true; total];
+        prescribed.into_iter().for_each(|dof| free[dof] = false);
+        let dofs: Vec<usize> = (0..total).filter(|&dof| free[dof]).collect();
+        let mut unknown_of = vec![None; total];
+        for (unknown, &dof) in dofs.iter().enumerate() {
+            unknown_of[dof] = Some(unknown);
+        }
+        Self { unknown_of, dofs }
+    }
+
+    /// All dofs of the mesh but those that its boundary conditions hold.
+    pub fn clamped(mesh: &Mesh) -> Self {
+        Self::excluding(mesh.dof_count(), mesh.held_dofs())
+    }
+
+    /// Number of unknowns.
+    pub fn len(&self) -> usize {
+        self.dofs.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.dofs.is_empty()
+    }
+
+    /// Writes unknowns into a vector over all dofs, zero elsewhere.
+    pub fn expand<T: Copy + Default>(&self, unknowns: &[T]) -> Vec<T> {
+        let mut full = vec![T::default(); self.unknown_of.len()];
+        for (&dof, &value) in self.dofs.iter().zip(unknowns) {
+            full[dof] = value;
+        }
+        full
+    }
+
+    /// The unknowns among a vector over all dofs.
+    pub fn restrict<T: Copy>(&self, full: &[T]) -> Vec<T> {
+        self.dofs.iter().map(|&dof| full[dof]).collect()
+    }
+}
