@@ -1,11 +1,9 @@
 //! Element kinds in mesh files: their numbers or names, and the order of their nodes and faces.
 
-use super::ElementKind;
-
 /// Elements of a kind in one format.
 pub(crate) struct Listing<T: 'static> {
     /// Its numbers or names in the format; none where the format has no such element. Of kinds that share one the first in
-    /// [`ElementKind::ALL`] is read.
+    /// [`super::ElementKind::ALL`] is read.
     pub names: &'static [T],
     /// For each node of the kind its place in the file; empty where the order is the same.
     pub order: &'static [usize],
@@ -23,7 +21,7 @@ impl<T> Listing<T> {
 
 /// A kind in every format.
 pub(crate) struct Formats {
-    /// Cell type of VTK, which numbers its nodes as [`ElementKind`] does.
+    /// Cell type of VTK, which numbers its nodes as [`super::ElementKind`] does.
     pub vtk: u8,
     /// Element types of Gmsh's MSH format.
     pub gmsh: Listing<u32>,
@@ -203,20 +201,3 @@ pub(super) const PYRAMID13: Formats = Formats {
     abaqus: &[(&["13"], ""), (&["13H"], DISPLACEMENTS)],
     ..PYRAMID5
 };
-
-impl ElementKind {
-    /// Its numbers, names and orders in the formats of mesh files.
-    pub(crate) fn formats(self) -> &'static Formats {
-        self.row().formats
-    }
-
-    /// Element type of Gmsh's MSH format.
-    pub fn gmsh_type(self) -> u32 {
-        self.formats().gmsh.names[0]
-    }
-
-    /// The first kind that satisfies a condition on its formats.
-    pub(crate) fn listed(condition: impl Fn(&Formats) -> bool) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| condition(kind.formats()))
-    }
-}

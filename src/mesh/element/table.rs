@@ -370,4 +370,19 @@ impl ElementKind {
             Self::Pyramid13 => &PYRAMID13,
         }
     }
+
+    /// Its numbers, names and orders in the formats of mesh files.
+    pub(crate) fn formats(self) -> &'static Formats {
+        self.row().formats
+    }
+
+    /// Element type of Gmsh's MSH format.
+    pub fn gmsh_type(self) -> u32 {
+        self.formats().gmsh.names[0]
+    }
+
+    /// The first kind that satisfies a condition on its formats.
+    pub(crate) fn listed(condition: impl Fn(&Formats) -> bool) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| condition(kind.formats()))
+    }
 }

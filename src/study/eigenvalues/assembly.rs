@@ -43,7 +43,7 @@ impl AssemblyModel {
         // Contact that stiffens depends on friction, and the analysis starts without: it is known from there on.
         let stiffens = body.contacts.iter().any(|contact| contact.law.is_some());
         let start: &[f64] = if stiffens { &[0.0] } else { &[] };
-        let frictions = [frictions, &[own], start].concat();
+        let frictions = [frictions, start, &[own]].concat();
         let assembly = body.assembled()?;
         let range = assembly.range(&frictions)?;
         Ok(Self {
