@@ -255,7 +255,7 @@ mod tests {
                 points: points.collect(),
                 intervals: Vec::new(),
                 crossings: Vec::new(),
-                vanished: Vec::new(),
+                ended: Vec::new(),
                 counts: Vec::new(),
             },
             dofs: 100,

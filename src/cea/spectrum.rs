@@ -161,8 +161,8 @@ pub struct FrictionSweep {
     /// The mode at the critical friction of each interval, where a whole mesh was solved and shapes were asked for; `None` for one
     /// that is unstable from the start.
     pub crossings: Vec<Option<ModeVectors>>,
-    /// Modes of a whole mesh that cease to oscillate, by rising friction.
-    pub vanished: Vec<VanishedMode>,
+    /// Modes of a whole mesh whose branches end, by rising friction.
+    pub ended: Vec<EndedMode>,
     /// Counts of the modes of a whole mesh, where they were asked for.
     pub counts: Vec<ModeCount>,
 }
@@ -173,26 +173,29 @@ impl FrictionSweep {
     pub fn joined(
         points: Vec<FrictionPoint>,
         mut found: Vec<(UnstableInterval, Option<ModeVectors>)>,
-        mut vanished: Vec<VanishedMode>,
+        mut ended: Vec<EndedMode>,
     ) -> Self {
         found.sort_by(|(a, _), (b, _)| a.critical_friction.total_cmp(&b.critical_friction));
-        vanished.sort_by(|a, b| a.friction_coefficient.total_cmp(&b.friction_coefficient));
+        ended.sort_by(|a, b| a.friction_coefficient.total_cmp(&b.friction_coefficient));
         let (intervals, crossings) = found.into_iter().unzip();
         Self {
             points,
             intervals,
             crossings,
-            vanished,
+            ended,
             counts: Vec::new(),
         }
     }
 }
 
-/// A mode that damping of friction takes beyond the critical one.
+/// The last mode of a branch that ends within a sweep.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct VanishedMode {
+pub struct EndedMode {
     /// Its frequency where it was last seen, Hz.
     pub frequency_hz: f64,
     /// The friction coefficient there.
     pub friction_coefficient: f64,
+    /// The next friction coefficient, at which it could not be told from others; `None` where damping of friction takes it beyond the
+    /// critical one.
+    pub lost_before: Option<f64>,
 }

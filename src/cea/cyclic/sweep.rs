@@ -235,7 +235,7 @@ fn finish(tangent: SectorTangent, found: Found, verdict: Verdict) -> CyclicSweep
             points,
             crossings: vec![None; intervals.len()],
             intervals,
-            vanished: Vec::new(),
+            ended: Vec::new(),
             counts: Vec::new(),
         },
         branches,

@@ -13,7 +13,7 @@ const SAME: f64 = 0.5;
 /// Relative distance of eigenvalues below which modes without friction are degenerate.
 const DEGENERATE: f64 = 1e-7;
 /// Damping factor predicted at the next friction coefficient from which on a mode may cease to oscillate there.
-const NEARLY_CRITICAL: f64 = 0.5;
+pub(super) const NEARLY_CRITICAL: f64 = 0.5;
 /// Bisections of an interval before modes are matched by their extrapolated eigenvalue.
 const MAX_BISECTIONS: usize = 10;
 
@@ -33,8 +33,17 @@ pub struct TrackedBranch {
     pub label: BranchLabel,
     /// Its index among the modes of each point; `None` before it entered the range.
     pub modes: Vec<Option<usize>>,
-    /// The last point where it was seen, of a wanted mode that damping of friction takes beyond the critical.
-    pub vanished_after: Option<usize>,
+    /// Where a branch of wanted modes ends.
+    pub end: Option<BranchEnd>,
+}
+
+/// Where a branch ends, and why.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BranchEnd {
+    /// Index of the last point where it was seen.
+    pub after: usize,
+    /// Whether damping of friction takes it beyond the critical one; else it could not be told from others at the next point.
+    pub is_damped: bool,
 }
 
 /// Whether a mode may cease to oscillate within a step of friction, as friction across slow sliding, a dashpot of `mu p / V`, damps it.
@@ -52,6 +61,13 @@ pub struct Lost {
     pub frequency: f64,
     /// Index of the last point where it was seen.
     pub point: usize,
+}
+
+impl Lost {
+    /// Whether both are one branch lost at one place.
+    fn is_same(&self, other: &Self) -> bool {
+        (self.label, self.point) == (other.label, other.point)
+    }
 }
 
 /// Names the first `count` modes of the frictionless point and rotates degenerate ones so that they are
@@ -208,7 +224,7 @@ fn rotate(
 /// Where this is not clear the interval is bisected.
 ///
 /// A wanted mode that no branch reaches has come from above the range, or from motions that did not oscillate: it starts a branch. A mode
-/// whose damping nears the critical one may cease to oscillate: its branch ends.
+/// whose damping nears the critical one may cease to oscillate: its branch ends, as do those that are lost where `given_up` says so.
 ///
 /// # Errors
 /// `Ok(Err(lost))` for a branch among the wanted modes with no continuation; `Err` if a dense
@@ -218,6 +234,7 @@ pub fn track(
     model: &ReducedModel,
     edge: &ContactEdge,
     labels: &[BranchLabel],
+    given_up: &[Lost],
 ) -> Result<Result<Vec<TrackedBranch>, Lost>, LinalgError> {
     let mut branches: Vec<TrackedBranch> = labels
         .iter()
@@ -225,7 +242,7 @@ pub fn track(
         .map(|(i, &label)| TrackedBranch {
             label,
             modes: vec![Some(i)],
-            vanished_after: None,
+            end: None,
         })
         .collect();
     for k in 1..points.len() {
@@ -244,16 +261,18 @@ pub fn track(
                 && i < before.wanted
             {
                 let step = after.friction_coefficient - before.friction_coefficient;
-                if may_vanish(&before.modes[i], step) {
-                    branch.vanished_after = Some(k - 1);
-                    branch.modes.push(None);
-                    continue;
-                }
-                return Ok(Err(Lost {
+                let is_damped = may_vanish(&before.modes[i], step);
+                let lost = Lost {
                     label: branch.label,
                     frequency: before.modes[i].eigenvalue.im,
                     point: k - 1,
-                }));
+                };
+                let is_given_up = given_up.iter().any(|own| own.is_same(&lost));
+                if !is_damped && !is_given_up {
+                    return Ok(Err(lost));
+                }
+                let after = k - 1;
+                branch.end = Some(BranchEnd { after, is_damped });
             }
             branch.modes.push(next);
         }
@@ -290,7 +309,7 @@ fn adopt_newcomers(
         branches.push(TrackedBranch {
             label,
             modes,
-            vanished_after: None,
+            end: None,
         });
     }
 }

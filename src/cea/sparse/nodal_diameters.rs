@@ -276,9 +276,9 @@ fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
         let mut modes = points.iter().flat_map(|point| &point.modes);
         modes.any(|mode| mode.branch == branch)
     };
-    let (mut found, mut vanished) = (Vec::new(), Vec::new());
+    let (mut found, mut ended) = (Vec::new(), Vec::new());
     for (part, sweep) in parts.into_iter().enumerate() {
-        vanished.extend(sweep.vanished);
+        ended.extend(sweep.ended);
         for (mut interval, crossing) in sweep.intervals.into_iter().zip(sweep.crossings) {
             let rank = rank_of.get(&(part, interval.branch));
             let Some(rank) = rank.filter(|rank| is_listed(**rank)) else {
@@ -290,7 +290,7 @@ fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
     }
     FrictionSweep {
         counts,
-        ..FrictionSweep::joined(points, found, vanished)
+        ..FrictionSweep::joined(points, found, ended)
     }
 }
 

@@ -1,6 +1,7 @@
 //! All modes at one friction coefficient, each held to its residual in the full matrices.
 
 use super::StiffnessFactors;
+use super::branches::NEARLY_CRITICAL;
 use super::edge::ContactEdge;
 use super::left::{OpenPair, correct_lefts};
 use super::linearization::Linearization;
@@ -161,7 +162,8 @@ impl PointSolver<'_> {
     /// # Errors
     /// If a dense decomposition fails.
     pub fn solve(&self, model: &ReducedModel, mu: f64) -> Result<SolvedPoint, LinalgError> {
-        let modes = model.solve(mu, self.count + TRACKING_MARGIN)?;
+        let mut modes = model.solve(mu, self.count + TRACKING_MARGIN)?;
+        self.drop_unsearched(&mut modes, model, mu);
         let wanted = match self.limit {
             ModeLimit::Lowest(count) => keeping_ties(modes.iter().map(|m| m.eigenvalue.im), count),
             ModeLimit::MaxFrequency(hz) => modes
@@ -177,6 +179,26 @@ impl PointSolver<'_> {
             wanted,
             checks,
         })
+    }
+
+    /// Leaves out motions near critical damping beyond the `count` lowest natural frequencies `|lambda|` whose frequency lies among
+    /// theirs, unless they are modes: the basis holds those lowest ones, and of what lies beyond mostly mere combinations.
+    fn drop_unsearched(&self, modes: &mut Vec<ReducedMode>, model: &ReducedModel, mu: f64) {
+        let mut natural: Vec<f64> = modes.iter().map(|m| m.eigenvalue.norm()).collect();
+        natural.sort_by(f64::total_cmp);
+        let Some(&reach) = natural.get(self.count.saturating_sub(1)) else {
+            return;
+        };
+        let searched = modes.iter().map(|m| m.eigenvalue);
+        let searched = searched.filter(|own| own.norm() <= reach);
+        let highest = searched.map(|own| own.im).fold(0.0, f64::max);
+        modes.retain(|mode| {
+            let own = mode.eigenvalue;
+            let is_doubtful =
+                own.norm() > reach && own.im < highest && -own.re > NEARLY_CRITICAL * own.norm();
+            let residual = || self.check(model, mu, std::slice::from_ref(mode))[0].residual;
+            !is_doubtful || residual() <= RESIDUAL_BOUND
+        });
     }
 
     /// Residuals and edge displacements of `modes` in the full matrices at `mu`.

@@ -346,34 +346,43 @@ impl<'a> SparseSweep<'a> {
     }
 
     /// Continues all branches from `mu = 0`. Where one is lost the basis takes up, of the quadratic problem, modes at
-    /// more friction coefficients about that place; in the end an independent iteration searches for it.
+    /// more friction coefficients about that place; in the end an independent iteration searches for it. A branch that stays lost
+    /// ends there if the count of modes beyond says that none is missing: it changes faster than it can be followed.
     ///
     /// # Errors
-    /// [`CeaError::LostBranch`] if it stays lost.
+    /// [`CeaError::LostBranch`] if modes may be missing.
     pub fn track(&mut self) -> Result<Vec<TrackedBranch>, CeaError> {
-        let mut searched = false;
+        let (mut given_up, mut searched, mut complete) = (Vec::new(), Vec::new(), Vec::new());
         loop {
-            let outcome = track(&self.points, &self.builder.model, &self.edge, &self.labels)?;
+            let (model, edge) = (&self.builder.model, &self.edge);
+            let outcome = track(&self.points, model, edge, &self.labels, &given_up)?;
             let lost = match outcome {
                 Ok(branches) => return Ok(branches),
                 Err(lost) => lost,
             };
-            if searched {
-                return Err(CeaError::LostBranch {
-                    harmonic: lost.label.harmonic,
-                    branch: lost.label.branch,
-                    frequency_hz: lost.frequency / TAU,
-                    from: self.grid[lost.point],
-                    to: self.grid[lost.point + 1],
-                });
-            }
             let (from, to) = (self.grid[lost.point], self.grid[lost.point + 1]);
+            if searched.contains(&lost.point) {
+                let is_complete = complete.contains(&lost.point);
+                if !is_complete && !self.has_all_at(lost.point + 1).unwrap_or(false) {
+                    return Err(CeaError::LostBranch {
+                        harmonic: lost.label.harmonic,
+                        branch: lost.label.branch,
+                        frequency_hz: lost.frequency / TAU,
+                        from,
+                        to,
+                    });
+                }
+                complete.push(lost.point);
+                given_up.push(lost);
+                continue;
+            }
             let is_sampling = self.builder.is_sampling();
             let has_improved = is_sampling && self.builder.improve_between(from, to)?;
             if !has_improved {
-                searched = true;
+                searched.push(lost.point);
                 self.builder.search(to, TRACKING_MARGIN)?;
             }
+            complete.clear();
             self.solve()?;
         }
     }

@@ -100,7 +100,7 @@ mod tests {
             ],
             intervals: Vec::new(),
             crossings: Vec::new(),
-            vanished: Vec::new(),
+            ended: Vec::new(),
             counts: Vec::new(),
         };
         let all = branches(&sweep);

@@ -153,23 +153,40 @@ pub(super) fn damping_note(case: &Case, sweep: &FrictionSweep) -> Option<String>
     ))
 }
 
-/// The modes of a whole mesh that friction across slow sliding damps beyond the critical.
-pub(super) fn vanished_note(sweep: &FrictionSweep) -> Option<String> {
-    let all = sweep.vanished.iter().map(|mode| {
+/// The modes of a whole mesh that friction across slow sliding damps beyond the critical, and those that change too fast to be followed.
+pub(super) fn ended_notes(sweep: &FrictionSweep) -> Vec<String> {
+    let listed = |all: Vec<String>| {
+        let (shown, rest) = all.split_at(all.len().min(MISSING_SHOWN));
+        let more = if rest.is_empty() { "" } else { ", ..." };
+        format!("{}{more}", shown.join(", "))
+    };
+    let (mut damped, mut lost) = (Vec::new(), Vec::new());
+    for mode in &sweep.ended {
         let (frequency, friction) = (mode.frequency_hz, mode.friction_coefficient);
-        format!("{frequency:.0} Hz from friction {friction} on")
-    });
-    let all: Vec<String> = all.collect();
-    let (shown, rest) = all.split_at(all.len().min(MISSING_SHOWN));
-    let more = if rest.is_empty() { "" } else { ", ..." };
-    (!all.is_empty()).then(|| {
+        match mode.lost_before {
+            None => damped.push(format!("{frequency:.0} Hz from friction {friction} on")),
+            Some(next) => lost.push(format!(
+                "{frequency:.0} Hz between friction {friction} and {next}"
+            )),
+        }
+    }
+    let (damped_count, lost_count) = (damped.len(), lost.len());
+    let damped = (damped_count > 0).then(|| {
         format!(
-            "{} modes near critical damping are not followed beyond it ({}{more}): friction across the sliding is a dashpot of mu p / V, which \
-             grows as the sliding slows down, and holds that motion in the limit",
-            all.len(),
-            shown.join(", "),
+            "{damped_count} modes near critical damping are not followed beyond it ({}): friction across the sliding is a dashpot of \
+             mu p / V, which grows as the sliding slows down, and holds that motion in the limit",
+            listed(damped),
         )
-    })
+    });
+    let lost = (lost_count > 0).then(|| {
+        format!(
+            "{lost_count} branches change too fast to be followed ({}): no mode is missing, as a count says, but branches beyond have \
+             new numbers, and of those that are unstable there the critical friction lies in between; ask for friction coefficients \
+             closer together there, or for a faster sliding",
+            listed(lost),
+        )
+    });
+    damped.into_iter().chain(lost).collect()
 }
 
 /// The motions that friction across the sliding keeps from oscillating, and those that it damps.

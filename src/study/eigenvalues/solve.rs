@@ -2,8 +2,8 @@
 
 use super::model::{Model, Solver, mode_limit};
 use super::notes::{
-    MISSING_SHOWN, count_notes, coverage_note, damping_note, friction_note, instead_note,
-    overdamped_note, table_notes, uncertainty_note, vanished_note,
+    MISSING_SHOWN, count_notes, coverage_note, damping_note, ended_notes, friction_note,
+    instead_note, overdamped_note, table_notes, uncertainty_note,
 };
 use super::reading::{read, shapes_needed};
 use super::sensitivity::body_sensitivities;
@@ -101,7 +101,7 @@ fn solve_with(
     notes.extend(rate_note);
     notes.extend(uncertainty_note(case, &found.sweep));
     notes.extend(damping_note(case, &found.sweep));
-    notes.extend(vanished_note(&found.sweep));
+    notes.extend(ended_notes(&found.sweep));
     notes.extend(friction_note(case, model));
     let reading = match with_reading {
         true => read(case, model, found.tangent.as_ref(), &found.sweep),

@@ -201,8 +201,8 @@ fn joined(mut parts: Vec<FrictionSweep>, frictions: &[f64]) -> FrictionSweep {
             .map(|point| (*point).clone())
     });
     let points = points.collect();
-    let vanished = parts.iter().flat_map(|part| part.vanished.iter().copied());
-    let vanished = vanished.collect();
+    let ended = parts.iter().flat_map(|part| part.ended.iter().copied());
+    let ended = ended.collect();
     let counts = parts.iter().flat_map(|part| part.counts.clone());
     let mut counts: Vec<ModeCount> = counts
         .filter(|count| frictions.contains(&count.friction_coefficient))
@@ -228,7 +228,7 @@ fn joined(mut parts: Vec<FrictionSweep>, frictions: &[f64]) -> FrictionSweep {
     }
     FrictionSweep {
         counts,
-        ..FrictionSweep::joined(points, found, vanished)
+        ..FrictionSweep::joined(points, found, ended)
     }
 }
 

@@ -108,7 +108,7 @@ pub fn sweep(count: usize) -> FrictionSweep {
         points,
         intervals,
         crossings: Vec::new(),
-        vanished: Vec::new(),
+        ended: Vec::new(),
         counts: Vec::new(),
     }
 }

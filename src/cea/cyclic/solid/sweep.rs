@@ -187,7 +187,7 @@ pub fn solid_sweep_with_waves(
             points,
             crossings: vec![None; intervals.len()],
             intervals,
-            vanished: Vec::new(),
+            ended: Vec::new(),
             counts: Vec::new(),
         },
         coverage,

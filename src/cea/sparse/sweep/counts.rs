@@ -34,21 +34,40 @@ impl SparseSweep<'_> {
         let counter = ModeCounter::new(self.tangent)?;
         let mut counts = Vec::new();
         for k in self.counted_values() {
-            let mut count = self.count_at(&counter, k);
-            if let Ok(missing @ 1..) = count.missing {
-                self.builder
-                    .search(self.grid[k], TRACKING_MARGIN + missing as usize)?;
-                self.solve()?;
-                let before = count;
-                count = self.count_at(&counter, k);
-                count.determinants += before.determinants;
-                count.recovered = count.known.saturating_sub(before.known);
-            }
-            counts.push(count);
+            counts.push(self.completed_at(&counter, k)?);
         }
         let has_changed = counts.iter().any(|count| count.recovered > 0);
         let branches = if has_changed { self.track()? } else { branches };
         Ok((branches, counts))
+    }
+
+    /// The count at a point, after a search for what was missing.
+    ///
+    /// # Errors
+    /// Those of the search.
+    fn completed_at(&mut self, counter: &ModeCounter<'_>, k: usize) -> Result<ModeCount, CeaError> {
+        let before = self.count_at(counter, k);
+        let Ok(missing @ 1..) = before.missing else {
+            return Ok(before);
+        };
+        self.builder
+            .search(self.grid[k], TRACKING_MARGIN + missing as usize)?;
+        self.solve()?;
+        let after = self.count_at(counter, k);
+        Ok(ModeCount {
+            determinants: before.determinants + after.determinants,
+            recovered: after.known.saturating_sub(before.known),
+            ..after
+        })
+    }
+
+    /// Whether no mode is missing at a point, as a count says after a search.
+    ///
+    /// # Errors
+    /// [`CeaError::Uncountable`]; those of the search.
+    pub(super) fn has_all_at(&mut self, k: usize) -> Result<bool, CeaError> {
+        let counter = ModeCounter::new(self.tangent)?;
+        Ok(self.completed_at(&counter, k)?.is_complete())
     }
 
     fn counted_values(&self) -> Vec<usize> {

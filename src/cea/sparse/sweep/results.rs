@@ -1,7 +1,7 @@
 //! What a sweep found: points, unstable intervals, shapes.
 
 use super::{MAX_REPAIRS, SETTLED, SparseSweep};
-use crate::cea::VanishedMode;
+use crate::cea::EndedMode;
 use crate::cea::sparse::branches::{BranchLabel, TrackedBranch};
 use crate::cea::sparse::onset::{FoundInterval, OnsetFinder, State};
 use crate::cea::{CeaError, ComplexMode, FrictionPoint, FrictionSweep, SweepRequest};
@@ -44,22 +44,25 @@ impl SparseSweep<'_> {
             points,
             intervals: found.into_iter().map(|own| own.interval).collect(),
             crossings,
-            vanished: self.vanished(branches),
+            ended: self.ended(branches),
             counts: Vec::new(),
         })
     }
 
     /// The modes whose branches end.
-    fn vanished(&self, branches: &[TrackedBranch]) -> Vec<VanishedMode> {
+    fn ended(&self, branches: &[TrackedBranch]) -> Vec<EndedMode> {
         let ended = branches.iter().filter_map(|branch| {
-            let point = &self.points[branch.vanished_after?];
-            let last = branch.modes[branch.vanished_after?]?;
-            Some(VanishedMode {
+            let end = branch.end?;
+            let point = &self.points[end.after];
+            let last = branch.modes[end.after]?;
+            let next = &self.points[end.after + 1];
+            Some(EndedMode {
                 frequency_hz: point.modes[last].eigenvalue.im / TAU,
                 friction_coefficient: point.friction_coefficient,
+                lost_before: (!end.is_damped).then_some(next.friction_coefficient),
             })
         });
-        let mut ended: Vec<VanishedMode> = ended.collect();
+        let mut ended: Vec<EndedMode> = ended.collect();
         ended.sort_by(|a, b| a.friction_coefficient.total_cmp(&b.friction_coefficient));
         ended
     }
