@@ -29,6 +29,8 @@ const FEW_VALUES: usize = 6;
 const SETTLED: f64 = 1e-10;
 /// Residual force, relative to the inertia force, up to which modes are corrected rather than computed anew.
 const CORRECTABLE: f64 = 1e-4;
+/// Ratio of errors before and after a repair above which repairs lead nowhere.
+const SLOWEST: f64 = 0.9;
 /// Attempts to improve points that miss the goal.
 const MAX_REPAIRS: usize = 8;
 /// Such attempts for each friction value where a mode misses the bound of converged pairs.
@@ -199,6 +201,7 @@ impl<'a> SparseSweep<'a> {
         let all: Vec<usize> = (0..self.grid.len()).collect();
         let goal = self.linearization.force_residual_goal();
         self.points = self.solve_points(&all)?;
+        let (mut before, mut searched) = ((usize::MAX, f64::INFINITY), Vec::new());
         for round in 0..MAX_REPAIRS + MAX_LAST_REPAIRS * self.grid.len() {
             let missing: Vec<usize> = all
                 .iter()
@@ -217,8 +220,15 @@ impl<'a> SparseSweep<'a> {
             if round >= MAX_REPAIRS + self.grid.len() && missing.iter().all(is_converged) {
                 break;
             }
-            if !self.repair(&missing)? {
-                if self.points[worst].worst().0 <= RESIDUAL_BOUND {
+            // Corrections by the stiffness without friction fail a mode that friction damps strongly: an iteration finds it.
+            let (residual, error) = self.points[worst].worst();
+            let is_stuck = before.0 == worst && error > SLOWEST * before.1;
+            before = (worst, error);
+            if is_stuck && residual > RESIDUAL_BOUND && !searched.contains(&worst) {
+                searched.push(worst);
+                self.builder.search(self.grid[worst], TRACKING_MARGIN)?;
+            } else if !self.repair(&missing)? {
+                if residual <= RESIDUAL_BOUND {
                     break;
                 }
                 self.builder.search(self.grid[worst], TRACKING_MARGIN)?;
