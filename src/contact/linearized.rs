@@ -15,9 +15,12 @@ pub struct PressedPoints<'a> {
     pub normal_forces: &'a [Vec<f64>],
     /// Stiffness `w k_n(mu)` at that force by power of `mu`, N/m, of contact that stiffens; nothing where it does not.
     pub stiffnesses: &'a [Vec<f64>],
+    /// Friction coefficient `a` below which the state is frozen: forces and stiffnesses are then given by power of `mu - a`, and
+    /// what they add is in the terms of [`MatrixPolynomial::frozen_below`](crate::linalg::MatrixPolynomial::frozen_below).
+    pub frozen_below: f64,
 }
 
-/// What contact adds to the matrices of small motions over all dofs, by power of `mu`.
+/// What contact adds to the matrices of small motions over all dofs, by power of `mu`, or in the terms of a state that is frozen.
 #[derive(Clone, Debug, Default)]
 pub struct ContactTerms {
     /// Penalty and the friction that follows it; nothing for rigid contact.
@@ -46,6 +49,7 @@ pub fn linearized(
     stiffness: &ContactStiffness,
 ) -> ContactTerms {
     let mut terms = ContactTerms::default();
+    let frozen = state.frozen_below;
     let merge_many = |terms: &mut [Triplets]| {
         let many = terms.iter_mut();
         many.filter(|term| term.entries.len() > MANY_ENTRIES)
@@ -56,11 +60,11 @@ pub fn linearized(
         let weight = point.weight;
         // Springs and dashpots of the contact itself.
         if let (Some(normal), []) = (stiffness.normal_stiffness, state.stiffnesses) {
-            add_normal_law(&mut terms.stiffness, 0, point, weight * normal);
+            add_normal_law(&mut terms.stiffness, (0, frozen), point, weight * normal);
         }
         if stiffness.normal_damping != 0.0 {
             let value = weight * stiffness.normal_damping;
-            add_normal_law(&mut terms.dashpots, 0, point, value);
+            add_normal_law(&mut terms.dashpots, (0, frozen), point, value);
         }
         if stiffness.tangential_damping != 0.0 {
             let value = weight * stiffness.tangential_damping;
@@ -71,7 +75,7 @@ pub fn linearized(
     }
     for (p, springs) in state.stiffnesses.iter().enumerate() {
         for i in pressed() {
-            add_normal_law(&mut terms.stiffness, p, &points[i], springs[i]);
+            add_normal_law(&mut terms.stiffness, (p, frozen), &points[i], springs[i]);
         }
         merge_many(&mut terms.stiffness);
     }
@@ -86,17 +90,22 @@ pub fn linearized(
             let (point, force) = (&points[i], forces[i]);
             let friction = point.friction;
             if friction.slope != 0.0 {
-                let falling = power(&mut terms.dashpots, p + 1);
-                add_product(falling, friction.slope * force, &point.slip, &point.slip);
+                let value = friction.slope * force;
+                for (term, factor) in following(p, frozen) {
+                    let falling = power(&mut terms.dashpots, term);
+                    add_product(falling, factor * value, &point.slip, &point.slip);
+                }
             }
             if !point.across.is_empty() {
                 let value = friction.drag.abs() * force / point.speed;
-                let turned = power(&mut terms.dashpots, p + 1);
-                add_product(turned, value, &point.across, &point.across);
+                for (term, factor) in following(p, frozen) {
+                    let turned = power(&mut terms.dashpots, term);
+                    add_product(turned, factor * value, &point.across, &point.across);
+                }
             }
         }
         for (point, &force) in points.iter().zip(forces) {
-            add_turning(&mut terms.turning, p, point, force);
+            add_turning(&mut terms.turning, (p, frozen), point, force);
         }
         merge_many(&mut terms.dashpots);
     }
@@ -104,11 +113,39 @@ pub fn linearized(
     terms
 }
 
+/// The term of what the power `p` of a state multiplies: `mu^p`, or `(mu - a)^p` from the coefficient `a` on below which it is frozen.
+fn alone(p: usize, frozen_below: f64) -> usize {
+    p + usize::from(frozen_below > 0.0 && p > 0)
+}
+
+/// The terms of what `mu` and the power `p` of a state multiply, and their factors: `mu mu^p = mu^(p + 1)`, or, with `a` below which
+/// the state is frozen,
+///
+/// ```text
+/// mu 1 = min(mu, a) + (mu - a),    mu (mu - a)^p = a (mu - a)^p + (mu - a)^(p + 1)
+/// ```
+fn following(p: usize, frozen_below: f64) -> impl Iterator<Item = (usize, f64)> {
+    let pair = match (frozen_below > 0.0, p) {
+        (false, _) => [(p + 1, 1.0), (0, 0.0)],
+        (true, 0) => [(1, 1.0), (2, 1.0)],
+        (true, _) => [(p + 1, frozen_below), (p + 2, 1.0)],
+    };
+    pair.into_iter().filter(|(_, factor)| *factor != 0.0)
+}
+
 /// `dN = -coefficient mu^p n.u` and the friction that follows it.
-fn add_normal_law(terms: &mut Vec<Triplets>, p: usize, point: &Point, coefficient: f64) {
-    add_product(power(terms, p), coefficient, &point.normal, &point.normal);
-    let follow = point.friction.drag * coefficient;
-    add_product(power(terms, p + 1), follow, &point.slip, &point.normal);
+fn add_normal_law(
+    terms: &mut Vec<Triplets>,
+    (p, frozen): (usize, f64),
+    point: &Point,
+    coefficient: f64,
+) {
+    let own = power(terms, alone(p, frozen));
+    add_product(own, coefficient, &point.normal, &point.normal);
+    for (term, factor) in following(p, frozen) {
+        let follow = point.friction.drag * factor * coefficient;
+        add_product(power(terms, term), follow, &point.slip, &point.normal);
+    }
 }
 
 /// Normal force and friction of the base state as they turn with the surface.
@@ -121,19 +158,21 @@ fn add_normal_law(terms: &mut Vec<Triplets>, p: usize, point: &Point, coefficien
 /// ```
 ///
 /// as products of a row and a column. On a rigid counterface both slopes vanish. Plane bodies alone have it.
-fn add_turning(terms: &mut Vec<Triplets>, p: usize, point: &Point, force: f64) {
-    let (curvature, drag) = (point.curvature, point.friction.drag * force);
-    let pressed = power(terms, p);
+fn add_turning(terms: &mut Vec<Triplets>, (p, frozen): (usize, f64), point: &Point, force: f64) {
+    let curvature = point.curvature;
+    let pressed = power(terms, alone(p, frozen));
     add_product(pressed, -curvature * force, &point.slip, &point.slip);
     add_product(pressed, force, &point.slip, &point.tilt);
     add_product(pressed, force, &point.tilt, &point.slip);
-    let sheared = power(terms, p + 1);
-    add_product(sheared, curvature * drag, &point.normal, &point.slip);
-    add_product(sheared, -drag, &point.normal, &point.tilt);
-    add_product(sheared, drag, &point.stretch, &point.slip);
+    for (term, factor) in following(p, frozen) {
+        let (sheared, drag) = (power(terms, term), point.friction.drag * factor * force);
+        add_product(sheared, curvature * drag, &point.normal, &point.slip);
+        add_product(sheared, -drag, &point.normal, &point.tilt);
+        add_product(sheared, drag, &point.stretch, &point.slip);
+    }
 }
 
-/// The coefficient of `mu^p`, made where it is not yet there.
+/// The coefficient of a term, made where it is not yet there.
 fn power(terms: &mut Vec<Triplets>, p: usize) -> &mut Triplets {
     if terms.len() <= p {
         terms.resize_with(p + 1, Triplets::default);

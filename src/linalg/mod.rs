@@ -30,7 +30,7 @@ pub use gaussian_noise::GaussianNoise;
 pub use gmres::gmres;
 pub use krylov_schur::{BlockOperator, KrylovSchurSettings, RealPairs, Wanted, krylov_schur};
 pub use matrix_market::{MarketMatrix, MatrixMarketError};
-pub use polynomial::{MatrixPolynomial, SparsityPattern};
+pub use polynomial::{FrictionWeights, MatrixPolynomial, SparsityPattern};
 pub use quadratic_krylov::{
     QuadraticKrylovSettings, QuadraticOperator, QuadraticPairs, quadratic_krylov,
 };

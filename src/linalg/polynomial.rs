@@ -177,6 +177,42 @@ fn by_rows(symbolic: &SymbolicSparseColMat<usize>) -> (Vec<usize>, Vec<u32>, Vec
     (pointers, positions, columns)
 }
 
+/// Weights of the coefficients of a [`MatrixPolynomial`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FrictionWeights {
+    origin: f64,
+}
+
+impl FrictionWeights {
+    /// Whether they are the powers of `mu`.
+    pub fn are_powers(self) -> bool {
+        self.origin == 0.0
+    }
+
+    /// Weight of the coefficient at `place`.
+    pub fn at(self, place: usize, mu: f64) -> f64 {
+        let beyond = (mu - self.origin).max(0.0);
+        match place {
+            0 => 1.0,
+            _ if self.are_powers() => mu.powi(place as i32),
+            1 => mu.min(self.origin),
+            _ => beyond.powi(place as i32 - 1),
+        }
+    }
+
+    /// Its derivative by `mu`, from above at the origin.
+    pub fn slope(self, place: usize, mu: f64) -> f64 {
+        let power = place as i32;
+        match place {
+            0 => 0.0,
+            _ if self.are_powers() => f64::from(power) * mu.powi(power - 1),
+            1 => f64::from(u8::from(mu < self.origin)),
+            _ if mu < self.origin => 0.0,
+            _ => f64::from(power - 1) * (mu - self.origin).powi(power - 2),
+        }
+    }
+}
+
 /// A square sparse matrix `P(mu) = P_0 + mu P_1 + mu^2 P_2 + ...` of a real parameter `mu`.
 ///
 /// All coefficients are stored on the whole shared pattern, structural zeros included.
@@ -184,6 +220,8 @@ fn by_rows(symbolic: &SymbolicSparseColMat<usize>) -> (Vec<usize>, Vec<u32>, Vec
 pub struct MatrixPolynomial {
     pattern: Arc<SparsityPattern>,
     coefficients: Vec<Vec<f64>>,
+    /// See [`Self::frozen_below`].
+    origin: f64,
 }
 
 impl MatrixPolynomial {
@@ -232,7 +270,60 @@ impl MatrixPolynomial {
         Self {
             pattern: Arc::clone(pattern),
             coefficients,
+            origin: 0.0,
         }
+    }
+
+    /// The same coefficients with other weights, for `origin > 0`:
+    ///
+    /// ```text
+    /// P(mu) = P_0 + min(mu, origin) P_1 + sum_{p >= 2} max(mu - origin, 0)^(p - 1) P_p
+    /// ```
+    ///
+    /// a polynomial above `origin`, linear below.
+    pub fn frozen_below(self, origin: f64) -> Self {
+        Self { origin, ..self }
+    }
+
+    /// See [`Self::frozen_below`]; 0 of powers of `mu`.
+    pub fn origin(&self) -> f64 {
+        self.origin
+    }
+
+    /// What each coefficient weighs.
+    pub fn weights(&self) -> FrictionWeights {
+        FrictionWeights {
+            origin: self.origin,
+        }
+    }
+
+    /// Coefficients of the powers of `mu`, of the polynomial that it is above [`Self::frozen_below`].
+    pub fn by_powers(&self) -> Vec<Vec<f64>> {
+        if self.origin == 0.0 {
+            return self.coefficients.clone();
+        }
+        // By powers of the distance from the origin, lowest first, then Horner's scheme.
+        let mut terms = self.coefficients.clone();
+        if terms.len() > 1 {
+            let linear = terms.remove(1);
+            let pairs = terms[0].iter_mut().zip(&linear);
+            pairs.for_each(|(constant, value)| *constant += self.origin * value);
+        }
+        let mut powers: Vec<Vec<f64>> = Vec::new();
+        for term in terms.iter().rev() {
+            powers.insert(0, vec![0.0; term.len()]);
+            for p in 0..powers.len() {
+                let (lower, upper) = powers.split_at_mut(p + 1);
+                let Some(above) = upper.first() else {
+                    continue;
+                };
+                let pairs = lower[p].iter_mut().zip(above);
+                pairs.for_each(|(value, above)| *value -= self.origin * above);
+            }
+            let pairs = powers[0].iter_mut().zip(term);
+            pairs.for_each(|(value, own)| *value += own);
+        }
+        powers
     }
 
     /// The shared pattern.
@@ -292,12 +383,28 @@ impl MatrixPolynomial {
 
     /// Nonzero values of `P(mu)`.
     pub fn evaluate(&self, mu: f64) -> Vec<f64> {
-        self.horner(mu, |_| 1.0, 0)
+        match self.origin > 0.0 {
+            true => self.weighted(|place| self.weights().at(place, mu)),
+            false => self.horner(mu, |_| 1.0, 0),
+        }
     }
 
     /// Nonzero values of `dP/dmu` at `mu`.
     pub fn derivative(&self, mu: f64) -> Vec<f64> {
-        self.horner(mu, |power| power as f64, 1)
+        match self.origin > 0.0 {
+            true => self.weighted(|place| self.weights().slope(place, mu)),
+            false => self.horner(mu, |power| power as f64, 1),
+        }
+    }
+
+    fn weighted(&self, weight: impl Fn(usize) -> f64) -> Vec<f64> {
+        let mut values = vec![0.0; self.pattern.nonzero_count()];
+        for (place, coefficient) in self.coefficients.iter().enumerate() {
+            let factor = weight(place);
+            let pairs = values.iter_mut().zip(coefficient);
+            pairs.for_each(|(sum, c)| *sum += factor * c);
+        }
+        values
     }
 
     /// `alpha a + beta b` of two polynomials on the same pattern.
@@ -318,7 +425,7 @@ impl MatrixPolynomial {
                 }
             }
         }
-        Self::from_coefficients(&a.pattern, coefficients)
+        Self::from_coefficients(&a.pattern, coefficients).frozen_below(a.origin.max(b.origin))
     }
 
     /// `sum_{p >= first} weight(p) P_p mu^(p - first)`.

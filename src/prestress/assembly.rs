@@ -3,6 +3,7 @@
 use super::cholesky::CholeskySolver;
 use super::complementarity::{PressedRange, PressedState, Pressing};
 use super::elimination::Elimination;
+use super::friction_polynomial::about;
 use super::rotation::Rotation;
 use super::tangent::{BodyTerms, ContactDofs, ContactPart, SlidingTangent};
 use super::{PrestressError, TangentOptions};
@@ -253,6 +254,7 @@ impl<'a> Assembly<'a> {
                     normal_forces: Vec::new(),
                     stiffnesses: Vec::new(),
                     is_pressed: vec![true; points.len()],
+                    frozen_below: 0.0,
                 }],
                 state_of: vec![0; friction_coefficients.len()],
                 changes: Vec::new(),
@@ -310,6 +312,7 @@ impl<'a> Assembly<'a> {
                     normal_forces: Vec::new(),
                     stiffnesses: Vec::new(),
                     is_pressed: Vec::new(),
+                    frozen_below: 0.0,
                 }],
                 state_of: vec![0; count],
                 changes: Vec::new(),
@@ -325,6 +328,7 @@ impl<'a> Assembly<'a> {
                 normal_forces: Vec::new(),
                 stiffnesses: Vec::new(),
                 is_pressed: Vec::new(),
+                frozen_below: 0.0,
             }],
             state_of: vec![0; count],
             changes: Vec::new(),
@@ -371,7 +375,8 @@ impl<'a> Assembly<'a> {
                 let range = first..first + surface.points.len();
                 first = range.end;
                 let own = |all: &Vec<Vec<f64>>| -> Vec<Vec<f64>> {
-                    all.iter().map(|all| all[range.clone()].to_vec()).collect()
+                    let own = all.iter().map(|all| all[range.clone()].to_vec());
+                    about(own.collect(), state.frozen_below)
                 };
                 let own = [own(&state.normal_forces), own(&state.stiffnesses)];
                 (range, own)
@@ -389,6 +394,7 @@ impl<'a> Assembly<'a> {
                         is_pressed: &state.is_pressed[range.clone()],
                         normal_forces: forces,
                         stiffnesses,
+                        frozen_below: state.frozen_below,
                     },
                     stiffness: contact.stiffness,
                     has_own_dofs: contact.stiffness.normal_stiffness.is_none(),
@@ -411,7 +417,7 @@ impl<'a> Assembly<'a> {
     }
 }
 
-/// The points of one contact among all, with the powers of their forces and stiffnesses.
+/// The points of one contact among all, with the powers of their forces and stiffnesses about where the state is frozen.
 type Stretch = (std::ops::Range<usize>, [Vec<Vec<f64>>; 2]);
 
 /// Takes the jumps of a tie's nodes for unknowns, and drops them.

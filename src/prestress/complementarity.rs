@@ -90,6 +90,9 @@ pub struct PressedState {
     pub stiffnesses: Vec<Vec<f64>>,
     /// Whether each contact point is pressed; the others are open.
     pub is_pressed: Vec<bool>,
+    /// Friction coefficient below which the tangent keeps the state as it is there: the polynomials of contact that stiffens say
+    /// nothing beyond their range, and the eigenvalue analysis starts without friction. 0 where they hold from there on.
+    pub frozen_below: f64,
 }
 
 impl PressedState {
@@ -298,10 +301,12 @@ fn polynomial_state(
         true => values,
         false => interpolated(&nodes, values, range[1]),
     };
+    let stiffnesses = through(stiffnesses);
     Ok(PressedState {
         displacements: through(displacements),
         normal_forces: through(normal_forces),
-        stiffnesses: through(stiffnesses),
+        frozen_below: if stiffnesses.len() > 1 { range[0] } else { 0.0 },
+        stiffnesses,
         is_pressed,
     })
 }

@@ -202,7 +202,7 @@ impl<'a> CyclicTangent<'a> {
                 terms.collect()
             });
             let coefficients: Vec<Vec<(usize, usize, f64)>> = coefficients.collect();
-            MatrixPolynomial::on_pattern(&pattern, &coefficients)
+            MatrixPolynomial::on_pattern(&pattern, &coefficients).frozen_below(matrix.origin())
         };
         let in_sector: Vec<Option<usize>> = {
             let mut place = vec![None; self.at.len()];

@@ -138,6 +138,7 @@ impl SectorPressing {
             normal_forces: state.normal_forces.into_iter().map(spread).collect(),
             stiffnesses: state.stiffnesses.into_iter().map(spread).collect(),
             is_pressed: self.copy_of.iter().map(|&i| state.is_pressed[i]).collect(),
+            frozen_below: state.frozen_below,
         });
         PressedRange {
             states: states.collect(),

@@ -29,6 +29,8 @@ pub struct SteadySliding {
     pub stiffnesses: Vec<Vec<f64>>,
     /// Whether each contact node is pressed; the others are open.
     pub is_pressed: Vec<bool>,
+    /// As [`PressedState::frozen_below`].
+    pub frozen_below: f64,
     /// Sense of the friction force `s`, +1 or -1.
     pub sliding_direction: f64,
     /// Friction at the sliding speed for each unit of friction coefficient and normal force.
@@ -131,6 +133,7 @@ impl SteadySliding {
             displacements: vec![basis.displacement(&pressed), basis.displacement(&sheared)],
             stiffnesses: Vec::new(),
             is_pressed: vec![true; normal_forces.len()],
+            frozen_below: 0.0,
             normal_forces: vec![normal_forces],
         };
         Ok(Self::of(state, interface, contact))
@@ -142,6 +145,7 @@ impl SteadySliding {
             normal_forces: state.normal_forces,
             stiffnesses: state.stiffnesses,
             is_pressed: state.is_pressed,
+            frozen_below: state.frozen_below,
             sliding_direction: interface.sliding_direction(contact.rotation_speed),
             friction: interface.steady_friction(contact),
             points: interface.points(contact),
@@ -182,6 +186,7 @@ impl SteadySliding {
             ],
             stiffnesses: springs.into_iter().collect(),
             is_pressed: vec![true; normal_forces.len()],
+            frozen_below: 0.0,
             normal_forces: vec![normal_forces],
         };
         Self::of(state, interface, contact)

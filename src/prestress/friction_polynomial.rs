@@ -39,6 +39,20 @@ pub(super) fn interpolated(points: &[f64], mut values: Vec<Vec<f64>>, upper: f64
     powers
 }
 
+/// Coefficients of the powers of `mu - origin` of a polynomial given by powers of `mu` (Taylor's shift by repeated division).
+pub(super) fn about(mut coefficients: Vec<Vec<f64>>, origin: f64) -> Vec<Vec<f64>> {
+    let count = coefficients.len();
+    for first in 0..count {
+        for p in (first..count.saturating_sub(1)).rev() {
+            let (lower, upper) = coefficients.split_at_mut(p + 1);
+            for (value, above) in lower[p].iter_mut().zip(&upper[0]) {
+                *value += origin * above;
+            }
+        }
+    }
+    coefficients
+}
+
 /// `sum_p c_p mu^p`.
 pub(super) fn evaluate(coefficients: &[Vec<f64>], friction_coefficient: f64) -> Vec<f64> {
     let mut powers = coefficients.iter().rev();

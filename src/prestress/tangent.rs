@@ -1,6 +1,7 @@
 //! The matrices of small motions around steady sliding.
 
 use super::elimination::{Elimination, ProjectedPolynomial, RigidFriction};
+use super::friction_polynomial::about;
 use super::tabled::{TabledGain, TabledStiffness};
 use super::{DampingModel, PrestressError, SteadySliding, TangentOptions};
 use crate::contact::{ContactStiffness, Point, PressedPoints, Row, linearized};
@@ -173,7 +174,9 @@ impl SlidingTangent {
             elastic: elastic.clone(),
             geometric: options
                 .geometric_stiffness
-                .then(|| base.displacements.iter().map(stressed).collect()),
+                .then(|| about(base.displacements.clone(), base.frozen_below))
+                .map(|displacements| displacements.iter().map(stressed).collect())
+                .map(|terms| frozen_terms(terms, base.frozen_below)),
             supports: assemble_supports(mesh),
             extra_damping: assemble_extra_damping(mesh, material, options.mass, options.damping),
             structural: assemble_losses(mesh, material),
@@ -181,12 +184,15 @@ impl SlidingTangent {
             rotation: None,
             is_free: false,
         };
+        let [normal_forces, stiffnesses] = [&base.normal_forces, &base.stiffnesses]
+            .map(|powers| about(powers.clone(), base.frozen_below));
         let part = ContactPart {
             points: &base.points,
             state: PressedPoints {
                 is_pressed: &base.is_pressed,
-                normal_forces: &base.normal_forces,
-                stiffnesses: &base.stiffnesses,
+                normal_forces: &normal_forces,
+                stiffnesses: &stiffnesses,
+                frozen_below: base.frozen_below,
             },
             stiffness: options.contact,
             has_own_dofs: true,
@@ -285,8 +291,11 @@ impl SlidingTangent {
         // One pattern for all; C = alpha_R M + beta_R K (2) and the rest.
         let dashpots = projected(&dashpots);
         let pattern = shared_pattern(unknowns.len(), [&mass, &stiffness, &dashpots]);
-        let on_pattern =
-            |terms: &ProjectedPolynomial| MatrixPolynomial::on_pattern(&pattern, terms);
+        let frozen = contacts.iter().map(|part| part.state.frozen_below);
+        let frozen = frozen.fold(0.0, f64::max);
+        let on_pattern = |terms: &ProjectedPolynomial| {
+            MatrixPolynomial::on_pattern(&pattern, terms).frozen_below(frozen)
+        };
         let (mass, stiffness) = (on_pattern(&mass), on_pattern(&stiffness));
         let rayleigh = options.damping;
         let damped = damped.map(|own| on_pattern(&own));
@@ -351,6 +360,14 @@ fn add_powers(sum: &mut Vec<Triplets>, terms: &[Triplets]) {
     for (sum, terms) in sum.iter_mut().zip(terms) {
         sum.entries.extend_from_slice(&terms.entries);
     }
+}
+
+/// What a state adds by power of `mu - a`, in the terms of one that is frozen below `a`.
+fn frozen_terms(mut powers: Vec<Triplets>, frozen_below: f64) -> Vec<Triplets> {
+    if frozen_below > 0.0 && powers.len() > 1 {
+        powers.insert(1, Triplets::default());
+    }
+    powers
 }
 
 /// One pattern that holds all of the given matrices.

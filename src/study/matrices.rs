@@ -166,14 +166,14 @@ fn powers<'a>(
     polynomial: &'a MatrixPolynomial,
     role: fn(usize) -> MatrixRole,
 ) -> impl Iterator<Item = ExportedMatrix> + 'a {
-    let size = polynomial.dimension();
-    let coefficients = polynomial.coefficients().iter().enumerate();
+    let (size, pattern) = (polynomial.dimension(), polynomial.pattern());
+    let coefficients = polynomial.by_powers().into_iter().enumerate();
     coefficients.filter_map(move |(power, values)| {
-        let pattern = polynomial.pattern();
-        let entries = (0..size).flat_map(|column| {
+        let columns = (0..size).flat_map(|column| {
             let nonzeros = pattern.column(column);
-            nonzeros.map(move |(position, row)| (row, column, values[position]))
+            nonzeros.map(move |(position, row)| (row, column, position))
         });
+        let entries = columns.map(|(row, column, position)| (row, column, values[position]));
         let matrix = MarketMatrix {
             rows: size,
             columns: size,

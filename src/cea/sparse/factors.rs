@@ -256,9 +256,13 @@ impl UpdatedFactors {
             .map(|(a, b)| a - b)
             .collect();
         let mut small = Mat::identity(base.rows.len(), base.rows.len());
-        let mut power = mu;
-        for coupling in &base.couplings {
-            small += Scale(power) * coupling;
+        let (mut power, weights) = (mu, stiffness.weights());
+        for (coupling, place) in base.couplings.iter().zip(1..) {
+            let weight = match weights.are_powers() {
+                true => power,
+                false => weights.at(place, mu),
+            };
+            small += Scale(weight) * coupling;
             power *= mu;
         }
         let factors = Self {

@@ -12,7 +12,7 @@ use crate::linalg::dense::{
     GrowingColumns, column, join_columns, orthonormal_complement, product, transpose_product,
 };
 use crate::linalg::gram::complement;
-use crate::linalg::{ComplexDenseLu, LinalgError, MatrixPolynomial};
+use crate::linalg::{ComplexDenseLu, FrictionWeights, LinalgError, MatrixPolynomial};
 use crate::linalg::{Mat, MatRef, Scale, c64};
 use crate::prestress::{SlidingTangent, TabledGain};
 use rayon::prelude::*;
@@ -59,6 +59,8 @@ pub struct ReducedModel {
     linearization: Linearization,
     /// Coefficients of `P = K, C, M, H` by power of `mu`.
     terms: [Vec<Term>; 4],
+    /// What they weigh.
+    weights: FrictionWeights,
     /// `V`, `unknowns x m`.
     basis: GrowingColumns,
     /// `V^T P_p V` of `P = K, C, M, H` for each power of `mu`; `C` only where it is not proportional, `H` where there is
@@ -112,6 +114,7 @@ impl ReducedModel {
             basis: GrowingColumns::new(tangent.stiffness.dimension()),
             projected: terms.each_ref().map(|t| vec![Mat::zeros(0, 0); t.len()]),
             terms,
+            weights: tangent.stiffness.weights(),
             tabled,
             samples: Vec::new(),
         }
@@ -162,12 +165,20 @@ impl ReducedModel {
 
     /// The projected matrices at `mu`.
     pub fn at(&self, mu: f64) -> ProjectedMatrices {
-        self.combine(|coefficients| horner(coefficients, mu, |_| 1.0, 0))
+        let weights = self.weights;
+        self.combine(|coefficients| match weights.are_powers() {
+            true => horner(coefficients, mu, |_| 1.0, 0),
+            false => weighted(coefficients, |place| weights.at(place, mu)),
+        })
     }
 
     /// Their derivatives by `mu`.
     pub fn derivative_at(&self, mu: f64) -> ProjectedMatrices {
-        self.combine(|coefficients| horner(coefficients, mu, |power| power as f64, 1))
+        let weights = self.weights;
+        self.combine(|coefficients| match weights.are_powers() {
+            true => horner(coefficients, mu, |power| power as f64, 1),
+            false => weighted(coefficients, |place| weights.slope(place, mu)),
+        })
     }
 
     fn combine(&self, evaluate: impl Fn(&[Mat<f64>]) -> Mat<f64>) -> ProjectedMatrices {
@@ -389,6 +400,16 @@ impl ReducedModel {
         let known = self.basis.columns().get(.., ..coordinates.nrows());
         product(known, coordinates)
     }
+}
+
+/// `sum_p weight(p) P_p`.
+fn weighted(coefficients: &[Mat<f64>], weight: impl Fn(usize) -> f64) -> Mat<f64> {
+    let size = coefficients[0].nrows();
+    let mut sum = Mat::zeros(size, size);
+    for (place, c) in coefficients.iter().enumerate() {
+        sum += Scale(weight(place)) * c;
+    }
+    sum
 }
 
 /// `sum_{p >= first} weight(p) P_p mu^(p - first)`.

@@ -45,6 +45,7 @@ fn rigid_rotation_leaves_the_prestressed_edge_in_balance() {
             is_pressed: &base.is_pressed,
             normal_forces: &base.normal_forces,
             stiffnesses: &[],
+            frozen_below: 0.0,
         };
         let options = ContactStiffness::default();
         let mut prestress = linearized(&base.points, &state, &options).turning;

@@ -18,7 +18,7 @@
 use super::base::{Base, PairedMode};
 use crate::linalg::dense::{dot, transpose_product};
 use crate::linalg::dense_eigen::real_eigenvalues;
-use crate::linalg::{ComplexSparseLu, LinalgError, Mat, c64};
+use crate::linalg::{ComplexSparseLu, FrictionWeights, LinalgError, Mat, c64};
 use nalgebra::DMatrix;
 
 /// Modes taken into the space, the nearest to the targets.
@@ -33,6 +33,8 @@ const REACH: f64 = 1.02;
 /// The projected problem with what is attached, `[M, C, K]` by power of friction.
 pub(super) struct Attached {
     matrices: [Vec<DMatrix<f64>>; 3],
+    /// What each power weighs.
+    weights: FrictionWeights,
     /// What is attached, projected.
     added: [DMatrix<f64>; 3],
     /// Frequencies within which it is to be believed, rad/s.
@@ -113,6 +115,7 @@ impl<'a> NearModes<'a> {
         });
         Attached {
             matrices,
+            weights: tangent.stiffness.weights(),
             added,
             range: self.range,
         }
@@ -183,7 +186,7 @@ impl Attached {
     pub fn spectrum(&self, mu: f64, is_bare: bool) -> Result<Vec<c64>, LinalgError> {
         let at = |kind: usize| {
             let powers = self.matrices[kind].iter().enumerate();
-            let sum = powers.map(|(power, own)| own * mu.powi(power as i32));
+            let sum = powers.map(|(power, own)| own * self.weights.at(power, mu));
             let sum = sum.reduce(|a, b| a + b);
             let sum = sum.unwrap_or_else(|| &self.added[kind] * 0.0);
             if is_bare {

@@ -259,6 +259,7 @@ impl<'a> ModalModel<'a> {
         let own = &self.base.tangent;
         let patterns = [own, other].map(|tangent| tangent.stiffness.pattern());
         let is_like = own.unknowns.dofs == other.unknowns.dofs
+            && own.stiffness.weights() == other.stiffness.weights()
             && patterns[0].column_pointers() == patterns[1].column_pointers()
             && patterns[0].row_indices() == patterns[1].row_indices();
         if !is_like {
@@ -321,15 +322,16 @@ impl<'a> ModalModel<'a> {
                 }
             }
         };
+        let weights = self.base.tangent.stiffness.weights();
         for (place, matrices) in self.friction.iter().enumerate() {
-            let power = place as i32 + 1;
-            add(mu.powi(power) - self.base.friction.powi(power), matrices);
+            let [own, base] = [mu, self.base.friction].map(|mu| weights.at(place + 1, mu));
+            add(own - base, matrices);
         }
         for (power, matrices) in change
             .iter()
             .flat_map(|change| change.projected.iter().enumerate())
         {
-            add(mu.powi(power as i32), matrices);
+            add(weights.at(power, mu), matrices);
         }
         let [m, c, k] = &sums;
         let lambda = &self.values;

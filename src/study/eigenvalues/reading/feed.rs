@@ -140,6 +140,7 @@ fn terms(own: &Pressed, friction: f64, has_turning: bool) -> PointTerms {
         is_pressed: &[own.is_pressed],
         normal_forces: &own.forces,
         stiffnesses: &own.springs,
+        frozen_below: 0.0,
     };
     let found = linearized(std::slice::from_ref(&own.point), &state, &own.stiffness);
     let at = |powers: &[Triplets]| -> Vec<(usize, usize, f64)> {
