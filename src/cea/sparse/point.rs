@@ -17,6 +17,8 @@ use std::f64::consts::TAU;
 
 /// Residual relative to the matrices below which there is only round-off.
 const ROUND_OFF: f64 = 1e-15;
+/// Damping factor from which on a motion may as well be one of those that do not oscillate.
+const HARDLY_OSCILLATING: f64 = 0.95;
 /// Relative error of an eigenvalue that such a residual may mean.
 const EIGENVALUE_GOAL: f64 = 1e-9;
 /// What the full matrices say about one mode.
@@ -181,8 +183,8 @@ impl PointSolver<'_> {
         })
     }
 
-    /// Leaves out motions near critical damping beyond the `count` lowest natural frequencies `|lambda|` whose frequency lies among
-    /// theirs, unless they are modes: the basis holds those lowest ones, and of what lies beyond mostly mere combinations.
+    /// Leaves out motions near critical damping that are no modes: the basis holds the `count` lowest natural frequencies `|lambda|` of
+    /// those that oscillate, and of motions beyond, or that do not oscillate, only combinations, whose frequency may lie among theirs.
     fn drop_unsearched(&self, modes: &mut Vec<ReducedMode>, model: &ReducedModel, mu: f64) {
         let mut natural: Vec<f64> = modes.iter().map(|m| m.eigenvalue.norm()).collect();
         natural.sort_by(f64::total_cmp);
@@ -194,8 +196,10 @@ impl PointSolver<'_> {
         let highest = searched.map(|own| own.im).fold(0.0, f64::max);
         modes.retain(|mode| {
             let own = mode.eigenvalue;
+            let damping = -own.re / own.norm();
+            let is_beyond = own.norm() > reach && own.im < highest;
             let is_doubtful =
-                own.norm() > reach && own.im < highest && -own.re > NEARLY_CRITICAL * own.norm();
+                damping > HARDLY_OSCILLATING || is_beyond && damping > NEARLY_CRITICAL;
             let residual = || self.check(model, mu, std::slice::from_ref(mode))[0].residual;
             !is_doubtful || residual() <= RESIDUAL_BOUND
         });
