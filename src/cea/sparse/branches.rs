@@ -1,5 +1,6 @@
 //! Continuation of mode branches over the friction coefficient.
 
+use super::NEARLY_CRITICAL;
 use super::edge::ContactEdge;
 use super::mode::ReducedMode;
 use super::packed::ComplexColumns;
@@ -12,8 +13,6 @@ use crate::linalg::{Mat, c64};
 const SAME: f64 = 0.5;
 /// Relative distance of eigenvalues below which modes without friction are degenerate.
 const DEGENERATE: f64 = 1e-7;
-/// Damping factor predicted at the next friction coefficient from which on a mode may cease to oscillate there.
-pub(super) const NEARLY_CRITICAL: f64 = 0.5;
 /// Bisections of an interval before modes are matched by their extrapolated eigenvalue.
 const MAX_BISECTIONS: usize = 10;
 

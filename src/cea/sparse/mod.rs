@@ -63,6 +63,8 @@ pub use sweep::{SparseSweep, sweep};
 const GUARD_MODES: usize = 5;
 /// Modes beyond those to which a branch may be matched.
 const TRACKING_MARGIN: usize = 6;
+/// Damping factor from which on a mode is near critical damping: it may cease to oscillate at the next friction coefficient.
+const NEARLY_CRITICAL: f64 = 0.5;
 /// Vectors over the unknowns that are expanded, multiplied and solved for together.
 const GROUP_WIDTH: usize = 24;
 /// Relative residual of the quadratic problem above which no pair is reported as converged.

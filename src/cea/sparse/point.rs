@@ -1,7 +1,6 @@
 //! All modes at one friction coefficient, each held to its residual in the full matrices.
 
 use super::StiffnessFactors;
-use super::branches::NEARLY_CRITICAL;
 use super::edge::ContactEdge;
 use super::left::{OpenPair, correct_lefts};
 use super::linearization::Linearization;
@@ -9,7 +8,7 @@ use super::mode::ReducedMode;
 use super::packed::{PackedModes, PackedVector};
 use super::reduced::ReducedModel;
 use super::structure::StructureMatrices;
-use super::{GROUP_WIDTH, RESIDUAL_BOUND, TRACKING_MARGIN};
+use super::{GROUP_WIDTH, NEARLY_CRITICAL, RESIDUAL_BOUND, TRACKING_MARGIN};
 use crate::cea::{ModeLimit, ModeVectors, keeping_ties};
 use crate::linalg::{LinalgError, Mat, c64};
 use crate::prestress::SlidingTangent;
