@@ -445,6 +445,30 @@ impl MatrixPolynomial {
 mod tests {
     use super::*;
 
+    /// Closed form: linear below the origin, a polynomial above, which the powers of `mu` say too, and no jump between.
+    #[test]
+    fn a_frozen_polynomial_is_linear_below_its_origin_and_given_by_powers_above() {
+        let pattern = Arc::new(SparsityPattern::from_positions(1, [(0, 0)].into_iter()));
+        let coefficients = vec![vec![2.0], vec![3.0], vec![-4.0], vec![5.0]];
+        let frozen = MatrixPolynomial::from_coefficients(&pattern, coefficients).frozen_below(0.4);
+        let exact = |mu: f64| match mu < 0.4 {
+            true => 2.0 + 3.0 * mu,
+            false => 2.0 + 3.0 * 0.4 - 4.0 * (mu - 0.4) + 5.0 * (mu - 0.4).powi(2),
+        };
+        let powers = frozen.by_powers();
+        for mu in [0.0, 0.1, 0.4, 0.7] {
+            assert!((frozen.evaluate(mu)[0] - exact(mu)).abs() < 1e-15);
+            let step = 1e-6;
+            let slope = (exact(mu + step) - exact(mu)) / step;
+            assert!((frozen.derivative(mu)[0] - slope).abs() < 1e-5);
+        }
+        for mu in [0.4_f64, 0.7, 1.1] {
+            let terms = powers.iter().enumerate();
+            let sum: f64 = terms.map(|(p, values)| values[0] * mu.powi(p as i32)).sum();
+            assert!((sum - exact(mu)).abs() < 1e-14);
+        }
+    }
+
     fn quadratic() -> MatrixPolynomial {
         MatrixPolynomial::from_triplets(
             2,

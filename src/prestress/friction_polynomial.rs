@@ -64,3 +64,18 @@ pub(super) fn evaluate(coefficients: &[Vec<f64>], friction_coefficient: f64) -> 
     }
     values
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_polynomial_about_another_point_has_the_same_values() {
+        let coefficients = vec![vec![1.0], vec![-2.0], vec![0.5], vec![3.0]];
+        let shifted = about(coefficients.clone(), 0.7);
+        for mu in [0.0, 0.7, 1.3] {
+            let (own, other) = (evaluate(&coefficients, mu), evaluate(&shifted, mu - 0.7));
+            assert!((own[0] - other[0]).abs() < 1e-14);
+        }
+    }
+}

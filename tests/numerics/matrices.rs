@@ -153,7 +153,7 @@ fn exported_matrices_solved_densely_have_the_eigenvalues_of_the_analysis() {
     }
 }
 
-/// How many modes `cea` lists, all of them among the dense ones of the exported matrices.
+/// How many modes `cea` lists at a friction coefficient, all of them among the dense ones of the exported matrices.
 fn listed_modes_found(folder: &TempDir, friction: f64) -> usize {
     let [mass, damping, stiffness] = assembled(&folder.path().join("matrices"), friction);
     let found = quadratic_modes(mass.as_ref(), damping.as_ref(), stiffness.as_ref()).unwrap();
@@ -164,7 +164,9 @@ fn listed_modes_found(folder: &TempDir, friction: f64) -> usize {
     let header = rows.next().unwrap();
     let column = |name: &str| header.iter().position(|own| *own == name).unwrap();
     let mut count = 0;
-    for row in rows {
+    let at_friction =
+        |row: &Vec<&str>| row[column("friction_coefficient")].parse::<f64>().unwrap() == friction;
+    for row in rows.filter(at_friction) {
         let part = |name: &str| TAU * row[column(name)].parse::<f64>().unwrap();
         let listed = c64::new(part("real_hz"), part("frequency_hz"));
         let distances = found.iter().map(|mode| (mode.eigenvalue - listed).norm());
@@ -241,6 +243,83 @@ fn exported_matrices_of_solid_bodies_have_the_eigenvalues_of_the_analysis() {
         // 1 MPa on 400 mm2, but for what the springs of the side bear.
         assert!((sum / 400.0 - 1.0).abs() < 0.02, "{sum}");
     }
+}
+
+/// Two blocks of which the upper one, taller than wide, is held loosely at its side, and slides on the lower.
+fn tall_block(folder: &TempDir, contact: &str, frictions: &str) {
+    let block = |name, z: f64, height, counts| Block {
+        name,
+        origin: [0.0, 0.0, z],
+        size: [0.02, 0.02, height],
+        counts,
+    };
+    let blocks = [
+        block("low", 0.0, 0.01, [2, 2, 1]),
+        block("high", 0.01, 0.03, [3, 2, 2]),
+    ];
+    let text = format!(
+        "[mesh]\nfile = \"block.msh\"\n[material]\nyoung_modulus = 2e10\npoisson_ratio = 0.3\ndensity = 2500.0\n\
+        [damping]\nmass_coefficient = 10.0\nstiffness_coefficient = 1e-7\n\
+        [boundaries.low_z0]\ncondition = \"clamped\"\n[boundaries.high_z1]\ncondition = \"pressure\"\npressure = 1e6\n\
+        [boundaries.high_x1]\ncondition = \"support\"\nnormal_stiffness = 2e9\ntangential_stiffness = 1e10\n\
+        [motion.low]\naxis = [0.0, 0.0, 1.0]\ncenter = [0.0, -0.2, 0.0]\nrotation_speed_rpm = 100.0\n\
+        [contacts.face]\nsurface = \"high_z0\"\ncounter = \"low_z1\"\nfriction_coefficient = 0.8\n{contact}\n\
+        [cea]\nfriction_coefficients = {frictions}\nmodes = 6\n"
+    );
+    fs::write(folder.path().join("block.msh"), file_of(&blocks, |p| p)).unwrap();
+    fs::write(folder.path().join("block.toml"), text).unwrap();
+}
+
+/// Independent: contact that stiffens, whose points open within the sweep. The polynomials of each state hold in its own range only: the
+/// analysis starts without friction from another one, and reports and exported matrices are those of the case's own friction.
+#[test]
+fn exported_matrices_hold_where_contact_that_stiffens_has_opened() {
+    let folder = tempfile::tempdir().unwrap();
+    let law = "normal_law = \"exponential\"\nreference_pressure = 1e5\nheight = 1e-6";
+    tall_block(&folder, law, "[0.1, 0.8]");
+    for turning in ["100.0", "-100.0"] {
+        let turning = format!("motion.low.rotation_speed_rpm={turning}");
+        for command in ["cea", "matrices"] {
+            let output = run(&folder, command, &[&turning]);
+            let said = String::from_utf8_lossy(&output.stderr);
+            assert!(output.status.success(), "{said}");
+        }
+        assert_eq!(listed_modes_found(&folder, 0.8), 6);
+        let out = folder.path();
+        let read = |file: &str| -> Value {
+            serde_json::from_slice(&fs::read(out.join(file)).unwrap()).unwrap()
+        };
+        let range = &read("matrices/matrices.json")["friction_range"];
+        assert!(range[0].as_f64().unwrap() > 0.2, "nothing opens: {range}");
+        let base = &read("cea/summary.json")["base_state"];
+        assert!(base["open"].as_u64().unwrap() > 100, "{base}");
+        assert!(base["pressure_pa"][0].as_f64().unwrap() >= 0.0, "{base}");
+    }
+}
+
+/// Independent: sliding so slow that friction across it, a dashpot of `mu p / V`, damps motions beyond the critical within a small part of
+/// a step of friction. Branches end, which a note says, and the modes listed are those of the exported matrices.
+#[test]
+fn modes_of_slow_sliding_are_those_of_the_exported_matrices() {
+    let slow = [
+        "motion.low.rotation_speed_rpm=1.0",
+        "boundaries.high_x1.normal_stiffness=1e11",
+        "boundaries.high_x1.tangential_stiffness=1e11",
+        "contacts.face.friction_coefficient=0.3",
+    ];
+    let folder = tempfile::tempdir().unwrap();
+    let springs = "normal_stiffness = 4e12";
+    tall_block(&folder, springs, "[0.05, 0.15, 0.3, 0.5]");
+    for command in ["cea", "matrices"] {
+        let output = run(&folder, command, &slow);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{said}");
+    }
+    assert_eq!(listed_modes_found(&folder, 0.3), 6);
+    let summary = fs::read(folder.path().join("cea/summary.json")).unwrap();
+    let summary: Value = serde_json::from_slice(&summary).unwrap();
+    let notes = summary["notes"].to_string();
+    assert!(notes.contains("too fast to be followed"), "{notes}");
 }
 
 /// The keys and types that `scipy.sparse.load_npz` asks for.

@@ -8,7 +8,7 @@ use frictionsim::contact::{ContactStiffness, NormalLaw, SlidingContact};
 use frictionsim::fem::{MassKind, RayleighDamping, assemble_stiffness, sector};
 use frictionsim::mesh::{AnnulusMesh, ElementKind, SectorMesh};
 use frictionsim::prestress::{
-    DampingModel, SectorSliding, SlidingTangent, SteadySliding, TangentOptions,
+    DampingModel, SectorSliding, SlidingRange, SlidingTangent, SteadySliding, TangentOptions,
 };
 use std::f64::consts::TAU;
 
@@ -76,8 +76,9 @@ fn harmonics_and_whole_mesh_have_the_same_spectrum() {
         let own = own.unwrap().sweep;
         let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
         let elastic = assemble_stiffness(&mesh, &POLYCARBONATE);
-        let base = SteadySliding::solve_with(&mesh, &elastic, &sliding, Some(law)).unwrap();
-        let tangent = SlidingTangent::linearize(&mesh, &POLYCARBONATE, &elastic, &base, &options);
+        let range = SlidingRange::solve_with(&mesh, &elastic, &sliding, Some(law), &frictions);
+        let base = &range.unwrap().states[0];
+        let tangent = SlidingTangent::linearize(&mesh, &POLYCARBONATE, &elastic, base, &options);
         let whole = sparse::sweep(&tangent, &request, &|_| {}).unwrap();
         for (own, whole) in own.points.iter().zip(&whole.points) {
             for mode in &own.modes {

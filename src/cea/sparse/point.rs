@@ -155,6 +155,8 @@ pub struct PointSolver<'a> {
     pub limit: ModeLimit,
     /// Modes tracked.
     pub count: usize,
+    /// Whether motions near critical damping that are no modes are left out: where nothing makes them converge.
+    pub leaves_out_combinations: bool,
 }
 
 impl PointSolver<'_> {
@@ -164,7 +166,9 @@ impl PointSolver<'_> {
     /// If a dense decomposition fails.
     pub fn solve(&self, model: &ReducedModel, mu: f64) -> Result<SolvedPoint, LinalgError> {
         let mut modes = model.solve(mu, self.count + TRACKING_MARGIN)?;
-        self.drop_unsearched(&mut modes, model, mu);
+        if self.leaves_out_combinations {
+            self.leave_out_combinations(&mut modes, model, mu);
+        }
         let wanted = match self.limit {
             ModeLimit::Lowest(count) => keeping_ties(modes.iter().map(|m| m.eigenvalue.im), count),
             ModeLimit::MaxFrequency(hz) => modes
@@ -184,7 +188,7 @@ impl PointSolver<'_> {
 
     /// Leaves out motions near critical damping that are no modes: the basis holds the `count` lowest natural frequencies `|lambda|` of
     /// those that oscillate, and of motions beyond, or that do not oscillate, only combinations, whose frequency may lie among theirs.
-    fn drop_unsearched(&self, modes: &mut Vec<ReducedMode>, model: &ReducedModel, mu: f64) {
+    fn leave_out_combinations(&self, modes: &mut Vec<ReducedMode>, model: &ReducedModel, mu: f64) {
         let mut natural: Vec<f64> = modes.iter().map(|m| m.eigenvalue.norm()).collect();
         natural.sort_by(f64::total_cmp);
         let Some(&reach) = natural.get(self.count.saturating_sub(1)) else {

@@ -111,6 +111,8 @@ pub struct SparseSweep<'a> {
     /// Smallest friction coefficient asked for.
     lowest: f64,
     points: Vec<SolvedPoint>,
+    /// Friction coefficients where motions near critical damping that no repair makes modes are left out.
+    left_out_at: Vec<f64>,
     labels: Vec<BranchLabel>,
     watch: &'a dyn SweepWatch,
 }
@@ -150,6 +152,7 @@ impl<'a> SparseSweep<'a> {
             grid,
             lowest,
             points: Vec::new(),
+            left_out_at: Vec::new(),
             labels: Vec::new(),
             watch,
         })
@@ -224,14 +227,17 @@ impl<'a> SparseSweep<'a> {
             let (residual, error) = self.points[worst].worst();
             let is_stuck = before.0 == worst && error > SLOWEST * before.1;
             before = (worst, error);
+            let mu = self.grid[worst];
             if is_stuck && residual > RESIDUAL_BOUND && !searched.contains(&worst) {
                 searched.push(worst);
-                self.builder.search(self.grid[worst], TRACKING_MARGIN)?;
+                self.builder.search(mu, TRACKING_MARGIN)?;
+            } else if is_stuck && residual > RESIDUAL_BOUND && !self.left_out_at.contains(&mu) {
+                self.left_out_at.push(mu);
             } else if !self.repair(&missing)? {
                 if residual <= RESIDUAL_BOUND {
                     break;
                 }
-                self.builder.search(self.grid[worst], TRACKING_MARGIN)?;
+                self.builder.search(mu, TRACKING_MARGIN)?;
             }
             for (k, point) in missing.iter().zip(self.solve_points(&missing)?) {
                 self.builder.hold_solved(self.grid[*k], &point.modes);
@@ -305,7 +311,11 @@ impl<'a> SparseSweep<'a> {
         if let Some(point) = kept.and_then(|kept| SolvedPoint::from_columns(mu, &kept)) {
             return Ok(point);
         }
-        let point = self.point_solver().solve(&self.builder.model, mu)?;
+        let solver = PointSolver {
+            leaves_out_combinations: self.left_out_at.contains(&mu),
+            ..self.point_solver()
+        };
+        let point = solver.solve(&self.builder.model, mu)?;
         self.watch.keep(&name, &point.to_columns());
         Ok(point)
     }
@@ -317,6 +327,7 @@ impl<'a> SparseSweep<'a> {
             edge: &self.edge,
             limit: self.limit,
             count: self.builder.count,
+            leaves_out_combinations: false,
         }
     }
 

@@ -170,19 +170,28 @@ pub(super) fn ended_notes(sweep: &FrictionSweep) -> Vec<String> {
             )),
         }
     }
-    let (damped_count, lost_count) = (damped.len(), lost.len());
-    let damped = (damped_count > 0).then(|| {
+    let number = |count: usize, one: &str, many: &str| match count {
+        1 => format!("1 {one}"),
+        count => format!("{count} {many}"),
+    };
+    let damped = (!damped.is_empty()).then(|| {
+        let which = number(
+            damped.len(),
+            "mode near critical damping is",
+            "modes near critical damping are",
+        );
         format!(
-            "{damped_count} modes near critical damping are not followed beyond it ({}): friction across the sliding is a dashpot of \
-             mu p / V, which grows as the sliding slows down, and holds that motion in the limit",
+            "{which} not followed beyond it ({}): friction across the sliding is a dashpot of mu p / V, which grows as the sliding \
+             slows down, and holds that motion in the limit",
             listed(damped),
         )
     });
-    let lost = (lost_count > 0).then(|| {
+    let lost = (!lost.is_empty()).then(|| {
         format!(
-            "{lost_count} branches change too fast to be followed ({}): no mode is missing, as a count says, but branches beyond have \
-             new numbers, and of those that are unstable there the critical friction lies in between; ask for friction coefficients \
-             closer together there, or for a faster sliding",
+            "{} too fast to be followed ({}): no mode is missing, as a count says, but branches beyond have new numbers, and of \
+             those that are unstable there the critical friction lies in between; ask for friction coefficients closer together \
+             there, or for a faster sliding",
+            number(lost.len(), "branch changes", "branches change"),
             listed(lost),
         )
     });
