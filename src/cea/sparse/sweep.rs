@@ -111,8 +111,8 @@ pub struct SparseSweep<'a> {
     /// Smallest friction coefficient asked for.
     lowest: f64,
     points: Vec<SolvedPoint>,
-    /// Friction coefficients where motions near critical damping that no repair makes modes are left out.
-    left_out_at: Vec<f64>,
+    /// Whether motions near critical damping that are no modes are left out, as some of them did not converge.
+    leaves_out_combinations: bool,
     labels: Vec<BranchLabel>,
     watch: &'a dyn SweepWatch,
 }
@@ -152,7 +152,7 @@ impl<'a> SparseSweep<'a> {
             grid,
             lowest,
             points: Vec::new(),
-            left_out_at: Vec::new(),
+            leaves_out_combinations: false,
             labels: Vec::new(),
             watch,
         })
@@ -231,8 +231,8 @@ impl<'a> SparseSweep<'a> {
             if is_stuck && residual > RESIDUAL_BOUND && !searched.contains(&worst) {
                 searched.push(worst);
                 self.builder.search(mu, TRACKING_MARGIN)?;
-            } else if is_stuck && residual > RESIDUAL_BOUND && !self.left_out_at.contains(&mu) {
-                self.left_out_at.push(mu);
+            } else if is_stuck && residual > RESIDUAL_BOUND && !self.leaves_out_combinations {
+                self.leaves_out_combinations = true;
             } else if !self.repair(&missing)? {
                 if residual <= RESIDUAL_BOUND {
                     break;
@@ -311,11 +311,7 @@ impl<'a> SparseSweep<'a> {
         if let Some(point) = kept.and_then(|kept| SolvedPoint::from_columns(mu, &kept)) {
             return Ok(point);
         }
-        let solver = PointSolver {
-            leaves_out_combinations: self.left_out_at.contains(&mu),
-            ..self.point_solver()
-        };
-        let point = solver.solve(&self.builder.model, mu)?;
+        let point = self.point_solver().solve(&self.builder.model, mu)?;
         self.watch.keep(&name, &point.to_columns());
         Ok(point)
     }
@@ -327,7 +323,7 @@ impl<'a> SparseSweep<'a> {
             edge: &self.edge,
             limit: self.limit,
             count: self.builder.count,
-            leaves_out_combinations: false,
+            leaves_out_combinations: self.leaves_out_combinations,
         }
     }
 
