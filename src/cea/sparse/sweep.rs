@@ -233,6 +233,7 @@ impl<'a> SparseSweep<'a> {
                 self.builder.search(mu, TRACKING_MARGIN)?;
             } else if is_stuck && residual > RESIDUAL_BOUND && !self.leaves_out_combinations {
                 self.leaves_out_combinations = true;
+                searched.clear();
             } else if !self.repair(&missing)? {
                 if residual <= RESIDUAL_BOUND {
                     break;
