@@ -448,7 +448,7 @@ mod tests {
     /// Closed form: linear below the origin, a polynomial above, which the powers of `mu` say too, and no jump between.
     #[test]
     fn a_frozen_polynomial_is_linear_below_its_origin_and_given_by_powers_above() {
-        let pattern = Arc::new(SparsityPattern::from_positions(1, [(0, 0)].into_iter()));
+        let pattern = Arc::new(SparsityPattern::from_positions(1, [(0, 0)]));
         let coefficients = vec![vec![2.0], vec![3.0], vec![-4.0], vec![5.0]];
         let frozen = MatrixPolynomial::from_coefficients(&pattern, coefficients).frozen_below(0.4);
         let exact = |mu: f64| match mu < 0.4 {
