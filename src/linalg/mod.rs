@@ -13,6 +13,7 @@ pub mod gram;
 pub mod interruption;
 mod krylov_schur;
 mod matrix_market;
+mod pattern;
 mod polynomial;
 mod quadratic_krylov;
 mod sparse_cholesky;
@@ -30,7 +31,8 @@ pub use gaussian_noise::GaussianNoise;
 pub use gmres::gmres;
 pub use krylov_schur::{BlockOperator, KrylovSchurSettings, RealPairs, Wanted, krylov_schur};
 pub use matrix_market::{MarketMatrix, MatrixMarketError};
-pub use polynomial::{FrictionWeights, MatrixPolynomial, SparsityPattern};
+pub use pattern::SparsityPattern;
+pub use polynomial::{FrictionWeights, MatrixPolynomial};
 pub use quadratic_krylov::{
     QuadraticKrylovSettings, QuadraticOperator, QuadraticPairs, quadratic_krylov,
 };

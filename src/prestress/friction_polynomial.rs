@@ -41,6 +41,9 @@ pub(super) fn interpolated(points: &[f64], mut values: Vec<Vec<f64>>, upper: f64
 
 /// Coefficients of the powers of `mu - origin` of a polynomial given by powers of `mu` (Taylor's shift by repeated division).
 pub(super) fn about(mut coefficients: Vec<Vec<f64>>, origin: f64) -> Vec<Vec<f64>> {
+    if origin == 0.0 {
+        return coefficients;
+    }
     let count = coefficients.len();
     for first in 0..count {
         for p in (first..count.saturating_sub(1)).rev() {

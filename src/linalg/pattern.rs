@@ -1,0 +1,177 @@
+//! Positions of the nonzeros of sparse matrices.
+
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef};
+
+/// Structural positions of the nonzeros of a square sparse matrix, column by column.
+///
+/// Rows are strictly increasing within each column. Several matrices share one pattern through
+/// [`std::sync::Arc`], so that one symbolic factorization serves all of them and all their combinations.
+#[derive(Clone, Debug)]
+pub struct SparsityPattern {
+    symbolic: SymbolicSparseColMat<usize>,
+    /// The same nonzeros row by row, columns ascending within a row: start of each row in the two below.
+    row_pointers: Vec<usize>,
+    /// Index among the nonzeros.
+    row_positions: Vec<u32>,
+    row_columns: Vec<u32>,
+}
+
+impl SparsityPattern {
+    /// Pattern of a `dimension x dimension` matrix from `(row, column)` positions in any order,
+    /// repeated or not.
+    ///
+    /// # Panics
+    /// If a position lies outside the matrix, or there are more than `u32::MAX` nonzeros.
+    pub fn from_positions(
+        dimension: usize,
+        positions: impl IntoIterator<Item = (usize, usize)>,
+    ) -> Self {
+        let mut columns: Vec<Vec<usize>> = vec![Vec::new(); dimension];
+        for (row, column) in positions {
+            assert!(row < dimension, "row {row} outside a matrix of {dimension}");
+            columns[column].push(row);
+        }
+        let mut column_pointers = Vec::with_capacity(dimension + 1);
+        column_pointers.push(0);
+        let mut row_indices = Vec::new();
+        for rows in &mut columns {
+            rows.sort_unstable();
+            rows.dedup();
+            row_indices.extend_from_slice(rows);
+            column_pointers.push(row_indices.len());
+        }
+        Self::from_columns(dimension, column_pointers, row_indices)
+    }
+
+    /// Pattern of columns that start at `column_pointers` among `row_indices`, rows rising within each.
+    pub(super) fn from_columns(
+        dimension: usize,
+        column_pointers: Vec<usize>,
+        row_indices: Vec<usize>,
+    ) -> Self {
+        let symbolic = SymbolicSparseColMat::new_checked(
+            dimension,
+            dimension,
+            column_pointers,
+            None,
+            row_indices,
+        );
+        let (row_pointers, row_positions, row_columns) = by_rows(&symbolic);
+        Self {
+            symbolic,
+            row_pointers,
+            row_positions,
+            row_columns,
+        }
+    }
+
+    /// Number of rows and of columns.
+    pub fn dimension(&self) -> usize {
+        self.symbolic.ncols()
+    }
+
+    /// Number of structural nonzeros.
+    pub fn nonzero_count(&self) -> usize {
+        self.symbolic.row_idx().len()
+    }
+
+    /// Start of each column in [`Self::row_indices`], `dimension + 1` values.
+    pub fn column_pointers(&self) -> &[usize] {
+        self.symbolic.col_ptr()
+    }
+
+    /// Row of each nonzero.
+    pub fn row_indices(&self) -> &[usize] {
+        self.symbolic.row_idx()
+    }
+
+    /// The nonzeros of one column: `(index among the nonzeros, row)`.
+    pub fn column(&self, column: usize) -> impl Iterator<Item = (usize, usize)> {
+        let range = self.column_pointers()[column]..self.column_pointers()[column + 1];
+        range.map(|position| (position, self.row_indices()[position]))
+    }
+
+    /// The nonzeros of one row: `(index among the nonzeros, column)`.
+    pub fn row(&self, row: usize) -> impl Iterator<Item = (usize, usize)> {
+        let range = self.row_range(row);
+        let (positions, columns) = (&self.row_positions[range.clone()], &self.row_columns[range]);
+        let pairs = positions.iter().zip(columns);
+        pairs.map(|(&position, &column)| (position as usize, column as usize))
+    }
+
+    /// Where a row is among nonzeros sorted by rows.
+    pub fn row_range(&self, row: usize) -> std::ops::Range<usize> {
+        self.row_pointers[row]..self.row_pointers[row + 1]
+    }
+
+    /// Column of each nonzero, sorted by rows.
+    pub(super) fn row_columns(&self) -> &[u32] {
+        &self.row_columns
+    }
+
+    /// Values sorted by rows.
+    pub fn by_rows(&self, values: &[f64]) -> Vec<f64> {
+        let positions = self.row_positions.iter();
+        positions
+            .map(|&position| values[position as usize])
+            .collect()
+    }
+
+    /// Values in the order of the pattern, of values sorted by rows.
+    pub fn by_columns(&self, sorted: &[f64]) -> Vec<f64> {
+        let mut values = vec![0.0; sorted.len()];
+        for (&position, value) in self.row_positions.iter().zip(sorted) {
+            values[position as usize] = *value;
+        }
+        values
+    }
+
+    /// Index of `(row, column)` among the nonzeros, if it is one.
+    pub fn position(&self, row: usize, column: usize) -> Option<usize> {
+        let (start, end) = (
+            self.column_pointers()[column],
+            self.column_pointers()[column + 1],
+        );
+        self.row_indices()[start..end]
+            .binary_search(&row)
+            .ok()
+            .map(|offset| start + offset)
+    }
+
+    /// The pattern as faer sees it.
+    pub fn symbolic(&self) -> SymbolicSparseColMatRef<'_, usize> {
+        self.symbolic.as_ref()
+    }
+
+    /// A matrix of this pattern with `values`, one for each nonzero.
+    pub fn matrix<'a, T>(&'a self, values: &'a [T]) -> SparseColMatRef<'a, usize, T> {
+        SparseColMatRef::new(self.symbolic.as_ref(), values)
+    }
+}
+
+/// Sorts the nonzeros of a column-wise pattern by rows: start of each row, index of each nonzero, its column.
+fn by_rows(symbolic: &SymbolicSparseColMat<usize>) -> (Vec<usize>, Vec<u32>, Vec<u32>) {
+    let (dimension, count) = (symbolic.ncols(), symbolic.row_idx().len());
+    assert!(
+        u32::try_from(count).is_ok(),
+        "{count} nonzeros are too many"
+    );
+    let mut pointers = vec![0; dimension + 1];
+    for &row in symbolic.row_idx() {
+        pointers[row + 1] += 1;
+    }
+    for row in 0..dimension {
+        pointers[row + 1] += pointers[row];
+    }
+    let mut next = pointers.clone();
+    let (mut positions, mut columns) = (vec![0; count], vec![0; count]);
+    for column in 0..dimension {
+        let range = symbolic.col_ptr()[column]..symbolic.col_ptr()[column + 1];
+        for position in range {
+            let slot = &mut next[symbolic.row_idx()[position]];
+            (positions[*slot], columns[*slot]) = (position as u32, column as u32);
+            *slot += 1;
+        }
+    }
+    (pointers, positions, columns)
+}
