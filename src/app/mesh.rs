@@ -114,10 +114,8 @@ fn roles(assembly: &AssemblyBody) -> BTreeMap<usize, &'static str> {
         roles.extend([(tie.surface, "tie"), (tie.counter, "tie")]);
     }
     for contact in &assembly.contacts {
-        roles.extend([
-            (contact.counter, "counterface"),
-            (contact.surface, "contact"),
-        ]);
+        roles.extend(contact.counter.surface().map(|own| (own, "counterface")));
+        roles.insert(contact.surface, "contact");
     }
     roles
 }

@@ -3,7 +3,7 @@
 use super::Failure;
 use super::embedded;
 use super::log::Line;
-use crate::case::{shown, shown_json};
+use crate::case::{find_key, shown, shown_json};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::io::{self, IsTerminal, Write};
@@ -87,6 +87,18 @@ fn meant_command(error: &clap::Error) -> Option<&'static str> {
     found.map(|pair| pair.1)
 }
 
+/// The assignment to a case key that is meant by an argument that no command takes.
+fn meant_assignment(error: &clap::Error) -> Option<&str> {
+    if error.kind() != ErrorKind::UnknownArgument {
+        return None;
+    }
+    let Some(ContextValue::String(given)) = error.get(ContextKind::InvalidArg) else {
+        return None;
+    };
+    let (key, _) = given.split_once('=')?;
+    find_key(key).map(|_| given.as_str())
+}
+
 /// Prints what the command line's parser says (help and version too), and gives the exit code.
 pub fn report_usage(error: &clap::Error) -> u8 {
     if let Some(meant) = meant_command(error) {
@@ -94,6 +106,16 @@ pub fn report_usage(error: &clap::Error) -> u8 {
             io::stderr().lock(),
             "{} no such command; `frictionsim {meant}` does that\n\nFor more information, try '--help'.",
             error_word()
+        );
+        return 2;
+    }
+    if let Some(assignment) = meant_assignment(error) {
+        let _ = writeln!(
+            io::stderr().lock(),
+            "{} unexpected argument '{assignment}': a key of the case is changed by --set '{assignment}'\n\n\
+             For more information, try '--help'.",
+            error_word(),
+            assignment = shown(assignment)
         );
         return 2;
     }

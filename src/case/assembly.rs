@@ -1,16 +1,19 @@
 //! Assemblies of solid bodies: `[motion.*]`, `[contacts.*]`, `[ties.*]`.
 
+use super::Case;
 use super::boundaries::NamedCondition;
-use super::contact::{Contact, friction_decay, no_rigid_losses};
-use super::elastic::loss_factor;
+use super::contact::Contact;
+use super::contacts::{NamedContact, contact, short_form};
 use super::imported::{ImportError, whole_body};
 use super::modifications::{Modification, reshaped};
-use super::normal_law::normal_law;
 use super::raw::MeshBytes;
 use super::reader::Section;
+use super::rigid_counterface::{triple, unit};
 use super::suggestion;
-use super::tables::{TableFiles, topography};
-use crate::contact::{ContactStiffness, Motion, PairFriction, SlidingContact};
+use super::tables::TableFiles;
+use crate::contact::{
+    ContactStiffness, Counterpart, Motion, RigidCounterface, RigidMotion, SlidingContact,
+};
 use crate::fem::{MaterialField, PlaneFormulation, RotationFrame, TabledMaterial};
 use crate::mesh::{CyclicSymmetry, Mesh, MeshFileError};
 use crate::prestress::{Assembly, BaseChoice, PrestressError, SlidingSurfaces, TiedSurfaces};
@@ -82,22 +85,34 @@ pub(super) struct AssemblyParts {
     pub symmetry: Option<CyclicSymmetry>,
 }
 
-struct NamedContact {
-    name: String,
-    sides: [String; 2],
-    friction_coefficient: f64,
-    surfaces: SlidingSurfaces,
-}
-
 impl AssemblyParts {
-    /// Direction and a point of the axis of the motion, where all motions have the same.
+    /// Direction and a point of the axis of what turns, bodies and rigid counterfaces, where all have the same.
     pub(super) fn axis(&self) -> Result<[[f64; 3]; 2], &'static str> {
-        let mut motions = self.motions.iter().map(|(_, motion)| motion);
-        let first = motions.next().ok_or("the case has no [motion.*]")?;
-        if motions.any(|other| other.axis != first.axis || other.center != first.center) {
-            return Err("the motions of the case have several");
+        let rigid = self
+            .contacts
+            .iter()
+            .filter_map(|contact| contact.surfaces.counter.rigid());
+        let turning = rigid.filter(|rigid| matches!(rigid.motion, RigidMotion::Turning(_)));
+        let motions = self
+            .motions
+            .iter()
+            .map(|(_, motion)| [motion.axis, motion.center]);
+        let mut axes = motions.chain(turning.map(|rigid| [rigid.axis, rigid.center]));
+        let first = axes.next().ok_or("nothing of the case turns")?;
+        match axes.any(|other| other != first) {
+            true => Err("what turns has several"),
+            false => Ok(first),
         }
-        Ok([first.axis, first.center])
+    }
+
+    /// Whether something turns.
+    pub(super) fn turns(&self) -> bool {
+        let mut rigid = self
+            .contacts
+            .iter()
+            .filter_map(|contact| contact.surfaces.counter.rigid());
+        !self.motions.is_empty()
+            || rigid.any(|rigid| matches!(rigid.motion, RigidMotion::Turning(_)))
     }
 }
 
@@ -113,7 +128,7 @@ pub(super) fn sections(
     });
     let mut bases = Vec::new();
     let contacts = root.each("contacts", |section| contact(section, &mut bases, tables));
-    let contacts: Vec<NamedContact> = contacts
+    let mut contacts: Vec<NamedContact> = contacts
         .into_iter()
         .map(|(name, contact)| NamedContact {
             surfaces: SlidingSurfaces {
@@ -124,6 +139,13 @@ pub(super) fn sections(
             ..contact
         })
         .collect();
+    if root.has("contact") {
+        let section = root.section("contact", true);
+        let mut own = short_form(&section);
+        own.surfaces.name.clone_from(&own.name);
+        contacts.push(own);
+        section.close();
+    }
     let base = bases.first().copied().unwrap_or_default();
     if bases.iter().any(|other| *other != base) {
         root.reject(
@@ -134,23 +156,17 @@ pub(super) fn sections(
             "give every contact the same `state`",
         );
     }
-    if root.has("contact") {
-        root.reject(
-            "contact",
-            "[contact] and [contacts.*] in one case: the one is the short form of the other",
-            "one of the two",
-            "leave [contact] out",
-        );
-    }
     let first = contacts.first();
+    let rigid = first.and_then(|contact| contact.surfaces.counter.rigid());
     let common = Contact {
         sliding: SlidingContact {
             friction_coefficient: first.map_or(0.0, |contact| contact.friction_coefficient),
             decay: first.and_then(|contact| contact.surfaces.friction.decay),
-            interference: 0.0,
-            rotation_speed: motions
-                .first()
-                .map_or(0.0, |motion| motion.1.rotation_speed),
+            interference: rigid.map_or(0.0, |rigid| rigid.interference),
+            rotation_speed: rigid.map(|rigid| rigid.motion.speed()).unwrap_or_else(|| {
+                let first = motions.first();
+                first.map_or(0.0, |motion| motion.1.rotation_speed)
+            }),
         },
         stiffness: first.map_or_else(ContactStiffness::default, |contact| {
             contact.surfaces.stiffness
@@ -167,36 +183,14 @@ pub(super) fn sections(
 }
 
 fn motion(section: &Section<'_>) -> Motion {
-    let triple = |key: &str| match section.numbers(key).as_deref() {
-        Some(&[x, y, z]) => Some([x, y, z]),
-        Some(_) => {
-            section.reject(
-                key,
-                format!("{} needs three numbers", section.name(key)),
-                "must be [x, y, z]",
-                None,
-            );
-            None
-        }
-        None => None,
-    };
     if !section.has("axis") {
         section.missing("axis");
     }
-    let axis = triple("axis").unwrap_or([0.0, 0.0, 1.0]);
-    let length = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
-    if length == 0.0 {
-        section.reject(
-            "axis",
-            format!("{} = [0, 0, 0] points nowhere", section.name("axis")),
-            "must not be zero",
-            None,
-        );
-    }
+    let axis = triple(section, "axis").unwrap_or([0.0, 0.0, 1.0]);
     Motion {
         regions: Vec::new(),
-        axis: axis.map(|x| x / length.max(f64::MIN_POSITIVE)),
-        center: triple("center").unwrap_or([0.0; 3]),
+        axis: unit(section, "axis", axis),
+        center: triple(section, "center").unwrap_or([0.0; 3]),
         rotation_speed: section.number("rotation_speed_rpm") * TAU / 60.0,
         inertia: inertia(section),
     }
@@ -220,66 +214,6 @@ fn inertia(section: &Section<'_>) -> Option<RotationFrame> {
         );
     }
     None
-}
-
-/// One contact, without its name and its place in the mesh.
-fn contact(
-    section: &Section<'_>,
-    bases: &mut Vec<BaseChoice>,
-    tables: &mut TableFiles<'_>,
-) -> NamedContact {
-    let base = section.choice("state");
-    bases.push(base);
-    let topography = topography(section, tables);
-    if base == BaseChoice::Closed && topography.is_some() {
-        section.reject(
-            "gap",
-            format!(
-                "{} has no effect on a contact that is closed and free of stress",
-                section.name("gap")
-            ),
-            "beside state = \"closed\"",
-            "leave one of the two out",
-        );
-    }
-    let decay = friction_decay(section);
-    let stiffness = ContactStiffness {
-        normal_stiffness: section.optional_number("normal_stiffness"),
-        normal_damping: section.number("normal_damping"),
-        tangential_damping: section.number("tangential_damping"),
-        is_base_compliant: true,
-        loss_factor: loss_factor(section),
-        ..ContactStiffness::default()
-    };
-    let (law, stiffness) = normal_law(section, stiffness);
-    if stiffness.normal_stiffness.is_none() {
-        no_rigid_losses(section, &stiffness);
-    }
-    if stiffness.normal_stiffness.is_none() && stiffness.normal_damping > 0.0 {
-        section.reject(
-            "normal_damping",
-            format!(
-                "{} has no effect on a rigid contact",
-                section.name("normal_damping")
-            ),
-            "needs normal_stiffness",
-            "give normal_stiffness, or leave normal_damping out",
-        );
-    }
-    NamedContact {
-        name: String::new(),
-        sides: [section.text("surface"), section.text("counter")],
-        friction_coefficient: section.number("friction_coefficient"),
-        surfaces: SlidingSurfaces {
-            name: String::new(),
-            surface: 0,
-            counter: 0,
-            friction: PairFriction { ratio: 1.0, decay },
-            stiffness,
-            law,
-            topography,
-        },
-    }
 }
 
 /// The solid bodies of a mesh file.
@@ -332,14 +266,17 @@ pub(super) fn assemble(
         .map(|contact| contact.friction_coefficient);
     let mut contacts = Vec::new();
     for NamedContact {
-        name,
         sides: [own, counter],
+        keys: [own_key, counter_key],
         friction_coefficient,
         mut surfaces,
+        ..
     } in parts.contacts
     {
-        surfaces.surface = surface(&own, &format!("contacts.{name}.surface"))?;
-        surfaces.counter = surface(&counter, &format!("contacts.{name}.counter"))?;
+        surfaces.surface = surface(&own.unwrap_or_default(), &own_key)?;
+        if let (Some(counter), None) = (counter, surfaces.counter.rigid()) {
+            surfaces.counter = Counterpart::Surface(surface(&counter, &counter_key)?);
+        }
         surfaces.friction.ratio = match reference {
             Some(reference) if reference > 0.0 => friction_coefficient / reference,
             _ => 1.0,
@@ -387,6 +324,22 @@ impl AssemblyBody {
         self.motions.iter().any(|motion| motion.inertia == turning)
     }
 
+    /// The rigid counterface of the first contact, if it has one.
+    pub fn rigid_counterface(&self) -> Option<&RigidCounterface> {
+        self.contacts.first()?.counter.rigid()
+    }
+
+    /// A point of the axis of what turns first, and its direction; none where nothing turns.
+    pub fn axis(&self) -> Option<[[f64; 3]; 2]> {
+        let own = self.motions.first();
+        let own = own.map(|motion| [motion.center, motion.axis]);
+        own.or_else(|| {
+            let rigid = self.rigid_counterface()?;
+            let turns = matches!(rigid.motion, RigidMotion::Turning(_));
+            turns.then_some([rigid.center, rigid.axis])
+        })
+    }
+
     /// Half the largest extent of the bodies, m.
     pub fn size(&self) -> f64 {
         let extent = |axis: usize| {
@@ -403,5 +356,18 @@ impl AssemblyBody {
         surfaces
             .map(|place| self.mesh.boundaries[place].nodes.len())
             .sum()
+    }
+}
+
+impl Case {
+    /// The key that says how fast the first contact slides.
+    pub fn speed_key(&self) -> &'static str {
+        let rigid = self.body.assembly().map(AssemblyBody::rigid_counterface);
+        match (rigid, self.raw.find("contact.speed")) {
+            (Some(None), _) => "motion",
+            (Some(Some(_)), None) if !self.raw.root.contains_key("contact") => "contacts",
+            (_, Some(_)) => "contact.speed",
+            (_, None) => "contact.rotation_speed_rpm",
+        }
     }
 }

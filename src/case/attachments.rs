@@ -97,17 +97,9 @@ pub(super) fn attach(
             stiffness_coefficient: own.coefficients[1],
         });
     }
-    match body.whole_mesh_mut() {
-        Some(mesh) => {
-            let mesh = Arc::make_mut(mesh);
-            (mesh.attachments, mesh.patches) = (attachments, patches);
-        }
-        None => root.reject(
-            "modifications",
-            "modifications break the rotational symmetry that this body is solved by",
-            "a body of revolution in three dimensions",
-            "give the body as a mesh file (mesh.file)",
-        ),
+    if let Some(mesh) = body.whole_mesh_mut() {
+        let mesh = Arc::make_mut(mesh);
+        (mesh.attachments, mesh.patches) = (attachments, patches);
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::assembly::AssemblyBody;
 use super::imported::ImportedBody;
+use crate::contact::RigidMotion;
 use crate::fem::{AnnulusMaterials, ElasticMaterial, MaterialField, ModulusTable, RayleighDamping};
 use crate::mesh::{
     AnnulusMesh, AnnulusSpecification, BoundaryCondition, Counterface, Mesh, MeshError,
@@ -212,6 +213,20 @@ impl Body {
             Self::Revolution(revolution) => revolution.specification.annulus.outer_radius,
             Self::Imported(imported) => imported.size(),
             Self::Assembly(assembly) => assembly.size(),
+        }
+    }
+
+    /// Whether its counterface moves along a straight line.
+    pub fn slides_straight(&self) -> bool {
+        match self {
+            Self::Annulus(_) | Self::Revolution(_) => false,
+            Self::Imported(imported) => {
+                matches!(imported.mesh.counterface, Counterface::Plane { .. })
+            }
+            Self::Assembly(assembly) => {
+                let rigid = assembly.rigid_counterface();
+                rigid.is_some_and(|rigid| matches!(rigid.motion, RigidMotion::Sliding(_)))
+            }
         }
     }
 

@@ -58,6 +58,7 @@ pub(super) fn contact(
             "counter_boundary",
             "counterface",
             "center",
+            "axis",
             "radius",
             "direction",
             "speed",

@@ -82,11 +82,7 @@ impl Case {
         if is_moving {
             return Ok(cycle);
         }
-        let key = match self.raw.find("contact.speed") {
-            _ if self.body.assembly().is_some() => "motion",
-            Some(_) => "contact.speed",
-            None => "contact.rotation_speed_rpm",
-        };
+        let key = self.speed_key();
         let value = self.raw.find(key).map(|item| item.value.to_string());
         let value = value.unwrap_or_default();
         Err(match self.has_rotating_waves() {

@@ -74,6 +74,15 @@ pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
             let plane = CounterfaceSpecification::Plane { direction: along };
             (plane, speed)
         }
+        CounterfaceWord::Sphere => {
+            section.reject(
+                "counterface",
+                "contact.counterface = \"sphere\" is for a mesh of solid elements",
+                "the body is plane",
+                "use \"cylinder\" for a round contact curve",
+            );
+            (CounterfaceSpecification::Cylinder { center, radius }, None)
+        }
         CounterfaceWord::Cylinder | CounterfaceWord::Body => {
             (CounterfaceSpecification::Cylinder { center, radius }, None)
         }
@@ -95,6 +104,15 @@ pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
             )
         }
     };
+    let _ = section.numbers("axis");
+    if section.has("axis") {
+        section.reject(
+            "axis",
+            "contact.axis is for a mesh of solid elements",
+            "a plane body turns about z",
+            "leave it out",
+        );
+    }
     let is_plane = plane_speed.is_some();
     let idle: &[&str] = if is_plane {
         &["center", "radius", "rotation_speed_rpm"]

@@ -13,6 +13,7 @@ use super::reader::Section;
 use super::shaft;
 use super::solid;
 use super::tables::{TableFiles, modulus_table};
+use super::whole_revolution::whole_revolution;
 use super::words::{FilePart, UnitsWord};
 use crate::fem::{
     AnnulusMaterials, ElasticMaterial, RayleighDamping, RegionMaterial, TabledMaterial,
@@ -90,9 +91,6 @@ fn unmodified(
             let path = ["materials", "shaft"];
             place_axes(root, &path, &mut shaft.own.elastic, &sectors);
         }
-        if is_solid && common.table.is_some() {
-            refuse_table(root);
-        }
         geometry.close();
         mesh.close();
         let (contact, place) = contact(root, Some((&annulus, is_solid)), is_pressed);
@@ -109,7 +107,7 @@ fn unmodified(
             Some(axial_elements) => {
                 let conditions = solid::conditions(root, &conditions, place.solid);
                 annulus.outer = conditions[1];
-                Some(Body::Revolution(Revolution {
+                let revolution = Revolution {
                     specification: SolidSpecification {
                         annulus,
                         thickness,
@@ -118,7 +116,8 @@ fn unmodified(
                         conditions,
                     },
                     material: *material,
-                }))
+                };
+                revolution_body(root, revolution, (common, &contact), changes)
             }
         };
         return Model {
@@ -134,8 +133,15 @@ fn unmodified(
         .ok()
         .and_then(|bytes| bytes.read().ok())
         .is_some_and(|read| read.dimension == 3);
-    let is_lone_solid = is_file_solid && !root.has("contact");
-    if root.has("contacts") || root.has("ties") || is_lone_solid {
+    if root.has("contacts") || root.has("ties") || is_file_solid {
+        if root.has("contact") && (root.has("contacts") || !is_file_solid) {
+            root.reject(
+                "contact",
+                "[contact] is for a body with one contact: this case has [contacts.*] or [ties.*]",
+                "beside the contacts of an assembly",
+                "describe it under [contacts.NAME]",
+            );
+        }
         let parts = (conditions.as_slice(), common, tables);
         let file = (&mesh, file.as_str(), scale);
         let model = assembly_model(root, raw, file, parts, (thickness, changes));
@@ -187,15 +193,52 @@ fn unmodified(
     }
 }
 
-/// The harmonics of a body of revolution come in pairs of one real problem.
-fn refuse_table(root: &Section<'_>) {
-    root.section("material", true).reject(
-        "table",
-        "material.table: a body of revolution in three dimensions is solved harmonic by \
-         harmonic from one real problem, whose roots come in conjugate pairs: with a modulus \
-         over frequency they do not",
-        "not of a body of revolution in three dimensions",
-        "use a plane formulation, or describe the body by mesh.file",
+/// A body of revolution, as a whole mesh where modifications break its symmetry, where losses or moduli over frequency part the
+/// waves +n and -n of its harmonics, and where that is asked for.
+fn revolution_body(
+    root: &Section<'_>,
+    revolution: Revolution,
+    parts: (&TabledMaterial, &Contact),
+    changes: &[Modification],
+) -> Option<Body> {
+    let (material, contact) = parts;
+    let supports = revolution.specification.conditions.iter();
+    let loses = supports.filter_map(|condition| match condition {
+        BoundaryCondition::Support(support) => Some(support.loss_factor),
+        _ => None,
+    });
+    let own = [
+        material.own.elastic.loss_factor,
+        contact.stiffness.loss_factor,
+    ];
+    let is_lossy = loses.chain(own).any(|eta| eta > 0.0) || material.table.is_some();
+    let cea = root.section("cea", false);
+    let is_asked_for = cea.is_text("method", "sparse")
+        || root
+            .section("transient", false)
+            .is_text("operator", "sparse");
+    if changes.is_empty() && !is_lossy && !is_asked_for {
+        return Some(Body::Revolution(revolution));
+    }
+    if cea.is_given() && cea.flag("geometric_stiffness") {
+        warn_of_stress(&cea);
+    }
+    let found = whole_revolution(&revolution, parts, changes);
+    let reject = |(key, why): modifications::Misfit| {
+        let section = key.split('.').next().unwrap_or_default().to_owned();
+        let message = format!("{key}: {why}");
+        root.reject(&section, message, "does not fit the whole mesh", None);
+    };
+    found.map_err(reject).ok().map(Body::Assembly)
+}
+
+/// Says that the stress of the base state is left out of the modes.
+fn warn_of_stress(cea: &Section<'_>) {
+    cea.warn(
+        "geometric_stiffness",
+        "solid bodies on their whole mesh have no geometric stiffness: the stress of the base state is left out of their modes"
+            .to_owned(),
+        "no effect; set it to false",
     );
 }
 
@@ -222,17 +265,12 @@ fn assembly_model(
     (thickness, changes): (f64, &[Modification]),
 ) -> Model {
     let _ = mesh.optional_count("axial_elements");
-    if root.has("contact") {
-        let _ = root.section("contact", false);
-        root.reject(
-            "contact",
-            "[contact] is for a body with one contact: this case has [contacts.*] or [ties.*]",
-            "beside the contacts of an assembly",
-            "describe it under [contacts.NAME]",
-        );
+    let cea = root.section("cea", false);
+    if cea.has("geometric_stiffness") && cea.flag("geometric_stiffness") {
+        warn_of_stress(&cea);
     }
     let (mut parts, contact) = assembly::sections(root, tables);
-    let axis = match root.has("motion") {
+    let axis = match parts.turns() {
         true => parts.axis(),
         false => Ok([[0.0, 0.0, 1.0], [0.0; 3]]),
     };

@@ -14,10 +14,12 @@ pub(super) fn opposite_curve(section: &Section<'_>, word: CounterfaceWord) -> Op
             "contact.counterface = \"body\" needs contact.counter_boundary",
             "name the physical curve of the other body",
         ),
-        (CounterfaceWord::Cylinder | CounterfaceWord::Plane, Some(_)) => (
-            "contact.counter_boundary is for two bodies",
-            "set contact.counterface = \"body\", or leave it out",
-        ),
+        (CounterfaceWord::Cylinder | CounterfaceWord::Plane | CounterfaceWord::Sphere, Some(_)) => {
+            (
+                "contact.counter_boundary is for two bodies",
+                "set contact.counterface = \"body\", or leave it out",
+            )
+        }
         _ => return given,
     };
     let label = "the curve of the other body".to_owned();

@@ -164,6 +164,25 @@ pub(super) fn conditions(
              above 0",
         );
     }
+    // A cylinder in the bore holds nothing along the axis; a ring on the top presses it.
+    let holds_along = |(face, condition): (SolidFace, &BoundaryCondition)| match condition {
+        BoundaryCondition::Clamped => true,
+        BoundaryCondition::Guide => face.normal_component() == 2,
+        BoundaryCondition::Support(support) if face.normal_component() == 2 => {
+            support.normal_stiffness > 0.0
+        }
+        BoundaryCondition::Support(support) => support.axial_stiffness > 0.0,
+        _ => false,
+    };
+    let mut faces = SolidFace::ALL.into_iter().zip(&conditions);
+    if contact == SolidContact::Inner && !faces.any(holds_along) {
+        section.reject(
+            "outer",
+            "nothing holds the body along its axis",
+            "must hold a face axially",
+            "give the support axial_stiffness above 0, or hold the top or the bottom face along its normal",
+        );
+    }
     conditions
 }
 

@@ -115,6 +115,7 @@ pub(super) enum FilePart {
 pub(super) enum CounterfaceWord {
     Cylinder,
     Plane,
+    Sphere,
     Body,
 }
 
@@ -233,7 +234,7 @@ choices! {
         "motion" = Self::Motion,
         "nothing" = Self::Nothing,
     }
-    CounterfaceWord { "cylinder" = Self::Cylinder, "plane" = Self::Plane, "body" = Self::Body }
+    CounterfaceWord { "cylinder" = Self::Cylinder, "plane" = Self::Plane, "sphere" = Self::Sphere, "body" = Self::Body }
     ElementKind { "quad4" = Self::Quad4, "quad8" = Self::Quad8 }
     PlaneFormulation { "plane-strain" = Self::PlaneStrain, "plane-stress" = Self::PlaneStress, "three-dimensional" = Self::ThreeDimensional }
     MassKind { "consistent" = Self::Consistent, "lumped" = Self::Lumped }

@@ -10,8 +10,10 @@
 //! sliding while it slips: `T = s mu(v) N`, with a coefficient that may fall with the slip speed `v`.
 //!
 //! Solid bodies touch where faces of two of their surfaces lie over each other ([`SurfacePair`]): [`ContactSurface`] has the
-//! points, from the quadrature of the common segments or from dual mortar weights of nodes, and slides as a [`Motion`] says.
+//! points, from the quadrature of the common segments or from dual mortar weights of nodes, and slides as a [`Motion`] says. A
+//! [`RigidCounterface`] may stand in place of the other surface.
 
+mod counterpart;
 mod interface;
 mod law;
 mod linearized;
@@ -25,6 +27,7 @@ mod surface;
 mod surface_law;
 mod topography;
 
+pub use counterpart::{Counterpart, RigidCounterface, RigidMotion, RigidShape};
 pub use interface::ContactInterface;
 pub use law::{
     ContactStatus, CoulombFriction, FrictionDecay, NodeFriction, SlippingNode, SteadyFriction,

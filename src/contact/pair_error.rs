@@ -72,4 +72,45 @@ pub enum PairError {
         /// Counter surface.
         counter: String,
     },
+    /// A rigid counterface does not move, or along its normal alone.
+    #[error(
+        "nothing slides over surface \"{0}\": its rigid counterface is at rest, or moves along its normal; check its speed, \
+         direction and axis"
+    )]
+    AtRest(String),
+    /// Nothing of a surface can move.
+    #[error(
+        "all of surface \"{0}\" is held: nothing of it can give way to the rigid counterface; name another surface, or hold less"
+    )]
+    AllHeld(String),
+    /// A surface that is no part of a cylinder or sphere, about which nothing else says how large that is.
+    #[error(
+        "surface \"{surface}\" is not round about the axis or the centre of its rigid counterface: node {node} lies {distance:.6e} \
+         m from it, the mean is {mean:.6e} m; correct `center` and `axis`, or give its `radius`"
+    )]
+    NotRound {
+        /// Own surface.
+        surface: String,
+        /// Number of the node in the mesh file.
+        node: usize,
+        /// Its distance from the axis or the centre, m.
+        distance: f64,
+        /// The mean distance, m.
+        mean: f64,
+    },
+    /// A rigid plane that would move out of itself.
+    #[error(
+        "the rigid plane under surface \"{surface}\" has the normal ({:.6}, {:.6}, {:.6}) and would {}: {}",
+        normal[0], normal[1], normal[2],
+        if *is_turning { "tilt" } else { "move along it" },
+        if *is_turning { "give that normal as `axis`" } else { "correct `direction`" }
+    )]
+    LeavesPlane {
+        /// Own surface.
+        surface: String,
+        /// Normal of the plane.
+        normal: [f64; 3],
+        /// Whether it turns about an axis.
+        is_turning: bool,
+    },
 }

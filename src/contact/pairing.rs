@@ -1,11 +1,12 @@
 //! Contact points of two surfaces of which one slides over the other.
 
-use super::mortar::mortar_nodes;
+use super::mortar::{MortarNode, mortar_nodes};
 use super::surface::{SurfacePair, row_along};
-use super::{FrictionDecay, PairError, Point, Row, SteadyFriction, Topography};
+use super::{Counterpart, FrictionDecay, PairError, Point, Row, SteadyFriction, Topography};
 use crate::fem::{RotationFrame, Spin};
 use crate::mesh::{Boundary, Mesh};
 use nalgebra::Vector3;
+use std::collections::BTreeSet;
 
 /// A body that turns about an axis; meshes stay where they are, small motions are about the sliding.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,22 +94,40 @@ impl ContactSurface {
     /// V = v_B - v_A without its part along n,   t = V / |V|,   d = n x t
     /// ```
     ///
-    /// with `v = Omega x r` of the region that a surface belongs to. Gaps of a measured surface add to those of the mesh.
+    /// with `v = Omega x r` of the region that a surface belongs to, or the velocity of a rigid counterface. Gaps of a measured
+    /// surface add to those of the mesh.
     ///
     /// # Errors
     /// [`PairError`] where the surfaces do not meet, nothing slides, or a measured surface leaves points out.
     pub fn of(
         mesh: &Mesh,
-        [surface, counter]: [&Boundary; 2],
+        (surface, counterpart): (&Boundary, &Counterpart),
         motions: &[Motion],
         friction: PairFriction,
         (kind, measured): (PointKind, Option<&Topography>),
     ) -> Result<Self, PairError> {
-        let mut pair = SurfacePair::of(mesh, surface, counter)?;
+        let counter = counterpart.surface().map(|place| &mesh.boundaries[place]);
+        let mut pair = match counterpart {
+            Counterpart::Surface(place) => {
+                SurfacePair::of(mesh, surface, &mesh.boundaries[*place])?
+            }
+            Counterpart::Rigid(rigid) => SurfacePair::on_rigid(mesh, surface, rigid)?,
+        };
         if let Some(measured) = measured {
             measured.widen(&mut pair, &surface.name)?;
         }
-        let moving = [surface, counter].map(|boundary| motion_of(mesh, boundary, motions));
+        let own_motion = motion_of(mesh, surface, motions);
+        let counter_motion = counter.and_then(|boundary| motion_of(mesh, boundary, motions));
+        let sliding = |position: [f64; 3]| -> Vector3<f64> {
+            let of = |motion: Option<&Motion>| {
+                motion.map_or(Vector3::zeros(), |own| own.velocity(position).into())
+            };
+            let counter = match counterpart {
+                Counterpart::Surface(_) => of(counter_motion),
+                Counterpart::Rigid(rigid) => rigid.velocity(position).into(),
+            };
+            counter - of(own_motion)
+        };
         let mut found = Self {
             points: Vec::new(),
             sites: Vec::new(),
@@ -118,36 +137,84 @@ impl ContactSurface {
             covered: pair.covered,
         };
         match kind {
-            PointKind::Segments => {
-                for point in &pair.points {
-                    let site = site(point.position, point.normal, moving);
-                    let jump = |direction: [f64; 3]| -> Row {
-                        let mut row = row_along(mesh, &point.own, direction, 1.0);
-                        row.extend(row_along(mesh, &point.counter, direction, -1.0));
-                        row
-                    };
-                    found.add(site, [point.area, point.gap], friction, jump);
-                    found.shares.push(point.own.clone());
-                }
-            }
+            PointKind::Segments => found.add_segments(mesh, &pair, friction, sliding),
             PointKind::Nodes => {
-                for node in mortar_nodes(mesh, surface, &pair) {
-                    let site = site(node.position, node.normal, moving);
-                    let jump = |direction: [f64; 3]| node.jump(mesh, direction);
-                    found.add(site, [node.area, node.gap], friction, jump);
-                    found.shares.push(vec![(node.node, 1.0)]);
-                    let lift = row_along(mesh, &node.lift, node.normal, 1.0);
-                    found.points.last_mut().expect("one was added").lift = lift;
+                let mut nodes = mortar_nodes(mesh, surface, &pair);
+                if let Counterpart::Rigid(rigid) = counterpart {
+                    for node in &mut nodes {
+                        node.normal = rigid.normal(node.position, node.normal);
+                    }
                 }
+                found.add_nodes(mesh, nodes, friction, sliding);
             }
         }
-        if found.points.iter().all(|point| point.speed == 0.0) {
-            return Err(PairError::NoSliding {
-                surface: surface.name.clone(),
-                counter: counter.name.clone(),
-            });
+        let name = || surface.name.clone();
+        if counter.is_none() {
+            found.drop_held(mesh);
         }
-        Ok(found)
+        if found.points.is_empty() {
+            return Err(PairError::AllHeld(name()));
+        }
+        if found.points.iter().any(|point| point.speed > 0.0) {
+            return Ok(found);
+        }
+        Err(match counter {
+            None => PairError::AtRest(name()),
+            Some(counter) => PairError::NoSliding {
+                surface: name(),
+                counter: counter.name.clone(),
+            },
+        })
+    }
+
+    /// A point for each quadrature point of the segments.
+    fn add_segments(
+        &mut self,
+        mesh: &Mesh,
+        pair: &SurfacePair,
+        friction: PairFriction,
+        sliding: impl Fn([f64; 3]) -> Vector3<f64>,
+    ) {
+        for point in &pair.points {
+            let site = site(point.position, point.normal, sliding(point.position));
+            let jump = |direction: [f64; 3]| -> Row {
+                let mut row = row_along(mesh, &point.own, direction, 1.0);
+                row.extend(row_along(mesh, &point.counter, direction, -1.0));
+                row
+            };
+            self.add(site, [point.area, point.gap], friction, jump);
+            self.shares.push(point.own.clone());
+        }
+    }
+
+    /// A point for each node of the own surface.
+    fn add_nodes(
+        &mut self,
+        mesh: &Mesh,
+        nodes: Vec<MortarNode>,
+        friction: PairFriction,
+        sliding: impl Fn([f64; 3]) -> Vector3<f64>,
+    ) {
+        for node in nodes {
+            let site = site(node.position, node.normal, sliding(node.position));
+            let jump = |direction: [f64; 3]| node.jump(mesh, direction);
+            self.add(site, [node.area, node.gap], friction, jump);
+            self.shares.push(vec![(node.node, 1.0)]);
+            let lift = row_along(mesh, &node.lift, node.normal, 1.0);
+            self.points.last_mut().expect("one was added").lift = lift;
+        }
+    }
+
+    /// Takes out the points that are held along their normals: they cannot give way to a rigid counterface.
+    fn drop_held(&mut self, mesh: &Mesh) {
+        let held: BTreeSet<usize> = mesh.held_dofs().collect();
+        let gives_way = |point: &Point| point.normal.iter().any(|(dof, _)| !held.contains(dof));
+        let is_kept: Vec<bool> = self.points.iter().map(gives_way).collect();
+        retain(&mut self.points, &is_kept);
+        retain(&mut self.sites, &is_kept);
+        retain(&mut self.shares, &is_kept);
+        let nodes: BTreeSet<u32> = self.shares.iter().flatten().map(|own| own.0).collect();
+        self.nodes = nodes.into_iter().collect();
     }
 
     fn add(
@@ -194,19 +261,9 @@ fn motion_of<'a>(mesh: &Mesh, boundary: &Boundary, motions: &'a [Motion]) -> Opt
         .find(|motion| motion.regions.contains(&region))
 }
 
-/// Directions at a point, and the sliding speed there.
-fn site(
-    position: [f64; 3],
-    normal: [f64; 3],
-    [own, counter]: [Option<&Motion>; 2],
-) -> (ContactSite, f64) {
-    let velocity = |motion: Option<&Motion>| {
-        motion.map_or(Vector3::zeros(), |motion| {
-            Vector3::from(motion.velocity(position))
-        })
-    };
+/// Directions at a point, and the sliding speed there, where the counterpart has the velocity `whole` relative to the own body.
+fn site(position: [f64; 3], normal: [f64; 3], whole: Vector3<f64>) -> (ContactSite, f64) {
     let n = Vector3::from(normal);
-    let whole = velocity(counter) - velocity(own);
     let sliding = whole - n * whole.dot(&n);
     let speed = sliding.norm();
     // What is left of a velocity along the normal is round-off.
@@ -229,4 +286,9 @@ fn own_nodes(pair: &SurfacePair) -> Vec<u32> {
     nodes.sort_unstable();
     nodes.dedup();
     nodes
+}
+
+fn retain<T>(all: &mut Vec<T>, is_kept: &[bool]) {
+    let mut kept = is_kept.iter();
+    all.retain(|_| kept.next().is_some_and(|kept| *kept));
 }

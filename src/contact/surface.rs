@@ -1,6 +1,6 @@
 //! Faces of two surfaces that face each other, cut into the segments that both have.
 
-use super::{PairError, Row};
+use super::{PairError, RigidCounterface, Row};
 use crate::mesh::{Boundary, BoundaryFace, Mesh};
 use nalgebra::{Matrix2, Vector2, Vector3};
 use std::collections::BTreeMap;
@@ -253,40 +253,98 @@ impl SurfacePair {
         let Some(polygon) = shared_polygon(facet, other, plane) else {
             return;
         };
-        let middle = polygon.iter().sum::<Vector2<f64>>() / polygon.len() as f64;
-        for i in 0..polygon.len() {
-            let corners = [middle, polygon[i], polygon[(i + 1) % polygon.len()]];
-            let triangle = signed_area(&corners);
-            for (shares, weight) in RULE {
-                let parts = corners
-                    .iter()
-                    .zip(shares)
-                    .map(|(corner, share)| corner * share);
-                let target = parts.sum::<Vector2<f64>>();
-                let (values, position, outward) = facet.at(plane, target);
-                let (shares, opposite, _) = other.at(plane, target);
-                let gap = (opposite - position).dot(&outward);
-                if gap.abs() > self.reach {
-                    continue;
-                }
-                let nodes = |face: &BoundaryFace, values: Vec<f64>| -> Vec<(u32, f64)> {
-                    face.nodes.iter().copied().zip(values).collect()
-                };
+        let meet = |target: Vector2<f64>, position: &Vector3<f64>, outward: &Vector3<f64>| {
+            let (shares, opposite, _) = other.at(plane, target);
+            let gap = (opposite - position).dot(outward);
+            let counter = nodes_with(other.face, shares);
+            (gap.abs() <= self.reach).then_some((counter, gap, -outward))
+        };
+        let points = quadrature((f, facet), &polygon, plane, meet);
+        self.covered += points.iter().map(|point| point.area).sum::<f64>();
+        self.points.extend(points);
+    }
+
+    /// The faces of `surface` with a rigid counterface before all of them.
+    ///
+    /// # Errors
+    /// [`PairError`] where there is no face, or the counterface does not fit the surface.
+    pub fn on_rigid(
+        mesh: &Mesh,
+        surface: &Boundary,
+        counterface: &RigidCounterface,
+    ) -> Result<Self, PairError> {
+        if surface.faces.is_empty() {
+            return Err(PairError::NoFaces(surface.name.clone()));
+        }
+        let placed = counterface.placed(mesh, surface)?;
+        let own = facets_of(mesh, surface);
+        let points = own.iter().enumerate().flat_map(|(f, facet)| {
+            let plane = Plane::of(facet);
+            let corners = facet.corners().iter();
+            let polygon: Vec<_> = corners.map(|corner| plane.flat(corner)).collect();
+            let meet = |_: Vector2<f64>, position: &Vector3<f64>, _: &Vector3<f64>| {
+                Some((Vec::new(), 0.0, placed.normal(position)))
+            };
+            quadrature((f, facet), &polygon, &plane, meet)
+        });
+        let mut points: Vec<SegmentPoint> = points.collect();
+        for point in &mut points {
+            point.gap = placed.gap(&point.own);
+        }
+        let area: f64 = own.iter().map(|facet| facet.area).sum();
+        Ok(Self {
+            covered: points.iter().map(|point| point.area).sum(),
+            reach: 0.5 * (area / own.len() as f64).sqrt(),
+            points,
+            area,
+        })
+    }
+}
+
+/// What lies before a point of a face: its nodes with their shape functions, the gap (m), and the unit normal from there into the
+/// face's own body.
+type Meeting = (Vec<(u32, f64)>, f64, Vector3<f64>);
+
+/// The quadrature points of a convex polygon on a face that have something before them: `meet` is asked with the place in the
+/// plane, the position on the face and its outward normal.
+fn quadrature(
+    (f, facet): (usize, &Facet<'_>),
+    polygon: &[Vector2<f64>],
+    plane: &Plane,
+    meet: impl Fn(Vector2<f64>, &Vector3<f64>, &Vector3<f64>) -> Option<Meeting>,
+) -> Vec<SegmentPoint> {
+    let middle = polygon.iter().sum::<Vector2<f64>>() / polygon.len() as f64;
+    let mut points = Vec::new();
+    for i in 0..polygon.len() {
+        let corners = [middle, polygon[i], polygon[(i + 1) % polygon.len()]];
+        let triangle = signed_area(&corners);
+        for (shares, weight) in RULE {
+            let parts = corners
+                .iter()
+                .zip(shares)
+                .map(|(corner, share)| corner * share);
+            let target = parts.sum::<Vector2<f64>>();
+            let (values, position, outward) = facet.at(plane, target);
+            let Some((counter, gap, normal)) = meet(target, &position, &outward) else {
+                continue;
+            };
+            points.push(SegmentPoint {
+                face: f,
+                position: position.into(),
+                normal: normal.into(),
                 // Area on the surface itself, whose normal leans against the plane's.
-                let area = weight * triangle / outward.dot(&facet.normal);
-                self.covered += area;
-                self.points.push(SegmentPoint {
-                    face: f,
-                    position: position.into(),
-                    normal: (-outward).into(),
-                    area,
-                    gap,
-                    own: nodes(facet.face, values),
-                    counter: nodes(other.face, shares),
-                });
-            }
+                area: weight * triangle / outward.dot(&facet.normal),
+                gap,
+                own: nodes_with(facet.face, values),
+                counter,
+            });
         }
     }
+    points
+}
+
+fn nodes_with(face: &BoundaryFace, values: Vec<f64>) -> Vec<(u32, f64)> {
+    face.nodes.iter().copied().zip(values).collect()
 }
 
 /// `direction . u` at a point of a face, over all dofs.

@@ -9,6 +9,7 @@ use std::f64::consts::{PI, TAU};
 
 mod faces;
 mod specification;
+mod whole;
 
 pub use faces::{FaceElement, face_quadrature, face_shapes};
 pub use specification::{SolidContact, SolidFace, SolidSpecification};

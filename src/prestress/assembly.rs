@@ -8,8 +8,8 @@ use super::rotation::Rotation;
 use super::tangent::{BodyTerms, ContactDofs, ContactPart, SlidingTangent};
 use super::{PrestressError, TangentOptions};
 use crate::contact::{
-    ContactStiffness, ContactSurface, Motion, NormalLaw, PairError, PairFriction, PointKind,
-    PressedPoints, SurfacePair, Topography, mortar_nodes,
+    ContactStiffness, ContactSurface, Counterpart, Motion, NormalLaw, PairError, PairFriction,
+    PointKind, PressedPoints, SurfacePair, Topography, mortar_nodes,
 };
 use crate::fem::{
     MaterialField, Triplets, assemble_extra_damping, assemble_losses, assemble_mass,
@@ -39,15 +39,15 @@ pub enum BaseChoice {
     Closed,
 }
 
-/// Two boundaries of a mesh, by their indices, of which one slides on the other.
+/// A boundary of a mesh, by its index, that slides on another one or on a rigid counterface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SlidingSurfaces {
     /// What the case calls the contact.
     pub name: String,
     /// The surface that has the contact points: the finer, softer one.
     pub surface: usize,
-    /// The surface that it meets.
-    pub counter: usize,
+    /// What it meets.
+    pub counter: Counterpart,
     /// Friction beside the coefficient of a sweep.
     pub friction: PairFriction,
     /// Penalty or rigid, and dashpots.
@@ -56,6 +56,16 @@ pub struct SlidingSurfaces {
     pub law: Option<NormalLaw>,
     /// Gaps beside those of the mesh, of a measured or worn surface.
     pub topography: Option<Arc<Topography>>,
+}
+
+impl SlidingSurfaces {
+    /// Name of the contact that a case describes as `[contact]`.
+    pub const SHORT_FORM: &'static str = "contact";
+
+    /// Whether the case describes it as `[contact]`.
+    pub fn is_short_form(&self) -> bool {
+        self.name == Self::SHORT_FORM && self.counter.rigid().is_some()
+    }
 }
 
 /// Solid bodies of one mesh with what ties them and what slides.
@@ -154,11 +164,14 @@ impl<'a> Assembly<'a> {
         let found: Result<Vec<_>, PrestressError> = contacts
             .iter()
             .map(|contact| {
-                let sides = [contact.surface, contact.counter].map(|b| &mesh.boundaries[b]);
+                let sides = (&mesh.boundaries[contact.surface], &contact.counter);
                 let (friction, kind) = (contact.friction, kind(contact));
                 let measured = contact.topography.as_deref();
                 let surface = ContactSurface::of(mesh, sides, motions, friction, (kind, measured));
-                let surface = surface.map_err(|error| named("contacts", &contact.name, error))?;
+                let surface = surface.map_err(|error| match contact.is_short_form() {
+                    true => unpaired(contact.name.clone(), error),
+                    false => named("contacts", &contact.name, error),
+                })?;
                 Ok((contact.clone(), surface))
             })
             .collect();
@@ -288,11 +301,21 @@ impl<'a> Assembly<'a> {
             stiffness: &stiffness,
             load,
             elimination: self.joined.basis.clone(),
-            pushed: points.iter().map(|point| -point.gap).collect(),
+            pushed: self.pushed().collect(),
             stiffnesses: stiffnesses.collect(),
             points: &points,
         };
         pressing.states(self.mesh, friction_coefficients)
+    }
+
+    /// How far the counterpart of each contact point is pushed beyond its gap, m.
+    fn pushed(&self) -> impl Iterator<Item = f64> + '_ {
+        let contacts = self.joined.contacts.iter();
+        contacts.flat_map(|(contact, surface)| {
+            let interference = contact.counter.interference();
+            let points = surface.points.iter();
+            points.map(move |point| interference - point.gap)
+        })
     }
 
     /// Bodies that are tied at most, under their loads.
@@ -443,8 +466,10 @@ fn tie_surfaces(
 }
 
 fn named(section: &str, name: &str, error: PairError) -> PrestressError {
-    PrestressError::Pair {
-        name: format!("{section}.{name}"),
-        error: Box::new(error),
-    }
+    unpaired(format!("{section}.{name}"), error)
+}
+
+fn unpaired(name: String, error: PairError) -> PrestressError {
+    let error = Box::new(error);
+    PrestressError::Pair { name, error }
 }

@@ -129,7 +129,7 @@ pub(in crate::study) fn refuse_revolution(case: &Case) -> Result<(), StudyError>
             "measured points are compared node by node, and the modes of this body are solved \
              harmonic by harmonic, either sense of travel alone",
             "a body of revolution in three dimensions",
-            "give the body as a mesh file (mesh.file)",
+            "take its whole mesh: cea.method = \"sparse\"",
         )
         .into())
 }

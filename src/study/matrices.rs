@@ -26,15 +26,16 @@ pub fn matrices(case: &Case) -> Result<ExportedSystem, StudyError> {
             "the matrices of a body of revolution in three dimensions are complex, one set for \
              each harmonic: there is no one real problem to write",
             "a body of revolution",
-            "use a plane formulation, or an imported mesh",
+            "take its whole mesh: cea.method = \"sparse\"",
         )));
     }
-    if case.has_structural_damping() {
+    let mut regions = 0..case.body.region_count();
+    if regions.any(|region| case.materials().table(region).is_some()) {
         let refusal = case.loss_error(
-            "the files hold one real problem, and structural damping makes the stiffness complex"
+            "the files hold one problem, and a modulus over frequency is another one at each frequency"
                 .to_owned(),
             "not written",
-            "set loss_factor = 0, and multiply the stiffness of the region by 1 + i eta",
+            "give the material one modulus and a loss factor",
         );
         return Err(StudyError::Case(refusal));
     }
@@ -80,6 +81,11 @@ pub fn matrices(case: &Case) -> Result<ExportedSystem, StudyError> {
     matrices.extend(powers("K", &tangent.stiffness, |friction_power| {
         MatrixRole::Stiffness { friction_power }
     }));
+    if let Some(losses) = &tangent.structural {
+        matrices.extend(powers("H", losses, |friction_power| {
+            MatrixRole::Structural { friction_power }
+        }));
+    }
     contact_rows(&body, &mut system);
     Ok(system)
 }

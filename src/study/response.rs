@@ -322,7 +322,7 @@ fn whole(case: &Case, frf: &Frf, reduction: Reduction) -> Result<System, StudyEr
             "frf.method",
             format!("frf.method = \"{name}\" is for bodies that are solved on their whole mesh"),
             "a body of revolution is solved harmonic by harmonic",
-            "use \"auto\" or \"cyclic\"",
+            "use \"auto\" or \"cyclic\", or take the whole mesh: cea.method = \"sparse\"",
         )));
     }
     if frf.boundary == FrfBoundary::Sliding {
@@ -330,11 +330,8 @@ fn whole(case: &Case, frf: &Frf, reduction: Reduction) -> Result<System, StudyEr
     }
     let (system, mesh, axis) = match &case.body {
         Body::Assembly(body) => {
-            let motion = body.motions.first();
-            let axis = motion.map(|motion| Axis {
-                center: motion.center,
-                direction: motion.axis,
-            });
+            let axis = body.axis();
+            let axis = axis.map(|[center, direction]| Axis { center, direction });
             (assembly(case, frf, body)?, Arc::clone(&body.mesh), axis)
         }
         Body::Annulus(_) | Body::Imported(_) | Body::Revolution(_) => {

@@ -134,7 +134,7 @@ impl LagrangeContact {
         shares: [f64; 3],
     ) {
         if self.points.is_some() {
-            return self.apply_at_points(fields, coefficients);
+            return self.apply_at_points(fields, coefficients, shares);
         }
         if self.opposite.is_some() {
             return self.apply_between_bodies(fields, coefficients, shares);
@@ -246,7 +246,7 @@ impl LagrangeContact {
     /// interference, J/m.
     pub fn energy(&self, fields: &MotionFields, shares: [f64; 2], dt: f64) -> f64 {
         if self.points.is_some() {
-            return self.energy_at_points(fields, dt);
+            return self.energy_at_points(fields, shares, dt);
         }
         let Some(law) = &self.compliance else {
             return 0.0;
@@ -331,7 +331,7 @@ impl LagrangeContact {
     /// Distance of node `i` from the counterface under a `share` of the interference, m, in a displacement field.
     pub fn gap(&self, i: usize, displacement: &[f64], share: f64) -> f64 {
         match self.points {
-            Some(_) => self.gap_at_node(i, displacement),
+            Some(_) => self.gap_at_node(i, displacement, share),
             None => self.inward * displacement[self.normal[i]] - self.pushed(i, share),
         }
     }

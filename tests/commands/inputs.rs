@@ -626,6 +626,10 @@ fn answers_to_common_slips_name_what_was_meant() {
             &["check", "table.toml"][..],
             "this is a table of values, not a case",
         ),
+        (
+            &["cea", "block.toml", "contact.friction_coefficient=0.2"],
+            "is changed by --set 'contact.friction_coefficient=0.2'",
+        ),
         (&["check", "mesh.toml"], "this is a Gmsh mesh"),
         (&["check", "comma.toml"], "decimal point, not a comma: 0.3"),
         (

@@ -35,6 +35,7 @@ mod normal_law;
 mod plot;
 mod reading;
 mod results;
+mod rigid_counterface;
 mod rotor;
 mod signal_command;
 mod slow_sliding;

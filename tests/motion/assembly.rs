@@ -4,7 +4,8 @@ use crate::bricks::{Block, file_of};
 use frictionsim::cea::sparse::sweep;
 use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest};
 use frictionsim::contact::{
-    ContactStiffness, FrictionDecay, Motion, NormalLaw, PairFriction, SlidingContact,
+    ContactStiffness, Counterpart, FrictionDecay, Motion, NormalLaw, PairFriction,
+    RigidCounterface, RigidMotion, RigidShape, SlidingContact,
 };
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::fem::{
@@ -43,27 +44,62 @@ fn boundary(mesh: &Mesh, name: &str) -> usize {
 
 /// A block with a plate of `plate` elements glued to it, pressed onto another block that moves under it.
 fn mesh(plate: [usize; 3]) -> Mesh {
+    mesh_of(plate, true)
+}
+
+/// The same, or without that other block.
+fn mesh_of(plate: [usize; 3], with_lower: bool) -> Mesh {
     let block = |name, height: f64, thickness: f64, counts| Block {
         name,
         origin: [0.0, 0.0, height],
         size: [0.05, 0.04, thickness],
         counts,
     };
-    let blocks = [
-        block("lower", 0.0, 0.02, [4, 3, 2]),
+    let lower = block("lower", 0.0, 0.02, [4, 3, 2]);
+    let upper = [
         block("upper", 0.02, 0.015, [5, 4, 2]),
         block("plate", 0.035, 0.005, plate),
     ];
-    let clamped = BoundaryCondition::Clamped;
+    let blocks: Vec<Block> = with_lower
+        .then_some(lower)
+        .into_iter()
+        .chain(upper)
+        .collect();
     let held = BoundaryCondition::Fixed([true, true, false]);
     let conditions = [
-        ("lower_z0", clamped),
         ("plate_x0", held),
         ("plate_z1", BoundaryCondition::Pressure(2e6)),
+        ("lower_z0", BoundaryCondition::Clamped),
     ];
-    let conditions = conditions.map(|(name, condition)| (name.to_owned(), condition));
+    let conditions = &conditions[..if with_lower { 3 } else { 2 }];
+    let conditions = conditions.iter();
+    let conditions: Vec<_> = conditions
+        .map(|&(name, own)| (name.to_owned(), own))
+        .collect();
     let file = file_of(&blocks, |point| point);
     Mesh::from_solids(&GmshFile::read(&file).unwrap(), 1.0, &conditions).unwrap()
+}
+
+/// The upper block and its plate on a rigid plane that turns as the lower block does, pushed in by twice what the load presses.
+fn on_rigid_plane<'a>(
+    mesh: &'a Mesh,
+    springs: (Option<f64>, Option<NormalLaw>),
+    speed: f64,
+) -> Assembly<'a> {
+    let plane = RigidCounterface {
+        shape: RigidShape::Plane,
+        center: [0.02, -0.2, 0.0],
+        axis: [0.0, 0.0, 1.0],
+        motion: RigidMotion::Turning(speed),
+        interference: 5e-7,
+    };
+    between(
+        mesh,
+        &STEEL,
+        Counterpart::Rigid(plane),
+        springs,
+        (None, &[]),
+    )
 }
 
 fn assembly<'a>(
@@ -73,10 +109,36 @@ fn assembly<'a>(
     decay: Option<FrictionDecay>,
     speed: f64,
 ) -> Assembly<'a> {
+    let region = mesh.regions.iter().position(|name| name == "lower");
+    let motion = Motion {
+        regions: vec![region.unwrap()],
+        axis: [0.0, 0.0, 1.0],
+        center: [0.02, -0.2, 0.0],
+        rotation_speed: speed,
+        inertia: None,
+    };
+    let lower = Counterpart::Surface(boundary(mesh, "lower_z1"));
+    between(
+        mesh,
+        materials,
+        lower,
+        (normal_stiffness, law),
+        (decay, &[motion]),
+    )
+}
+
+/// The upper block on what it slides on, glued to the plate.
+fn between<'a>(
+    mesh: &'a Mesh,
+    materials: &'a dyn MaterialField,
+    counter: Counterpart,
+    (normal_stiffness, law): (Option<f64>, Option<NormalLaw>),
+    (decay, motions): (Option<FrictionDecay>, &[Motion]),
+) -> Assembly<'a> {
     let contact = SlidingSurfaces {
         name: "pad".to_owned(),
         surface: boundary(mesh, "upper_z0"),
-        counter: boundary(mesh, "lower_z1"),
+        counter,
         friction: PairFriction { ratio: 1.0, decay },
         stiffness: ContactStiffness {
             normal_stiffness,
@@ -90,23 +152,8 @@ fn assembly<'a>(
         surface: boundary(mesh, "upper_z1"),
         counter: boundary(mesh, "plate_z0"),
     };
-    let region = mesh.regions.iter().position(|name| name == "lower");
-    let motion = Motion {
-        regions: vec![region.unwrap()],
-        axis: [0.0, 0.0, 1.0],
-        center: [0.02, -0.2, 0.0],
-        rotation_speed: speed,
-        inertia: None,
-    };
-    Assembly::at_nodes(
-        mesh,
-        materials,
-        &[tie],
-        &[contact],
-        &[motion],
-        BaseChoice::Solved,
-    )
-    .unwrap()
+    let solved = BaseChoice::Solved;
+    Assembly::at_nodes(mesh, materials, &[tie], &[contact], motions, solved).unwrap()
 }
 
 fn model<'a>(assembly: &'a Assembly<'a>) -> AssemblyTransientModel<'a> {
@@ -235,6 +282,25 @@ fn the_energy_of_an_assembly_closes_from_rest_to_sliding() {
             record.unconverged_steps
         );
         assert!(counts.iter().all(|&count| count > 0), "{counts:?}");
+        assert!(residual < 1e-11, "{residual:e}");
+        assert_eq!(record.unconverged_steps, 0);
+    }
+}
+
+/// Independent, as for two bodies: the base state under load and interference is at rest, and what the pushing of a rigid plane
+/// does is in the energy.
+#[test]
+fn a_block_on_a_rigid_plane_rests_in_its_base_state_and_its_energy_closes() {
+    let mesh = mesh_of([4, 3, 1], false);
+    for springs in SPRINGS {
+        let still = on_rigid_plane(&mesh, springs, 10.0);
+        let (record, speed) = run(&still, &settings(InitialState::SteadySliding, 1e-4, 0.0));
+        assert!(speed < 1e-7, "{speed:e}");
+        assert_eq!(record.rows.last().unwrap().counts.stick, 0);
+        let slow = on_rigid_plane(&mesh, springs, 0.05);
+        let (record, _) = run(&slow, &settings(InitialState::Rest, 1e-3, 0.05));
+        let residual = TransientAnalysis::without_symmetry(&record).largest_residual;
+        println!("{springs:?}: {speed:e} m/s, residual {residual:e}");
         assert!(residual < 1e-11, "{residual:e}");
         assert_eq!(record.unconverged_steps, 0);
     }

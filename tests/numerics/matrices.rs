@@ -5,6 +5,7 @@
 
 use crate::bricks::{Block, file_of};
 use assert_cmd::Command;
+use faer::linalg::solvers::Solve;
 use frictionsim::cea::quadratic_modes;
 use frictionsim::linalg::{MarketMatrix, Mat, c64};
 use serde_json::Value;
@@ -108,15 +109,16 @@ fn run(folder: &TempDir, command: &str, set: &[&str]) -> std::process::Output {
 }
 
 /// The exported problem at a friction coefficient, put together as `matrices.json` says.
-fn assembled(folder: &Path, friction: f64) -> [Mat<f64>; 3] {
+fn assembled(folder: &Path, friction: f64) -> [Mat<f64>; 4] {
     let text = fs::read(folder.join("matrices.json")).unwrap();
     let description: Value = serde_json::from_slice(&text).unwrap();
     let size = description["dofs"].as_u64().unwrap() as usize;
-    let mut sums = [0, 1, 2].map(|_| Mat::<f64>::zeros(size, size));
+    let mut sums = [0, 1, 2, 3].map(|_| Mat::<f64>::zeros(size, size));
     for entry in description["matrices"].as_array().unwrap() {
         let file = folder.join(entry["matrix_market"].as_str().unwrap());
         let matrix = dense(&MarketMatrix::read(&fs::read_to_string(file).unwrap()).unwrap());
-        for (sum, role) in sums.iter_mut().zip(["mass", "damping", "stiffness"]) {
+        let roles = ["mass", "damping", "stiffness", "structural"];
+        for (sum, role) in sums.iter_mut().zip(roles) {
             if let Some(power) = entry["role"][role]["friction_power"].as_i64() {
                 let factor = friction.powi(power as i32);
                 for j in 0..size {
@@ -153,10 +155,60 @@ fn exported_matrices_solved_densely_have_the_eigenvalues_of_the_analysis() {
     }
 }
 
+/// Eigenvalues of `lambda^2 M + lambda C + K + i H` by the companion matrix, frequencies scaled to about one.
+fn lossy_eigenvalues([mass, damping, stiffness, losses]: [&Mat<f64>; 4]) -> Vec<c64> {
+    let size = mass.nrows();
+    let scale = (stiffness.norm_l2() / mass.norm_l2()).sqrt();
+    let complex = |re: &Mat<f64>, im: Option<&Mat<f64>>, factor: f64| {
+        Mat::<c64>::from_fn(size, size, |i, j| {
+            c64::new(
+                re[(i, j)] * factor,
+                im.map_or(0.0, |im| im[(i, j)] * factor),
+            )
+        })
+    };
+    let lu = complex(mass, None, 1.0).partial_piv_lu();
+    let springs = lu.solve(complex(stiffness, Some(losses), scale.powi(-2)));
+    let dashpots = lu.solve(complex(damping, None, scale.recip()));
+    let companion = Mat::<c64>::from_fn(2 * size, 2 * size, |i, j| match (i < size, j < size) {
+        (true, true) => c64::new(0.0, 0.0),
+        (true, false) => c64::new(f64::from(u8::from(i + size == j)), 0.0),
+        (false, true) => -springs[(i - size, j)],
+        (false, false) => -dashpots[(i - size, j - size)],
+    });
+    let found = companion.eigenvalues().unwrap();
+    found.into_iter().map(|own| own * scale).collect()
+}
+
+/// Structural damping of the block and of the springs of its support, in a matrix of its own.
+#[test]
+fn exported_structural_damping_has_the_eigenvalues_of_the_analysis() {
+    let folder = tempfile::tempdir().unwrap();
+    block(&folder);
+    let lossy = [
+        "material.loss_factor=0.03",
+        "contact.normal_stiffness=1e13",
+        "contact.loss_factor=0.1",
+    ];
+    for command in ["cea", "matrices"] {
+        let output = run(&folder, command, &lossy);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{said}");
+    }
+    let [.., losses] = assembled(&folder.path().join("matrices"), 0.3);
+    assert!(losses.norm_max() > 0.0);
+    assert!(listed_modes_found(&folder, 0.3) >= 6);
+}
+
 /// How many modes `cea` lists at a friction coefficient, all of them among the dense ones of the exported matrices.
 fn listed_modes_found(folder: &TempDir, friction: f64) -> usize {
-    let [mass, damping, stiffness] = assembled(&folder.path().join("matrices"), friction);
-    let found = quadratic_modes(mass.as_ref(), damping.as_ref(), stiffness.as_ref()).unwrap();
+    let [mass, damping, stiffness, losses] = assembled(&folder.path().join("matrices"), friction);
+    let found: Vec<c64> = if losses.norm_max() > 0.0 {
+        lossy_eigenvalues([&mass, &damping, &stiffness, &losses])
+    } else {
+        let found = quadratic_modes(mass.as_ref(), damping.as_ref(), stiffness.as_ref()).unwrap();
+        found.iter().map(|mode| mode.eigenvalue).collect()
+    };
     let table = fs::read_to_string(folder.path().join("cea/eigenvalues.csv")).unwrap();
     let mut rows = table
         .lines()
@@ -169,7 +221,7 @@ fn listed_modes_found(folder: &TempDir, friction: f64) -> usize {
     for row in rows.filter(at_friction) {
         let part = |name: &str| TAU * row[column(name)].parse::<f64>().unwrap();
         let listed = c64::new(part("real_hz"), part("frequency_hz"));
-        let distances = found.iter().map(|mode| (mode.eigenvalue - listed).norm());
+        let distances = found.iter().map(|eigenvalue| (eigenvalue - listed).norm());
         let error = distances.fold(f64::INFINITY, f64::min) / listed.norm();
         assert!(error < 1e-9, "{listed}: {error:e}");
         count += 1;

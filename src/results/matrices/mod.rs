@@ -22,7 +22,11 @@ pub const CONTACT: &str = "contact.csv";
 pub const DESCRIPTION: &str = "matrices.json";
 
 /// The equation that the matrices belong to.
-const EQUATION: &str = "(lambda^2 M + lambda C + K) x = 0, each the sum over its entries in matrices of mu^friction_power times the file";
+const LOSSLESS: &str = "(lambda^2 M + lambda C + K) x = 0,";
+/// The same with structural damping.
+const LOSSY: &str = "(lambda^2 M + lambda C + K + i H) x = 0 where Im lambda > 0,";
+/// What each matrix is.
+const SUMS: &str = "each the sum over its entries in matrices of mu^friction_power times the file";
 
 /// One exported matrix.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +37,12 @@ pub struct ExportedMatrix {
     pub role: MatrixRole,
     /// Its entries.
     pub matrix: MarketMatrix,
+}
+
+impl ExportedMatrix {
+    fn is_structural(&self) -> bool {
+        matches!(self.role, MatrixRole::Structural { .. })
+    }
 }
 
 /// What a matrix is in the problem.
@@ -51,6 +61,11 @@ pub enum MatrixRole {
     },
     /// In the stiffness `K`, Pa; N/m.
     Stiffness {
+        /// Power of the friction coefficient.
+        friction_power: usize,
+    },
+    /// In the imaginary part `H` of the stiffness, from structural damping: `K + i H` where `Im lambda > 0`, Pa; N/m.
+    Structural {
         /// Power of the friction coefficient.
         friction_power: usize,
     },
@@ -174,8 +189,8 @@ impl MatrixRole {
             (Self::Mass { .. }, _) => "kg/m",
             (Self::Damping { .. }, 3) => "N s/m",
             (Self::Damping { .. }, _) => "Pa s",
-            (Self::Stiffness { .. }, 3) => "N/m",
-            (Self::Stiffness { .. }, _) => "Pa",
+            (Self::Stiffness { .. } | Self::Structural { .. }, 3) => "N/m",
+            (Self::Stiffness { .. } | Self::Structural { .. }, _) => "Pa",
             (Self::ContactNormal | Self::ContactSlip, _) => "1",
         }
     }
@@ -190,6 +205,7 @@ impl MatrixRole {
             Self::Mass { friction_power } => power("mass", friction_power),
             Self::Damping { friction_power } => power("damping", friction_power),
             Self::Stiffness { friction_power } => power("stiffness", friction_power),
+            Self::Structural { friction_power } => power("structural damping", friction_power),
             Self::ContactNormal => "motion of the contact points along the normal".to_owned(),
             Self::ContactSlip => "motion of the contact points along the sliding".to_owned(),
         }
@@ -214,7 +230,10 @@ impl MatricesSummary {
             title: title.to_owned(),
             wall_s,
             dofs: system.unknowns.len(),
-            equation: EQUATION.to_owned(),
+            equation: match system.matrices.iter().any(ExportedMatrix::is_structural) {
+                true => format!("{LOSSY} {SUMS}"),
+                false => format!("{LOSSLESS} {SUMS}"),
+            },
             units: match system.dimension {
                 3 => "SI; lambda in rad/s".to_owned(),
                 _ => "SI; lambda in rad/s; matrices per metre of thickness".to_owned(),

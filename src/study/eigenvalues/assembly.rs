@@ -159,6 +159,8 @@ pub fn base_state(case: &Case, report: &AssemblyReport) -> BaseState {
         .map(|point| point.shear * point.area * point.speed)
         .sum();
     let speed = case.contact.sliding.rotation_speed;
+    let per_speed = if speed == 0.0 { 0.0 } else { power / speed };
+    let is_straight = case.body.slides_straight();
     BaseState {
         friction_coefficient: case.contact.sliding.friction_coefficient,
         slipping: closed,
@@ -166,8 +168,8 @@ pub fn base_state(case: &Case, report: &AssemblyReport) -> BaseState {
         open: report.points.len() - closed,
         pressure_pa: range(|point| point.pressure),
         shear_pa: range(|point| point.shear),
-        torque_n_m: Some(if speed == 0.0 { 0.0 } else { power / speed }),
-        drag_n: None,
+        torque_n_m: (!is_straight).then_some(per_speed),
+        drag_n: is_straight.then_some(per_speed),
         power_w: power,
         extent: Extent::WholeBody,
     }

@@ -41,15 +41,6 @@ impl Solver {
                     "give a mesh of one sector with mesh.sectors, or use \"auto\" or \"sparse\"",
                 ))
             }
-            (Body::Revolution(_), CeaMethod::Sparse) => Err(case.error_at(
-                "cea.method",
-                "cea.method = \"sparse\" is for plane bodies",
-                "the body is three-dimensional",
-                "use \"auto\" or \"cyclic\"",
-            )),
-            (Body::Revolution(_), _) if is_lossy => {
-                Err(no_cyclic_losses(case, "the eigenvalue analysis"))
-            }
             (Body::Annulus(_), CeaMethod::Cyclic) if is_lossy => {
                 Err(no_cyclic_losses(case, "cea.method = \"cyclic\""))
             }
@@ -104,11 +95,7 @@ fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
     if case.contact.sliding.rotation_speed != 0.0 || !has_contact {
         return Ok(());
     }
-    let key = match case.raw.find("contact.speed") {
-        _ if case.body.assembly().is_some() => "motion",
-        Some(_) => "contact.speed",
-        None => "contact.rotation_speed_rpm",
-    };
+    let key = case.speed_key();
     Err(case.error_at(
         key,
         format!(
@@ -126,7 +113,7 @@ fn refuse_uncountable(case: &Case, solver: &Solver) -> Result<(), CaseErrors> {
     let (why, help) = match (solver, tables.next()) {
         (Solver::SolidSectors(_), _) => (
             "the harmonics of a body of revolution are counted at rest (by inertia) and followed from there".to_owned(),
-            "leave it out; a mesh file of the whole body can be counted",
+            "leave it out, or take the whole mesh: cea.method = \"sparse\"",
         ),
         (_, Some(table)) => (
             format!("{} is a table over frequency, and no analytic function of the eigenvalue", table.key()),

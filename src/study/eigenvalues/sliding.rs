@@ -6,7 +6,7 @@ use super::model::Model;
 use super::solid::SolidBody;
 use crate::case::{Case, Cea};
 use crate::fem::nodal_stress;
-use crate::mesh::{AnnulusMesh, Counterface, Mesh, SectorMesh};
+use crate::mesh::{AnnulusMesh, Mesh, SectorMesh};
 use crate::prestress::{SectorTangent, SteadySliding};
 use crate::results::cea::{AssemblyReport, BaseField, BaseState};
 use crate::study::extent_of;
@@ -112,7 +112,7 @@ impl SlidingModel {
             .iter()
             .filter(|is_pressed| !**is_pressed)
             .count();
-        let is_plane = matches!(self.mesh.counterface, Counterface::Plane { .. });
+        let is_straight = case.body.slides_straight();
         BaseState {
             friction_coefficient: friction,
             slipping: pressures.len() - open,
@@ -120,8 +120,8 @@ impl SlidingModel {
             open,
             pressure_pa: [smallest, largest],
             shear_pa: [shear[0].min(shear[1]), shear[0].max(shear[1])],
-            torque_n_m: (!is_plane).then_some(torque),
-            drag_n: is_plane.then_some(torque),
+            torque_n_m: (!is_straight).then_some(torque),
+            drag_n: is_straight.then_some(torque),
             power_w: torque * case.contact.sliding.rotation_speed,
             extent: extent_of(case),
         }

@@ -243,7 +243,7 @@ fn refuse_bodies(case: &Case) -> Result<(), CaseErrors> {
             "material.formulation",
             "improve adds to, or takes from, one place of a body, which breaks the symmetry that this body is solved by",
             "a body of revolution in three dimensions",
-            "give the body as a mesh file (mesh.file)",
+            "take its whole mesh: cea.method = \"sparse\"",
         ),
         Body::Annulus(annulus) if annulus.materials.shaft.is_some() => refuse(
             "geometry.shaft_inner_radius",

@@ -89,7 +89,8 @@ fn contact_nodes(base: &Base<'_>) -> BTreeSet<u32> {
     let boundaries: Vec<usize> = match &base.case.body {
         Body::Assembly(assembly) => {
             let contacts = assembly.contacts.iter();
-            let contacts = contacts.flat_map(|own| [own.surface, own.counter]);
+            let contacts =
+                contacts.flat_map(|own| std::iter::once(own.surface).chain(own.counter.surface()));
             let ties = assembly.ties.iter();
             contacts
                 .chain(ties.flat_map(|own| [own.surface, own.counter]))

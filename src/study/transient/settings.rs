@@ -1,6 +1,6 @@
 //! From the case's terms to those of the time loop, and its errors back to keys of the case.
 
-use crate::case::{Case, Transient};
+use crate::case::{AssemblyBody, Case, Transient};
 use crate::cycle::OperatingPoint;
 use crate::mesh::{AnnulusMesh, Mesh, SolidSector};
 use crate::prestress::Assembly;
@@ -58,8 +58,7 @@ pub fn assembly<'a>(
     point: &OperatingPoint,
     assembly: &'a Assembly<'a>,
 ) -> AssemblyTransientModel<'a> {
-    let motions = case.body.assembly().map_or(&[][..], |body| &body.motions);
-    let axis = motions.first().map(|motion| [motion.center, motion.axis]);
+    let axis = case.body.assembly().and_then(AssemblyBody::axis);
     AssemblyTransientModel {
         assembly,
         damping: point.damping,

@@ -44,6 +44,10 @@ struct TouchingPoint {
     /// time, 1/kg.
     mobility: [f64; 2],
     gap: f64,
+    /// How far a rigid counterface is pushed in at the end, m.
+    interference: f64,
+    /// How far the counterpart is pushed beyond the gap one step ago, now and at the next step, m.
+    pushed: [f64; 3],
     /// Sliding speed, m/s.
     speed: f64,
     /// Tangential dashpot, N s/m.
@@ -111,6 +115,8 @@ impl PointContact {
                     mobility,
                     rows,
                     gap: point.gap,
+                    interference: surfaces.counter.interference(),
+                    pushed: [-point.gap; 3],
                     speed: point.speed,
                     dashpot: surfaces.stiffness.tangential_damping * point.weight,
                     law,
@@ -194,15 +200,16 @@ impl TouchingPoint {
     fn resolve(&mut self, velocity: [f64; 3], springs: &mut Option<CompliantContact>, dt: f64) {
         let [normal_yield, surface_yield] = self.mobility;
         let free = velocity[0] - dt * normal_yield * self.force[0];
+        let [earlier, now, later] = self.pushed;
         let normal = match springs {
             // (6): no penetration at the end of the step.
-            None => (-(self.gap + self.separation + dt * free) / (dt * dt * normal_yield)).max(0.0),
+            None => ((later - self.separation - dt * free) / (dt * dt * normal_yield)).max(0.0),
             Some(springs) => springs.force(
                 self.contact.1,
                 &CompressedNode {
                     mass: normal_yield.recip(),
-                    before: -self.gap - self.separation + 0.5 * dt * self.before[0],
-                    free: -self.gap - self.separation - 0.5 * dt * free,
+                    before: 0.5 * (earlier + now) - self.separation + 0.5 * dt * self.before[0],
+                    free: 0.5 * (now + later) - self.separation - 0.5 * dt * free,
                 },
                 dt,
             ),
@@ -290,6 +297,7 @@ impl LagrangeContact {
         &mut self,
         fields: &mut MotionFields,
         coefficients: &StepCoefficients,
+        shares: [f64; 3],
     ) {
         let Some(mut contact) = self.points.take() else {
             return;
@@ -316,6 +324,7 @@ impl LagrangeContact {
                 .iter()
                 .map(|&(k, along)| along * fields.displacement[dofs[k as usize].place]);
             point.separation = parts.sum();
+            point.pushed = shares.map(|share| point.interference * share - point.gap);
             point.force = [0.0; 3];
         }
         let is_settled = (0..MOST_SWEEPS).any(|_| {
@@ -404,16 +413,18 @@ impl LagrangeContact {
             // (9) and (10).
             powers.external += along * point.speed;
             powers.contact_dissipated += along * point.speed - power;
-            if contact.springs[point.contact.0].is_none() {
-                powers.normal += point.force[0] * mean_n;
-            }
+            powers.normal += point.force[0]
+                * match &contact.springs[point.contact.0] {
+                    None => mean_n,
+                    Some(_) => 0.5 * (point.pushed[2] - point.pushed[0]) / dt,
+                };
             powers.damping += point.dashpot * (mean_t * mean_t + mean_a * mean_a);
         }
         (powers, counts)
     }
 
     /// Energy in the springs at points at the half step before `u`, J.
-    pub(super) fn energy_at_points(&self, fields: &MotionFields, dt: f64) -> f64 {
+    pub(super) fn energy_at_points(&self, fields: &MotionFields, shares: [f64; 2], dt: f64) -> f64 {
         let Some(contact) = &self.points else {
             return 0.0;
         };
@@ -423,7 +434,8 @@ impl LagrangeContact {
                 let place = contact.dofs[k as usize].place;
                 along * (fields.displacement[place] - 0.5 * dt * fields.velocity[place])
             });
-            Some(springs.energy(point.contact.1, -point.gap - parts.sum::<f64>()))
+            let pushed = point.interference * 0.5 * (shares[0] + shares[1]) - point.gap;
+            Some(springs.energy(point.contact.1, pushed - parts.sum::<f64>()))
         };
         contact.points.iter().filter_map(energy).sum()
     }
@@ -466,9 +478,10 @@ impl LagrangeContact {
         Some(contact.points[point].law)
     }
 
-    /// Distance of node `i` from what it meets under a displacement field, m.
-    pub(super) fn gap_at_node(&self, i: usize, displacement: &[f64]) -> f64 {
-        self.mean_at_node(i, |point| point.gap) + self.row_at_node(i, 0, displacement)
+    /// Distance of node `i` from what it meets under a displacement field and a `share` of the interference, m.
+    pub(super) fn gap_at_node(&self, i: usize, displacement: &[f64], share: f64) -> f64 {
+        self.mean_at_node(i, |point| point.gap - share * point.interference)
+            + self.row_at_node(i, 0, displacement)
     }
 
     /// Slip of node `i` along the sliding under a displacement field, m.

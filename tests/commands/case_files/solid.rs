@@ -56,6 +56,14 @@ fn bodies_without_thickness_rings_beside_the_face_and_contact_at_rest_are_refuse
     for (overrides, parts) in &cases {
         assert_reports(&report(RING, overrides), parts);
     }
+    let disc = include_str!("../../../cases/disc-three-dimensions.toml");
+    let outer =
+        "boundaries.outer={condition=\"support\",normal_stiffness=1e12,tangential_stiffness=1e12}";
+    let parts = [
+        "nothing holds the body along its axis",
+        "axial_stiffness above 0",
+    ];
+    assert_reports(&report(disc, &[outer]), &parts);
     let flat = RING.replace("thickness = 0.009\n", "");
     assert_ne!(flat, RING);
     let parts = [

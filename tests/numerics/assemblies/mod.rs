@@ -2,13 +2,14 @@
 
 mod normal_law;
 mod response;
+mod rigid_counterface;
 mod rotation;
 mod topography;
 
 use crate::bricks::{Block, file_of};
 use frictionsim::cea::sparse::sweep;
 use frictionsim::cea::{ModeLimit, SweepRequest};
-use frictionsim::contact::{ContactStiffness, Motion, PairError, PairFriction};
+use frictionsim::contact::{ContactStiffness, Counterpart, Motion, PairError, PairFriction};
 use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping};
 use frictionsim::linalg::c64;
 use frictionsim::mesh::{BoundaryCondition, GmshFile, Mesh};
@@ -62,7 +63,7 @@ fn sliding(mesh: &Mesh, normal_stiffness: Option<f64>) -> SlidingSurfaces {
     SlidingSurfaces {
         name: "pad".to_owned(),
         surface: boundary(mesh, "upper_z0"),
-        counter: boundary(mesh, "lower_z1"),
+        counter: Counterpart::Surface(boundary(mesh, "lower_z1")),
         friction: PairFriction {
             ratio: 1.0,
             decay: None,
@@ -280,7 +281,7 @@ fn refusal(blocks: &[Block], sides: [&str; 2]) -> String {
     let mesh = mesh_of(&file_of(blocks, |point| point), &[]);
     let contact = SlidingSurfaces {
         surface: boundary(&mesh, sides[0]),
-        counter: boundary(&mesh, sides[1]),
+        counter: Counterpart::Surface(boundary(&mesh, sides[1])),
         ..sliding(&mesh, Some(1e14))
     };
     let motion = turning(&mesh, [0.0, 0.0, 1.0], [1.0, 0.3, 0.0]);

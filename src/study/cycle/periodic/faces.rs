@@ -19,9 +19,18 @@ pub fn faces_in_air(case: &Case, stepped: &SteppedMesh<'_>) -> Vec<FlatFace> {
             .filter_map(|face| flat_face(sector, face))
             .collect(),
         (None, Some(body)) => {
-            let contacts = body.contacts.iter().map(|own| [own.surface, own.counter]);
+            let contacts = body.contacts.iter();
+            let contacts = contacts.filter_map(|own| Some([own.surface, own.counter.surface()?]));
             let ties = body.ties.iter().map(|own| [own.surface, own.counter]);
-            let covered = covered(&stepped.mesh, contacts.chain(ties));
+            let mut covered = covered(&stepped.mesh, contacts.chain(ties));
+            let on_rigid = body
+                .contacts
+                .iter()
+                .filter(|own| own.counter.rigid().is_some());
+            covered.extend(on_rigid.flat_map(|own| {
+                let faces = stepped.mesh.boundaries[own.surface].faces.iter();
+                faces.map(|face| sorted(&face.nodes))
+            }));
             let mut faces = stepped.mesh.outer_faces();
             faces.retain(|face| !covered.contains(&sorted(&face.nodes)));
             FlatFace::of(&stepped.mesh, &faces)

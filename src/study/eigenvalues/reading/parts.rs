@@ -94,7 +94,10 @@ impl<'a> Parts<'a> {
             Model::Whole(whole) => (&whole.options, Vec::new()),
             Model::Assembly(assembly) => {
                 let pairs = assembly.body.contacts.iter();
-                let pairs = pairs.map(|own| (own.name.clone(), [own.surface, own.counter]));
+                let pairs = pairs.map(|own| {
+                    let surfaces = std::iter::once(own.surface).chain(own.counter.surface());
+                    (own.name.clone(), surfaces.collect())
+                });
                 (
                     &assembly.options,
                     contact_dofs(mesh, &pairs.collect::<Vec<_>>()),
@@ -190,7 +193,7 @@ impl<'a> Parts<'a> {
 }
 
 /// The dofs on both surfaces of each contact; a node that several contacts touch is of the one whose finer surface is nearest.
-fn contact_dofs(mesh: &Mesh, contacts: &[(String, [usize; 2])]) -> Vec<(String, Vec<usize>)> {
+fn contact_dofs(mesh: &Mesh, contacts: &[(String, Vec<usize>)]) -> Vec<(String, Vec<usize>)> {
     let nodes = |boundary: usize| mesh.boundaries[boundary].nodes.iter().map(|&n| n as usize);
     let distance = |node: usize, contact: usize| {
         let at = mesh.nodes[node];

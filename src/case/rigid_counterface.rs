@@ -1,0 +1,103 @@
+//! The rigid counterface of solid bodies: of `[contact]`, and of a `[contacts.NAME]` without `counter`.
+
+use super::reader::Section;
+use super::words::CounterfaceWord;
+use crate::contact::{RigidCounterface, RigidMotion, RigidShape};
+use nalgebra::Vector3;
+use std::f64::consts::TAU;
+
+/// Reads `counterface` with its place, motion and interference.
+pub(super) fn rigid_counterface(section: &Section<'_>) -> RigidCounterface {
+    let word: CounterfaceWord = section.choice("counterface");
+    let radius = section.optional_number("radius");
+    let shape = match word {
+        CounterfaceWord::Plane => RigidShape::Plane,
+        CounterfaceWord::Cylinder => RigidShape::Cylinder(radius),
+        CounterfaceWord::Sphere => RigidShape::Sphere(radius),
+        CounterfaceWord::Body => {
+            section.reject(
+                "counterface",
+                format!(
+                    "{} = \"body\" is for two plane bodies",
+                    section.name("counterface")
+                ),
+                "the mesh is of solid elements",
+                "name the surfaces that slide on each other under [contacts.NAME], as `surface` and `counter`",
+            );
+            RigidShape::Plane
+        }
+    };
+    if shape == RigidShape::Plane && radius.is_some() {
+        section.warn(
+            "radius",
+            format!(
+                "{} is not used: the counterface is a plane",
+                section.name("radius")
+            ),
+            "no effect",
+        );
+    }
+    let axis = triple(section, "axis").unwrap_or([0.0, 0.0, 1.0]);
+    RigidCounterface {
+        shape,
+        center: triple(section, "center").unwrap_or([0.0; 3]),
+        axis: unit(section, "axis", axis),
+        motion: motion(section),
+        interference: section.number("interference"),
+    }
+}
+
+/// Along a straight line where `speed` or `direction` is given, else about the axis.
+fn motion(section: &Section<'_>) -> RigidMotion {
+    let speed = section.optional_number("speed");
+    if speed.is_none() && !section.has("direction") {
+        return RigidMotion::Turning(section.number("rotation_speed_rpm") * TAU / 60.0);
+    }
+    if section.has("rotation_speed_rpm") {
+        let _ = section.optional_number("rotation_speed_rpm");
+        section.reject(
+            "rotation_speed_rpm",
+            "the counterface turns about its axis or slides along a straight line, not both",
+            "beside `speed` or `direction`",
+            "leave rotation_speed_rpm out, or `speed` and `direction`",
+        );
+    }
+    let speed = speed.unwrap_or_else(|| section.number("speed"));
+    if !section.has("direction") {
+        section.missing("direction");
+    }
+    let direction = triple(section, "direction").unwrap_or([1.0, 0.0, 0.0]);
+    RigidMotion::Sliding(unit(section, "direction", direction).map(|x| x * speed))
+}
+
+/// Three numbers, where they are given.
+pub(super) fn triple(section: &Section<'_>, key: &str) -> Option<[f64; 3]> {
+    match section.numbers(key).as_deref() {
+        Some(&[x, y, z]) => Some([x, y, z]),
+        Some(_) => {
+            section.reject(
+                key,
+                format!("{} needs three numbers", section.name(key)),
+                "must be [x, y, z]",
+                None,
+            );
+            None
+        }
+        None => None,
+    }
+}
+
+/// The vector of length one along `direction`.
+pub(super) fn unit(section: &Section<'_>, key: &str, direction: [f64; 3]) -> [f64; 3] {
+    let direction = Vector3::from(direction);
+    if direction.norm() == 0.0 {
+        section.reject(
+            key,
+            format!("{} = [0, 0, 0] points nowhere", section.name(key)),
+            "must not be zero",
+            None,
+        );
+        return [0.0, 0.0, 1.0];
+    }
+    direction.normalize().into()
+}

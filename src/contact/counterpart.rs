@@ -1,0 +1,266 @@
+//! What a surface of solid bodies slides on: another of their surfaces, or a rigid counterface.
+
+use super::PairError;
+use crate::mesh::{Boundary, BoundaryFace, Mesh};
+use nalgebra::Vector3;
+use std::collections::BTreeMap;
+
+/// What a surface of solid bodies slides on.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Counterpart {
+    /// Another boundary of the mesh, by its index.
+    Surface(usize),
+    /// A rigid surface.
+    Rigid(RigidCounterface),
+}
+
+impl Counterpart {
+    /// The boundary of the mesh, unless it is a rigid counterface.
+    pub fn surface(&self) -> Option<usize> {
+        match self {
+            Self::Surface(boundary) => Some(*boundary),
+            Self::Rigid(_) => None,
+        }
+    }
+
+    /// The rigid counterface, if it is one.
+    pub fn rigid(&self) -> Option<&RigidCounterface> {
+        match self {
+            Self::Surface(_) => None,
+            Self::Rigid(rigid) => Some(rigid),
+        }
+    }
+
+    /// How far it is pushed into the body, m; surfaces of bodies are pressed by loads alone.
+    pub fn interference(&self) -> f64 {
+        self.rigid().map_or(0.0, |rigid| rigid.interference)
+    }
+}
+
+/// A rigid surface that moves along itself and is pushed into a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RigidCounterface {
+    /// Its shape.
+    pub shape: RigidShape,
+    /// A point of the axis of a cylinder and of its turning, or the centre of a sphere, m.
+    pub center: [f64; 3],
+    /// Unit vector along that axis, right-handed.
+    pub axis: [f64; 3],
+    /// How it moves.
+    pub motion: RigidMotion,
+    /// How far it is pushed into the body along its normal, m.
+    pub interference: f64,
+}
+
+/// Shape of a rigid counterface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum RigidShape {
+    /// A plane across the mean normal of the contact surface, which touches it where it stands out farthest.
+    Plane,
+    /// A cylinder inside the contact surface or around it, of a radius (m) or that of the surface.
+    Cylinder(Option<f64>),
+    /// A sphere inside the contact surface or around it, of a radius (m) or that of the surface.
+    Sphere(Option<f64>),
+}
+
+/// Motion of a rigid counterface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum RigidMotion {
+    /// About its axis at `Omega`, rad/s.
+    Turning(f64),
+    /// Along a straight line at a velocity, m/s.
+    Sliding([f64; 3]),
+}
+
+impl RigidMotion {
+    /// `Omega` (rad/s), or the speed along a straight line (m/s).
+    pub fn speed(&self) -> f64 {
+        match self {
+            Self::Turning(speed) => *speed,
+            Self::Sliding(velocity) => Vector3::from(*velocity).norm(),
+        }
+    }
+}
+
+/// Deviation of the contact surface from a circle or sphere, of its radius, that counts as round.
+const ROUND: f64 = 1e-3;
+
+/// Sine of the angle between a straight motion and a plane above which it leaves the plane.
+const ALONG: f64 = 1e-3;
+
+/// A rigid counterface that lies against a contact surface.
+pub(super) struct PlacedCounterface<'a> {
+    own: &'a RigidCounterface,
+    /// Distance of each node of the surface from it, m.
+    heights: BTreeMap<u32, f64>,
+    /// Unit normal of a plane into the body.
+    inward: Vector3<f64>,
+    /// Whether a cylinder or sphere lies inside the surface: +1, or around it: -1.
+    sense: f64,
+}
+
+impl RigidCounterface {
+    /// Velocity of its points, m/s.
+    pub fn velocity(&self, position: [f64; 3]) -> [f64; 3] {
+        match self.motion {
+            RigidMotion::Sliding(velocity) => velocity,
+            RigidMotion::Turning(speed) => {
+                let arm = Vector3::from(position) - Vector3::from(self.center);
+                (Vector3::from(self.axis).cross(&arm) * speed).into()
+            }
+        }
+    }
+
+    /// Its unit normal into the body at a point of the contact surface whose own normal is `mean`.
+    pub(super) fn normal(&self, position: [f64; 3], mean: [f64; 3]) -> [f64; 3] {
+        let mean = Vector3::from(mean);
+        match self.shape {
+            RigidShape::Plane => mean.into(),
+            RigidShape::Cylinder(_) | RigidShape::Sphere(_) => {
+                let radial = self.arm(&position.into()).normalize();
+                (radial * radial.dot(&mean).signum()).into()
+            }
+        }
+    }
+
+    /// Lays it against `surface`.
+    ///
+    /// # Errors
+    /// A surface that is not round about the axis or centre where no radius is given; a plane that moves out of itself.
+    pub(super) fn placed(
+        &self,
+        mesh: &Mesh,
+        surface: &Boundary,
+    ) -> Result<PlacedCounterface<'_>, PairError> {
+        let outward = mean_normals(mesh, surface);
+        let all = surface.faces.iter().flat_map(|face| &face.nodes);
+        let mut nodes: Vec<u32> = all.copied().collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let mut placed = PlacedCounterface {
+            own: self,
+            heights: BTreeMap::new(),
+            inward: Vector3::zeros(),
+            sense: 1.0,
+        };
+        let position = |node: u32| Vector3::from(mesh.nodes[node as usize]);
+        let radius = match self.shape {
+            RigidShape::Plane => {
+                let sum: Vector3<f64> = outward.iter().map(|(_, normal)| normal).sum();
+                placed.inward = -sum.normalize();
+                self.check_along(&placed.inward, surface)?;
+                let height = |node: u32| position(node).dot(&placed.inward);
+                let all = nodes.iter().map(|&node| height(node));
+                let lowest = all.fold(f64::INFINITY, f64::min);
+                let heights = nodes.iter().map(|&node| (node, height(node) - lowest));
+                placed.heights = heights.collect();
+                return Ok(placed);
+            }
+            RigidShape::Cylinder(radius) | RigidShape::Sphere(radius) => radius,
+        };
+        let facing = outward.iter().map(|(at, normal)| self.arm(at).dot(normal));
+        placed.sense = if facing.sum::<f64>() < 0.0 { 1.0 } else { -1.0 };
+        let radii: Vec<f64> = nodes
+            .iter()
+            .map(|&node| self.arm(&position(node)).norm())
+            .collect();
+        let radius = match radius {
+            Some(radius) => radius,
+            None => self.common_radius(mesh, surface, (&nodes, &radii))?,
+        };
+        let heights = radii.iter().map(|own| placed.sense * (own - radius));
+        placed.heights = nodes.iter().copied().zip(heights).collect();
+        Ok(placed)
+    }
+
+    /// From the axis or the centre to a point, m.
+    fn arm(&self, position: &Vector3<f64>) -> Vector3<f64> {
+        let arm = position - Vector3::from(self.center);
+        let axis = Vector3::from(self.axis);
+        match self.shape {
+            RigidShape::Sphere(_) => arm,
+            RigidShape::Cylinder(_) | RigidShape::Plane => arm - axis * axis.dot(&arm),
+        }
+    }
+
+    /// The mean distance of the nodes of a surface from the axis or the centre, which all have.
+    fn common_radius(
+        &self,
+        mesh: &Mesh,
+        surface: &Boundary,
+        (nodes, radii): (&[u32], &[f64]),
+    ) -> Result<f64, PairError> {
+        let mean = radii.iter().sum::<f64>() / radii.len() as f64;
+        let off = |&(_, radius): &(&u32, &f64)| (radius - mean).abs();
+        let pairs = nodes.iter().zip(radii);
+        let farthest = pairs.max_by(|a, b| off(a).total_cmp(&off(b)));
+        match farthest {
+            Some((&node, &distance)) if (distance - mean).abs() > ROUND * mean => {
+                Err(PairError::NotRound {
+                    surface: surface.name.clone(),
+                    node: mesh.labels[node as usize],
+                    distance,
+                    mean,
+                })
+            }
+            _ => Ok(mean),
+        }
+    }
+
+    /// Refuses a motion that takes a plane out of itself.
+    fn check_along(&self, normal: &Vector3<f64>, surface: &Boundary) -> Result<(), PairError> {
+        let (off, whole) = match self.motion {
+            RigidMotion::Sliding(velocity) => {
+                let velocity = Vector3::from(velocity);
+                (velocity.dot(normal).abs(), velocity.norm())
+            }
+            // A plane turns within itself about its normal alone.
+            RigidMotion::Turning(_) => (Vector3::from(self.axis).cross(normal).norm(), 1.0),
+        };
+        if off <= ALONG * whole {
+            return Ok(());
+        }
+        Err(PairError::LeavesPlane {
+            surface: surface.name.clone(),
+            // Without the signs of zeros.
+            normal: normal.map(|x| x + 0.0).into(),
+            is_turning: matches!(self.motion, RigidMotion::Turning(_)),
+        })
+    }
+}
+
+/// Middle of each face of a surface and its outward normal times its area.
+fn mean_normals(mesh: &Mesh, surface: &Boundary) -> Vec<(Vector3<f64>, Vector3<f64>)> {
+    let of_face = |face: &BoundaryFace| {
+        let corners = face.nodes[..face.kind.corner_count()].iter();
+        let corners: Vec<Vector3<f64>> = corners
+            .map(|&node| Vector3::from(mesh.nodes[node as usize]))
+            .collect();
+        let middle = corners.iter().sum::<Vector3<f64>>() / corners.len() as f64;
+        let next = corners.iter().cycle().skip(1);
+        let fan = corners.iter().zip(next);
+        let twice: Vector3<f64> = fan.map(|(a, b)| (a - middle).cross(&(b - middle))).sum();
+        (middle, 0.5 * twice)
+    };
+    surface.faces.iter().map(of_face).collect()
+}
+
+impl PlacedCounterface<'_> {
+    /// Unit normal into the body at a point.
+    pub fn normal(&self, position: &Vector3<f64>) -> Vector3<f64> {
+        match self.own.shape {
+            RigidShape::Plane => self.inward,
+            RigidShape::Cylinder(_) | RigidShape::Sphere(_) => {
+                self.own.arm(position).normalize() * self.sense
+            }
+        }
+    }
+
+    /// Distance of a point of the surface with these shares of its nodes, m.
+    pub fn gap(&self, shares: &[(u32, f64)]) -> f64 {
+        let parts = shares
+            .iter()
+            .map(|(node, share)| self.heights[node] * share);
+        parts.sum()
+    }
+}

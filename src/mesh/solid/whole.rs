@@ -1,0 +1,66 @@
+//! The whole mesh of a body of revolution.
+
+use super::SolidSector;
+use crate::mesh::{BoundaryFace, CyclicSymmetry, GmshFile, SolidContact, SolidFace};
+use std::collections::BTreeMap;
+
+impl SolidSector {
+    /// The whole body as a mesh file would have it, made of equal sectors: surfaces `inner`, `outer`, `top` and `bottom`, and that
+    /// under a ring on the top ([`Self::contact_surface`]).
+    pub fn file(&self) -> GmshFile {
+        let mut mesh = self.part(self.sector_count());
+        mesh.regions = vec!["disc".to_owned()];
+        let mut surfaces: BTreeMap<String, Vec<_>> = BTreeMap::new();
+        let faces = mesh.outer_faces();
+        for face in &faces {
+            for name in self.surfaces_of(face) {
+                let own = surfaces.entry(name.to_owned()).or_default();
+                own.push((face.kind, face.nodes.clone()));
+            }
+        }
+        GmshFile {
+            surfaces,
+            symmetry: Some(CyclicSymmetry {
+                count: self.sector_count(),
+                point: [0.0; 3],
+                direction: [0.0, 0.0, 1.0],
+            }),
+            ..GmshFile::of_mesh(&mesh)
+        }
+    }
+
+    /// Name of the surface of the contact.
+    pub fn contact_surface(&self) -> &'static str {
+        match self.specification.contact {
+            SolidContact::Inner => SolidFace::Inner.name(),
+            SolidContact::Ring { .. } => "ring",
+        }
+    }
+
+    /// The surfaces that a face on the outside belongs to.
+    fn surfaces_of(&self, face: &BoundaryFace) -> impl Iterator<Item = &'static str> {
+        let nodes: Vec<usize> = face
+            .nodes
+            .iter()
+            .map(|&node| node as usize % self.node_count())
+            .collect();
+        let lies_on = |own: SolidFace| nodes.iter().all(|&node| self.is_on(node, own));
+        let under_ring = match self.specification.contact {
+            SolidContact::Inner => false,
+            SolidContact::Ring {
+                inner_radius,
+                outer_radius,
+            } => {
+                let slack = 1e-9 * self.specification.annulus.outer_radius;
+                let within = inner_radius - slack..=outer_radius + slack;
+                let mut radii = nodes.iter().map(|&node| self.nodes[node].radius);
+                lies_on(SolidFace::Top) && radii.all(|radius| within.contains(&radius))
+            }
+        };
+        let own = SolidFace::ALL.into_iter().filter(|own| lies_on(*own));
+        let names: Vec<&'static str> = own.map(SolidFace::name).collect();
+        names
+            .into_iter()
+            .chain(under_ring.then(|| self.contact_surface()))
+    }
+}

@@ -1,0 +1,222 @@
+//! Solid bodies on a rigid counterface: a block that is held at every node is one, and the program has another route for it.
+
+use super::{STEEL, boundary, eigenvalues, largest_difference, mesh_of, sliding, stacked, turning};
+use crate::bricks::{Block, file_of};
+use frictionsim::contact::{
+    ContactStiffness, Counterpart, Motion, PairError, PairFriction, RigidCounterface, RigidMotion,
+    RigidShape, Topography,
+};
+use frictionsim::mesh::{BoundaryCondition, Mesh};
+use frictionsim::prestress::{Assembly, BaseChoice, PrestressError, SlidingSurfaces};
+use std::sync::Arc;
+
+/// How far the counterface is pushed in, m.
+const INTERFERENCE: f64 = 2e-6;
+
+/// The lower block held at every node, the upper one pressed and held at a side.
+const HELD: [(&str, BoundaryCondition); 4] = [
+    ("lower_z0", BoundaryCondition::Clamped),
+    ("lower_z1", BoundaryCondition::Clamped),
+    ("upper_x0", BoundaryCondition::Fixed([true, true, false])),
+    ("upper_z1", BoundaryCondition::Pressure(3e5)),
+];
+
+/// Two blocks, the lower one flat as a sheet so that all its nodes lie on held sides.
+fn sheet() -> [Block; 2] {
+    let [mut lower, upper] = stacked(0.0);
+    lower.counts[2] = 1;
+    [lower, upper]
+}
+
+fn plane(motion: RigidMotion, center: [f64; 3]) -> RigidCounterface {
+    RigidCounterface {
+        shape: RigidShape::Plane,
+        center,
+        axis: [0.0, 0.0, 1.0],
+        motion,
+        interference: INTERFERENCE,
+    }
+}
+
+fn assembled<'a>(mesh: &'a Mesh, contact: SlidingSurfaces, motions: &[Motion]) -> Assembly<'a> {
+    let solved = BaseChoice::Solved;
+    Assembly::new(mesh, &STEEL, &[], &[contact], motions, solved).unwrap()
+}
+
+/// Independent check: a body all of whose nodes are held, of which gaps say how far it is pushed in.
+#[test]
+fn a_rigid_plane_is_a_body_that_is_held_everywhere() {
+    let mesh = mesh_of(&file_of(&sheet(), |point| point), &HELD);
+    let center = [1.0, 0.3, 0.0];
+    let motion = turning(&mesh, [0.0, 0.0, 1.0], center);
+    let corners = [
+        [-0.1, -0.1, 0.02],
+        [0.2, -0.1, 0.02],
+        [-0.1, 0.2, 0.02],
+        [0.2, 0.2, 0.02],
+    ];
+    let places = (0..400).map(|k| [0.0026 * f64::from(k % 20), 0.0022 * f64::from(k / 20), 0.02]);
+    let points = places.chain(corners).map(|place| (place, -INTERFERENCE));
+    let gaps = Arc::new(Topography::new("pushed.csv", points.collect()));
+    for stiffness in [None, Some(2e13)] {
+        let held = SlidingSurfaces {
+            topography: Some(Arc::clone(&gaps)),
+            ..sliding(&mesh, stiffness)
+        };
+        let held = assembled(&mesh, held, std::slice::from_ref(&motion));
+        let on_rigid = SlidingSurfaces {
+            counter: Counterpart::Rigid(plane(RigidMotion::Turning(10.0), center)),
+            ..sliding(&mesh, stiffness)
+        };
+        let on_rigid = assembled(&mesh, on_rigid, &[]);
+        let pressures = [&held, &on_rigid].map(|assembly| {
+            let range = assembly.range(&[0.4]).unwrap();
+            range.states[range.state_of[0]].normal_forces(0.4)
+        });
+        if stiffness.is_none() {
+            let largest = pressures[0].iter().copied().fold(0.0, f64::max);
+            assert!(largest > 0.0);
+            for (a, b) in pressures[0].iter().zip(&pressures[1]) {
+                assert!((a - b).abs() < 1e-9 * largest, "{a} {b}");
+            }
+        } else {
+            // Points of the one are those of common segments.
+            let [a, b] = pressures.map(|all| all.iter().sum::<f64>());
+            assert!((a / b - 1.0).abs() < 1e-3, "{a} {b}");
+        }
+        let spectra = [&held, &on_rigid].map(|assembly| eigenvalues(assembly, 0.4, 8));
+        let error = largest_difference(&spectra[0], &spectra[1]);
+        assert!(
+            error < if stiffness.is_none() { 1e-9 } else { 1e-3 },
+            "{error:e}"
+        );
+        assert!(
+            spectra[0]
+                .iter()
+                .any(|eigenvalue| eigenvalue.re.abs() > 1e-6 * eigenvalue.im)
+        );
+    }
+}
+
+/// A bush of one ring of bricks around a shaft that turns: every node of the bore is pressed alike.
+#[test]
+fn a_shaft_presses_a_bush_evenly_whatever_its_axis() {
+    let block = Block {
+        name: "bush",
+        origin: [0.0; 3],
+        size: [1.0; 3],
+        counts: [2, 24, 2],
+    };
+    let (radius, wall, center) = (0.02, 0.01, [0.3, -0.2, 0.5]);
+    // The axis lies along (2, 2, 1) / 3.
+    let [e, f, axis] = [[1.0, 0.0, -2.0], [-4.0, 5.0, -2.0], [2.0, 2.0, 1.0]];
+    let unit = |v: [f64; 3]| {
+        let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+        v.map(|x| x / length)
+    };
+    let [e, f, axis] = [e, f, axis].map(unit);
+    let place = |[r, turn, along]: [f64; 3]| {
+        let (sin, cos) = (std::f64::consts::TAU * turn).sin_cos();
+        let r = radius + wall * r;
+        std::array::from_fn(|k| center[k] + r * (cos * e[k] + sin * f[k]) + 0.02 * along * axis[k])
+    };
+    let bytes = file_of(&[block], place);
+    let mesh = mesh_of(&bytes, &[("bush_x1", BoundaryCondition::Clamped)]);
+    for shape in [
+        RigidShape::Cylinder(None),
+        RigidShape::Cylinder(Some(radius)),
+    ] {
+        let rigid = RigidCounterface {
+            shape,
+            center,
+            axis,
+            motion: RigidMotion::Turning(-3.0),
+            interference: 1e-6,
+        };
+        let contact = SlidingSurfaces {
+            name: "shaft".to_owned(),
+            surface: boundary(&mesh, "bush_x0"),
+            counter: Counterpart::Rigid(rigid),
+            friction: PairFriction {
+                ratio: 1.0,
+                decay: None,
+            },
+            stiffness: ContactStiffness::default(),
+            law: None,
+            topography: None,
+        };
+        let assembly = assembled(&mesh, contact, &[]);
+        let (_, surface) = &assembly.contacts()[0];
+        for (point, site) in surface.points.iter().zip(&surface.sites) {
+            assert!((point.speed / (3.0 * radius) - 1.0).abs() < 1e-9);
+            assert!(point.gap.abs() < 1e-12);
+            let arm: [f64; 3] = std::array::from_fn(|k| site.position[k] - center[k]);
+            let outward: f64 = (0..3).map(|k| arm[k] * site.normal[k]).sum();
+            assert!(outward > 0.9 * radius);
+        }
+        let range = assembly.range(&[0.0]).unwrap();
+        let forces = range.states[0].normal_forces(0.0);
+        let pressures = forces
+            .iter()
+            .zip(&surface.points)
+            .map(|(force, point)| force / point.weight);
+        let pressures: Vec<f64> = pressures.collect();
+        assert!(
+            pressures.iter().all(|pressure| *pressure > 1e6),
+            "{pressures:?}"
+        );
+    }
+}
+
+fn refusal(rigid: RigidCounterface) -> PairError {
+    let mesh = mesh_of(&file_of(&sheet(), |point| point), &HELD);
+    let contact = SlidingSurfaces {
+        counter: Counterpart::Rigid(rigid),
+        ..sliding(&mesh, None)
+    };
+    let found = Assembly::new(&mesh, &STEEL, &[], &[contact], &[], BaseChoice::Solved);
+    match found.unwrap_err() {
+        PrestressError::Pair { error, .. } => *error,
+        other => panic!("{other}"),
+    }
+}
+
+#[test]
+fn a_rigid_counterface_that_does_not_fit_the_surface_is_refused() {
+    let center = [1.0, 0.3, 0.0];
+    let sliding = RigidMotion::Sliding([1.0, 0.0, 0.2]);
+    let found = refusal(plane(sliding, center));
+    assert!(
+        matches!(
+            found,
+            PairError::LeavesPlane {
+                is_turning: false,
+                ..
+            }
+        ),
+        "{found}"
+    );
+    let tilted = RigidCounterface {
+        axis: [0.0, 0.6, 0.8],
+        ..plane(RigidMotion::Turning(1.0), center)
+    };
+    let found = refusal(tilted);
+    assert!(
+        matches!(
+            found,
+            PairError::LeavesPlane {
+                is_turning: true,
+                ..
+            }
+        ),
+        "{found}"
+    );
+    let found = refusal(plane(RigidMotion::Sliding([0.0; 3]), center));
+    assert!(matches!(found, PairError::AtRest(_)), "{found}");
+    let cylinder = RigidCounterface {
+        shape: RigidShape::Cylinder(None),
+        ..plane(RigidMotion::Turning(1.0), [0.0, 0.0, 0.0])
+    };
+    let found = refusal(cylinder);
+    assert!(matches!(found, PairError::NotRound { .. }), "{found}");
+}
