@@ -298,3 +298,24 @@ fn rigid_counterfaces_of_solid_bodies_that_cannot_be_are_refused_at_their_keys()
         }
     }
 }
+
+/// Numbers by LAPACK: the dense eigenvalues of the exported matrices at this friction have a mode at 1424.66 Hz with growth 0.0 1/s.
+#[test]
+fn the_shipped_tread_block_squeals_in_its_shear_mode() {
+    let folder = tempfile::tempdir().unwrap();
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
+    fs::create_dir(folder.path().join("meshes")).unwrap();
+    let mesh = "meshes/tread-block.msh";
+    fs::copy(cases.join(mesh), folder.path().join(mesh)).unwrap();
+    let case = fs::read_to_string(cases.join("tread-block.toml")).unwrap();
+    let sets = ["cea.friction_coefficients=[0.0,0.4,0.5]", "cea.modes=4"];
+    let (is_done, said) = run(folder.path(), "cea", &case, "run", &sets);
+    assert!(is_done, "{said}");
+    let summary = fs::read_to_string(folder.path().join("run/summary.json")).unwrap();
+    let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+    let onset = &summary["critical_frictions"][0];
+    let [friction, frequency] =
+        ["critical_friction", "frequency_hz"].map(|key| onset[key].as_f64().unwrap());
+    assert!((friction - 0.451102).abs() < 1e-6, "{onset}");
+    assert!((frequency - 1424.66).abs() < 0.01, "{onset}");
+}

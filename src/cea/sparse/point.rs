@@ -155,8 +155,31 @@ pub struct PointSolver<'a> {
     pub limit: ModeLimit,
     /// Modes tracked.
     pub count: usize,
-    /// Whether motions near critical damping that are no modes are left out: where nothing makes them converge.
-    pub leaves_out_combinations: bool,
+    /// What becomes of motions near critical damping that are no modes.
+    pub combinations: Combinations,
+}
+
+/// What becomes of motions near critical damping that are no modes, but combinations of what the basis does not hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Combinations {
+    /// They are modes until they do not converge.
+    Kept,
+    /// They are left out: where nothing makes them converge.
+    LeftOut,
+    /// They are left out, and count among the lowest modes nonetheless: where those that take their places lie beyond the reach of
+    /// the basis.
+    Counted,
+}
+
+impl Combinations {
+    /// What is tried next where modes do not converge.
+    pub fn next(self) -> Option<Self> {
+        match self {
+            Self::Kept => Some(Self::LeftOut),
+            Self::LeftOut => Some(Self::Counted),
+            Self::Counted => None,
+        }
+    }
 }
 
 impl PointSolver<'_> {
@@ -166,11 +189,23 @@ impl PointSolver<'_> {
     /// If a dense decomposition fails.
     pub fn solve(&self, model: &ReducedModel, mu: f64) -> Result<SolvedPoint, LinalgError> {
         let mut modes = model.solve(mu, self.count + TRACKING_MARGIN)?;
-        if self.leaves_out_combinations {
+        let frequencies = |modes: &[ReducedMode]| -> Vec<f64> {
+            modes.iter().map(|mode| mode.eigenvalue.im).collect()
+        };
+        let with_combinations = frequencies(&modes);
+        if self.combinations > Combinations::Kept {
             self.leave_out_combinations(&mut modes, model, mu);
         }
         let wanted = match self.limit {
-            ModeLimit::Lowest(count) => keeping_ties(modes.iter().map(|m| m.eigenvalue.im), count),
+            ModeLimit::Lowest(count) if self.combinations == Combinations::Counted => {
+                let all = keeping_ties(with_combinations.iter().copied(), count);
+                let highest = with_combinations[..all].last().copied().unwrap_or(0.0);
+                modes
+                    .iter()
+                    .take_while(|mode| mode.eigenvalue.im <= highest)
+                    .count()
+            }
+            ModeLimit::Lowest(count) => keeping_ties(frequencies(&modes).into_iter(), count),
             ModeLimit::MaxFrequency(hz) => modes
                 .iter()
                 .take_while(|m| m.eigenvalue.im < TAU * hz)

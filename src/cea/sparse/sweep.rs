@@ -8,7 +8,7 @@ use super::branches::{BranchLabel, TrackedBranch, label_frictionless, track};
 use super::edge::ContactEdge;
 use super::frictionless::FrictionlessModes;
 use super::linearization::Linearization;
-use super::point::{PointSolver, SolvedPoint};
+use super::point::{Combinations, PointSolver, SolvedPoint};
 use super::{RESIDUAL_BOUND, TRACKING_MARGIN};
 use crate::cea::{
     CeaError, FrictionSweep, ModeLimit, SweepProgress, SweepRequest, SweepStage, SweepWatch,
@@ -111,8 +111,8 @@ pub struct SparseSweep<'a> {
     /// Smallest friction coefficient asked for.
     lowest: f64,
     points: Vec<SolvedPoint>,
-    /// Whether motions near critical damping that are no modes are left out, as some of them did not converge.
-    leaves_out_combinations: bool,
+    /// What becomes of motions near critical damping that do not converge to modes.
+    combinations: Combinations,
     labels: Vec<BranchLabel>,
     watch: &'a dyn SweepWatch,
 }
@@ -152,7 +152,7 @@ impl<'a> SparseSweep<'a> {
             grid,
             lowest,
             points: Vec::new(),
-            leaves_out_combinations: false,
+            combinations: Combinations::Kept,
             labels: Vec::new(),
             watch,
         })
@@ -202,8 +202,31 @@ impl<'a> SparseSweep<'a> {
     /// As [`sweep`].
     pub fn solve(&mut self) -> Result<(), CeaError> {
         let all: Vec<usize> = (0..self.grid.len()).collect();
+        loop {
+            self.points = self.solve_points(&all)?;
+            self.repair_all(&all)?;
+            let unsettled = match self.check_residuals() {
+                Ok(()) => break,
+                Err(error) => error,
+            };
+            // What no repair makes converge may be no mode.
+            match (&unsettled, self.combinations.next()) {
+                (CeaError::NotConverged { .. }, Some(next)) => self.combinations = next,
+                _ => return Err(unsettled),
+            }
+        }
+        self.labels = label_frictionless(
+            &mut self.points[0],
+            &self.builder.model,
+            &self.edge,
+            self.builder.count,
+        )?;
+        Ok(())
+    }
+
+    /// Grows the basis until the modes at `all` points converge, or nothing helps.
+    fn repair_all(&mut self, all: &[usize]) -> Result<(), CeaError> {
         let goal = self.linearization.force_residual_goal();
-        self.points = self.solve_points(&all)?;
         let (mut before, mut searched) = ((usize::MAX, f64::INFINITY), Vec::new());
         for round in 0..MAX_REPAIRS + MAX_LAST_REPAIRS * self.grid.len() {
             let missing: Vec<usize> = all
@@ -231,8 +254,11 @@ impl<'a> SparseSweep<'a> {
             if is_stuck && residual > RESIDUAL_BOUND && !searched.contains(&worst) {
                 searched.push(worst);
                 self.builder.search(mu, TRACKING_MARGIN)?;
-            } else if is_stuck && residual > RESIDUAL_BOUND && !self.leaves_out_combinations {
-                self.leaves_out_combinations = true;
+            } else if let Some(next) = self.combinations.next()
+                && is_stuck
+                && residual > RESIDUAL_BOUND
+            {
+                self.combinations = next;
                 searched.clear();
             } else if !self.repair(&missing)? {
                 if residual <= RESIDUAL_BOUND {
@@ -245,13 +271,6 @@ impl<'a> SparseSweep<'a> {
                 self.points[*k] = point;
             }
         }
-        self.check_residuals()?;
-        self.labels = label_frictionless(
-            &mut self.points[0],
-            &self.builder.model,
-            &self.edge,
-            self.builder.count,
-        )?;
         Ok(())
     }
 
@@ -307,7 +326,12 @@ impl<'a> SparseSweep<'a> {
 
     /// The point at `mu` in the basis as it is, or what an earlier run of the same sweep found there.
     fn solve_point(&self, mu: f64) -> Result<SolvedPoint, LinalgError> {
-        let name = format!("value-{:04}-{mu:?}", self.builder.steps());
+        let stage = match self.combinations {
+            Combinations::Kept => "",
+            Combinations::LeftOut => "-left-out",
+            Combinations::Counted => "-counted",
+        };
+        let name = format!("value-{:04}-{mu:?}{stage}", self.builder.steps());
         let kept = self.watch.recall(&name);
         if let Some(point) = kept.and_then(|kept| SolvedPoint::from_columns(mu, &kept)) {
             return Ok(point);
@@ -324,7 +348,7 @@ impl<'a> SparseSweep<'a> {
             edge: &self.edge,
             limit: self.limit,
             count: self.builder.count,
-            leaves_out_combinations: self.leaves_out_combinations,
+            combinations: self.combinations,
         }
     }
 
