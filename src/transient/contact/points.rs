@@ -20,6 +20,10 @@ pub(super) struct PointContact {
     points: Vec<TouchingPoint>,
     /// Springs of each contact; `None` is rigid.
     springs: Vec<Option<CompliantContact>>,
+    /// How far the rigid counterface of each contact is pushed in at the end, m.
+    interferences: Vec<f64>,
+    /// The same one step ago, now and at the next step.
+    pushed: Vec<[f64; 3]>,
     /// What the record shows of each node of the surfaces.
     nodes: Vec<ShownNode>,
     /// Friction across the sliding on each of these nodes, N.
@@ -44,10 +48,6 @@ struct TouchingPoint {
     /// time, 1/kg.
     mobility: [f64; 2],
     gap: f64,
-    /// How far a rigid counterface is pushed in at the end, m.
-    interference: f64,
-    /// How far the counterpart is pushed beyond the gap one step ago, now and at the next step, m.
-    pushed: [f64; 3],
     /// Sliding speed, m/s.
     speed: f64,
     /// Tangential dashpot, N s/m.
@@ -82,6 +82,8 @@ impl PointContact {
             dofs: Vec::new(),
             points: Vec::new(),
             springs: Vec::new(),
+            interferences: Vec::new(),
+            pushed: Vec::new(),
             nodes: Vec::new(),
             across: Vec::new(),
         };
@@ -90,6 +92,8 @@ impl PointContact {
             let areas: Vec<f64> = surface.points.iter().map(|point| point.weight).collect();
             let springs = damped_by.springs_of(surfaces, &areas, contact.points.len());
             contact.springs.push(springs);
+            contact.interferences.push(surfaces.counter.interference());
+            contact.pushed.push([0.0; 3]);
             let law = CoulombFriction {
                 friction_coefficient: friction_coefficient * surfaces.friction.ratio,
                 decay: surfaces.friction.decay,
@@ -115,8 +119,6 @@ impl PointContact {
                     mobility,
                     rows,
                     gap: point.gap,
-                    interference: surfaces.counter.interference(),
-                    pushed: [-point.gap; 3],
                     speed: point.speed,
                     dashpot: surfaces.stiffness.tangential_damping * point.weight,
                     law,
@@ -177,7 +179,8 @@ impl PointContact {
                 parts.sum::<f64>()
             });
             let old = point.force;
-            point.resolve(velocity, &mut self.springs[point.contact.0], dt);
+            let c = point.contact.0;
+            point.resolve(velocity, &mut self.springs[c], self.pushed[c], dt);
             for (c, row) in point.rows.iter().enumerate() {
                 let step = point.force[c] - old[c];
                 change = change.max(step.abs());
@@ -197,10 +200,16 @@ impl PointContact {
 impl TouchingPoint {
     /// The forces that obey the laws of normal contact and friction, where `velocity` is the relative one at the end of the step
     /// under the forces of now.
-    fn resolve(&mut self, velocity: [f64; 3], springs: &mut Option<CompliantContact>, dt: f64) {
+    fn resolve(
+        &mut self,
+        velocity: [f64; 3],
+        springs: &mut Option<CompliantContact>,
+        pushed: [f64; 3],
+        dt: f64,
+    ) {
         let [normal_yield, surface_yield] = self.mobility;
         let free = velocity[0] - dt * normal_yield * self.force[0];
-        let [earlier, now, later] = self.pushed;
+        let [earlier, now, later] = pushed.map(|pushed| pushed - self.gap);
         let normal = match springs {
             // (6): no penetration at the end of the step.
             None => ((later - self.separation - dt * free) / (dt * dt * normal_yield)).max(0.0),
@@ -312,6 +321,9 @@ impl LagrangeContact {
             dof.velocity = v - dt * (q + rate);
         }
         // Relative motion before the step. Forces start from none, as those of the last step are not in a saved state.
+        for (pushed, whole) in contact.pushed.iter_mut().zip(&contact.interferences) {
+            *pushed = shares.map(|share| whole * share);
+        }
         for point in &mut contact.points {
             let dofs = &contact.dofs;
             point.before = point.rows.each_ref().map(|row| {
@@ -324,7 +336,6 @@ impl LagrangeContact {
                 .iter()
                 .map(|&(k, along)| along * fields.displacement[dofs[k as usize].place]);
             point.separation = parts.sum();
-            point.pushed = shares.map(|share| point.interference * share - point.gap);
             point.force = [0.0; 3];
         }
         let is_settled = (0..MOST_SWEEPS).any(|_| {
@@ -416,7 +427,10 @@ impl LagrangeContact {
             powers.normal += point.force[0]
                 * match &contact.springs[point.contact.0] {
                     None => mean_n,
-                    Some(_) => 0.5 * (point.pushed[2] - point.pushed[0]) / dt,
+                    Some(_) => {
+                        let [earlier, _, later] = contact.pushed[point.contact.0];
+                        0.5 * (later - earlier) / dt
+                    }
                 };
             powers.damping += point.dashpot * (mean_t * mean_t + mean_a * mean_a);
         }
@@ -434,7 +448,8 @@ impl LagrangeContact {
                 let place = contact.dofs[k as usize].place;
                 along * (fields.displacement[place] - 0.5 * dt * fields.velocity[place])
             });
-            let pushed = point.interference * 0.5 * (shares[0] + shares[1]) - point.gap;
+            let pushed =
+                contact.interferences[point.contact.0] * 0.5 * (shares[0] + shares[1]) - point.gap;
             Some(springs.energy(point.contact.1, pushed - parts.sum::<f64>()))
         };
         contact.points.iter().filter_map(energy).sum()
@@ -480,7 +495,11 @@ impl LagrangeContact {
 
     /// Distance of node `i` from what it meets under a displacement field and a `share` of the interference, m.
     pub(super) fn gap_at_node(&self, i: usize, displacement: &[f64], share: f64) -> f64 {
-        self.mean_at_node(i, |point| point.gap - share * point.interference)
+        let whole = |point: &TouchingPoint| {
+            let contact = self.points.as_ref();
+            contact.map_or(0.0, |contact| contact.interferences[point.contact.0])
+        };
+        self.mean_at_node(i, |point| point.gap - share * whole(point))
             + self.row_at_node(i, 0, displacement)
     }
 
