@@ -300,7 +300,10 @@ impl<'a> BasisBuilder<'a> {
             return Ok(());
         }
         let vectors = self.step(mu, |builder| builder.dominant_vectors(mu, wanted))?;
-        self.model.extend(vectors, COMPRESSED);
+        self.model.extend(vectors.clone(), COMPRESSED);
+        if self.is_sampling {
+            self.model.hold_sample(mu, &vectors);
+        }
         Ok(())
     }
 

@@ -13,6 +13,8 @@ use crate::linalg::{Mat, c64};
 const SAME: f64 = 0.5;
 /// Relative distance of eigenvalues below which modes without friction are degenerate.
 const DEGENERATE: f64 = 1e-7;
+/// Part of the end of a range by which a mode is above it beyond doubt.
+const ABOVE_RANGE: f64 = 0.01;
 /// Bisections of an interval before modes are matched by their extrapolated eigenvalue.
 const MAX_BISECTIONS: usize = 10;
 
@@ -49,6 +51,13 @@ pub struct BranchEnd {
 fn may_vanish(mode: &ReducedMode, step: f64) -> bool {
     let decay = -(mode.eigenvalue.re + mode.derivative.re * step);
     decay > NEARLY_CRITICAL * mode.eigenvalue.norm()
+}
+
+/// Whether a mode lies above what is wanted at the next friction coefficient, by more than it may be wrong there: of the lowest ones
+/// others may have come from below.
+fn leaves_range(mode: &ReducedMode, step: f64, range_end: f64) -> bool {
+    let (frequency, change) = (mode.eigenvalue.im, mode.derivative.im * step);
+    frequency.min(frequency + change) > range_end * (1.0 + ABOVE_RANGE) + change.abs()
 }
 
 /// A branch with no continuation.
@@ -246,10 +255,14 @@ pub fn track(
         .collect();
     for k in 1..points.len() {
         let (before, after) = (&points[k - 1], &points[k]);
+        let step = after.friction_coefficient - before.friction_coefficient;
+        let stays = |mode: &ReducedMode| !leaves_range(mode, step, after.range_end);
+        let last_to_stay = before.modes[..before.wanted].iter().rposition(stays);
+        let needed = last_to_stay.map_or(0, |i| i + 1);
         let links = match_modes(
             (before.friction_coefficient, &before.modes),
             (after.friction_coefficient, &after.modes),
-            before.wanted,
+            needed,
             model,
             0,
         )?;
@@ -257,9 +270,9 @@ pub fn track(
             let last = branch.modes[k - 1];
             let next = last.and_then(|i| links[i]);
             if let (Some(i), None) = (last, next)
-                && i < before.wanted
+                && i < needed
+                && stays(&before.modes[i])
             {
-                let step = after.friction_coefficient - before.friction_coefficient;
                 let is_damped = may_vanish(&before.modes[i], step);
                 let lost = Lost {
                     label: branch.label,

@@ -22,6 +22,7 @@ mod factors;
 #[cfg(test)]
 mod fixtures;
 mod frictionless;
+mod full_problem;
 mod inertia;
 mod left;
 mod linearization;

@@ -16,3 +16,10 @@ pub struct ReducedMode {
     /// Coordinates of the left vector `w`, scaled to `w^T (2 lambda M + C) x = 1` (no conjugation).
     pub left: Vec<c64>,
 }
+
+impl ReducedMode {
+    /// `-Re(lambda) / |lambda|`; 1 is critical.
+    pub fn damping_factor(&self) -> f64 {
+        -self.eigenvalue.re / self.eigenvalue.norm()
+    }
+}

@@ -1,14 +1,14 @@
 //! Right and left vectors of modes in the full problem, and what small changes of the matrices do to their eigenvalues.
 
 use super::factors::{FactorCache, StiffnessFactors};
+use super::full_problem::FullProblem;
 use super::linearization::Linearization;
 use super::structure::{Companion, StructureMatrices};
 use crate::cea::CeaError;
 use crate::fem::own_frequency_step;
 use crate::linalg::dense::{column, random_columns};
 use crate::linalg::{
-    ComplexSparseLu, LuAnalysis, Mat, QuadraticKrylovSettings, QuadraticPairs, SparsityPattern,
-    c64, quadratic_krylov,
+    Mat, QuadraticKrylovSettings, QuadraticPairs, SparsityPattern, c64, quadratic_krylov,
 };
 use crate::prestress::SlidingTangent;
 use std::f64::consts::TAU;
@@ -18,7 +18,7 @@ const RESIDUAL: f64 = 1e-10;
 /// Relative distance within which an eigenvalue is the one looked for, and another one makes it a multiple one.
 const SAME: f64 = 1e-6;
 /// Modes up to which each has factors of its own, complex ones: more of them cost more than two Krylov iterations.
-const FEW: usize = 6;
+pub(super) const FEW: usize = 6;
 /// Distance of the shift from an eigenvalue, relative to it: far enough for regular factors, near enough for iterations that gain
 /// as many digits.
 const OFFSET: f64 = 1e-7;
@@ -172,23 +172,11 @@ fn inverse_iterations(
     mu: f64,
     targets: &[c64],
 ) -> Result<Vec<Option<Vectors>>, CeaError> {
-    let pattern = tangent.stiffness.pattern();
-    let analysis = LuAnalysis::new(pattern)?;
-    let [stiffness, damping, mass] =
-        [&tangent.stiffness, &tangent.damping, &tangent.mass].map(|p| p.evaluate(mu));
-    let structural = tangent.structural.as_ref();
-    let structural = structural.map_or_else(Vec::new, |p| p.evaluate(mu));
-    let unknowns = pattern.dimension();
+    let problem = FullProblem::at(tangent, mu)?;
+    let unknowns = problem.dimension();
     let start = random_columns(unknowns, 2.min(unknowns), 7);
     let found = targets.iter().map(|target| {
-        let shift = *target * (1.0 + OFFSET);
-        let terms = stiffness.iter().zip(&damping).zip(&mass);
-        let pencil = terms.map(|((k, c), m)| shift * (shift * *m + *c) + *k);
-        let mut pencil: Vec<c64> = pencil.collect();
-        for (value, lost) in pencil.iter_mut().zip(&structural) {
-            *value += c64::new(0.0, *lost);
-        }
-        let factors = ComplexSparseLu::factorize(&analysis, pencil)?;
+        let factors = problem.factors(*target * (1.0 + OFFSET))?;
         let converged = |is_left: bool| {
             let mut x = Mat::from_fn(unknowns, start.ncols(), |i, j| c64::new(start[(i, j)], 0.0));
             for _ in 0..STEPS {

@@ -18,6 +18,8 @@ use std::f64::consts::TAU;
 const ROUND_OFF: f64 = 1e-15;
 /// Damping factor from which on a motion may as well be one of those that do not oscillate.
 const HARDLY_OSCILLATING: f64 = 0.95;
+/// Residual force, relative to the inertia force, from which on a motion is far from any mode.
+const NO_MODE: f64 = 0.1;
 /// Relative error of an eigenvalue that such a residual may mean.
 const EIGENVALUE_GOAL: f64 = 1e-9;
 /// What the full matrices say about one mode.
@@ -48,6 +50,12 @@ pub struct SolvedPoint {
     pub wanted: usize,
     /// Checks of leading modes, at least the wanted ones.
     pub checks: Vec<ModeCheck>,
+    /// Frequency up to which modes are wanted here, rad/s: that of the highest where a number of them is.
+    pub range_end: f64,
+    /// Columns of the sample that it was solved in, where there is one of its own.
+    pub solved_in: Option<usize>,
+    /// Whether left vectors are coarse still.
+    has_coarse_lefts: bool,
 }
 
 impl SolvedPoint {
@@ -62,23 +70,45 @@ impl SolvedPoint {
     /// Whether a wanted mode could still be improved: its residual force, relative to the inertia force, is above `goal`,
     /// or its residual above the bound of converged pairs.
     pub fn misses_goal(&self, goal: f64) -> bool {
-        let is_met = |check: &ModeCheck| {
+        self.open_modes(goal).next().is_some()
+    }
+
+    /// The wanted modes that miss it.
+    pub fn open_modes(&self, goal: f64) -> impl Iterator<Item = &ReducedMode> {
+        let pairs = self.modes.iter().zip(&self.checks).take(self.wanted);
+        let open = pairs.filter(move |(_, check)| {
             // A residual of round-off is no excuse where the mode answers to it.
             let error = check.residual / f64::EPSILON * check.uncertainty;
             let is_round_off = check.residual <= ROUND_OFF && error <= EIGENVALUE_GOAL;
             let is_fine = check.force_residual <= goal && check.residual <= RESIDUAL_BOUND;
-            is_fine || is_round_off
-        };
-        !self.checks.iter().take(self.wanted).all(is_met)
+            !is_fine && !is_round_off
+        });
+        open.map(|(mode, _)| mode)
     }
-}
 
-impl SolvedPoint {
+    /// Left vectors in the whole basis of `model`, with what depends on them. They cost more than all else, so points get them once
+    /// their modes have converged.
+    pub fn refine_lefts(&mut self, model: &ReducedModel) {
+        if !std::mem::take(&mut self.has_coarse_lefts) {
+            return;
+        }
+        let lengths = |modes: &[ReducedMode]| -> Vec<f64> {
+            modes.iter().map(|mode| length(&mode.left)).collect()
+        };
+        let coarse = lengths(&self.modes);
+        model.refine_lefts(&mut self.modes, self.friction_coefficient);
+        let refined = lengths(&self.modes);
+        for (check, (old, new)) in self.checks.iter_mut().zip(coarse.iter().zip(&refined)) {
+            check.uncertainty *= new / old;
+        }
+    }
+
     /// The point as columns of numbers, bit by bit.
     pub(super) fn to_columns(&self) -> Vec<Vec<f64>> {
         let pair = |v: &c64| [v.re, v.im];
         let flat = |values: &[c64]| values.iter().flat_map(pair).collect::<Vec<f64>>();
-        let mut columns = vec![vec![self.wanted as f64, self.modes.len() as f64]];
+        let counts = [self.wanted, self.modes.len()].map(|count| count as f64);
+        let mut columns = vec![[counts.as_slice(), &[self.range_end]].concat()];
         for mode in &self.modes {
             let scalars = [mode.eigenvalue, mode.inverse_value, mode.derivative];
             columns.extend([flat(&scalars), flat(&mode.right), flat(&mode.left)]);
@@ -104,7 +134,7 @@ impl SolvedPoint {
             rest.is_empty().then_some(whole)
         };
         let (first, rest) = columns.split_first()?;
-        let [wanted, count] = first[..] else {
+        let [wanted, count, range_end] = first[..] else {
             return None;
         };
         let (modes, checks) = rest.split_at_checked(3 * count as usize)?;
@@ -138,6 +168,9 @@ impl SolvedPoint {
             modes: modes.chunks(3).map(mode).collect::<Option<_>>()?,
             wanted: wanted as usize,
             checks: checks.chunks(2).map(check).collect::<Option<_>>()?,
+            range_end,
+            solved_in: None,
+            has_coarse_lefts: true,
         };
         (point.wanted <= point.checks.len()).then_some(point)
     }
@@ -183,12 +216,13 @@ impl Combinations {
 }
 
 impl PointSolver<'_> {
-    /// Solves the projected problem at `mu` and checks its modes in the full matrices.
+    /// Solves the projected problem at `mu` and checks its modes in the full matrices. Left vectors are coarse ones, until
+    /// [`SolvedPoint::refine_lefts`].
     ///
     /// # Errors
     /// If a dense decomposition fails.
     pub fn solve(&self, model: &ReducedModel, mu: f64) -> Result<SolvedPoint, LinalgError> {
-        let mut modes = model.solve(mu, self.count + TRACKING_MARGIN)?;
+        let mut modes = model.solve_with_coarse_lefts(mu, self.count + TRACKING_MARGIN)?;
         let frequencies = |modes: &[ReducedMode]| -> Vec<f64> {
             modes.iter().map(|mode| mode.eigenvalue.im).collect()
         };
@@ -211,6 +245,10 @@ impl PointSolver<'_> {
                 .take_while(|m| m.eigenvalue.im < TAU * hz)
                 .count(),
         };
+        let range_end = match self.limit {
+            ModeLimit::Lowest(_) => modes[..wanted].last().map_or(0.0, |m| m.eigenvalue.im),
+            ModeLimit::MaxFrequency(hz) => TAU * hz,
+        };
         let checked = self.count.max(wanted).min(modes.len());
         let checks = self.check(model, mu, &modes[..checked]);
         Ok(SolvedPoint {
@@ -218,29 +256,55 @@ impl PointSolver<'_> {
             modes,
             wanted,
             checks,
+            range_end,
+            solved_in: model.sample_width(mu),
+            has_coarse_lefts: true,
         })
     }
 
     /// Leaves out motions near critical damping that are no modes: the basis holds the `count` lowest natural frequencies `|lambda|` of
     /// those that oscillate, and of motions beyond, or that do not oscillate, only combinations, whose frequency may lie among theirs.
     fn leave_out_combinations(&self, modes: &mut Vec<ReducedMode>, model: &ReducedModel, mu: f64) {
+        let is_sampled = model.sample_width(mu).is_some();
+        let is_doubtful = self.doubt(modes, is_sampled || !model.has_samples());
+        modes.retain(|mode| {
+            if mode.damping_factor() <= NEARLY_CRITICAL {
+                return true;
+            }
+            let check = &self.check(model, mu, std::slice::from_ref(mode))[0];
+            check.residual <= RESIDUAL_BOUND || !is_doubtful(mode, check)
+        });
+    }
+
+    /// Which of `modes` may be such motions; those not near critical damping only where the basis holds the modes `as_such`.
+    fn doubt(
+        &self,
+        modes: &[ReducedMode],
+        as_such: bool,
+    ) -> impl Fn(&ReducedMode, &ModeCheck) -> bool + use<> {
         let mut natural: Vec<f64> = modes.iter().map(|m| m.eigenvalue.norm()).collect();
         natural.sort_by(f64::total_cmp);
-        let Some(&reach) = natural.get(self.count.saturating_sub(1)) else {
-            return;
-        };
+        let place = self.count.saturating_sub(1);
+        let reach = natural.get(place).copied().unwrap_or(f64::INFINITY);
         let searched = modes.iter().map(|m| m.eigenvalue);
         let searched = searched.filter(|own| own.norm() <= reach);
         let highest = searched.map(|own| own.im).fold(0.0, f64::max);
-        modes.retain(|mode| {
+        move |mode, check| {
             let own = mode.eigenvalue;
-            let damping = -own.re / own.norm();
             let is_beyond = own.norm() > reach && own.im < highest;
-            let is_doubtful =
-                damping > HARDLY_OSCILLATING || is_beyond && damping > NEARLY_CRITICAL;
-            let residual = || self.check(model, mu, std::slice::from_ref(mode))[0].residual;
-            !is_doubtful || residual() <= RESIDUAL_BOUND
-        });
+            let is_far = is_beyond || check.force_residual > NO_MODE;
+            let damping = mode.damping_factor();
+            damping > HARDLY_OSCILLATING || as_such && is_far && damping > NEARLY_CRITICAL
+        }
+    }
+
+    /// Whether the wanted mode of largest error at a point is such a motion, and far from any mode.
+    pub fn is_led_astray(&self, point: &SolvedPoint) -> bool {
+        let is_doubtful = self.doubt(&point.modes, point.solved_in.is_some());
+        let pairs = point.modes.iter().zip(&point.checks).take(point.wanted);
+        let worst = pairs.max_by(|a, b| a.1.force_residual.total_cmp(&b.1.force_residual));
+        worst
+            .is_some_and(|(mode, check)| check.force_residual > NO_MODE && is_doubtful(mode, check))
     }
 
     /// Residuals and edge displacements of `modes` in the full matrices at `mu`.

@@ -2,7 +2,7 @@
 
 use super::mode::ReducedMode;
 use crate::fem::own_frequency_step;
-use crate::linalg::dense::{product, transpose_product};
+use crate::linalg::dense::{column, column_mut, product, transpose_product};
 use crate::linalg::{ComplexDenseLu, Mat, Scale, c64};
 use crate::prestress::TabledGain;
 use std::f64::consts::TAU;
@@ -151,5 +151,38 @@ impl ProjectedMatrices {
             true => step,
             false => own_frequency_step(step, own / slope),
         }
+    }
+}
+
+/// `sum_p weight(p) P_p`.
+pub fn weighted(coefficients: &[Mat<f64>], weight: impl Fn(usize) -> f64) -> Mat<f64> {
+    let size = coefficients[0].nrows();
+    let mut sum = Mat::zeros(size, size);
+    for (place, c) in coefficients.iter().enumerate() {
+        scale_and_add(&mut sum, 1.0, weight(place), c);
+    }
+    sum
+}
+
+/// `sum_{p >= first} weight(p) P_p mu^(p - first)`.
+pub fn horner(
+    coefficients: &[Mat<f64>],
+    mu: f64,
+    weight: impl Fn(usize) -> f64,
+    first: usize,
+) -> Mat<f64> {
+    let size = coefficients[0].nrows();
+    let mut sum = Mat::zeros(size, size);
+    for (power, c) in coefficients.iter().enumerate().skip(first).rev() {
+        scale_and_add(&mut sum, mu, weight(power), c);
+    }
+    sum
+}
+
+/// `sum <- factor sum + weight c`, in one pass: these matrices are larger than the caches.
+fn scale_and_add(sum: &mut Mat<f64>, factor: f64, weight: f64, c: &Mat<f64>) {
+    for j in 0..sum.ncols() {
+        let entries = column_mut(sum, j).iter_mut().zip(column(c.as_ref(), j));
+        entries.for_each(|(s, c)| *s = factor * *s + weight * c);
     }
 }

@@ -5,7 +5,7 @@ mod dense;
 use super::linearization::Linearization;
 use super::mode::ReducedMode;
 use super::packed::ComplexColumns;
-use super::projected::ProjectedMatrices;
+use super::projected::{ProjectedMatrices, horner, weighted};
 use super::term::Term;
 use crate::fem::own_frequency_step;
 use crate::linalg::dense::{
@@ -209,7 +209,33 @@ impl ReducedModel {
     /// # Errors
     /// If the dense eigenvalue decomposition fails.
     pub fn solve(&self, mu: f64, count: usize) -> Result<Vec<ReducedMode>, LinalgError> {
-        self.solve_sides(mu, count, true)
+        let mut modes = self.solve_with_coarse_lefts(mu, count)?;
+        self.refine_lefts(&mut modes, mu);
+        Ok(modes)
+    }
+
+    /// [`Self::solve`] with left vectors, and so derivatives, as the samples about `mu` hold them.
+    ///
+    /// # Errors
+    /// If the dense eigenvalue decomposition fails.
+    pub fn solve_with_coarse_lefts(
+        &self,
+        mu: f64,
+        count: usize,
+    ) -> Result<Vec<ReducedMode>, LinalgError> {
+        let at = self.at(mu);
+        let mut modes = self.solve_in(self.span_of_nearest(mu, NEIGHBOURS), &at, count, true)?;
+        self.complete(&mut modes, &at, mu);
+        Ok(modes)
+    }
+
+    /// Left vectors and derivatives of [`Self::solve`] for modes of [`Self::solve_with_coarse_lefts`].
+    pub fn refine_lefts(&self, modes: &mut [ReducedMode], mu: f64) {
+        if self.samples.iter().any(|sample| sample.0 == mu) {
+            let at = self.at(mu);
+            self.widen_left(modes, &at, mu);
+            self.complete(modes, &at, mu);
+        }
     }
 
     /// [`Self::solve`] for eigenvalues and right vectors only: left ones stay empty, derivatives zero.
@@ -217,23 +243,8 @@ impl ReducedModel {
     /// # Errors
     /// If the dense eigenvalue decomposition fails.
     pub fn solve_right(&self, mu: f64, count: usize) -> Result<Vec<ReducedMode>, LinalgError> {
-        self.solve_sides(mu, count, false)
-    }
-
-    fn solve_sides(
-        &self,
-        mu: f64,
-        count: usize,
-        with_left: bool,
-    ) -> Result<Vec<ReducedMode>, LinalgError> {
         let at = self.at(mu);
-        let mut modes =
-            self.solve_in(self.span_of_nearest(mu, NEIGHBOURS), &at, count, with_left)?;
-        if with_left {
-            self.widen_left(&mut modes, &at, mu);
-            self.complete(&mut modes, &at, mu);
-        }
-        Ok(modes)
+        self.solve_in(self.span_of_nearest(mu, NEIGHBOURS), &at, count, false)
     }
 
     /// Replaces the left vectors of `modes` in the span of a sample by those in the whole basis.
@@ -291,6 +302,12 @@ impl ReducedModel {
     /// Whether it holds the modes at some friction coefficients as such.
     pub fn has_samples(&self) -> bool {
         !self.samples.is_empty()
+    }
+
+    /// Number of columns that span the modes held at `mu`, if there are any.
+    pub fn sample_width(&self, mu: f64) -> Option<usize> {
+        let own = self.samples.iter().find(|sample| sample.0 == mu);
+        own.map(|(_, coordinates)| coordinates.ncols())
     }
 
     /// Forgets the modes held at `mu`.
@@ -400,29 +417,4 @@ impl ReducedModel {
         let known = self.basis.columns().get(.., ..coordinates.nrows());
         product(known, coordinates)
     }
-}
-
-/// `sum_p weight(p) P_p`.
-fn weighted(coefficients: &[Mat<f64>], weight: impl Fn(usize) -> f64) -> Mat<f64> {
-    let size = coefficients[0].nrows();
-    let mut sum = Mat::zeros(size, size);
-    for (place, c) in coefficients.iter().enumerate() {
-        sum += Scale(weight(place)) * c;
-    }
-    sum
-}
-
-/// `sum_{p >= first} weight(p) P_p mu^(p - first)`.
-fn horner(
-    coefficients: &[Mat<f64>],
-    mu: f64,
-    weight: impl Fn(usize) -> f64,
-    first: usize,
-) -> Mat<f64> {
-    let size = coefficients[0].nrows();
-    let mut sum = Mat::zeros(size, size);
-    for (power, c) in coefficients.iter().enumerate().skip(first).rev() {
-        sum = Scale(mu) * sum + Scale(weight(power)) * c;
-    }
-    sum
 }

@@ -1,6 +1,7 @@
 //! The stages of a sweep.
 
 mod counts;
+mod repair;
 mod results;
 
 use super::basis::BasisBuilder;
@@ -14,9 +15,9 @@ use crate::cea::{
     CeaError, FrictionSweep, ModeLimit, SweepProgress, SweepRequest, SweepStage, SweepWatch,
 };
 use crate::linalg::LinalgError;
-
 use crate::prestress::SlidingTangent;
 use rayon::prelude::*;
+use repair::Repairs;
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -27,14 +28,8 @@ const MIN_SAMPLES: usize = 6;
 const FEW_VALUES: usize = 6;
 /// Change of a critical friction coefficient below which its mode needs no more corrections.
 const SETTLED: f64 = 1e-10;
-/// Residual force, relative to the inertia force, up to which modes are corrected rather than computed anew.
-const CORRECTABLE: f64 = 1e-4;
-/// Ratio of errors before and after a repair above which repairs lead nowhere.
-const SLOWEST: f64 = 0.9;
 /// Attempts to improve points that miss the goal.
 const MAX_REPAIRS: usize = 8;
-/// Such attempts for each friction value where a mode misses the bound of converged pairs.
-const MAX_LAST_REPAIRS: usize = 6;
 /// Highest modes that stiffness which depends on frequency is referred to, one after the other.
 const MAX_REFERENCES: usize = 4;
 /// Relative change of their frequency that is none.
@@ -114,6 +109,8 @@ pub struct SparseSweep<'a> {
     /// What becomes of motions near critical damping that do not converge to modes.
     combinations: Combinations,
     labels: Vec<BranchLabel>,
+    /// What was done to each point.
+    repairs: Vec<Repairs>,
     watch: &'a dyn SweepWatch,
 }
 
@@ -154,6 +151,7 @@ impl<'a> SparseSweep<'a> {
             points: Vec::new(),
             combinations: Combinations::Kept,
             labels: Vec::new(),
+            repairs: Vec::new(),
             watch,
         })
     }
@@ -196,15 +194,24 @@ impl<'a> SparseSweep<'a> {
         self.grid.partition_point(|&mu| mu < self.lowest)
     }
 
-    /// Solves all points, and grows the basis where a mode misses its residual.
+    /// Solves all points that are not solved in the same space already, and grows the basis where a mode misses its residual.
     ///
     /// # Errors
     /// As [`sweep`].
     pub fn solve(&mut self) -> Result<(), CeaError> {
         let all: Vec<usize> = (0..self.grid.len()).collect();
-        loop {
+        if self.points.is_empty() {
             self.points = self.solve_points(&all)?;
-            self.repair_all(&all)?;
+        } else {
+            let is_stale = |k: &usize| {
+                let own = self.builder.model.sample_width(self.grid[*k]);
+                own.is_none() || own != self.points[*k].solved_in
+            };
+            let stale: Vec<usize> = all.iter().copied().filter(is_stale).collect();
+            self.solve_anew(&stale)?;
+        }
+        loop {
+            self.repair_all()?;
             let unsettled = match self.check_residuals() {
                 Ok(()) => break,
                 Err(error) => error,
@@ -214,7 +221,12 @@ impl<'a> SparseSweep<'a> {
                 (CeaError::NotConverged { .. }, Some(next)) => self.combinations = next,
                 _ => return Err(unsettled),
             }
+            self.solve_anew(&all)?;
         }
+        let model = &self.builder.model;
+        self.points
+            .par_iter_mut()
+            .for_each(|point| point.refine_lefts(model));
         self.labels = label_frictionless(
             &mut self.points[0],
             &self.builder.model,
@@ -224,88 +236,11 @@ impl<'a> SparseSweep<'a> {
         Ok(())
     }
 
-    /// Grows the basis until the modes at `all` points converge, or nothing helps.
-    fn repair_all(&mut self, all: &[usize]) -> Result<(), CeaError> {
-        let goal = self.linearization.force_residual_goal();
-        let (mut before, mut searched) = ((usize::MAX, f64::INFINITY), Vec::new());
-        for round in 0..MAX_REPAIRS + MAX_LAST_REPAIRS * self.grid.len() {
-            let missing: Vec<usize> = all
-                .iter()
-                .copied()
-                .skip(match self.linearization {
-                    Linearization::Reduced(_) => 0,
-                    Linearization::Companion { .. } => self.first_asked(),
-                })
-                .filter(|&k| self.points[k].misses_goal(goal))
-                .collect();
-            let Some(&worst) = self.by_error(&missing).first() else {
-                break;
-            };
-            // What is converged is improved for a while, what is not for longer.
-            let is_converged = |&k: &usize| self.points[k].worst().0 <= RESIDUAL_BOUND;
-            if round >= MAX_REPAIRS + self.grid.len() && missing.iter().all(is_converged) {
-                break;
-            }
-            // Corrections by the stiffness without friction fail a mode that friction damps strongly: an iteration finds it.
-            let (residual, error) = self.points[worst].worst();
-            let is_stuck = before.0 == worst && error > SLOWEST * before.1;
-            before = (worst, error);
-            let mu = self.grid[worst];
-            if is_stuck && residual > RESIDUAL_BOUND && !searched.contains(&worst) {
-                searched.push(worst);
-                self.builder.search(mu, TRACKING_MARGIN)?;
-            } else if let Some(next) = self.combinations.next()
-                && is_stuck
-                && residual > RESIDUAL_BOUND
-            {
-                self.combinations = next;
-                searched.clear();
-            } else if !self.repair(&missing)? {
-                if residual <= RESIDUAL_BOUND {
-                    break;
-                }
-                self.builder.search(mu, TRACKING_MARGIN)?;
-            }
-            for (k, point) in missing.iter().zip(self.solve_points(&missing)?) {
-                self.builder.hold_solved(self.grid[*k], &point.modes);
-                self.points[*k] = point;
-            }
+    fn solve_anew(&mut self, indices: &[usize]) -> Result<(), LinalgError> {
+        for (k, point) in indices.iter().zip(self.solve_points(indices)?) {
+            self.points[*k] = point;
         }
         Ok(())
-    }
-
-    /// `points` by falling error.
-    fn by_error(&self, points: &[usize]) -> Vec<usize> {
-        let error = |k: usize| self.points[k].worst().1;
-        let mut order = points.to_vec();
-        order.sort_by(|&a, &b| error(b).total_cmp(&error(a)));
-        order
-    }
-
-    /// Makes the basis hold the modes better at the `missing` points: where they are solved for anew, at the worst between two
-    /// that it holds, as the others gain from it. Whether the basis grew.
-    fn repair(&mut self, missing: &[usize]) -> Result<bool, CeaError> {
-        let gaps: Vec<usize> = self.grid.iter().map(|&mu| self.builder.gap(mu)).collect();
-        let mut repaired: Vec<usize> = Vec::new();
-        let mut has_grown = false;
-        for k in self.by_error(missing) {
-            if repaired.contains(&gaps[k]) {
-                continue;
-            }
-            let (mu, point) = (self.grid[k], &self.points[k]);
-            // A correction serves its own point alone.
-            let beside = missing
-                .iter()
-                .filter(|&&other| gaps[other] == gaps[k])
-                .count();
-            let is_near = beside == 1 && point.worst().1 <= CORRECTABLE;
-            has_grown |= match is_near && self.builder.is_sampling() {
-                true => self.builder.correct_at(mu, &point.modes)?,
-                false => self.builder.improve_at(mu)?,
-            };
-            repaired.push(gaps[k]);
-        }
-        Ok(has_grown)
     }
 
     fn solve_points(&self, indices: &[usize]) -> Result<Vec<SolvedPoint>, LinalgError> {
@@ -333,7 +268,8 @@ impl<'a> SparseSweep<'a> {
         };
         let name = format!("value-{:04}-{mu:?}{stage}", self.builder.steps());
         let kept = self.watch.recall(&name);
-        if let Some(point) = kept.and_then(|kept| SolvedPoint::from_columns(mu, &kept)) {
+        if let Some(mut point) = kept.and_then(|kept| SolvedPoint::from_columns(mu, &kept)) {
+            point.solved_in = self.builder.model.sample_width(mu);
             return Ok(point);
         }
         let point = self.point_solver().solve(&self.builder.model, mu)?;
@@ -456,7 +392,7 @@ mod tests {
             let lost = sweep.points[2].modes.remove(3);
             sweep.points[2].checks.remove(3);
             let branches = sweep.track().unwrap();
-            assert_eq!(sweep.points[2].modes.len(), complete);
+            assert!(sweep.points[2].modes.len() >= complete);
             let found = sweep.points[2].modes[3].eigenvalue;
             assert!((found - lost.eigenvalue).norm() < 1e-9 * found.norm());
             let is_whole = |b: &TrackedBranch| b.modes.iter().all(Option::is_some);

@@ -6,13 +6,17 @@ use super::{
 };
 use crate::cea::CeaError;
 use crate::cea::sparse::factors::StiffnessFactors;
+use crate::cea::sparse::full_problem::FullProblem;
 use crate::cea::sparse::linearization::Linearization;
 use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::sparse::packed::PackedModes;
 use crate::cea::sparse::structure::{Companion, StructureMatrices};
-use crate::linalg::Mat;
-use crate::linalg::dense::{column_mut, column_norms, random_columns};
-use crate::linalg::{LinalgError, QuadraticKrylovSettings, quadratic_krylov};
+use crate::linalg::dense::{column, column_mut, column_norms, random_columns};
+use crate::linalg::{LinalgError, Mat, QuadraticKrylovSettings, c64, quadratic_krylov};
+use rayon::prelude::*;
+
+/// Unknowns up to which complex factors for each mode cost less than more iterations for all of them.
+const MOST_UNKNOWNS: usize = 5000;
 
 impl BasisBuilder<'_> {
     /// Takes up the modes at each of few `values` (friction coefficients, ascending) of proportional damping: without friction
@@ -101,6 +105,46 @@ impl BasisBuilder<'_> {
             self.model.hold_coordinates(mu, self.leading(modes));
         }
         self.refine_sample(mu)
+    }
+
+    /// Takes up those of the full problem at the sampled `mu` that a few `modes` are near, each by inverse iteration: corrections by the
+    /// stiffness without friction converge slowly to a mode that friction damps strongly. Whether the basis grew.
+    ///
+    /// # Errors
+    /// If the analysis of the matrices fails.
+    pub fn converge_at(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
+        let vectors = self.step(mu, |builder| {
+            let problem = FullProblem::at(builder.tangent, mu)?;
+            let found = modes.par_iter().filter_map(|mode| {
+                let part = |of: fn(&c64) -> f64| {
+                    let own = Mat::from_fn(mode.right.len(), 1, |i, _| of(&mode.right[i]));
+                    builder.model.expand(own.as_ref())
+                };
+                let (re, im) = (part(|v| v.re), part(|v| v.im));
+                let parts = column(re.as_ref(), 0).iter().zip(column(im.as_ref(), 0));
+                let start = parts.map(|(re, im)| c64::new(*re, *im)).collect();
+                problem.mode_near(mode.eigenvalue, start)
+            });
+            let found: Vec<Vec<c64>> = found.map(|(_, vector)| vector).collect();
+            let mut vectors = Mat::from_fn(problem.dimension(), 2 * found.len(), |i, j| {
+                let value = found[j / 2][i];
+                if j % 2 == 0 { value.re } else { value.im }
+            });
+            turn_to_real(&mut vectors);
+            Ok::<_, CeaError>(vectors)
+        })?;
+        let has_grown = self.model.extend(vectors.clone(), SAMPLE_TOLERANCE).ncols() > 0;
+        self.model.hold_sample(mu, &vectors);
+        Ok(has_grown)
+    }
+
+    /// Whether the basis is made of samples with one at `mu`, of a problem whose single modes can be found by themselves and at little
+    /// cost.
+    pub fn can_converge_at(&self, mu: f64) -> bool {
+        let is_general = matches!(self.linearization, Linearization::Companion { .. });
+        let is_small = self.tangent.stiffness.dimension() <= MOST_UNKNOWNS;
+        let is_apt = is_general && self.tangent.tabled.is_empty() && is_small;
+        is_apt && self.sampled.contains(&mu)
     }
 
     /// Lets the `modes` found in the sample at `mu`, if there is one, stand for it: corrections made it wider than they need.
