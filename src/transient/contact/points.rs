@@ -1,5 +1,7 @@
 //! Contact at points between surfaces of solid bodies: friction is a vector, and points share nodes.
 
+mod at_nodes;
+
 use super::{ContactPowers, LagrangeContact, StatusCounts};
 use crate::contact::{ContactStatus, CoulombFriction, Row, SlippingPoint};
 use crate::fem::operator::{MotionFields, StepCoefficients, StiffnessOperator};
@@ -453,58 +455,5 @@ impl LagrangeContact {
             Some(springs.energy(point.contact.1, pushed - parts.sum::<f64>()))
         };
         contact.points.iter().filter_map(energy).sum()
-    }
-
-    /// Mean over the points of node `i` of `value`, by their shares of the node.
-    fn mean_at_node(&self, i: usize, value: impl Fn(&TouchingPoint) -> f64) -> f64 {
-        let Some(contact) = &self.points else {
-            return 0.0;
-        };
-        let (mut sum, mut total) = (0.0, 0.0);
-        for &(p, share) in &contact.nodes[i].points {
-            sum += share * value(&contact.points[p]);
-            total += share;
-        }
-        if total == 0.0 { 0.0 } else { sum / total }
-    }
-
-    /// Value of a row (0 separation, 1 slip) at node `i` under a displacement field, m.
-    pub(super) fn row_at_node(&self, i: usize, row: usize, displacement: &[f64]) -> f64 {
-        let Some(contact) = &self.points else {
-            return 0.0;
-        };
-        self.mean_at_node(i, |point| {
-            let parts = point.rows[row].iter();
-            let own =
-                |&(k, along): &(u32, f64)| along * displacement[contact.dofs[k as usize].place];
-            parts.map(own).sum()
-        })
-    }
-
-    /// Sliding speed at node `i`, m/s.
-    pub(super) fn speed_at_node(&self, i: usize) -> f64 {
-        self.mean_at_node(i, |point| point.speed)
-    }
-
-    /// Friction law of the contact that node `i` belongs to; none without points.
-    pub(super) fn law_at_node(&self, i: usize) -> Option<CoulombFriction> {
-        let contact = self.points.as_ref()?;
-        let &(point, _) = contact.nodes[i].points.first()?;
-        Some(contact.points[point].law)
-    }
-
-    /// Distance of node `i` from what it meets under a displacement field and a `share` of the interference, m.
-    pub(super) fn gap_at_node(&self, i: usize, displacement: &[f64], share: f64) -> f64 {
-        let whole = |point: &TouchingPoint| {
-            let contact = self.points.as_ref();
-            contact.map_or(0.0, |contact| contact.interferences[point.contact.0])
-        };
-        self.mean_at_node(i, |point| point.gap - share * whole(point))
-            + self.row_at_node(i, 0, displacement)
-    }
-
-    /// Slip of node `i` along the sliding under a displacement field, m.
-    pub(super) fn slip_at_node(&self, i: usize, displacement: &[f64]) -> f64 {
-        self.row_at_node(i, 1, displacement)
     }
 }
