@@ -6,7 +6,8 @@
 //!    grows by residuals; otherwise it takes up the modes at a few friction coefficients, each from a Krylov iteration
 //!    on the quadratic problem ([`crate::linalg::quadratic_krylov`]), chosen where residuals are largest.
 //! 3. [`PointSolver`]: the projected problem at each friction coefficient, in parallel; every mode is
-//!    held to its residual in the full matrices, and the basis grows where one fails.
+//!    held to its residual in the full matrices, and the basis grows where one fails; the few that corrections reach slowly are
+//!    found one by one, by inverse iteration in the full problem ([`FullProblem`]).
 //! 4. [`track`]: branches continued from `mu = 0`, so that none is lost on the way.
 //! 5. [`ModeCounter`], where asked for: eigenvalues counted by the argument principle.
 //! 6. [`OnsetFinder`]: critical friction coefficients by root finding on the branches.
@@ -47,6 +48,7 @@ pub use count::{ModeCounter, Winding};
 pub use edge::ContactEdge;
 pub use factors::{FactorCache, StiffnessFactors};
 pub use frictionless::FrictionlessModes;
+pub use full_problem::FullProblem;
 pub use linearization::Linearization;
 pub use mode::ReducedMode;
 pub use nodal_diameters::sweep_by_diameters;

@@ -14,7 +14,7 @@ const CORRECTABLE: f64 = 1e-4;
 const SLOWEST: f64 = 0.9;
 /// The same above which the few modes that are left at a point are found one by one.
 const SLOW: f64 = 0.3;
-/// Such attempts for each friction value where a mode misses the bound of converged pairs.
+/// Attempts to improve points, for each friction value, where a mode misses the bound of converged pairs.
 const MAX_LAST_REPAIRS: usize = 6;
 
 /// What was done to make one point converge.
