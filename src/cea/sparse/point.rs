@@ -86,7 +86,7 @@ impl SolvedPoint {
         open.map(|(mode, _)| mode)
     }
 
-    /// Left vectors in the whole basis of `model`, with what depends on them. They cost more than all else, so points get them once
+    /// Left vectors in the whole basis of `model`, with what depends on them: each takes an LU of that size, so points get them once
     /// their modes have converged.
     pub fn refine_lefts(&mut self, model: &ReducedModel) {
         if !std::mem::take(&mut self.has_coarse_lefts) {

@@ -15,7 +15,7 @@ use crate::linalg::dense::{column, column_mut, column_norms, random_columns};
 use crate::linalg::{LinalgError, Mat, QuadraticKrylovSettings, c64, quadratic_krylov};
 use rayon::prelude::*;
 
-/// Unknowns up to which complex factors for each mode cost less than more iterations for all of them.
+/// Unknowns up to which modes get complex factors of their own: those of larger bodies may cost more than iterations for all modes.
 const MOST_UNKNOWNS: usize = 5000;
 
 impl BasisBuilder<'_> {
