@@ -29,6 +29,8 @@ pub struct QuadraticPairs {
 pub struct QuadraticKrylovSettings {
     /// Conjugate pairs wanted, largest modulus first; real eigenvalues are not counted.
     pub pairs: usize,
+    /// Pairs of these that must have converged when all applications are spent: the others are given as they are then.
+    pub least: usize,
     /// Bound on `|S z - s z| / |s z|`.
     pub tolerance: f64,
     /// Operator applications (in vectors) after which the iteration gives up.
@@ -41,6 +43,8 @@ const SMALL: usize = 200;
 const LARGEST_WHOLE: usize = 600;
 /// Krylov vectors for each wanted pair before the first look at the projected problem.
 const FIRST_LOOK: f64 = 5.0;
+/// Krylov vectors from look to look, for each there is: a look costs the cube of their number.
+const NEXT_LOOK: f64 = 0.1;
 /// Part of a new vector that must lie beyond the known ones.
 const INDEPENDENT: f64 = 1e-13;
 
@@ -53,7 +57,7 @@ const INDEPENDENT: f64 = 1e-13;
 /// there are start vectors is found that often only.
 ///
 /// # Errors
-/// [`LinalgError::NotConverged`] after `max_applications`; [`LinalgError::DenseEigen`].
+/// [`LinalgError::NotConverged`] after `max_applications` with fewer pairs than `least`; [`LinalgError::DenseEigen`].
 ///
 /// Source: D. Lu, Y. Su, Z. Bai, Stability analysis of the two-level orthogonal Arnoldi procedure, SIAM J. Matrix Anal.
 /// Appl. 37 (2016); here in blocks.
@@ -74,7 +78,8 @@ pub fn quadratic_krylov(
         if process.expanded < next_look && !process.is_exhausted() && !is_spent {
             continue;
         }
-        next_look = process.expanded + (settings.pairs / 3).max(4);
+        let next = (NEXT_LOOK * process.expanded as f64) as usize;
+        next_look = process.expanded + next.max(settings.pairs / 3).max(4);
         let eigen = real_eigen(process.projection().as_ref(), false, 2 * settings.pairs)?;
         let leading = leading_pairs(&eigen.values, settings.pairs);
         let residuals = process.residuals(&eigen, &leading);
@@ -85,6 +90,9 @@ pub fn quadratic_krylov(
         }
         if is_spent && operator.dimension() <= LARGEST_WHOLE {
             return whole(operator, settings.pairs);
+        }
+        if is_spent && converged >= settings.least {
+            return Ok(process.pairs(&eigen, &leading));
         }
         if is_spent {
             return Err(LinalgError::NotConverged {
@@ -308,6 +316,7 @@ mod tests {
         let start = [random_columns(size, 1, 1), random_columns(size, 1, 2)];
         let settings = QuadraticKrylovSettings {
             pairs: 8,
+            least: 8,
             tolerance: 1e-12,
             max_applications: 2 * size,
         };
@@ -342,6 +351,7 @@ mod tests {
         let start = [random_columns(3, 1, 1), random_columns(3, 1, 2)];
         let settings = QuadraticKrylovSettings {
             pairs: 8,
+            least: 8,
             tolerance: 1e-12,
             max_applications: 100,
         };

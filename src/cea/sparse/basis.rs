@@ -3,7 +3,7 @@
 mod samples;
 
 use super::GROUP_WIDTH;
-use super::factors::{FactorCache, StiffnessFactors};
+use super::factors::{FactorCache, FrictionUpdates, StiffnessFactors};
 use super::linearization::Linearization;
 use super::mode::ReducedMode;
 use super::open_residuals::OpenResiduals;
@@ -65,6 +65,8 @@ pub struct BasisBuilder<'a> {
     /// Rigid motions of bodies that nothing holds, which the basis leaves out.
     rigid: Option<RigidMotions>,
     cache: FactorCache,
+    /// The preconditioner with friction.
+    updates: FrictionUpdates,
     /// The projected problem so far.
     pub model: ReducedModel,
     /// Modes to be held at every friction coefficient.
@@ -101,6 +103,7 @@ impl<'a> BasisBuilder<'a> {
             preconditioner: Some(factors),
             rigid: None,
             cache: FactorCache::default(),
+            updates: FrictionUpdates::default(),
             model,
             count: modes.ncols(),
             is_sampling: matches!(linearization, Linearization::Companion { .. }),
@@ -125,9 +128,9 @@ impl<'a> BasisBuilder<'a> {
         factors.expect("a basis has the factors it was made with, or those that replaced them")
     }
 
-    /// `(K(0) - sigma M(0))^-1 x` of each column without rigid motions, in place.
-    fn precondition(&self, x: &mut Mat<f64>) {
-        self.factors().solve_in_place(x);
+    /// `factors^-1 x` of each column without rigid motions, in place.
+    fn precondition(&self, factors: &StiffnessFactors, x: &mut Mat<f64>) {
+        factors.solve_in_place(x);
         if let Some(rigid) = &self.rigid {
             rigid.remove_from(x);
         }
@@ -237,7 +240,7 @@ impl<'a> BasisBuilder<'a> {
     pub fn refine_at(&mut self, mu: f64) -> Result<Option<f64>, LinalgError> {
         let modes = self.model.solve_right(mu, self.count)?;
         let corrections = self.step(mu, |builder| {
-            Ok::<_, LinalgError>(builder.corrections(&modes, mu))
+            Ok::<_, LinalgError>(builder.corrections(builder.factors(), &modes, mu))
         })?;
         let longest = column_norms(corrections.as_ref())
             .into_iter()
@@ -255,7 +258,7 @@ impl<'a> BasisBuilder<'a> {
                 let mass = &builder.tangent.mass;
                 let values = &mass.coefficients()[0];
                 let mut image = mass.pattern().multiply(values, new.as_ref());
-                builder.precondition(&mut image);
+                builder.precondition(builder.factors(), &mut image);
                 image *= Scale(inertia);
                 Ok::<_, LinalgError>(image)
             })?;
@@ -270,8 +273,8 @@ impl<'a> BasisBuilder<'a> {
         moduli.fold(0.0, f64::max)
     }
 
-    /// `(K(0) - sigma M(0))^-1 r` of those of the modes' packed vectors that have not converged.
-    fn corrections(&self, modes: &[ReducedMode], mu: f64) -> Mat<f64> {
+    /// `factors^-1 r` of those of the modes' packed vectors that have not converged.
+    fn corrections(&self, factors: &StiffnessFactors, modes: &[ReducedMode], mu: f64) -> Mat<f64> {
         let packed = PackedModes::of(modes, self.model.dimension());
         let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
         let mut open = OpenResiduals::none(matrices.dimension(), packed.coordinates.ncols());
@@ -281,7 +284,7 @@ impl<'a> BasisBuilder<'a> {
             open.gather(&matrices, &group.entries, &vectors);
         }
         let mut corrections = open.columns.clone();
-        self.precondition(&mut corrections);
+        self.precondition(factors, &mut corrections);
         open.with_energy(corrections)
     }
 

@@ -122,8 +122,35 @@ impl Shared {
             return LuAnalysis::new(tangent.stiffness.pattern()).map(Self::Analysis);
         }
         let ldl = symmetric(tangent)?;
-        let base = FrictionlessBase::new(ldl, rows, &tangent.stiffness);
+        let base = FrictionlessBase::new(Arc::new(ldl), rows, &tangent.stiffness);
         Ok(Self::Base(Arc::new(base)))
+    }
+}
+
+/// Updates by friction of the factors of `K(0) - sigma M(0)`, with what all friction coefficients share made once.
+#[derive(Default)]
+pub struct FrictionUpdates {
+    base: OnceLock<Arc<FrictionlessBase>>,
+}
+
+impl FrictionUpdates {
+    /// Factors of `K(mu) - sigma M(0)` from these; `None` where friction touches too many rows.
+    pub fn at(
+        &self,
+        factors: &StiffnessFactors,
+        stiffness: &MatrixPolynomial,
+        mu: f64,
+    ) -> Option<StiffnessFactors> {
+        let StiffnessFactors::Symmetric(ldl) = factors else {
+            return None;
+        };
+        let rows = friction_rows(stiffness);
+        if mu == 0.0 || rows.is_empty() || rows.len() > MOST_ROWS {
+            return None;
+        }
+        let base = || Arc::new(FrictionlessBase::new(Arc::clone(ldl), rows, stiffness));
+        let updated = UpdatedFactors::unchecked(self.base.get_or_init(base), stiffness, mu);
+        Some(StiffnessFactors::Updated(Box::new(updated)))
     }
 }
 
@@ -149,7 +176,7 @@ struct FrictionlessBase {
 }
 
 impl FrictionlessBase {
-    fn new(ldl: SparseLdl, rows: Vec<usize>, stiffness: &MatrixPolynomial) -> Self {
+    fn new(ldl: Arc<SparseLdl>, rows: Vec<usize>, stiffness: &MatrixPolynomial) -> Self {
         let powers = 1..stiffness.coefficients().len();
         let touched =
             |power: usize| FrictionRows::new(stiffness, &rows, &stiffness.coefficients()[power]);
@@ -170,7 +197,7 @@ impl FrictionlessBase {
         }
         Self {
             couplings,
-            ldl: Arc::new(ldl),
+            ldl,
             rows,
         }
     }
@@ -249,6 +276,12 @@ impl UpdatedFactors {
         stiffness: &MatrixPolynomial,
         mu: f64,
     ) -> Result<Self, LinalgError> {
+        let factors = Self::unchecked(base, stiffness, mu);
+        factors.check(stiffness, &stiffness.evaluate(mu))?;
+        Ok(factors)
+    }
+
+    fn unchecked(base: &Arc<FrictionlessBase>, stiffness: &MatrixPolynomial, mu: f64) -> Self {
         let (whole, frictionless) = (stiffness.evaluate(mu), stiffness.evaluate(0.0));
         let change: Vec<f64> = whole
             .iter()
@@ -265,13 +298,11 @@ impl UpdatedFactors {
             small += Scale(weight) * coupling;
             power *= mu;
         }
-        let factors = Self {
+        Self {
             base: Arc::clone(base),
             rows: FrictionRows::new(stiffness, &base.rows, &change),
             small: DenseLu::factorize(small),
-        };
-        factors.check(stiffness, &whole)?;
-        Ok(factors)
+        }
     }
 
     fn solve_in_place(&self, x: &mut Mat<f64>) {

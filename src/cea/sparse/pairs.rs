@@ -230,6 +230,7 @@ fn krylov_vectors(
     let unknowns = matrices.dimension();
     let settings = QuadraticKrylovSettings {
         pairs: count.min(unknowns),
+        least: count.min(unknowns),
         tolerance: RESIDUAL,
         max_applications: 40 * (count + 10),
     };

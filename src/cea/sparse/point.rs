@@ -103,6 +103,20 @@ impl SolvedPoint {
         }
     }
 
+    /// The same modes in the span of `columns`, orthonormal coordinates in the basis until now; left vectors are coarse again.
+    pub(super) fn restrict(&mut self, columns: &Mat<f64>) {
+        self.has_coarse_lefts = true;
+        for mode in &mut self.modes {
+            for vector in [&mut mode.right, &mut mode.left] {
+                let along = |j: usize| -> c64 {
+                    let pairs = vector.iter().zip(columns.col(j).iter());
+                    pairs.map(|(v, c)| *v * *c).sum()
+                };
+                *vector = (0..columns.ncols()).map(along).collect();
+            }
+        }
+    }
+
     /// The point as columns of numbers, bit by bit.
     pub(super) fn to_columns(&self) -> Vec<Vec<f64>> {
         let pair = |v: &c64| [v.re, v.im];

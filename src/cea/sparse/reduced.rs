@@ -315,6 +315,23 @@ impl ReducedModel {
         self.samples.retain(|sample| sample.0 != mu);
     }
 
+    /// Restricts the basis to its `known` first vectors and the modes held; the coordinates of the new basis in the old one, one column
+    /// each.
+    pub fn restrict(&mut self, known: usize) -> Mat<f64> {
+        let m = self.dimension();
+        let mut columns = Mat::from_fn(m, known, |i, j| f64::from(u8::from(i == j)));
+        for (_, held) in &self.samples {
+            let own = lengthened(held, m);
+            let new = orthonormal_complement(columns.as_ref(), own, SAME_SPACE);
+            columns = join_columns(columns.as_ref(), new.as_ref());
+        }
+        for (_, held) in &mut self.samples {
+            *held = transpose_product(columns.as_ref(), lengthened(held, m).as_ref());
+        }
+        self.compress(&columns);
+        columns
+    }
+
     /// [`Self::hold_sample`] of vectors given by their coordinates in the basis.
     pub fn hold_coordinates(&mut self, mu: f64, coordinates: Mat<f64>) {
         match self.samples.iter_mut().find(|sample| sample.0 == mu) {

@@ -5,6 +5,7 @@ use super::{
     VECTOR_TOLERANCE, turn_to_real,
 };
 use crate::cea::CeaError;
+use crate::cea::sparse::TRACKING_MARGIN;
 use crate::cea::sparse::factors::StiffnessFactors;
 use crate::cea::sparse::full_problem::FullProblem;
 use crate::cea::sparse::linearization::Linearization;
@@ -17,6 +18,10 @@ use rayon::prelude::*;
 
 /// Unknowns up to which modes get complex factors of their own: those of larger bodies may cost more than iterations for all modes.
 const MOST_UNKNOWNS: usize = 5000;
+/// Refinements of lossy modes whose corrections are kept beside the modes: with none of them convergence is slow and uneven.
+const HISTORY: usize = 3;
+/// Start vectors of an iteration: modes may come in pairs of equal eigenvalue, and factors are read once for both.
+const START_WIDTH: usize = 2;
 
 impl BasisBuilder<'_> {
     /// Takes up the modes at each of few `values` (friction coefficients, ascending) of proportional damping: without friction
@@ -72,26 +77,53 @@ impl BasisBuilder<'_> {
                     return self.sample_free(mu);
                 }
                 // Combinations of the modes without friction, which the basis holds first.
-                let width = self.start_width();
-                let known = self.count.min(self.model.dimension());
+                let known = self.model.dimension();
+                let frictionless = self.count.min(known);
                 let has_grown = self.sample(mu, frequency_scale, self.count, |builder| {
                     [1, 2].map(|seed| {
-                        let mixed = random_columns(known, width, seed);
+                        let mixed = random_columns(frictionless, START_WIDTH, seed);
                         builder.model.expand(mixed.as_ref())
                     })
                 })?;
                 // The iteration leaves structural damping and tables out: its vectors are a start.
-                let is_viscous =
-                    self.tangent.structural.is_none() && self.tangent.tabled.is_empty();
-                let rounds = if is_viscous { 0 } else { LOSSY_ROUNDS };
-                for _ in 0..rounds {
-                    if !self.refine_sample(mu)? {
-                        break;
-                    }
+                if self.is_lossy() {
+                    self.refine_lossy(mu, known)?;
                 }
                 Ok(has_grown)
             }
         }
+    }
+
+    /// Whether damping is not viscous alone.
+    pub fn is_lossy(&self) -> bool {
+        self.tangent.structural.is_some() || !self.tangent.tabled.is_empty()
+    }
+
+    /// Drops what repairs of lossy modes, each of many rounds, added to the basis beyond the modes that it holds; the coordinates of the
+    /// new basis in the old one.
+    pub fn restrict(&mut self) -> Option<Mat<f64>> {
+        let may_restrict = self.is_lossy() && self.model.has_samples();
+        may_restrict.then(|| self.model.restrict(self.count.min(self.model.dimension())))
+    }
+
+    /// Refines the sample at `mu` round after round and keeps of what was added to the `known` first vectors of the basis only the modes.
+    ///
+    /// # Errors
+    /// If a dense decomposition fails.
+    fn refine_lossy(&mut self, mu: f64, known: usize) -> Result<(), CeaError> {
+        for round in 0..LOSSY_ROUNDS {
+            if round % HISTORY == 0 {
+                let modes = self.model.solve_right(mu, self.count)?;
+                self.hold_solved(mu, &modes);
+            }
+            if !self.refine_sample(mu)? {
+                break;
+            }
+        }
+        let modes = self.model.solve_right(mu, self.count)?;
+        self.hold_solved(mu, &modes);
+        self.model.restrict(known);
+        Ok(())
     }
 
     /// Corrects `modes` that the basis holds nearly at `mu`, from the second time on those that it holds now; whether there was
@@ -180,11 +212,6 @@ impl BasisBuilder<'_> {
         Ok(true)
     }
 
-    /// Start vectors of an iteration: two where modes may come in pairs of equal eigenvalue.
-    pub(super) fn start_width(&self) -> usize {
-        1 + usize::from(!self.tangent.contact_angles.is_empty())
-    }
-
     /// Adds the vectors of the `modes` lowest modes of the quadratic problem at `mu`, found from what `start` gives; whether
     /// the basis grew.
     pub(super) fn sample(
@@ -218,6 +245,8 @@ impl BasisBuilder<'_> {
         let operator = Companion::new(&matrices, &factors, frequency_scale);
         let settings = QuadraticKrylovSettings {
             pairs: modes,
+            // Residuals tell of each mode whether it converged: those about the highest may be left to repairs.
+            least: modes.saturating_sub(TRACKING_MARGIN),
             tolerance: SAMPLE_RESIDUAL,
             max_applications: 20 * (modes + 10),
         };
@@ -231,7 +260,12 @@ impl BasisBuilder<'_> {
     fn refine_sample(&mut self, mu: f64) -> Result<bool, CeaError> {
         let mut corrections = self.step(mu, |builder| {
             let modes = builder.model.solve_right(mu, builder.count)?;
-            Ok::<_, LinalgError>(builder.corrections(&modes, mu))
+            // With friction each round wins more digits, and many columns share the factors.
+            let preconditioner = builder.factors();
+            let stiffness = &builder.tangent.stiffness;
+            let updated = builder.updates.at(preconditioner, stiffness, mu);
+            let preconditioner = updated.as_ref().unwrap_or(preconditioner);
+            Ok::<_, LinalgError>(builder.corrections(preconditioner, &modes, mu))
         })?;
         let lengths = column_norms(corrections.as_ref());
         for (j, length) in lengths.into_iter().enumerate().filter(|(_, l)| *l > 0.0) {
@@ -253,7 +287,7 @@ impl BasisBuilder<'_> {
     pub fn refine_mode(&mut self, mu: f64, mode: &ReducedMode) -> bool {
         let (mut mode, mut last, mut has_grown) = (mode.clone(), f64::INFINITY, false);
         for _ in 0..MAX_CORRECTIONS {
-            let corrections = self.corrections(std::slice::from_ref(&mode), mu);
+            let corrections = self.corrections(self.factors(), std::slice::from_ref(&mode), mu);
             let lengths = column_norms(corrections.as_ref());
             let longest = lengths.into_iter().fold(0.0, f64::max);
             // Corrections of round-off do not become shorter.

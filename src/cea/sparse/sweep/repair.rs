@@ -17,6 +17,10 @@ const SLOW: f64 = 0.3;
 /// Attempts to improve points, for each friction value, where a mode misses the bound of converged pairs.
 const MAX_LAST_REPAIRS: usize = 6;
 
+/// Residual force, relative to the inertia force, above which a point with other than viscous damping is improved: its basis, made of right
+/// vectors alone, is too poor in left ones for errors of eigenvalues to be of second order.
+const LOSSY_GOAL: f64 = 1e-9;
+
 /// What was done to make one point converge.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Repairs {
@@ -126,13 +130,21 @@ impl SparseSweep<'_> {
         Ok(true)
     }
 
+    /// Residual force, relative to the inertia force, above which a point is improved.
+    fn goal(&self) -> f64 {
+        match self.builder.is_lossy() {
+            true => LOSSY_GOAL,
+            false => self.linearization.force_residual_goal(),
+        }
+    }
+
     /// Points whose modes could still be improved.
     fn missing_points(&self) -> Vec<usize> {
         let first = match self.linearization {
             Linearization::Reduced(_) => 0,
             Linearization::Companion { .. } => self.first_asked(),
         };
-        let goal = self.linearization.force_residual_goal();
+        let goal = self.goal();
         let all = first..self.grid.len();
         all.filter(|&k| self.points[k].misses_goal(goal)).collect()
     }
@@ -154,6 +166,10 @@ impl SparseSweep<'_> {
             let (mu, point) = (self.grid[k], &mut self.points[k]);
             self.builder.hold_solved(mu, &point.modes);
             point.solved_in = self.builder.model.sample_width(mu);
+        }
+        // All points are solved in spans of modes held.
+        if let Some(columns) = self.builder.restrict() {
+            self.points.iter_mut().for_each(|p| p.restrict(&columns));
         }
         Ok(())
     }
@@ -199,7 +215,7 @@ impl SparseSweep<'_> {
 
     /// Modes at point `k` that could still be improved.
     fn open_modes(&self, k: usize) -> impl Iterator<Item = &ReducedMode> {
-        self.points[k].open_modes(self.linearization.force_residual_goal())
+        self.points[k].open_modes(self.goal())
     }
 
     /// Whether the last correction of point `k` won little, and only a few modes are left there, which can be found one by one.
