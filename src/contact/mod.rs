@@ -23,6 +23,7 @@ mod opposite;
 mod pair_error;
 mod pairing;
 mod point;
+mod polygon;
 mod surface;
 mod surface_law;
 mod topography;

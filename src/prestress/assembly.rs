@@ -4,12 +4,12 @@ use super::cholesky::CholeskySolver;
 use super::complementarity::{PressedRange, PressedState, Pressing};
 use super::elimination::Elimination;
 use super::friction_polynomial::about;
+use super::joint::{BaseChoice, SlidingSurfaces, TiedSurfaces};
 use super::rotation::Rotation;
 use super::tangent::{BodyTerms, ContactDofs, ContactPart, SlidingTangent};
 use super::{PrestressError, TangentOptions};
 use crate::contact::{
-    ContactStiffness, ContactSurface, Counterpart, Motion, NormalLaw, PairError, PairFriction,
-    PointKind, PressedPoints, SurfacePair, Topography, mortar_nodes,
+    ContactSurface, Motion, PairError, PointKind, PressedPoints, SurfacePair, mortar_nodes,
 };
 use crate::fem::{
     MaterialField, Triplets, assemble_extra_damping, assemble_losses, assemble_mass,
@@ -17,56 +17,6 @@ use crate::fem::{
 };
 use crate::mesh::Mesh;
 use std::sync::Arc;
-
-/// Two boundaries of a mesh by their indices.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TiedSurfaces {
-    /// What the case calls the tie.
-    pub name: String,
-    /// The surface whose nodes follow: the finer one.
-    pub surface: usize,
-    /// The surface that they follow.
-    pub counter: usize,
-}
-
-/// What the base state of a contact is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum BaseChoice {
-    /// Gap, pressure and opening from the loads.
-    #[default]
-    Solved,
-    /// All facing points touch, free of stress.
-    Closed,
-}
-
-/// A boundary of a mesh, by its index, that slides on another one or on a rigid counterface.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SlidingSurfaces {
-    /// What the case calls the contact.
-    pub name: String,
-    /// The surface that has the contact points: the finer, softer one.
-    pub surface: usize,
-    /// What it meets.
-    pub counter: Counterpart,
-    /// Friction beside the coefficient of a sweep.
-    pub friction: PairFriction,
-    /// Penalty or rigid, and dashpots.
-    pub stiffness: ContactStiffness,
-    /// How it stiffens with pressure; `None` where it does not. Its stiffness without pressure is that of `stiffness`.
-    pub law: Option<NormalLaw>,
-    /// Gaps beside those of the mesh, of a measured or worn surface.
-    pub topography: Option<Arc<Topography>>,
-}
-
-impl SlidingSurfaces {
-    /// Name of the contact that a case describes as `[contact]`.
-    pub const SHORT_FORM: &'static str = "contact";
-
-    /// Whether the case describes it as `[contact]`.
-    pub fn is_short_form(&self) -> bool {
-        self.name == Self::SHORT_FORM && self.counter.rigid().is_some()
-    }
-}
 
 /// Solid bodies of one mesh with what ties them and what slides.
 ///

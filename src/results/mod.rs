@@ -33,7 +33,7 @@ pub mod transient;
 pub mod uncertainty;
 mod vtu;
 
-use store::{folder, framed, manifest, record, reopening};
+use store::{folder, framed, manifest, record, reopening, whole_file};
 
 pub use drawing::{
     DOTS_PER_INCH, DrawingError, DrawingOptions, FigureFile, Format, REPORT, draw_all,

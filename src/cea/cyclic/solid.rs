@@ -8,6 +8,7 @@
 mod across;
 mod damped;
 mod error;
+mod modes_below;
 mod reduction;
 mod rest;
 mod sensitivity;

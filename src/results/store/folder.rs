@@ -4,18 +4,15 @@ pub(crate) use super::error::FolderError;
 use super::framed::write_sealed;
 use super::manifest::Manifest;
 use super::reopening::{Contents, JOURNAL, MANIFEST, read_contents, read_manifest};
+use super::whole_file::{is_temporary, write_whole};
 use crate::results::drawing::{FIGURES, REPORT};
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 pub(crate) const LOCK: &str = ".lock";
-/// How the name of a file that is still being written begins.
-pub(crate) const TEMPORARY: &str = ".writing-";
-/// Random characters that follow.
-const RANDOM: usize = 6;
 /// Folder in which results are built that replace others.
 const STAGING: &str = ".replacing";
 
@@ -326,14 +323,6 @@ fn lock(path: &Path) -> Result<File, FolderError> {
     }
 }
 
-/// Whether a file has a name as half-written ones have.
-pub(crate) fn is_temporary(name: &str) -> bool {
-    let random = name.strip_prefix(TEMPORARY);
-    random.is_some_and(|rest| {
-        rest.len() == RANDOM && rest.bytes().all(|byte| byte.is_ascii_alphanumeric())
-    })
-}
-
 /// Whether a run of this case and command has been built in a folder.
 fn is_owned(path: &Path, manifest: &Manifest) -> Result<bool, FolderError> {
     let found = read_contents(path)?.map(|contents| contents.manifest);
@@ -435,55 +424,4 @@ pub(crate) fn refuse_foreign(path: &Path) -> Result<(), FolderError> {
         }),
         None => Ok(()),
     }
-}
-
-/// Passes bytes on and keeps their checksum.
-struct Summing<W> {
-    out: W,
-    checksum: crc32fast::Hasher,
-}
-
-impl<W: Write> Write for Summing<W> {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let count = self.out.write(bytes)?;
-        self.checksum.update(&bytes[..count]);
-        Ok(count)
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.out.flush()
-    }
-}
-
-/// Writes a file under a temporary name in the same folder and renames it, flushed to the disk before
-/// that if it is to be durable; gives the checksum of its bytes.
-pub(crate) fn write_whole(
-    path: &Path,
-    is_durable: bool,
-    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> io::Result<u32> {
-    let parent = path.parent().unwrap_or(Path::new("."));
-    fs::create_dir_all(parent)?;
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(TEMPORARY).rand_bytes(RANDOM);
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // As any file that a program creates, under the user's umask.
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    let mut temporary = builder.tempfile_in(parent)?;
-    let summing = Summing {
-        out: temporary.as_file_mut(),
-        checksum: crc32fast::Hasher::new(),
-    };
-    let mut out = BufWriter::with_capacity(1 << 16, summing);
-    fill(&mut out)?;
-    let summing = out.into_inner().map_err(io::IntoInnerError::into_error)?;
-    let checksum = summing.checksum.finalize();
-    if is_durable {
-        temporary.as_file().sync_all()?;
-    }
-    temporary.persist(path).map_err(|error| error.error)?;
-    Ok(checksum)
 }

@@ -6,6 +6,7 @@ pub(crate) mod framed;
 pub(crate) mod manifest;
 pub(crate) mod record;
 pub(crate) mod reopening;
+pub(crate) mod whole_file;
 
 pub use error::FolderError;
 pub use folder::{OutputFolder, Replace};

@@ -2,11 +2,11 @@
 
 use super::super::Manifest;
 use super::super::folder::{
-    FolderError, OutputFolder, Replace, check_owner, is_temporary, refuse_foreign, remove_files,
-    write_contents, write_whole,
+    FolderError, OutputFolder, Replace, check_owner, refuse_foreign, remove_files, write_contents,
 };
 use super::super::framed::write_sealed;
 use super::super::reopening::{Contents, MANIFEST, own_value, read_contents};
+use super::super::whole_file::{is_temporary, write_whole};
 use super::company::{Company, open_lock, share};
 use super::{PointClock, PointRecord};
 use serde_json::Value;

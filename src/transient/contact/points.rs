@@ -1,13 +1,14 @@
 //! Contact at points between surfaces of solid bodies: friction is a vector, and points share nodes.
 
 mod at_nodes;
+mod set_up;
 
 use super::{ContactPowers, LagrangeContact, StatusCounts};
-use crate::contact::{ContactStatus, CoulombFriction, Row, SlippingPoint};
+use crate::contact::{ContactStatus, CoulombFriction, SlippingPoint};
 use crate::fem::operator::{MotionFields, StepCoefficients, StiffnessOperator};
-use crate::prestress::{Assembly, Elimination};
+use crate::prestress::Assembly;
 use crate::transient::compliance::{CompliantContact, CompressedNode, SpringDamping};
-use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// Sweeps over the points within one step, at most; a step that needs more is counted.
 const MOST_SWEEPS: usize = 400;
@@ -19,7 +20,11 @@ const TOLERANCE: f64 = 1e-12;
 #[derive(Clone, Debug)]
 pub(super) struct PointContact {
     dofs: Vec<TouchedDof>,
+    /// Velocity of each dof at the end of the step under the forces found so far, m/s: what a sweep reads and writes.
+    velocities: Vec<f64>,
     points: Vec<TouchingPoint>,
+    /// Rows of all points, one after the other: dof and entry.
+    entries: Vec<(u32, f64)>,
     /// Springs of each contact; `None` is rigid.
     springs: Vec<Option<CompliantContact>>,
     /// How far the rigid counterface of each contact is pushed in at the end, m.
@@ -38,14 +43,12 @@ struct TouchedDof {
     inverse_mass: f64,
     /// Velocity and elastic acceleration before the step.
     before: [f64; 2],
-    /// Velocity at the end of the step under the forces found so far, m/s.
-    velocity: f64,
 }
 
 #[derive(Clone, Debug)]
 struct TouchingPoint {
-    /// Rows of separation, slip along the sliding and across it over the touched dofs.
-    rows: [Vec<(u32, f64)>; 3],
+    /// Rows of separation, slip along the sliding and across it over the touched dofs, among the entries.
+    rows: [Range<usize>; 3],
     /// What a unit of force along the normal, and along the surface where it yields most, adds to the velocity in a unit of
     /// time, 1/kg.
     mobility: [f64; 2],
@@ -74,110 +77,13 @@ struct ShownNode {
 }
 
 impl PointContact {
-    fn new(
-        assembly: &Assembly<'_>,
-        friction_coefficient: f64,
-        damped_by: &SpringDamping,
-        operator: &dyn StiffnessOperator,
-    ) -> Self {
-        let mut contact = Self {
-            dofs: Vec::new(),
-            points: Vec::new(),
-            springs: Vec::new(),
-            interferences: Vec::new(),
-            pushed: Vec::new(),
-            nodes: Vec::new(),
-            across: Vec::new(),
-        };
-        let mut touched = BTreeMap::new();
-        for (c, (surfaces, surface)) in assembly.contacts().iter().enumerate() {
-            let areas: Vec<f64> = surface.points.iter().map(|point| point.weight).collect();
-            let springs = damped_by.springs_of(surfaces, &areas, contact.points.len());
-            contact.springs.push(springs);
-            contact.interferences.push(surfaces.counter.interference());
-            contact.pushed.push([0.0; 3]);
-            let law = CoulombFriction {
-                friction_coefficient: friction_coefficient * surfaces.friction.ratio,
-                decay: surfaces.friction.decay,
-            };
-            let mut shown: BTreeMap<u32, Vec<(usize, f64)>> = BTreeMap::new();
-            for (k, point) in surface.points.iter().enumerate() {
-                for &(node, share) in &surface.shares[k] {
-                    shown
-                        .entry(node)
-                        .or_default()
-                        .push((contact.points.len(), share));
-                }
-                let rows = [&point.normal, &point.slip, &point.across]
-                    .map(|row| contact.touch(row, assembly.basis(), operator, &mut touched));
-                let yields = |row: &[(u32, f64)]| -> f64 {
-                    let parts = row
-                        .iter()
-                        .map(|&(k, a)| a * a * contact.dofs[k as usize].inverse_mass);
-                    parts.sum()
-                };
-                let mobility = [yields(&rows[0]), yields(&rows[1]).max(yields(&rows[2]))];
-                contact.points.push(TouchingPoint {
-                    mobility,
-                    rows,
-                    gap: point.gap,
-                    speed: point.speed,
-                    dashpot: surfaces.stiffness.tangential_damping * point.weight,
-                    law,
-                    contact: (c, k),
-                    separation: 0.0,
-                    before: [0.0; 3],
-                    force: [0.0; 3],
-                    friction: [0.0; 2],
-                    status: ContactStatus::Open,
-                });
-            }
-            let nodes = surface.nodes.iter();
-            contact.nodes.extend(nodes.map(|node| ShownNode {
-                points: shown.remove(node).unwrap_or_default(),
-            }));
-        }
-        contact.across = vec![0.0; contact.nodes.len()];
-        contact
-    }
-
-    /// A row over the dofs that move by themselves and have mass.
-    fn touch(
-        &mut self,
-        row: &Row,
-        basis: &Elimination,
-        operator: &dyn StiffnessOperator,
-        touched: &mut BTreeMap<usize, u32>,
-    ) -> Vec<(u32, f64)> {
-        let mut own = Vec::new();
-        for (dof, along) in basis.transposed(row) {
-            let place = operator.position(dof);
-            let mass = operator.masses()[place];
-            if mass > 0.0 && along != 0.0 {
-                let next = self.dofs.len() as u32;
-                let index = *touched.entry(dof).or_insert(next);
-                if index == next {
-                    self.dofs.push(TouchedDof {
-                        place,
-                        inverse_mass: mass.recip(),
-                        before: [0.0; 2],
-                        velocity: 0.0,
-                    });
-                }
-                own.push((index, along));
-            }
-        }
-        own
-    }
-
     /// One sweep: each point's forces anew under those of all others. Returns the largest change and the largest force, N.
     fn sweep(&mut self, dt: f64) -> [f64; 2] {
         let [mut change, mut largest] = [0.0_f64; 2];
         for point in &mut self.points {
             let velocity = point.rows.each_ref().map(|row| {
-                let parts = row
-                    .iter()
-                    .map(|&(k, along)| along * self.dofs[k as usize].velocity);
+                let entries = self.entries[row.clone()].iter();
+                let parts = entries.map(|&(k, along)| along * self.velocities[k as usize]);
                 parts.sum::<f64>()
             });
             let old = point.force;
@@ -188,9 +94,9 @@ impl PointContact {
                 change = change.max(step.abs());
                 largest = largest.max(point.force[c].abs());
                 if step != 0.0 {
-                    for &(k, along) in row {
-                        let dof = &mut self.dofs[k as usize];
-                        dof.velocity += dt * step * along * dof.inverse_mass;
+                    for &(k, along) in &self.entries[row.clone()] {
+                        let inverse_mass = self.dofs[k as usize].inverse_mass;
+                        self.velocities[k as usize] += dt * step * along * inverse_mass;
                     }
                 }
             }
@@ -315,26 +221,26 @@ impl LagrangeContact {
         };
         let dt = coefficients.time_step;
         // The end of the step without contact.
-        for dof in &mut contact.dofs {
+        for (dof, velocity) in contact.dofs.iter_mut().zip(&mut contact.velocities) {
             let (v, q) = (fields.velocity[dof.place], fields.elastic[dof.place]);
             let rate = coefficients.mass_coefficient * v
                 + coefficients.stiffness_coefficient * fields.elastic_rate[dof.place];
             dof.before = [v, q];
-            dof.velocity = v - dt * (q + rate);
+            *velocity = v - dt * (q + rate);
         }
         // Relative motion before the step. Forces start from none, as those of the last step are not in a saved state.
         for (pushed, whole) in contact.pushed.iter_mut().zip(&contact.interferences) {
             *pushed = shares.map(|share| whole * share);
         }
         for point in &mut contact.points {
-            let dofs = &contact.dofs;
+            let (dofs, entries) = (&contact.dofs, &contact.entries);
             point.before = point.rows.each_ref().map(|row| {
-                let parts = row
+                let parts = entries[row.clone()]
                     .iter()
                     .map(|&(k, along)| along * dofs[k as usize].before[0]);
                 parts.sum()
             });
-            let parts = point.rows[0]
+            let parts = entries[point.rows[0].clone()]
                 .iter()
                 .map(|&(k, along)| along * fields.displacement[dofs[k as usize].place]);
             point.separation = parts.sum();
@@ -348,7 +254,7 @@ impl LagrangeContact {
         // The forces, once, into the accelerations.
         for point in &contact.points {
             for (row, force) in point.rows.iter().zip(point.force) {
-                for &(k, along) in row {
+                for &(k, along) in &contact.entries[row.clone()] {
                     let dof = &contact.dofs[k as usize];
                     fields.elastic[dof.place] -= force * along * dof.inverse_mass;
                 }
@@ -401,7 +307,8 @@ impl LagrangeContact {
         }
         for point in &contact.points {
             let [mean_n, mean_t, mean_a] = point.rows.each_ref().map(|row| {
-                let parts = row.iter().map(|&(k, along)| {
+                let entries = contact.entries[row.clone()].iter();
+                let parts = entries.map(|&(k, along)| {
                     let dof = &contact.dofs[k as usize];
                     along * (dof.before[0] + fields.velocity[dof.place])
                 });
@@ -446,7 +353,8 @@ impl LagrangeContact {
         };
         let energy = |point: &TouchingPoint| {
             let springs = contact.springs[point.contact.0].as_ref()?;
-            let parts = point.rows[0].iter().map(|&(k, along)| {
+            let entries = contact.entries[point.rows[0].clone()].iter();
+            let parts = entries.map(|&(k, along)| {
                 let place = contact.dofs[k as usize].place;
                 along * (fields.displacement[place] - 0.5 * dt * fields.velocity[place])
             });

@@ -3,8 +3,9 @@
 use super::across::Across;
 use super::damped::{Overdamped, Range, follow_damped};
 use super::error::{ReducedPair, reduction_error};
+use super::modes_below::{AtRest, bound, modes_below, wanted};
 use super::reduction::Reduction;
-use super::rest::{Modes, Pencil};
+use super::rest::Pencil;
 use super::shape::shape;
 use crate::cea::cyclic::Coverage;
 use crate::cea::cyclic::branch::branches_of;
@@ -13,14 +14,12 @@ use crate::cea::cyclic::path::Waves;
 use crate::cea::cyclic::paths::{HarmonicPaths, follow_pairs};
 use crate::cea::cyclic::problem::HarmonicProblem;
 use crate::cea::cyclic::sweep::occurs_in;
-use crate::cea::{CeaError, FrictionPoint, FrictionSweep, ModeBranch, ModeLimit, SweepRequest};
+use crate::cea::{CeaError, FrictionPoint, FrictionSweep, ModeBranch, SweepRequest};
 use crate::contact::SlidingContact;
 use crate::fem::ElasticMaterial;
 use crate::linalg::c64;
 use crate::mesh::{SolidSector, SolidSpecification};
-use crate::prestress::{
-    PrestressError, SolidHarmonic, SolidTangent, TangentOptions, moving_unknowns,
-};
+use crate::prestress::{SolidHarmonic, SolidTangent, TangentOptions};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
@@ -63,19 +62,6 @@ const MARGIN: f64 = 1.2;
 
 /// Modes at rest up to this much above the followed ones span the reduced space.
 const SPAN: f64 = 1.4;
-
-/// Harmonics without a mode in a row after which only some of the higher ones are counted: short waves around are stiff.
-const EMPTY: usize = 3;
-
-/// Harmonics solved side by side.
-const BATCH: usize = 4;
-
-/// Modes of one harmonic without friction.
-struct AtRest {
-    harmonic: usize,
-    pencil: Pencil,
-    modes: Modes,
-}
 
 /// One harmonic ready to be followed.
 struct Reduced {
@@ -290,125 +276,6 @@ fn largest_error(
         }
     });
     errors.fold(0.0, f64::max)
-}
-
-fn pencil(tangent: &SolidTangent, n: usize) -> Result<Pencil, CeaError> {
-    let [mass, stiffness] = tangent.at_rest(n);
-    let moving = moving_unknowns(mass.dimension(), &tangent.rigid());
-    let (mass, stiffness) = (
-        mass.restricted_to(&moving),
-        stiffness.restricted_to(&moving),
-    );
-    Pencil::new(mass, stiffness).ok_or(CeaError::Prestress(PrestressError::Singular))
-}
-
-/// A bound of `kappa` at rest of the modes wanted, from above, and the lowest harmonics as far as they were needed for it.
-fn bound(tangent: &SolidTangent, limit: ModeLimit) -> Result<(f64, Vec<Pencil>), CeaError> {
-    let asked = match limit {
-        ModeLimit::MaxFrequency(value) => return Ok(((TAU * value).powi(2), Vec::new())),
-        ModeLimit::Lowest(asked) => asked,
-    };
-    let few = (tangent.sector().sector_count() / 2).min(BATCH - 1);
-    let pencils: Result<Vec<Pencil>, CeaError> = (0..=few)
-        .into_par_iter()
-        .map(|n| pencil(tangent, n))
-        .collect();
-    let pencils = pencils?;
-    let count = asked.div_ceil(2 * few.max(1)) + 1;
-    let found: Vec<Vec<f64>> = pencils
-        .par_iter()
-        .enumerate()
-        .map(|(n, pencil)| of_all_waves(tangent, n, &pencil.lowest(count)))
-        .collect();
-    Ok((just_above(asked, found.concat())?, pencils))
-}
-
-/// `kappa` at rest up to which the modes wanted lie.
-fn wanted(
-    tangent: &SolidTangent,
-    found: &[AtRest],
-    limit: ModeLimit,
-    bound: f64,
-) -> Result<f64, CeaError> {
-    let ModeLimit::Lowest(asked) = limit else {
-        return Ok(bound);
-    };
-    let all = found
-        .iter()
-        .flat_map(|found| of_all_waves(tangent, found.harmonic, &found.modes));
-    just_above(asked, all.collect())
-}
-
-/// `kappa` of the modes of harmonic `n`, of each wave once.
-fn of_all_waves(tangent: &SolidTangent, n: usize, modes: &Modes) -> Vec<f64> {
-    let waves = if tangent.is_standing(n) { 1 } else { 2 };
-    let kappas = modes.iter().flat_map(|mode| vec![mode.0; waves]);
-    kappas.collect()
-}
-
-/// A little more than the lowest `kappa` but `asked - 1`.
-fn just_above(asked: usize, mut kappas: Vec<f64>) -> Result<f64, CeaError> {
-    kappas.sort_by(f64::total_cmp);
-    let total = kappas.len();
-    let highest = kappas.get(asked - 1).map(|kappa| kappa * (1.0 + 1e-9));
-    highest.ok_or(CeaError::TooManyModes { asked, total })
-}
-
-/// The harmonics that have modes below `kappa` at rest with these modes, and those counted empty; `known` are the first.
-fn modes_below(
-    tangent: &SolidTangent,
-    kappa: f64,
-    known: Vec<Pencil>,
-) -> Result<(Vec<AtRest>, Vec<usize>), CeaError> {
-    let largest = tangent.sector().sector_count() / 2;
-    let solve = |(n, known): (usize, Option<Pencil>)| -> Result<Option<AtRest>, CeaError> {
-        let pencil = known.map_or_else(|| pencil(tangent, n), Ok)?;
-        let counted = pencil.count_below(kappa);
-        if counted == 0 {
-            return Ok(None);
-        }
-        let modes = pencil.lowest(counted);
-        let found = modes.iter().filter(|mode| mode.0 < kappa).count();
-        if found != counted {
-            return Err(CeaError::Incomplete {
-                harmonic: n,
-                counted,
-                found,
-            });
-        }
-        Ok(Some(AtRest {
-            harmonic: n,
-            pencil,
-            modes,
-        }))
-    };
-    let (mut all, mut empty, mut known) = (Vec::new(), Vec::new(), known.into_iter());
-    let (mut n, mut in_a_row, mut step) = (0, 0, 1);
-    while n <= largest {
-        // Several harmonics side by side.
-        let batch: Vec<usize> = (0..if step == 1 { BATCH } else { 1 })
-            .map(|k| n + k)
-            .filter(|n| *n <= largest)
-            .collect();
-        let with_known: Vec<_> = batch.iter().map(|&n| (n, known.next())).collect();
-        let found: Result<Vec<Option<AtRest>>, CeaError> =
-            with_known.into_par_iter().map(solve).collect();
-        for (&n, found) in batch.iter().zip(found?) {
-            in_a_row = if found.is_some() { 0 } else { in_a_row + 1 };
-            if found.is_none() {
-                empty.push(n);
-            }
-            all.extend(found);
-        }
-        n = batch[batch.len() - 1];
-        step = if in_a_row >= EMPTY { 1 + n / 2 } else { 1 };
-        n = if n < largest {
-            (n + step).min(largest)
-        } else {
-            n + 1
-        };
-    }
-    Ok((all, empty))
 }
 
 /// The harmonics on small spaces, for friction coefficients up to the last of `grid` and `|lambda|^2` up to `margin`.

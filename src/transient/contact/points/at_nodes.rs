@@ -29,7 +29,7 @@ impl LagrangeContact {
             return 0.0;
         };
         self.mean_at_node(i, |point| {
-            let parts = point.rows[row].iter();
+            let parts = contact.entries[point.rows[row].clone()].iter();
             let own =
                 |&(k, along): &(u32, f64)| along * displacement[contact.dofs[k as usize].place];
             parts.map(own).sum()
