@@ -14,23 +14,18 @@
 //! less that of the modes, `sum_k x_k w_k^T / (s - lambda_k)` over modes and conjugates. With it a change `D(s)` of these
 //! dofs is one of `D (1 + R D)^-1` in the space of the modes: a spring in series with what it stands on.
 
+mod onset;
+
 use super::attached::{Attached, NearModes};
 use super::base::{Base, Outlook, PairedMode};
+use crate::cea::sparse::FullProblem;
 use crate::linalg::dense::transpose_product;
 use crate::linalg::dense_eigen::complex_eigenvalues;
 use crate::linalg::{
-    ComplexDenseLu, ComplexSparseLu, LinalgError, LuAnalysis, Mat, MatrixPolynomial,
-    SparsityPattern, c64,
+    ComplexDenseLu, ComplexSparseLu, LinalgError, Mat, MatrixPolynomial, SparsityPattern, c64,
 };
 use crate::prestress::SlidingTangent;
 use nalgebra::DMatrix;
-
-/// Steps of friction in which a critical one is looked for, and halvings of the step that holds it.
-const SCAN: usize = 12;
-const HALVINGS: usize = 14;
-
-/// Error of the onset without a change, relative to it, up to which the closer model is taken at other friction than the base's.
-const HOLDS: f64 = 0.03;
 
 /// Where the compliance of the other modes is taken, in units of the lowest and the highest frequency of the targets.
 const BESIDE: [f64; 2] = [0.97, 1.03];
@@ -357,75 +352,6 @@ impl<'a> ModalModel<'a> {
         let modes = self.spectrum(self.base.friction, change)?;
         Ok(self.base.window.outlook(modes))
     }
-
-    /// The friction coefficient above which, up to that of the base, a mode of the window grows; `None` where none does there.
-    ///
-    /// # Errors
-    /// If the dense decomposition fails.
-    pub fn onset(&self, change: Option<&Change>) -> Result<Option<f64>, LinalgError> {
-        self.onset_of(&|mu| self.spectrum(mu, change))
-    }
-
-    /// [`Self::onset`] less what the small problem is off for the body without the change, of which the onset is `known`.
-    ///
-    /// The vectors are those of the base's own friction coefficient. Where the closer model of what is attached to a node does not hold
-    /// down to that onset, the listed modes alone are taken.
-    ///
-    /// # Errors
-    /// If the dense decomposition fails.
-    pub fn corrected_onset(
-        &self,
-        change: &Change,
-        known: Option<f64>,
-    ) -> Result<Option<f64>, LinalgError> {
-        let corrected = |onset: Option<f64>, without: Option<f64>| {
-            let error = match (known, without) {
-                (Some(known), Some(without)) => known - without,
-                _ => 0.0,
-            };
-            onset.map(|mu| (mu + error).max(0.0))
-        };
-        if let (Some(attached), Some(known)) = (&change.attached, known) {
-            let without = self.onset_of(&|mu| attached.spectrum(mu, true))?;
-            if without.is_some_and(|mu| (mu - known).abs() <= HOLDS * known) {
-                return Ok(corrected(self.onset(Some(change))?, without));
-            }
-        }
-        let onset = self.onset_of(&|mu| self.of_listed(mu, Some(change)))?;
-        Ok(corrected(onset, self.onset(None)?))
-    }
-
-    /// Looked for downwards: the modes of the base describe what is near its own friction coefficient best.
-    fn onset_of(
-        &self,
-        spectrum: &dyn Fn(f64) -> Result<Vec<c64>, LinalgError>,
-    ) -> Result<Option<f64>, LinalgError> {
-        let window = self.base.window;
-        let grows = |mu: f64| -> Result<bool, LinalgError> {
-            Ok(window.outlook(spectrum(mu)?).unstable > 0)
-        };
-        if !grows(self.base.friction)? {
-            return Ok(None);
-        }
-        let step = self.base.friction / SCAN as f64;
-        let mut above = self.base.friction;
-        for i in (0..SCAN).rev() {
-            let mut below = step * i as f64;
-            if grows(below)? {
-                above = below;
-                continue;
-            }
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (below + above);
-                match grows(middle)? {
-                    true => above = middle,
-                    false => below = middle,
-                }
-            }
-            break;
-        }
-        Ok(Some(above))
-    }
 }
 
 /// Frequencies below, above and amid the targets, and the factors of `T(i omega)` there.
@@ -434,16 +360,8 @@ fn dynamic_factors(base: &Base<'_>) -> Result<[(f64, ComplexSparseLu); 3], Linal
     let frequencies = || targets.iter().map(|mode| mode.eigenvalue().im);
     let low = frequencies().fold(f64::INFINITY, f64::min);
     let high = frequencies().fold(0.0, f64::max);
-    let tangent = &base.tangent;
-    let all = [&tangent.mass, &tangent.damping, &tangent.stiffness];
-    let [mass, damping, stiffness] = all.map(|p| p.evaluate(base.friction));
-    let analysis = LuAnalysis::new(tangent.stiffness.pattern())?;
-    let factors = |omega: f64| {
-        let s = c64::new(0.0, omega);
-        let terms = mass.iter().zip(&damping).zip(&stiffness);
-        let values = terms.map(|((m, c), k)| s * (s * *m + *c) + *k).collect();
-        Ok((omega, ComplexSparseLu::factorize(&analysis, values)?))
-    };
+    let problem = FullProblem::at(&base.tangent, base.friction)?;
+    let factors = |omega: f64| Ok((omega, problem.factors(c64::new(0.0, omega))?));
     let [below, above] = [BESIDE[0] * low, BESIDE[1] * high];
     let amid = (below * above).sqrt();
     Ok([factors(below)?, factors(above)?, factors(amid)?])
