@@ -345,6 +345,29 @@ mod tests {
         }
     }
 
+    /// Exact: with its applications spent an iteration gives what it has if enough of it converged, else an error.
+    #[test]
+    fn spent_iteration_gives_the_pairs_it_has_where_that_is_allowed() {
+        let size = LARGEST_WHOLE + 20;
+        let operator = oscillators(size);
+        let start = [random_columns(size, 1, 1), random_columns(size, 1, 2)];
+        let start = [start[0].as_ref(), start[1].as_ref()];
+        let settings = |least: usize| QuadraticKrylovSettings {
+            pairs: 8,
+            least,
+            tolerance: 1e-12,
+            max_applications: 24,
+        };
+        let found = quadratic_krylov(&operator, start, &settings(2)).unwrap();
+        assert_eq!((found.values.len(), found.applications), (8, 24));
+        let Err(LinalgError::NotConverged { converged, .. }) =
+            quadratic_krylov(&operator, start, &settings(8))
+        else {
+            panic!("eight pairs cannot converge in 24 applications");
+        };
+        assert!((2..8).contains(&converged), "{converged}");
+    }
+
     #[test]
     fn invariant_subspace_ends_the_iteration_with_what_there_is() {
         let operator = oscillators(3);

@@ -81,11 +81,13 @@ impl PointContact {
     fn sweep(&mut self, dt: f64) -> [f64; 2] {
         let [mut change, mut largest] = [0.0_f64; 2];
         for point in &mut self.points {
-            let velocity = point.rows.each_ref().map(|row| {
+            let along_row = |row: &Range<usize>| -> f64 {
                 let entries = self.entries[row.clone()].iter();
                 let parts = entries.map(|&(k, along)| along * self.velocities[k as usize]);
-                parts.sum::<f64>()
-            });
+                parts.sum()
+            };
+            let [normal, slip, across] = &point.rows;
+            let velocity = [along_row(normal), along_row(slip), along_row(across)];
             let old = point.force;
             let c = point.contact.0;
             point.resolve(velocity, &mut self.springs[c], self.pushed[c], dt);
