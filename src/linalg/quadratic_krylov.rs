@@ -355,7 +355,7 @@ mod tests {
         let settings = |least: usize| QuadraticKrylovSettings {
             pairs: 8,
             least,
-            tolerance: 1e-12,
+            tolerance: 1e-6,
             max_applications: 24,
         };
         let found = quadratic_krylov(&operator, start, &settings(2)).unwrap();
