@@ -2,6 +2,7 @@
 
 use super::{ContactStiffness, Point, Row};
 use crate::fem::Triplets;
+use crate::linalg::FrictionWeights;
 
 /// Entries of one term from which on those of one place are summed at once: thousands of points share few nodes.
 const MANY_ENTRIES: usize = 1 << 18;
@@ -118,19 +119,9 @@ fn alone(p: usize, frozen_below: f64) -> usize {
     p + usize::from(frozen_below > 0.0 && p > 0)
 }
 
-/// The terms of what `mu` and the power `p` of a state multiply, and their factors: `mu mu^p = mu^(p + 1)`, or, with `a` below which
-/// the state is frozen,
-///
-/// ```text
-/// mu 1 = min(mu, a) + (mu - a),    mu (mu - a)^p = a (mu - a)^p + (mu - a)^(p + 1)
-/// ```
+/// The terms of what `mu` and the power `p` of a state multiply, and their factors.
 fn following(p: usize, frozen_below: f64) -> impl Iterator<Item = (usize, f64)> {
-    let pair = match (frozen_below > 0.0, p) {
-        (false, _) => [(p + 1, 1.0), (0, 0.0)],
-        (true, 0) => [(1, 1.0), (2, 1.0)],
-        (true, _) => [(p + 1, frozen_below), (p + 2, 1.0)],
-    };
-    pair.into_iter().filter(|(_, factor)| *factor != 0.0)
+    FrictionWeights::frozen_below(frozen_below).times_mu(alone(p, frozen_below))
 }
 
 /// `dN = -coefficient mu^p n.u` and the friction that follows it.

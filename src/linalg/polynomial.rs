@@ -10,6 +10,29 @@ pub struct FrictionWeights {
 }
 
 impl FrictionWeights {
+    /// Those of [`MatrixPolynomial::frozen_below`], for `origin > 0`; of the powers of `mu` for 0.
+    pub fn frozen_below(origin: f64) -> Self {
+        Self { origin }
+    }
+
+    /// The places of what `mu` and the coefficient at `place` multiply, and their factors: `mu mu^p = mu^(p + 1)`, or with the origin `a`
+    ///
+    /// ```text
+    /// mu 1 = min(mu, a) + (mu - a),    mu (mu - a)^p = a (mu - a)^p + (mu - a)^(p + 1)
+    /// ```
+    ///
+    /// above `a`; linear below it, where `mu min(mu, a)` is taken as `a mu`.
+    pub fn times_mu(self, place: usize) -> impl Iterator<Item = (usize, f64)> + use<> {
+        let a = self.origin;
+        let pair = match (self.are_powers(), place) {
+            (true, _) => [(place + 1, 1.0), (0, 0.0)],
+            (false, 0) => [(1, 1.0), (2, 1.0)],
+            (false, 1) => [(1, a), (2, a)],
+            (false, _) => [(place, a), (place + 1, 1.0)],
+        };
+        pair.into_iter().filter(|(_, factor)| *factor != 0.0)
+    }
+
     /// Whether they are the powers of `mu`.
     pub fn are_powers(self) -> bool {
         self.origin == 0.0
@@ -270,6 +293,21 @@ impl MatrixPolynomial {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Closed form: above the origin the places that `times_mu` names weigh `mu` times as much.
+    #[test]
+    fn terms_times_mu_weigh_mu_times_as_much() {
+        for (origin, above) in [(0.0, 0.1), (0.4, 0.4), (0.4, 0.7)] {
+            let weights = FrictionWeights::frozen_below(origin);
+            for place in 0..5 {
+                let terms = weights.times_mu(place);
+                let sum: f64 = terms
+                    .map(|(at, factor)| factor * weights.at(at, above))
+                    .sum();
+                assert!((sum - above * weights.at(place, above)).abs() < 1e-15);
+            }
+        }
+    }
 
     /// Closed form: linear below the origin, a polynomial above, which the powers of `mu` say too, and no jump between.
     #[test]

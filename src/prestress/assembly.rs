@@ -1,10 +1,11 @@
 //! Solid bodies that are tied together and slide on each other.
 
 use super::cholesky::CholeskySolver;
-use super::complementarity::{PressedRange, PressedState, Pressing};
+use super::complementarity::PressedRange;
 use super::elimination::Elimination;
 use super::friction_polynomial::about;
 use super::joint::{BaseChoice, SlidingSurfaces, TiedSurfaces};
+use super::pressed_state::{PressedState, Pressing};
 use super::rotation::Rotation;
 use super::tangent::{BodyTerms, ContactDofs, ContactPart, SlidingTangent};
 use super::{PrestressError, TangentOptions};

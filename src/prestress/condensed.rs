@@ -2,9 +2,8 @@
 
 use super::PrestressError;
 use super::cholesky::CholeskySolver;
-use super::complementarity::{
-    ContactState, PressedBodies, PressedRange, Pressing, chebyshev_points, form, range,
-};
+use super::complementarity::{PressedRange, range};
+use super::pressed_state::{ContactState, LEAST_RANGE, PressedBodies, Pressing, form};
 use crate::contact::{Point, Row};
 use crate::fem::{DofMap, Triplets};
 use crate::linalg::{DenseLu, Mat};
@@ -14,10 +13,6 @@ const BLOCK: usize = 32;
 
 /// Points through which the polynomial of a state goes.
 const NODES: usize = 7;
-
-/// Smallest range of friction coefficients of a polynomial: without friction the state needs none, but its tangent is
-/// followed from there.
-const LEAST_RANGE: f64 = 0.05;
 
 /// Bodies condensed onto their contact points.
 ///
@@ -141,8 +136,8 @@ impl PressedBodies for CondensedContact<'_> {
         self.normal_response[(point, point)].recip()
     }
 
-    fn nodes(&self, [_, upper]: [f64; 2]) -> Vec<f64> {
-        chebyshev_points(NODES, [0.0, upper.max(LEAST_RANGE)])
+    fn usual_points(&self, [_, upper]: [f64; 2]) -> ([f64; 2], usize) {
+        ([0.0, upper.max(LEAST_RANGE)], NODES)
     }
 
     fn state_of(

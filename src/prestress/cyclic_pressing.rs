@@ -1,10 +1,11 @@
 //! The pressed equilibrium of a body whose sectors are alike, from one of them.
 
 use super::PrestressError;
-use super::complementarity::{PressedRange, PressedState, Pressing};
+use super::complementarity::PressedRange;
 use super::condensed::CondensedContact;
 use super::elimination::Elimination;
 use super::penalty::PenaltyContact;
+use super::pressed_state::{PressedState, Pressing};
 use crate::contact::{Point, Row};
 use crate::fem::Triplets;
 use crate::mesh::{CyclicSymmetry, Mesh};

@@ -3,6 +3,7 @@
 use super::PrestressError;
 use crate::contact::Row;
 use crate::fem::{DofMap, Triplets};
+use crate::linalg::FrictionWeights;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Entries `(row, column, value)` over the unknowns, by power of `mu`.
@@ -185,12 +186,12 @@ impl Elimination {
     }
 
     /// The matrices of small motions over the unknowns: `T^T A T` without what vanishes, where `friction` adds `-mu` times the
-    /// work of a lift, the normal force of rigid contact, to the rows of its slip.
+    /// work of a lift, the normal force of rigid contact, to the rows of its slip. Coefficients have the given weights.
     pub(super) fn project(
         &self,
         full: &[Triplets],
         unknowns: &DofMap,
-        friction: &[RigidFriction],
+        (friction, weights): (&[RigidFriction], FrictionWeights),
     ) -> ProjectedPolynomial {
         let slips: Vec<Row> = friction
             .iter()
@@ -206,8 +207,14 @@ impl Elimination {
                 lifts[dof].push((i, value));
             }
         }
-        let powers = full.len() + usize::from(!friction.is_empty());
-        let mut projected = vec![Vec::new(); powers];
+        let last = match friction.is_empty() {
+            true => full.len() - 1,
+            false => {
+                let reached = weights.times_mu(full.len() - 1);
+                reached.fold(0, |last, (at, _)| last.max(at))
+            }
+        };
+        let mut projected = vec![Vec::new(); last + 1];
         for (power, terms) in full.iter().enumerate() {
             for (row, column, value) in self.congruent(terms).entries {
                 let [row, column] = [row, column].map(|dof| unknowns.unknown_of[dof]);
@@ -227,8 +234,11 @@ impl Elimination {
                     };
                     for &(i, along) in lifted {
                         let force = -along * value * across;
-                        let moved = slips[i].iter().map(|&(row, a)| (row, unknown, a * force));
-                        projected[power + 1].extend(moved);
+                        for (at, factor) in weights.times_mu(power) {
+                            let force = factor * force;
+                            let moved = slips[i].iter().map(|&(row, a)| (row, unknown, a * force));
+                            projected[at].extend(moved);
+                        }
                     }
                 }
             }

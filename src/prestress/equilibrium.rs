@@ -3,9 +3,9 @@
 use super::PrestressError;
 use super::SectorSliding;
 use super::cholesky::CholeskySolver;
-use super::complementarity::{PressedState, Pressing};
 use super::elimination::Elimination;
 use super::friction_polynomial::evaluate;
+use super::pressed_state::{PressedState, Pressing};
 use crate::contact::{ContactInterface, NormalLaw, Point, SlidingContact, SteadyFriction};
 use crate::fem::{Triplets, assemble_supports};
 use crate::mesh::{AnnulusMesh, Mesh, SectorMesh};

@@ -4,6 +4,8 @@
 /// trailing ones that are round-off over `[0, upper]`.
 pub(super) fn interpolated(points: &[f64], mut values: Vec<Vec<f64>>, upper: f64) -> Vec<Vec<f64>> {
     let count = points.len();
+    let size = |values: &Vec<f64>| values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let scale = values.iter().map(size).fold(0.0_f64, f64::max);
     for order in 1..count {
         for k in (order..count).rev() {
             let (before, after) = values.split_at_mut(k);
@@ -27,8 +29,6 @@ pub(super) fn interpolated(points: &[f64], mut values: Vec<Vec<f64>>, upper: f64
             *sum += value;
         }
     }
-    let size = |coefficient: &Vec<f64>| coefficient.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-    let scale = powers.iter().map(size).fold(0.0_f64, f64::max);
     while powers.len() > 1 {
         let last = powers.len() - 1;
         if size(&powers[last]) * upper.powi(last as i32) > 1e-11 * scale {

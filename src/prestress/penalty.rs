@@ -2,9 +2,8 @@
 
 use super::PrestressError;
 use super::cholesky::CholeskySolver;
-use super::complementarity::{
-    ContactState, PressedBodies, PressedRange, Pressing, chebyshev_points, form, range,
-};
+use super::complementarity::{PressedRange, range};
+use super::pressed_state::{ContactState, PressedBodies, Pressing, form, widened};
 use crate::contact::Row;
 use crate::fem::{DofMap, Triplets};
 use crate::linalg::gmres;
@@ -27,9 +26,6 @@ const TOLERANCE: f64 = 1e-14;
 /// longer one: about `2 (range / 6)^n` is left out, as the state has poles beyond friction 1.
 const NODES: [usize; 2] = [6, 8];
 const SHORT_RANGE: f64 = 0.1;
-
-/// Smallest range of friction coefficients of a polynomial.
-const LEAST_RANGE: f64 = 0.05;
 
 /// Bodies whose contact points have springs `k_i`.
 ///
@@ -224,10 +220,9 @@ impl PressedBodies for PenaltyContact<'_> {
         self.springs[point]
     }
 
-    fn nodes(&self, [lower, upper]: [f64; 2]) -> Vec<f64> {
-        let wider = 0.5 * (LEAST_RANGE - (upper - lower)).max(0.0);
+    fn usual_points(&self, [lower, upper]: [f64; 2]) -> ([f64; 2], usize) {
         let count = NODES[usize::from(upper - lower > SHORT_RANGE)];
-        chebyshev_points(count, [lower - wider, upper + wider])
+        (widened([lower, upper]), count)
     }
 
     fn state_of(

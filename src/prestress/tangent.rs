@@ -10,7 +10,7 @@ use crate::fem::{
     assemble_geometric_stiffness, assemble_losses, assemble_mass, assemble_supports,
     assemble_tabled,
 };
-use crate::linalg::{MatrixPolynomial, SparsityPattern, c64};
+use crate::linalg::{FrictionWeights, MatrixPolynomial, SparsityPattern, c64};
 use crate::mesh::Mesh;
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -76,6 +76,11 @@ pub struct SlidingTangent {
 }
 
 impl SlidingTangent {
+    /// Whether damping is not viscous alone.
+    pub fn is_lossy(&self) -> bool {
+        self.structural.is_some() || !self.tabled.is_empty()
+    }
+
     /// Displacement of every dof from a vector over the unknowns.
     pub fn displacement(&self, unknowns: &[c64]) -> Vec<c64> {
         let free = self.unknowns.expand(unknowns);
@@ -245,8 +250,11 @@ impl SlidingTangent {
             }
         }
         let unknowns = basis.unknowns();
+        let frozen = contacts.iter().map(|part| part.state.frozen_below);
+        let frozen = frozen.fold(0.0, f64::max);
+        let weights = FrictionWeights::frozen_below(frozen);
         let projected = |terms: &[Triplets]| -> ProjectedPolynomial {
-            basis.project(terms, &unknowns, &friction)
+            basis.project(terms, &unknowns, (&friction, weights))
         };
 
         // What beta_R multiplies: body, prestress, contact; all of the stiffness where it stands on no springs.
@@ -291,8 +299,6 @@ impl SlidingTangent {
         // One pattern for all; C = alpha_R M + beta_R K (2) and the rest.
         let dashpots = projected(&dashpots);
         let pattern = shared_pattern(unknowns.len(), [&mass, &stiffness, &dashpots]);
-        let frozen = contacts.iter().map(|part| part.state.frozen_below);
-        let frozen = frozen.fold(0.0, f64::max);
         let on_pattern = |terms: &ProjectedPolynomial| {
             MatrixPolynomial::on_pattern(&pattern, terms).frozen_below(frozen)
         };

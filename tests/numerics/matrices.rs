@@ -349,6 +349,23 @@ fn exported_matrices_hold_where_contact_that_stiffens_has_opened() {
     }
 }
 
+/// Consistency check: where contact stiffens and opens, modes at one friction coefficient are the same whichever others are asked for,
+/// between which other points touch.
+#[test]
+fn modes_do_not_depend_on_the_other_friction_values_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let law = "normal_law = \"exponential\"\nreference_pressure = 1e5\nheight = 1e-6";
+    tall_block(&folder, law, "[0.8]");
+    assert!(run(&folder, "matrices", &[]).status.success());
+    for others in ["", "0.1, ", "0.7, ", "0.1, 0.5, 0.7, "] {
+        let frictions = format!("cea.friction_coefficients=[{others}0.8]");
+        let output = run(&folder, "cea", &[&frictions]);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{said}");
+        assert_eq!(listed_modes_found(&folder, 0.8), 6);
+    }
+}
+
 /// Independent: sliding so slow that friction across it, a dashpot of `mu p / V`, damps motions beyond the critical within a small part of
 /// a step of friction. Branches end, which a note says, and the modes listed are those of the exported matrices.
 #[test]

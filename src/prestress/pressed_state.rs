@@ -1,0 +1,349 @@
+//! Bodies pressed together at their contact points, and their state under one set of pressed points as polynomials in the friction
+//! coefficient.
+
+use super::PrestressError;
+use super::elimination::Elimination;
+use super::friction_polynomial::{evaluate, interpolated};
+use crate::contact::{NormalLaw, Point, Row};
+use crate::fem::{DofMap, Triplets};
+
+/// Smallest range of friction coefficients of a polynomial: without friction the state needs none, but its tangent is
+/// followed from there.
+pub(super) const LEAST_RANGE: f64 = 0.05;
+
+/// Share of the largest force that the polynomial of a state may leave out.
+const RESOLVED: f64 = 1e-7;
+
+/// What follows the last two terms of a series that falls by a factor of five or more from one to the next, beside the larger of them.
+const FOLLOWING: f64 = 0.01;
+
+/// Points through which it goes where the usual ones leave out more, over their interval and over that of the set.
+const MOST_USUAL: usize = 12;
+const MORE_NODES: [usize; 4] = [3, 5, 8, 12];
+
+/// What presses bodies together.
+#[derive(Clone, Debug)]
+pub struct Pressing<'a> {
+    /// Stiffness over all dofs, supports included.
+    pub stiffness: &'a Triplets,
+    /// Load on all dofs, N (N/m in the plane).
+    pub load: Vec<f64>,
+    /// Held dofs and ties.
+    pub elimination: Elimination,
+    /// The contact points.
+    pub points: &'a [Point],
+    /// How far the counterface is pushed in at each, `delta_i - g_i`, m.
+    pub pushed: Vec<f64>,
+    /// Stiffness of the contact of each, N/m, without pressure where it stiffens; `None` is rigid contact.
+    pub stiffnesses: Vec<Option<f64>>,
+    /// Contact that stiffens, of each point; `None` is linear or rigid.
+    pub laws: Vec<Option<NormalLaw>>,
+}
+
+impl Pressing<'_> {
+    /// Rows `n` and `drag t` of the points over the unknowns.
+    pub(super) fn rows(&self, unknowns: &DofMap) -> [Vec<Row>; 2] {
+        let over_unknowns = |row: &Row| -> Row {
+            let all = self.elimination.transposed(row).into_iter();
+            all.filter_map(|(dof, a)| Some((unknowns.unknown_of[dof]?, a)))
+                .collect()
+        };
+        let points = self.points.iter();
+        let normals = points.clone().map(|point| over_unknowns(&point.normal));
+        let drags = points.map(|point| {
+            let slip = over_unknowns(&point.slip).into_iter();
+            slip.map(|(dof, a)| (dof, point.friction.drag * a))
+                .collect()
+        });
+        [normals.collect(), drags.collect()]
+    }
+
+    /// Load over the unknowns.
+    pub(super) fn restricted_load(&self, unknowns: &DofMap) -> Vec<f64> {
+        unknowns.restrict(&self.elimination.transposed_forces(&self.load))
+    }
+
+    pub(super) fn gap_everywhere(&self) -> PrestressError {
+        let distances = self.pushed.iter().map(|pushed| -pushed);
+        let gaps = self.points.iter().zip(&self.pushed);
+        PrestressError::GapEverywhere {
+            total: self.points.len(),
+            distance: distances.fold(f64::INFINITY, f64::min).max(0.0),
+            interference: gaps
+                .map(|(point, pushed)| pushed + point.gap)
+                .fold(0.0, f64::max),
+        }
+    }
+}
+
+/// Separations and normal forces of the points under one set of pressed points.
+#[derive(Clone)]
+pub(super) struct ContactState {
+    pub separations: Vec<f64>,
+    pub normal_forces: Vec<f64>,
+    /// Stiffness of each point, N/m, where contact stiffens.
+    pub stiffnesses: Option<Vec<f64>>,
+}
+
+/// The bodies under one set of pressed points, as polynomials in the friction coefficient.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PressedState {
+    /// Displacement `u(mu)` of all dofs by power of `mu`, m.
+    pub displacements: Vec<Vec<f64>>,
+    /// Normal force on each contact point `N_i(mu)` by power of `mu`, N (N/m in the plane).
+    pub normal_forces: Vec<Vec<f64>>,
+    /// Stiffness of each contact point at its force by power of `mu`, N/m; none where no contact stiffens.
+    pub stiffnesses: Vec<Vec<f64>>,
+    /// Whether each contact point is pressed; the others are open.
+    pub is_pressed: Vec<bool>,
+    /// Friction coefficient below which the tangent keeps the state as it is there: the polynomials of contact that stiffens say
+    /// nothing beyond their range, and the eigenvalue analysis starts without friction. 0 where they hold from there on.
+    pub frozen_below: f64,
+}
+
+impl PressedState {
+    /// Displacement over all dofs at a friction coefficient, m.
+    pub fn displacement(&self, friction_coefficient: f64) -> Vec<f64> {
+        evaluate(&self.displacements, friction_coefficient)
+    }
+
+    /// Normal force on each contact point, N; none of a state that is free of stress.
+    pub fn normal_forces(&self, friction_coefficient: f64) -> Vec<f64> {
+        evaluate(&self.normal_forces, friction_coefficient)
+    }
+
+    /// Stiffness of each contact point, N/m; none where no contact stiffens.
+    pub fn springs(&self, friction_coefficient: f64) -> Vec<f64> {
+        evaluate(&self.stiffnesses, friction_coefficient)
+    }
+}
+
+/// Bodies that answer to their contact points.
+pub(super) trait PressedBodies {
+    /// What presses them together.
+    fn pressing(&self) -> &Pressing<'_>;
+
+    /// Stiffness against the penetration of a point, N/m.
+    fn stiffness_at(&self, point: usize) -> f64;
+
+    /// Friction coefficients through which the polynomial of a state that holds in `range` goes, where they are enough: their
+    /// interval and number.
+    fn usual_points(&self, range: [f64; 2]) -> ([f64; 2], usize);
+
+    /// The state in which exactly the points of `is_pressed` touch, whatever sign their forces have.
+    fn state_of(
+        &mut self,
+        friction_coefficient: f64,
+        is_pressed: &[bool],
+    ) -> Result<ContactState, PrestressError>;
+
+    /// Displacement of every dof from the state of the contact points.
+    fn whole_displacement(&self, friction_coefficient: f64, state: &ContactState) -> Vec<f64>;
+}
+
+/// Finds the friction coefficients between which a set of pressed points holds.
+pub(super) type OwnRange<'a, B> = dyn Fn(&mut B, &[bool]) -> Result<[f64; 2], PrestressError> + 'a;
+
+/// The state of one set of pressed points as a polynomial in the friction coefficient.
+///
+/// Where the usual points leave out too much, as near a friction coefficient at which sliding jams, other numbers of points and the
+/// range in which the set is the one that holds, as `own_range` finds it, are tried: the polynomial is taken that leaves out least, the
+/// friction coefficients `asked` for included.
+pub(super) fn polynomial_state<B: PressedBodies>(
+    bodies: &mut B,
+    is_pressed: Vec<bool>,
+    (range, own_range): ([f64; 2], &OwnRange<'_, B>),
+    asked: &[f64],
+) -> Result<PressedState, PrestressError> {
+    let (usual, count) = bodies.usual_points(range);
+    let mut best = Polynomials::through(bodies, &is_pressed, (usual, count))?;
+    let mut is_usual = true;
+    if best.left_out > RESOLVED {
+        let exact = asked
+            .iter()
+            .map(|&friction| bodies.state_of(friction, &is_pressed))
+            .collect::<Result<Vec<ContactState>, _>>()?;
+        best.compare(asked, &exact);
+        let own = own_range(bodies, &is_pressed)?;
+        let within = MORE_NODES.map(|count| (own, count));
+        for points in [(usual, MOST_USUAL)].into_iter().chain(within) {
+            let mut other = Polynomials::through(bodies, &is_pressed, points)?;
+            other.compare(asked, &exact);
+            if other.left_out < best.left_out {
+                (best, is_usual) = (other, false);
+            }
+            if best.left_out <= RESOLVED {
+                break;
+            }
+        }
+    }
+    // Few points may be continued to friction 0, many may not.
+    let reaches_zero = is_usual || best.interval[0] <= 0.0;
+    let holds_from_zero = reaches_zero && best.stiffnesses.len() <= 1;
+    Ok(PressedState {
+        displacements: best.displacements,
+        normal_forces: best.normal_forces,
+        stiffnesses: best.stiffnesses,
+        is_pressed,
+        frozen_below: if holds_from_zero {
+            0.0
+        } else {
+            best.interval[0].max(range[0])
+        },
+    })
+}
+
+/// The states of one set of pressed points in an interval of friction coefficients, by power.
+struct Polynomials {
+    interval: [f64; 2],
+    displacements: Vec<Vec<f64>>,
+    normal_forces: Vec<Vec<f64>>,
+    /// None where no contact stiffens.
+    stiffnesses: Vec<Vec<f64>>,
+    /// Share of the largest force that they leave out, estimated.
+    left_out: f64,
+}
+
+impl Polynomials {
+    /// Those through the states at Chebyshev points of an interval.
+    fn through(
+        bodies: &mut impl PressedBodies,
+        is_pressed: &[bool],
+        (interval, count): ([f64; 2], usize),
+    ) -> Result<Self, PrestressError> {
+        let nodes = chebyshev_points(count, interval);
+        let (mut displacements, mut normal_forces, mut stiffnesses) =
+            (Vec::new(), Vec::new(), Vec::new());
+        for &friction in &nodes {
+            let state = bodies.state_of(friction, is_pressed)?;
+            displacements.push(bodies.whole_displacement(friction, &state));
+            normal_forces.push(state.normal_forces);
+            stiffnesses.extend(state.stiffnesses);
+        }
+        let left_out = FOLLOWING * last_terms(&normal_forces);
+        let through = |values: Vec<Vec<f64>>| match values.is_empty() {
+            true => values,
+            false => interpolated(&nodes, values, interval[1]),
+        };
+        Ok(Self {
+            interval,
+            displacements: through(displacements),
+            normal_forces: through(normal_forces),
+            stiffnesses: through(stiffnesses),
+            left_out,
+        })
+    }
+
+    /// Takes note of what they are wrong by at friction coefficients with known states.
+    fn compare(&mut self, frictions: &[f64], exact: &[ContactState]) {
+        for (friction, state) in frictions.iter().zip(exact) {
+            let forces = evaluate(&self.normal_forces, *friction);
+            let largest = largest(std::slice::from_ref(&state.normal_forces));
+            for (own, exact) in forces.iter().zip(&state.normal_forces) {
+                self.left_out = self.left_out.max((own - exact).abs() / largest);
+            }
+        }
+    }
+}
+
+fn largest(values: &[Vec<f64>]) -> f64 {
+    let all = values.iter().flatten();
+    all.fold(0.0_f64, |m, v| m.max(v.abs()))
+}
+
+/// The largest of the last two coefficients of the Chebyshev series through `values` at Chebyshev points,
+/// `c_n = 2 / N sum_k f(x_k) cos(n theta_k)`, beside the largest value.
+fn last_terms(values: &[Vec<f64>]) -> f64 {
+    let count = values.len();
+    let coefficient = |n: usize, component: usize| -> f64 {
+        let term = |k: usize| {
+            let angle = std::f64::consts::PI * (k as f64 + 0.5) / count as f64;
+            values[k][component] * (n as f64 * angle).cos()
+        };
+        2.0 / count as f64 * (0..count).map(term).sum::<f64>()
+    };
+    let components = 0..values[0].len();
+    let last = components.flat_map(|i| [count - 1, count - 2].map(|n| coefficient(n, i).abs()));
+    let largest = largest(values);
+    match largest > 0.0 {
+        true => last.fold(0.0_f64, f64::max) / largest,
+        false => 0.0,
+    }
+}
+
+/// A range of friction coefficients, made as wide as a polynomial needs.
+pub(super) fn widened([lower, upper]: [f64; 2]) -> [f64; 2] {
+    let wider = 0.5 * (LEAST_RANGE - (upper - lower)).max(0.0);
+    [lower - wider, upper + wider]
+}
+
+/// `count` Chebyshev points of a range.
+fn chebyshev_points(count: usize, [lower, upper]: [f64; 2]) -> Vec<f64> {
+    let point = |k: usize| {
+        let turn = std::f64::consts::PI * (k as f64 + 0.5) / count as f64;
+        lower + 0.5 * (upper - lower) * (1.0 - turn.cos())
+    };
+    (0..count).map(point).collect()
+}
+
+pub(super) fn form(row: &Row, x: &[f64]) -> f64 {
+    row.iter().map(|&(dof, a)| a * x[dof]).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One point whose force `1 / (jam - mu)` grows without bound at a friction coefficient.
+    struct Jamming {
+        jam: f64,
+    }
+
+    impl PressedBodies for Jamming {
+        fn pressing(&self) -> &Pressing<'_> {
+            unreachable!("the polynomial of a state asks for its forces alone")
+        }
+
+        fn stiffness_at(&self, _: usize) -> f64 {
+            1.0
+        }
+
+        fn usual_points(&self, [_, upper]: [f64; 2]) -> ([f64; 2], usize) {
+            ([0.0, upper], 7)
+        }
+
+        fn state_of(
+            &mut self,
+            friction_coefficient: f64,
+            _: &[bool],
+        ) -> Result<ContactState, PrestressError> {
+            Ok(ContactState {
+                separations: vec![0.0],
+                normal_forces: vec![1.0 / (self.jam - friction_coefficient)],
+                stiffnesses: None,
+            })
+        }
+
+        fn whole_displacement(&self, _: f64, state: &ContactState) -> Vec<f64> {
+            state.normal_forces.clone()
+        }
+    }
+
+    /// Closed form: far from jamming few points are enough, from friction 0 on; nearer to it those of the range of the state serve.
+    #[test]
+    fn forces_are_those_of_the_friction_asked_for_near_jamming_too() {
+        let (range, asked) = ([0.3, 0.6], [0.3, 0.45, 0.6]);
+        let cases = [(19.0, 0.0, 1e-7), (1.8, 0.0, 1e-7), (0.75, 0.3, 1e-6)];
+        for (jam, frozen_below, bound) in cases {
+            let bodies = &mut Jamming { jam };
+            let own = |_: &mut Jamming, _: &[bool]| Ok(range);
+            let state = polynomial_state(bodies, vec![true], (range, &own), &asked).unwrap();
+            assert_eq!(state.frozen_below, frozen_below, "{jam}");
+            for friction in asked {
+                let exact = 1.0 / (jam - friction);
+                let error = (state.normal_forces(friction)[0] / exact - 1.0).abs();
+                assert!(error < bound, "{jam} {friction} {error:e}");
+            }
+        }
+    }
+}
