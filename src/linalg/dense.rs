@@ -271,11 +271,16 @@ fn orthonormalize_down_to(
     }
 }
 
+/// Length of a column of unit length, nearly orthonormal to others, beyond them: more than this unless it is nothing but round-off.
+const UNIT_REMAINDER: f64 = 0.5;
+
 /// Orthonormal basis of what the columns of `w` hold beyond an orthonormal `basis`, down to the length
 /// `drop_below` (absolute).
 pub fn orthonormal_complement(basis: MatRef<'_, f64>, w: Mat<f64>, drop_below: f64) -> Mat<f64> {
     let independent = independent_directions(w, drop_below);
-    orthonormalize_down_to(basis, independent, |_| drop_below).columns
+    let new = orthonormalize_down_to(basis, independent, |_| drop_below).columns;
+    // Scaled to unit length, short remainders hold the round-off of long ones along the basis: once more.
+    orthonormalize_down_to(basis, new, |_| UNIT_REMAINDER).columns
 }
 
 /// Orthogonal columns, as long as the remainders of a pivoted Gram-Schmidt process, that span `w` down to
@@ -361,5 +366,19 @@ mod tests {
         let gram = transpose_product(result.columns.as_ref(), result.columns.as_ref());
         assert!((gram - Mat::<f64>::identity(3, 3)).norm_max() < 1e-14);
         assert!(transpose_product(basis.as_ref(), result.columns.as_ref()).norm_max() < 1e-15);
+    }
+
+    /// Consistency check: what is hardly beyond a basis is orthonormal to it, too.
+    #[test]
+    fn short_remainders_become_orthonormal_columns() {
+        let none = Mat::zeros(50, 0);
+        let basis = orthonormalize(none.as_ref(), random_columns(50, 20, 1), 1e-10).columns;
+        let mut w = product(basis.as_ref(), random_columns(20, 6, 2).as_ref());
+        w += crate::linalg::Scale(1e-8) * random_columns(50, 6, 3);
+        let new = orthonormal_complement(basis.as_ref(), w, 1e-9);
+        assert_eq!(new.ncols(), 6);
+        let gram = transpose_product(new.as_ref(), new.as_ref());
+        assert!((gram - Mat::<f64>::identity(6, 6)).norm_max() < 1e-14);
+        assert!(transpose_product(basis.as_ref(), new.as_ref()).norm_max() < 1e-14);
     }
 }

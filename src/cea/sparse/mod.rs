@@ -64,6 +64,8 @@ pub use sweep::{SparseSweep, sweep};
 /// Modes beyond the wanted ones that are computed along, so that crossings at the upper end of the range
 /// are seen.
 const GUARD_MODES: usize = 5;
+/// Modes held beyond the wanted ones, besides, where damping is not viscous alone.
+const LOSSY_GUARD: usize = 3;
 /// Modes beyond those to which a branch may be matched.
 const TRACKING_MARGIN: usize = 6;
 /// Damping factor from which on a mode is near critical damping: it may cease to oscillate at the next friction coefficient.

@@ -1,6 +1,10 @@
 //! A mode in coordinates of the common basis.
 
+use super::NEARLY_CRITICAL;
 use crate::linalg::c64;
+
+/// Damping factor from which on a motion may as well be one of those that do not oscillate.
+const HARDLY_OSCILLATING: f64 = 0.95;
 
 /// One mode of the projected problem.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,5 +25,15 @@ impl ReducedMode {
     /// `-Re(lambda) / |lambda|`; 1 is critical.
     pub fn damping_factor(&self) -> f64 {
         -self.eigenvalue.re / self.eigenvalue.norm()
+    }
+
+    /// Whether it may cease to oscillate at the next friction coefficient.
+    pub fn is_nearly_critical(&self) -> bool {
+        self.damping_factor() > NEARLY_CRITICAL
+    }
+
+    /// Whether it may as well be one of the motions that do not oscillate.
+    pub fn hardly_oscillates(&self) -> bool {
+        self.damping_factor() > HARDLY_OSCILLATING
     }
 }

@@ -10,7 +10,7 @@ use super::mode::ReducedMode;
 use super::packed::{PackedModes, PackedVector};
 use super::reduced::ReducedModel;
 use super::structure::StructureMatrices;
-use super::{GROUP_WIDTH, NEARLY_CRITICAL, RESIDUAL_BOUND, TRACKING_MARGIN};
+use super::{GROUP_WIDTH, RESIDUAL_BOUND, TRACKING_MARGIN};
 use crate::cea::{ModeLimit, ModeVectors, keeping_ties};
 use crate::linalg::{LinalgError, Mat, c64};
 use crate::prestress::SlidingTangent;
@@ -18,8 +18,6 @@ use std::f64::consts::TAU;
 
 /// Residual relative to the matrices below which there is only round-off.
 const ROUND_OFF: f64 = 1e-15;
-/// Damping factor from which on a motion may as well be one of those that do not oscillate.
-const HARDLY_OSCILLATING: f64 = 0.95;
 /// Residual force, relative to the inertia force, from which on a motion is far from any mode.
 const NO_MODE: f64 = 0.1;
 /// Relative error of an eigenvalue that such a residual may mean.
@@ -212,7 +210,7 @@ impl PointSolver<'_> {
         let is_sampled = model.sample_width(mu).is_some();
         let is_doubtful = self.doubt(modes, is_sampled || !model.has_samples());
         modes.retain(|mode| {
-            if mode.damping_factor() <= NEARLY_CRITICAL {
+            if !mode.is_nearly_critical() {
                 return true;
             }
             let check = &self.check(model, mu, std::slice::from_ref(mode))[0];
@@ -237,8 +235,7 @@ impl PointSolver<'_> {
             let own = mode.eigenvalue;
             let is_beyond = own.norm() > reach && own.im < highest;
             let is_far = is_beyond || check.force_residual > NO_MODE;
-            let damping = mode.damping_factor();
-            damping > HARDLY_OSCILLATING || as_such && is_far && damping > NEARLY_CRITICAL
+            mode.hardly_oscillates() || as_such && is_far && mode.is_nearly_critical()
         }
     }
 

@@ -4,9 +4,11 @@ mod normal_law;
 mod response;
 mod rigid_counterface;
 mod rotation;
+mod slow_sliding;
 mod topography;
 
 use crate::bricks::{Block, file_of};
+use crate::structural_damping::dense;
 use frictionsim::cea::sparse::sweep;
 use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::contact::{ContactStiffness, Counterpart, Motion, PairError, PairFriction};
@@ -14,8 +16,8 @@ use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamp
 use frictionsim::linalg::c64;
 use frictionsim::mesh::{BoundaryCondition, GmshFile, Mesh};
 use frictionsim::prestress::{
-    Assembly, BaseChoice, DampingModel, PrestressError, SlidingSurfaces, TangentOptions,
-    TiedSurfaces,
+    Assembly, BaseChoice, DampingModel, PrestressError, SlidingSurfaces, SlidingTangent,
+    TangentOptions, TiedSurfaces,
 };
 
 const STEEL: ElasticMaterial = ElasticMaterial {
@@ -186,6 +188,36 @@ fn eigenvalues(assembly: &Assembly<'_>, friction: f64, count: usize) -> Vec<c64>
     let found = sweep(&tangent, &request, &|_| {}).unwrap();
     let modes = found.points.into_iter().flat_map(|point| point.modes);
     modes.map(|mode| mode.eigenvalue).collect()
+}
+
+/// Consistency check: above the friction coefficient below which a state is frozen its tangent is that of the same state, which holds
+/// everywhere, on springs and rigid.
+#[test]
+fn a_frozen_state_has_the_same_tangent_above() {
+    let mesh = mesh_of(&file_of(&stacked(0.0), |point| point), &PRESSED);
+    let motion = turning(&mesh, [0.0, 0.0, 1.0], [1.0, 0.3, 0.0]);
+    for normal_stiffness in [None, Some(1e14)] {
+        let contact = sliding(&mesh, normal_stiffness);
+        let motions = std::slice::from_ref(&motion);
+        let solved = BaseChoice::Solved;
+        let assembly = Assembly::new(&mesh, &STEEL, &[], &[contact], motions, solved).unwrap();
+        let mut state = assembly.range(&[0.3]).unwrap().states.remove(0);
+        let whole = assembly.tangent(&state, &OPTIONS).unwrap();
+        state.frozen_below = 0.2;
+        let frozen = assembly.tangent(&state, &OPTIONS).unwrap();
+        for friction in [0.2, 0.3, 0.5] {
+            for matrix in [0, 1, 2] {
+                let values = |tangent: &SlidingTangent| {
+                    let all = [&tangent.stiffness, &tangent.damping, &tangent.mass];
+                    dense(all[matrix], friction)
+                };
+                let (expected, found) = (values(&whole), values(&frozen));
+                let error = (&found - &expected).norm_max() / expected.norm_max();
+                let named = format!("{normal_stiffness:?} {friction} {matrix}");
+                assert!(error < 1e-13, "{named}: {error:e}");
+            }
+        }
+    }
 }
 
 fn largest_difference(a: &[c64], b: &[c64]) -> f64 {

@@ -96,7 +96,7 @@ impl BasisBuilder<'_> {
 
     /// Whether damping is not viscous alone.
     pub fn is_lossy(&self) -> bool {
-        self.tangent.structural.is_some() || !self.tangent.tabled.is_empty()
+        self.tangent.is_lossy()
     }
 
     /// Drops what repairs of lossy modes, each of many rounds, added to the basis beyond the modes that it holds; the coordinates of the
@@ -189,8 +189,13 @@ impl BasisBuilder<'_> {
 
     /// Coordinates of the modes to be held, real and imaginary parts.
     fn leading(&self, modes: &[ReducedMode]) -> Mat<f64> {
-        let leading = &modes[..self.count.min(modes.len())];
-        PackedModes::of(leading, self.model.dimension()).coordinates
+        let mut held = self.count.min(modes.len());
+        if self.is_lossy() {
+            // Motions near critical damping, which may be none, take no places.
+            let mut far = (0..modes.len()).filter(|&j| !modes[j].is_nearly_critical());
+            held = far.nth(self.count - 1).map_or(modes.len(), |j| j + 1);
+        }
+        PackedModes::of(&modes[..held], self.model.dimension()).coordinates
     }
 
     /// Where `mu` lies among the friction coefficients whose modes the basis holds: an odd number at one, an even one between.

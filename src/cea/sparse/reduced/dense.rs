@@ -79,6 +79,8 @@ impl ReducedModel {
     /// ```
     ///
     /// those with `Im nu < 0` are no motions: at negative frequencies the force is `-i H`.
+    ///
+    /// With `H` motions beyond critical damping have an imaginary part too: they are left out, and those near it do not count.
     fn solve_lossy(
         &self,
         at: &ProjectedMatrices,
@@ -132,7 +134,16 @@ impl ReducedModel {
                 left: left.as_ref().map_or_else(Vec::new, column),
             })
         };
-        let mut modes: Vec<ReducedMode> = order.into_iter().filter_map(mode).take(count).collect();
+        let oscillating = order.into_iter().filter_map(mode);
+        let oscillating = oscillating.filter(|mode| !mode.hardly_oscillates());
+        let mut far_from_critical = 0;
+        let mut modes: Vec<ReducedMode> = oscillating
+            .take_while(|mode| {
+                let is_wanted = far_from_critical < count;
+                far_from_critical += usize::from(!mode.is_nearly_critical());
+                is_wanted
+            })
+            .collect();
         modes.sort_by(|p, q| p.eigenvalue.im.total_cmp(&q.eigenvalue.im));
         Ok(modes)
     }
