@@ -20,6 +20,8 @@ use rayon::prelude::*;
 const MOST_UNKNOWNS: usize = 5000;
 /// Refinements of lossy modes whose corrections are kept beside the modes: with none of them convergence is slow and uneven.
 const HISTORY: usize = 3;
+/// Unknowns up to which lossy modes come from one decomposition, of twice that size: one or two seconds for each friction value.
+const MOST_DENSE: usize = 300;
 /// Start vectors of an iteration: modes may come in pairs of equal eigenvalue, and factors are read once for both.
 const START_WIDTH: usize = 2;
 
@@ -76,6 +78,9 @@ impl BasisBuilder<'_> {
                 if self.rigid.is_some() {
                     return self.sample_free(mu);
                 }
+                if self.may_decompose() {
+                    return self.sample_densely(mu);
+                }
                 // Combinations of the modes without friction, which the basis holds first.
                 let known = self.model.dimension();
                 let frictionless = self.count.min(known);
@@ -97,6 +102,29 @@ impl BasisBuilder<'_> {
     /// Whether damping is not viscous alone.
     pub fn is_lossy(&self) -> bool {
         self.tangent.is_lossy()
+    }
+
+    /// Whether all modes of a lossy problem may come from one decomposition of its matrices: it is small.
+    fn may_decompose(&self) -> bool {
+        let is_small = self.tangent.stiffness.dimension() <= MOST_DENSE;
+        is_small && self.tangent.structural.is_some() && self.tangent.tabled.is_empty()
+    }
+
+    /// Takes up the modes at `mu` from a dense decomposition of the full matrices; whether the basis grew.
+    ///
+    /// # Errors
+    /// If the decomposition fails.
+    fn sample_densely(&mut self, mu: f64) -> Result<bool, CeaError> {
+        let unknowns = self.tangent.stiffness.dimension();
+        let vectors = self.step(mu, |builder| {
+            let count = builder.count + TRACKING_MARGIN;
+            let modes = builder.model.solve_unreduced(builder.tangent, mu, count)?;
+            let vectors: Vec<Vec<c64>> = modes.into_iter().map(|mode| mode.right).collect();
+            Ok::<_, LinalgError>(real_columns(unknowns, &vectors))
+        })?;
+        let has_grown = self.model.extend(vectors.clone(), SAMPLE_TOLERANCE).ncols() > 0;
+        self.model.hold_sample(mu, &vectors);
+        Ok(has_grown)
     }
 
     /// Drops what repairs of lossy modes, each of many rounds, added to the basis beyond the modes that it holds; the coordinates of the
@@ -158,12 +186,7 @@ impl BasisBuilder<'_> {
                 problem.mode_near(mode.eigenvalue, start)
             });
             let found: Vec<Vec<c64>> = found.map(|(_, vector)| vector).collect();
-            let mut vectors = Mat::from_fn(problem.dimension(), 2 * found.len(), |i, j| {
-                let value = found[j / 2][i];
-                if j % 2 == 0 { value.re } else { value.im }
-            });
-            turn_to_real(&mut vectors);
-            Ok::<_, CeaError>(vectors)
+            Ok::<_, CeaError>(real_columns(problem.dimension(), &found))
         })?;
         let has_grown = self.model.extend(vectors.clone(), SAMPLE_TOLERANCE).ncols() > 0;
         self.model.hold_sample(mu, &vectors);
@@ -326,4 +349,14 @@ impl BasisBuilder<'_> {
             None => Ok(false),
         }
     }
+}
+
+/// Complex vectors as real and imaginary parts in neighbouring columns, as real as can be.
+fn real_columns(rows: usize, vectors: &[Vec<c64>]) -> Mat<f64> {
+    let mut columns = Mat::from_fn(rows, 2 * vectors.len(), |i, j| {
+        let value = vectors[j / 2][i];
+        if j % 2 == 0 { value.re } else { value.im }
+    });
+    turn_to_real(&mut columns);
+    columns
 }

@@ -7,8 +7,9 @@ use crate::cea::sparse::own_frequency;
 use crate::cea::sparse::projected::ProjectedMatrices;
 use crate::linalg::dense_eigen::{complex_eigen, real_eigen};
 use crate::linalg::dense_few::few_eigenvalues;
-use crate::linalg::{ComplexDenseLu, DenseLu, LinalgError};
+use crate::linalg::{ComplexDenseLu, DenseLu, LinalgError, MatrixPolynomial};
 use crate::linalg::{Mat, MatRef, c64};
+use crate::prestress::SlidingTangent;
 
 impl ReducedModel {
     /// The modes of projected matrices, without derivatives and scale.
@@ -69,6 +70,32 @@ impl ReducedModel {
             .collect();
         modes.sort_by(|p, q| p.eigenvalue.im.total_cmp(&q.eigenvalue.im));
         Ok(modes)
+    }
+
+    /// The `count` lowest modes at `mu` of the full matrices of `tangent`, with structural damping, as [`Self::solve_right`] gives those in
+    /// the basis; vectors are over the unknowns.
+    ///
+    /// # Errors
+    /// If the dense eigenvalue decomposition fails.
+    pub fn solve_unreduced(
+        &self,
+        tangent: &SlidingTangent,
+        mu: f64,
+        count: usize,
+    ) -> Result<Vec<ReducedMode>, LinalgError> {
+        let n = tangent.stiffness.dimension();
+        let full = |p: &MatrixPolynomial| {
+            let identity = Mat::identity(n, n);
+            p.pattern().multiply(&p.evaluate(mu), identity.as_ref())
+        };
+        let at = ProjectedMatrices {
+            stiffness: full(&tangent.stiffness),
+            damping: full(&tangent.damping),
+            mass: full(&tangent.mass),
+            structural: tangent.structural.as_ref().map(full),
+            tabled: Vec::new(),
+        };
+        self.solve_lossy(&at, count, false)
     }
 
     /// [`Self::solve_projected`] with structural damping `H`: the eigenvalues `1 / nu` of the complex operator
