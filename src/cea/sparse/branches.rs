@@ -69,6 +69,8 @@ pub struct Lost {
     pub frequency: f64,
     /// Index of the last point where it was seen.
     pub point: usize,
+    /// Friction coefficient about which it was lost, between that point and the next.
+    pub place: f64,
 }
 
 impl Lost {
@@ -268,8 +270,9 @@ pub fn track(
         )?;
         for branch in &mut branches {
             let last = branch.modes[k - 1];
-            let next = last.and_then(|i| links[i]);
-            if let (Some(i), None) = (last, next)
+            let next = last.and_then(|i| links[i].ok());
+            if let Some(i) = last
+                && let Err(place) = links[i]
                 && i < needed
                 && stays(&before.modes[i])
             {
@@ -278,6 +281,7 @@ pub fn track(
                     label: branch.label,
                     frequency: before.modes[i].eigenvalue.im,
                     point: k - 1,
+                    place,
                 };
                 let is_given_up = given_up.iter().any(|own| own.is_same(&lost));
                 if !is_damped && !is_given_up {
@@ -327,6 +331,8 @@ fn adopt_newcomers(
 }
 
 type ModesAt<'a> = (f64, &'a [ReducedMode]);
+/// The mode that continues another one, or the friction coefficient about which that was lost.
+type Link = Result<usize, f64>;
 
 /// For each mode of `from` the mode of `to` that continues it. The first `needed` modes must be matched
 /// beyond doubt, or the interval is halved.
@@ -336,18 +342,15 @@ fn match_modes(
     needed: usize,
     model: &ReducedModel,
     depth: usize,
-) -> Result<Vec<Option<usize>>, LinalgError> {
+) -> Result<Vec<Link>, LinalgError> {
+    let middle = 0.5 * (from.0 + to.0);
     let overlaps = overlaps(from, to, model);
     let mut links = clear_links(from, to, &overlaps);
     let step = to.0 - from.0;
     let needed_links = links.iter().zip(from.1).take(needed);
     let mut open = needed_links.filter(|(link, mode)| link.is_none() && !may_vanish(mode, step));
     let is_clear = open.next().is_none();
-    if is_clear {
-        return Ok(links);
-    }
-    if depth < MAX_BISECTIONS {
-        let middle = 0.5 * (from.0 + to.0);
+    if !is_clear && depth < MAX_BISECTIONS {
         let modes = model.solve_between(middle, from.1.len().max(to.1.len()))?;
         let first = match_modes(from, (middle, &modes), needed, model, depth + 1)?;
         let reached = first
@@ -362,8 +365,10 @@ fn match_modes(
             .map(|link| link.and_then(|i| second[i]))
             .collect());
     }
-    link_by_extrapolation(from, to, needed, &mut links);
-    Ok(links)
+    if !is_clear {
+        link_by_extrapolation(from, to, needed, &mut links);
+    }
+    Ok(links.into_iter().map(|link| link.ok_or(middle)).collect())
 }
 
 fn overlaps(from: ModesAt<'_>, to: ModesAt<'_>, model: &ReducedModel) -> Mat<f64> {

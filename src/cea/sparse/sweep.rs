@@ -355,7 +355,7 @@ impl<'a> SparseSweep<'a> {
                 continue;
             }
             let is_sampling = self.builder.is_sampling();
-            let has_improved = is_sampling && self.builder.improve_between(from, to)?;
+            let has_improved = is_sampling && self.builder.improve_between(from, to, lost.place)?;
             if !has_improved {
                 searched.push(lost.point);
                 self.builder.search(to, TRACKING_MARGIN)?;

@@ -22,6 +22,8 @@ const MOST_UNKNOWNS: usize = 5000;
 const HISTORY: usize = 3;
 /// Unknowns up to which lossy modes come from one decomposition, of twice that size: one or two seconds for each friction value.
 const MOST_DENSE: usize = 300;
+/// Samples between two friction values, at places where branches were lost, after which more of them are no help.
+const MOST_BETWEEN: usize = 8;
 /// Start vectors of an iteration: modes may come in pairs of equal eigenvalue, and factors are read once for both.
 const START_WIDTH: usize = 2;
 
@@ -336,17 +338,18 @@ impl BasisBuilder<'_> {
         has_grown
     }
 
-    /// Makes the tracking of branches over `from..to` surer: takes up the modes at an end or, after those, at the
-    /// next of the dyadic fractions between; whether anything was left to do.
+    /// Makes the tracking of branches over `from..to` surer: takes up the modes at an end or, after those, at the `place` between where a
+    /// branch was lost; whether anything was left to do.
     ///
     /// # Errors
     /// As [`Self::improve_at`].
-    pub fn improve_between(&mut self, from: f64, to: f64) -> Result<bool, CeaError> {
-        let fractions = [0.0, 1.0, 0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875];
-        let values = fractions.map(|t| from + t * (to - from));
-        match values.into_iter().find(|mu| !self.sampled.contains(mu)) {
-            Some(mu) => self.improve_at(mu).map(|_| true),
-            None => Ok(false),
+    pub fn improve_between(&mut self, from: f64, to: f64, place: f64) -> Result<bool, CeaError> {
+        let is_between = |mu: &&f64| (from..to).contains(*mu);
+        let has_many = self.sampled.iter().filter(is_between).count() > MOST_BETWEEN;
+        let mut values = [from, to, place].into_iter();
+        match values.find(|mu| !self.sampled.contains(mu)) {
+            Some(mu) if !has_many => self.improve_at(mu).map(|_| true),
+            _ => Ok(false),
         }
     }
 }
