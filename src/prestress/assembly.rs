@@ -3,7 +3,6 @@
 use super::cholesky::CholeskySolver;
 use super::complementarity::PressedRange;
 use super::elimination::Elimination;
-use super::friction_polynomial::about;
 use super::joint::{BaseChoice, SlidingSurfaces, TiedSurfaces};
 use super::pressed_state::{PressedState, Pressing};
 use super::rotation::Rotation;
@@ -212,17 +211,16 @@ impl<'a> Assembly<'a> {
             .flat_map(|(_, surface)| surface.points.iter().cloned())
             .collect();
         if self.joined.base == BaseChoice::Closed {
-            return Ok(PressedRange {
-                states: vec![PressedState {
+            return Ok(PressedRange::of_one(
+                PressedState {
                     displacements: vec![vec![0.0; self.mesh.dof_count()]],
                     normal_forces: Vec::new(),
                     stiffnesses: Vec::new(),
                     is_pressed: vec![true; points.len()],
                     frozen_below: 0.0,
-                }],
-                state_of: vec![0; friction_coefficients.len()],
-                changes: Vec::new(),
-            });
+                },
+                friction_coefficients.len(),
+            ));
         }
         let mut stiffness = self.joined.elastic.clone();
         stiffness
@@ -280,33 +278,31 @@ impl<'a> Assembly<'a> {
             if load.iter().any(|force| *force != 0.0) {
                 return Err(PrestressError::NothingHolds);
             }
-            return Ok(PressedRange {
-                states: vec![PressedState {
+            return Ok(PressedRange::of_one(
+                PressedState {
                     displacements: vec![vec![0.0; self.mesh.dof_count()]],
                     normal_forces: Vec::new(),
                     stiffnesses: Vec::new(),
                     is_pressed: Vec::new(),
                     frozen_below: 0.0,
-                }],
-                state_of: vec![0; count],
-                changes: Vec::new(),
-            });
+                },
+                count,
+            ));
         }
         let unknowns = self.joined.basis.unknowns();
         let solver = CholeskySolver::new(&self.joined.basis.congruent(stiffness), &unknowns)?;
         let right = unknowns.restrict(&self.joined.basis.transposed_forces(load));
         let displacement = unknowns.expand(&solver.solve(right));
-        Ok(PressedRange {
-            states: vec![PressedState {
+        Ok(PressedRange::of_one(
+            PressedState {
                 displacements: vec![self.joined.basis.displacement(&displacement)],
                 normal_forces: Vec::new(),
                 stiffnesses: Vec::new(),
                 is_pressed: Vec::new(),
                 frozen_below: 0.0,
-            }],
-            state_of: vec![0; count],
-            changes: Vec::new(),
-        })
+            },
+            count,
+        ))
     }
 
     /// Stiffness and gyroscopic matrix of regions that turn with the inertia of their rotation.
@@ -349,8 +345,7 @@ impl<'a> Assembly<'a> {
                 let range = first..first + surface.points.len();
                 first = range.end;
                 let own = |all: &Vec<Vec<f64>>| -> Vec<Vec<f64>> {
-                    let own = all.iter().map(|all| all[range.clone()].to_vec());
-                    about(own.collect(), state.frozen_below)
+                    all.iter().map(|all| all[range.clone()].to_vec()).collect()
                 };
                 let own = [own(&state.normal_forces), own(&state.stiffnesses)];
                 (range, own)

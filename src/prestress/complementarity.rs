@@ -4,6 +4,7 @@ use super::PrestressError;
 use super::pressed_state::{
     ContactState, LEAST_RANGE, PressedBodies, PressedState, polynomial_state,
 };
+use std::ops::Range;
 
 /// Sets of pressed points that are tried at one friction coefficient before the state is called missing.
 const MAX_SETS: usize = 200;
@@ -18,14 +19,47 @@ const SHORTEST_RANGE: f64 = 1e-3;
 const ROUND_OFF: f64 = 1e-12;
 
 /// States over a range of friction coefficients.
-#[derive(Clone, Debug, Default)]
-pub struct PressedRange {
+#[derive(Clone, Debug)]
+pub struct PressedRange<S = PressedState> {
     /// One state for each set of pressed points, in order of the friction coefficient.
-    pub states: Vec<PressedState>,
+    pub states: Vec<S>,
     /// Which state each friction coefficient has.
     pub state_of: Vec<usize>,
-    /// Friction coefficients at which one state gives way to the next.
+    /// Friction coefficients up to which each state but the last holds.
     pub changes: Vec<f64>,
+    /// Friction coefficients from which each state but the first holds: above the change before it where other sets of pressed points hold
+    /// between, none of them at a friction coefficient that was asked for.
+    pub begins: Vec<f64>,
+}
+
+impl<S> PressedRange<S> {
+    /// One state that holds at `count` friction coefficients.
+    pub(super) fn of_one(state: S, count: usize) -> Self {
+        Self {
+            states: vec![state],
+            state_of: vec![0; count],
+            changes: Vec::new(),
+            begins: Vec::new(),
+        }
+    }
+
+    /// The same states in another form.
+    pub(super) fn map<T>(self, form: impl FnMut(S) -> T) -> PressedRange<T> {
+        PressedRange {
+            states: self.states.into_iter().map(form).collect(),
+            state_of: self.state_of,
+            changes: self.changes,
+            begins: self.begins,
+        }
+    }
+
+    /// Friction coefficients between the state `before` and the next one at which neither is known to hold; empty where one gives way to
+    /// the other.
+    pub fn unknown_between(&self, before: usize) -> Range<f64> {
+        let (end, begin) = (self.changes[before], self.begins[before]);
+        let is_empty = begin - end <= 4.0 * CHANGE_WIDTH;
+        end..if is_empty { end } else { begin }
+    }
 }
 
 /// States at every one of `friction_coefficients`: rising values, each starting from the set of the last.
@@ -59,7 +93,17 @@ pub(super) fn range(
         start = set;
     }
 
-    // Each state holds from one change to the next.
+    // Each state is followed from one change to the next; between the end of the set before and the beginning of its own, others hold.
+    let lowest_of = |state: usize| {
+        let with_state = state_of.iter().zip(friction_coefficients);
+        let own = with_state.filter_map(|(own, friction)| (*own == state).then_some(*friction));
+        own.fold(f64::INFINITY, f64::min)
+    };
+    let begins = changes.iter().enumerate().map(|(k, &change)| {
+        let begin = end_between(bodies, &sets[k + 1], [lowest_of(k + 1), change])?;
+        Ok(begin.max(change))
+    });
+    let begins = begins.collect::<Result<Vec<f64>, PrestressError>>()?;
     let end = |rank: Option<&usize>| rank.map_or(0.0, |&i| friction_coefficients[i]);
     let (first, last) = (end(order.first()), end(order.last()));
     let states = sets.into_iter().enumerate().map(|(k, set)| {
@@ -68,15 +112,15 @@ pub(super) fn range(
         let asked: Vec<f64> = asked.collect();
         let lower = k.checked_sub(1).map_or(first, |before| changes[before]);
         let upper = changes.get(k).copied().unwrap_or(last);
-        let lowest = asked.iter().copied().fold(upper, f64::min);
-        // Between the end of the set before and the beginning of this one others may hold.
         let own_range = |bodies: &mut _, set: &[bool]| {
-            let most = if k > 0 {
-                lower
-            } else {
-                lower.min(upper - LEAST_RANGE).max(0.0)
+            let begin = match k.checked_sub(1) {
+                Some(before) => begins[before],
+                None => {
+                    let lowest = asked.iter().copied().fold(upper, f64::min);
+                    let least = lower.min(upper - LEAST_RANGE).max(0.0);
+                    end_between(bodies, set, [lowest, least])?
+                }
             };
-            let begin = end_between(bodies, set, [lowest, most])?;
             Ok([begin.min(upper - SHORTEST_RANGE), upper])
         };
         polynomial_state(bodies, set, ([lower, upper], &own_range), &asked)
@@ -85,6 +129,7 @@ pub(super) fn range(
         states: states.collect::<Result<_, _>>()?,
         state_of,
         changes,
+        begins,
     })
 }
 

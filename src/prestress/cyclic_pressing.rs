@@ -134,17 +134,13 @@ impl SectorPressing {
     fn of_all(&self, range: PressedRange) -> PressedRange {
         let repeated = |values: Vec<f64>| values.repeat(self.count);
         let spread = |values: Vec<f64>| self.copy_of.iter().map(|&i| values[i]).collect();
-        let states = range.states.into_iter().map(|state| PressedState {
+        range.map(|state| PressedState {
             displacements: state.displacements.into_iter().map(repeated).collect(),
             normal_forces: state.normal_forces.into_iter().map(spread).collect(),
             stiffnesses: state.stiffnesses.into_iter().map(spread).collect(),
             is_pressed: self.copy_of.iter().map(|&i| state.is_pressed[i]).collect(),
             frozen_below: state.frozen_below,
-        });
-        PressedRange {
-            states: states.collect(),
-            ..range
-        }
+        })
     }
 }
 

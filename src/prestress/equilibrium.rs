@@ -3,6 +3,7 @@
 use super::PrestressError;
 use super::SectorSliding;
 use super::cholesky::CholeskySolver;
+use super::complementarity::PressedRange;
 use super::elimination::Elimination;
 use super::friction_polynomial::evaluate;
 use super::pressed_state::{PressedState, Pressing};
@@ -21,11 +22,11 @@ use crate::mesh::{AnnulusMesh, Mesh, SectorMesh};
 /// Per metre of thickness; vectors over all dofs in nodal frames.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SteadySliding {
-    /// Displacement `u(mu)` by power of `mu`, m.
+    /// Displacement by power of `mu - a`, m, with `a` of [`Self::frozen_below`].
     pub displacements: Vec<Vec<f64>>,
-    /// Normal force on each contact node `N_i(mu)` by power of `mu`, N/m, in the order of the interface.
+    /// Normal force on each contact node by power of `mu - a`, N/m, in the order of the interface.
     pub normal_forces: Vec<Vec<f64>>,
-    /// Stiffness `w_i dp/dg` of each contact node by power of `mu`, N/m2; none where contact does not stiffen.
+    /// Stiffness `w_i dp/dg` of each contact node by power of `mu - a`, N/m2; none where contact does not stiffen.
     pub stiffnesses: Vec<Vec<f64>>,
     /// Whether each contact node is pressed; the others are open.
     pub is_pressed: Vec<bool>,
@@ -42,15 +43,7 @@ pub struct SteadySliding {
 }
 
 /// States of steady sliding over a range of friction coefficients.
-#[derive(Clone, Debug, Default)]
-pub struct SlidingRange {
-    /// One state for each set of pressed nodes, in order of the friction coefficient.
-    pub states: Vec<SteadySliding>,
-    /// Which state each friction coefficient has.
-    pub state_of: Vec<usize>,
-    /// Friction coefficients at which one state gives way to the next.
-    pub changes: Vec<f64>,
-}
+pub type SlidingRange = PressedRange<SteadySliding>;
 
 impl SteadySliding {
     /// Solves the equilibrium of `mesh` at the friction coefficient of `contact`; `stiffness` is that of the body (all
@@ -192,20 +185,25 @@ impl SteadySliding {
         Self::of(state, interface, contact)
     }
 
+    /// `mu - a`, and 0 below `a`, [`Self::frozen_below`].
+    fn beyond(&self, friction_coefficient: f64) -> f64 {
+        (friction_coefficient - self.frozen_below).max(0.0)
+    }
+
     /// Displacement over all dofs at friction coefficient `friction_coefficient`, m.
     pub fn displacement(&self, friction_coefficient: f64) -> Vec<f64> {
-        evaluate(&self.displacements, friction_coefficient)
+        evaluate(&self.displacements, self.beyond(friction_coefficient))
     }
 
     /// Normal force on each contact node, N/m.
     pub fn normal_forces(&self, friction_coefficient: f64) -> Vec<f64> {
-        evaluate(&self.normal_forces, friction_coefficient)
+        evaluate(&self.normal_forces, self.beyond(friction_coefficient))
     }
 
     /// Stiffness of each contact node, N/m2, where contact stiffens with pressure.
     pub fn springs(&self, friction_coefficient: f64) -> Option<Vec<f64>> {
         let has_law = !self.stiffnesses.is_empty();
-        has_law.then(|| evaluate(&self.stiffnesses, friction_coefficient))
+        has_law.then(|| evaluate(&self.stiffnesses, self.beyond(friction_coefficient)))
     }
 
     /// Contact pressure at each contact node `p_i = N_i / w_i`, Pa.
@@ -253,11 +251,8 @@ impl SlidingRange {
         let [springs, _] = assemble_supports(mesh);
         supported.entries.extend(springs.entries);
         if mesh.is_cyclic && law.is_none() {
-            return Ok(Self {
-                states: vec![SteadySliding::solve_annulus(mesh, &supported, contact)?],
-                state_of: vec![0; friction_coefficients.len()],
-                changes: Vec::new(),
-            });
+            let state = SteadySliding::solve_annulus(mesh, &supported, contact)?;
+            return Ok(Self::of_one(state, friction_coefficients.len()));
         }
         let interface = ContactInterface::of(mesh);
         let points = interface.points(contact);
@@ -281,14 +276,7 @@ impl SlidingRange {
         if let Some(state) = found.states.iter().find(|_| mesh.is_cyclic) {
             check_pressed(&interface, &state.normal_forces(friction_coefficients[0]))?;
         }
-        let states = found.states.into_iter();
-        Ok(Self {
-            states: states
-                .map(|state| SteadySliding::of(state, interface.clone(), contact))
-                .collect(),
-            state_of: found.state_of,
-            changes: found.changes,
-        })
+        Ok(found.map(|state| SteadySliding::of(state, interface.clone(), contact)))
     }
 }
 

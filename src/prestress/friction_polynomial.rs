@@ -39,23 +39,6 @@ pub(super) fn interpolated(points: &[f64], mut values: Vec<Vec<f64>>, upper: f64
     powers
 }
 
-/// Coefficients of the powers of `mu - origin` of a polynomial given by powers of `mu` (Taylor's shift by repeated division).
-pub(super) fn about(mut coefficients: Vec<Vec<f64>>, origin: f64) -> Vec<Vec<f64>> {
-    if origin == 0.0 {
-        return coefficients;
-    }
-    let count = coefficients.len();
-    for first in 0..count {
-        for p in (first..count.saturating_sub(1)).rev() {
-            let (lower, upper) = coefficients.split_at_mut(p + 1);
-            for (value, above) in lower[p].iter_mut().zip(&upper[0]) {
-                *value += origin * above;
-            }
-        }
-    }
-    coefficients
-}
-
 /// `sum_p c_p mu^p`.
 pub(super) fn evaluate(coefficients: &[Vec<f64>], friction_coefficient: f64) -> Vec<f64> {
     let mut powers = coefficients.iter().rev();
@@ -66,19 +49,4 @@ pub(super) fn evaluate(coefficients: &[Vec<f64>], friction_coefficient: f64) -> 
         }
     }
     values
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_polynomial_about_another_point_has_the_same_values() {
-        let coefficients = vec![vec![1.0], vec![-2.0], vec![0.5], vec![3.0]];
-        let shifted = about(coefficients.clone(), 0.7);
-        for mu in [0.0, 0.7, 1.3] {
-            let (own, other) = (evaluate(&coefficients, mu), evaluate(&shifted, mu - 0.7));
-            assert!((own[0] - other[0]).abs() < 1e-14);
-        }
-    }
 }

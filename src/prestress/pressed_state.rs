@@ -12,14 +12,14 @@ use crate::fem::{DofMap, Triplets};
 pub(super) const LEAST_RANGE: f64 = 0.05;
 
 /// Share of the largest force that the polynomial of a state may leave out.
-const RESOLVED: f64 = 1e-7;
+const RESOLVED: f64 = 1e-8;
 
-/// What follows the last two terms of a series that falls by a factor of five or more from one to the next, beside the larger of them.
-const FOLLOWING: f64 = 0.01;
+/// What follows the last two terms of a series that falls by a factor of three or more from one to the next, beside the larger of them.
+const FOLLOWING: f64 = 0.2;
 
 /// Points through which it goes where the usual ones leave out more, over their interval and over that of the set.
 const MOST_USUAL: usize = 12;
-const MORE_NODES: [usize; 4] = [3, 5, 8, 12];
+const MORE_NODES: [usize; 6] = [3, 5, 8, 12, 18, 24];
 
 /// What presses bodies together.
 #[derive(Clone, Debug)]
@@ -85,36 +85,42 @@ pub(super) struct ContactState {
     pub stiffnesses: Option<Vec<f64>>,
 }
 
-/// The bodies under one set of pressed points, as polynomials in the friction coefficient.
+/// The bodies under one set of pressed points, as polynomials in `mu - a`, `mu` the friction coefficient and `a` where they begin,
+/// [`Self::frozen_below`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct PressedState {
-    /// Displacement `u(mu)` of all dofs by power of `mu`, m.
+    /// Displacement of all dofs by power of `mu - a`, m.
     pub displacements: Vec<Vec<f64>>,
-    /// Normal force on each contact point `N_i(mu)` by power of `mu`, N (N/m in the plane).
+    /// Normal force on each contact point by power of `mu - a`, N (N/m in the plane).
     pub normal_forces: Vec<Vec<f64>>,
-    /// Stiffness of each contact point at its force by power of `mu`, N/m; none where no contact stiffens.
+    /// Stiffness of each contact point at its force by power of `mu - a`, N/m; none where no contact stiffens.
     pub stiffnesses: Vec<Vec<f64>>,
     /// Whether each contact point is pressed; the others are open.
     pub is_pressed: Vec<bool>,
-    /// Friction coefficient below which the tangent keeps the state as it is there: the polynomials of contact that stiffens say
+    /// Friction coefficient `a` below which the tangent keeps the state as it is there: the polynomials of contact that stiffens say
     /// nothing beyond their range, and the eigenvalue analysis starts without friction. 0 where they hold from there on.
     pub frozen_below: f64,
 }
 
 impl PressedState {
+    /// `mu - a`, and 0 below `a`.
+    fn beyond(&self, friction_coefficient: f64) -> f64 {
+        (friction_coefficient - self.frozen_below).max(0.0)
+    }
+
     /// Displacement over all dofs at a friction coefficient, m.
     pub fn displacement(&self, friction_coefficient: f64) -> Vec<f64> {
-        evaluate(&self.displacements, friction_coefficient)
+        evaluate(&self.displacements, self.beyond(friction_coefficient))
     }
 
     /// Normal force on each contact point, N; none of a state that is free of stress.
     pub fn normal_forces(&self, friction_coefficient: f64) -> Vec<f64> {
-        evaluate(&self.normal_forces, friction_coefficient)
+        evaluate(&self.normal_forces, self.beyond(friction_coefficient))
     }
 
     /// Stiffness of each contact point, N/m; none where no contact stiffens.
     pub fn springs(&self, friction_coefficient: f64) -> Vec<f64> {
-        evaluate(&self.stiffnesses, friction_coefficient)
+        evaluate(&self.stiffnesses, self.beyond(friction_coefficient))
     }
 }
 
@@ -156,8 +162,10 @@ pub(super) fn polynomial_state<B: PressedBodies>(
     asked: &[f64],
 ) -> Result<PressedState, PrestressError> {
     let (usual, count) = bodies.usual_points(range);
-    let mut best = Polynomials::through(bodies, &is_pressed, (usual, count))?;
-    let mut is_usual = true;
+    // The usual points may be continued to friction 0, others may not, and what stiffens neither.
+    let begin = |interval: [f64; 2]| range[0].max(interval[0]);
+    let origins = [0.0, begin(usual)];
+    let mut best = Polynomials::through(bodies, &is_pressed, (usual, count), origins)?;
     if best.left_out > RESOLVED {
         let exact = asked
             .iter()
@@ -168,37 +176,34 @@ pub(super) fn polynomial_state<B: PressedBodies>(
         let own = own_range(bodies, &is_pressed).unwrap_or(range);
         let within = MORE_NODES.map(|count| (own, count));
         for points in [(usual, MOST_USUAL)].into_iter().chain(within) {
-            let Ok(mut other) = Polynomials::through(bodies, &is_pressed, points) else {
+            let begin = begin(points.0);
+            let origins = [if points.0[0] <= 0.0 { 0.0 } else { begin }, begin];
+            let other = Polynomials::through(bodies, &is_pressed, points, origins);
+            let Ok(mut other) = other else {
                 continue;
             };
             other.compare(asked, &exact);
             if other.left_out < best.left_out {
-                (best, is_usual) = (other, false);
+                best = other;
             }
             if best.left_out <= RESOLVED {
                 break;
             }
         }
     }
-    // Few points may be continued to friction 0, many may not.
-    let reaches_zero = is_usual || best.interval[0] <= 0.0;
-    let holds_from_zero = reaches_zero && best.stiffnesses.len() <= 1;
     Ok(PressedState {
         displacements: best.displacements,
         normal_forces: best.normal_forces,
         stiffnesses: best.stiffnesses,
         is_pressed,
-        frozen_below: if holds_from_zero {
-            0.0
-        } else {
-            best.interval[0].max(range[0])
-        },
+        frozen_below: best.origin,
     })
 }
 
-/// The states of one set of pressed points in an interval of friction coefficients, by power.
+/// The states of one set of pressed points in an interval of friction coefficients, by power of `mu - a`.
 struct Polynomials {
-    interval: [f64; 2],
+    /// `a`.
+    origin: f64,
     displacements: Vec<Vec<f64>>,
     normal_forces: Vec<Vec<f64>>,
     /// None where no contact stiffens.
@@ -208,11 +213,12 @@ struct Polynomials {
 }
 
 impl Polynomials {
-    /// Those through the states at Chebyshev points of an interval.
+    /// Those through the states at Chebyshev points of an interval, from the first of two origins, or the second where contact stiffens.
     fn through(
         bodies: &mut impl PressedBodies,
         is_pressed: &[bool],
         (interval, count): ([f64; 2], usize),
+        origins: [f64; 2],
     ) -> Result<Self, PrestressError> {
         let nodes = chebyshev_points(count, interval);
         let (mut displacements, mut normal_forces, mut stiffnesses) =
@@ -224,12 +230,14 @@ impl Polynomials {
             stiffnesses.extend(state.stiffnesses);
         }
         let left_out = FOLLOWING * last_terms(&normal_forces);
+        let origin = origins[usize::from(!stiffnesses.is_empty())];
+        let beyond: Vec<f64> = nodes.iter().map(|mu| mu - origin).collect();
         let through = |values: Vec<Vec<f64>>| match values.is_empty() {
             true => values,
-            false => interpolated(&nodes, values, interval[1]),
+            false => interpolated(&beyond, values, interval[1] - origin),
         };
         Ok(Self {
-            interval,
+            origin,
             displacements: through(displacements),
             normal_forces: through(normal_forces),
             stiffnesses: through(stiffnesses),
@@ -240,7 +248,7 @@ impl Polynomials {
     /// Takes note of what they are wrong by at friction coefficients with known states.
     fn compare(&mut self, frictions: &[f64], exact: &[ContactState]) {
         for (friction, state) in frictions.iter().zip(exact) {
-            let forces = evaluate(&self.normal_forces, *friction);
+            let forces = evaluate(&self.normal_forces, friction - self.origin);
             let largest = largest(std::slice::from_ref(&state.normal_forces));
             for (own, exact) in forces.iter().zip(&state.normal_forces) {
                 self.left_out = self.left_out.max((own - exact).abs() / largest);

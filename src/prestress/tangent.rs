@@ -1,7 +1,6 @@
 //! The matrices of small motions around steady sliding.
 
 use super::elimination::{Elimination, ProjectedPolynomial, RigidFriction};
-use super::friction_polynomial::about;
 use super::tabled::{TabledGain, TabledStiffness};
 use super::{DampingModel, PrestressError, SteadySliding, TangentOptions};
 use crate::contact::{ContactStiffness, Point, PressedPoints, Row, linearized};
@@ -179,8 +178,7 @@ impl SlidingTangent {
             elastic: elastic.clone(),
             geometric: options
                 .geometric_stiffness
-                .then(|| about(base.displacements.clone(), base.frozen_below))
-                .map(|displacements| displacements.iter().map(stressed).collect())
+                .then(|| base.displacements.iter().map(stressed).collect())
                 .map(|terms| frozen_terms(terms, base.frozen_below)),
             supports: assemble_supports(mesh),
             extra_damping: assemble_extra_damping(mesh, material, options.mass, options.damping),
@@ -189,14 +187,12 @@ impl SlidingTangent {
             rotation: None,
             is_free: false,
         };
-        let [normal_forces, stiffnesses] = [&base.normal_forces, &base.stiffnesses]
-            .map(|powers| about(powers.clone(), base.frozen_below));
         let part = ContactPart {
             points: &base.points,
             state: PressedPoints {
                 is_pressed: &base.is_pressed,
-                normal_forces: &normal_forces,
-                stiffnesses: &stiffnesses,
+                normal_forces: &base.normal_forces,
+                stiffnesses: &base.stiffnesses,
                 frozen_below: base.frozen_below,
             },
             stiffness: options.contact,

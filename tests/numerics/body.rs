@@ -230,7 +230,7 @@ fn a_supported_rim_has_one_spectrum_by_sectors_and_as_a_whole() {
 }
 
 /// A rectangle of `nx` by `ny` four-node elements, its corner at the origin, with boundaries bottom, right, top, left.
-fn rectangle(width: f64, height: f64, nx: usize, ny: usize) -> Vec<u8> {
+pub fn rectangle(width: f64, height: f64, nx: usize, ny: usize) -> Vec<u8> {
     let node = |i: usize, j: usize| 1 + i + j * (nx + 1);
     let mut text = String::from("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n5\n");
     for (tag, name) in ["bottom", "right", "top", "left"].iter().enumerate() {

@@ -34,6 +34,7 @@ mod improve;
 mod matrices;
 mod mesh_error;
 mod normal_law;
+mod opening;
 mod orthotropy;
 mod plane_body;
 mod plane_spectrum;

@@ -40,9 +40,10 @@ impl FoundInterval {
         (!self.found.from_start).then_some(&self.found.onset)
     }
 
-    /// What is wrong with the mode at its onset, if that misses the bound of converged pairs.
+    /// What is wrong with the mode at its onset, if that misses the bound of converged pairs. A branch that is unstable from the start may
+    /// come from beyond the wanted modes, whose points are checked: nothing was located there.
     pub fn miss(&self) -> Option<CeaError> {
-        let is_met = self.residual <= RESIDUAL_BOUND;
+        let is_met = self.residual <= RESIDUAL_BOUND || self.found.from_start;
         (!is_met).then(|| CeaError::NotConverged {
             friction_coefficient: self.found.onset.mu,
             frequency_hz: self.found.onset.mode.eigenvalue.im / TAU,

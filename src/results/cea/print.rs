@@ -176,6 +176,8 @@ fn critical_frictions(out: &mut String, report: &CeaReport<'_>) {
         );
         return;
     }
+    let values = report.friction_coefficients.iter().copied();
+    let lowest = values.fold(f64::INFINITY, f64::min);
     let numbers = report.mode_numbers();
     let names = Names::of(report);
     let name = |interval: &UnstableInterval| {
@@ -211,10 +213,11 @@ fn critical_frictions(out: &mut String, report: &CeaReport<'_>) {
             Some((friction, frequency)) => format!("{friction:.6} ({frequency:.2} Hz)"),
             None => "-".to_owned(),
         };
-        let critical = if interval.unstable_from_start {
-            "start".to_owned()
-        } else {
-            format!("{:.6}", interval.critical_friction)
+        let critical = match (interval.unstable_from_start, interval.critical_friction) {
+            (true, friction) if friction <= lowest => "start".to_owned(),
+            // A branch with a new number, which was not followed to there.
+            (true, friction) => format!("<{friction:.6}"),
+            (false, friction) => format!("{friction:.6}"),
         };
         let _ = writeln!(
             out,

@@ -40,12 +40,8 @@ impl AssemblyModel {
         frictions: &[f64],
     ) -> Result<Self, CeaError> {
         let own = case.contact.sliding.friction_coefficient;
-        // Contact that stiffens depends on friction, and the analysis starts without: it is known from there on.
-        let stiffens = body.contacts.iter().any(|contact| contact.law.is_some());
-        let start: &[f64] = if stiffens { &[0.0] } else { &[] };
-        let frictions = [frictions, start, &[own]].concat();
         let assembly = body.assembled()?;
-        let range = assembly.range(&frictions)?;
+        let range = assembly.range(&[frictions, start_of(body), &[own]].concat())?;
         Ok(Self {
             symmetry: used_symmetry(case, &body.mesh),
             body: body.clone(),
@@ -77,13 +73,11 @@ impl AssemblyModel {
         progress: &Progress<'_>,
     ) -> Result<StatesSweep, CeaError> {
         let assembly = self.assembly();
-        let range = &self.range;
-        let tangent = |k: usize| Ok(assembly.tangent(&range.states[k], &self.options)?);
         let states = States {
-            count: range.states.len(),
-            state_of: &range.state_of,
-            changes: &range.changes,
-            tangent: &tangent,
+            range: &self.range,
+            solve: &|frictions| Ok(assembly.range(&[frictions, start_of(&self.body)].concat())?),
+            pressed: |state| &state.is_pressed,
+            tangent: &|state| Ok(assembly.tangent(state, &self.options)?),
             symmetry: self.symmetry.map(|own| (own, self.body.mesh.node_count())),
         };
         states.sweep(request, progress)
@@ -143,6 +137,12 @@ impl AssemblyModel {
             displacement,
         }
     }
+}
+
+/// Where the base states begin: contact that stiffens depends on friction, and the analysis starts without.
+fn start_of(body: &AssemblyBody) -> &'static [f64] {
+    let stiffens = body.contacts.iter().any(|contact| contact.law.is_some());
+    if stiffens { &[0.0] } else { &[] }
 }
 
 /// What the report says of the base state of an assembly.

@@ -177,6 +177,7 @@ fn spectrum_of(found: StatesSweep, mut notes: Vec<String>) -> Spectrum {
         format!("the whole mesh was solved, not waves around it one number of nodal diameters after the other: {why}")
     });
     notes.extend(why);
+    notes.extend(found.notes);
     Spectrum {
         dofs: found.dofs,
         sensitivities: None,
@@ -309,10 +310,7 @@ impl Model {
             }
             Self::Whole(whole) => {
                 let found = whole.sweep(case, request, progress)?;
-                Ok(spectrum_of(
-                    found,
-                    whole.changes_note().into_iter().collect(),
-                ))
+                Ok(spectrum_of(found, Vec::new()))
             }
             Self::Assembly(model) => {
                 let found = model.sweep(request, progress)?;

@@ -1,17 +1,17 @@
 //! Friction sweep of a whole mesh whose contact nodes open or close within the range.
 
+mod joining;
+
 use super::Progress;
 use crate::case::{Case, Cea, CeaMethod};
 use crate::cea::sparse;
-use crate::cea::{
-    CeaError, FrictionPoint, FrictionSweep, ModeCount, ModeVectors, PartWatch, SweepRequest,
-    UnstableInterval,
-};
+use crate::cea::{CeaError, FrictionSweep, PartWatch, SweepRequest};
 use crate::fem::assemble_stiffness;
 use crate::mesh::{CyclicSymmetry, Mesh};
 use crate::prestress::{
-    CyclicTangent, SlidingRange, SlidingTangent, SteadySliding, TangentOptions,
+    CyclicTangent, PressedRange, SlidingRange, SlidingTangent, SteadySliding, TangentOptions,
 };
+use joining::{Part, Undecided, joined, jumps, label, undecided};
 use std::sync::Arc;
 
 /// A whole mesh and its steady sliding.
@@ -74,29 +74,14 @@ impl WholeMesh {
         request: &SweepRequest<'_>,
         progress: &Progress<'_>,
     ) -> Result<StatesSweep, CeaError> {
-        let range = &self.range;
-        let tangent = |k: usize| Ok(self.tangent(case, &range.states[k]));
         let states = States {
-            count: range.states.len(),
-            state_of: &range.state_of,
-            changes: &range.changes,
-            tangent: &tangent,
+            range: &self.range,
+            solve: &|frictions| Ok(Self::solve(case, self.options, frictions)?.range),
+            pressed: |state| &state.is_pressed,
+            tangent: &|state| Ok(self.tangent(case, state)),
             symmetry: self.symmetry.map(|own| (own, self.mesh.node_count())),
         };
         states.sweep(request, progress)
-    }
-
-    /// Where contact nodes open or close.
-    pub fn changes_note(&self) -> Option<String> {
-        let changes = &self.range.changes;
-        let list: Vec<String> = changes.iter().map(|mu| format!("{mu:.6}")).collect();
-        (!list.is_empty()).then(|| {
-            format!(
-                "contact nodes open or close at friction coefficients {}: the tangent changes there, and branches are matched \
-                 across by their eigenvalues",
-                list.join(", ")
-            )
-        })
     }
 }
 
@@ -108,15 +93,15 @@ pub(super) fn used_symmetry(case: &Case, mesh: &Mesh) -> Option<CyclicSymmetry> 
 }
 
 /// Base states over the friction coefficients of a sweep.
-pub(super) struct States<'a> {
-    /// How many there are.
-    pub count: usize,
-    /// Which one each friction coefficient has.
-    pub state_of: &'a [usize],
-    /// Friction coefficients at which one gives way to the next.
-    pub changes: &'a [f64],
-    /// The tangent of each.
-    pub tangent: &'a dyn Fn(usize) -> Result<SlidingTangent, CeaError>,
+pub(super) struct States<'a, S> {
+    /// Those at the friction coefficients of the sweep, which come first.
+    pub range: &'a PressedRange<S>,
+    /// Solves those at some friction coefficients, which come first.
+    pub solve: &'a dyn Fn(&[f64]) -> Result<PressedRange<S>, CeaError>,
+    /// The contact points that are pressed in one.
+    pub pressed: fn(&S) -> &[bool],
+    /// The tangent of one.
+    pub tangent: &'a dyn Fn(&S) -> Result<SlidingTangent, CeaError>,
     /// Symmetry of the mesh, and the number of its nodes.
     pub symmetry: Option<(CyclicSymmetry, usize)>,
 }
@@ -130,10 +115,27 @@ pub(super) struct StatesSweep {
     pub asymmetry: Option<String>,
     /// Whether waves around it were solved.
     pub is_by_diameters: bool,
+    /// What there is to say of contact points that open or close.
+    pub notes: Vec<String>,
 }
 
-impl States<'_> {
+/// What the parts of a sweep have in common.
+#[derive(Default)]
+struct Common {
+    dofs: usize,
+    asymmetry: Option<String>,
+    /// Sweeps of earlier rounds, by the pressed points of their state and their friction coefficients.
+    solved: Vec<(Vec<bool>, Vec<f64>, FrictionSweep)>,
+}
+
+/// Rounds in which base states are solved where stability changes between two of them.
+const MOST_ROUNDS: usize = 30;
+
+impl<S> States<'_, S> {
     /// A sweep of each state with its tangent, which the friction coefficients where one gives way to the next end and begin.
+    ///
+    /// Between two friction coefficients asked for contact points may open or close one after the other. Where the stability of a branch
+    /// changes there, the states between are solved too, by bisection, until one of them has the critical friction, or two meet there.
     ///
     /// # Errors
     /// Those of the solver.
@@ -142,152 +144,164 @@ impl States<'_> {
         request: &SweepRequest<'_>,
         progress: &Progress<'_>,
     ) -> Result<StatesSweep, CeaError> {
-        let frictions = request.friction_coefficients;
-        let (mut parts, mut dofs, mut asymmetry) = (Vec::new(), 0, None);
-        for k in 0..self.count {
-            let own = frictions.iter().zip(self.state_of);
+        let mut frictions = request.friction_coefficients.to_vec();
+        let mut refined: Option<PressedRange<S>> = None;
+        let mut common = Common::default();
+        let mut unsolved = false;
+        for round in 0.. {
+            let range = refined.as_ref().unwrap_or(self.range);
+            let place = (round, frictions.as_slice());
+            let mut parts = self.parts((range, place), request, progress, &mut common)?;
+            label(&mut parts);
+            let open: Vec<f64> = undecided(&parts).map(|own| place_in(&own, round)).collect();
+            if open.is_empty() || round == MOST_ROUNDS || unsolved {
+                let notes = contact_notes(self.range, &parts);
+                return Ok(StatesSweep {
+                    is_by_diameters: self.symmetry.is_some() && common.asymmetry.is_none(),
+                    sweep: joined(parts, request.friction_coefficients),
+                    dofs: common.dofs,
+                    asymmetry: common.asymmetry,
+                    notes,
+                });
+            }
+            let more = [frictions.as_slice(), &open].concat();
+            match (self.solve)(&more) {
+                Ok(range) => (refined, frictions) = (Some(range), more),
+                // There may be no state between: what is known is kept, and said.
+                Err(_) => unsolved = true,
+            }
+        }
+        unreachable!("rounds end")
+    }
+
+    /// The sweeps of the states at `frictions`, by rising friction.
+    fn parts(
+        &self,
+        (range, (round, frictions)): (&PressedRange<S>, (usize, &[f64])),
+        request: &SweepRequest<'_>,
+        progress: &Progress<'_>,
+        common: &mut Common,
+    ) -> Result<Vec<Part>, CeaError> {
+        let mut parts = Vec::new();
+        for (k, state) in range.states.iter().enumerate() {
+            let own = frictions.iter().zip(&range.state_of);
             let mut values: Vec<f64> = own.filter(|(_, s)| **s == k).map(|(mu, _)| *mu).collect();
             if values.is_empty() {
                 continue;
             }
             // Branches are followed up to the change on either side.
-            values.extend(k.checked_sub(1).and_then(|before| self.changes.get(before)));
-            values.extend(self.changes.get(k));
+            let before = k.checked_sub(1);
+            values.extend(before.map(|before| range.changes[before]));
+            values.extend(range.changes.get(k));
             values.sort_by(f64::total_cmp);
             values.dedup();
-            let tangent = (self.tangent)(k)?;
-            dofs = dofs.max(tangent.unknowns.len());
-            let part = SweepRequest {
-                friction_coefficients: &values,
-                ..*request
-            };
-            let watch = PartWatch {
-                whole: progress,
-                prefix: format!("state-{k}-"),
-                is_heard: true,
-            };
-            let waves = self
-                .symmetry
-                .as_ref()
-                .map(|(symmetry, node_count)| CyclicTangent::new(&tangent, symmetry, *node_count));
-            parts.push(match waves {
-                Some(Ok(waves)) => sparse::sweep_by_diameters(&tangent, &waves, &part, &watch)?,
-                Some(Err(why)) => {
-                    asymmetry.get_or_insert(why);
-                    sparse::sweep(&tangent, &part, &watch)?
+            let begin = before.map_or(values[0], |before| range.unknown_between(before).end);
+            let pressed = (self.pressed)(state);
+            let known = common.solved.iter();
+            let mut known = known.filter(|(set, at, _)| set == pressed && are_same(at, &values));
+            let known = known.next().map(|(_, _, sweep)| sweep.clone());
+            let sweep = match known {
+                Some(sweep) => sweep,
+                None => {
+                    let name = match round {
+                        0 => format!("state-{k}-"),
+                        round => format!("round-{round}-state-{k}-"),
+                    };
+                    let own = SweepRequest {
+                        friction_coefficients: &values,
+                        ..*request
+                    };
+                    let sweep = self.part(state, &own, (progress, name), common)?;
+                    let key = (pressed.to_vec(), values, sweep.clone());
+                    common.solved.push(key);
+                    sweep
                 }
-                None => sparse::sweep(&tangent, &part, &watch)?,
-            });
+            };
+            parts.push(Part { begin, sweep });
         }
-        Ok(StatesSweep {
-            is_by_diameters: self.symmetry.is_some() && asymmetry.is_none(),
-            sweep: joined(parts, frictions),
-            dofs,
-            asymmetry,
-        })
+        Ok(parts)
+    }
+
+    /// The sweep of one state.
+    fn part(
+        &self,
+        state: &S,
+        request: &SweepRequest<'_>,
+        (progress, name): (&Progress<'_>, String),
+        common: &mut Common,
+    ) -> Result<FrictionSweep, CeaError> {
+        let tangent = (self.tangent)(state)?;
+        common.dofs = common.dofs.max(tangent.unknowns.len());
+        let watch = PartWatch {
+            whole: progress,
+            prefix: name,
+            is_heard: true,
+        };
+        let waves = self
+            .symmetry
+            .as_ref()
+            .map(|(symmetry, node_count)| CyclicTangent::new(&tangent, symmetry, *node_count));
+        match waves {
+            Some(Ok(waves)) => sparse::sweep_by_diameters(&tangent, &waves, request, &watch),
+            Some(Err(why)) => {
+                common.asymmetry.get_or_insert(why);
+                sparse::sweep(&tangent, request, &watch)
+            }
+            None => sparse::sweep(&tangent, request, &watch),
+        }
     }
 }
 
-/// One sweep of the parts: each is labelled like the one before by the nearest eigenvalues where they meet.
-fn joined(mut parts: Vec<FrictionSweep>, frictions: &[f64]) -> FrictionSweep {
-    for k in 1..parts.len() {
-        let (before, after) = parts.split_at_mut(k);
-        relabel(&before[k - 1], &mut after[0]);
-    }
-    let all: Vec<&FrictionPoint> = parts.iter().flat_map(|part| &part.points).collect();
-    let points = frictions.iter().filter_map(|mu| {
-        all.iter()
-            .find(|point| point.friction_coefficient == *mu)
-            .map(|point| (*point).clone())
+/// Difference of friction coefficients at which contact points open or close that is round-off.
+const SAME_CHANGE: f64 = 1e-8;
+
+/// Whether two lists are of the same friction coefficients.
+fn are_same(one: &[f64], other: &[f64]) -> bool {
+    let mut pairs = one.iter().zip(other);
+    one.len() == other.len() && pairs.all(|(a, b)| (a - b).abs() <= SAME_CHANGE)
+}
+
+/// Where in a gap the next state is solved: where a branch may change its stability, every other time in the middle.
+fn place_in(Undecided { gap, guess }: &Undecided, round: usize) -> f64 {
+    let width = gap.end - gap.start;
+    let is_inside = |mu: &f64| (mu - gap.start).min(gap.end - mu) > 0.01 * width;
+    let guess = guess.filter(|mu| round % 2 == 0 && is_inside(mu));
+    guess.unwrap_or(0.5 * (gap.start + gap.end))
+}
+
+/// What there is to say of contact points that open or close within a sweep.
+fn contact_notes<S>(range: &PressedRange<S>, parts: &[Part]) -> Vec<String> {
+    let places = (0..range.changes.len()).map(|k| {
+        let unknown = range.unknown_between(k);
+        match unknown.is_empty() {
+            true => format!("{:.6}", unknown.start),
+            false => format!("{:.6} to {:.6} (several)", unknown.start, unknown.end),
+        }
     });
-    let points = points.collect();
-    let ended = parts.iter().flat_map(|part| part.ended.iter().copied());
-    let ended = ended.collect();
-    let counts = parts.iter().flat_map(|part| part.counts.clone());
-    let mut counts: Vec<ModeCount> = counts
-        .filter(|count| frictions.contains(&count.friction_coefficient))
+    let places: Vec<String> = places.collect();
+    let opening = (!places.is_empty()).then(|| {
+        format!(
+            "contact points open or close at friction coefficients {}: the tangent changes there, and branches are matched across by \
+             their eigenvalues",
+            places.join(", ")
+        )
+    });
+    let jumps: Vec<String> = jumps(parts).map(|mu| format!("{mu:.6}")).collect();
+    let jump = (!jumps.is_empty()).then(|| {
+        format!(
+            "at friction {} the growth of a mode jumps across zero as contact points open or close",
+            jumps.join(", ")
+        )
+    });
+    let undecided: Vec<String> = undecided(parts)
+        .map(|own| format!("{:.6} and {:.6}", own.gap.start, own.gap.end))
         .collect();
-    counts.dedup_by(|b, a| a.friction_coefficient == b.friction_coefficient);
-    let mut found: Vec<(UnstableInterval, Option<ModeVectors>)> = Vec::new();
-    let pairs = parts
-        .into_iter()
-        .flat_map(|part| part.intervals.into_iter().zip(part.crossings));
-    for (interval, crossing) in pairs {
-        // A branch that is unstable on both sides of a change goes on.
-        let same = found.iter_mut().find(|(known, _)| {
-            known.branch == interval.branch
-                && known.harmonic == interval.harmonic
-                && known.restabilized.is_none()
-        });
-        match same {
-            Some((known, _)) if interval.unstable_from_start => {
-                known.restabilized = interval.restabilized
-            }
-            _ => found.push((interval, crossing)),
-        }
-    }
-    FrictionSweep {
-        counts,
-        ..FrictionSweep::joined(points, found, ended)
-    }
-}
-
-/// Gives the branches of `after` the numbers that their nearest eigenvalues have in `before` where both meet.
-fn relabel(before: &FrictionSweep, after: &mut FrictionSweep) {
-    let last = before
-        .points
-        .iter()
-        .max_by(|a, b| a.friction_coefficient.total_cmp(&b.friction_coefficient));
-    let first = after
-        .points
-        .iter()
-        .min_by(|a, b| a.friction_coefficient.total_cmp(&b.friction_coefficient));
-    let (Some(last), Some(first)) = (last, first) else {
-        return;
-    };
-    // Nearest pairs first, each mode once.
-    let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
-    for (i, old) in last.modes.iter().enumerate() {
-        for (j, new) in first.modes.iter().enumerate() {
-            if old.nodal_diameters == new.nodal_diameters {
-                pairs.push(((old.eigenvalue - new.eigenvalue).norm(), i, j));
-            }
-        }
-    }
-    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut is_old_taken = vec![false; last.modes.len()];
-    let mut number_of: Vec<Option<usize>> = vec![None; first.modes.len()];
-    for (_, i, j) in pairs {
-        if !is_old_taken[i] && number_of[j].is_none() {
-            is_old_taken[i] = true;
-            number_of[j] = Some(last.modes[i].branch);
-        }
-    }
-    let known = before
-        .points
-        .iter()
-        .flat_map(|point| &point.modes)
-        .map(|mode| mode.branch);
-    let mut next = known.max().map_or(0, |branch| branch + 1);
-    let mut new_number = std::collections::BTreeMap::new();
-    for (mode, number) in first.modes.iter().zip(number_of) {
-        new_number.insert(
-            mode.branch,
-            number.unwrap_or_else(|| {
-                next += 1;
-                next - 1
-            }),
-        );
-    }
-    let renumber = |branch: &mut usize| {
-        *branch = *new_number.entry(*branch).or_insert_with(|| {
-            next += 1;
-            next - 1
-        });
-    };
-    let modes = after.points.iter_mut().flat_map(|point| &mut point.modes);
-    let branches = modes.map(|mode| &mut mode.branch);
-    branches
-        .chain(after.intervals.iter_mut().map(|i| &mut i.branch))
-        .for_each(renumber);
+    let unknown = (!undecided.is_empty()).then(|| {
+        format!(
+            "a mode changes its stability between friction {}, where contact points open or close and no state of steady sliding was \
+             found: its critical friction is only known to lie there",
+            undecided.join(", between ")
+        )
+    });
+    opening.into_iter().chain(jump).chain(unknown).collect()
 }

@@ -170,10 +170,10 @@ impl<'a> Parts<'a> {
         let is_damped = whole && self.options.damping.stiffness_coefficient != 0.0;
         let base = base_state(self.case, model, shapes.friction);
         let base = base.filter(|_| is_damped && self.options.geometric_stiffness);
-        let Some((state, displacements)) = base else {
+        let Some((state, displacements, origin)) = base else {
             return vec![0.0; shapes.modes.len()];
         };
-        // Linear in the displacement: assembled once for each state and power of friction.
+        // Linear in the displacement: assembled once for each state and power of the friction beyond its origin.
         let mut known = self.geometric.borrow_mut();
         let geometric = known.entry((state, region)).or_insert_with(|| {
             let materials = self.case.materials();
@@ -184,7 +184,7 @@ impl<'a> Parts<'a> {
             let terms: Vec<_> = terms.collect();
             MatrixPolynomial::from_triplets(self.mesh.dof_count(), &terms)
         });
-        let values = geometric.evaluate(shapes.friction);
+        let values = geometric.evaluate((shapes.friction - origin).max(0.0));
         let image = geometric
             .pattern()
             .multiply(&values, shapes.columns.as_ref());
@@ -226,20 +226,21 @@ fn contact_dofs(mesh: &Mesh, contacts: &[(String, Vec<usize>)]) -> Vec<(String, 
     names.zip(dofs).collect()
 }
 
-/// Number and displacements, by power of friction, of the base state of a plane body at a friction coefficient.
+/// Number and displacements, by power of the friction beyond an origin, of the base state of a plane body at a friction coefficient.
 fn base_state<'m>(
     case: &Case,
     model: &'m SlidingModel,
     friction: f64,
-) -> Option<(usize, &'m [Vec<f64>])> {
+) -> Option<(usize, &'m [Vec<f64>], f64)> {
     match (&model.model, &model.state) {
         (Model::Whole(whole), _) => {
             let solved = case.cea.as_ref()?.solved_friction_coefficients();
             let place = solved.iter().position(|&mu| mu == friction)?;
             let state = whole.range.state_of[place];
-            Some((state, &whole.range.states[state].displacements))
+            let own = &whole.range.states[state];
+            Some((state, &own.displacements, own.frozen_below))
         }
-        (_, SteadyState::Plane(base)) => Some((0, &base.displacements)),
+        (_, SteadyState::Plane(base)) => Some((0, &base.displacements, base.frozen_below)),
         (_, SteadyState::Solid(_) | SteadyState::Assembly(_)) => None,
     }
 }

@@ -1,0 +1,236 @@
+//! One sweep from those of its base states.
+
+use crate::cea::{
+    ComplexMode, FrictionPoint, FrictionSweep, ModeCount, ModeVectors, UnstableInterval,
+};
+use std::ops::Range;
+
+/// The sweep of one base state.
+pub struct Part {
+    /// Friction coefficient from which the state holds; the sweep may begin before that, where the last one ends.
+    pub begin: f64,
+    pub sweep: FrictionSweep,
+}
+
+impl Part {
+    /// The point of highest friction.
+    fn last(&self) -> Option<&FrictionPoint> {
+        let points = self.sweep.points.iter();
+        points.max_by(|a, b| a.friction_coefficient.total_cmp(&b.friction_coefficient))
+    }
+
+    /// The point of lowest friction.
+    fn first(&self) -> Option<&FrictionPoint> {
+        let points = self.sweep.points.iter();
+        points.min_by(|a, b| a.friction_coefficient.total_cmp(&b.friction_coefficient))
+    }
+}
+
+/// Name of a branch: harmonic and number.
+type Name = (usize, usize);
+
+fn name(mode: &ComplexMode) -> Name {
+    (mode.harmonic, mode.branch)
+}
+
+fn name_of(interval: &UnstableInterval) -> Name {
+    (interval.harmonic, interval.branch)
+}
+
+/// A branch whose stability is another on either side of the place where two parts meet.
+struct Jump<'a> {
+    friction_coefficient: f64,
+    name: Name,
+    /// The mode beyond.
+    mode: &'a ComplexMode,
+}
+
+/// The branches that both of two neighbours know where they meet, and whose stability changes there.
+fn jumps_between<'a>(before: &'a Part, after: &'a Part) -> impl Iterator<Item = Jump<'a>> {
+    let (last, first) = (before.last(), after.first());
+    let old = last.map_or(&[][..], |point| &point.modes);
+    let new = first.map_or(&[][..], |point| &point.modes);
+    let friction_coefficient = first.map_or(f64::NAN, |point| point.friction_coefficient);
+    new.iter().filter_map(move |mode| {
+        let same = old.iter().find(|other| name(other) == name(mode))?;
+        (same.is_unstable() != mode.is_unstable()).then(|| Jump {
+            friction_coefficient,
+            name: name(mode),
+            mode,
+        })
+    })
+}
+
+/// Friction coefficients at which the growth of a branch jumps across zero.
+pub fn jumps(parts: &[Part]) -> impl Iterator<Item = f64> {
+    let decided = parts.windows(2).filter(|pair| unknown(pair).is_empty());
+    decided.filter_map(|pair| {
+        let mut jumps = jumps_between(&pair[0], &pair[1]);
+        jumps.next().map(|jump| jump.friction_coefficient)
+    })
+}
+
+/// Friction coefficients between two neighbours at which the state is unknown.
+fn unknown(pair: &[Part]) -> Range<f64> {
+    let end = pair[0].last().map_or(f64::NAN, |p| p.friction_coefficient);
+    match end < pair[1].begin {
+        true => end..pair[1].begin,
+        false => end..end,
+    }
+}
+
+/// Friction coefficients at which the state is unknown and between which a branch changes its stability.
+pub struct Undecided {
+    pub gap: Range<f64>,
+    /// Where the state beyond would have that branch change it, if it held there.
+    pub guess: Option<f64>,
+}
+
+/// All of them.
+pub fn undecided(parts: &[Part]) -> impl Iterator<Item = Undecided> {
+    let gaps = parts.windows(2).map(|pair| (unknown(pair), pair));
+    let gaps = gaps.filter(|(gap, _)| !gap.is_empty());
+    gaps.filter_map(|(gap, pair)| {
+        let ends = |interval: &UnstableInterval| {
+            let onset = (!interval.unstable_from_start).then_some(interval.critical_friction);
+            let end = interval.restabilized.map(|(mu, _)| mu);
+            [onset, end]
+        };
+        let all = pair[1].sweep.intervals.iter().flat_map(ends).flatten();
+        let guess = all
+            .filter(|mu| gap.contains(mu))
+            .min_by(|a, b| a.total_cmp(b));
+        let is_open = guess.is_some() || jumps_between(&pair[0], &pair[1]).next().is_some();
+        is_open.then_some(Undecided { gap, guess })
+    })
+}
+
+/// Names the branches of each part like those of the one before by the nearest eigenvalues where they meet.
+pub fn label(parts: &mut [Part]) {
+    for k in 1..parts.len() {
+        let (before, after) = parts.split_at_mut(k);
+        relabel(&before[k - 1], &mut after[0].sweep);
+    }
+}
+
+/// One sweep of the parts, with the friction coefficients asked for.
+pub fn joined(mut parts: Vec<Part>, frictions: &[f64]) -> FrictionSweep {
+    let found = joined_intervals(&mut parts);
+    let parts: Vec<FrictionSweep> = parts.into_iter().map(|part| part.sweep).collect();
+    let all: Vec<&FrictionPoint> = parts.iter().flat_map(|part| &part.points).collect();
+    let points = frictions.iter().filter_map(|mu| {
+        all.iter()
+            .find(|point| point.friction_coefficient == *mu)
+            .map(|point| (*point).clone())
+    });
+    let points = points.collect();
+    let ended = parts.iter().flat_map(|part| part.ended.iter().copied());
+    let ended = ended.collect();
+    let counts = parts.iter().flat_map(|part| part.counts.clone());
+    let mut counts: Vec<ModeCount> = counts
+        .filter(|count| frictions.contains(&count.friction_coefficient))
+        .collect();
+    counts.dedup_by(|b, a| a.friction_coefficient == b.friction_coefficient);
+    FrictionSweep {
+        counts,
+        ..FrictionSweep::joined(points, found, ended)
+    }
+}
+
+/// Unstable intervals over all parts: those that go on across a change are one, and growth may jump across zero at it.
+fn joined_intervals(parts: &mut [Part]) -> Vec<(UnstableInterval, Option<ModeVectors>)> {
+    let mut found: Vec<(UnstableInterval, Option<ModeVectors>)> = Vec::new();
+    for k in 0..parts.len() {
+        let (before, rest) = parts.split_at_mut(k);
+        let part = &mut rest[0];
+        let intervals = std::mem::take(&mut part.sweep.intervals);
+        let crossings = std::mem::take(&mut part.sweep.crossings);
+        let jumps: Vec<Jump<'_>> = match before.last() {
+            Some(before) => jumps_between(before, part).collect(),
+            None => Vec::new(),
+        };
+        // Where growth jumps to decay an interval ends.
+        for jump in jumps.iter().filter(|jump| !jump.mode.is_unstable()) {
+            let own = found
+                .iter_mut()
+                .rev()
+                .find(|(known, _)| name_of(known) == jump.name && known.restabilized.is_none());
+            if let Some((known, _)) = own {
+                known.restabilized = Some((jump.friction_coefficient, jump.mode.frequency_hz()));
+            }
+        }
+        for (mut interval, crossing) in intervals.into_iter().zip(crossings) {
+            if interval.unstable_from_start {
+                // A branch that is unstable on both sides of a change goes on.
+                let same = found.iter_mut().find(|(known, _)| {
+                    name_of(known) == name_of(&interval) && known.restabilized.is_none()
+                });
+                if let Some((known, _)) = same {
+                    known.restabilized = interval.restabilized;
+                    continue;
+                }
+                let is_jump = jumps.iter().any(|jump| jump.name == name_of(&interval));
+                interval.unstable_from_start = !is_jump;
+            }
+            found.push((interval, crossing));
+        }
+    }
+    found
+}
+
+/// Gives the branches of `after` the numbers that their nearest eigenvalues have in `before` where both meet.
+fn relabel(before: &Part, after: &mut FrictionSweep) {
+    let first = after
+        .points
+        .iter()
+        .min_by(|a, b| a.friction_coefficient.total_cmp(&b.friction_coefficient));
+    let (Some(last), Some(first)) = (before.last(), first) else {
+        return;
+    };
+    // Nearest pairs first, each mode once.
+    let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
+    for (i, old) in last.modes.iter().enumerate() {
+        for (j, new) in first.modes.iter().enumerate() {
+            if old.nodal_diameters == new.nodal_diameters {
+                pairs.push(((old.eigenvalue - new.eigenvalue).norm(), i, j));
+            }
+        }
+    }
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut is_old_taken = vec![false; last.modes.len()];
+    let mut number_of: Vec<Option<usize>> = vec![None; first.modes.len()];
+    for (_, i, j) in pairs {
+        if !is_old_taken[i] && number_of[j].is_none() {
+            is_old_taken[i] = true;
+            number_of[j] = Some(last.modes[i].branch);
+        }
+    }
+    let known = before
+        .sweep
+        .points
+        .iter()
+        .flat_map(|point| &point.modes)
+        .map(|mode| mode.branch);
+    let mut next = known.max().map_or(0, |branch| branch + 1);
+    let mut new_number = std::collections::BTreeMap::new();
+    for (mode, number) in first.modes.iter().zip(number_of) {
+        new_number.insert(
+            mode.branch,
+            number.unwrap_or_else(|| {
+                next += 1;
+                next - 1
+            }),
+        );
+    }
+    let renumber = |branch: &mut usize| {
+        *branch = *new_number.entry(*branch).or_insert_with(|| {
+            next += 1;
+            next - 1
+        });
+    };
+    let modes = after.points.iter_mut().flat_map(|point| &mut point.modes);
+    let branches = modes.map(|mode| &mut mode.branch);
+    branches
+        .chain(after.intervals.iter_mut().map(|i| &mut i.branch))
+        .for_each(renumber);
+}

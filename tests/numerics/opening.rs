@@ -1,0 +1,124 @@
+//! Contact points that open one after the other between two friction values of a sweep, against analyses at single values (independent
+//! checks): these know one contact state each, and follow no branch.
+
+use crate::body::rectangle;
+use frictionsim::case::Case;
+use frictionsim::cea::{FrictionSweep, UnstableInterval};
+use frictionsim::study::eigenvalues::modes_and_onsets;
+use std::fs;
+use tempfile::TempDir;
+
+/// A block on an elastic mounting, which the drag tilts: between friction 0.2 and 0.66 six of its nine contact nodes lift.
+const CASE: &str = r#"
+[mesh]
+file = "block.msh"
+[boundaries.top]
+condition = "support"
+normal_stiffness = 1e12
+tangential_stiffness = 1e12
+[material]
+young_modulus = 2.5e9
+poisson_ratio = 0.38
+density = 1228.0
+formulation = "plane-strain"
+[damping]
+mass_coefficient = 10.0
+stiffness_coefficient = 1e-8
+[contact]
+boundary = "bottom"
+counterface = "plane"
+direction = [1.0, 0.0]
+speed = 1.5
+friction_coefficient = 0.5
+interference = 1e-5
+[cea]
+friction_coefficients = [0.1, 0.8]
+modes = 10
+"#;
+
+/// The block in a folder of its own.
+fn block() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let mesh = rectangle(0.04, 0.06, 8, 12);
+    fs::write(folder.path().join("block.msh"), mesh).unwrap();
+    folder
+}
+
+fn sweep(folder: &TempDir, frictions: &[f64]) -> FrictionSweep {
+    let name = folder.path().join("case.toml").display().to_string();
+    // The case's own friction value is solved, too.
+    let own = frictions[frictions.len() - 1];
+    let set = [
+        format!("cea.friction_coefficients={frictions:?}"),
+        format!("contact.friction_coefficient={own:?}"),
+    ];
+    let case = Case::parse(&name, CASE.as_bytes(), &set).unwrap_or_else(|e| panic!("{e}"));
+    modes_and_onsets(&case).unwrap()
+}
+
+/// Intervals that do not begin beyond the wanted modes.
+fn located(sweep: &FrictionSweep) -> Vec<&UnstableInterval> {
+    let own = sweep.intervals.iter();
+    own.filter(|interval| !interval.unstable_from_start)
+        .collect()
+}
+
+/// The growth rate at a friction value of the mode nearest to a frequency, over that in rad/s.
+fn growth(folder: &TempDir, friction: f64, frequency_hz: f64) -> f64 {
+    let sweep = sweep(folder, &[friction]);
+    let modes = sweep.points[0].modes.iter();
+    let distance = |hz: f64| (hz / frequency_hz - 1.0).abs();
+    let nearest =
+        modes.min_by(|a, b| distance(a.frequency_hz()).total_cmp(&distance(b.frequency_hz())));
+    let nearest = nearest.unwrap();
+    nearest.growth_rate() / nearest.eigenvalue.norm()
+}
+
+/// Of the three branches that turn unstable one does so within a contact state that holds at a friction value asked for, two as nodes lift.
+#[test]
+fn critical_friction_is_that_of_the_contact_state_there() {
+    let folder = block();
+    let coarse = sweep(&folder, &[0.1, 0.8]);
+    let found = located(&coarse);
+    assert_eq!(found.len(), 3, "{found:?}");
+    for interval in &found {
+        let (critical, frequency_hz) = (interval.critical_friction, interval.frequency_hz);
+        let sides = [-1e-6, 1e-6].map(|step| growth(&folder, critical + step, frequency_hz));
+        assert!(sides[0] < 0.0 && sides[1] > 0.0, "{interval:?} {sides:?}");
+    }
+    // One becomes stable again.
+    let ends = found.iter().filter_map(|interval| interval.restabilized);
+    let ends: Vec<(f64, f64)> = ends.collect();
+    assert_eq!(ends.len(), 1, "{found:?}");
+    let (end, frequency_hz) = ends[0];
+    let after = growth(&folder, end + 1e-6, frequency_hz);
+    assert!(after < 0.0, "{end} {after}");
+}
+
+/// Consistency check: critical friction does not depend on the friction values asked for.
+#[test]
+fn critical_friction_does_not_depend_on_the_friction_values_asked_for() {
+    let folder = block();
+    let coarse = sweep(&folder, &[0.1, 0.8]);
+    for frictions in [&[0.1, 0.4, 0.8][..], &[0.1, 0.3, 0.35, 0.6, 0.7, 0.8]] {
+        let other = sweep(&folder, frictions);
+        let pairs = located(&coarse).into_iter().zip(located(&other));
+        assert_eq!(
+            located(&coarse).len(),
+            located(&other).len(),
+            "{frictions:?}"
+        );
+        for (a, b) in pairs {
+            let difference = (a.critical_friction - b.critical_friction).abs();
+            // To 1e-9 a change of the contact state is located; the base state is known to 1e-8.
+            assert!(
+                difference < 1e-8,
+                "{frictions:?} {difference:e} {a:?} {b:?}"
+            );
+            assert!(
+                (a.frequency_hz / b.frequency_hz - 1.0).abs() < 1e-8,
+                "{a:?} {b:?}"
+            );
+        }
+    }
+}
