@@ -30,6 +30,8 @@ pub struct PressedRange<S = PressedState> {
     /// Friction coefficients from which each state but the first holds: above the change before it where other sets of pressed points hold
     /// between, none of them at a friction coefficient that was asked for.
     pub begins: Vec<f64>,
+    /// Share of the largest contact force that the polynomials of the states leave out at most, estimated.
+    pub left_out: f64,
 }
 
 impl<S> PressedRange<S> {
@@ -40,6 +42,7 @@ impl<S> PressedRange<S> {
             state_of: vec![0; count],
             changes: Vec::new(),
             begins: Vec::new(),
+            left_out: 0.0,
         }
     }
 
@@ -50,6 +53,7 @@ impl<S> PressedRange<S> {
             state_of: self.state_of,
             changes: self.changes,
             begins: self.begins,
+            left_out: self.left_out,
         }
     }
 
@@ -106,6 +110,7 @@ pub(super) fn range(
     let begins = begins.collect::<Result<Vec<f64>, PrestressError>>()?;
     let end = |rank: Option<&usize>| rank.map_or(0.0, |&i| friction_coefficients[i]);
     let (first, last) = (end(order.first()), end(order.last()));
+    let mut left_out = 0.0_f64;
     let states = sets.into_iter().enumerate().map(|(k, set)| {
         let with_state = state_of.iter().zip(friction_coefficients);
         let asked = with_state.filter_map(|(own, friction)| (*own == k).then_some(*friction));
@@ -123,13 +128,17 @@ pub(super) fn range(
             };
             Ok([begin.min(upper - SHORTEST_RANGE), upper])
         };
-        polynomial_state(bodies, set, ([lower, upper], &own_range), &asked)
+        let (state, own) = polynomial_state(bodies, set, ([lower, upper], &own_range), &asked)?;
+        left_out = left_out.max(own);
+        Ok(state)
     });
+    let states = states.collect::<Result<Vec<_>, PrestressError>>()?;
     Ok(PressedRange {
-        states: states.collect::<Result<_, _>>()?,
+        states,
         state_of,
         changes,
         begins,
+        left_out,
     })
 }
 

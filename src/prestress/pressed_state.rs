@@ -154,13 +154,13 @@ pub(super) type OwnRange<'a, B> = dyn Fn(&mut B, &[bool]) -> Result<[f64; 2], Pr
 ///
 /// Where the usual points leave out too much, as near a friction coefficient at which sliding jams, other numbers of points and the
 /// range in which the set is the one that holds, as `own_range` finds it, are tried: the polynomial is taken that leaves out least, the
-/// friction coefficients `asked` for included.
+/// friction coefficients `asked` for included. With it comes the share of the largest force that it leaves out.
 pub(super) fn polynomial_state<B: PressedBodies>(
     bodies: &mut B,
     is_pressed: Vec<bool>,
     (range, own_range): ([f64; 2], &OwnRange<'_, B>),
     asked: &[f64],
-) -> Result<PressedState, PrestressError> {
+) -> Result<(PressedState, f64), PrestressError> {
     let (usual, count) = bodies.usual_points(range);
     // The usual points may be continued to friction 0, others may not, and what stiffens neither.
     let begin = |interval: [f64; 2]| range[0].max(interval[0]);
@@ -191,13 +191,14 @@ pub(super) fn polynomial_state<B: PressedBodies>(
             }
         }
     }
-    Ok(PressedState {
+    let state = PressedState {
         displacements: best.displacements,
         normal_forces: best.normal_forces,
         stiffnesses: best.stiffnesses,
         is_pressed,
         frozen_below: best.origin,
-    })
+    };
+    Ok((state, best.left_out))
 }
 
 /// The states of one set of pressed points in an interval of friction coefficients, by power of `mu - a`.
@@ -348,7 +349,9 @@ mod tests {
         for (jam, frozen_below, bound) in cases {
             let bodies = &mut Jamming { jam };
             let own = |_: &mut Jamming, _: &[bool]| Ok(range);
-            let state = polynomial_state(bodies, vec![true], (range, &own), &asked).unwrap();
+            let found = polynomial_state(bodies, vec![true], (range, &own), &asked);
+            let (state, left_out) = found.unwrap();
+            assert!(left_out < bound, "{jam} {left_out:e}");
             assert_eq!(state.frozen_below, frozen_below, "{jam}");
             for friction in asked {
                 let exact = 1.0 / (jam - friction);

@@ -166,6 +166,7 @@ fn with_notes(figure: Figure, report: &CeaReport<'_>, hidden: usize) -> Figure {
     }
     match hidden {
         0 => figure,
+        1 => figure.note("1 eigenvalue of a strongly damped mode lies further left"),
         count => figure.note(format!(
             "{count} eigenvalues of strongly damped modes lie further left"
         )),

@@ -92,12 +92,15 @@ pub(super) fn used_symmetry(case: &Case, mesh: &Mesh) -> Option<CyclicSymmetry> 
         .filter(|_| !case.cea.as_ref().is_some_and(is_whole))
 }
 
+/// Solves base states at friction coefficients.
+type Solve<'a, S> = dyn Fn(&[f64]) -> Result<PressedRange<S>, CeaError> + 'a;
+
 /// Base states over the friction coefficients of a sweep.
 pub(super) struct States<'a, S> {
     /// Those at the friction coefficients of the sweep, which come first.
     pub range: &'a PressedRange<S>,
     /// Solves those at some friction coefficients, which come first.
-    pub solve: &'a dyn Fn(&[f64]) -> Result<PressedRange<S>, CeaError>,
+    pub solve: &'a Solve<'a, S>,
     /// The contact points that are pressed in one.
     pub pressed: fn(&S) -> &[bool],
     /// The tangent of one.
@@ -128,6 +131,8 @@ struct Common {
     solved: Vec<(Vec<bool>, Vec<f64>, FrictionSweep)>,
 }
 
+/// Share of the largest contact force from which on it is said that base states leave that out.
+const COARSE: f64 = 1e-7;
 /// Rounds in which base states are solved where stability changes between two of them.
 const MOST_ROUNDS: usize = 30;
 
@@ -265,7 +270,7 @@ fn are_same(one: &[f64], other: &[f64]) -> bool {
 fn place_in(Undecided { gap, guess }: &Undecided, round: usize) -> f64 {
     let width = gap.end - gap.start;
     let is_inside = |mu: &f64| (mu - gap.start).min(gap.end - mu) > 0.01 * width;
-    let guess = guess.filter(|mu| round % 2 == 0 && is_inside(mu));
+    let guess = guess.filter(|mu| round.is_multiple_of(2) && is_inside(mu));
     guess.unwrap_or(0.5 * (gap.start + gap.end))
 }
 
@@ -303,5 +308,13 @@ fn contact_notes<S>(range: &PressedRange<S>, parts: &[Part]) -> Vec<String> {
             undecided.join(", between ")
         )
     });
-    opening.into_iter().chain(jump).chain(unknown).collect()
+    let coarse = (range.left_out > COARSE).then(|| {
+        format!(
+            "contact forces between the friction values are known to a share of {:.0e} of the largest only, as they grow steeply with \
+             friction: eigenvalues may be wrong by about as much; ask for values closer together, or for one alone",
+            range.left_out
+        )
+    });
+    let all = opening.into_iter().chain(jump).chain(unknown);
+    all.chain(coarse).collect()
 }

@@ -133,16 +133,19 @@ fn patch_error(mesh: &Mesh, displacement: &[f64], jump: f64) -> f64 {
         .fold(0.0, f64::max)
 }
 
+/// The stack pressed together, sliding on springs or rigid contact.
+fn pressed(mesh: &Mesh, normal_stiffness: Option<f64>) -> Assembly<'_> {
+    let motion = turning(mesh, [0.0, 0.0, 1.0], [1.0, 0.3, 0.0]);
+    let contact = sliding(mesh, normal_stiffness);
+    Assembly::new(mesh, &STEEL, &[], &[contact], &[motion], BaseChoice::Solved).unwrap()
+}
+
 /// Theory: a bar under pressure, through a contact whose meshes do not match, rigid and on springs.
 #[test]
 fn constant_pressure_passes_a_contact_between_meshes_that_do_not_match() {
     let mesh = mesh_of(&file_of(&stacked(0.0), |point| point), &PRESSED);
-    let motion = turning(&mesh, [0.0, 0.0, 1.0], [1.0, 0.3, 0.0]);
     for normal_stiffness in [None, Some(1e14)] {
-        let contact = sliding(&mesh, normal_stiffness);
-        let motions = std::slice::from_ref(&motion);
-        let solved = BaseChoice::Solved;
-        let assembly = Assembly::new(&mesh, &STEEL, &[], &[contact], motions, solved).unwrap();
+        let assembly = pressed(&mesh, normal_stiffness);
         let range = assembly.range(&[0.0]).unwrap();
         let state = &range.states[0];
         let jump = normal_stiffness.map_or(0.0, |stiffness| 1e8 / stiffness);
@@ -208,12 +211,8 @@ fn shift(coefficients: &mut [Vec<f64>], origin: f64) {
 #[test]
 fn a_frozen_state_has_the_same_tangent_above() {
     let mesh = mesh_of(&file_of(&stacked(0.0), |point| point), &PRESSED);
-    let motion = turning(&mesh, [0.0, 0.0, 1.0], [1.0, 0.3, 0.0]);
     for normal_stiffness in [None, Some(1e14)] {
-        let contact = sliding(&mesh, normal_stiffness);
-        let motions = std::slice::from_ref(&motion);
-        let solved = BaseChoice::Solved;
-        let assembly = Assembly::new(&mesh, &STEEL, &[], &[contact], motions, solved).unwrap();
+        let assembly = pressed(&mesh, normal_stiffness);
         let mut state = assembly.range(&[0.3]).unwrap().states.remove(0);
         let whole = assembly.tangent(&state, &OPTIONS).unwrap();
         state.frozen_below = 0.2;
