@@ -216,7 +216,7 @@ fn critical_frictions(out: &mut String, report: &CeaReport<'_>) {
         let critical = match (interval.unstable_from_start, interval.critical_friction) {
             (true, friction) if friction <= lowest => "start".to_owned(),
             // A branch with a new number, which was not followed to there.
-            (true, friction) => format!("<{friction:.6}"),
+            (true, friction) => format!("<={friction:.6}"),
             (false, friction) => format!("{friction:.6}"),
         };
         let _ = writeln!(

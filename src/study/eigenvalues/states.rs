@@ -150,16 +150,27 @@ impl<S> States<'_, S> {
         progress: &Progress<'_>,
     ) -> Result<StatesSweep, CeaError> {
         let mut frictions = request.friction_coefficients.to_vec();
-        let mut refined: Option<PressedRange<S>> = None;
+        // The base states of this round and of the last one.
+        let (mut refined, mut earlier): (Option<PressedRange<S>>, Option<PressedRange<S>>) =
+            (None, None);
         let mut common = Common::default();
-        let mut unsolved = false;
+        let (mut known, mut unsolved) = (frictions.len(), false);
         for round in 0.. {
             let range = refined.as_ref().unwrap_or(self.range);
             let place = (round, frictions.as_slice());
-            let mut parts = self.parts((range, place), request, progress, &mut common)?;
+            let mut parts = match self.parts((range, place), request, progress, &mut common) {
+                Ok(parts) => parts,
+                // What is known without the states between is kept, and the rest said.
+                Err(_) if frictions.len() > known => {
+                    frictions.truncate(known);
+                    (refined, unsolved) = (earlier.take(), true);
+                    continue;
+                }
+                Err(error) => return Err(error),
+            };
             label(&mut parts);
             let open: Vec<f64> = undecided(&parts).map(|own| place_in(&own, round)).collect();
-            if open.is_empty() || round == MOST_ROUNDS || unsolved {
+            if open.is_empty() || round >= MOST_ROUNDS || unsolved {
                 let notes = contact_notes(self.range, &parts);
                 return Ok(StatesSweep {
                     is_by_diameters: self.symmetry.is_some() && common.asymmetry.is_none(),
@@ -171,8 +182,12 @@ impl<S> States<'_, S> {
             }
             let more = [frictions.as_slice(), &open].concat();
             match (self.solve)(&more) {
-                Ok(range) => (refined, frictions) = (Some(range), more),
-                // There may be no state between: what is known is kept, and said.
+                Ok(range) => {
+                    earlier = refined.replace(range);
+                    known = frictions.len();
+                    frictions = more;
+                }
+                // There may be no state between.
                 Err(_) => unsolved = true,
             }
         }
@@ -303,8 +318,8 @@ fn contact_notes<S>(range: &PressedRange<S>, parts: &[Part]) -> Vec<String> {
         .collect();
     let unknown = (!undecided.is_empty()).then(|| {
         format!(
-            "a mode changes its stability between friction {}, where contact points open or close and no state of steady sliding was \
-             found: its critical friction is only known to lie there",
+            "a mode changes its stability between friction {}, where contact points open or close and the states between could not be \
+             solved: its critical friction is only known to lie there",
             undecided.join(", between ")
         )
     });
