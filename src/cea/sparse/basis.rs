@@ -299,6 +299,8 @@ impl<'a> BasisBuilder<'a> {
         if let Linearization::Companion { frequency_scale } = self.linearization {
             let width = SEARCH_WIDTH.min(unknowns);
             let start = [3, 4].map(|seed| random_columns(unknowns, width, seed));
+            // What was held there may span what looks like a mode and is none.
+            self.model.drop_sample(mu);
             self.sample(mu, frequency_scale, wanted, |_| start)?;
             return Ok(());
         }
