@@ -2,7 +2,7 @@
 
 use faer::linalg::matmul::matmul;
 use faer::prelude::{IntoConst, ReborrowMut};
-use faer::{Accum, Mat, MatMut, MatRef, Par};
+use faer::{Accum, ColRef, Mat, MatMut, MatRef, Par};
 
 /// `a b`.
 pub fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
@@ -183,9 +183,21 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     lanes.iter().sum::<f64>() + tail
 }
 
+/// Sums of squares below this may have lost digits of single squares to underflow.
+const SMALLEST_SQUARES: f64 = 1e-280;
+
+/// Euclidean norm, from the plain sum of squares where this neither overflows nor underflows.
+pub fn norm(a: &[f64]) -> f64 {
+    let squares = dot(a, a);
+    if (SMALLEST_SQUARES..=f64::MAX).contains(&squares) {
+        return squares.sqrt();
+    }
+    ColRef::from_slice(a).norm_l2()
+}
+
 /// Euclidean norm of each column.
 pub fn column_norms(a: MatRef<'_, f64>) -> Vec<f64> {
-    (0..a.ncols()).map(|j| a.col(j).norm_l2()).collect()
+    (0..a.ncols()).map(|j| norm(column(a, j))).collect()
 }
 
 /// Columns of reproducible pseudo-random numbers in (-1, 1).
@@ -255,7 +267,7 @@ fn orthonormalize_down_to(
                 }
             }
         }
-        let norm = w.col(j).norm_l2();
+        let norm = norm(column(w.as_ref(), j));
         if norm > bound(lengths[j]) && norm > 0.0 {
             within[(kept.len(), j)] = norm;
             w.col_mut(j).iter_mut().for_each(|v| *v /= norm);
@@ -272,7 +284,7 @@ fn orthonormalize_down_to(
 }
 
 /// Length of a column of unit length, nearly orthonormal to others, beyond them: more than this unless it is nothing but round-off.
-const UNIT_REMAINDER: f64 = 0.5;
+pub const UNIT_REMAINDER: f64 = 0.5;
 
 /// Orthonormal basis of what the columns of `w` hold beyond an orthonormal `basis`, down to the length
 /// `drop_below` (absolute).

@@ -1,6 +1,8 @@
 //! Orthonormal columns by their Gram matrix: a block is read a few times as a whole, not once for each pair of columns.
 
-use super::dense::{add_product, column_norms, combine, product, transpose_product};
+use super::dense::{
+    UNIT_REMAINDER, add_product, column_norms, combine, product, transpose_product,
+};
 use faer::{Mat, MatRef};
 
 /// Part of a column beyond the others below which it counts as dependent: its square, `1e-12`, stands well above the
@@ -41,7 +43,7 @@ pub fn orthonormal_columns(mut w: Mat<f64>) -> Result<GramFactors, Mat<f64>> {
 /// or than a millionth of their own length, are left out.
 pub fn complement(basis: MatRef<'_, f64>, mut w: Mat<f64>, shortest: f64) -> Mat<f64> {
     // Always twice: a very stiff contact turns what round-off is left along the basis into modes of its own.
-    for shortest in [shortest, 0.0] {
+    for shortest in [shortest, UNIT_REMAINDER] {
         let against = transpose_product(basis, w.as_ref());
         add_product(w.as_mut(), -1.0, basis, against.as_ref());
         let pass = Pass::of(w.as_ref(), shortest);
@@ -173,5 +175,22 @@ mod tests {
         assert_eq!(new.ncols(), 3);
         assert!(deviation_from_orthonormal(&new) < 1e-14);
         assert!(transpose_product(basis.as_ref(), new.as_ref()).norm_max() < 1e-14);
+    }
+
+    #[test]
+    fn round_off_of_long_columns_along_the_basis_is_no_direction() {
+        let all = orthonormal_columns(random_columns(60, 6, 4)).unwrap();
+        let basis = all.columns.get(.., ..5);
+        // What round-off leaves of the first is longer than the bound; the other is new.
+        let w = Mat::from_fn(60, 2, |i, j| match j {
+            0 => 1e15 * basis[(i, 0)] + 3e14 * basis[(i, 1)],
+            _ => all.columns[(i, 5)] + 1e3 * basis[(i, 2)],
+        });
+        let new = complement(basis, w, 1e-3);
+        assert!(deviation_from_orthonormal(&new) < 1e-14);
+        assert!(transpose_product(basis, new.as_ref()).norm_max() < 1e-14);
+        let kept = transpose_product(new.as_ref(), all.columns.get(.., 5..));
+        // Round-off of unit length may take a part of it along.
+        assert!(kept.norm_l2() > 0.9, "{}", kept.norm_l2());
     }
 }

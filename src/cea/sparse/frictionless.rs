@@ -36,6 +36,9 @@ const RIGID: f64 = 1e-6;
 const RIGID_OF_ONE_BODY: usize = 6;
 /// Where the shift of the factors kept may lie between zero and the highest eigenvalue `kappa`.
 const AMID: std::ops::Range<f64> = 0.4..0.65;
+/// Distance of that shift from the frequencies about it, relative to the highest. At a pair of equal frequencies the factors would
+/// magnify round-off by all digits.
+const LEAST_DISTANCE: f64 = 1e-4;
 
 /// The lowest modes of `K x = kappa M x` at `mu = 0`.
 pub struct FrictionlessModes {
@@ -298,15 +301,19 @@ fn widest_gap(frequencies: &[f64], wanted: usize) -> usize {
         .unwrap_or(frequencies.len())
 }
 
-/// Angular frequency in the middle of the widest relative gap among those whose square is about half of the highest.
+/// Angular frequency whose square is about half of the highest, as far from all `frequencies` as that allows: nothing where they are
+/// so dense there that `K - sigma M` would be nearly singular.
 fn frequency_amid(frequencies: &[f64]) -> Option<f64> {
     let highest = frequencies.last()?;
-    let gaps = frequencies
-        .windows(2)
-        .map(|pair| (pair[1] / pair[0], 0.5 * (pair[0] + pair[1])));
-    let amid = gaps.filter(|(_, middle)| AMID.contains(&(middle / highest).powi(2)));
+    let [least, most] = [AMID.start, AMID.end].map(|part| part.sqrt() * highest);
+    let gaps = frequencies.windows(2).map(|pair| {
+        let place = (0.5 * (pair[0] + pair[1])).clamp(least, most);
+        // Negative where the whole gap lies elsewhere.
+        ((place - pair[0]).min(pair[1] - place), place)
+    });
+    let amid = gaps.filter(|(distance, _)| *distance > LEAST_DISTANCE * highest);
     let widest = amid.max_by(|a, b| a.0.total_cmp(&b.0));
-    widest.map(|(_, middle)| middle)
+    widest.map(|(_, place)| place)
 }
 
 /// Counts the eigenvalues of the symmetric pencil at `mu = 0` below a shift.
@@ -390,5 +397,25 @@ impl<'a> Inertia<'a> {
         counted(frequency, |frequency| {
             SparseLdl::factorize(&self.analysis, &self.shifted(frequency * frequency))
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shift_lies_off_all_frequencies_even_where_a_pair_alone_is_in_its_range() {
+        let place = frequency_amid(&[6003.0, 7828.0, 7828.0, 10_230.0, 10_230.0, 11_060.0]);
+        // The end of the range, nearest to the middle of the gap above the pair.
+        let wanted = 0.65_f64.sqrt() * 11_060.0;
+        assert!((place.unwrap() / wanted - 1.0).abs() < 1e-12, "{place:?}");
+        let middle = 0.5 * (5.0 + 6.0);
+        assert_eq!(frequency_amid(&[3.0, 5.0, 6.0, 8.0]), Some(middle));
+        // Equal frequencies all over the range, and none at all.
+        assert_eq!(frequency_amid(&[1.0, 1.0]), None);
+        assert_eq!(frequency_amid(&[]), None);
+        let dense: Vec<f64> = (0..60_000).map(|i| 0.5 + 1e-5 * f64::from(i / 2)).collect();
+        assert_eq!(frequency_amid(&dense), None);
     }
 }

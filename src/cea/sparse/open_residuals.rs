@@ -2,7 +2,7 @@
 
 use super::packed::PackedEntry;
 use super::structure::StructureMatrices;
-use crate::linalg::dense::{column, dot, pick_columns};
+use crate::linalg::dense::{column, dot, norm, pick_columns};
 use crate::linalg::{Mat, MatRef};
 use std::ops::Range;
 
@@ -39,7 +39,7 @@ impl OpenResiduals {
     ) {
         let (residuals, momenta) = matrices.residuals_and_momenta(entries, x.as_ref());
         let largest = |a: &Mat<f64>, entry: &PackedEntry| {
-            let norms = entry.columns().map(|j| a.col(j).norm_l2());
+            let norms = entry.columns().map(|j| norm(column(a.as_ref(), j)));
             norms.fold(0.0, f64::max)
         };
         for entry in entries {
