@@ -20,6 +20,7 @@ mod elastic;
 mod file_sections;
 mod fit;
 mod frf;
+mod generated;
 mod imported;
 mod improve;
 mod inclusion;

@@ -12,6 +12,17 @@ pub(super) fn is_solid(material: &ElasticMaterial) -> bool {
     material.formulation == PlaneFormulation::ThreeDimensional
 }
 
+/// Says that the stress of the base state is left out of the modes.
+pub(super) fn warn_of_stress(cea: &Section<'_>) {
+    cea.warn(
+        "geometric_stiffness",
+        "solid bodies on their whole mesh have no geometric stiffness: \
+         the stress of the base state is left out of their modes"
+            .to_owned(),
+        "no effect; set it to false",
+    );
+}
+
 /// Elements over the thickness; `None` in the plane, where they are an error.
 pub(super) fn axial_elements(
     geometry: &Section<'_>,

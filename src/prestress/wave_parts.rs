@@ -100,7 +100,7 @@ impl HarmonicParts {
 
     /// `Im(x_i^H f_i)` of the forces `f = (lambda^2 M + lambda C + K) x` of bodies and supports on each contact node: what the
     /// contact's forces on that node do. `root` is the eigenvalue of the wave `+n`.
-    pub fn contact_works(&self, root: c64, friction: f64, x: &[c64]) -> Vec<f64> {
+    pub fn works_at_contact(&self, root: c64, friction: f64, x: &[c64]) -> Vec<f64> {
         let one = c64::new(1.0, 0.0);
         let mut forces = vec![c64::new(0.0, 0.0); x.len()];
         for region in &self.regions {

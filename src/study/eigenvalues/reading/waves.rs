@@ -177,7 +177,7 @@ impl Apart {
             let root = own.wave.root(own.mode.eigenvalue);
             let parts = &self.harmonics[&own.mode.harmonic];
             let friction = own.name.friction_coefficient;
-            let works = parts.contact_works(root, friction, &own.wave.unknowns);
+            let works = parts.works_at_contact(root, friction, &own.wave.unknowns);
             // A place is of one sector, or of all of them.
             let repeats = places.len() / works.len();
             let scale = 1.0 / (2.0 * root.im * own.mass * repeats as f64);

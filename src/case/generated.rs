@@ -1,0 +1,203 @@
+//! Bodies that the case's own numbers make: `[geometry]` and the element counts of `[mesh]`.
+
+use super::attachments;
+use super::body::{Annulus, Body, Revolution, node_count};
+use super::boundaries::{self, NamedCondition};
+use super::contact::{Contact, contact};
+use super::elastic::{Surroundings, place_axes};
+use super::imported;
+use super::modifications::{self, Modification};
+use super::reader::Section;
+use super::shaft;
+use super::solid;
+use super::tables::TableFiles;
+use super::whole_revolution::whole_revolution;
+use crate::fem::{AnnulusMaterials, ElasticMaterial, TabledMaterial};
+use crate::mesh::{AnnulusSpecification, BoundaryCondition, SolidSpecification};
+
+/// The generated body with what its modifications take away or move, and its contact. Closes both sections.
+pub(super) fn generated(
+    root: &Section<'_>,
+    [geometry, mesh]: [Section<'_>; 2],
+    (conditions, is_pressed): (&[NamedCondition], bool),
+    (common, tables): (&mut TabledMaterial, &mut TableFiles<'_>),
+    (thickness, changes): (f64, &[Modification]),
+) -> (Option<Body>, Contact) {
+    let material = &mut common.own.elastic;
+    let is_solid = solid::is_solid(material);
+    imported::refuse_sectors(&mesh);
+    let axial = solid::axial_elements(&geometry, &mesh, is_solid);
+    let sectors = Surroundings::Sectors {
+        is_plane: !is_solid,
+    };
+    place_axes(root, &["material"], material, &sectors);
+    let parts = (conditions, is_solid);
+    let (mut annulus, mut shaft) = annulus(root, [&geometry, &mesh], parts, (material, tables));
+    if let Some(shaft) = &mut shaft {
+        let path = ["materials", "shaft"];
+        place_axes(root, &path, &mut shaft.own.elastic, &sectors);
+    }
+    geometry.close();
+    mesh.close();
+    let (contact, place) = contact(root, Some((&annulus, is_solid)), is_pressed);
+    let body = match axial {
+        None => Some(Annulus {
+            specification: annulus,
+            materials: AnnulusMaterials {
+                annulus: *material,
+                shaft: shaft.as_ref().map(|shaft| shaft.own),
+            },
+            tables: [common.table.clone(), shaft.and_then(|shaft| shaft.table)],
+        })
+        .and_then(|annulus| plane_annulus(root, annulus, changes)),
+        Some(axial_elements) => {
+            let conditions = solid::conditions(root, conditions, place.solid);
+            annulus.outer = conditions[1];
+            let revolution = Revolution {
+                specification: SolidSpecification {
+                    annulus,
+                    thickness,
+                    axial_elements,
+                    contact: place.solid,
+                    conditions,
+                },
+                material: *material,
+            };
+            revolution_body(root, revolution, (common, &contact), changes)
+        }
+    };
+    (body, contact)
+}
+
+/// A body of revolution, as a whole mesh where modifications break its symmetry, where losses or moduli over frequency part the
+/// waves +n and -n of its harmonics, and where that is asked for.
+fn revolution_body(
+    root: &Section<'_>,
+    revolution: Revolution,
+    parts: (&TabledMaterial, &Contact),
+    changes: &[Modification],
+) -> Option<Body> {
+    let (material, contact) = parts;
+    let supports = revolution.specification.conditions.iter();
+    let loses = supports.filter_map(|condition| match condition {
+        BoundaryCondition::Support(support) => Some(support.loss_factor),
+        _ => None,
+    });
+    let own = [
+        material.own.elastic.loss_factor,
+        contact.stiffness.loss_factor,
+    ];
+    let is_lossy = loses.chain(own).any(|eta| eta > 0.0) || material.table.is_some();
+    let cea = root.section("cea", false);
+    let is_asked_for = cea.is_text("method", "sparse")
+        || root
+            .section("transient", false)
+            .is_text("operator", "sparse");
+    if changes.is_empty() && !is_lossy && !is_asked_for {
+        return Some(Body::Revolution(revolution));
+    }
+    if cea.is_given() && cea.flag("geometric_stiffness") {
+        solid::warn_of_stress(&cea);
+    }
+    let found = whole_revolution(&revolution, parts, changes);
+    let reject = |(key, why): modifications::Misfit| {
+        let section = key.split('.').next().unwrap_or_default().to_owned();
+        let message = format!("{key}: {why}");
+        root.reject(&section, message, "does not fit the whole mesh", None);
+    };
+    found.map_err(reject).ok().map(Body::Assembly)
+}
+
+/// A plane annulus, as a whole mesh where modifications break its symmetry.
+fn plane_annulus(root: &Section<'_>, annulus: Annulus, changes: &[Modification]) -> Option<Body> {
+    // What is wrong with the counts is said elsewhere.
+    if changes.is_empty() || node_count(&annulus.specification) > 1 << 24 {
+        return Some(Body::Annulus(annulus));
+    }
+    let reject = |(key, why): modifications::Misfit| {
+        let message = format!("{key}: {why}");
+        root.reject("modifications", message, "does not fit the disc", None);
+    };
+    let body = attachments::reshaped_annulus(&annulus, changes);
+    body.map_err(reject).ok().map(Body::Imported)
+}
+
+/// The specification of the annulus, and the material of its shaft where it has one.
+fn annulus(
+    root: &Section<'_>,
+    [geometry, mesh]: [&Section<'_>; 2],
+    (conditions, is_solid): (&[NamedCondition], bool),
+    (material, tables): (&ElasticMaterial, &mut TableFiles<'_>),
+) -> (AnnulusSpecification, Option<TabledMaterial>) {
+    let inner_radius = geometry.number("inner_radius");
+    let outer_radius = geometry.number("outer_radius");
+    if outer_radius <= inner_radius {
+        geometry.reject(
+            "outer_radius",
+            format!(
+                "geometry.outer_radius = {outer_radius} must be above \
+                 geometry.inner_radius = {inner_radius}"
+            ),
+            format!("must be above {inner_radius}"),
+            "both are radii in metres; are they swapped?",
+        );
+    }
+    let shaft = shaft::shaft(
+        root,
+        [geometry, mesh],
+        inner_radius,
+        conditions,
+        material,
+        tables,
+    );
+    if is_solid && shaft.is_some() {
+        geometry.reject(
+            "shaft_inner_radius",
+            "a deformable shaft turns in a plane annulus only",
+            "the body is three-dimensional",
+            "leave the shaft out, or use a plane formulation",
+        );
+    }
+    let annulus = AnnulusSpecification {
+        inner_radius,
+        outer_radius,
+        circumferential_elements: mesh.count("circumferential_elements"),
+        radial_elements: mesh.count("radial_elements"),
+        radial_grading: mesh.number("radial_grading"),
+        element: mesh.choice("element"),
+        outer: match is_solid {
+            true => BoundaryCondition::Clamped,
+            false => boundaries::outer_edge(root, conditions, shaft.is_some()),
+        },
+        shaft: shaft.as_ref().map(|(shaft, _)| *shaft),
+    };
+    check_mesh(mesh, &annulus);
+    (annulus, shaft.map(|(_, material)| material))
+}
+
+fn check_mesh(mesh: &Section<'_>, annulus: &AnnulusSpecification) {
+    // Node indices are 32 bits wide, with room for two unknowns at each node.
+    let (nodes, limit) = (node_count(annulus), u128::from(u32::MAX / 2));
+    if nodes > limit {
+        mesh.reject(
+            "circumferential_elements",
+            format!("the mesh would have {nodes} nodes, above the limit of {limit}"),
+            "too many elements",
+            "lower mesh.circumferential_elements or mesh.radial_elements",
+        );
+    }
+    // Sizes that differ by more than this leave elements without width in double precision.
+    let ratio = annulus.radial_grading.ln() * (annulus.radial_elements as f64 - 1.0);
+    if ratio.abs() > 1e6f64.ln() {
+        mesh.reject(
+            "radial_grading",
+            format!(
+                "mesh.radial_grading = {} makes the largest element {:.1e} times the smallest",
+                annulus.radial_grading,
+                ratio.abs().exp()
+            ),
+            "at most a factor 1e6 over all elements",
+            "bring mesh.radial_grading nearer to 1",
+        );
+    }
+}
