@@ -1,14 +1,12 @@
 //! Counts of eigenvalues, apart from how they were found.
 
-use crate::linalg::c64;
+use crate::linalg::{STANDSTILL, c64};
 use std::f64::consts::TAU;
 
 /// Largest growth or decay that a count covers, at least, relative to the upper end of the frequencies (rad/s).
 const WIDTH: f64 = 0.2;
 /// The same relative to the modes listed.
 const BEYOND_LISTED: f64 = 1.5;
-/// Lower end of the frequencies relative to the upper one, at most: near zero overdamped motions live.
-const SLOWEST: f64 = 0.02;
 
 /// A rectangle of the upper half plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,9 +25,11 @@ impl CountedRegion {
             let rates = listed.iter().map(|own| BEYOND_LISTED * sign * own.re);
             factor * rates.fold(WIDTH * top, f64::max)
         };
+        let [left, right] = [reach(-1.0), reach(1.0)];
+        // Below the line from zero through the lower left corner motions do not oscillate.
         Self {
-            frequencies_hz: [(SLOWEST * top).min(0.5 * lowest) / TAU, top / TAU],
-            growth_rates: [-reach(-1.0), reach(1.0)],
+            frequencies_hz: [(STANDSTILL * left).min(0.5 * lowest) / TAU, top / TAU],
+            growth_rates: [-left, right],
         }
     }
 

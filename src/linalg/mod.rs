@@ -34,7 +34,7 @@ pub use matrix_market::{MarketMatrix, MatrixMarketError};
 pub use pattern::SparsityPattern;
 pub use polynomial::{FrictionWeights, MatrixPolynomial};
 pub use quadratic_krylov::{
-    QuadraticKrylovSettings, QuadraticOperator, QuadraticPairs, quadratic_krylov,
+    QuadraticKrylovSettings, QuadraticOperator, QuadraticPairs, STANDSTILL, quadratic_krylov,
 };
 pub use sparse_cholesky::SparseCholesky;
 pub use sparse_determinant::DeterminantAnalysis;

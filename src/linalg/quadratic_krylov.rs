@@ -27,7 +27,7 @@ pub struct QuadraticPairs {
 /// What [`quadratic_krylov`] looks for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct QuadraticKrylovSettings {
-    /// Conjugate pairs wanted, largest modulus first; real eigenvalues are not counted.
+    /// Conjugate pairs wanted, largest modulus first; eigenvalues that are real or almost so ([`STANDSTILL`]) are not counted.
     pub pairs: usize,
     /// Pairs of these that must have converged when all applications are spent: the others are given as they are then.
     pub least: usize,
@@ -36,6 +36,10 @@ pub struct QuadraticKrylovSettings {
     /// Operator applications (in vectors) after which the iteration gives up.
     pub max_applications: usize,
 }
+
+/// `|Im s| / |s|`, which is `|Im lambda| / |lambda|` as well, below which a motion decays without oscillating: its damping factor is
+/// above 0.995. Motions beyond critical damping have real eigenvalues only where nothing couples two of them.
+pub const STANDSTILL: f64 = 0.1;
 
 /// Dimension up to which a dense decomposition of the whole operator is as cheap, and misses nothing ...
 const SMALL: usize = 200;
@@ -48,7 +52,7 @@ const NEXT_LOOK: f64 = 0.1;
 /// Part of a new vector that must lie beyond the known ones.
 const INDEPENDENT: f64 = 1e-13;
 
-/// Eigenvalues of largest modulus of `S = [A B; I 0]` among those that are not real.
+/// Eigenvalues of largest modulus of `S = [A B; I 0]` among those that oscillate, above [`STANDSTILL`].
 ///
 /// `S z = s z` with `z = (s w, w)` is `s^2 w = s A w + B w`. The Arnoldi vectors `(U a, U b)` share one orthonormal
 /// basis `U` of their two halves, which grows by one vector a step: memory and work are half those of an iteration on
@@ -127,9 +131,10 @@ fn whole(operator: &dyn QuadraticOperator, pairs: usize) -> Result<QuadraticPair
     })
 }
 
-/// Columns of the first of each conjugate pair among the `count` pairs of largest modulus.
+/// Columns of the first of each conjugate pair among the `count` pairs of largest modulus that oscillate.
 fn leading_pairs(values: &[c64], count: usize) -> Vec<usize> {
-    let mut columns: Vec<usize> = (0..values.len()).filter(|&i| values[i].im > 0.0).collect();
+    let oscillates = |i: &usize| values[*i].im > STANDSTILL * values[*i].norm();
+    let mut columns: Vec<usize> = (0..values.len()).filter(oscillates).collect();
     columns.sort_by(|&i, &j| values[j].norm().total_cmp(&values[i].norm()));
     columns.truncate(count);
     columns
@@ -342,6 +347,40 @@ mod tests {
                 length += (s * s * w(i)).norm_sqr();
             }
             assert!(error < 1e-18 * length, "{k}: {}", (error / length).sqrt());
+        }
+    }
+
+    /// Exact: motions of large `|s|` that decay without oscillating, `|Im s| / |s| = 0.03`, take no places of those that oscillate.
+    #[test]
+    fn decay_that_hardly_oscillates_takes_no_place() {
+        for size in [SMALL, SMALL + 20] {
+            let mut operator = oscillators(size);
+            let settings = QuadraticKrylovSettings {
+                pairs: 8,
+                least: 8,
+                tolerance: 1e-12,
+                max_applications: 4 * size,
+            };
+            // Decoupled: s^2 - 2 p s + p^2 + q^2 = 0.
+            for i in size - 4..size {
+                for j in 0..size {
+                    for half in &mut operator.0 {
+                        half[(i, j)] = 0.0;
+                        half[(j, i)] = 0.0;
+                    }
+                }
+                let p = -5.0 - (size - i) as f64;
+                operator.0[0][(i, i)] = 2.0 * p;
+                operator.0[1][(i, i)] = -p * p * (1.0 + 0.03 * 0.03);
+            }
+            let start = [random_columns(size, 1, 1), random_columns(size, 1, 2)];
+            let start = [start[0].as_ref(), start[1].as_ref()];
+            let found = quadratic_krylov(&operator, start, &settings).unwrap();
+            assert_eq!(found.values.len(), 8);
+            for (k, s) in found.values.iter().enumerate() {
+                // Of the oscillators 1, 2, ... the first eight, coupled to a hundredth.
+                assert!((s.norm().recip() - (k + 1) as f64).abs() < 0.2, "{s}");
+            }
         }
     }
 

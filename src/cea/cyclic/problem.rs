@@ -4,13 +4,10 @@ use super::path::Eigenpair;
 use super::vectors::{ZERO, add, dot, largest, product};
 use crate::fem::RayleighDamping;
 use crate::linalg::banded::{BandedLu, BandedMatrix};
-use crate::linalg::{Mat, c64};
+use crate::linalg::{Mat, STANDSTILL, c64};
 use crate::prestress::{FrictionPolynomial, HarmonicTangent};
 
 pub(super) const I: c64 = c64::new(0.0, 1.0);
-
-/// Frequency over the modulus of an eigenvalue below which a motion counts as overdamped.
-const STANDSTILL: f64 = 0.1;
 
 /// `T(theta) x = 0` for one harmonic.
 ///

@@ -142,6 +142,10 @@ pub(super) fn damping_note(case: &Case, sweep: &FrictionSweep) -> Option<String>
             largest,
             "the dashpot of friction across the sliding, mu p / V, causes it, and grows as the sliding slows down",
         ),
+        Body::Assembly(_) if at_limit <= 0.5 => (
+            largest,
+            "damping of regions, losses, dashpots, or friction across a slow sliding (a dashpot of mu p / V) cause it",
+        ),
         _ => (
             largest.max(at_limit),
             "damping.mass_coefficient and damping.stiffness_coefficient set it",
