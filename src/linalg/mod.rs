@@ -34,7 +34,8 @@ pub use matrix_market::{MarketMatrix, MatrixMarketError};
 pub use pattern::SparsityPattern;
 pub use polynomial::{FrictionWeights, MatrixPolynomial};
 pub use quadratic_krylov::{
-    QuadraticKrylovSettings, QuadraticOperator, QuadraticPairs, STANDSTILL, quadratic_krylov,
+    QuadraticKrylovSettings, QuadraticOperator, QuadraticPairs, STANDSTILL, is_vibration,
+    quadratic_krylov,
 };
 pub use sparse_cholesky::SparseCholesky;
 pub use sparse_determinant::DeterminantAnalysis;

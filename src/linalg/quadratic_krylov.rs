@@ -41,6 +41,12 @@ pub struct QuadraticKrylovSettings {
 /// above 0.995. Motions beyond critical damping have real eigenvalues only where nothing couples two of them.
 pub const STANDSTILL: f64 = 0.1;
 
+/// Whether an eigenvalue, `s` or `lambda = 1 / s`, has a positive imaginary part and is that of a motion that oscillates
+/// or grows.
+pub fn is_vibration(value: c64) -> bool {
+    value.im > 0.0 && (value.re > 0.0 || value.im > STANDSTILL * value.norm())
+}
+
 /// Dimension up to which a dense decomposition of the whole operator is as cheap, and misses nothing ...
 const SMALL: usize = 200;
 /// ... and up to which it stands in for an iteration that does not converge.
@@ -133,8 +139,9 @@ fn whole(operator: &dyn QuadraticOperator, pairs: usize) -> Result<QuadraticPair
 
 /// Columns of the first of each conjugate pair among the `count` pairs of largest modulus that oscillate.
 fn leading_pairs(values: &[c64], count: usize) -> Vec<usize> {
-    let oscillates = |i: &usize| values[*i].im > STANDSTILL * values[*i].norm();
-    let mut columns: Vec<usize> = (0..values.len()).filter(oscillates).collect();
+    let mut columns: Vec<usize> = (0..values.len())
+        .filter(|&i| is_vibration(values[i]))
+        .collect();
     columns.sort_by(|&i, &j| values[j].norm().total_cmp(&values[i].norm()));
     columns.truncate(count);
     columns
@@ -348,6 +355,13 @@ mod tests {
             }
             assert!(error < 1e-18 * length, "{k}: {}", (error / length).sqrt());
         }
+    }
+
+    #[test]
+    fn growth_that_hardly_oscillates_is_sought_all_the_same() {
+        let [decay, growth] = [-1.0, 1.0].map(|re| c64::new(re, 0.03));
+        assert!(!is_vibration(decay) && is_vibration(growth));
+        assert!(!is_vibration(growth.conj()) && is_vibration(c64::new(-1.0, 0.2)));
     }
 
     /// Exact: motions of large `|s|` that decay without oscillating, `|Im s| / |s| = 0.03`, take no places of those that oscillate.

@@ -1,7 +1,7 @@
 //! Linearization of the quadratic eigenproblem.
 
 use crate::fem::RayleighDamping;
-use crate::linalg::{STANDSTILL, c64};
+use crate::linalg::{c64, is_vibration};
 use crate::prestress::SlidingTangent;
 
 /// How `T(lambda) x = (lambda^2 M + lambda C + K) x = 0` becomes a linear eigenproblem.
@@ -39,8 +39,8 @@ impl Linearization {
     }
 
     /// `lambda` with `Im > 0` that belongs to the eigenvalue `s` of the shift-inverted operator,
-    /// `s = 1/kappa` or `s = 1/nu`; `None` for a motion that does not oscillate, of any damping
-    /// up to [`STANDSTILL`], and for the conjugate of a mode.
+    /// `s = 1/kappa` or `s = 1/nu`; `None` for a motion that decays without oscillating
+    /// ([`is_vibration`]) and for the conjugate of a mode.
     pub fn eigenvalue(self, s: c64) -> Option<c64> {
         match self {
             Self::Reduced(damping) => {
@@ -49,7 +49,7 @@ impl Linearization {
             }
             Self::Companion { frequency_scale } => {
                 let nu = s.inv();
-                (nu.im > STANDSTILL * nu.norm()).then_some(nu * frequency_scale)
+                is_vibration(nu).then_some(nu * frequency_scale)
             }
         }
     }

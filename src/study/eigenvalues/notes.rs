@@ -144,7 +144,8 @@ pub(super) fn damping_note(case: &Case, sweep: &FrictionSweep) -> Option<String>
         ),
         Body::Assembly(_) if at_limit <= 0.5 => (
             largest,
-            "damping of regions, losses, dashpots, or friction across a slow sliding (a dashpot of mu p / V) cause it",
+            "damping of regions, losses, dashpots, or friction across a slow sliding \
+             (a dashpot of mu p / V) causes it",
         ),
         _ => (
             largest.max(at_limit),
