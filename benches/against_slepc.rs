@@ -17,10 +17,7 @@ use std::path::Path;
 
 fn main() {
     // `cargo bench` and `cargo test` pass options of their own.
-    let given: Vec<String> = std::env::args()
-        .skip(1)
-        .filter(|a| !a.starts_with("--"))
-        .collect();
+    let given: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
     let [folder, file, overrides @ ..] = given.as_slice() else {
         return println!("run benches/against_slepc.py");
     };
@@ -116,18 +113,12 @@ fn write_matrices(folder: &Path, tangent: &SlidingTangent) {
     };
     let pattern = tangent.stiffness.pattern();
     let integers = |values: &[usize]| -> Vec<u8> {
-        values
-            .iter()
-            .flat_map(|&v| (v as i64).to_le_bytes())
-            .collect()
+        values.iter().flat_map(|&v| (v as i64).to_le_bytes()).collect()
     };
     write("pointers.i64", integers(pattern.column_pointers()));
     write("rows.i64", integers(pattern.row_indices()));
-    let polynomials: [(&str, &MatrixPolynomial); 3] = [
-        ("stiffness", &tangent.stiffness),
-        ("damping", &tangent.damping),
-        ("mass", &tangent.mass),
-    ];
+    let polynomials: [(&str, &MatrixPolynomial); 3] =
+        [("stiffness", &tangent.stiffness), ("damping", &tangent.damping), ("mass", &tangent.mass)];
     for (name, polynomial) in polynomials {
         for (power, values) in polynomial.coefficients().iter().enumerate() {
             let bytes = values.iter().flat_map(|v| v.to_le_bytes()).collect();
@@ -139,10 +130,7 @@ fn write_matrices(folder: &Path, tangent: &SlidingTangent) {
 /// Processor time of this thread so far, where the system says: other load on the machine counts little.
 fn processor_seconds() -> f64 {
     let times = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
-    let nanoseconds = times
-        .split_whitespace()
-        .next()
-        .and_then(|t| t.parse::<f64>().ok());
+    let nanoseconds = times.split_whitespace().next().and_then(|t| t.parse::<f64>().ok());
     nanoseconds.map_or(f64::NAN, |t| 1e-9 * t)
 }
 

@@ -24,10 +24,7 @@ fn solve(circumferential: usize, radial: usize, values: usize) -> CyclicSweep {
         geometric_stiffness: true,
         damping: DAMPING,
         damping_model: DampingModel::WholeTangent,
-        contact: ContactStiffness {
-            normal_stiffness: Some(7.4e12),
-            ..ContactStiffness::default()
-        },
+        contact: ContactStiffness { normal_stiffness: Some(7.4e12), ..ContactStiffness::default() },
     };
     let last = (values - 1) as f64;
     let frictions: Vec<f64> = (0..values).map(|i| i as f64 / last).collect();
@@ -37,14 +34,8 @@ fn solve(circumferential: usize, radial: usize, values: usize) -> CyclicSweep {
         shapes_at: &[],
         count_modes: false,
     };
-    sweep(
-        &specification,
-        &POLYCARBONATE,
-        &options,
-        &contact(610.0),
-        &request,
-    )
-    .expect("the disc can be solved")
+    sweep(&specification, &POLYCARBONATE, &options, &contact(610.0), &request)
+        .expect("the disc can be solved")
 }
 
 fn on_threads(threads: usize, work: impl Fn() -> CyclicSweep + Sync + Send) -> CyclicSweep {

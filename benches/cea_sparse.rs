@@ -19,9 +19,7 @@ fn main() {
 
 fn tangent(circumferential: usize, radial: usize) -> SlidingTangent {
     let specification = annulus(ElementKind::Quad4, circumferential, radial);
-    let mesh = AnnulusMesh::generate(&specification)
-        .expect("a valid annulus")
-        .mesh;
+    let mesh = AnnulusMesh::generate(&specification).expect("a valid annulus").mesh;
     let elastic = assemble_stiffness(&mesh, &POLYCARBONATE);
     let contact = contact(610.0);
     let base = SteadySliding::solve(&mesh, &elastic, &contact).expect("the disc is in contact");

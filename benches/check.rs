@@ -14,11 +14,7 @@ type Job = (&'static str, &'static str, &'static [&'static str]);
 
 const JOBS: [Job; 14] = [
     ("cea", "polycarbonate-disc", &[]),
-    (
-        "transient",
-        "polycarbonate-610rpm",
-        &["transient.duration=0.005"],
-    ),
+    ("transient", "polycarbonate-610rpm", &["transient.duration=0.005"]),
     ("cea", "polycarbonate-disc", &["cea.method=sparse"]),
     ("cea", "disc-off-centre", &[]),
     ("cea", "test-bench", &[]),
@@ -29,11 +25,7 @@ const JOBS: [Job; 14] = [
     ("transient", "pad-on-disc", &["transient.duration=0.01"]),
     ("transient", "test-bench", &["transient.duration=0.005"]),
     ("cycle", "limit-cycle", &[]),
-    (
-        "cycle",
-        "disc-off-centre",
-        &["cycle.confirmation_periods=200"],
-    ),
+    ("cycle", "disc-off-centre", &["cycle.confirmation_periods=200"]),
     ("frf", "hammer-test", &[]),
 ];
 
@@ -82,10 +74,7 @@ fn said(job: &Job) -> Cost {
     let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
     let cost = &answer["cases"][0][job.0];
     let number = |key: &str| cost[key].as_f64().unwrap_or(f64::NAN);
-    Cost {
-        seconds: number("estimated_s"),
-        mebibytes: number("memory_bytes") / f64::from(1 << 20),
-    }
+    Cost { seconds: number("estimated_s"), mebibytes: number("memory_bytes") / f64::from(1 << 20) }
 }
 
 fn took(job: &Job) -> Cost {
@@ -108,10 +97,7 @@ fn took(job: &Job) -> Cost {
         sleep(Duration::from_millis(5));
     };
     assert!(end.success(), "{} {}", job.0, job.1);
-    Cost {
-        seconds: children_seconds() - before,
-        mebibytes: peak,
-    }
+    Cost { seconds: children_seconds() - before, mebibytes: peak }
 }
 
 /// Processor time of the children that have ended, s: fields 16 and 17 of `/proc/self/stat`, in hundredths.

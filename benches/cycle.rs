@@ -43,10 +43,7 @@ fn main() {
             interference: 25e-6,
             rotation_speed: 610.0 * TAU / 60.0,
         },
-        damping: RayleighDamping {
-            mass_coefficient: 40.0,
-            stiffness_coefficient: 4.5e-7,
-        },
+        damping: RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 4.5e-7 },
     };
     println!("n  from birth  +2 %  -20 %  stability  61 speeds  factorizations");
     for harmonic in [1, 2] {
@@ -66,9 +63,8 @@ fn main() {
         let stability = fastest(|| {
             solver.stability(&cycle).expect("exponents");
         });
-        let speeds: Vec<f64> = (0..61)
-            .map(|i| 10.0 * 600f64.powf(f64::from(i) / 60.0) * TAU / 60.0)
-            .collect();
+        let speeds: Vec<f64> =
+            (0..61).map(|i| 10.0 * 600f64.powf(f64::from(i) / 60.0) * TAU / 60.0).collect();
         let start = Instant::now();
         let branch = solver.follow(&cycle, Parameter::RotationSpeed, &speeds);
         println!(

@@ -39,24 +39,16 @@ const MATERIAL: ElasticMaterial = ElasticMaterial {
     formulation: PlaneFormulation::PlaneStrain,
     ..ElasticMaterial::PLAIN
 };
-const DAMPING: RayleighDamping = RayleighDamping {
-    mass_coefficient: 40.0,
-    stiffness_coefficient: 4.5e-7,
-};
+const DAMPING: RayleighDamping =
+    RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 4.5e-7 };
 const CONTACT: SlidingContact = SlidingContact {
     decay: None,
     friction_coefficient: 0.3,
     interference: 25e-6,
     rotation_speed: 63.9,
 };
-const FORCE: Terminal = Terminal {
-    node: 5,
-    direction: Direction::Radial,
-};
-const RESPONSE: Terminal = Terminal {
-    node: 36 * 40 + 20,
-    direction: Direction::Tangential,
-};
+const FORCE: Terminal = Terminal { node: 5, direction: Direction::Radial };
+const RESPONSE: Terminal = Terminal { node: 36 * 40 + 20, direction: Direction::Tangential };
 
 fn options() -> TangentOptions {
     TangentOptions {
@@ -64,10 +56,7 @@ fn options() -> TangentOptions {
         geometric_stiffness: true,
         damping: DAMPING,
         damping_model: DampingModel::WholeTangent,
-        contact: ContactStiffness {
-            normal_stiffness: Some(7.4e12),
-            ..ContactStiffness::default()
-        },
+        contact: ContactStiffness { normal_stiffness: Some(7.4e12), ..ContactStiffness::default() },
     }
 }
 
@@ -93,13 +82,7 @@ fn whole_system(boundary: &str) -> FrfSystem {
         return FrfSystem::sliding(&tangent, CONTACT.friction_coefficient);
     }
     let mass = MassKind::Consistent;
-    FrfSystem::body(
-        &annulus.mesh,
-        &MATERIAL,
-        mass,
-        DAMPING,
-        boundary == "clamped",
-    )
+    FrfSystem::body(&annulus.mesh, &MATERIAL, mass, DAMPING, boundary == "clamped")
 }
 
 fn frequencies() -> Vec<f64> {

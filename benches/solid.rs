@@ -63,10 +63,7 @@ fn main() {
         false => ([36, 7, 2], 1),
     };
     let peak = fma_peak();
-    println!(
-        "fused multiply-add peak of one thread: {:.1} Gflop/s",
-        peak / 1e9
-    );
+    println!("fused multiply-add peak of one thread: {:.1} Gflop/s", peak / 1e9);
     let [around, radial, axial] = divisions;
     println!("{around} x {radial} x {axial} bricks");
     println!("simd     us/step  ns/brick-step  of the floor  of FMA peak");
@@ -91,12 +88,8 @@ fn main() {
 
 /// Prints a row: the step of a cube of bricks in a mesh file, without contact.
 fn assembled(divisions: usize, threads: usize) {
-    let cube = bricks::Block {
-        name: "cube",
-        origin: [0.0; 3],
-        size: [0.1; 3],
-        counts: [divisions; 3],
-    };
+    let cube =
+        bricks::Block { name: "cube", origin: [0.0; 3], size: [0.1; 3], counts: [divisions; 3] };
     let file = GmshFile::read(&bricks::file_of(&[cube], |point| point)).expect("a mesh file");
     let mesh = Mesh::from_solids(&file, 1.0, &[]).expect("a body");
     let stiffness = assemble_stiffness(&mesh, &STEEL);
@@ -112,11 +105,8 @@ fn assembled(divisions: usize, threads: usize) {
         elastic_rate: zeros(),
     };
     fields.velocity[0] = 1.0;
-    let coefficients = StepCoefficients {
-        time_step: 1e-8,
-        mass_coefficient: 0.0,
-        stiffness_coefficient: 0.0,
-    };
+    let coefficients =
+        StepCoefficients { time_step: 1e-8, mass_coefficient: 0.0, stiffness_coefficient: 0.0 };
     let bytes = operator.bytes_per_step();
     let memory = vec![1.0_f64; bytes / 8];
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
@@ -142,12 +132,7 @@ fn assembled(divisions: usize, threads: usize) {
         [step, reading]
     });
     let rate = 1e-9 * bytes as f64;
-    println!(
-        "{threads:7} {:8.3} {:7.1} {:7.1}",
-        1e3 * step,
-        rate / step,
-        rate / reading
-    );
+    println!("{threads:7} {:8.3} {:7.1} {:7.1}", 1e3 * step, rate / step, rate / reading);
 }
 
 /// Prints a row.
@@ -206,12 +191,6 @@ fn eigenvalues(divisions: [usize; 3]) -> f64 {
     };
     let clock = Instant::now();
     let found = solid_sweep(&model, &request).expect("the disc can be solved");
-    assert!(
-        found
-            .sweep
-            .points
-            .iter()
-            .all(|point| point.modes.len() >= 30)
-    );
+    assert!(found.sweep.points.iter().all(|point| point.modes.len() >= 30));
     clock.elapsed().as_secs_f64()
 }

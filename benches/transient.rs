@@ -46,16 +46,10 @@ impl Observer for Ignore {
 
 fn main() {
     let peak = fma_peak();
-    println!(
-        "fused multiply-add peak of one thread: {:.1} Gflop/s",
-        peak / 1e9
-    );
+    println!("fused multiply-add peak of one thread: {:.1} Gflop/s", peak / 1e9);
     for (elements, radial) in [(180, 35), (270, 52)] {
         let annulus = mesh(elements, radial);
-        println!(
-            "\n{elements} x {radial} elements, {} dofs",
-            2 * annulus.mesh.node_count()
-        );
+        println!("\n{elements} x {radial} elements, {} dofs", 2 * annulus.mesh.node_count());
         println!("operator  simd     us/step  ns/element-step  of FMA peak");
         let model = TransientModel::of_annulus(&annulus, &POLYCARBONATE, DAMPING, contact(610.0));
         for choice in [OperatorChoice::Cyclic, OperatorChoice::Sparse] {
@@ -113,8 +107,7 @@ fn threads(level: SimdLevel, peak: f64) {
     let times = [1, 2].map(|count| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
         let model = of_mesh(&irregular);
-        pool.expect("threads")
-            .install(|| report(model, OperatorChoice::Sparse, level, peak))
+        pool.expect("threads").install(|| report(model, OperatorChoice::Sparse, level, peak))
     });
     println!("ratio {:.2}", times[0] / times[1]);
 }

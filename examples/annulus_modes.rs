@@ -51,12 +51,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     let found = sweep(&annulus, &polycarbonate, &options, &contact, &request)?;
     println!("{:>3} {:>6} {:>12}", "n", "branch", "Hz");
     for mode in &found.sweep.points[0].modes {
-        println!(
-            "{:>3} {:>6} {:>12.2}",
-            mode.harmonic,
-            mode.branch,
-            mode.frequency_hz()
-        );
+        println!("{:>3} {:>6} {:>12.2}", mode.harmonic, mode.branch, mode.frequency_hz());
     }
     // The first mode is torsion, n = 0; its exact continuum frequency is 5856.38 Hz.
     let first = found.sweep.points[0].modes[0].frequency_hz();

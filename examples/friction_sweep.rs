@@ -41,22 +41,13 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     };
     let stiffness = assemble_stiffness(&mesh, &polycarbonate);
     let base = SteadySliding::solve(&mesh, &stiffness, &contact)?;
-    println!(
-        "torque {:.1} N m for each metre of thickness",
-        base.torque(0.3)
-    );
+    println!("torque {:.1} N m for each metre of thickness", base.torque(0.3));
     let options = TangentOptions {
         mass: MassKind::Consistent,
         geometric_stiffness: true,
-        damping: RayleighDamping {
-            mass_coefficient: 40.0,
-            stiffness_coefficient: 4.5e-7,
-        },
+        damping: RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 4.5e-7 },
         damping_model: DampingModel::WholeTangent,
-        contact: ContactStiffness {
-            normal_stiffness: Some(7.4e12),
-            ..ContactStiffness::default()
-        },
+        contact: ContactStiffness { normal_stiffness: Some(7.4e12), ..ContactStiffness::default() },
     };
     let tangent = SlidingTangent::linearize(&mesh, &polycarbonate, &stiffness, &base, &options);
     let request = SweepRequest {
@@ -72,11 +63,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
             interval.harmonic, interval.branch, interval.critical_friction, interval.frequency_hz
         );
     }
-    for mode in found.points[3]
-        .modes
-        .iter()
-        .filter(|mode| mode.is_unstable())
-    {
+    for mode in found.points[3].modes.iter().filter(|mode| mode.is_unstable()) {
         println!(
             "at 0.3: {:.1} Hz grows at {:.1} 1/s, residual {:.0e}",
             mode.frequency_hz(),

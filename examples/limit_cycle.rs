@@ -32,10 +32,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         formulation: PlaneFormulation::PlaneStrain,
         ..ElasticMaterial::PLAIN
     };
-    let damping = RayleighDamping {
-        mass_coefficient: 40.0,
-        stiffness_coefficient: 4.5e-7,
-    };
+    let damping = RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 4.5e-7 };
     let contact = SlidingContact {
         decay: None,
         friction_coefficient: 0.3,

@@ -18,10 +18,7 @@ const SWEEP: &str = "
 /// Solves and prints.
 pub fn main() -> Result<(), Box<dyn Error>> {
     let disc = include_str!("../cases/polycarbonate-disc.toml");
-    let coarse = [
-        "mesh.circumferential_elements=60",
-        "mesh.radial_elements=12",
-    ];
+    let coarse = ["mesh.circumferential_elements=60", "mesh.radial_elements=12"];
     let text = format!("{disc}{SWEEP}");
     let case = Case::parse("study.toml", text.as_bytes(), &coarse.map(str::to_owned))?;
     let plan = SweepPlan::new(&case)?;

@@ -17,20 +17,14 @@ fn case(text: &str, values: &[&str]) -> Result<Case, Box<dyn Error>> {
 }
 
 fn limit_cycle(simd: SimdLevel) -> Result<(), Box<dyn Error>> {
-    let coarse = [
-        "mesh.circumferential_elements=90",
-        "mesh.radial_elements=18",
-    ];
+    let coarse = ["mesh.circumferential_elements=90", "mesh.radial_elements=18"];
     let alone = ["cycle.harmonics=[2]", "cycle.stability=\"none\""];
     let at_once = ["cycle.continuation.count=2", "cycle.confirmation_periods=0"];
     let near = ["cycle.continuation.from=600", "cycle.continuation.to=620"];
     let text = include_str!("../cases/limit-cycle.toml");
     let case = case(text, &[coarse, alone, at_once, near].concat())?;
     let found = CycleStudy::new(&case, simd)?.run(0, &|| {});
-    let cycle = found[0]
-        .cycle
-        .as_ref()
-        .map_err(|absence| absence.reason.clone())?;
+    let cycle = found[0].cycle.as_ref().map_err(|absence| absence.reason.clone())?;
     let [stick, slip, open] = cycle.fractions;
     println!(
         "a wave of 2 nodal diameters at {:.0} Hz: stick {stick:.2}, slip {slip:.2}, open {open:.2}",
@@ -63,10 +57,7 @@ fn squeal() -> Result<(), Box<dyn Error>> {
     let case = case(text, &[&coarse[..], &[&samples]].concat())?;
     let found = summarize(&case, &Sampler::new(&case)?.block(1));
     let p = found.probability_unstable;
-    println!(
-        "squeal has the probability {:.2} ({:.2} to {:.2})",
-        p.value, p.low, p.high
-    );
+    println!("squeal has the probability {:.2} ({:.2} to {:.2})", p.value, p.low, p.high);
     // Nothing grows without friction, and more friction makes squeal no rarer.
     let over = &found.probability_over_friction;
     assert!(over[0][1] == 0.0 && over.last().is_some_and(|end| end[1] >= p.value));

@@ -62,9 +62,7 @@ pub fn validate(name: &str, text: &[u8], overrides: Vec<String>) -> PyResult<Vec
 pub fn check(py: Python<'_>, path: PathBuf, overrides: Vec<String>) -> PyResult<String> {
     let run = EmbeddedRun::default();
     let own = run.clone();
-    let found = start(py, &run, None, move || {
-        own.enclose(0, || examine(&path, &overrides))
-    })?;
+    let found = start(py, &run, None, move || own.enclose(0, || examine(&path, &overrides)))?;
     Ok(found.to_string())
 }
 
@@ -154,9 +152,7 @@ pub fn shipped_cases() -> Vec<(&'static str, &'static str)> {
 pub fn shipped_files(name: Option<&str>) -> PyResult<Vec<(String, Cow<'static, [u8]>)>> {
     let Some(name) = name else {
         let all = all_files().into_iter();
-        return Ok(all
-            .map(|(path, bytes)| (path.to_owned(), bytes.into()))
-            .collect());
+        return Ok(all.map(|(path, bytes)| (path.to_owned(), bytes.into())).collect());
     };
     let found = ShippedCase::find(&format!("{name}.toml")).ok_or_else(|| {
         let names: Vec<&str> = all_cases().iter().map(ShippedCase::name).collect();
@@ -166,9 +162,7 @@ pub fn shipped_files(name: Option<&str>) -> PyResult<Vec<(String, Cow<'static, [
     let own = found.named(found.file).into_bytes();
     let beside = found.files().into_iter();
     let beside = beside.map(|(path, bytes)| (path.to_owned(), bytes.into()));
-    Ok(std::iter::once((found.file.to_owned(), own.into()))
-        .chain(beside)
-        .collect())
+    Ok(std::iter::once((found.file.to_owned(), own.into())).chain(beside).collect())
 }
 
 /// Version of the program.
@@ -186,8 +180,5 @@ pub fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(edited, module)?)?;
     module.add_function(wrap_pyfunction!(shipped_cases, module)?)?;
     module.add_function(wrap_pyfunction!(shipped_files, module)?)?;
-    module.add(
-        "NativeFailure",
-        module.py().get_type::<failure::NativeFailure>(),
-    )
+    module.add("NativeFailure", module.py().get_type::<failure::NativeFailure>())
 }

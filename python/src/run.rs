@@ -37,9 +37,7 @@ pub fn run(
     wait_for_stopped(py)?;
     let run = EmbeddedRun::default();
     let own = run.clone();
-    start(py, &run, progress, move || {
-        own.run(arguments, usize::from(threads))
-    })?;
+    start(py, &run, progress, move || own.run(arguments, usize::from(threads)))?;
     Ok(run.take_log())
 }
 
@@ -83,9 +81,7 @@ pub fn start<T: Send + 'static>(
                 Ok(Err(failed)) => failure::description(&failed)["text"].clone(),
                 _ => serde_json::Value::Null,
             };
-            signal
-                .value(py)
-                .setattr("frictionsim_message", said.as_str())?;
+            signal.value(py).setattr("frictionsim_message", said.as_str())?;
             return Err(signal);
         }
     }

@@ -54,13 +54,8 @@ pub fn read_table(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>> 
 fn read(path: &std::path::Path) -> Result<Vec<Column>, csv::Error> {
     let mut reader = csv::Reader::from_path(path)?;
     let names = reader.headers()?.clone();
-    let mut columns: Vec<Column> = names
-        .iter()
-        .map(|name| Column {
-            name: name.to_owned(),
-            cells: Vec::new(),
-        })
-        .collect();
+    let mut columns: Vec<Column> =
+        names.iter().map(|name| Column { name: name.to_owned(), cells: Vec::new() }).collect();
     for record in reader.records() {
         for (column, cell) in columns.iter_mut().zip(record?.iter()) {
             column.cells.push(cell.to_owned());

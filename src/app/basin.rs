@@ -54,8 +54,5 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         draw_basin(&folder, &summary, &drawing)?;
     }
     let object = write_summary(&folder, &summary)?;
-    session
-        .options
-        .output
-        .finish(folder, &summary.text(), &object)
+    session.options.output.finish(folder, &summary.text(), &object)
 }

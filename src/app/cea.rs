@@ -31,44 +31,20 @@ const KEPT: &str = "friction values that are done are kept: the same command wit
 /// What the rest of the program asks of this command.
 pub const PROFILE: Profile = Profile {
     files: &[
-        (
-            "eigenvalues.csv",
-            "one row for each mode and friction value",
-        ),
-        (
-            "stability.csv",
-            "one row for each crossing into instability",
-        ),
-        (
-            "sensitivities.csv",
-            "derivatives of eigenvalues and onsets by parameters",
-        ),
+        ("eigenvalues.csv", "one row for each mode and friction value"),
+        ("stability.csv", "one row for each crossing into instability"),
+        ("sensitivities.csv", "derivatives of eigenvalues and onsets by parameters"),
         (
             "contributions.csv, coupling.csv",
             "what each part, support and contact adds to growth; which modes couple",
         ),
-        (
-            "feed.csv, feed.vtu",
-            "where on the contact surfaces unstable modes are fed",
-        ),
-        (
-            "prestress.csv, prestress.vtu",
-            "steady sliding, node by node",
-        ),
-        (
-            "modes.pvd, modes/*.vtu",
-            "mode shapes, real and imaginary part",
-        ),
-        (
-            "map.csv",
-            "critical friction over a second parameter (cea.map)",
-        ),
+        ("feed.csv, feed.vtu", "where on the contact surfaces unstable modes are fed"),
+        ("prestress.csv, prestress.vtu", "steady sliding, node by node"),
+        ("modes.pvd, modes/*.vtu", "mode shapes, real and imaginary part"),
+        ("map.csv", "critical friction over a second parameter (cea.map)"),
     ],
     examples: &[
-        (
-            "frictionsim cea disc.toml",
-            "critical friction of every branch",
-        ),
+        ("frictionsim cea disc.toml", "critical friction of every branch"),
         (
             "frictionsim cea disc.toml --set contact.interference=30e-6 --json | jq .critical_frictions",
             "for scripts",
@@ -138,11 +114,8 @@ fn run_with(
     let solution = solve(&session, cea, &model, &steps)?;
     refuse_no_modes(case, cea, &solution.sweep)?;
 
-    let map = cea
-        .map
-        .as_ref()
-        .map(|map| eigenvalues::watched_map(case, cea, map, &steps))
-        .transpose()?;
+    let map =
+        cea.map.as_ref().map(|map| eigenvalues::watched_map(case, cea, map, &steps)).transpose()?;
     bar.finish_and_clear();
     let field = model.base_field(case);
     let report = CeaReport {
@@ -151,12 +124,7 @@ fn run_with(
     };
     let summary = write(&folder, &report)?;
     if let Some(drawing) = session.options.output.drawing() {
-        draw(
-            &folder,
-            &report,
-            &eigenvalues::dampings(case, &model),
-            &drawing,
-        )?;
+        draw(&folder, &report, &eigenvalues::dampings(case, &model), &drawing)?;
     }
     steps.discard();
     let table = print(&report, session.options.output.verbose > 0);
@@ -175,20 +143,13 @@ pub fn redraw(folder: &OutputFolder, case: &Case, options: &DrawingOptions) -> R
     let solution = eigenvalues::solve(case, cea, &model, &Unwatched)?;
     let field = model.base_field(case);
     let map = cea.map.as_ref();
-    let map = map
-        .map(|map| eigenvalues::map(case, cea, map))
-        .transpose()?;
+    let map = map.map(|map| eigenvalues::map(case, cea, map)).transpose()?;
     let wall_s = summary["wall_s"].as_f64().unwrap_or(f64::NAN);
     let report = CeaReport {
         map: map.as_ref(),
         ..eigenvalues::report(case, cea, &model, &solution, &field, wall_s)
     };
-    draw(
-        folder,
-        &report,
-        &eigenvalues::dampings(case, &model),
-        options,
-    )?;
+    draw(folder, &report, &eigenvalues::dampings(case, &model), options)?;
     Ok(())
 }
 
@@ -244,12 +205,10 @@ mod tests {
             wave: None,
         };
         let values = cea.solved_friction_coefficients();
-        let points = values
-            .into_iter()
-            .map(|friction_coefficient| FrictionPoint {
-                friction_coefficient,
-                modes: vec![mode.clone()],
-            });
+        let points = values.into_iter().map(|friction_coefficient| FrictionPoint {
+            friction_coefficient,
+            modes: vec![mode.clone()],
+        });
         Solution {
             sweep: FrictionSweep {
                 points: points.collect(),
@@ -273,11 +232,7 @@ mod tests {
     #[test]
     fn a_run_leaves_tables_fields_figures_and_its_manifest() {
         let folder = tempfile::tempdir().unwrap();
-        run(&arguments(
-            folder.path(),
-            &["cea.friction_coefficients=[0.1, 0.2]"],
-        ))
-        .unwrap();
+        run(&arguments(folder.path(), &["cea.friction_coefficients=[0.1, 0.2]"])).unwrap();
         for name in [
             "eigenvalues.csv",
             "stability.csv",
@@ -315,10 +270,7 @@ mod tests {
             assert!((base.torque_n_m.unwrap() / torque - 1.0).abs() < 1e-12);
             assert!((base.power_w / (torque * 610.0 * TAU / 60.0) - 1.0).abs() < 1e-12);
             // Lame's pressure for this interference: 2.827 MPa at nu = 0.38, a coarse mesh within 2 %.
-            assert!(
-                (base.pressure_pa[0] / 2.827e6 - 1.0).abs() < 0.02,
-                "{base:?}"
-            );
+            assert!((base.pressure_pa[0] / 2.827e6 - 1.0).abs() < 0.02, "{base:?}");
             Ok(made_up(cea, model))
         })
         .unwrap();
@@ -329,11 +281,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let failure = run_with(&arguments(folder.path(), &[]), |_, cea, model, _| {
             let mut solution = made_up(cea, model);
-            solution
-                .sweep
-                .points
-                .iter_mut()
-                .for_each(|point| point.modes.clear());
+            solution.sweep.points.iter_mut().for_each(|point| point.modes.clear());
             Ok(solution)
         })
         .unwrap_err();
@@ -341,9 +289,6 @@ mod tests {
             panic!("{failure:?}");
         };
         let text = errors.to_string();
-        assert!(
-            text.contains("no modes below it") && text.contains("modes = 10"),
-            "{text}"
-        );
+        assert!(text.contains("no modes below it") && text.contains("modes = 10"), "{text}");
     }
 }

@@ -30,10 +30,7 @@ pub struct Arguments {
 /// What the rest of the program asks of this command.
 pub const PROFILE: Profile = Profile {
     files: &[],
-    examples: &[(
-        "frictionsim check *.toml",
-        "are these cases valid, and what do they cost?",
-    )],
+    examples: &[("frictionsim check *.toml", "are these cases valid, and what do they cost?")],
     redraw: Redraw::Nothing,
 };
 
@@ -105,12 +102,7 @@ fn describe(name: &str, case: &Case, found: &Preflight) -> String {
     if !case.title.is_empty() {
         let _ = write!(out, " ({})", case.title);
     }
-    let Cost {
-        nodes,
-        elements,
-        dofs,
-        ..
-    } = found.cost;
+    let Cost { nodes, elements, dofs, .. } = found.cost;
     let _ = writeln!(
         out,
         "\n  mesh: {nodes} nodes, {elements} elements, {dofs} unknowns, about {}",
@@ -133,10 +125,7 @@ fn describe(name: &str, case: &Case, found: &Preflight) -> String {
     }
     if let Some(run) = &cost.transient {
         let about = if found.is_step_exact { "" } else { "about " };
-        let text = format!(
-            "time step {about}{:.4e} s, {:.0} steps",
-            run.time_step, run.steps
-        );
+        let text = format!("time step {about}{:.4e} s, {:.0} steps", run.time_step, run.steps);
         line("transient", text, run.memory_bytes, run.seconds);
     }
     if let Some(cycle) = &cost.cycle {
@@ -197,10 +186,7 @@ fn meshes(case: &Case) -> String {
             return format!("{elements:.0} elements");
         };
         let mesh = Convergence::refined(grid, *factor);
-        format!(
-            "{} x {}",
-            mesh.circumferential_elements, mesh.radial_elements
-        )
+        format!("{} x {}", mesh.circumferential_elements, mesh.radial_elements)
     });
     let mut text = meshes.collect::<Vec<_>>().join(", ");
     if !study.time_step_factors.is_empty() {

@@ -35,10 +35,7 @@ pub struct Arguments {
 /// What the rest of the program asks of this command.
 pub const PROFILE: Profile = Profile {
     files: &[("points.csv", "one row for each finished point")],
-    examples: &[(
-        "frictionsim collect study",
-        "gather what the shards have finished",
-    )],
+    examples: &[("frictionsim collect study", "gather what the shards have finished")],
     redraw: Redraw::Nothing,
 };
 

@@ -43,20 +43,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let names = names_of(&arguments.folders);
     let runs = arguments.folders.iter().zip(names).map(|(path, name)| {
         let page = std::fs::read_to_string(path.join(REPORT)).ok();
-        Ok(ComparedRun {
-            name,
-            manifest: read_manifest(path)?,
-            summary: read_summary(path)?,
-            page,
-        })
+        Ok(ComparedRun { name, manifest: read_manifest(path)?, summary: read_summary(path)?, page })
     });
     let runs: Vec<ComparedRun> = runs.collect::<Result<_, Failure>>()?;
     let quantities = shared(&runs);
     if quantities.is_empty() {
-        let commands: Vec<&str> = runs
-            .iter()
-            .map(|run| run.manifest.command.as_str())
-            .collect();
+        let commands: Vec<&str> = runs.iter().map(|run| run.manifest.command.as_str()).collect();
         return Err(Failure::usage(format!(
             "these runs ({}) share no number: compare runs of one command",
             commands.join(", ")
@@ -80,11 +72,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     write_comparison(&folder, &runs, &quantities)?;
     if let Some(drawing) = arguments.output.drawing() {
         let figures = overlaid(&runs, &drawing).map_err(DrawingError::from)?;
-        write_report(
-            &folder,
-            &html_report(&runs, &quantities, figures, &manifest),
-            &drawing,
-        )?;
+        write_report(&folder, &html_report(&runs, &quantities, figures, &manifest), &drawing)?;
     }
     let table = print(&runs, &quantities);
     let summary = ComparisonSummary {
@@ -145,25 +133,19 @@ fn manifest_of(folders: &[PathBuf], runs: &[ComparedRun]) -> Manifest {
 fn names_of(paths: &[PathBuf]) -> Vec<String> {
     let parts = |path: &Path| -> Vec<String> {
         let path = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-        let parts = path
-            .components()
-            .map(|part| part.as_os_str().to_string_lossy().into_owned());
+        let parts = path.components().map(|part| part.as_os_str().to_string_lossy().into_owned());
         parts.collect()
     };
     let all: Vec<Vec<String>> = paths.iter().map(|path| parts(path)).collect();
     let longest = all.iter().map(Vec::len).max().unwrap_or(1);
     for length in 1..=longest {
-        let names: Vec<String> = all
-            .iter()
-            .map(|own| own[own.len().saturating_sub(length)..].join("/"))
-            .collect();
+        let names: Vec<String> =
+            all.iter().map(|own| own[own.len().saturating_sub(length)..].join("/")).collect();
         let is_unique = |name: &String| names.iter().filter(|other| *other == name).count() == 1;
         if names.iter().all(is_unique) {
             return names;
         }
     }
     let numbered = paths.iter().enumerate();
-    numbered
-        .map(|(at, path)| format!("{} ({})", path.display(), at + 1))
-        .collect()
+    numbered.map(|(at, path)| format!("{} ({})", path.display(), at + 1)).collect()
 }

@@ -25,10 +25,7 @@ pub const PROFILE: Profile = Profile {
         ("convergence.csv", "one row for each quantity on each level"),
         ("record.bin", "what the figures are drawn from"),
     ],
-    examples: &[(
-        "frictionsim convergence disc.toml",
-        "observed orders and extrapolated values",
-    )],
+    examples: &[("frictionsim convergence disc.toml", "observed orders and extrapolated values")],
     redraw: Redraw::OfFolder(redraw),
 };
 

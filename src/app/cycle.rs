@@ -37,10 +37,7 @@ const KEPT: &str =
 /// What the rest of the program asks of this command.
 pub const PROFILE: Profile = Profile {
     files: &[
-        (
-            "cycle-nN.csv",
-            "contact and motion of the edge along the phase",
-        ),
+        ("cycle-nN.csv", "contact and motion of the edge along the phase"),
         ("branch-nN.csv", "one row for each cycle of a branch"),
         ("stability-nN.csv", "exponents of perturbations"),
         (
@@ -55,10 +52,7 @@ pub const PROFILE: Profile = Profile {
         ("record.bin", "what the figures are drawn from"),
     ],
     examples: &[
-        (
-            "frictionsim cycle disc.toml",
-            "the limit cycles of a case, without time stepping",
-        ),
+        ("frictionsim cycle disc.toml", "the limit cycles of a case, without time stepping"),
         (
             "frictionsim cycle block.toml --resume",
             "go on where a search on any other body was interrupted",
@@ -108,10 +102,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         figures::draw_record(&folder, case, &summary, &drawing)?;
     }
     steps.discard();
-    session
-        .options
-        .output
-        .finish(folder, &print(&report), &summary)
+    session.options.output.finish(folder, &print(&report), &summary)
 }
 
 /// Refuses phases whose dense matrices do not fit the machine's memory.

@@ -54,11 +54,7 @@ impl From<CaseErrors> for Failure {
 
 impl From<FolderError> for Failure {
     fn from(error: FolderError) -> Self {
-        if error.is_usage() {
-            Self::Usage(error.into())
-        } else {
-            Self::Run(error.into())
-        }
+        if error.is_usage() { Self::Usage(error.into()) } else { Self::Run(error.into()) }
     }
 }
 
@@ -79,11 +75,7 @@ impl From<PrestressError> for Failure {
 
 impl From<CeaError> for Failure {
     fn from(error: CeaError) -> Self {
-        if error.is_usage() {
-            Self::Usage(error.into())
-        } else {
-            Self::Run(error.into())
-        }
+        if error.is_usage() { Self::Usage(error.into()) } else { Self::Run(error.into()) }
     }
 }
 

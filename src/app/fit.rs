@@ -28,33 +28,19 @@ pub struct Arguments {
     #[arg(long, value_name = "SHAPES", value_hint = ValueHint::FilePath)]
     shapes: Option<PathBuf>,
     /// Factor that takes the coordinates of the shapes to metres
-    #[arg(
-        long,
-        value_name = "FACTOR",
-        default_value_t = 1.0,
-        requires = "shapes"
-    )]
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, requires = "shapes")]
     scale: f64,
 }
 
 /// What the rest of the program asks of this command.
 pub const PROFILE: Profile = Profile {
     files: &[
-        (
-            "fit.csv",
-            "each measured line with its mode and their difference",
-        ),
+        ("fit.csv", "each measured line with its mode and their difference"),
         ("modes.csv", "every mode of the fitted model"),
-        (
-            "fitted.toml",
-            "sections with the fitted values to paste into a case",
-        ),
+        ("fitted.toml", "sections with the fitted values to paste into a case"),
     ],
     examples: &[
-        (
-            "frictionsim fit bench.toml squeal.csv",
-            "which support explains the frequencies heard?",
-        ),
+        ("frictionsim fit bench.toml squeal.csv", "which support explains the frequencies heard?"),
         (
             "frictionsim fit bench.toml modes.csv --shapes shapes.unv --scale 0.001",
             "the same where shapes tell close modes apart",
@@ -74,10 +60,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let lines = read_modes(&bytes, &input_name(&arguments.modes))?;
     session.manifest.case_hash = joint_hash(&session.manifest.case_hash, &bytes);
     let shapes = read_measured(arguments, &mut session)?;
-    let shapes = shapes.as_deref().map(|shapes| MeasuredShapes {
-        shapes,
-        scale: arguments.scale,
-    });
+    let shapes = shapes.as_deref().map(|shapes| MeasuredShapes { shapes, scale: arguments.scale });
     session.check_memory(session.case.cost().mesh_memory_bytes)?;
     refuse_too_few(&session.case, &lines)?;
     let folder = session.open_folder()?;
@@ -96,10 +79,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(drawing) = session.options.output.drawing() {
         draw_report(&folder, &found, &drawing)?;
     }
-    session
-        .options
-        .output
-        .finish(folder, &found.text(), &object)
+    session.options.output.finish(folder, &found.text(), &object)
 }
 
 /// The measured shapes, if there are some; results belong to them and their scale too.
@@ -143,10 +123,8 @@ pub(super) fn joint_hash(case_hash: &str, table: &[u8]) -> String {
     let mut hash = Sha256::new();
     hash.update(case_hash.as_bytes());
     hash.update(table);
-    hash.finalize()
-        .iter()
-        .fold(String::new(), |mut text, byte| {
-            let _ = write!(text, "{byte:02x}");
-            text
-        })
+    hash.finalize().iter().fold(String::new(), |mut text, byte| {
+        let _ = write!(text, "{byte:02x}");
+        text
+    })
 }

@@ -26,10 +26,7 @@ pub struct Arguments {
 /// What the rest of the program asks of this command.
 pub const PROFILE: Profile = Profile {
     files: &[("frf.csv", "frequency, real and imaginary part")],
-    examples: &[(
-        "frictionsim frf hammer-test.toml",
-        "response of the model between two nodes",
-    )],
+    examples: &[("frictionsim frf hammer-test.toml", "response of the model between two nodes")],
     redraw: Redraw::OfFolder(redraw),
 };
 
@@ -101,11 +98,7 @@ fn described(case: &Case, frf: &Frf, computed: &Response) -> String {
         let direction = t.direction.name();
         format!("node {} {direction}", case.node_label(t.node))
     };
-    let error = match (
-        computed.largest_error,
-        computed.vectors,
-        computed.backward_error,
-    ) {
+    let error = match (computed.largest_error, computed.vectors, computed.backward_error) {
         (Some(error), Some(vectors), _) => {
             format!(" ({vectors} vectors, largest relative error at the check lines {error:.1e})")
         }

@@ -28,12 +28,7 @@ pub struct Arguments {
     quantity: Option<Quantity>,
     /// Column names, if the header is missing or misread: f, f_khz, omega, re, im, mag, db, phase, phase_rad,
     /// coherence, - to skip
-    #[arg(
-        long,
-        value_name = "NAMES",
-        value_delimiter = ',',
-        allow_hyphen_values = true
-    )]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', allow_hyphen_values = true)]
     columns: Vec<String>,
     /// Responses by name or number [default: all, fitted with common modes]
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
@@ -75,17 +70,11 @@ impl From<Quantity> for ResponseQuantity {
 /// What the rest of the program asks of this command.
 pub const PROFILE: Profile = Profile {
     files: &[
-        (
-            "modes.csv, fit.csv",
-            "frequencies and damping factors, and the fit through them",
-        ),
+        ("modes.csv, fit.csv", "frequencies and damping factors, and the fit through them"),
         ("damping.toml", "a [damping] block to paste into a case"),
         ("record.bin", "what the figures are drawn from"),
     ],
-    examples: &[(
-        "frictionsim identify FRF.csv --json",
-        "Rayleigh coefficients with intervals",
-    )],
+    examples: &[("frictionsim identify FRF.csv --json", "Rayleigh coefficients with intervals")],
     redraw: Redraw::OfFolder(redraw),
 };
 
@@ -100,12 +89,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let copy = uff
         .map(|path| SideFile::prepare("--uff", path, &arguments.response, arguments.output.force))
         .transpose()?;
-    let measurement = Measurement::start(
-        "identify",
-        &arguments.response,
-        &arguments.output,
-        choices(arguments),
-    )?;
+    let measurement =
+        Measurement::start("identify", &arguments.response, &arguments.output, choices(arguments))?;
     let reading = ResponseOptions {
         quantity: arguments.quantity.map(ResponseQuantity::from),
         columns: arguments.columns.clone(),
@@ -115,11 +100,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     for note in &file.notes {
         tracing::warn!("{}: {note}", measurement.source);
     }
-    let responses: Vec<FrequencyResponse> = file
-        .responses
-        .iter()
-        .map(|named| named.response.clone())
-        .collect();
+    let responses: Vec<FrequencyResponse> =
+        file.responses.iter().map(|named| named.response.clone()).collect();
     let found = identify(&responses, &options)
         .map_err(|error| Failure::run(format!("{}: {error}", measurement.source)))?;
     let folder = measurement.open_folder()?;
@@ -173,25 +155,19 @@ fn identification_options(arguments: &Arguments) -> Result<IdentificationOptions
         )));
     }
     let is_given = arguments.from.is_some() || arguments.to.is_some();
-    Ok(IdentificationOptions {
-        range_hz: is_given.then_some((low, high)),
-    })
+    Ok(IdentificationOptions { range_hz: is_given.then_some((low, high)) })
 }
 
 /// Options that change the result.
 fn choices(arguments: &Arguments) -> Vec<String> {
     let number = |name: &str, value: Option<f64>| value.map(|v| format!("{name}={v}"));
-    let quantity = arguments
-        .quantity
-        .map(|q| format!("quantity={}", ResponseQuantity::from(q).name()));
-    let mut out: Vec<String> = [
-        quantity,
-        number("from", arguments.from),
-        number("to", arguments.to),
-    ]
-    .into_iter()
-    .flatten()
-    .collect();
+    let quantity =
+        arguments.quantity.map(|q| format!("quantity={}", ResponseQuantity::from(q).name()));
+    let mut out: Vec<String> =
+        [quantity, number("from", arguments.from), number("to", arguments.to)]
+            .into_iter()
+            .flatten()
+            .collect();
     out.extend(arguments.columns.iter().map(|c| format!("columns={c}")));
     out.extend(arguments.channel.iter().map(|c| format!("channel={c}")));
     out

@@ -23,33 +23,18 @@ pub struct Arguments {
 /// What the rest of the program asks of this command.
 pub const PROFILE: Profile = Profile {
     files: &[
-        (
-            "candidates.csv",
-            "one row for each modification, the best first",
-        ),
-        (
-            "improve.vtu",
-            "derivatives of growth by a modification at each place",
-        ),
+        ("candidates.csv", "one row for each modification, the best first"),
+        ("improve.vtu", "derivatives of growth by a modification at each place"),
         ("improved.toml", "the keys that make the best one"),
-        (
-            "front.csv",
-            "mass against critical friction, with improve.front",
-        ),
+        ("front.csv", "mass against critical friction, with improve.front"),
     ],
     examples: &[
-        (
-            "frictionsim improve disc.toml",
-            "what raises the critical friction most",
-        ),
+        ("frictionsim improve disc.toml", "what raises the critical friction most"),
         (
             "frictionsim improve disc.toml --set improve.modifications=mass --set improve.mass=0.005",
             "where five grams do",
         ),
-        (
-            "frictionsim improve disc.toml --set improve.front=6",
-            "how little mass gets how far",
-        ),
+        ("frictionsim improve disc.toml --set improve.front=6", "how little mass gets how far"),
     ],
     redraw: Redraw::OfCase(redraw),
 };
@@ -87,10 +72,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         draw(&folder, &summary, &found.mesh, &found.fields, &drawing)?;
     }
     let object = write_summary(&folder, &summary)?;
-    session
-        .options
-        .output
-        .finish(folder, &summary.text(), &object)
+    session.options.output.finish(folder, &summary.text(), &object)
 }
 
 /// Draws the figures of a folder again: fields are found anew, the list is that of the summary.

@@ -18,11 +18,7 @@ struct Template {
 }
 
 const fn template(name: &'static str, case: &'static str, meaning: &'static str) -> Template {
-    Template {
-        name,
-        case,
-        meaning,
-    }
+    Template { name, case, meaning }
 }
 
 const TEMPLATES: &[Template] = &[
@@ -36,11 +32,7 @@ const TEMPLATES: &[Template] = &[
         "polycarbonate-610rpm.toml",
         "contact transient from first expansion to limit cycle",
     ),
-    template(
-        "sweep",
-        "speed-friction-study.toml",
-        "transients over rotation speed and friction",
-    ),
+    template("sweep", "speed-friction-study.toml", "transients over rotation speed and friction"),
     template(
         "convergence",
         "convergence.toml",
@@ -51,21 +43,9 @@ const TEMPLATES: &[Template] = &[
         "limit-cycle.toml",
         "limit cycles over the rotation speed, without time stepping",
     ),
-    template(
-        "basin",
-        "basin.toml",
-        "which of two stable limit cycles a transient ends on",
-    ),
-    template(
-        "frf",
-        "hammer-test.toml",
-        "frequency response of a free disc, as in a hammer test",
-    ),
-    template(
-        "fit",
-        "fit-table-1.toml",
-        "material and contact stiffness from measured modes",
-    ),
+    template("basin", "basin.toml", "which of two stable limit cycles a transient ends on"),
+    template("frf", "hammer-test.toml", "frequency response of a free disc, as in a hammer test"),
+    template("fit", "fit-table-1.toml", "material and contact stiffness from measured modes"),
     template(
         "uncertainty",
         "squeal-probability.toml",
@@ -76,11 +56,7 @@ const TEMPLATES: &[Template] = &[
         "sliding-block.toml",
         "a part of your own from a Gmsh mesh, on a moving plane",
     ),
-    template(
-        "two-bodies",
-        "pad-on-disc.toml",
-        "a pad on a disc from a mesh, both deformable",
-    ),
+    template("two-bodies", "pad-on-disc.toml", "a pad on a disc from a mesh, both deformable"),
     template(
         "three-dimensions",
         "ring-on-disc.toml",
@@ -133,18 +109,12 @@ pub const PROFILE: Profile = Profile {
     ],
     examples: &[
         ("frictionsim init transient", "write transient.toml"),
-        (
-            "frictionsim init mesh -o part.toml",
-            "a part of your own: part.toml and its mesh",
-        ),
+        ("frictionsim init mesh -o part.toml", "a part of your own: part.toml and its mesh"),
         (
             "frictionsim init --from brake.inp",
             "brake.toml with the materials, ties, contacts and conditions of brake.inp",
         ),
-        (
-            "frictionsim init --all",
-            "every shipped case, in the folder cases",
-        ),
+        ("frictionsim init --all", "every shipped case, in the folder cases"),
     ],
     redraw: Redraw::Nothing,
 };
@@ -200,10 +170,7 @@ fn list() -> String {
     for template in TEMPLATES {
         line(template.name, template.meaning);
     }
-    line(
-        REFERENCE,
-        "every key of a case with its default and meaning",
-    );
+    line(REFERENCE, "every key of a case with its default and meaning");
     for case in other_cases() {
         line(case.name(), case.title());
     }
@@ -216,9 +183,7 @@ const LONGEST_NAME: usize = 18;
 /// The shipped cases that are no templates.
 fn other_cases() -> impl Iterator<Item = ShippedCase> {
     let is_template = |case: &ShippedCase| TEMPLATES.iter().any(|own| own.case == case.file);
-    all_cases()
-        .into_iter()
-        .filter(move |case| !is_template(case))
+    all_cases().into_iter().filter(move |case| !is_template(case))
 }
 
 /// Writes the folder of the shipped cases.
@@ -287,10 +252,7 @@ fn find(name: &str) -> Result<(&str, ShippedCase), Failure> {
         let names = TEMPLATES.iter().map(|template| template.name);
         let others = other_cases().map(|case| case.name());
         let names: Vec<&str> = names.chain([REFERENCE]).chain(others).collect();
-        Failure::usage(format!(
-            "no template \"{name}\": choose one of {}",
-            names.join(", ")
-        ))
+        Failure::usage(format!("no template \"{name}\": choose one of {}", names.join(", ")))
     })
 }
 
@@ -303,10 +265,7 @@ fn exists(path: &Path) -> Failure {
 
 fn write(path: &Path, bytes: &[u8], force: bool) -> Result<(), Failure> {
     let failed = |error| Failure::run(format!("cannot write {}: {error}", path.display()));
-    if let Some(folder) = path
-        .parent()
-        .filter(|folder| !folder.as_os_str().is_empty())
-    {
+    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         std::fs::create_dir_all(folder).map_err(failed)?;
     }
     let mut options = std::fs::OpenOptions::new();
@@ -316,9 +275,7 @@ fn write(path: &Path, bytes: &[u8], force: bool) -> Result<(), Failure> {
     } else {
         options.create_new(true);
     }
-    let result = options
-        .open(path)
-        .and_then(|mut file| file.write_all(bytes));
+    let result = options.open(path).and_then(|mut file| file.write_all(bytes));
     result.map_err(|error| match error.kind() {
         std::io::ErrorKind::AlreadyExists => exists(path),
         _ => failed(error),
@@ -333,11 +290,7 @@ mod tests {
     #[test]
     fn every_template_is_a_shipped_case() {
         for template in TEMPLATES {
-            assert!(
-                ShippedCase::find(template.case).is_some(),
-                "{}",
-                template.name
-            );
+            assert!(ShippedCase::find(template.case).is_some(), "{}", template.name);
         }
         let case = Case::parse(REFERENCE, reference::template().as_bytes(), &[]);
         assert!(case.is_ok(), "{}", case.unwrap_err());

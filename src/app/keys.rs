@@ -43,9 +43,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         |key: &&CaseKey| key.name.contains(&lower) || key.meaning.to_lowercase().contains(&lower);
     let keys: Vec<&CaseKey> = KEYS.iter().filter(holds).collect();
     if keys.is_empty() {
-        return Err(Failure::usage(format!(
-            "no case key has \"{word}\" in its name or meaning"
-        )));
+        return Err(Failure::usage(format!("no case key has \"{word}\" in its name or meaning")));
     }
     if arguments.json {
         let objects: Vec<Value> = keys.iter().map(|key| reference::object(key)).collect();

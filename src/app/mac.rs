@@ -75,10 +75,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         draw_mac(&folder, &summary, &drawing)?;
     }
     let object = write_summary(&folder, &summary)?;
-    session
-        .options
-        .output
-        .finish(folder, &summary.text(), &object)
+    session.options.output.finish(folder, &summary.text(), &object)
 }
 
 /// Draws the figure and the report of a folder from its summary.

@@ -23,14 +23,8 @@ pub struct Arguments {
 
 /// Files that every command with an output folder writes.
 const EVERYWHERE: [(&str, &str); 3] = [
-    (
-        "summary.json",
-        "the results in short, and what they were made from",
-    ),
-    (
-        "manifest.json",
-        "case, overrides, version; names and checksums of all files",
-    ),
+    ("summary.json", "the results in short, and what they were made from"),
+    ("manifest.json", "case, overrides, version; names and checksums of all files"),
     ("report.html, figures/", "tables and figures"),
 ];
 
@@ -60,9 +54,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         None => &command,
         Some(name) if name == "case" => return terminal::print(&case_page()),
         Some(name) => command.find_subcommand(name).ok_or_else(|| {
-            Failure::usage(format!(
-                "there is no command {name}: see frictionsim --help"
-            ))
+            Failure::usage(format!("there is no command {name}: see frictionsim --help"))
         })?,
     };
     terminal::print(&String::from_utf8_lossy(&page(shown)?))
@@ -70,9 +62,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 fn write_pages(command: &clap::Command, folder: &std::path::Path) -> io::Result<()> {
     fs::create_dir_all(folder)?;
-    let subcommands = command
-        .get_subcommands()
-        .filter(|sub| sub.get_name() != "help");
+    let subcommands = command.get_subcommands().filter(|sub| sub.get_name() != "help");
     for command in std::iter::once(command).chain(subcommands) {
         let name = Man::new(command.clone()).get_filename();
         fs::write(folder.join(name), page(command)?)?;
@@ -96,9 +86,7 @@ fn page(command: &clap::Command) -> io::Result<Vec<u8>> {
     if let Some(profile) =
         profile(command.get_name()).filter(|profile| !profile.examples.is_empty())
     {
-        let writes_folder = command
-            .get_arguments()
-            .any(|arg| arg.get_id() == "no_figures");
+        let writes_folder = command.get_arguments().any(|arg| arg.get_id() == "no_figures");
         let everywhere: &[_] = if writes_folder { &EVERYWHERE } else { &[] };
         let files: Vec<_> = profile.files.iter().chain(everywhere).copied().collect();
         section(&mut text, "FILES", &files);
@@ -137,10 +125,7 @@ fn case_page() -> String {
                     "required" => "Required.".to_owned(),
                     other => format!("Default {other}."),
                 };
-                (
-                    term.replace(" )", ")"),
-                    format!("{}. {default}", key.meaning),
-                )
+                (term.replace(" )", ")"), format!("{}. {default}", key.meaning))
             })
             .collect();
         let entries: Vec<(&str, &str)> = entries.iter().map(|(t, m)| (&t[..], &m[..])).collect();
@@ -186,10 +171,7 @@ mod tests {
             assert!(is_told || !needs, "{}", sub.get_name());
         }
         for (name, profile) in PROFILES {
-            assert!(
-                command.find_subcommand(name).is_some(),
-                "{name} is no command"
-            );
+            assert!(command.find_subcommand(name).is_some(), "{name} is no command");
             for (line, _) in profile.examples {
                 let line = line.split(" | ").next().unwrap_or(line);
                 let words = line.split(' ').collect::<Vec<&str>>();

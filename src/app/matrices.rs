@@ -21,28 +21,16 @@ pub struct Arguments {
 /// What the rest of the program asks of this command.
 pub const PROFILE: Profile = Profile {
     files: &[
-        (
-            "matrices.json",
-            "what multiplies what, and the files of each matrix",
-        ),
-        (
-            "M.mtx, M.npz",
-            "mass without friction; C, K alike; _mu1, _mu2: coefficients of mu, mu^2",
-        ),
+        ("matrices.json", "what multiplies what, and the files of each matrix"),
+        ("M.mtx, M.npz", "mass without friction; C, K alike; _mu1, _mu2: coefficients of mu, mu^2"),
         (
             "contact_slip.mtx",
             "motion of the contact points along the sliding; contact_normal: along the normal",
         ),
         ("unknowns.csv", "node, direction and place of each unknown"),
-        (
-            "contact.csv",
-            "node, status, length and normal force of each contact point",
-        ),
+        ("contact.csv", "node, status, length and normal force of each contact point"),
     ],
-    examples: &[(
-        "frictionsim matrices block.toml",
-        "solve the same problem with another program",
-    )],
+    examples: &[("frictionsim matrices block.toml", "solve the same problem with another program")],
     redraw: Redraw::Nothing,
 };
 
@@ -60,8 +48,5 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let summary = MatricesSummary::new(&system, &case.title, wall_s, &session.manifest);
     write_matrices(&folder, &system, &summary)?;
     let object = write_summary(&folder, &summary)?;
-    session
-        .options
-        .output
-        .finish(folder, &print(&summary), &object)
+    session.options.output.finish(folder, &print(&summary), &object)
 }

@@ -68,10 +68,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         manifest: session.manifest.clone(),
     };
     let object = write_summary(&folder, &summary)?;
-    session
-        .options
-        .output
-        .finish(folder, &print(&summary), &object)
+    session.options.output.finish(folder, &print(&summary), &object)
 }
 
 /// The mesh of solid bodies.
@@ -147,8 +144,6 @@ fn shortest_wave(case: &Case) -> Option<f64> {
         let material = case.materials().of(region);
         (material.lame_constants()[1] / material.density).sqrt()
     };
-    let slowest = (0..case.body.region_count())
-        .map(speed)
-        .fold(f64::INFINITY, f64::min);
+    let slowest = (0..case.body.region_count()).map(speed).fold(f64::INFINITY, f64::min);
     Some(slowest / frequency)
 }

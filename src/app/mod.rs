@@ -53,12 +53,7 @@ use std::process::ExitCode;
 /// A deformable body, by default a disc on a rotating cylinder, is pressed against a moving counterface.
 /// `frictionsim init` writes a case to start from.
 #[derive(Parser)]
-#[command(
-    name = "frictionsim",
-    version,
-    max_term_width = 100,
-    arg_required_else_help = true
-)]
+#[command(name = "frictionsim", version, max_term_width = 100, arg_required_else_help = true)]
 #[command(after_help = "Options may stand before or after the command.\n\
                   Exit codes: 0 done, 1 the run failed, 2 bad usage or case, 130 interrupted.")]
 pub struct CommandLine {
@@ -122,9 +117,7 @@ fn profile(command: &str) -> Option<&'static Profile> {
 /// The command line with what its declarations cannot say: each command's own default folder.
 pub fn command_line() -> clap::Command {
     let mut command = CommandLine::command();
-    let names = command
-        .get_subcommands()
-        .map(|sub| sub.get_name().to_owned());
+    let names = command.get_subcommands().map(|sub| sub.get_name().to_owned());
     for name in names.collect::<Vec<String>>() {
         command = command.mut_subcommand(&name, |sub| {
             let positional = sub.get_positionals().next();
@@ -145,18 +138,11 @@ pub fn command_line() -> clap::Command {
 /// Moves options that stand before the subcommand behind it, where they are declared.
 fn options_behind_subcommand(command: &clap::Command, mut given: Vec<OsString>) -> Vec<OsString> {
     let takes_value = |option: &str| {
-        let all = command
-            .get_subcommands()
-            .flat_map(clap::Command::get_arguments);
-        all.filter(|arg| arg.get_action().takes_values())
-            .any(|arg| {
-                let long = arg
-                    .get_long()
-                    .is_some_and(|long| option == format!("--{long}"));
-                long || arg
-                    .get_short()
-                    .is_some_and(|short| option == format!("-{short}"))
-            })
+        let all = command.get_subcommands().flat_map(clap::Command::get_arguments);
+        all.filter(|arg| arg.get_action().takes_values()).any(|arg| {
+            let long = arg.get_long().is_some_and(|long| option == format!("--{long}"));
+            long || arg.get_short().is_some_and(|short| option == format!("-{short}"))
+        })
     };
     let mut at = 1;
     while let Some(option) = given.get(at).and_then(|text| text.to_str()) {

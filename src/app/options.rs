@@ -215,9 +215,7 @@ fn refuse_input_inside(folder: &Path, input: &Path) -> Result<(), Failure> {
     let Ok(name) = input.strip_prefix(&folder) else {
         return Ok(());
     };
-    let is_case = name
-        .extension()
-        .is_some_and(|extension| extension == "toml");
+    let is_case = name.extension().is_some_and(|extension| extension == "toml");
     if is_case && !is_result(&folder, name) {
         return Ok(());
     }

@@ -17,11 +17,7 @@ pub struct Profile {
 
 impl Profile {
     /// Of a command that tells everything in its help.
-    pub const NONE: Self = Self {
-        files: &[],
-        examples: &[],
-        redraw: Redraw::Nothing,
-    };
+    pub const NONE: Self = Self { files: &[], examples: &[], redraw: Redraw::Nothing };
 }
 
 /// How `frictionsim plot` draws a folder of results again.

@@ -61,13 +61,7 @@ impl Session {
             simd: simd.to_string(),
             ..Manifest::new(command)
         };
-        Ok(Self {
-            case,
-            options: options.clone(),
-            manifest,
-            simd,
-            start,
-        })
+        Ok(Self { case, options: options.clone(), manifest, simd, start })
     }
 
     /// Takes the output folder; it belongs to one effective case.
@@ -162,9 +156,7 @@ pub fn start_threads(asked: Option<u16>) -> usize {
 /// available, within the limit of the control group.
 pub fn available_memory() -> Option<f64> {
     let text = std::fs::read_to_string("/proc/meminfo").ok()?;
-    let line = text
-        .lines()
-        .find(|line| line.starts_with("MemAvailable:"))?;
+    let line = text.lines().find(|line| line.starts_with("MemAvailable:"))?;
     let kibibytes: f64 = line.split_whitespace().nth(1)?.parse().ok()?;
     let limit = std::fs::read_to_string("/sys/fs/cgroup/memory.max")
         .ok()

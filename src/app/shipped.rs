@@ -56,9 +56,7 @@ impl ShippedCase {
     pub fn named(&self, name: &str) -> String {
         let text = self.text.replace(&format!("cases/{}", self.file), name);
         let files = self.files().into_iter();
-        files.fold(text, |text, (file, _)| {
-            text.replace(&format!("cases/{file}"), file)
-        })
+        files.fold(text, |text, (file, _)| text.replace(&format!("cases/{file}"), file))
     }
 }
 

@@ -52,12 +52,7 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     channel: Vec<String>,
     /// Column names, if the header is missing or misread: t, t_ms, t_us, a channel's name, - to skip
-    #[arg(
-        long,
-        value_name = "NAMES",
-        value_delimiter = ',',
-        allow_hyphen_values = true
-    )]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', allow_hyphen_values = true)]
     columns: Vec<String>,
     /// Start of the interval for the peaks, s after the first sample
     #[arg(long, value_name = "S")]
@@ -95,10 +90,7 @@ pub const PROFILE: Profile = Profile {
         ("spectrum-N.csv", "spectrum of each channel"),
         ("record.bin", "what the figures are drawn from"),
     ],
-    examples: &[(
-        "frictionsim signal microphone.csv --case disc.toml",
-        "which mode squeals",
-    )],
+    examples: &[("frictionsim signal microphone.csv --case disc.toml", "which mode squeals")],
     redraw: Redraw::OfFolder(redraw),
 };
 
@@ -128,11 +120,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         tracing::warn!("{}: {note}", measurement.source);
     }
     check_drawing(arguments, &file)?;
-    let bar = terminal::progress(
-        arguments.output.is_quiet(),
-        file.channels.len() as u64,
-        "channels",
-    );
+    let bar =
+        terminal::progress(arguments.output.is_quiet(), file.channels.len() as u64, "channels");
     let analysed = file
         .channels
         .par_iter()
@@ -177,9 +166,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         draw_all(&folder, &record, &summary, &drawing)?;
     }
     let aside = write_copies(arguments, &copies, &file)?;
-    arguments
-        .output
-        .finish(folder, &(summary.print() + &aside), &object)
+    arguments.output.finish(folder, &(summary.print() + &aside), &object)
 }
 
 /// Length of the spectrogram's window, s.
@@ -194,10 +181,8 @@ fn window_length(arguments: &Arguments, file: &SignalFile) -> f64 {
 /// Refuses a window or a frequency with which nothing can be drawn.
 fn check_drawing(arguments: &Arguments, file: &SignalFile) -> Result<(), Failure> {
     let window = window_length(arguments, file);
-    let (shortest, longest) = (
-        4.0 / file.sampling_rate,
-        file.channels[0].samples.len() as f64 / file.sampling_rate,
-    );
+    let (shortest, longest) =
+        (4.0 / file.sampling_rate, file.channels[0].samples.len() as f64 / file.sampling_rate);
     if !(window >= shortest && window <= longest) {
         return Err(Failure::usage(format!(
             "--window {window}: the window of the spectrogram must be {shortest} (4 samples) to {longest} s \
@@ -260,9 +245,7 @@ fn analyse(
     // Of a record that grows and then settles the lines are those of its end.
     let end = channel.samples.len() as f64 / rate;
     let settles = |end_of_stage: f64| end_of_stage < (1.0 - LAST_SHARE) * end;
-    let grows = stage
-        .as_ref()
-        .is_ok_and(|stage| stage.is_growing() && settles(stage.end));
+    let grows = stage.as_ref().is_ok_and(|stage| stage.is_growing() && settles(stage.end));
     let begin = if grows { (1.0 - LAST_SHARE) * end } else { 0.0 };
     let from = arguments.from.unwrap_or(begin);
     let to = arguments.to.unwrap_or(end).min(end);

@@ -19,11 +19,7 @@ pub fn described(options: &RunOptions) -> Result<Option<FreeSystem>, Failure> {
         return Ok(None);
     }
     let bytes = read_input(&options.case, LARGEST_CASE)?;
-    let raw = RawCase::parse(
-        &input_name(&options.case),
-        &bytes,
-        &options.changes.overrides(),
-    )?;
+    let raw = RawCase::parse(&input_name(&options.case), &bytes, &options.changes.overrides())?;
     match FreeSystem::is_described_by(&raw) {
         true => Ok(Some(FreeSystem::read(raw)?)),
         false => Ok(None),

@@ -37,22 +37,13 @@ pub struct Arguments {
 pub const PROFILE: Profile = Profile {
     files: &[
         ("points.csv", "one row for each point"),
-        (
-            "points/point-NNNNNN.json",
-            "what came out of a point; the same bytes whoever ran it",
-        ),
+        ("points/point-NNNNNN.json", "what came out of a point; the same bytes whoever ran it"),
         ("points/clock-NNNNNN.json", "how long that took"),
     ],
     examples: &[
         ("frictionsim sweep study.toml", "all points on all cores"),
-        (
-            "frictionsim sweep study.toml --out study --shard 2/8",
-            "one of eight processes",
-        ),
-        (
-            "frictionsim sweep study.toml --resume",
-            "go on after Ctrl-C",
-        ),
+        ("frictionsim sweep study.toml --out study --shard 2/8", "one of eight processes"),
+        ("frictionsim sweep study.toml --resume", "go on after Ctrl-C"),
     ],
     redraw: Redraw::OfPoints(redraw),
 };
@@ -68,9 +59,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     session.check_memory(threads.min(plan.count()) as f64 * point_memory(&session, &plan))?;
     let points = arguments.share.pieces(plan.count());
     let output = &arguments.options.output;
-    let folder = arguments
-        .share
-        .open(&session, output, plan.count(), &points)?;
+    let folder = arguments.share.open(&session, output, plan.count(), &points)?;
 
     terminal::catch_signals(workers::KEPT);
     let progress = SweepProgress::new(output.is_quiet(), points.len());
@@ -120,9 +109,7 @@ fn point_memory(session: &Session, plan: &SweepPlan<'_>) -> f64 {
     let first = plan.point_case(1);
     let cost = first.as_ref().unwrap_or(&session.case).cost();
     let cea = cost.cea.map_or(0.0, |cea| cea.memory_bytes);
-    let transient = cost
-        .transient
-        .map_or(0.0, |transient| transient.memory_bytes);
+    let transient = cost.transient.map_or(0.0, |transient| transient.memory_bytes);
     cost.mesh_memory_bytes + cea.max(transient)
 }
 
@@ -163,11 +150,7 @@ pub fn drawing(case: &Case, plan: &SweepPlan<'_>, options: &DrawingOptions) -> S
     let own = case.contact.sliding.friction_coefficient;
     let cea = case.cea.as_ref().map(|cea| &cea.friction_coefficients);
     SweepDrawing {
-        references: if has_modes {
-            linear_stage(case).references
-        } else {
-            Vec::new()
-        },
+        references: if has_modes { linear_stage(case).references } else { Vec::new() },
         highest_friction: cea.into_iter().flatten().copied().fold(own, f64::max),
         options: options.clone(),
     }
@@ -192,16 +175,9 @@ pub fn gather(
     if let Some(drawing) = drawing {
         draw(folder, report, manifest, drawing)?;
     }
-    folder.write("points.csv", |out| {
-        write_points(out, report.keys, report.records)
-    })?;
-    for table in LONG_TABLES
-        .iter()
-        .filter(|table| table.is_of(report.analyses))
-    {
-        folder.write(table.file, |out| {
-            table.write(out, report.keys, report.records)
-        })?;
+    folder.write("points.csv", |out| write_points(out, report.keys, report.records))?;
+    for table in LONG_TABLES.iter().filter(|table| table.is_of(report.analyses)) {
+        folder.write(table.file, |out| table.write(out, report.keys, report.records))?;
     }
     let summary = summary_object(report, manifest)?;
     folder.write_summary(&summary)?;

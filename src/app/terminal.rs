@@ -50,11 +50,7 @@ pub fn report(failure: &Failure) -> u8 {
 /// Says a warning on stderr, for commands that keep no log.
 pub fn warn(warning: &impl std::fmt::Display) {
     // Nobody is left to tell if stderr is closed.
-    let _ = writeln!(
-        io::stderr().lock(),
-        "warning: {}",
-        shown(&warning.to_string())
-    );
+    let _ = writeln!(io::stderr().lock(), "warning: {}", shown(&warning.to_string()));
 }
 
 /// Commands of other programs and what they are called here.
@@ -185,11 +181,7 @@ pub fn start_log(quiet: u8, verbose: u8) {
 
 /// A progress bar on a terminal, nothing in a pipe or with `quiet`. `length` is 0 while it is not known.
 pub fn progress(quiet: bool, length: u64, message: &'static str) -> ProgressBar {
-    let bar = progress_in(
-        quiet,
-        length,
-        "{msg} [{bar:40}] {count}  {elapsed_precise}{left}",
-    );
+    let bar = progress_in(quiet, length, "{msg} [{bar:40}] {count}  {elapsed_precise}{left}");
     bar.set_message(message);
     bar
 }

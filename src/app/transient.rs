@@ -64,33 +64,15 @@ pub const PROFILE: Profile = Profile {
     files: &[
         ("probe-ID.csv", "motion of each probe over time"),
         ("energy.csv", "energies and powers, equations (8) to (12)"),
-        (
-            "contact.csv, contact.npz",
-            "contact status: fractions, and node by node",
-        ),
-        (
-            "harmonics.csv",
-            "amplitudes of the nodal diameters over time",
-        ),
-        (
-            "snapshots.pvd, snapshots/*.vtu",
-            "fields at the times asked for",
-        ),
-        (
-            "checkpoint.bin",
-            "state of an interrupted run, for --resume",
-        ),
+        ("contact.csv, contact.npz", "contact status: fractions, and node by node"),
+        ("harmonics.csv", "amplitudes of the nodal diameters over time"),
+        ("snapshots.pvd, snapshots/*.vtu", "fields at the times asked for"),
+        ("checkpoint.bin", "state of an interrupted run, for --resume"),
         ("record.bin", "what the figures are drawn from"),
     ],
     examples: &[
-        (
-            "frictionsim transient run.toml",
-            "from first expansion to limit cycle",
-        ),
-        (
-            "frictionsim transient run.toml --resume",
-            "go on after Ctrl-C",
-        ),
+        ("frictionsim transient run.toml", "from first expansion to limit cycle"),
+        ("frictionsim transient run.toml --resume", "go on after Ctrl-C"),
     ],
     redraw: Redraw::OfCase(figures::redraw),
 };
@@ -216,9 +198,7 @@ fn stopped(folder: OutputFolder, run: &CentralDifference<'_>) -> Failure {
         Ok(path) => path,
         Err(error) => return error.into(),
     };
-    let time = run
-        .plan()
-        .sample_time((run.steps_done() - 1) / run.plan().steps_per_sample);
+    let time = run.plan().sample_time((run.steps_done() - 1) / run.plan().steps_per_sample);
     Failure::Interrupted(format!(
         "stopped at t = {time:.6} s of {:.6} s; results so far are in {}; the same command with --resume goes on \
          from there",

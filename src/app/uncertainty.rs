@@ -40,10 +40,7 @@ pub struct Arguments {
 pub const PROFILE: Profile = Profile {
     files: &[
         ("samples.csv", "one row for each sample"),
-        (
-            "points/point-NNNNNN.json",
-            "a block of samples, for --resume",
-        ),
+        ("points/point-NNNNNN.json", "a block of samples, for --resume"),
     ],
     examples: &[
         (
@@ -70,9 +67,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     if !(arguments.bound > 0.0 && arguments.bound < 1.0) {
         let bound = arguments.bound;
-        return Err(Failure::usage(format!(
-            "--bound {bound}: a probability between 0 and 1"
-        )));
+        return Err(Failure::usage(format!("--bound {bound}: a probability between 0 and 1")));
     }
     let case = session.case.clone();
     let uncertainty = case.require_uncertainty()?;
@@ -95,14 +90,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     bar.finish_and_clear();
     let (samples, missing) = finished(&folder, count)?;
-    let samples: Vec<Sample> = samples
-        .into_iter()
-        .filter(|sample| sample.number <= uncertainty.samples)
-        .collect();
-    let mut summary = UncertaintySummary {
-        manifest: session.manifest.clone(),
-        ..summarize(&case, &samples)
-    };
+    let samples: Vec<Sample> =
+        samples.into_iter().filter(|sample| sample.number <= uncertainty.samples).collect();
+    let mut summary =
+        UncertaintySummary { manifest: session.manifest.clone(), ..summarize(&case, &samples) };
     if missing > 0 {
         summary.notes.push(format!(
             "{missing} of {count} blocks of samples are missing: run it again with --resume once all shards have ended"
@@ -135,10 +126,7 @@ pub fn redraw(path: &Path, options: &DrawingOptions) -> Result<(), Failure> {
     let folder = SweepFolder::find_of(path, "uncertainty")?.0;
     let bytes = std::fs::read(path.join("summary.json"))?;
     let summary: UncertaintySummary = serde_json::from_slice(&bytes).map_err(|error| {
-        Failure::usage(format!(
-            "{}: its summary.json is damaged: {error}",
-            path.display()
-        ))
+        Failure::usage(format!("{}: its summary.json is damaged: {error}", path.display()))
     })?;
     Ok(draw_report(&folder, &summary, options)?)
 }
@@ -188,10 +176,7 @@ fn run_block(
         version: manifest.version.clone(),
         simd: manifest.simd.clone(),
     };
-    let clock = PointClock {
-        wall_s: start.elapsed().as_secs_f64(),
-        ..PointClock::default()
-    };
+    let clock = PointClock { wall_s: start.elapsed().as_secs_f64(), ..PointClock::default() };
     Ok(folder.write_point(&record, &clock)?)
 }
 
@@ -205,9 +190,7 @@ fn block_samples(record: &PointRecord) -> serde_json::Result<Vec<Sample>> {
 fn check(design: &Design, case: &Case) -> Result<(), Failure> {
     let key = &design.key;
     if !find_key(key).is_some_and(|known| known.is_numeric()) {
-        return Err(Failure::usage(format!(
-            "--robust {key}: not a numeric case key"
-        )));
+        return Err(Failure::usage(format!("--robust {key}: not a numeric case key")));
     }
     let is_uncertain = case
         .uncertainty

@@ -44,14 +44,7 @@ impl AssemblyBody {
     /// [`PrestressError::Pair`] names the tie or contact whose surfaces do not meet.
     pub fn assembled(&self) -> Result<Assembly<'_>, PrestressError> {
         let (mesh, ties, contacts) = (&self.mesh, &self.ties, &self.contacts);
-        Assembly::new(
-            mesh,
-            &self.materials,
-            ties,
-            contacts,
-            &self.motions,
-            self.base,
-        )
+        Assembly::new(mesh, &self.materials, ties, contacts, &self.motions, self.base)
     }
 
     /// The same with all contact points at nodes, for steps in time.
@@ -88,15 +81,9 @@ pub(super) struct AssemblyParts {
 impl AssemblyParts {
     /// Direction and a point of the axis of what turns, bodies and rigid counterfaces, where all have the same.
     pub(super) fn axis(&self) -> Result<[[f64; 3]; 2], &'static str> {
-        let rigid = self
-            .contacts
-            .iter()
-            .filter_map(|contact| contact.surfaces.counter.rigid());
+        let rigid = self.contacts.iter().filter_map(|contact| contact.surfaces.counter.rigid());
         let turning = rigid.filter(|rigid| matches!(rigid.motion, RigidMotion::Turning(_)));
-        let motions = self
-            .motions
-            .iter()
-            .map(|(_, motion)| [motion.axis, motion.center]);
+        let motions = self.motions.iter().map(|(_, motion)| [motion.axis, motion.center]);
         let mut axes = motions.chain(turning.map(|rigid| [rigid.axis, rigid.center]));
         let first = axes.next().ok_or("nothing of the case turns")?;
         match axes.any(|other| other != first) {
@@ -107,10 +94,7 @@ impl AssemblyParts {
 
     /// Whether something turns.
     pub(super) fn turns(&self) -> bool {
-        let mut rigid = self
-            .contacts
-            .iter()
-            .filter_map(|contact| contact.surfaces.counter.rigid());
+        let mut rigid = self.contacts.iter().filter_map(|contact| contact.surfaces.counter.rigid());
         !self.motions.is_empty()
             || rigid.any(|rigid| matches!(rigid.motion, RigidMotion::Turning(_)))
     }
@@ -123,18 +107,13 @@ pub(super) fn sections(
     tables: &mut TableFiles<'_>,
 ) -> (AssemblyParts, Contact) {
     let motions = root.each("motion", motion);
-    let ties = root.each("ties", |section| {
-        [section.text("surface"), section.text("counter")]
-    });
+    let ties = root.each("ties", |section| [section.text("surface"), section.text("counter")]);
     let mut bases = Vec::new();
     let contacts = root.each("contacts", |section| contact(section, &mut bases, tables));
     let mut contacts: Vec<NamedContact> = contacts
         .into_iter()
         .map(|(name, contact)| NamedContact {
-            surfaces: SlidingSurfaces {
-                name: name.clone(),
-                ..contact.surfaces
-            },
+            surfaces: SlidingSurfaces { name: name.clone(), ..contact.surfaces },
             name,
             ..contact
         })
@@ -168,17 +147,10 @@ pub(super) fn sections(
                 first.map_or(0.0, |motion| motion.1.rotation_speed)
             }),
         },
-        stiffness: first.map_or_else(ContactStiffness::default, |contact| {
-            contact.surfaces.stiffness
-        }),
+        stiffness: first
+            .map_or_else(ContactStiffness::default, |contact| contact.surfaces.stiffness),
     };
-    let parts = AssemblyParts {
-        motions,
-        contacts,
-        ties,
-        base,
-        symmetry: None,
-    };
+    let parts = AssemblyParts { motions, contacts, ties, base, symmetry: None };
     (parts, common)
 }
 
@@ -205,10 +177,7 @@ fn inertia(section: &Section<'_>) -> Option<RotationFrame> {
     if section.has("frame") {
         section.reject(
             "frame",
-            format!(
-                "{} has no effect without the inertia of rotation",
-                section.name("frame")
-            ),
+            format!("{} has no effect without the inertia of rotation", section.name("frame")),
             "needs rotation_terms = true",
             "give rotation_terms = true, or leave frame out",
         );
@@ -247,10 +216,7 @@ pub(super) fn assemble(
     }
     let mut motions = Vec::new();
     for (name, motion) in parts.motions {
-        motions.push(Motion {
-            regions: vec![region(&name, &format!("motion.{name}"))?],
-            ..motion
-        });
+        motions.push(Motion { regions: vec![region(&name, &format!("motion.{name}"))?], ..motion });
     }
     let mut ties = Vec::new();
     for (name, [own, counter]) in parts.ties {
@@ -260,10 +226,7 @@ pub(super) fn assemble(
             name,
         });
     }
-    let reference = parts
-        .contacts
-        .first()
-        .map(|contact| contact.friction_coefficient);
+    let reference = parts.contacts.first().map(|contact| contact.friction_coefficient);
     let mut contacts = Vec::new();
     for NamedContact {
         sides: [own, counter],
@@ -283,14 +246,7 @@ pub(super) fn assemble(
         };
         contacts.push(surfaces);
     }
-    Ok(AssemblyBody {
-        mesh: Arc::new(mesh),
-        materials,
-        ties,
-        contacts,
-        motions,
-        base: parts.base,
-    })
+    Ok(AssemblyBody { mesh: Arc::new(mesh), materials, ties, contacts, motions, base: parts.base })
 }
 
 /// Place of a name among those of a mesh file.
@@ -310,10 +266,7 @@ fn named(known: &[String], name: &str, key: &str, what: &str) -> Result<usize, I
 impl AssemblyBody {
     /// Regions whose rotation has its inertia.
     pub fn rotors(&self) -> impl Iterator<Item = &str> {
-        let turning = self
-            .motions
-            .iter()
-            .filter(|motion| motion.inertia.is_some());
+        let turning = self.motions.iter().filter(|motion| motion.inertia.is_some());
         let regions = turning.flat_map(|motion| &motion.regions);
         regions.map(|&region| self.mesh.regions[region].as_str())
     }
@@ -353,9 +306,7 @@ impl AssemblyBody {
     /// Nodes of the contact surfaces.
     pub fn contact_node_count(&self) -> usize {
         let surfaces = self.contacts.iter().map(|contact| contact.surface);
-        surfaces
-            .map(|place| self.mesh.boundaries[place].nodes.len())
-            .sum()
+        surfaces.map(|place| self.mesh.boundaries[place].nodes.len()).sum()
     }
 }
 

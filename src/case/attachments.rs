@@ -33,19 +33,13 @@ pub(super) fn reshaped_annulus(
     let specification = BodySpecification {
         scale: 1.0,
         contact,
-        counterface: CounterfaceSpecification::Cylinder {
-            center,
-            radius: Some(spec.inner_radius),
-        },
+        counterface: CounterfaceSpecification::Cylinder { center, radius: Some(spec.inner_radius) },
         opposite: None,
         conditions: vec![("outer".to_owned(), spec.outer)],
     };
     let body = Mesh::from_gmsh(&file, &specification);
     let body = body.map_err(|error: MeshFileError| (key, error.to_string()))?;
-    let own = RegionMaterial {
-        elastic: annulus.materials.annulus,
-        damping: None,
-    };
+    let own = RegionMaterial { elastic: annulus.materials.annulus, damping: None };
     let table = annulus.tables[0].clone();
     let materials = vec![TabledMaterial { own, table }];
     Ok(ImportedBody::new(body, materials, file, specification))
@@ -62,11 +56,7 @@ pub(super) fn attach(
         return;
     }
     let all = root.section("modifications", false);
-    let extent = if body.dimension() == 2 {
-        thickness
-    } else {
-        1.0
-    };
+    let extent = if body.dimension() == 2 { thickness } else { 1.0 };
     let (mut attachments, mut patches) = (Vec::new(), Vec::new());
     for own in modifications {
         let section = all.section(&own.name, false);

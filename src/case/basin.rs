@@ -7,9 +7,7 @@ use crate::cycle::BasinRequest;
 pub(super) fn basin(root: &Section<'_>, body: Option<&Body>) -> Option<BasinRequest> {
     let section = root.section("basin", false);
     let given = section.is_given();
-    let pair = section
-        .harmonics(body.and_then(Body::sector_count))
-        .unwrap_or_else(|| vec![1, 2]);
+    let pair = section.harmonics(body.and_then(Body::sector_count)).unwrap_or_else(|| vec![1, 2]);
     let modes = section.counts("modes");
     let modes: Option<Vec<usize>> =
         modes.map(|values| values.into_iter().map(|(mode, _)| mode).collect());
@@ -26,10 +24,7 @@ pub(super) fn basin(root: &Section<'_>, body: Option<&Body>) -> Option<BasinRequ
     let request = BasinRequest {
         modes,
         harmonics: [pair.first(), pair.last()].map(|n| n.copied().unwrap_or(1)),
-        seed_ratios: [
-            section.number("seed_ratio_from"),
-            section.number("seed_ratio_to"),
-        ],
+        seed_ratios: [section.number("seed_ratio_from"), section.number("seed_ratio_to")],
         tolerance: section.number("tolerance"),
         periods: section.count("periods"),
     };

@@ -107,8 +107,7 @@ impl Body {
 
     /// Whether it was made of one sector of a mesh file.
     pub fn is_of_sectors(&self) -> bool {
-        self.whole_mesh()
-            .is_some_and(|mesh| mesh.symmetry.is_some())
+        self.whole_mesh().is_some_and(|mesh| mesh.symmetry.is_some())
     }
 
     /// Number of equal sectors, if the body has them.
@@ -237,11 +236,7 @@ impl Body {
             Self::Annulus(annulus) => annulus.specification.inner_radius,
             Self::Revolution(revolution) => revolution.specification.annulus.inner_radius,
             Self::Imported(imported) => match imported.mesh.counterface {
-                Counterface::Cylinder {
-                    radius,
-                    is_inside: true,
-                    ..
-                } => radius,
+                Counterface::Cylinder { radius, is_inside: true, .. } => radius,
                 _ => imported.size(),
             },
             Self::Assembly(assembly) => assembly.size(),
@@ -349,10 +344,7 @@ pub(super) fn node_count(annulus: &AnnulusSpecification) -> u128 {
 /// Nodes of a body of revolution, in a width that no input overflows.
 pub(super) fn solid_node_count(solid: &SolidSpecification) -> u128 {
     let annulus = &solid.annulus;
-    let (radial, layers) = (
-        annulus.radial_elements as u128,
-        solid.axial_elements as u128,
-    );
+    let (radial, layers) = (annulus.radial_elements as u128, solid.axial_elements as u128);
     let corners = (radial + 1).saturating_mul(layers + 1);
     let per_sector = if annulus.element.is_quadratic() {
         2 * corners + radial * (layers + 1) + (radial + 1) * layers

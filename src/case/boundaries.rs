@@ -38,10 +38,7 @@ fn condition(section: &Section<'_>) -> BoundaryCondition {
     if word == ConditionWord::Support && support.loss_factor > 0.0 && !has_springs {
         section.reject(
             "loss_factor",
-            format!(
-                "{} has no effect on a support without springs",
-                section.name("loss_factor")
-            ),
+            format!("{} has no effect on a support without springs", section.name("loss_factor")),
             "nothing is lost",
             "give a stiffness, or leave loss_factor out",
         );

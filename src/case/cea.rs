@@ -41,11 +41,7 @@ pub struct Cea {
 impl Cea {
     /// Friction coefficients to solve at: those of the tables and those of the shapes, rising.
     pub fn solved_friction_coefficients(&self) -> Vec<f64> {
-        let mut all = [
-            self.friction_coefficients.as_slice(),
-            self.shapes_at.as_slice(),
-        ]
-        .concat();
+        let mut all = [self.friction_coefficients.as_slice(), self.shapes_at.as_slice()].concat();
         all.sort_by(f64::total_cmp);
         all.dedup();
         all
@@ -70,9 +66,8 @@ pub(super) fn cea(
     if !section.is_given() {
         return None;
     }
-    let friction_coefficients = section
-        .rising("friction_coefficients")
-        .unwrap_or_else(|| vec![friction_coefficient]);
+    let friction_coefficients =
+        section.rising("friction_coefficients").unwrap_or_else(|| vec![friction_coefficient]);
     if friction_coefficients.is_empty() && section.is_empty_list("friction_coefficients") {
         section.reject(
             "friction_coefficients",
@@ -81,22 +76,17 @@ pub(super) fn cea(
             None,
         );
     }
-    let unknowns = body.map_or(0, |body| {
-        body.node_count().saturating_mul(body.dimension() as u128)
-    });
+    let unknowns =
+        body.map_or(0, |body| body.node_count().saturating_mul(body.dimension() as u128));
     let cea = Cea {
         modes: mode_selection(&section, unknowns),
         method: section.choice("method"),
         mass: section.choice("mass"),
         geometric_stiffness: section.flag("geometric_stiffness"),
-        shapes_at: section
-            .rising("shapes_at")
-            .unwrap_or_else(|| vec![friction_coefficient]),
+        shapes_at: section.rising("shapes_at").unwrap_or_else(|| vec![friction_coefficient]),
         friction_coefficients,
         map: cea_map(&section),
-        sensitivities: section
-            .has("sensitivities")
-            .then(|| section.flag("sensitivities")),
+        sensitivities: section.has("sensitivities").then(|| section.flag("sensitivities")),
         count_modes: section.flag("count_modes"),
     };
     section.close();
@@ -168,12 +158,7 @@ fn cea_map(cea: &Section<'_>) -> Option<CeaMap> {
     }
     let values = section.rising("values").unwrap_or_default();
     if !section.has("values") || section.is_empty_list("values") {
-        section.reject(
-            "values",
-            "cea.map.values is missing or empty",
-            "at least one value",
-            None,
-        );
+        section.reject("values", "cea.map.values is missing or empty", "at least one value", None);
     }
     section.close();
     Some(CeaMap { key, values })

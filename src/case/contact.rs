@@ -141,22 +141,11 @@ pub(super) fn contact(
     }
     if stiffness.is_base_compliant && (is_rigid || !is_solid) {
         let [label, help] = match is_solid {
-            true => [
-                "needs contact.normal_stiffness",
-                "give it, or leave base_state out",
-            ],
-            false => [
-                "is for three-dimensional bodies",
-                "plane bodies have a rigid base state",
-            ],
+            true => ["needs contact.normal_stiffness", "give it, or leave base_state out"],
+            false => ["is for three-dimensional bodies", "plane bodies have a rigid base state"],
         };
         let message = format!("contact.base_state = \"compliant\" {label}");
-        section.reject(
-            "base_state",
-            message,
-            label.to_owned(),
-            Some(help.to_owned()),
-        );
+        section.reject("base_state", message, label.to_owned(), Some(help.to_owned()));
     }
     section.close();
     (contact, place)
@@ -181,17 +170,11 @@ pub(super) fn no_rigid_losses(section: &Section<'_>, stiffness: &ContactStiffnes
 pub(super) fn friction_decay(section: &Section<'_>) -> Option<FrictionDecay> {
     let static_ratio = section.number("static_friction_ratio");
     let decay_speed = section.optional_number("decay_speed");
-    let decay = decay_speed.map(|decay_speed| FrictionDecay {
-        static_ratio,
-        decay_speed,
-    });
+    let decay = decay_speed.map(|decay_speed| FrictionDecay { static_ratio, decay_speed });
     if static_ratio > 1.0 && !section.has("decay_speed") {
         section.reject(
             "static_friction_ratio",
-            format!(
-                "{} = {static_ratio} needs decay_speed",
-                section.name("static_friction_ratio")
-            ),
+            format!("{} = {static_ratio} needs decay_speed", section.name("static_friction_ratio")),
             "falls over no speed",
             "give the speed over which friction falls, for example decay_speed = 0.2",
         );

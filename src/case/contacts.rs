@@ -55,10 +55,7 @@ fn refuse_generated(section: &Section<'_>, key: &str, is_given: bool) {
     if is_given {
         section.reject(
             key,
-            format!(
-                "{} has no meaning for a mesh of solid elements",
-                section.name(key)
-            ),
+            format!("{} has no meaning for a mesh of solid elements", section.name(key)),
             "of other bodies",
             "leave it out; surfaces that slide on each other are named under [contacts.NAME]",
         );
@@ -120,15 +117,8 @@ fn refuse_idle(section: &Section<'_>) {
     for key in ["radius", "speed", "rotation_speed_rpm", "interference"] {
         let _ = section.optional_number(key);
     }
-    let idle = [
-        "axis",
-        "center",
-        "direction",
-        "radius",
-        "speed",
-        "rotation_speed_rpm",
-        "interference",
-    ];
+    let idle =
+        ["axis", "center", "direction", "radius", "speed", "rotation_speed_rpm", "interference"];
     for key in idle.iter().filter(|key| section.has(key)) {
         section.reject(
             key,
@@ -161,10 +151,7 @@ fn sliding_surfaces(
     if stiffness.normal_stiffness.is_none() && stiffness.normal_damping > 0.0 {
         section.reject(
             "normal_damping",
-            format!(
-                "{} has no effect on a rigid contact",
-                section.name("normal_damping")
-            ),
+            format!("{} has no effect on a rigid contact", section.name("normal_damping")),
             "needs normal_stiffness",
             "give normal_stiffness, or leave normal_damping out",
         );

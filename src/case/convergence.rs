@@ -77,10 +77,7 @@ impl super::Case {
                 *imported = finer.map_err(|error| self.no_refinement(factor, &error))?;
             }
         }
-        Ok(Self {
-            body,
-            ..self.clone()
-        })
+        Ok(Self { body, ..self.clone() })
     }
 }
 
@@ -122,12 +119,7 @@ pub(super) fn read(root: &Section<'_>, body: Option<&Body>, has: [bool; 3]) -> O
                 check_meshes(&section, &annulus.specification, None, &factors);
             }
             Some(Body::Revolution(Revolution { specification, .. })) => {
-                check_meshes(
-                    &section,
-                    &specification.annulus,
-                    Some(specification),
-                    &factors,
-                );
+                check_meshes(&section, &specification.annulus, Some(specification), &factors);
             }
             None => {}
         }
@@ -152,11 +144,7 @@ pub(super) fn read(root: &Section<'_>, body: Option<&Body>, has: [bool; 3]) -> O
         );
     }
     section.close();
-    Some(Convergence {
-        factors,
-        time_step_factors,
-        analyses,
-    })
+    Some(Convergence { factors, time_step_factors, analyses })
 }
 
 /// Refuses fewer than three values.
@@ -179,9 +167,7 @@ fn has_enough(section: &Section<'_>, key: &'static str, values: &[f64]) -> bool 
 
 /// Refuses values that do not strictly rise (`sign` 1) or fall (-1).
 fn is_ordered(section: &Section<'_>, key: &'static str, values: &[f64], sign: f64) -> bool {
-    let pair = values
-        .windows(2)
-        .find(|pair| sign * (pair[1] - pair[0]) <= 0.0);
+    let pair = values.windows(2).find(|pair| sign * (pair[1] - pair[0]) <= 0.0);
     if let Some(pair) = pair {
         let (word, why) = if sign > 0.0 {
             ("rise", "each mesh finer than the one before")
@@ -190,12 +176,7 @@ fn is_ordered(section: &Section<'_>, key: &'static str, values: &[f64], sign: f6
         };
         section.reject(
             key,
-            format!(
-                "{} must {word}, but {} follows {}",
-                section.name(key),
-                pair[1],
-                pair[0]
-            ),
+            format!("{} must {word}, but {} follows {}", section.name(key), pair[1], pair[0]),
             why.to_owned(),
             None,
         );

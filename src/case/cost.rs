@@ -140,10 +140,7 @@ impl Case {
             mesh_memory_bytes: 160.0 * size.nodes as f64,
             cea: self.cea.as_ref().map(|cea| self.cea_cost(cea, size)),
             transient: transient.map(|transient| self.transient_cost(transient, size)),
-            cycle: self
-                .cycle
-                .as_ref()
-                .map(|cycle| self.cycle_cost(cycle, size)),
+            cycle: self.cycle.as_ref().map(|cycle| self.cycle_cost(cycle, size)),
             frf: self.frf.as_ref().map(|frf| self.frf_cost(frf, size)),
             // Some eight transients of 800 steps to a period, each at its longest.
             basin_seconds: self.basin.as_ref().map_or(0.0, |basin| {
@@ -211,11 +208,7 @@ impl Case {
         });
         let steps = study.time_step_factors.iter();
         let steps = steps.map(|factor| (self.cost(), vec![Analysis::Transient], 1.0 / factor));
-        let mut total = StudyCost {
-            runs: 0,
-            memory_bytes: 0.0,
-            seconds: 0.0,
-        };
+        let mut total = StudyCost { runs: 0, memory_bytes: 0.0, seconds: 0.0 };
         for (cost, analyses, times) in meshes.chain(steps) {
             for analysis in analyses {
                 total.runs += 1;
@@ -236,7 +229,6 @@ impl Case {
             (Analysis::Basin, self.basin.is_some()),
         ];
         let here = has.into_iter().filter(|pair| pair.1).map(|pair| pair.0);
-        here.filter(|analysis| named.is_empty() || named.contains(analysis))
-            .collect()
+        here.filter(|analysis| named.is_empty() || named.contains(analysis)).collect()
     }
 }

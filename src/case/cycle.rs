@@ -131,10 +131,8 @@ impl Case {
     /// A deformable shaft, friction that falls with speed, a body that is no generated annulus.
     pub fn require_rotating_waves(&self) -> Result<(), CaseErrors> {
         self.require_rigid_shaft("the search for rotating waves")?;
-        let (waves, search) = (
-            "limit cycles are rotating waves, which",
-            "rotating waves are sought in",
-        );
+        let (waves, search) =
+            ("limit cycles are rotating waves, which", "rotating waves are sought in");
         self.require_annulus(waves, search)?;
         self.require_constant_friction()
     }
@@ -142,11 +140,7 @@ impl Case {
     /// That a search for periodic motions of a whole body knows no circumferential harmonics.
     pub(super) fn ignored_harmonics(&self, command: &str) -> Option<Diagnostic> {
         let is_heard = command == "cycle" && !self.has_rotating_waves();
-        self.cycle
-            .as_ref()?
-            .harmonics
-            .as_ref()
-            .filter(|_| is_heard)?;
+        self.cycle.as_ref()?.harmonics.as_ref().filter(|_| is_heard)?;
         let key = "cycle.harmonics";
         Some(Diagnostic::error(
             format!(
@@ -222,13 +216,7 @@ pub(super) fn cycle(root: &Section<'_>, body: Option<&Body>) -> Option<Cycle> {
 }
 
 fn check_continuation(section: &Section<'_>, continuation: &Continuation) {
-    let Continuation {
-        key,
-        from,
-        to,
-        spacing,
-        ..
-    } = continuation;
+    let Continuation { key, from, to, spacing, .. } = continuation;
     let is_numeric = keys::find(key).is_some_and(|known| known.is_numeric());
     if is_numeric && Parameter::from_key(key).is_none() {
         let known = Parameter::ALL.map(Parameter::key);

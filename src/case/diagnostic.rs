@@ -80,12 +80,7 @@ impl Diagnostic {
         at: Location,
         help: impl Remedy,
     ) -> Self {
-        Self {
-            message: message.into(),
-            label: label.into(),
-            at,
-            help: help.remedy(),
-        }
+        Self { message: message.into(), label: label.into(), at, help: help.remedy() }
     }
 }
 
@@ -119,11 +114,7 @@ impl CaseErrors {
 
     /// A report for people: each error with file, line, column, caret and remedy.
     pub fn render(&self, color: bool) -> String {
-        let renderer = if color {
-            Renderer::styled()
-        } else {
-            Renderer::plain()
-        };
+        let renderer = if color { Renderer::styled() } else { Renderer::plain() };
         let safe = self.shown();
         let mut out = String::new();
         for (index, diagnostic) in safe.diagnostics.iter().enumerate() {
@@ -153,12 +144,7 @@ impl CaseErrors {
         };
         Self {
             sources: self.sources.iter().map(source).collect(),
-            diagnostics: self
-                .diagnostics
-                .iter()
-                .take(MOST_ERRORS)
-                .map(diagnostic)
-                .collect(),
+            diagnostics: self.diagnostics.iter().take(MOST_ERRORS).map(diagnostic).collect(),
         }
     }
 

@@ -18,9 +18,7 @@ pub(super) enum Surroundings {
     /// A plane body, and the axis of its counterface.
     Plane { center: Option<[f64; 2]> },
     /// Solid bodies, and the axis of their motion; else why there is none.
-    Solids {
-        axis: Result<[[f64; 3]; 2], &'static str>,
-    },
+    Solids { axis: Result<[[f64; 3]; 2], &'static str> },
 }
 
 /// The loss factor of a section, at most 1.
@@ -50,12 +48,7 @@ pub(super) fn elastic(
 ) -> ElasticMaterial {
     let density = section.number("density");
     let loss_factor = loss_factor(section);
-    let plain = ElasticMaterial {
-        density,
-        loss_factor,
-        formulation,
-        ..ElasticMaterial::PLAIN
-    };
+    let plain = ElasticMaterial { density, loss_factor, formulation, ..ElasticMaterial::PLAIN };
     if let Some(table) = table {
         return tabled(section, plain, table);
     }
@@ -70,10 +63,7 @@ pub(super) fn elastic(
             if section.has(key) {
                 section.reject(
                     key,
-                    format!(
-                        "{} beside the keys of an orthotropic material",
-                        section.name(key)
-                    ),
+                    format!("{} beside the keys of an orthotropic material", section.name(key)),
                     "isotropic or orthotropic",
                     "leave out the constants of the one or of the other",
                 );
@@ -105,11 +95,7 @@ pub(super) fn elastic(
             f64::NAN
         })
     });
-    ElasticMaterial {
-        young_modulus,
-        poisson_ratio,
-        ..plain
-    }
+    ElasticMaterial { young_modulus, poisson_ratio, ..plain }
 }
 
 /// An isotropic material with the modulus of the lowest frequency of its table, which gives the loss factor too.
@@ -117,11 +103,7 @@ fn tabled(section: &Section<'_>, plain: ElasticMaterial, table: &ModulusTable) -
     let _ = ORTHOTROPIC.map(|key| section.numbers(key));
     let _ = (axes(section), section.optional_number("young_modulus"));
     let excluded = ["young_modulus", "loss_factor", "axes"];
-    for key in excluded
-        .iter()
-        .chain(&ORTHOTROPIC)
-        .filter(|key| section.has(key))
-    {
+    for key in excluded.iter().chain(&ORTHOTROPIC).filter(|key| section.has(key)) {
         section.reject(
             key,
             format!("{} beside {}", section.name(key), section.name("table")),
@@ -194,10 +176,9 @@ fn axes(section: &Section<'_>) -> MaterialAxes {
     let Some(vectors) = section.vectors("axes") else {
         return match section.choice("axes") {
             AxesWord::Global => MaterialAxes::global(),
-            AxesWord::Cylindrical => MaterialAxes::Cylindrical {
-                axis: [0.0, 0.0, 1.0],
-                center: [0.0; 3],
-            },
+            AxesWord::Cylindrical => {
+                MaterialAxes::Cylindrical { axis: [0.0, 0.0, 1.0], center: [0.0; 3] }
+            }
         };
     };
     let filled = |vector: &[f64]| match *vector {

@@ -31,20 +31,14 @@ pub(super) fn sections(
 ) -> Vec<FileSection> {
     let model = &file.model;
     let mut sections: Vec<FileSection> = Vec::new();
-    let own = model
-        .materials
-        .iter()
-        .map(|material| material_section(material, units, left_out));
+    let own = model.materials.iter().map(|material| material_section(material, units, left_out));
     sections.extend(own);
     sections.extend(common_material(file, &sections));
     if file.dimension == 2 {
         refuse_in_plane(model, left_out);
     } else {
         for tie in &model.ties {
-            let keys = vec![
-                ("surface", text(&tie.surface)),
-                ("counter", text(&tie.counter)),
-            ];
+            let keys = vec![("surface", text(&tie.surface)), ("counter", text(&tie.counter))];
             sections.push(section(("ties", &tie.name), keys, &tie.place));
         }
         for contact in &model.contacts {
@@ -71,18 +65,11 @@ pub(super) fn sections(
         let keys = match condition.kind {
             FileConditionKind::Pressure(pressure) => vec![
                 ("condition", text("pressure")),
-                (
-                    "pressure",
-                    RawValue::Float(scaled(pressure, units.stress())),
-                ),
+                ("pressure", RawValue::Float(scaled(pressure, units.stress()))),
             ],
             FileConditionKind::Fixed(axes) => held(axes, file.dimension),
         };
-        sections.push(section(
-            ("boundaries", &condition.boundary),
-            keys,
-            &condition.place,
-        ));
+        sections.push(section(("boundaries", &condition.boundary), keys, &condition.place));
     }
     sections
 }
@@ -105,29 +92,18 @@ fn held(axes: [bool; 3], dimension: usize) -> Vec<(&'static str, RawValue)> {
         return vec![("condition", text("clamped"))];
     }
     let letters = ["x", "y", "z"].into_iter().zip(axes);
-    let letters = letters
-        .filter(|(_, is_held)| *is_held)
-        .map(|(letter, _)| text(letter));
-    vec![
-        ("condition", text("fixed")),
-        ("directions", list(letters.collect())),
-    ]
+    let letters = letters.filter(|(_, is_held)| *is_held).map(|(letter, _)| text(letter));
+    vec![("condition", text("fixed")), ("directions", list(letters.collect()))]
 }
 
 fn contact_keys(contact: &FileContact, units: UnitsWord) -> Vec<(&'static str, RawValue)> {
-    let mut keys = vec![
-        ("surface", text(&contact.surface)),
-        ("counter", text(&contact.counter)),
-    ];
+    let mut keys = vec![("surface", text(&contact.surface)), ("counter", text(&contact.counter))];
     let mut number = |key, value: Option<f64>| {
         keys.extend(value.map(|value| (key, RawValue::Float(value))));
     };
     number("friction_coefficient", contact.friction_coefficient);
     number("static_friction_ratio", contact.decay.map(|decay| decay.0));
-    number(
-        "decay_speed",
-        contact.decay.map(|decay| scaled(decay.1, units.length())),
-    );
+    number("decay_speed", contact.decay.map(|decay| scaled(decay.1, units.length())));
     let stiffness = |value| scaled(value, units.stress() - units.length());
     number("normal_stiffness", contact.normal_stiffness.map(stiffness));
     keys
@@ -169,19 +145,11 @@ fn material_section(
     let stress = |value: f64| RawValue::Float(scaled(value, units.stress()));
     let mut keys = Vec::new();
     match &material.elasticity {
-        Some(FileElasticity::Isotropic {
-            young_modulus,
-            poisson_ratio,
-        }) => {
+        Some(FileElasticity::Isotropic { young_modulus, poisson_ratio }) => {
             keys.push(("young_modulus", stress(*young_modulus)));
             keys.push(("poisson_ratio", RawValue::Float(*poisson_ratio)));
         }
-        Some(FileElasticity::Orthotropic {
-            young_moduli,
-            poisson_ratios,
-            shear_moduli,
-            axes,
-        }) => {
+        Some(FileElasticity::Orthotropic { young_moduli, poisson_ratios, shear_moduli, axes }) => {
             keys.push(("young_moduli", list(young_moduli.map(stress).to_vec())));
             keys.push(("poisson_ratios", numbers(poisson_ratios)));
             keys.push(("shear_moduli", list(shear_moduli.map(stress).to_vec())));
@@ -211,10 +179,7 @@ fn material_section(
         ("stiffness_coefficient", material.stiffness_coefficient),
         ("loss_factor", material.loss_factor),
     ];
-    for (key, value) in plain
-        .into_iter()
-        .filter_map(|(key, value)| Some((key, value?)))
-    {
+    for (key, value) in plain.into_iter().filter_map(|(key, value)| Some((key, value?))) {
         match keys::find(&format!("materials.*.{key}")) {
             Some(_) => keys.push((key, RawValue::Float(value))),
             None => left_out.push(LeftOut {
@@ -235,9 +200,7 @@ fn material_section(
 /// In the plane the formulation, too.
 fn common_material(file: &GmshFile, own: &[FileSection]) -> Option<FileSection> {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-    file.elements
-        .iter()
-        .for_each(|element| *counts.entry(&element.region).or_default() += 1);
+    file.elements.iter().for_each(|element| *counts.entry(&element.region).or_default() += 1);
     let of = |region: &str| own.iter().find(|section| section.path.1 == region);
     let is_isotropic = |section: &FileSection| {
         let has = |key: &str| section.keys.iter().any(|known| known.0 == key);
@@ -256,12 +219,7 @@ fn common_material(file: &GmshFile, own: &[FileSection]) -> Option<FileSection> 
         let isotropic = of(region).filter(|section| is_isotropic(section));
         let isotropic = isotropic.or_else(|| own.iter().find(|section| is_isotropic(section)))?;
         let common = ["young_modulus", "poisson_ratio", "density"];
-        keys = isotropic
-            .keys
-            .iter()
-            .filter(|key| common.contains(&key.0))
-            .cloned()
-            .collect();
+        keys = isotropic.keys.iter().filter(|key| common.contains(&key.0)).cloned().collect();
         place.clone_from(&isotropic.place);
     }
     keys.extend(formulation.map(|word| ("formulation", text(word))));
@@ -287,10 +245,7 @@ pub(super) fn item(value: RawValue, at: &Location) -> RawItem {
         }
         other => other,
     };
-    RawItem {
-        value,
-        at: at.clone(),
-    }
+    RawItem { value, at: at.clone() }
 }
 
 fn text(text: &str) -> RawValue {

@@ -42,19 +42,10 @@ pub(super) fn fit(root: &Section<'_>) -> Option<Fit> {
         .collect();
     refuse_twice(&inner, found.iter().map(|found| &found.parameter));
     if given && inner.is_given() && inner.remaining().is_empty() {
-        section.reject(
-            "parameters",
-            "fit.parameters is empty",
-            "at least one parameter",
-            None,
-        );
+        section.reject("parameters", "fit.parameters is empty", "at least one parameter", None);
     }
     section.close();
-    given.then_some(Fit {
-        parameters: found,
-        starts,
-        shape_weight,
-    })
+    given.then_some(Fit { parameters: found, starts, shape_weight })
 }
 
 /// `[from, to]` or `{ from, to, scale, also }`.
@@ -81,31 +72,18 @@ fn bounds(section: &Section<'_>, parameter: ModelParameter, entry: &RawEntry) ->
                     help,
                 ),
             }
-            ["from", "to"].map(|end| {
-                number(
-                    section,
-                    entry,
-                    table.get(end).map(|entry| &entry.item.value),
-                )
-            })
+            ["from", "to"]
+                .map(|end| number(section, entry, table.get(end).map(|entry| &entry.item.value)))
         }
         other => {
-            reject(
-                format!("the bounds of {key} are {}", other.kind()),
-                "not bounds",
-                help,
-            );
+            reject(format!("the bounds of {key} are {}", other.kind()), "not bounds", help);
             [f64::NAN; 2]
         }
     };
     for value in [from, to] {
         if value.is_finite() && !parameter.bound.admits(value) {
             let message = format!("{key} = {value} {}", parameter.bound.text());
-            reject(
-                message,
-                "a bound outside what the key allows",
-                "choose narrower bounds",
-            );
+            reject(message, "a bound outside what the key allows", "choose narrower bounds");
         }
     }
     if from >= to {
@@ -121,12 +99,7 @@ fn bounds(section: &Section<'_>, parameter: ModelParameter, entry: &RawEntry) ->
             "raise the lower bound above 0, or use scale = \"linear\"",
         );
     }
-    FitParameter {
-        parameter,
-        from,
-        to,
-        scale,
-    }
+    FitParameter { parameter, from, to, scale }
 }
 
 impl super::Case {

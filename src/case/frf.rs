@@ -72,14 +72,8 @@ pub(super) fn read(root: &Section<'_>, nodes: &Nodes<'_>) -> Option<Frf> {
     };
     let frf = Frf {
         boundary: section.choice("boundary"),
-        force: Terminal {
-            node: force_node,
-            direction: direction("force_direction"),
-        },
-        response: Terminal {
-            node: response_node,
-            direction: direction("response_direction"),
-        },
+        force: Terminal { node: force_node, direction: direction("force_direction") },
+        response: Terminal { node: response_node, direction: direction("response_direction") },
         frequencies_hz,
         quantity: section.choice("quantity"),
         method: section.choice("method"),

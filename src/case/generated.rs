@@ -27,9 +27,7 @@ pub(super) fn generated(
     let is_solid = solid::is_solid(material);
     imported::refuse_sectors(&mesh);
     let axial = solid::axial_elements(&geometry, &mesh, is_solid);
-    let sectors = Surroundings::Sectors {
-        is_plane: !is_solid,
-    };
+    let sectors = Surroundings::Sectors { is_plane: !is_solid };
     place_axes(root, &["material"], material, &sectors);
     let parts = (conditions, is_solid);
     let (mut annulus, mut shaft) = annulus(root, [&geometry, &mesh], parts, (material, tables));
@@ -83,16 +81,11 @@ fn revolution_body(
         BoundaryCondition::Support(support) => Some(support.loss_factor),
         _ => None,
     });
-    let own = [
-        material.own.elastic.loss_factor,
-        contact.stiffness.loss_factor,
-    ];
+    let own = [material.own.elastic.loss_factor, contact.stiffness.loss_factor];
     let is_lossy = loses.chain(own).any(|eta| eta > 0.0) || material.table.is_some();
     let cea = root.section("cea", false);
     let is_asked_for = cea.is_text("method", "sparse")
-        || root
-            .section("transient", false)
-            .is_text("operator", "sparse");
+        || root.section("transient", false).is_text("operator", "sparse");
     if changes.is_empty() && !is_lossy && !is_asked_for {
         return Some(Body::Revolution(revolution));
     }
@@ -142,14 +135,7 @@ fn annulus(
             "both are radii in metres; are they swapped?",
         );
     }
-    let shaft = shaft::shaft(
-        root,
-        [geometry, mesh],
-        inner_radius,
-        conditions,
-        material,
-        tables,
-    );
+    let shaft = shaft::shaft(root, [geometry, mesh], inner_radius, conditions, material, tables);
     if is_solid && shaft.is_some() {
         geometry.reject(
             "shaft_inner_radius",

@@ -60,9 +60,7 @@ pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
             default
         }
     };
-    let boundary = section
-        .optional_text("boundary")
-        .unwrap_or_else(|| "inner".to_owned());
+    let boundary = section.optional_text("boundary").unwrap_or_else(|| "inner".to_owned());
     let (center, radius) = (pair("center", [0.0; 2]), section.optional_number("radius"));
     let direction = pair("direction", [1.0, 0.0]);
     let speed = section.optional_number("speed");
@@ -95,13 +93,8 @@ pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
                     None,
                 );
             }
-            let plane = CounterfaceSpecification::Plane {
-                direction: Some(direction),
-            };
-            (
-                plane,
-                Some(speed.unwrap_or_else(|| section.number("speed"))),
-            )
+            let plane = CounterfaceSpecification::Plane { direction: Some(direction) };
+            (plane, Some(speed.unwrap_or_else(|| section.number("speed"))))
         }
     };
     let _ = section.numbers("axis");
@@ -130,13 +123,7 @@ pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
             "no effect",
         );
     }
-    ContactPlace {
-        solid: SolidContact::Inner,
-        boundary,
-        counterface,
-        opposite,
-        plane_speed,
-    }
+    ContactPlace { solid: SolidContact::Inner, boundary, counterface, opposite, plane_speed }
 }
 
 /// `[materials.*]`: elasticity in place of the common one, damping of its own, and tables over frequency.
@@ -214,11 +201,7 @@ pub(super) fn symmetry(
 ) -> Option<CyclicSymmetry> {
     let count = mesh.optional_count("sectors").filter(|count| *count > 1)?;
     match axis {
-        Ok([direction, point]) => Some(CyclicSymmetry {
-            count,
-            point,
-            direction,
-        }),
+        Ok([direction, point]) => Some(CyclicSymmetry { count, point, direction }),
         Err(why) => {
             mesh.reject(
                 "sectors",
@@ -244,10 +227,7 @@ pub(super) fn whole_body(
     let Some(symmetry) = symmetry else {
         return Ok(read);
     };
-    let in_file = CyclicSymmetry {
-        point: symmetry.point.map(|x| x / scale),
-        ..*symmetry
-    };
+    let in_file = CyclicSymmetry { point: symmetry.point.map(|x| x / scale), ..*symmetry };
     read.repeated(&in_file).map(Arc::new)
 }
 
@@ -267,12 +247,7 @@ impl ImportError {
     }
 
     pub(super) fn new(key: &str, message: String, label: &str) -> Self {
-        Self {
-            key: key.to_owned(),
-            message,
-            label: label.to_owned(),
-            help: suggestion::usage(key),
-        }
+        Self { key: key.to_owned(), message, label: label.to_owned(), help: suggestion::usage(key) }
     }
 
     /// Reports it at its key.
@@ -288,10 +263,9 @@ impl ImportError {
         };
         let (key, label) = match part {
             BodyPart::Contact => ("contact.boundary".to_owned(), "the contact curve"),
-            BodyPart::Opposite => (
-                "contact.counter_boundary".to_owned(),
-                "the curve of the other body",
-            ),
+            BodyPart::Opposite => {
+                ("contact.counter_boundary".to_owned(), "the curve of the other body")
+            }
             BodyPart::Boundary(name) => (format!("boundaries.{name}"), "a boundary of the mesh"),
             BodyPart::Direction => ("contact.direction".to_owned(), "must lie along the face"),
             BodyPart::Center => ("contact.center".to_owned(), "not the centre of the curve"),
@@ -324,17 +298,10 @@ pub(super) fn import(
     };
     let mesh = Mesh::from_gmsh(&read, &specification).map_err(unusable)?;
     check_meeting(&mesh, &specification, parts.interference).map_err(|message| {
-        ImportError::new(
-            "contact.counter_boundary",
-            message,
-            "the bodies do not meet",
-        )
+        ImportError::new("contact.counter_boundary", message, "the bodies do not meet")
     })?;
     let unknown = parts.materials.iter().map(|(name, _)| name);
-    if let Some(name) = unknown
-        .into_iter()
-        .find(|&name| !mesh.regions.contains(name))
-    {
+    if let Some(name) = unknown.into_iter().find(|&name| !mesh.regions.contains(name)) {
         let known = mesh.regions.iter().map(String::as_str);
         let hint = suggestion::nearest(name, known)
             .map_or_else(String::new, |near| format!("; did you mean \"{near}\"?"));
@@ -378,11 +345,7 @@ impl ImportedBody {
         file: Arc<GmshFile>,
         specification: BodySpecification,
     ) -> Self {
-        Self {
-            mesh: Arc::new(mesh),
-            materials,
-            source: Arc::new((file, specification)),
-        }
+        Self { mesh: Arc::new(mesh), materials, source: Arc::new((file, specification)) }
     }
 
     /// The same body with every element split into four, `times` over.

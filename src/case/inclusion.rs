@@ -64,10 +64,7 @@ fn expanded(
         };
         let here = chain[chain.len() - 1].display().to_string();
         let at = |reason: String| {
-            format!(
-                "{here}, line {}: cannot include {name}: {reason}",
-                number + 1
-            )
+            format!("{here}, line {}: cannot include {name}: {reason}", number + 1)
         };
         let path = found(name, chain);
         if chain.iter().any(|other| is_same(other, &path)) {
@@ -84,11 +81,7 @@ fn expanded(
             out.push_str(line);
             out.push('\n');
         }
-        out.push_str(&included_text(
-            comment,
-            name,
-            &String::from_utf8_lossy(&inner),
-        ));
+        out.push_str(&included_text(comment, name, &String::from_utf8_lossy(&inner)));
     }
     Ok(out.into_bytes())
 }

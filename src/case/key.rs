@@ -139,10 +139,7 @@ pub struct CaseKey {
 impl CaseKey {
     /// Whether the value is a single number, as a parameter study or a branch varies it.
     pub fn is_numeric(&self) -> bool {
-        matches!(
-            self.kind,
-            Kind::Number(_) | Kind::NumberOr(..) | Kind::Count(_) | Kind::Node
-        )
+        matches!(self.kind, Kind::Number(_) | Kind::NumberOr(..) | Kind::Count(_) | Kind::Node)
     }
 
     /// The name without its section.

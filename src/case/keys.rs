@@ -47,11 +47,7 @@ const fn key(
 impl CaseKey {
     /// This key, used by these commands alone; in the others something else holds.
     const fn used_by(self, commands: &'static [&'static str], otherwise: &'static str) -> Self {
-        Self {
-            used_by: commands,
-            otherwise,
-            ..self
-        }
+        Self { used_by: commands, otherwise, ..self }
     }
 }
 
@@ -363,11 +359,7 @@ pub(super) fn is_key_or_section(name: &str) -> bool {
 pub(super) fn is_section(name: &str) -> bool {
     KEYS.iter().any(|key| {
         let mut parts = key.name.split('.');
-        let fits = |given: &str| {
-            parts
-                .next()
-                .is_some_and(|part| part == "*" || part == given)
-        };
+        let fits = |given: &str| parts.next().is_some_and(|part| part == "*" || part == given);
         name.split('.').all(fits) && parts.next().is_some()
     })
 }

@@ -172,19 +172,13 @@ impl Case {
         let title = title(&raw, root.optional_text("title").unwrap_or_default());
         let mut tables = tables::TableFiles::of(&raw);
         let mut common = model::material(&root, &mut tables);
-        let model::Model {
-            body,
-            thickness,
-            mesh,
-            contact,
-        } = model::model(&root, &raw, &mut common, &mut tables);
+        let model::Model { body, thickness, mesh, contact } =
+            model::model(&root, &raw, &mut common, &mut tables);
         let (material, tables) = (common.own.elastic, tables.into_read());
         let damping = model::damping(&root);
         let cea = cea::cea(&root, body.as_ref(), contact.sliding.friction_coefficient);
         let transient = transient::transient(&root, body.as_ref(), &contact.sliding);
-        let nodes = node::Nodes {
-            body: body.as_ref(),
-        };
+        let nodes = node::Nodes { body: body.as_ref() };
         let output = transient::output(&root, &nodes, transient.as_ref());
         if transient.is_some() && body.as_ref().is_some_and(|body| !body.suits_transient()) {
             root.section("mesh", false).warn(
@@ -317,8 +311,7 @@ impl Case {
     ) -> CaseErrors {
         let at = self.raw.place(key);
         let help = help.remedy().or_else(|| suggestion::usage(key));
-        self.raw
-            .errors(vec![Diagnostic::error(message, label, at, help)])
+        self.raw.errors(vec![Diagnostic::error(message, label, at, help)])
     }
 }
 

@@ -60,9 +60,8 @@ fn unmodified(
 ) -> Model {
     let material = &mut common.own.elastic;
     let conditions = boundaries::all(root);
-    let is_pressed = conditions
-        .iter()
-        .any(|(_, condition)| matches!(condition, BoundaryCondition::Pressure(_)));
+    let is_pressed =
+        conditions.iter().any(|(_, condition)| matches!(condition, BoundaryCondition::Pressure(_)));
     let mesh = root.section("mesh", true);
     let file = mesh.optional_text("file");
     let scale = length_factor(&mesh);
@@ -77,12 +76,7 @@ fn unmodified(
         let parts = (conditions.as_slice(), is_pressed);
         let sizes = (thickness, changes);
         let (body, contact) = generated(root, sections, parts, (common, tables), sizes);
-        return Model {
-            body,
-            thickness,
-            mesh: None,
-            contact,
-        };
+        return Model { body, thickness, mesh: None, contact };
     };
     ignore_generated(&geometry, &mesh);
     geometry.close();
@@ -142,12 +136,7 @@ fn unmodified(
         body.map_err(|error| error.report(raw, &mesh)).ok()
     });
     mesh.close();
-    Model {
-        body: body.map(Body::Imported),
-        thickness,
-        mesh: bytes,
-        contact,
-    }
+    Model { body: body.map(Body::Imported), thickness, mesh: bytes, contact }
 }
 
 /// The solid bodies of a mesh file.
@@ -177,12 +166,7 @@ fn assembly_model(
         let body = assembly::assemble(bytes, scale, conditions, (common, &own), (parts, changes));
         body.map_err(|error| error.report(raw, mesh)).ok()
     });
-    Model {
-        body: body.map(Body::Assembly),
-        thickness,
-        mesh: bytes,
-        contact,
-    }
+    Model { body: body.map(Body::Assembly), thickness, mesh: bytes, contact }
 }
 
 /// Factor on the coordinates of a mesh file: that of its units, or `mesh.scale`.
@@ -224,12 +208,8 @@ fn materials(
 fn ignore_generated(geometry: &Section<'_>, mesh: &Section<'_>) {
     let radii = ["inner_radius", "outer_radius", "shaft_inner_radius"];
     let _ = radii.map(|key| geometry.optional_number(key));
-    let counts = [
-        "circumferential_elements",
-        "radial_elements",
-        "axial_elements",
-        "shaft_radial_elements",
-    ];
+    let counts =
+        ["circumferential_elements", "radial_elements", "axial_elements", "shaft_radial_elements"];
     let _ = counts.map(|key| mesh.optional_count(key));
     let (_, _): (_, ElementKind) = (mesh.number("radial_grading"), mesh.choice("element"));
     let shape = ["radial_grading", "element"];
@@ -238,10 +218,7 @@ fn ignore_generated(geometry: &Section<'_>, mesh: &Section<'_>) {
     for (section, key) in given.filter(|(section, key)| section.has(key)) {
         section.warn(
             key,
-            format!(
-                "{} is not used: mesh.file describes the body",
-                section.name(key)
-            ),
+            format!("{} is not used: mesh.file describes the body", section.name(key)),
             "no effect",
         );
     }
@@ -251,10 +228,8 @@ pub(super) fn material(root: &Section<'_>, tables: &mut TableFiles<'_>) -> Table
     let section = root.section("material", true);
     let formulation = section.choice("formulation");
     let table = modulus_table(&section, tables);
-    let own = RegionMaterial {
-        elastic: elastic(&section, formulation, table.as_deref()),
-        damping: None,
-    };
+    let own =
+        RegionMaterial { elastic: elastic(&section, formulation, table.as_deref()), damping: None };
     section.close();
     TabledMaterial { own, table }
 }

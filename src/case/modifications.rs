@@ -36,9 +36,7 @@ pub(super) type Misfit = (String, String);
 pub(super) fn sections(root: &Section<'_>) -> Vec<Modification> {
     let read = root.each("modifications", modification);
     let named = read.into_iter();
-    named
-        .map(|(name, own)| Modification { name, ..own })
-        .collect()
+    named.map(|(name, own)| Modification { name, ..own }).collect()
 }
 
 /// One section, without its name.
@@ -69,10 +67,7 @@ fn modification(section: &Section<'_>) -> Modification {
         direction,
         within: center.zip(radius),
         is_removed: section.flag("remove"),
-        coefficients: [
-            section.number("mass_coefficient"),
-            section.number("stiffness_coefficient"),
-        ],
+        coefficients: [section.number("mass_coefficient"), section.number("stiffness_coefficient")],
         offset: offset.map(|[x, y, _]| [x, y]),
     };
     check(section, &own);
@@ -104,11 +99,7 @@ fn check(section: &Section<'_>, own: &Modification) {
     }
     if own.direction.is_some_and(|d| d.iter().all(|x| *x == 0.0)) {
         let message = format!("{} = 0 points nowhere", section.name("direction"));
-        refuse(
-            "direction",
-            message,
-            "give a vector, or leave it out: every direction",
-        );
+        refuse("direction", message, "give a vector, or leave it out: every direction");
     }
     let is_inert = own.mass == 0.0
         && own.stiffness == 0.0
@@ -158,10 +149,7 @@ pub(super) fn reshaped(
         let less = file.without(|element| near(file.element_middle(element)));
         let key = format!("modifications.{}.remove", own.name);
         if less.elements.len() == file.elements.len() {
-            return Err((
-                key,
-                "no element has its middle within that radius".to_owned(),
-            ));
+            return Err((key, "no element has its middle within that radius".to_owned()));
         }
         if less.elements.is_empty() {
             return Err((key, "it takes the whole body away".to_owned()));

@@ -248,8 +248,5 @@ fn nearest_corner(
     let height = solid.thickness * layer / layers as f64;
     let node = solid.corner_node([i, layer as usize]);
     let place = [radius * angle.cos(), radius * angle.sin(), height];
-    Some((
-        (turn as usize).checked_mul(per_sector)?.checked_add(node)?,
-        place,
-    ))
+    Some(((turn as usize).checked_mul(per_sector)?.checked_add(node)?, place))
 }

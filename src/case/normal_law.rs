@@ -6,10 +6,7 @@ use crate::contact::{ContactStiffness, NormalLaw};
 
 /// The keys of a contact's law of pressure, and which of them each law has.
 const LAW_KEYS: [(&str, &[NormalLawWord]); 4] = [
-    (
-        "normal_stiffness",
-        &[NormalLawWord::Linear, NormalLawWord::Cubic],
-    ),
+    ("normal_stiffness", &[NormalLawWord::Linear, NormalLawWord::Cubic]),
     ("cubic_stiffness", &[NormalLawWord::Cubic]),
     ("reference_pressure", &[NormalLawWord::Exponential]),
     ("height", &[NormalLawWord::Exponential]),
@@ -30,10 +27,7 @@ pub(super) fn normal_law(
             };
             section.reject(
                 key,
-                format!(
-                    "{} has no effect with normal_law = \"{of_word}\"",
-                    section.name(key)
-                ),
+                format!("{} has no effect with normal_law = \"{of_word}\"", section.name(key)),
                 "not a number of this law",
                 "leave it out, or give the law that it belongs to",
             );
@@ -60,27 +54,15 @@ pub(super) fn normal_law(
         NormalLawWord::Cubic => stiffness
             .normal_stiffness
             .zip(number("cubic_stiffness"))
-            .map(|(stiffness, cubic_stiffness)| NormalLaw::Cubic {
-                stiffness,
-                cubic_stiffness,
-            }),
+            .map(|(stiffness, cubic_stiffness)| NormalLaw::Cubic { stiffness, cubic_stiffness }),
         NormalLawWord::Exponential => number("reference_pressure").zip(number("height")).map(
-            |(reference_pressure, height)| NormalLaw::Exponential {
-                reference_pressure,
-                height,
-            },
+            |(reference_pressure, height)| NormalLaw::Exponential { reference_pressure, height },
         ),
     };
     // What is asked for but unused is told above.
-    let _ = (
-        number("cubic_stiffness"),
-        number("reference_pressure"),
-        number("height"),
-    );
+    let _ = (number("cubic_stiffness"), number("reference_pressure"), number("height"));
     let at_rest = law.map(|law| law.stiffness(0.0));
-    let stiffness = ContactStiffness {
-        normal_stiffness: at_rest.or(stiffness.normal_stiffness),
-        ..stiffness
-    };
+    let stiffness =
+        ContactStiffness { normal_stiffness: at_rest.or(stiffness.normal_stiffness), ..stiffness };
     (law, stiffness)
 }

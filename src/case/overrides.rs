@@ -22,10 +22,7 @@ pub(super) fn source(text: &str) -> Source {
         Some(key) => ("--unset", key),
         None => ("--set", text),
     };
-    Source {
-        name: name.to_owned(),
-        text: text.to_owned(),
-    }
+    Source { name: name.to_owned(), text: text.to_owned() }
 }
 
 /// An override as a title quotes it.
@@ -138,10 +135,7 @@ fn parse(
     };
     place_within(&value_at, &mut errors);
     diagnostics.append(&mut errors);
-    let mut item = RawItem {
-        value,
-        at: value_at.clone(),
-    };
+    let mut item = RawItem { value, at: value_at.clone() };
     relocate(&mut item, &value_at);
     Some((path, item))
 }
@@ -211,10 +205,7 @@ fn insert(
     }
     let entry = table.entry(key.clone()).or_insert_with(|| RawEntry {
         key_at: key_at.clone(),
-        item: RawItem {
-            value: RawValue::Table(RawTable::new()),
-            at: key_at.clone(),
-        },
+        item: RawItem { value: RawValue::Table(RawTable::new()), at: key_at.clone() },
     });
     if let (RawValue::Array(items), [(part, _)]) = (&mut entry.item.value, rest)
         && let Some(place) = keys::list_place(part)
@@ -233,10 +224,7 @@ fn insert(
     }
     if !matches!(entry.item.value, RawValue::Table(_)) {
         // A path through a plain value: the reader of that key reports the table it then finds.
-        entry.item = RawItem {
-            value: RawValue::Table(RawTable::new()),
-            at: key_at.clone(),
-        };
+        entry.item = RawItem { value: RawValue::Table(RawTable::new()), at: key_at.clone() };
     }
     if let RawValue::Table(inner) = &mut entry.item.value {
         insert(inner, rest, item, diagnostics);

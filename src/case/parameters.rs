@@ -53,14 +53,10 @@ fn bound_of(name: &str) -> Result<Bound, String> {
     let section = name.split('.').next().unwrap_or_default();
     match key.kind {
         Kind::Number(bound) | Kind::NumberOr(bound, _) if MODEL.contains(&section) => Ok(bound),
-        Kind::Number(_) | Kind::NumberOr(..) => Err(format!(
-            "it is no parameter of the model, which has {}",
-            MODEL.join(", ")
-        )),
-        _ => Err(format!(
-            "its values are {}: it must be a number",
-            key.values()
-        )),
+        Kind::Number(_) | Kind::NumberOr(..) => {
+            Err(format!("it is no parameter of the model, which has {}", MODEL.join(", ")))
+        }
+        _ => Err(format!("its values are {}: it must be a number", key.values())),
     }
 }
 
@@ -97,10 +93,7 @@ fn collect<'a>(
         }
         (_, Err(reason)) => section.reject_placed(
             &entry.key_at,
-            format!(
-                "\"{name}\" in {} cannot be varied",
-                section.name("").trim_end_matches('.')
-            ),
+            format!("\"{name}\" in {} cannot be varied", section.name("").trim_end_matches('.')),
             "no continuous parameter",
             reason,
         ),
@@ -138,9 +131,7 @@ fn also(section: &Section<'_>, name: &str, entry: &RawEntry) -> Vec<String> {
 pub(super) fn number(section: &Section<'_>, entry: &RawEntry, value: Option<&RawValue>) -> f64 {
     let number = value.and_then(RawValue::number);
     number.filter(|v| v.is_finite()).unwrap_or_else(|| {
-        let found = value.map_or("missing".to_owned(), |v| {
-            format!("{} is given", v.shortened())
-        });
+        let found = value.map_or("missing".to_owned(), |v| format!("{} is given", v.shortened()));
         section.reject_placed(
             &entry.item.at,
             format!("a finite number is needed: {found}"),
@@ -153,10 +144,7 @@ pub(super) fn number(section: &Section<'_>, entry: &RawEntry, value: Option<&Raw
 
 /// Reports the keys of an entry that it does not take.
 pub(super) fn only(section: &Section<'_>, table: &RawTable, known: &[&str]) {
-    for (key, entry) in table
-        .iter()
-        .filter(|(key, _)| !known.contains(&key.as_str()))
-    {
+    for (key, entry) in table.iter().filter(|(key, _)| !known.contains(&key.as_str())) {
         section.reject_placed(
             &entry.key_at,
             format!("unknown key `{key}`"),

@@ -71,10 +71,7 @@ fn lengths(case: &Case) -> Option<Diagnostic> {
         }
     }
     let mut radii = case.body.grid().into_iter().flat_map(|grid| {
-        [
-            ("geometry.inner_radius", grid.inner_radius),
-            ("geometry.outer_radius", grid.outer_radius),
-        ]
+        [("geometry.inner_radius", grid.inner_radius), ("geometry.outer_radius", grid.outer_radius)]
     });
     if let Some((key, value)) = radii.find(|(_, value)| is_outside(*value)) {
         let message = format!("{key} = {value} m is {range}");
@@ -120,12 +117,7 @@ fn element_shape(case: &Case) -> Option<Diagnostic> {
     }
     let nodes = mesh.element_nodes(quality.worst_element);
     let count = nodes.len() as f64;
-    let sum = |axis: usize| {
-        nodes
-            .iter()
-            .map(|&n| mesh.nodes[n as usize][axis])
-            .sum::<f64>()
-    };
+    let sum = |axis: usize| nodes.iter().map(|&n| mesh.nodes[n as usize][axis]).sum::<f64>();
     let labels = nodes.iter().map(|&node| mesh.node_label(node as usize));
     Some(warning(
         case,
@@ -202,11 +194,7 @@ fn wave_speed(case: &Case) -> Option<Diagnostic> {
             "{modulus_key} = {modulus:e} Pa and material.density = {density:e} kg/m3 give \
              waves of {speed:.3e} m/s, outside {least} to {most} m/s"
         ),
-        if key == "material.density" {
-            "kg/m3?"
-        } else {
-            "pascals?"
-        },
+        if key == "material.density" { "kg/m3?" } else { "pascals?" },
         "a case is in SI: Pa, not MPa or GPa; kg/m3, not g/cm3 or t/mm3",
     ))
 }
@@ -237,18 +225,10 @@ fn friction(case: &Case) -> Option<Diagnostic> {
     let cea = case.cea.as_ref();
     let keys = [
         ("contact.friction_coefficient", own),
-        (
-            "cea.friction_coefficients",
-            cea.map_or(0.0, |cea| largest(&cea.friction_coefficients)),
-        ),
-        (
-            "cea.shapes_at",
-            cea.map_or(0.0, |cea| largest(&cea.shapes_at)),
-        ),
+        ("cea.friction_coefficients", cea.map_or(0.0, |cea| largest(&cea.friction_coefficients))),
+        ("cea.shapes_at", cea.map_or(0.0, |cea| largest(&cea.shapes_at))),
     ];
-    let (key, value) = keys
-        .into_iter()
-        .find(|(_, value)| *value > LARGEST_FRICTION)?;
+    let (key, value) = keys.into_iter().find(|(_, value)| *value > LARGEST_FRICTION)?;
     Some(warning(
         case,
         key,
@@ -385,10 +365,7 @@ fn overdamping(case: &Case) -> Option<Diagnostic> {
         Some(super::ModeSelection::BelowHz(limit)) => limit,
         _ => (bar_wave_speed(case) / (4.0 * case.body.size())).round(),
     };
-    let zeta = case
-        .damping
-        .rayleigh
-        .damping_factor(std::f64::consts::TAU * limit);
+    let zeta = case.damping.rayleigh.damping_factor(std::f64::consts::TAU * limit);
     (zeta > 1.0).then(|| {
         warning(
             case,

@@ -40,10 +40,7 @@ impl TableBytes {
     /// The name under which the table of a section, named by a key, lies beside the results.
     pub fn kept_as(key: &str, section: &str) -> String {
         let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
-        format!(
-            "{key}-{}.csv",
-            section.chars().map(plain).collect::<String>()
-        )
+        format!("{key}-{}.csv", section.chars().map(plain).collect::<String>())
     }
 }
 
@@ -67,11 +64,7 @@ impl PartialEq for MeshBytes {
 impl MeshBytes {
     /// The bytes of the mesh file that a case calls `file`.
     pub fn new(file: String, bytes: impl Into<Arc<[u8]>>) -> Self {
-        Self {
-            file,
-            bytes: bytes.into(),
-            parsed: Arc::default(),
-        }
+        Self { file, bytes: bytes.into(), parsed: Arc::default() }
     }
 
     /// The mesh and what the file holds beside it; read once.
@@ -127,11 +120,7 @@ impl RawCase {
             let source = self.overrides.len();
             overrides::lay(&mut self.root, text, source, &mut diagnostics);
         }
-        if diagnostics.is_empty() {
-            Ok(self)
-        } else {
-            Err(self.errors(diagnostics))
-        }
+        if diagnostics.is_empty() { Ok(self) } else { Err(self.errors(diagnostics)) }
     }
 
     /// This case with further overrides, as a sweep makes its points.
@@ -243,24 +232,14 @@ impl RawCase {
             let found = assignments.find(|(name, _)| *name == key);
             found.map_or("not given".to_owned(), |(_, value)| value.to_owned())
         };
-        Some(format!(
-            "{key} is {} here, {}",
-            value(&ours),
-            value(&theirs)
-        ))
+        Some(format!("{key} is {} here, {}", value(&ours), value(&theirs)))
     }
 
     /// Bundles diagnostics with the texts they point into.
     pub fn errors(&self, diagnostics: Vec<Diagnostic>) -> CaseErrors {
-        let mut sources = vec![Source {
-            name: self.name.clone(),
-            text: self.text.clone(),
-        }];
+        let mut sources = vec![Source { name: self.name.clone(), text: self.text.clone() }];
         sources.extend(self.overrides.iter().map(|text| overrides::source(text)));
-        CaseErrors {
-            sources,
-            diagnostics,
-        }
+        CaseErrors { sources, diagnostics }
     }
 
     /// Where a dotted key is written, else the nearest section around it.
@@ -301,22 +280,14 @@ impl RawCase {
 /// The text of a case file; else what it is instead, and as much of it as is fit to be shown.
 fn readable_text(bytes: &[u8]) -> Result<&str, (Diagnostic, String)> {
     let refuse = |message: &str, at: std::ops::Range<usize>, shown: String| {
-        let label = if at.is_empty() {
-            ""
-        } else {
-            "the first invalid byte"
-        };
+        let label = if at.is_empty() { "" } else { "the first invalid byte" };
         let (message, label) = (message.to_owned(), label.to_owned());
         let help = Some("save the file as UTF-8 text".to_owned());
         let error = Diagnostic::error(message, label, Location::new(0, at), help);
         Err((error, shown))
     };
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
-        return refuse(
-            "the case file is UTF-16 text, not UTF-8",
-            0..0,
-            String::new(),
-        );
+        return refuse("the case file is UTF-16 text, not UTF-8", 0..0, String::new());
     }
     if bytes.contains(&0) {
         return refuse(

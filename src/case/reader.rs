@@ -70,14 +70,7 @@ impl<'a> Section<'a> {
         table: Option<&'a RawTable>,
         at: Location,
     ) -> Self {
-        Self {
-            findings,
-            path,
-            table,
-            at,
-            declarations: None,
-            asked: RefCell::default(),
-        }
+        Self { findings, path, table, at, declarations: None, asked: RefCell::default() }
     }
 
     /// Whether the case has this section.
@@ -87,11 +80,7 @@ impl<'a> Section<'a> {
 
     /// Full dotted name of a key.
     pub fn name(&self, key: &str) -> String {
-        if self.path.is_empty() {
-            key.to_owned()
-        } else {
-            format!("{}.{key}", self.path)
-        }
+        if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
     }
 
     /// The declaration of a key; what is declared nowhere is free text.
@@ -376,10 +365,7 @@ impl<'a> Section<'a> {
         let default = self.declared(key).default == Default::Value("true");
         match self.item(key) {
             None => default,
-            Some(RawItem {
-                value: RawValue::Boolean(value),
-                ..
-            }) => *value,
+            Some(RawItem { value: RawValue::Boolean(value), .. }) => *value,
             Some(item) => {
                 self.reject_at(item, key, "must be true or false");
                 default

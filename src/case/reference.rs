@@ -35,10 +35,7 @@ pub fn markdown() -> String {
     for section in sections() {
         let _ = match section {
             "" => writeln!(out, "| key | values | unit | default | meaning |"),
-            _ => writeln!(
-                out,
-                "\n`[{section}]`\n\n| key | values | unit | default | meaning |"
-            ),
+            _ => writeln!(out, "\n`[{section}]`\n\n| key | values | unit | default | meaning |"),
         };
         let _ = writeln!(out, "|---|---|---|---|---|");
         for key in keys_of(section) {

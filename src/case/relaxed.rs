@@ -27,10 +27,7 @@ pub(super) fn relaxed(case: &Case) -> Option<RelaxedMaterials> {
         if let Some(table) = materials.table(region) {
             let [low, high] = table.range_hz();
             let ratio = |frequency_hz: f64| table.ratio(frequency_hz);
-            return Some(MaxwellChain::fit(
-                &ratio,
-                [low.max(LOWEST_OF_TABLE * high), high],
-            ));
+            return Some(MaxwellChain::fit(&ratio, [low.max(LOWEST_OF_TABLE * high), high]));
         }
         let eta = materials.of(region).loss_factor;
         let band = band.filter(|_| eta != 0.0)?;

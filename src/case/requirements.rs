@@ -140,8 +140,7 @@ impl Case {
                 _ => Vec::new(),
             };
             let own = names.iter();
-            own.map(|name| format!("{section}.{name}.loss_factor"))
-                .collect()
+            own.map(|name| format!("{section}.{name}.loss_factor")).collect()
         };
         let shared = ["material.loss_factor", "contact.loss_factor"].map(str::to_owned);
         let own = ["materials", "boundaries", "contacts"].map(keys);

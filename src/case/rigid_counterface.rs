@@ -30,10 +30,7 @@ pub(super) fn rigid_counterface(section: &Section<'_>) -> RigidCounterface {
     if shape == RigidShape::Plane && radius.is_some() {
         section.warn(
             "radius",
-            format!(
-                "{} is not used: the counterface is a plane",
-                section.name("radius")
-            ),
+            format!("{} is not used: the counterface is a plane", section.name("radius")),
             "no effect",
         );
     }

@@ -23,19 +23,14 @@ const FASTEST_WAVES: f64 = 1e6;
 
 /// The first friction coefficient that is none, with its key.
 fn absurd_friction(case: &Case) -> Option<(&'static str, f64)> {
-    let own = (
-        "contact.friction_coefficient",
-        case.contact.sliding.friction_coefficient,
-    );
+    let own = ("contact.friction_coefficient", case.contact.sliding.friction_coefficient);
     let cea = case.cea.iter();
     let swept = cea.flat_map(|cea| {
         let named = |key: &'static str, values: &[f64]| -> Vec<(&'static str, f64)> {
             values.iter().map(|value| (key, *value)).collect()
         };
         let swept = named("cea.friction_coefficients", &cea.friction_coefficients);
-        swept
-            .into_iter()
-            .chain(named("cea.shapes_at", &cea.shapes_at))
+        swept.into_iter().chain(named("cea.shapes_at", &cea.shapes_at))
     });
     let mut all = std::iter::once(own).chain(swept);
     all.find(|(_, value)| *value > LARGEST_FRICTION)

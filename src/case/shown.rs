@@ -8,10 +8,7 @@ use std::fmt::Write as _;
 fn is_hidden(c: char) -> bool {
     let is_control = c.is_control() && c != '\n' && c != '\t';
     is_control
-        || matches!(
-            c,
-            '\u{061c}' | '\u{200e}' | '\u{200f}' | '\u{2028}' | '\u{2029}'
-        )
+        || matches!(c, '\u{061c}' | '\u{200e}' | '\u{200f}' | '\u{2028}' | '\u{2029}')
         || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{fff9}'..='\u{fffb}')
 }
 
@@ -90,10 +87,7 @@ mod tests {
         let plain = "Scheibe \u{b5} = 0,3\tÄ\n日本";
         assert!(matches!(shown(plain), Cow::Borrowed(text) if text == plain));
         let evil = "a\u{1b}]0;b\u{7}\u{9b}31m\u{202e}c\r\u{7f}";
-        assert_eq!(
-            shown(evil),
-            "a\\u{1b}]0;b\\u{7}\\u{9b}31m\\u{202e}c\\r\\u{7f}"
-        );
+        assert_eq!(shown(evil), "a\\u{1b}]0;b\\u{7}\\u{9b}31m\\u{202e}c\\r\\u{7f}");
         let json = serde_json::to_string(&evil).unwrap();
         let safe = shown_json(&json);
         assert!(!safe.chars().any(is_hidden), "{safe}");
@@ -104,9 +98,6 @@ mod tests {
     #[test]
     fn long_lists_show_the_first_and_count_the_rest() {
         assert_eq!(first_of(["a", "b"], 2), "a, b");
-        assert_eq!(
-            first_of(1..=12, 10),
-            "1, 2, 3, 4, 5, 6, 7, 8, 9, 10 and 2 more"
-        );
+        assert_eq!(first_of(1..=12, 10), "1, 2, 3, 4, 5, 6, 7, 8, 9, 10 and 2 more");
     }
 }

@@ -61,9 +61,7 @@ pub(super) fn contact(
     let radii = ["ring_inner_radius", "ring_outer_radius"].map(|key| section.optional_number(key));
     let is_top = is_solid && section.is_text("boundary", "top");
     if !is_top {
-        for key in ["ring_inner_radius", "ring_outer_radius"]
-            .iter()
-            .filter(|key| section.has(key))
+        for key in ["ring_inner_radius", "ring_outer_radius"].iter().filter(|key| section.has(key))
         {
             section.reject(
                 key,
@@ -111,10 +109,7 @@ pub(super) fn contact(
             "are they swapped?",
         );
     }
-    SolidContact::Ring {
-        inner_radius: inner,
-        outer_radius: outer,
-    }
+    SolidContact::Ring { inner_radius: inner, outer_radius: outer }
 }
 
 /// What holds each face, from `[boundaries.*]`; the outer one is clamped unless something else is said.

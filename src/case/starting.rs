@@ -45,10 +45,7 @@ pub fn case_from(path: &Path, shown: &str) -> Result<String, String> {
         RawValue::String(shown.to_owned())
     );
     missing_materials(&file, &sections, &mut out);
-    for section in sections
-        .iter()
-        .filter(|section| section.path.0 != "material")
-    {
+    for section in sections.iter().filter(|section| section.path.0 != "material") {
         write_section(section, shown, &mut out);
     }
     proposed_motion(&file, units, &sections, &mut out);
@@ -64,43 +61,26 @@ pub fn case_from(path: &Path, shown: &str) -> Result<String, String> {
 
 /// The units that the file seems to be in, and why.
 fn units_of(file: &GmshFile) -> (UnitsWord, String) {
-    let densities = file
-        .model
-        .materials
-        .iter()
-        .filter_map(|material| material.density);
+    let densities = file.model.materials.iter().filter_map(|material| material.density);
     let lightest = densities.fold(f64::INFINITY, f64::min);
     if lightest.is_finite() {
-        let units = if lightest < TONNES {
-            UnitsWord::MmTS
-        } else {
-            UnitsWord::MKgS
-        };
-        return (
-            units,
-            format!("judged by the density {lightest:e} of a material; check it"),
-        );
+        let units = if lightest < TONNES { UnitsWord::MmTS } else { UnitsWord::MKgS };
+        return (units, format!("judged by the density {lightest:e} of a material; check it"));
     }
     let moduli =
-        file.model
-            .materials
-            .iter()
-            .filter_map(|material| match material.elasticity.as_ref()? {
-                FileElasticity::Isotropic { young_modulus, .. } => Some(*young_modulus),
-                FileElasticity::Orthotropic { young_moduli, .. } => {
-                    Some(young_moduli.iter().copied().fold(0.0, f64::max))
-                }
-            });
+        file.model.materials.iter().filter_map(|material| match material.elasticity.as_ref()? {
+            FileElasticity::Isotropic { young_modulus, .. } => Some(*young_modulus),
+            FileElasticity::Orthotropic { young_moduli, .. } => {
+                Some(young_moduli.iter().copied().fold(0.0, f64::max))
+            }
+        });
     let stiffest = moduli.fold(0.0, f64::max);
     if stiffest > 0.0 {
         let units = match stiffest > STIFFEST_MPA {
             true => UnitsWord::MKgS,
             false => UnitsWord::MmTS,
         };
-        return (
-            units,
-            format!("judged by the modulus {stiffest:e} of a material; check it"),
-        );
+        return (units, format!("judged by the modulus {stiffest:e} of a material; check it"));
     }
     let extent = (0..3).map(|axis| {
         let coordinates = || file.points.iter().map(|point| point[axis]);
@@ -108,11 +88,7 @@ fn units_of(file: &GmshFile) -> (UnitsWord, String) {
             - coordinates().fold(f64::INFINITY, f64::min)
     });
     let extent = extent.fold(0.0, f64::max);
-    let units = if extent > MILLIMETRES {
-        UnitsWord::MmTS
-    } else {
-        UnitsWord::MKgS
-    };
+    let units = if extent > MILLIMETRES { UnitsWord::MmTS } else { UnitsWord::MKgS };
     (units, format!("judged by the extent {extent:.4}; check it"))
 }
 
@@ -122,12 +98,8 @@ fn missing_materials(file: &GmshFile, sections: &[FileSection], out: &mut String
         let mut own = sections.iter().filter(|s| s.path.0 == "materials");
         own.any(|section| section.path.1 == region)
     };
-    let mut bare: Vec<&str> = file
-        .elements
-        .iter()
-        .map(|e| &*e.region)
-        .filter(|r| !has(r))
-        .collect();
+    let mut bare: Vec<&str> =
+        file.elements.iter().map(|e| &*e.region).filter(|r| !has(r)).collect();
     bare.sort_unstable();
     bare.dedup();
     let is_common = |section: &FileSection| {
@@ -171,10 +143,7 @@ fn write_section(section: &FileSection, shown: &str, out: &mut String) {
     }
     let has = |key: &str| section.keys.iter().any(|known| known.0 == key);
     if section.path.0 == "contacts" && !has("friction_coefficient") {
-        let _ = writeln!(
-            out,
-            "friction_coefficient = {FRICTION}    # CHOOSE: the file gives none"
-        );
+        let _ = writeln!(out, "friction_coefficient = {FRICTION}    # CHOOSE: the file gives none");
     }
     if section.path.0 == "materials" && !has("density") {
         out.push_str("density = 7850.0    # CHOOSE: the file gives none\n");
@@ -194,23 +163,15 @@ fn proposed_motion(file: &GmshFile, units: UnitsWord, sections: &[FileSection], 
     let Some(region) = faces.first().and_then(|face| region_of(file, face)) else {
         return;
     };
-    let normal = faces
-        .iter()
-        .map(|face| area_of(file, face))
-        .sum::<Vector3<f64>>();
+    let normal = faces.iter().map(|face| area_of(file, face)).sum::<Vector3<f64>>();
     let axis = normal.try_normalize(0.0).unwrap_or_else(Vector3::z);
     // Round-off is no part of a proposal.
     let rounded = |x: f64| (1e6 * x).round() / 1e6 + 0.0;
-    let own = file
-        .elements
-        .iter()
-        .filter(|element| *element.region == *region);
+    let own = file.elements.iter().filter(|element| *element.region == *region);
     let nodes: std::collections::BTreeSet<u32> =
         own.flat_map(|e| e.nodes.iter().copied()).collect();
-    let sum: Vector3<f64> = nodes
-        .iter()
-        .map(|&node| Vector3::from(file.points[node as usize]))
-        .sum();
+    let sum: Vector3<f64> =
+        nodes.iter().map(|&node| Vector3::from(file.points[node as usize])).sum();
     let center = sum / nodes.len() as f64 * 10f64.powi(units.length());
     let _ = write!(
         out,
@@ -235,14 +196,9 @@ fn region_of(file: &GmshFile, (_, nodes): &SurfaceFace) -> Option<String> {
 }
 
 fn area_of(file: &GmshFile, (kind, nodes): &SurfaceFace) -> Vector3<f64> {
-    let points: Vec<[f64; 3]> = nodes
-        .iter()
-        .map(|&node| file.points[node as usize])
-        .collect();
+    let points: Vec<[f64; 3]> = nodes.iter().map(|&node| file.points[node as usize]).collect();
     let quadrature = kind.quadrature().into_iter();
-    quadrature
-        .map(|point| Vector3::from(kind.at(&points, point).area))
-        .sum()
+    quadrature.map(|point| Vector3::from(kind.at(&points, point).area)).sum()
 }
 
 /// `[contact]` of a plane body, which has one.

@@ -61,9 +61,7 @@ const PART_SYNONYMS: &[(&str, &str)] = &[
 pub(super) fn suggest_part(word: &str, known: &[&str]) -> Option<String> {
     let plain = word.to_lowercase();
     let synonym = PART_SYNONYMS.iter().find(|pair| pair.0 == plain);
-    let synonym = synonym
-        .map(|pair| pair.1)
-        .filter(|meant| known.contains(meant));
+    let synonym = synonym.map(|pair| pair.1).filter(|meant| known.contains(meant));
     let far = |near: &&str| near.len() > 1 || plain.len() > 1 && plain.starts_with(*near);
     let near = synonym.or_else(|| nearest(&plain, known.iter().copied()).filter(far));
     Some(match near {
@@ -121,9 +119,7 @@ pub(super) fn nearest_word<'a>(word: &str, words: &[&'a str]) -> Option<&'a str>
     let synonym = WORD_SYNONYMS.iter().find(|pair| pair.0 == plain);
     let meant = synonym.map_or(plain.as_str(), |pair| pair.1);
     let exact = words.iter().find(|known| **known == meant);
-    exact
-        .copied()
-        .or_else(|| nearest(&plain, words.iter().copied()))
+    exact.copied().or_else(|| nearest(&plain, words.iter().copied()))
 }
 
 /// The key that other people call `word`.
@@ -136,9 +132,7 @@ fn synonym(word: &str) -> Option<&'static CaseKey> {
 /// The full name of the key nearest to a dotted name.
 pub(super) fn nearest_key(name: &str) -> Option<&'static str> {
     let last = name.rsplit('.').next().unwrap_or(name);
-    synonym(last)
-        .map(|key| key.name)
-        .or_else(|| nearest(name, KEYS.iter().map(|key| key.name)))
+    synonym(last).map(|key| key.name).or_else(|| nearest(name, KEYS.iter().map(|key| key.name)))
 }
 
 /// A hint for a key that does not exist: a synonym, a near miss in its section, the same key of
@@ -152,17 +146,12 @@ pub(super) fn suggest(section: &str, word: &str, known: &[&str]) -> Option<Strin
         return Some(elsewhere(key));
     }
     // A word that begins one key alone is short for it.
-    let mut begun = known
-        .iter()
-        .filter(|key| word.len() > 2 && key.starts_with(word));
+    let mut begun = known.iter().filter(|key| word.len() > 2 && key.starts_with(word));
     let abbreviated = begun.next().filter(|_| begun.next().is_none());
     if let Some(near) = nearest(word, known.iter().copied()).or(abbreviated.copied()) {
         return Some(format!("did you mean `{near}`?"));
     }
-    if let Some(found) = KEYS
-        .iter()
-        .find(|key| key.short() == word && !key.name.contains('*'))
-    {
+    if let Some(found) = KEYS.iter().find(|key| key.short() == word && !key.name.contains('*')) {
         return Some(elsewhere(found));
     }
     let full = format!("{section}.{word}");

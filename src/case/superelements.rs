@@ -91,13 +91,7 @@ impl FreeSystem {
                 for byte in digest.finalize() {
                     let _ = write!(hash, "{byte:02x}");
                 }
-                Ok(Self {
-                    title,
-                    superelement,
-                    modes,
-                    hash,
-                    raw,
-                })
+                Ok(Self { title, superelement, modes, hash, raw })
             }
             _ => Err(raw.errors(errors)),
         }
@@ -135,10 +129,7 @@ fn superelement(
     };
     let [mass, damping, stiffness] = MATRICES.map(|key| read(key, digest));
     let (mass, stiffness) = (mass??, stiffness??);
-    let none = MarketMatrix {
-        entries: Vec::new(),
-        ..mass.clone()
-    };
+    let none = MarketMatrix { entries: Vec::new(), ..mass.clone() };
     let damping = damping.unwrap_or(Some(none))?;
     let size = mass.rows;
     for (key, own) in MATRICES.iter().zip([&mass, &damping, &stiffness]) {
@@ -161,12 +152,7 @@ fn superelement(
         section.reject("mass", message, label, "reduce the system further");
         return None;
     }
-    let own = Superelement {
-        name: name.to_owned(),
-        mass,
-        damping,
-        stiffness,
-    };
+    let own = Superelement { name: name.to_owned(), mass, damping, stiffness };
     is_determined(section, &own).then_some(own)
 }
 

@@ -71,9 +71,7 @@ impl Sweep {
             .collect();
         places.reverse();
         let chosen = self.keys.iter().zip(places);
-        chosen
-            .flat_map(|(key, at)| key.overrides(&key.values[at]))
-            .collect()
+        chosen.flat_map(|(key, at)| key.overrides(&key.values[at])).collect()
     }
 }
 
@@ -93,10 +91,8 @@ pub(super) fn read(root: &Section<'_>) -> Option<Sweep> {
     if !fits(&section, combination, &entries) {
         return None;
     }
-    let keys: Vec<SweptKey> = entries
-        .into_iter()
-        .map(|(name, entry)| values(&section, name, entry))
-        .collect();
+    let keys: Vec<SweptKey> =
+        entries.into_iter().map(|(name, entry)| values(&section, name, entry)).collect();
     refuse_twice(&section, &keys);
     if keys.is_empty() {
         section.reject_placed(
@@ -106,11 +102,7 @@ pub(super) fn read(root: &Section<'_>) -> Option<Sweep> {
             "add for example `\"contact.friction_coefficient\" = [0.2, 0.3, 0.4]`",
         );
     }
-    let sweep = Sweep {
-        keys,
-        combination,
-        analyses,
-    };
+    let sweep = Sweep { keys, combination, analyses };
     check_lengths(&section, &sweep);
     Some(sweep)
 }
@@ -259,12 +251,7 @@ fn values(section: &Section<'_>, key: String, entry: &RawEntry) -> SweptKey {
             "list its values or give a range { from, to, count }",
         );
     }
-    SweptKey {
-        key,
-        also,
-        values,
-        at: entry.item.at.clone(),
-    }
+    SweptKey { key, also, values, at: entry.item.at.clone() }
 }
 
 fn check_lengths(section: &Section<'_>, sweep: &Sweep) {
@@ -315,11 +302,7 @@ pub(super) fn check_values(case: &Case) -> Result<(), CaseErrors> {
             }
         }
     }
-    if errors.is_empty() {
-        Ok(())
-    } else {
-        Err(case.raw.errors(errors))
-    }
+    if errors.is_empty() { Ok(()) } else { Err(case.raw.errors(errors)) }
 }
 
 fn read_point(raw: RawCase) -> Result<(), CaseErrors> {

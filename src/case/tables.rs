@@ -23,10 +23,7 @@ pub(super) struct TableFiles<'a> {
 impl<'a> TableFiles<'a> {
     /// Those of a case, none read yet.
     pub(super) fn of(raw: &'a RawCase) -> Self {
-        Self {
-            raw,
-            read: Vec::new(),
-        }
+        Self { raw, read: Vec::new() }
     }
 
     /// What was read.
@@ -45,10 +42,7 @@ impl<'a> TableFiles<'a> {
             }
         };
         if !self.read.iter().any(|table| table.file == file) {
-            self.read.push(TableBytes {
-                file: file.to_owned(),
-                bytes: Arc::clone(&bytes),
-            });
+            self.read.push(TableBytes { file: file.to_owned(), bytes: Arc::clone(&bytes) });
         }
         Ok(bytes)
     }
@@ -56,9 +50,7 @@ impl<'a> TableFiles<'a> {
 
 fn read_file(path: &Path) -> Result<Arc<[u8]>, String> {
     let fail = |reason: String| format!("cannot read the table {}: {reason}", path.display());
-    let size = std::fs::metadata(path)
-        .map_err(|error| fail(error.to_string()))?
-        .len();
+    let size = std::fs::metadata(path).map_err(|error| fail(error.to_string()))?.len();
     if size > LARGEST {
         return Err(fail(format!("it is larger than {} MiB", LARGEST >> 20)));
     }
@@ -73,10 +65,7 @@ pub(super) fn modulus_table(
 ) -> Option<Arc<ModulusTable>> {
     let file = section.optional_text("table")?;
     let reject = |message: String, label: &str, help: &str| {
-        let (message, label) = (
-            format!("{}: {message}", section.name("table")),
-            label.to_owned(),
-        );
+        let (message, label) = (format!("{}: {message}", section.name("table")), label.to_owned());
         section.reject("table", message, label, Some(help.to_owned()));
     };
     let readable = files.bytes(&file);
@@ -93,11 +82,7 @@ pub(super) fn modulus_table(
         }
     };
     if let Err((line, what, help)) = sound(&rows) {
-        reject(
-            format!("{file}:{line}: {what}"),
-            "no material is like that",
-            help,
-        );
+        reject(format!("{file}:{line}: {what}"), "no material is like that", help);
         return None;
     }
     if let Some((line, what)) = falling(&rows) {
@@ -107,9 +92,7 @@ pub(super) fn modulus_table(
         );
         section.warn("table", message, "falls with the frequency");
     }
-    let rows = rows
-        .iter()
-        .map(|row| [row.frequency_hz, row.young_modulus, row.loss_factor]);
+    let rows = rows.iter().map(|row| [row.frequency_hz, row.young_modulus, row.loss_factor]);
     let key = section.name("table");
     Some(Arc::new(ModulusTable::new(&key, &file, rows.collect())))
 }
@@ -139,20 +122,11 @@ pub(super) fn topography(
 fn sound(rows: &[ModulusRow]) -> Result<(), (usize, String, &'static str)> {
     if let [only] = rows {
         let what = "one row alone covers no range of frequencies".to_owned();
-        return Err((
-            only.line,
-            what,
-            "give young_modulus and loss_factor instead, or more rows",
-        ));
+        return Err((only.line, what, "give young_modulus and loss_factor instead, or more rows"));
     }
     let mut before = f64::NEG_INFINITY;
     for row in rows {
-        let ModulusRow {
-            line,
-            frequency_hz,
-            young_modulus,
-            loss_factor,
-        } = *row;
+        let ModulusRow { line, frequency_hz, young_modulus, loss_factor } = *row;
         if frequency_hz < 0.0 {
             let what = format!("the frequency {frequency_hz} Hz is below zero");
             return Err((line, what, "frequencies begin at 0 or above it"));
@@ -161,11 +135,7 @@ fn sound(rows: &[ModulusRow]) -> Result<(), (usize, String, &'static str)> {
             let what = format!(
                 "the frequency {frequency_hz} Hz does not lie above the {before} Hz before it"
             );
-            return Err((
-                line,
-                what,
-                "sort the rows by frequency and leave repeated ones out",
-            ));
+            return Err((line, what, "sort the rows by frequency and leave repeated ones out"));
         }
         if young_modulus <= 0.0 {
             let what = format!("the modulus {young_modulus} Pa is not above zero");
@@ -181,11 +151,7 @@ fn sound(rows: &[ModulusRow]) -> Result<(), (usize, String, &'static str)> {
             let what = format!(
                 "the loss factor {loss_factor} is beyond 1, where half of the strain energy is lost in a sixth of a cycle"
             );
-            return Err((
-                line,
-                what,
-                "at most 1; rubber has 0.1 to 1. Is it in percent?",
-            ));
+            return Err((line, what, "at most 1; rubber has 0.1 to 1. Is it in percent?"));
         }
         before = frequency_hz;
     }
@@ -197,10 +163,7 @@ fn falling(rows: &[ModulusRow]) -> Option<(usize, String)> {
     let mut largest = 0.0_f64;
     for row in rows {
         if row.young_modulus < (1.0 - FALL) * largest {
-            let what = format!(
-                "the modulus falls from {largest:e} to {:e} Pa",
-                row.young_modulus
-            );
+            let what = format!("the modulus falls from {largest:e} to {:e} Pa", row.young_modulus);
             return Some((row.line, what));
         }
         largest = largest.max(row.young_modulus);

@@ -44,10 +44,7 @@ pub(super) fn effective(raw: &mut RawCase) -> (RawTable, Taken) {
     };
     let units = text("mesh.units").and_then(|word| word_of(&word));
     // A file that cannot be read is told where the body is made of it.
-    let unread = Taken {
-        is_unread: true,
-        ..Taken::default()
-    };
+    let unread = Taken { is_unread: true, ..Taken::default() };
     let Ok(bytes) = imported::mesh_bytes(raw, &name) else {
         return (table, unread);
     };
@@ -144,13 +141,7 @@ fn merge(root: &mut RawTable, mut section: FileSection, at: &Location) -> Option
     }
     for (key, value) in &section.keys {
         let item = item(value.clone(), at);
-        table.insert(
-            (*key).to_owned(),
-            RawEntry {
-                key_at: at.clone(),
-                item,
-            },
-        );
+        table.insert((*key).to_owned(), RawEntry { key_at: at.clone(), item });
     }
     Some(section)
 }
@@ -218,11 +209,7 @@ fn is_given(own: &RawTable, section: &str, key: &str) -> bool {
 /// What is taken, in one sentence for each group.
 fn summary(taken: &Taken) -> Vec<String> {
     let mut groups: Vec<(&str, Vec<String>)> = Vec::new();
-    for section in taken
-        .sections
-        .iter()
-        .filter(|section| section.path.0 != "material")
-    {
+    for section in taken.sections.iter().filter(|section| section.path.0 != "material") {
         let name = match section.path.0 {
             "materials" => format!("{} ({})", section.path.1, section.name),
             _ => section.path.1.clone(),
@@ -253,11 +240,7 @@ impl Taken {
             return None;
         }
         let mut message = format!("{} holds what is not used: ", self.file);
-        let named: Vec<String> = loud
-            .iter()
-            .take(MOST_NAMED)
-            .map(ToString::to_string)
-            .collect();
+        let named: Vec<String> = loud.iter().take(MOST_NAMED).map(ToString::to_string).collect();
         message.push_str(&named.join("; "));
         let more = loud.len().saturating_sub(MOST_NAMED) + quiet.len();
         if more > 0 {

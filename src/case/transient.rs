@@ -95,11 +95,7 @@ impl Case {
                 "press the bodies together (condition = \"pressure\"), or leave `state` out",
             ));
         }
-        if assembly
-            .motions
-            .iter()
-            .any(|motion| motion.inertia.is_some())
-        {
+        if assembly.motions.iter().any(|motion| motion.inertia.is_some()) {
             return Err(self.error_at(
                 "motion",
                 "rotation_terms are not stepped in time: the gyroscopic forces of the last \
@@ -141,11 +137,7 @@ pub(super) fn transient(
     let initial = initial(&section, body);
     let expansion_time = section.number("expansion_time");
     if initial == InitialState::Rest && expansion_time > duration {
-        let default = if section.has("expansion_time") {
-            ""
-        } else {
-            ", the default,"
-        };
+        let default = if section.has("expansion_time") { "" } else { ", the default," };
         reject(
             &section,
             "expansion_time",
@@ -183,11 +175,7 @@ fn initial(section: &Section<'_>, body: Option<&Body>) -> InitialState {
     let keys = ["limit_cycle_harmonic", "limit_cycle_onset"];
     let [given, onset] = keys.map(|key| section.optional_count(key));
     let InitialState::LimitCycle { .. } = initial else {
-        for (key, _) in keys
-            .iter()
-            .zip([given, onset])
-            .filter(|pair| pair.1.is_some())
-        {
+        for (key, _) in keys.iter().zip([given, onset]).filter(|pair| pair.1.is_some()) {
             section.reject(
                 key,
                 format!("transient.{key} is given, but the run does not start on a limit cycle"),
@@ -210,10 +198,7 @@ fn initial(section: &Section<'_>, body: Option<&Body>) -> InitialState {
             None,
         );
     }
-    InitialState::LimitCycle {
-        harmonic,
-        onset: onset.unwrap_or(1),
-    }
+    InitialState::LimitCycle { harmonic, onset: onset.unwrap_or(1) }
 }
 
 /// `[transient.perturbation]`: the velocity that is added to the body's.
@@ -224,9 +209,7 @@ fn perturbation(
     duration: f64,
 ) -> Perturbation {
     let section = transient.section("perturbation", false);
-    let harmonics = section
-        .harmonics(body.and_then(Body::sector_count))
-        .unwrap_or_default();
+    let harmonics = section.harmonics(body.and_then(Body::sector_count)).unwrap_or_default();
     let unit = velocity_unit(&section, body.map_or(1.0, |body| slip_speed(body, sliding)));
     let velocities = one_for_each(&section, "velocity", &harmonics);
     let phases = one_for_each(&section, "phase_deg", &harmonics);
@@ -293,10 +276,9 @@ fn slip_speed(body: &Body, sliding: &SlidingContact) -> f64 {
     let radius = match body {
         Body::Annulus(annulus) => annulus.specification.inner_radius,
         Body::Revolution(Revolution { specification, .. }) => match specification.contact {
-            SolidContact::Ring {
-                inner_radius,
-                outer_radius,
-            } => 0.5 * (inner_radius + outer_radius),
+            SolidContact::Ring { inner_radius, outer_radius } => {
+                0.5 * (inner_radius + outer_radius)
+            }
             SolidContact::Inner => specification.annulus.inner_radius,
         },
         // Where it turns, the slip speed differs from point to point.

@@ -113,25 +113,15 @@ fn uncertain(
     match &entry.item.value {
         RawValue::Table(table) => {
             only(section, table, &["normal", "log_normal", "uniform", "also"]);
-            let mut found = words
-                .iter()
-                .filter_map(|word| Some((*word, table.get(*word)?)));
+            let mut found = words.iter().filter_map(|word| Some((*word, table.get(*word)?)));
             given = found.next();
             if found.next().is_some() {
                 reject(format!("{key} has two distributions"), "one of them", help);
             } else if given.is_none() {
-                reject(
-                    format!("{key} has no distribution"),
-                    "none of the three",
-                    help,
-                );
+                reject(format!("{key} has no distribution"), "none of the three", help);
             }
         }
-        other => reject(
-            format!("{key} is {}", other.kind()),
-            "no distribution",
-            help,
-        ),
+        other => reject(format!("{key} is {}", other.kind()), "no distribution", help),
     }
     let none = UncertainParameter {
         distribution: Distribution::Uniform { from: 0.0, to: 1.0 },
@@ -146,31 +136,19 @@ fn uncertain(
         return none;
     };
     if items.len() != 2 {
-        reject(
-            format!("{word} of {key} has {} numbers", items.len()),
-            "two numbers",
-            help,
-        );
+        reject(format!("{word} of {key} has {} numbers", items.len()), "two numbers", help);
         return none;
     }
     let [a, b] = [0, 1].map(|i| number(section, inner, items.get(i).map(|item| &item.value)));
     let (distribution, is_valid, needs) = match word {
         "normal" => {
             let (mean, deviation) = (a, b);
-            (
-                Distribution::Normal { mean, deviation },
-                b > 0.0,
-                "a positive deviation",
-            )
+            (Distribution::Normal { mean, deviation }, b > 0.0, "a positive deviation")
         }
         "log_normal" => {
             let (median, deviation) = (a, b);
             let is_valid = a > 0.0 && b > 0.0;
-            (
-                Distribution::LogNormal { median, deviation },
-                is_valid,
-                "two positive numbers",
-            )
+            (Distribution::LogNormal { median, deviation }, is_valid, "two positive numbers")
         }
         _ => {
             let (from, to) = (a, b);
@@ -222,11 +200,7 @@ fn uncertain(
             "reaches forbidden values",
         );
     }
-    UncertainParameter {
-        parameter,
-        distribution,
-        range,
-    }
+    UncertainParameter { parameter, distribution, range }
 }
 
 impl super::Case {

@@ -44,23 +44,14 @@ pub(super) fn whole_revolution(
     }
     let mesh = Mesh::from_solids(&file, 1.0, &conditions);
     let mesh = mesh.map_err(|error| of_mesh(error.to_string()))?;
-    let surface = mesh
-        .boundaries
-        .iter()
-        .position(|own| own.name == sector.contact_surface());
+    let surface = mesh.boundaries.iter().position(|own| own.name == sector.contact_surface());
     let surface = surface.ok_or_else(|| {
         let why = "nothing is left of the surface of the contact";
         ("modifications".to_owned(), why.to_owned())
     })?;
-    let own = RegionMaterial {
-        elastic: revolution.material,
-        damping: None,
-    };
+    let own = RegionMaterial { elastic: revolution.material, damping: None };
     Ok(AssemblyBody {
-        materials: vec![TabledMaterial {
-            own,
-            table: material.table.clone(),
-        }],
+        materials: vec![TabledMaterial { own, table: material.table.clone() }],
         ties: Vec::new(),
         contacts: vec![sliding_surfaces(specification.contact, surface, contact)],
         motions: Vec::new(),
@@ -86,10 +77,7 @@ fn sliding_surfaces(place: SolidContact, surface: usize, contact: &Contact) -> S
         name: SlidingSurfaces::SHORT_FORM.to_owned(),
         surface,
         counter: Counterpart::Rigid(counterface),
-        friction: PairFriction {
-            ratio: 1.0,
-            decay: sliding.decay,
-        },
+        friction: PairFriction { ratio: 1.0, decay: sliding.decay },
         stiffness: contact.stiffness,
         law: contact.stiffness.law,
         topography: None,

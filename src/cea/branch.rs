@@ -62,10 +62,7 @@ impl Cubic {
         let width = end.friction_coefficient - start.friction_coefficient;
         let (a, b) = (start.eigenvalue, start.rate * width);
         let (rise, slope) = (end.eigenvalue - a, end.rate * width);
-        Self {
-            width,
-            coefficients: [a, b, rise * 3.0 - b * 2.0 - slope, b + slope - rise * 2.0],
-        }
+        Self { width, coefficients: [a, b, rise * 3.0 - b * 2.0 - slope, b + slope - rise * 2.0] }
     }
 
     pub fn value(&self, t: f64) -> c64 {

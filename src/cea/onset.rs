@@ -76,11 +76,7 @@ pub(super) fn instabilities<B: BranchSolver>(
     let point = search.solver.point(first);
     let mut was_growing = search.is_growing(first) || Search::<B>::grows_from_zero(&point);
     if was_growing {
-        found.push(Instability {
-            onset: first.clone(),
-            restabilized: None,
-            from_start: true,
-        });
+        found.push(Instability { onset: first.clone(), restabilized: None, from_start: true });
     }
     for pair in states.windows(2) {
         let mut start = pair[0].clone();
@@ -193,11 +189,7 @@ impl<B: BranchSolver> Search<'_, B> {
             best = state;
             let newton = friction - Self::growth(&point) / point.rate.re;
             let is_inside = newton > bottom && newton < top;
-            let next = if is_inside {
-                newton
-            } else {
-                0.5 * (bottom + top)
-            };
+            let next = if is_inside { newton } else { 0.5 * (bottom + top) };
             if (next - friction).abs() <= B::TOLERANCE * (1.0 + friction) {
                 break;
             }

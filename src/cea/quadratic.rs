@@ -55,15 +55,9 @@ pub fn quadratic_modes(
             return Err(LinalgError::DenseEigen { dimension: n }.into());
         }
     }
-    let problem = Problem {
-        matrices: [mass, damping, stiffness],
-    };
+    let problem = Problem { matrices: [mass, damping, stiffness] };
     let ratio = (stiffness.norm_max() / mass.norm_max()).sqrt();
-    let first = if ratio.is_finite() && ratio > 0.0 {
-        0.7 * ratio
-    } else {
-        1.0
-    };
+    let first = if ratio.is_finite() && ratio > 0.0 { 0.7 * ratio } else { 1.0 };
     let mut values = Vec::new();
     let [below, above] = problem.window(first, &mut values)?;
     for (direction, mut left) in [(-1, below), (1, above)] {
@@ -89,9 +83,7 @@ impl Problem<'_> {
     fn window(&self, shift: f64, values: &mut Vec<c64>) -> Result<[usize; 2], CeaError> {
         let n = self.matrices[0].nrows();
         let ([mass, damping, stiffness], _) = self.scaled(shift);
-        let sum = Mat::from_fn(n, n, |i, j| {
-            stiffness[(i, j)] + damping[(i, j)] + mass[(i, j)]
-        });
+        let sum = Mat::from_fn(n, n, |i, j| stiffness[(i, j)] + damping[(i, j)] + mass[(i, j)]);
         let factors = DenseLu::factorize(sum);
         let (mut x, mut y) = (stiffness, mass);
         factors.solve_in_place(x.as_mut());
@@ -147,11 +139,8 @@ impl Problem<'_> {
         let scaled = |matrix: MatRef<'_, f64>, factor: f64| {
             Mat::from_fn(n, n, |i, j| factor * matrix[(i, j)] * rows[i] * columns[j])
         };
-        let matrices = [
-            scaled(mass, shift * shift),
-            scaled(damping, shift),
-            scaled(stiffness, 1.0),
-        ];
+        let matrices =
+            [scaled(mass, shift * shift), scaled(damping, shift), scaled(stiffness, 1.0)];
         (matrices, columns)
     }
 

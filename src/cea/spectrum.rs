@@ -178,13 +178,7 @@ impl FrictionSweep {
         found.sort_by(|(a, _), (b, _)| a.critical_friction.total_cmp(&b.critical_friction));
         ended.sort_by(|a, b| a.friction_coefficient.total_cmp(&b.friction_coefficient));
         let (intervals, crossings) = found.into_iter().unzip();
-        Self {
-            points,
-            intervals,
-            crossings,
-            ended,
-            counts: Vec::new(),
-        }
+        Self { points, intervals, crossings, ended, counts: Vec::new() }
     }
 }
 

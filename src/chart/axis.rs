@@ -73,18 +73,12 @@ impl Axis {
 
     /// The same for values that the unit shown is a multiple of: 1e-3 for kHz from Hz.
     pub fn times(self, factor: f64) -> Self {
-        Self {
-            factor: Some(factor),
-            ..self
-        }
+        Self { factor: Some(factor), ..self }
     }
 
     /// The same with the unit's prefix chosen by the data.
     pub fn prefixed(self) -> Self {
-        Self {
-            factor: None,
-            ..self
-        }
+        Self { factor: None, ..self }
     }
 
     /// The same with a scale.
@@ -99,10 +93,7 @@ impl Axis {
 
     /// The same, logarithmic over at most so many decades below the largest value.
     pub fn decades(self, decades: f64) -> Self {
-        Self {
-            decades,
-            ..self.logarithmic()
-        }
+        Self { decades, ..self.logarithmic() }
     }
 
     /// The same without room at the ends.
@@ -112,26 +103,17 @@ impl Axis {
 
     /// The same with room at the ends, as a fraction of the range.
     pub fn room(self, fraction: f64) -> Self {
-        Self {
-            ends: Ends::Room(fraction),
-            ..self
-        }
+        Self { ends: Ends::Room(fraction), ..self }
     }
 
     /// The same between two values, in the unit of the data.
     pub fn between(self, low: f64, high: f64) -> Self {
-        Self {
-            ends: Ends::At(low, high),
-            ..self
-        }
+        Self { ends: Ends::At(low, high), ..self }
     }
 
     /// The same with zero in the middle.
     pub fn symmetric(self) -> Self {
-        Self {
-            ends: Ends::Symmetric,
-            ..self
-        }
+        Self { ends: Ends::Symmetric, ..self }
     }
 
     /// The same, long enough for one more value.
@@ -142,9 +124,7 @@ impl Axis {
 
     /// The same with these ticks: value in the unit shown, label.
     pub fn ticks(mut self, ticks: impl IntoIterator<Item = (f64, String)>) -> Self {
-        let ticks = ticks
-            .into_iter()
-            .map(|(value, label)| Tick { value, label });
+        let ticks = ticks.into_iter().map(|(value, label)| Tick { value, label });
         self.ticks = Some(ticks.collect());
         self
     }
@@ -184,9 +164,7 @@ impl Axis {
             (Ends::Room(_), Scale::Logarithmic) if low <= 0.0 => (0.1, 1.0),
             (Ends::Room(part), Scale::Logarithmic) => {
                 let low = low.max(high * 10f64.powf(-self.decades));
-                let room = (high / low)
-                    .powf(part)
-                    .max(if part > 0.0 { 1.25 } else { 1.0 });
+                let room = (high / low).powf(part).max(if part > 0.0 { 1.25 } else { 1.0 });
                 (low / room, high * room)
             }
         };

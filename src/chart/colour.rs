@@ -8,9 +8,8 @@ pub const GRID: &str = "#dddddd";
 pub const MUTED: &str = "#666666";
 
 /// Okabe and Ito's colour-blind-safe set, without its yellow, which is too light for lines.
-pub const SERIES: [&str; 7] = [
-    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000",
-];
+pub const SERIES: [&str; 7] =
+    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"];
 
 /// Red, green and blue of `#rrggbb`.
 pub fn channels(hex: &str) -> [u8; 3] {
@@ -34,11 +33,7 @@ pub enum ColourMap {
 impl ColourMap {
     /// Colour at `position` from 0 to 1.
     pub fn at(self, position: f64) -> [u8; 3] {
-        let position = if position.is_finite() {
-            position.clamp(0.0, 1.0)
-        } else {
-            0.0
-        };
+        let position = if position.is_finite() { position.clamp(0.0, 1.0) } else { 0.0 };
         let colour = match self {
             Self::Viridis => colorous::VIRIDIS.eval_continuous(position),
             Self::Inferno => colorous::INFERNO.eval_continuous(position),

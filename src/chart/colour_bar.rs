@@ -61,23 +61,12 @@ impl Colours {
         let ticks = ruler.ticks(vertical_count(bar.height));
         for tick in &ticks {
             let y = bar.bottom() - bar.height * ruler.place(tick.value);
-            svg.line(
-                (bar.right(), y),
-                (bar.right() + 2.2, y),
-                &Stroke::solid(INK, 0.5),
-            );
+            svg.line((bar.right(), y), (bar.right() + 2.2, y), &Stroke::solid(INK, 0.5));
             let style = TextStyle::new(LABEL_SIZE);
-            svg.text(
-                bar.right() + 4.0,
-                y + 0.36 * LABEL_SIZE,
-                &tick.label,
-                &style,
-            );
+            svg.text(bar.right() + 4.0, y + 0.36 * LABEL_SIZE, &tick.label, &style);
         }
         let x = bar.right() + 7.0 + widest(&ticks, LABEL_SIZE) + TITLE_SIZE;
-        let style = TextStyle::new(TITLE_SIZE)
-            .anchored(Anchor::Middle)
-            .rotated(-90.0);
+        let style = TextStyle::new(TITLE_SIZE).anchored(Anchor::Middle).rotated(-90.0);
         svg.text(x, bar.y + 0.5 * bar.height, &ruler.full_title(), &style);
     }
 
@@ -89,11 +78,7 @@ impl Colours {
             true => (1, LEVELS, levels.rev().collect()),
             false => (LEVELS, 1, levels.collect()),
         };
-        let image = IndexedImage {
-            width,
-            height,
-            pixels,
-        };
+        let image = IndexedImage { width, height, pixels };
         if let Some(png) = image.encode(&palette) {
             svg.image(bar, &png, false);
         }
@@ -108,11 +93,7 @@ impl Colours {
         let style = TextStyle::new(LABEL_SIZE).anchored(Anchor::Middle);
         for tick in ruler.ticks((bar.width / 26.0) as usize) {
             let x = bar.x + bar.width * ruler.place(tick.value);
-            svg.line(
-                (x, bar.bottom()),
-                (x, bar.bottom() + 2.2),
-                &Stroke::solid(INK, 0.5),
-            );
+            svg.line((x, bar.bottom()), (x, bar.bottom() + 2.2), &Stroke::solid(INK, 0.5));
             svg.text(x, bar.bottom() + LABEL_SIZE + 3.0, &tick.label, &style);
         }
         let baseline = bar.bottom() + LABEL_SIZE + TITLE_SIZE + 6.0;

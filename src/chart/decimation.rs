@@ -81,11 +81,7 @@ pub fn simplify(points: &[(f64, f64)], tolerance: f64) -> Vec<(f64, f64)> {
             stack.push((index, end));
         }
     }
-    points
-        .iter()
-        .zip(&keep)
-        .filter_map(|(&point, &kept)| kept.then_some(point))
-        .collect()
+    points.iter().zip(&keep).filter_map(|(&point, &kept)| kept.then_some(point)).collect()
 }
 
 /// Distance of a point from a segment.
@@ -93,11 +89,7 @@ fn distance(point: (f64, f64), from: (f64, f64), to: (f64, f64)) -> f64 {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let (px, py) = (point.0 - from.0, point.1 - from.1);
     let square = dx * dx + dy * dy;
-    let along = if square > 0.0 {
-        ((px * dx + py * dy) / square).clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
+    let along = if square > 0.0 { ((px * dx + py * dy) / square).clamp(0.0, 1.0) } else { 0.0 };
     (px - along * dx).hypot(py - along * dy)
 }
 

@@ -54,32 +54,19 @@ impl Field {
         map: ColourMap,
     ) -> Self {
         let colours = Colours::over(axis, map, &values);
-        Self {
-            mesh,
-            positions,
-            values,
-            colours,
-            levels: Palette::FINE,
-        }
+        Self { mesh, positions, values, colours, levels: Palette::FINE }
     }
 
     /// The same with few colours, one of many.
     pub fn coarse(self) -> Self {
-        Self {
-            levels: Palette::COARSE,
-            ..self
-        }
+        Self { levels: Palette::COARSE, ..self }
     }
 
     /// The corners of the square around nodes, with `room` as a fraction of its size.
     pub fn window(positions: &[[f64; 2]], room: f64) -> [[f64; 2]; 2] {
         let ends = [0, 1].map(|axis| extremes(positions.iter().map(|p| p[axis])));
-        let half = 0.5
-            * (1.0 + room)
-            * ends
-                .iter()
-                .map(|e| e.1 - e.0)
-                .fold(f64::MIN_POSITIVE, f64::max);
+        let half =
+            0.5 * (1.0 + room) * ends.iter().map(|e| e.1 - e.0).fold(f64::MIN_POSITIVE, f64::max);
         let centre = ends.map(|e| 0.5 * (e.0 + e.1));
         [centre.map(|c| c - half), centre.map(|c| c + half)]
     }
@@ -89,20 +76,14 @@ impl Field {
         let size = |points: f64| (points * PIXELS_PER_POINT).round().clamp(1.0, 4000.0) as usize;
         let (width, height) = (size(frame.area.width), size(frame.area.height));
         let pixels = vec![palette.transparent(); width * height];
-        let mut image = IndexedImage {
-            width,
-            height,
-            pixels,
-        };
+        let mut image = IndexedImage { width, height, pixels };
         let (low, high) = self.colours.range;
         let steepness = self.levels as f64 / (high - low).max(f64::MIN_POSITIVE);
         let vertex = |node: u32| -> Option<[f64; 3]> {
             let [x, y] = *self.positions.get(node as usize)?;
             let value = *self.values.get(node as usize)?;
-            let place = [
-                frame.x.fraction(x) * width as f64,
-                (1.0 - frame.y.fraction(y)) * height as f64,
-            ];
+            let place =
+                [frame.x.fraction(x) * width as f64, (1.0 - frame.y.fraction(y)) * height as f64];
             Some([place[0], place[1], (value - low) * steepness])
         };
         for cell in &self.mesh.cells {
@@ -118,9 +99,7 @@ impl Field {
     }
 
     fn curve(&self, nodes: &[u32], frame: &Frame) -> Vec<(f64, f64)> {
-        let places = nodes
-            .iter()
-            .filter_map(|&node| self.positions.get(node as usize));
+        let places = nodes.iter().filter_map(|&node| self.positions.get(node as usize));
         places.map(|&[x, y]| frame.at(x, y)).collect()
     }
 }
@@ -156,11 +135,7 @@ fn triangle(image: &mut IndexedImage, [a, b, c]: [[f64; 3]; 3], levels: usize) {
 
 impl Layer for Field {
     fn extent(&self, see: &mut dyn FnMut(f64, f64)) {
-        let known = self
-            .positions
-            .iter()
-            .zip(&self.values)
-            .filter(|(_, value)| value.is_finite());
+        let known = self.positions.iter().zip(&self.values).filter(|(_, value)| value.is_finite());
         known.for_each(|(&[x, y], _)| see(x, y));
     }
 
@@ -201,10 +176,7 @@ impl Layer for Field {
             ys: self.positions.iter().map(|place| place[1]).collect(),
             values: Some((
                 plain(&ruler.title),
-                self.values
-                    .iter()
-                    .map(|&value| ruler.shown(value))
-                    .collect(),
+                self.values.iter().map(|&value| ruler.shown(value)).collect(),
             )),
             rows: Vec::new(),
             tips: Vec::new(),
@@ -224,20 +196,8 @@ mod tests {
         let node = |ring: u32, step: u32| ring * count + step % count;
         let cells = (0..around).map(|i| {
             let (a, b, c) = (2 * i, 2 * i + 1, 2 * i + 2);
-            let ring = [
-                (0, a),
-                (0, b),
-                (0, c),
-                (1, c),
-                (2, c),
-                (2, b),
-                (2, a),
-                (1, a),
-            ];
-            Cell {
-                ring: ring.map(|(r, s)| node(r, s)).to_vec(),
-                is_quadratic: true,
-            }
+            let ring = [(0, a), (0, b), (0, c), (1, c), (2, c), (2, b), (2, a), (1, a)];
+            Cell { ring: ring.map(|(r, s)| node(r, s)).to_vec(), is_quadratic: true }
         });
         let places = (0..3).flat_map(|ring| (0..count).map(move |step| (ring, step)));
         let places = places.map(|(ring, step)| {
@@ -245,13 +205,7 @@ mod tests {
             let radius = 0.5 + 0.25 * f64::from(ring);
             [radius * cos, radius * sin]
         });
-        (
-            Mesh {
-                cells: cells.collect(),
-                ..Mesh::default()
-            },
-            places.collect(),
-        )
+        (Mesh { cells: cells.collect(), ..Mesh::default() }, places.collect())
     }
 
     #[test]
@@ -259,14 +213,8 @@ mod tests {
         let (mesh, positions) = annulus(90);
         let values = positions.iter().map(|p| p[0]).collect();
         let axis = Axis::new("", "").between(-1.0, 1.0);
-        let field = Field::new(
-            Arc::new(mesh),
-            positions,
-            values,
-            axis.clone(),
-            ColourMap::Viridis,
-        )
-        .coarse();
+        let field = Field::new(Arc::new(mesh), positions, values, axis.clone(), ColourMap::Viridis)
+            .coarse();
         let frame = Frame {
             area: Rect::new(0.0, 0.0, 133.33, 133.33),
             x: axis.resolve(None),
@@ -277,10 +225,7 @@ mod tests {
         let filled = image.pixels.iter().filter(|&&p| p < 48).count() as f64;
         let exact = std::f64::consts::PI * 0.75 / 4.0 * 160_000.0;
         // A pixel on the rim counts whole or not at all: about one in a hundred.
-        assert!(
-            image.width == 400 && (filled / exact - 1.0).abs() < 0.01,
-            "{filled} {exact}"
-        );
+        assert!(image.width == 400 && (filled / exact - 1.0).abs() < 0.01, "{filled} {exact}");
         for column in [20, 60, 320, 380] {
             let level = f64::from(image.pixels[200 * 400 + column]);
             let expected = (column as f64 + 0.5) / 400.0 * 48.0;

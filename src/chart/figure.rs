@@ -41,10 +41,7 @@ impl Figure {
 
     /// The same under another name.
     pub fn named(self, name: impl Into<String>) -> Self {
-        Self {
-            name: name.into(),
-            ..self
-        }
+        Self { name: name.into(), ..self }
     }
 
     /// The same for one column of a page.
@@ -115,18 +112,12 @@ impl Figure {
 
     /// The same with a body that moves, where the figure is read with scripts.
     pub fn motion(self, motion: Motion) -> Self {
-        Self {
-            motion: Some(motion),
-            ..self
-        }
+        Self { motion: Some(motion), ..self }
     }
 
     /// The same with points of the first panel that move with a parameter, where the figure is read with scripts.
     pub fn steps(self, steps: Steps) -> Self {
-        Self {
-            steps: Some(steps),
-            ..self
-        }
+        Self { steps: Some(steps), ..self }
     }
 
     /// The numbers behind the drawing.
@@ -156,22 +147,13 @@ impl Figure {
         let width_mm = width_mm.unwrap_or(self.grid.width_mm);
         let mut svg = Svg::new(&self.name, width_mm * POINTS_PER_MM, 100.0);
         Layout::of(&self.grid, width_mm).draw(&mut svg);
-        let title = self
-            .caption
-            .split(['.', ';', ':'])
-            .next()
-            .unwrap_or_default();
+        let title = self.caption.split(['.', ';', ':']).next().unwrap_or_default();
         let describe = |(index, panel): (usize, &Panel)| {
             let name = Some(&panel.caption).filter(|caption| !caption.is_empty());
             let name = name.or(panel.headings.first().map(|heading| &heading.0))?;
             Some(format!(" ({}) {}", letter(index), plain(name)))
         };
-        let parts: String = self
-            .grid
-            .panels()
-            .enumerate()
-            .filter_map(describe)
-            .collect();
+        let parts: String = self.grid.panels().enumerate().filter_map(describe).collect();
         Ok(svg.finish(title, &format!("{}{parts}", self.caption)))
     }
 }

@@ -25,13 +25,7 @@ impl Fill {
     pub fn between(xs: &[f64], one: &[f64], other: &[f64], colour: &'static str) -> Self {
         let points = xs.iter().zip(one.iter().zip(other));
         let points = points.map(|(&x, (&a, &b))| [x, a, b]).collect();
-        Self {
-            points,
-            is_range: false,
-            colour,
-            opacity: 1.0,
-            name: None,
-        }
+        Self { points, is_range: false, colour, opacity: 1.0, name: None }
     }
 
     /// The area between a level and a curve.
@@ -41,10 +35,7 @@ impl Fill {
 
     /// The range that a quickly varying series covers.
     pub fn range_of(xs: &[f64], ys: &[f64], colour: &'static str) -> Self {
-        Self {
-            is_range: true,
-            ..Self::between(xs, ys, ys, colour)
-        }
+        Self { is_range: true, ..Self::between(xs, ys, ys, colour) }
     }
 
     /// The same, transparent: 0 is invisible.
@@ -54,10 +45,7 @@ impl Fill {
 
     /// The same with an entry in the legend.
     pub fn name(self, name: impl Into<String>) -> Self {
-        Self {
-            name: Some(name.into()),
-            ..self
-        }
+        Self { name: Some(name.into()), ..self }
     }
 }
 
@@ -71,16 +59,9 @@ impl Layer for Fill {
     }
 
     fn draw(&self, svg: &mut Svg, frame: &Frame) {
-        let per_point = if self.is_range {
-            1.5
-        } else {
-            COLUMNS_PER_POINT
-        };
+        let per_point = if self.is_range { 1.5 } else { COLUMNS_PER_POINT };
         let mut columns: Vec<[f64; 3]> = Vec::new();
-        let shown = self
-            .points
-            .iter()
-            .filter(|[x, a, b]| (x + a + b).is_finite());
+        let shown = self.points.iter().filter(|[x, a, b]| (x + a + b).is_finite());
         let last = self.points.last().map(|p| p[0]);
         for &[x, a, b] in shown {
             let place = [frame.at_x(x), frame.at_y(a), frame.at_y(b)];
@@ -99,11 +80,7 @@ impl Layer for Fill {
         }
         let there = columns.iter().map(|c| (c[0], c[1]));
         let back = columns.iter().rev().map(|c| (c[0], c[2]));
-        svg.fill_path(
-            &Path::polyline(there.chain(back), true),
-            self.colour,
-            self.opacity,
-        );
+        svg.fill_path(&Path::polyline(there.chain(back), true), self.colour, self.opacity);
     }
 
     fn keys(&self) -> Vec<(Key, String)> {
@@ -121,11 +98,7 @@ impl Layer for Fill {
             kind: SeriesKind::Line,
             colour: self.colour,
             xs: self.points.iter().map(|point| point[0]).collect(),
-            ys: self
-                .points
-                .iter()
-                .map(|[_, one, other]| other - one)
-                .collect(),
+            ys: self.points.iter().map(|[_, one, other]| other - one).collect(),
             values: None,
             rows: Vec::new(),
             tips: Vec::new(),

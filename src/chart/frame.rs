@@ -48,32 +48,20 @@ impl Frame {
     /// Positions of the points that lie inside.
     pub fn inside(&self, points: impl IntoIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
         let shown = |&(x, y): &(f64, f64)| self.x.contains(x) && self.y.contains(y);
-        points
-            .into_iter()
-            .filter(shown)
-            .map(|(x, y)| self.at(x, y))
-            .collect()
+        points.into_iter().filter(shown).map(|(x, y)| self.at(x, y)).collect()
     }
 
     /// The rectangle between two abscissae and two ordinates.
     pub fn rect(&self, x: (f64, f64), y: (f64, f64)) -> Rect {
-        let (left, right, bottom, top) = (
-            self.at_x(x.0),
-            self.at_x(x.1),
-            self.at_y(y.0),
-            self.at_y(y.1),
-        );
+        let (left, right, bottom, top) =
+            (self.at_x(x.0), self.at_x(x.1), self.at_y(y.0), self.at_y(y.1));
         Rect::new(left, top, right - left, bottom - top)
     }
 }
 
 /// A fraction near enough to the area to be drawn; what has no place is far off.
 fn bounded(fraction: f64) -> f64 {
-    if fraction.is_nan() {
-        -20.0
-    } else {
-        fraction.clamp(-20.0, 20.0)
-    }
+    if fraction.is_nan() { -20.0 } else { fraction.clamp(-20.0, 20.0) }
 }
 
 /// Ticks that fit a vertical axis of this height.
@@ -141,12 +129,7 @@ pub(super) fn draw_y_axis(svg: &mut Svg, frame: &Frame, ticks: &[Tick], title: O
     let Some(distance) = title else { return };
     let style = TextStyle::new(LABEL_SIZE).anchored(Anchor::End);
     for tick in ticks {
-        svg.text(
-            left - TICK - 1.8,
-            at(tick.value) + 0.36 * LABEL_SIZE,
-            &tick.label,
-            &style,
-        );
+        svg.text(left - TICK - 1.8, at(tick.value) + 0.36 * LABEL_SIZE, &tick.label, &style);
     }
     // A title that is longer than its axis would run into that of the panel below.
     let title = frame.y.full_title();

@@ -33,10 +33,7 @@ impl Heat {
         let palette = Palette::of_map(map, Palette::FINE);
         let level = |&value: &f64| palette.level_of(value, colours.range);
         let pixels = values.iter().map(level).collect();
-        Self {
-            colours: Some(colours),
-            ..Self::of_pixels(x, y, pixels, palette)
-        }
+        Self { colours: Some(colours), ..Self::of_pixels(x, y, pixels, palette) }
     }
 
     /// States by their index in the palette.
@@ -58,11 +55,7 @@ impl Heat {
         Self {
             x,
             y,
-            image: IndexedImage {
-                width,
-                height,
-                pixels,
-            },
+            image: IndexedImage { width, height, pixels },
             palette,
             colours: None,
             names: Vec::new(),

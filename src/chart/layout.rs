@@ -197,12 +197,7 @@ impl<'a> Layout<'a> {
     fn place_rows(&mut self) {
         let room = self.width - self.legend_place.0 - RIM;
         let mut y = RIM + self.legend.height(room) + if self.legend.is_empty() { 0.0 } else { 3.0 };
-        let rows = self
-            .placed
-            .iter()
-            .map(|cell| cell.row + cell.span)
-            .max()
-            .unwrap_or(0);
+        let rows = self.placed.iter().map(|cell| cell.row + cell.span).max().unwrap_or(0);
         let letters = self.has_letters();
         let (mut tops, mut bottoms) = (vec![0.0; rows], vec![0.0; rows]);
         for row in 0..rows {
@@ -210,13 +205,9 @@ impl<'a> Layout<'a> {
             let top = own().map(|cell| cell.top_need(letters)).fold(0.0, f64::max);
             let single = own().filter(|cell| cell.span == 1);
             let height = single.map(|cell| cell.height()).fold(0.0, f64::max);
-            let ends = self
-                .placed
-                .iter()
-                .filter(|cell| cell.row + cell.span == row + 1);
-            let bottom = ends
-                .map(|cell| cell.panel.bottom_need(cell.labels[0]))
-                .fold(0.0, f64::max);
+            let ends = self.placed.iter().filter(|cell| cell.row + cell.span == row + 1);
+            let bottom =
+                ends.map(|cell| cell.panel.bottom_need(cell.labels[0])).fold(0.0, f64::max);
             (tops[row], bottoms[row]) = (y + top, y + top + height);
             y += top + height + bottom + GAP;
         }
@@ -329,16 +320,9 @@ fn resolve_axes(grid: &Grid, placed: &mut [Placed<'_>]) {
             let own = (0..ranges.len()).filter(|&other| other == index || together(other, axis));
             union(&mut own.map(|other| ranges[other][axis]))
         };
-        let rulers: [Ruler; 2] = [
-            cell.panel.x.resolve(range(0)),
-            cell.panel.y.resolve(range(1)),
-        ];
-        let below = cells
-            .iter()
-            .any(|other| *other == (cell.row + cell.span, cell.column));
-        let before = cells
-            .iter()
-            .any(|other| other.0 == cell.row && other.1 < cell.column);
+        let rulers: [Ruler; 2] = [cell.panel.x.resolve(range(0)), cell.panel.y.resolve(range(1))];
+        let below = cells.iter().any(|other| *other == (cell.row + cell.span, cell.column));
+        let before = cells.iter().any(|other| other.0 == cell.row && other.1 < cell.column);
         cell.labels = [!(grid.shares[0] && below), !(grid.shares[1] && before)];
         [cell.frame.x, cell.frame.y] = rulers;
     }

@@ -18,31 +18,18 @@ pub struct Key {
 impl Key {
     /// A line.
     pub fn line(stroke: Stroke) -> Self {
-        Self {
-            stroke: Some(stroke),
-            marker: None,
-            patch: None,
-        }
+        Self { stroke: Some(stroke), marker: None, patch: None }
     }
 
     /// A filled patch; opacity from 0 to 1.
     pub fn patch(colour: &'static str, opacity: f64) -> Self {
-        Self {
-            stroke: None,
-            marker: None,
-            patch: Some((colour, opacity)),
-        }
+        Self { stroke: None, marker: None, patch: Some((colour, opacity)) }
     }
 
     fn draw(&self, svg: &mut Svg, left: f64, middle: f64) {
         if let Some((colour, opacity)) = self.patch {
             let (right, top, bottom) = (left + KEY_WIDTH - 1.0, middle - 3.0, middle + 3.0);
-            let corners = [
-                (left + 1.0, top),
-                (right, top),
-                (right, bottom),
-                (left + 1.0, bottom),
-            ];
+            let corners = [(left + 1.0, top), (right, top), (right, bottom), (left + 1.0, bottom)];
             let path = Path::polyline(corners, true);
             svg.fill_path(&path, colour, opacity);
             svg.path(&path, &Stroke::solid(INK, 0.3));
@@ -98,10 +85,7 @@ impl Legend {
         for (key, name) in &self.0 {
             let most = (width - KEY_WIDTH - 3.0).max(20.0);
             let lines = text::wrapped(name, (LABEL_SIZE, false), most);
-            let need = lines
-                .iter()
-                .map(|line| entry_width(line))
-                .fold(0.0, f64::max);
+            let need = lines.iter().map(|line| entry_width(line)).fold(0.0, f64::max);
             match rows.last_mut() {
                 Some(row) if used + need - SPACE <= width => row.0.push((key, lines, need)),
                 _ => {

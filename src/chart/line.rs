@@ -37,16 +37,7 @@ impl Line {
     pub fn through(points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         let (xs, ys) = points.into_iter().unzip();
         let stroke = Stroke::solid(SERIES[0], 1.1);
-        Self {
-            xs,
-            ys,
-            stroke,
-            marker: None,
-            arrows: 0,
-            name: None,
-            label: None,
-            is_whole: false,
-        }
+        Self { xs, ys, stroke, marker: None, arrows: 0, name: None, label: None, is_whole: false }
     }
 
     /// The same with a stroke.
@@ -61,20 +52,13 @@ impl Line {
 
     /// The same with a marker of this radius (points) at every point.
     pub fn marked(self, marker: Marker, radius: f64) -> Self {
-        Self {
-            marker: Some((marker, radius)),
-            ..self
-        }
+        Self { marker: Some((marker, radius)), ..self }
     }
 
     /// The same as the `index`-th of several series, with its colour and dashes.
     pub fn nth(mut self, index: usize) -> Self {
         let (colour, _, dash) = look(index);
-        self.stroke = Stroke {
-            colour,
-            dash,
-            ..self.stroke
-        };
+        self.stroke = Stroke { colour, dash, ..self.stroke };
         self
     }
 
@@ -85,26 +69,17 @@ impl Line {
 
     /// The same with an entry in the legend.
     pub fn name(self, name: impl Into<String>) -> Self {
-        Self {
-            name: Some(name.into()),
-            ..self
-        }
+        Self { name: Some(name.into()), ..self }
     }
 
     /// The same with a name for those who take the numbers, which the legend does not show.
     pub fn label(self, label: impl Into<String>) -> Self {
-        Self {
-            label: Some(label.into()),
-            ..self
-        }
+        Self { label: Some(label.into()), ..self }
     }
 
     /// The same, with every sample kept for those who take the numbers: a signal to listen to.
     pub fn whole(self) -> Self {
-        Self {
-            is_whole: true,
-            ..self
-        }
+        Self { is_whole: true, ..self }
     }
 
     /// The unbroken pieces as they are drawn.
@@ -155,10 +130,7 @@ impl Layer for Line {
     fn keys(&self) -> Vec<(Key, String)> {
         let key = Key {
             // The finest lines still show their colour in a legend.
-            stroke: Some(Stroke {
-                width: self.stroke.width.max(0.8),
-                ..self.stroke
-            }),
+            stroke: Some(Stroke { width: self.stroke.width.max(0.8), ..self.stroke }),
             marker: self.marker.map(|m| (m.0, self.stroke.colour)),
             patch: None,
         };
@@ -201,10 +173,7 @@ fn arrow_heads(path: &mut Path, points: &[(f64, f64)], count: usize) {
         if size < 0.35 {
             continue;
         }
-        let longest = part
-            .iter()
-            .copied()
-            .max_by(|&a, &b| length(a).total_cmp(&length(b)));
+        let longest = part.iter().copied().max_by(|&a, &b| length(a).total_cmp(&length(b)));
         let Some(step) = longest.filter(|&step| length(step) > 0.0) else {
             continue;
         };
@@ -253,18 +222,12 @@ impl Points {
 
     /// The same with a line in place of the marker in the legend.
     pub fn keyed(self, stroke: Stroke) -> Self {
-        Self {
-            key: Some(stroke),
-            ..self
-        }
+        Self { key: Some(stroke), ..self }
     }
 
     /// The same with a name for those who take the numbers, which the legend does not show.
     pub fn label(self, label: impl Into<String>) -> Self {
-        Self {
-            label: Some(label.into()),
-            ..self
-        }
+        Self { label: Some(label.into()), ..self }
     }
 
     /// The same with what each point is, in plain text, for readers who point at it.
@@ -274,12 +237,7 @@ impl Points {
 
     /// The same with a marker of this radius, points, and colour.
     pub fn marker(self, marker: Marker, radius: f64, colour: &'static str) -> Self {
-        Self {
-            marker,
-            radius,
-            colour,
-            ..self
-        }
+        Self { marker, radius, colour, ..self }
     }
 
     /// The same, each point standing for the row of a table with this number.
@@ -289,10 +247,7 @@ impl Points {
 
     /// The same with an entry in the legend.
     pub fn name(self, name: impl Into<String>) -> Self {
-        Self {
-            name: Some(name.into()),
-            ..self
-        }
+        Self { name: Some(name.into()), ..self }
     }
 }
 
@@ -311,11 +266,7 @@ impl Layer for Points {
     fn keys(&self) -> Vec<(Key, String)> {
         let key = match self.key {
             Some(stroke) => Key::line(stroke),
-            None => Key {
-                stroke: None,
-                marker: Some((self.marker, self.colour)),
-                patch: None,
-            },
+            None => Key { stroke: None, marker: Some((self.marker, self.colour)), patch: None },
         };
         self.name.iter().map(|name| (key, name.clone())).collect()
     }

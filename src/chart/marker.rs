@@ -21,13 +21,8 @@ pub enum Marker {
 
 impl Marker {
     /// The order in which series take markers.
-    pub const ALL: [Self; 5] = [
-        Self::Disc,
-        Self::Square,
-        Self::Triangle,
-        Self::Diamond,
-        Self::Circle,
-    ];
+    pub const ALL: [Self; 5] =
+        [Self::Disc, Self::Square, Self::Triangle, Self::Diamond, Self::Circle];
 
     /// Adds the outline to a path.
     fn outline(self, path: &mut Path, (x, y): (f64, f64), radius: f64) {
@@ -42,11 +37,7 @@ impl Marker {
             Self::Triangle => vec![(0.0, -1.2), (1.05, 0.75), (-1.05, 0.75)],
             Self::Diamond => vec![(0.0, -1.25), (1.25, 0.0), (0.0, 1.25), (-1.25, 0.0)],
         };
-        path.extend(
-            corners
-                .iter()
-                .map(|(dx, dy)| (x + radius * dx, y + radius * dy)),
-        );
+        path.extend(corners.iter().map(|(dx, dy)| (x + radius * dx, y + radius * dy)));
         path.close();
     }
 

@@ -23,15 +23,7 @@ pub struct Rule {
 impl Rule {
     fn new(value: f64, is_horizontal: bool) -> Self {
         let stroke = Stroke::dashed(INK, 0.8);
-        Self {
-            value,
-            is_horizontal,
-            stroke,
-            stretches: false,
-            name: None,
-            beside: None,
-            rim: None,
-        }
+        Self { value, is_horizontal, stroke, stretches: false, name: None, beside: None, rim: None }
     }
 
     /// A dashed line at an ordinate; it is left out where the axis does not reach it.
@@ -51,34 +43,22 @@ impl Rule {
 
     /// The same, and the axis reaches it.
     pub fn stretching(self) -> Self {
-        Self {
-            stretches: true,
-            ..self
-        }
+        Self { stretches: true, ..self }
     }
 
     /// The same with an entry in the legend.
     pub fn name(self, name: impl Into<String>) -> Self {
-        Self {
-            name: Some(name.into()),
-            ..self
-        }
+        Self { name: Some(name.into()), ..self }
     }
 
     /// The same with a text along it inside the frame.
     pub fn beside(self, text: impl Into<String>) -> Self {
-        Self {
-            beside: Some(text.into()),
-            ..self
-        }
+        Self { beside: Some(text.into()), ..self }
     }
 
     /// The same with a text beyond the frame, at the right or above.
     pub fn at_rim(self, text: impl Into<String>) -> Self {
-        Self {
-            rim: Some(text.into()),
-            ..self
-        }
+        Self { rim: Some(text.into()), ..self }
     }
 }
 
@@ -110,12 +90,7 @@ impl Layer for Rule {
         let Some(text) = &self.beside else { return };
         let style = TextStyle::new(LABEL_SIZE).with_halo();
         if self.is_horizontal && frame.y.contains(self.value) {
-            svg.text(
-                frame.area.x + 4.0,
-                frame.at_y(self.value) - 2.5,
-                text,
-                &style,
-            );
+            svg.text(frame.area.x + 4.0, frame.at_y(self.value) - 2.5, text, &style);
         } else if !self.is_horizontal && frame.x.contains(self.value) {
             let (x, y) = (frame.at_x(self.value) - 2.5, frame.area.bottom() - 5.0);
             svg.text(x, y, text, &style.rotated(-90.0));
@@ -132,18 +107,11 @@ impl Layer for Rule {
     }
 
     fn rule(&self) -> Option<RuleData> {
-        Some(RuleData {
-            is_horizontal: self.is_horizontal,
-            value: self.value,
-        })
+        Some(RuleData { is_horizontal: self.is_horizontal, value: self.value })
     }
 
     fn rim_label(&self) -> Option<(Side, f64, &str)> {
-        let side = if self.is_horizontal {
-            Side::Right
-        } else {
-            Side::Above
-        };
+        let side = if self.is_horizontal { Side::Right } else { Side::Above };
         Some((side, self.value, self.rim.as_deref()?))
     }
 }
@@ -161,12 +129,7 @@ impl Label {
     /// Text to the right of a point, in mark-up, with a white outline.
     pub fn new(place: (f64, f64), text: impl Into<String>) -> Self {
         let style = TextStyle::new(LABEL_SIZE).with_halo();
-        Self {
-            place,
-            offset: (3.0, 2.4),
-            text: text.into(),
-            style,
-        }
+        Self { place, offset: (3.0, 2.4), text: text.into(), style }
     }
 
     /// The same, centred above the point.
@@ -177,10 +140,7 @@ impl Label {
 
     /// The same, moved from the point, points right and down.
     pub fn moved(self, right: f64, down: f64) -> Self {
-        Self {
-            offset: (right, down),
-            ..self
-        }
+        Self { offset: (right, down), ..self }
     }
 
     /// The same in a style.
@@ -207,11 +167,7 @@ impl Label {
         };
         let (top, bottom) = (area.y + 1.0 + 0.76 * style.size, area.bottom() - 2.0);
         let within = |value: f64, low: f64, high: f64| {
-            if low <= high {
-                value.clamp(low, high)
-            } else {
-                value
-            }
+            if low <= high { value.clamp(low, high) } else { value }
         };
         (within(x, lowest, highest), within(y, top, bottom))
     }
@@ -232,10 +188,7 @@ impl Layer for Label {
     }
 
     fn label(&self) -> Option<LabelData> {
-        Some(LabelData {
-            place: self.place,
-            text: plain(&self.text),
-        })
+        Some(LabelData { place: self.place, text: plain(&self.text) })
     }
 }
 
@@ -319,12 +272,7 @@ mod tests {
     #[test]
     fn labels_are_spread_without_overlap() {
         let places = spread(&[10.0, 10.5, 11.0, 40.0, 80.0], 8.0, 0.0, 100.0);
-        assert!(
-            places
-                .windows(2)
-                .all(|pair| pair[1] - pair[0] >= 8.0 - 1e-9),
-            "{places:?}"
-        );
+        assert!(places.windows(2).all(|pair| pair[1] - pair[0] >= 8.0 - 1e-9), "{places:?}");
         assert!(places[3] == 40.0 && (places[1] - 10.5).abs() < 1e-9);
     }
 }

@@ -4,21 +4,13 @@
 pub fn signed(value: f64, decimals: usize) -> String {
     let text = format!("{:.*}", decimals, value.abs());
     let is_zero = text.chars().all(|c| c == '0' || c == '.');
-    if value < 0.0 && !is_zero {
-        format!("−{text}")
-    } else {
-        text
-    }
+    if value < 0.0 && !is_zero { format!("−{text}") } else { text }
 }
 
 /// A number with `digits` significant digits, in plain or scientific notation (mark-up).
 pub fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
-        return if value == 0.0 {
-            "0".into()
-        } else {
-            "–".into()
-        };
+        return if value == 0.0 { "0".into() } else { "–".into() };
     }
     let power = value.abs().log10().floor() as i32;
     if (-3..5).contains(&power) {
@@ -48,9 +40,7 @@ pub fn prefixed(reach: f64, unit: &str) -> (f64, String) {
     PREFIXES
         .into_iter()
         .find(|(size, _)| reach >= *size)
-        .map_or((1.0, unit.into()), |(size, prefix)| {
-            (1.0 / size, format!("{prefix}{unit}"))
-        })
+        .map_or((1.0, unit.into()), |(size, prefix)| (1.0 / size, format!("{prefix}{unit}")))
 }
 
 #[cfg(test)]

@@ -54,19 +54,12 @@ impl Panel {
     pub fn plane([low, high]: [[f64; 2]; 2]) -> Self {
         let axis = |i: usize| Axis::new("", "").between(low[i], high[i]);
         let panel = Self::new(axis(0), axis(1)).plain().height(165.0);
-        Self {
-            is_plane: true,
-            is_bare: true,
-            ..panel
-        }
+        Self { is_plane: true, is_bare: true, ..panel }
     }
 
     /// The same with equal units on both axes, which must have given ends.
     pub fn equal(self) -> Self {
-        Self {
-            is_plane: true,
-            ..self
-        }
+        Self { is_plane: true, ..self }
     }
 
     /// The same with one more layer over those it has.
@@ -82,10 +75,7 @@ impl Panel {
 
     /// The same with a caption above its left corner.
     pub fn caption(self, caption: impl Into<String>) -> Self {
-        Self {
-            caption: caption.into(),
-            ..self
-        }
+        Self { caption: caption.into(), ..self }
     }
 
     /// The same with a line of heading above its middle.
@@ -106,54 +96,37 @@ impl Panel {
 
     /// The same without grid lines.
     pub fn plain(self) -> Self {
-        Self {
-            has_grid: false,
-            ..self
-        }
+        Self { has_grid: false, ..self }
     }
 
     /// The same with a legend of its own above it.
     pub fn legend(self) -> Self {
-        Self {
-            has_legend: true,
-            ..self
-        }
+        Self { has_legend: true, ..self }
     }
 
     /// The same with the scale of its colours at a side.
     pub fn colour_bar(self, side: Side) -> Self {
-        Self {
-            bar: Some(side),
-            ..self
-        }
+        Self { bar: Some(side), ..self }
     }
 
     /// The same beside so many rows of other panels.
     pub fn beside(self, rows: usize) -> Self {
-        Self {
-            span: rows.max(1),
-            ..self
-        }
+        Self { span: rows.max(1), ..self }
     }
 
     /// Whether it has a point of data to show.
     pub(super) fn has_data(&self) -> bool {
-        self.layers
-            .iter()
-            .filter(|layer| layer.is_data())
-            .any(|layer| {
-                let mut found = false;
-                layer.extent(&mut |x, y| found |= x.is_finite() && y.is_finite());
-                found
-            })
+        self.layers.iter().filter(|layer| layer.is_data()).any(|layer| {
+            let mut found = false;
+            layer.extent(&mut |x, y| found |= x.is_finite() && y.is_finite());
+            found
+        })
     }
 
     /// Ranges of the data; where the horizontal ends are given, the vertical range is that of what lies between them.
     pub(super) fn ranges(&self) -> [Option<(f64, f64)>; 2] {
-        let (given, logarithmic) = (
-            self.x.given(),
-            [self.x.is_logarithmic(), self.y.is_logarithmic()],
-        );
+        let (given, logarithmic) =
+            (self.x.given(), [self.x.is_logarithmic(), self.y.is_logarithmic()]);
         let mut seen: [Vec<f64>; 2] = [Vec::new(), Vec::new()];
         for layer in self.layers.iter().filter(|layer| layer.is_data()) {
             layer.extent(&mut |x, y| {
@@ -208,12 +181,7 @@ impl Panel {
             labels: layers().filter_map(|l| l.label()).map(label).collect(),
             caption: title.join(", "),
             axes: [AxisData::of(&x), AxisData::of(&y)],
-            series: self
-                .layers
-                .iter()
-                .flat_map(|layer| layer.series())
-                .map(shown)
-                .collect(),
+            series: self.layers.iter().flat_map(|layer| layer.series()).map(shown).collect(),
         }
     }
 
@@ -231,9 +199,7 @@ impl Panel {
                         && shows(&frame.y, y);
                 });
             }
-            keys.into_iter()
-                .filter(|_| is_seen)
-                .for_each(|key| legend.add(key));
+            keys.into_iter().filter(|_| is_seen).for_each(|key| legend.add(key));
         }
     }
 
@@ -264,10 +230,7 @@ impl Panel {
 
     /// Room that names at the right of the frame take, points.
     pub(super) fn names_width(&self) -> f64 {
-        let names = self
-            .rim_labels(None)
-            .into_iter()
-            .filter(|label| label.0 == Side::Right);
+        let names = self.rim_labels(None).into_iter().filter(|label| label.0 == Side::Right);
         let widths = names.map(|label| text::width(label.2, RIM_SIZE, false) + 8.0);
         widths.fold(0.0, f64::max)
     }
@@ -302,10 +265,7 @@ impl Panel {
 
     /// Room needed above the data area for names beyond it, points.
     pub(super) fn rim_height(&self) -> f64 {
-        let above = self
-            .rim_labels(None)
-            .into_iter()
-            .any(|label| label.0 == Side::Above);
+        let above = self.rim_labels(None).into_iter().any(|label| label.0 == Side::Above);
         if above { 12.0 } else { 0.0 }
     }
 
@@ -317,10 +277,7 @@ impl Panel {
         labels: [bool; 2],
         (title_distance, are_names_inside): (f64, bool),
     ) {
-        let ticks = [
-            self.x_ticks(frame),
-            frame.y.ticks(vertical_count(frame.area.height)),
-        ];
+        let ticks = [self.x_ticks(frame), frame.y.ticks(vertical_count(frame.area.height))];
         if self.has_grid && !self.is_bare {
             draw_grid(svg, frame, &ticks);
         }

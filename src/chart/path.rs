@@ -83,11 +83,7 @@ fn hundredths(x: f64, y: f64) -> (i64, i64) {
 /// and so does a point where the number before has one.
 fn push_next(out: &mut String, value: i64) {
     let before = out.len()
-        - out
-            .bytes()
-            .rev()
-            .take_while(|&byte| byte.is_ascii_digit() || byte == b'.')
-            .count();
+        - out.bytes().rev().take_while(|&byte| byte.is_ascii_digit() || byte == b'.').count();
     let has_point = out[before..].contains('.');
     if value > 99 || value == 0 || (value > 0 && !has_point) {
         out.push(' ');
@@ -119,14 +115,7 @@ mod tests {
 
     #[test]
     fn a_row_of_lines_has_one_letter_and_no_more_spaces_than_needed() {
-        let points = [
-            (1.0, 2.5),
-            (1.5, 3.25),
-            (0.5, 3.25),
-            (0.57, 4.0),
-            (2.07, 4.5),
-            (2.57, 3.5),
-        ];
+        let points = [(1.0, 2.5), (1.5, 3.25), (0.5, 3.25), (0.57, 4.0), (2.07, 4.5), (2.57, 3.5)];
         let path = Path::polyline(points, true);
         assert_eq!(path.data, "M1 2.5l.5.75-1 0 .07.75 1.5.5.5-1z");
     }

@@ -19,32 +19,23 @@ impl Drawing {
     pub fn to_pdf(&self) -> Result<Vec<u8>, ChartError> {
         let tree = &self.0;
         let (catalog, pages, page, contents) = (Ref::new(1), Ref::new(2), Ref::new(3), Ref::new(4));
-        let mut writer = Writer {
-            content: Content::new(),
-            images: Vec::new(),
-            opacities: BTreeMap::new(),
-        };
+        let mut writer =
+            Writer { content: Content::new(), images: Vec::new(), opacities: BTreeMap::new() };
         // From pixels at 96 for each inch, down from the top, to points up from the bottom.
         let (width, height) = (0.75 * tree.size().width(), 0.75 * tree.size().height());
-        writer
-            .content
-            .transform([0.75, 0.0, 0.0, -0.75, 0.0, height]);
+        writer.content.transform([0.75, 0.0, 0.0, -0.75, 0.0, height]);
         writer.group(tree.root())?;
 
         let mut pdf = Pdf::new();
         pdf.catalog(catalog).pages(pages);
         pdf.pages(pages).kids([page]).count(1);
         let mut entry = pdf.page(page);
-        entry
-            .parent(pages)
-            .contents(contents)
-            .media_box(Rect::new(0.0, 0.0, width, height));
+        entry.parent(pages).contents(contents).media_box(Rect::new(0.0, 0.0, width, height));
         let mut resources = entry.resources();
         let first = contents.get() + 1;
         let image_at = |index: usize| Ref::new(first + 2 * index as i32);
-        let names: Vec<String> = (0..writer.images.len())
-            .map(|index| format!("I{index}"))
-            .collect();
+        let names: Vec<String> =
+            (0..writer.images.len()).map(|index| format!("I{index}")).collect();
         let mut objects = resources.x_objects();
         for (index, name) in names.iter().enumerate() {
             objects.pair(Name(name.as_bytes()), image_at(index));
@@ -62,11 +53,7 @@ impl Drawing {
         resources.finish();
         entry.finish();
         for (index, pixels) in writer.images.iter().enumerate() {
-            write_image(
-                &mut pdf,
-                (image_at(index), image_at(index).get() + 1),
-                pixels,
-            )?;
+            write_image(&mut pdf, (image_at(index), image_at(index).get() + 1), pixels)?;
         }
         let stream = deflated(&writer.content.finish())?;
         pdf.stream(contents, &stream).filter(Filter::FlateDecode);
@@ -128,10 +115,7 @@ impl Writer {
                 // The cubic curve that is the quadratic one.
                 PathSegment::QuadTo(c, p) => {
                     let third = |from: (f32, f32)| {
-                        (
-                            from.0 + (c.x - from.0) * 2.0 / 3.0,
-                            from.1 + (c.y - from.1) * 2.0 / 3.0,
-                        )
+                        (from.0 + (c.x - from.0) * 2.0 / 3.0, from.1 + (c.y - from.1) * 2.0 / 3.0)
                     };
                     let (a, b) = (third(last), third((p.x, p.y)));
                     self.content.cubic_to(a.0, a.1, b.0, b.1, p.x, p.y)
@@ -157,9 +141,7 @@ impl Writer {
             self.content.save_state();
             self.opacity(stroke.opacity().get());
             let [r, g, b] = colour(stroke.paint());
-            self.content
-                .set_stroke_rgb(r, g, b)
-                .set_line_width(stroke.width().get());
+            self.content.set_stroke_rgb(r, g, b).set_line_width(stroke.width().get());
             self.content
                 .set_line_join(LineJoinStyle::RoundJoin)
                 .set_line_cap(LineCapStyle::ButtCap);
@@ -183,10 +165,7 @@ impl Writer {
     fn opacity(&mut self, opacity: f32) {
         let hundredths = (opacity * 100.0).round() as u32;
         if hundredths < 100 {
-            let name = self
-                .opacities
-                .entry(hundredths)
-                .or_insert_with(|| format!("G{hundredths}"));
+            let name = self.opacities.entry(hundredths).or_insert_with(|| format!("G{hundredths}"));
             self.content.set_parameters(Name(name.as_bytes()));
         }
     }
@@ -200,8 +179,7 @@ impl Writer {
         let size = image.size();
         let name = format!("I{}", self.images.len());
         self.content.save_state();
-        self.content
-            .transform([size.width(), 0.0, 0.0, -size.height(), 0.0, size.height()]);
+        self.content.transform([size.width(), 0.0, 0.0, -size.height(), 0.0, size.height()]);
         self.content.x_object(Name(name.as_bytes())).restore_state();
         self.images.push(pixels);
         Ok(())
@@ -223,30 +201,19 @@ fn decode(bytes: &[u8]) -> Result<Pixels, ChartError> {
     let mut reader = decoder.read_info().map_err(fail)?;
     let mut rgba = vec![0; reader.output_buffer_size().unwrap_or(0)];
     let info = reader.next_frame(&mut rgba).map_err(fail)?;
-    Ok(Pixels {
-        width: info.width,
-        height: info.height,
-        rgba,
-    })
+    Ok(Pixels { width: info.width, height: info.height, rgba })
 }
 
 /// Writes the colours of an image, and its opacities as a mask.
 fn write_image(pdf: &mut Pdf, (at, mask): (Ref, i32), pixels: &Pixels) -> Result<(), ChartError> {
     let mask = Ref::new(mask);
-    let colours: Vec<u8> = pixels
-        .rgba
-        .chunks_exact(4)
-        .flat_map(|p| [p[0], p[1], p[2]])
-        .collect();
+    let colours: Vec<u8> = pixels.rgba.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
     let opacities: Vec<u8> = pixels.rgba.chunks_exact(4).map(|p| p[3]).collect();
     for (at, values, is_mask) in [(at, colours, false), (mask, opacities, true)] {
         let data = deflated(&values)?;
         let mut image = pdf.image_xobject(at, &data);
         image.filter(Filter::FlateDecode);
-        image
-            .width(pixels.width as i32)
-            .height(pixels.height as i32)
-            .bits_per_component(8);
+        image.width(pixels.width as i32).height(pixels.height as i32).bits_per_component(8);
         if is_mask {
             image.color_space().device_gray();
         } else {

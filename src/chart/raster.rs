@@ -19,8 +19,7 @@ impl Drawing {
             ..usvg::Options::default()
         };
         let tree = usvg::Tree::from_str(svg, &options);
-        tree.map(Self)
-            .map_err(|error| ChartError::Parse(error.to_string()))
+        tree.map(Self).map_err(|error| ChartError::Parse(error.to_string()))
     }
 
     /// The drawing as PNG: one point becomes `dots_per_inch / 72` pixels, 300 suits print.
@@ -30,14 +29,8 @@ impl Drawing {
     pub fn to_png(&self, dots_per_inch: f64) -> Result<Vec<u8>, ChartError> {
         // The tree has points as pixels at 96 for each inch.
         let scale = (dots_per_inch / 96.0) as f32;
-        let (width, height) = (
-            self.0.size().width() * scale,
-            self.0.size().height() * scale,
-        );
-        let size = ChartError::Size {
-            width: f64::from(width),
-            height: f64::from(height),
-        };
+        let (width, height) = (self.0.size().width() * scale, self.0.size().height() * scale);
+        let size = ChartError::Size { width: f64::from(width), height: f64::from(height) };
         if f64::from(width) * f64::from(height) > 1e8 {
             return Err(size);
         }
@@ -53,11 +46,8 @@ impl Drawing {
 
 /// Drawings have a white ground, so the alpha channel is dropped.
 fn encode_opaque(pixmap: &tiny_skia::Pixmap) -> Result<Vec<u8>, ChartError> {
-    let rgb: Vec<u8> = pixmap
-        .data()
-        .chunks_exact(4)
-        .flat_map(|pixel| [pixel[0], pixel[1], pixel[2]])
-        .collect();
+    let rgb: Vec<u8> =
+        pixmap.data().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, pixmap.width(), pixmap.height());
     encoder.set_color(png::ColorType::Rgb);

@@ -39,14 +39,7 @@ impl Ruler {
             Scale::Linear => non_empty(low, high),
             Scale::Logarithmic => positive(low, high),
         };
-        Self {
-            title,
-            scale,
-            factor,
-            low,
-            high,
-            fixed_ticks,
-        }
+        Self { title, scale, factor, low, high, fixed_ticks }
     }
 
     /// Position of a value in the unit of the data, 0 at the lower end and 1 at the upper.
@@ -109,11 +102,7 @@ impl Ruler {
     /// Labelled ticks, about `count` of them.
     pub(super) fn ticks(&self, count: usize) -> Vec<Tick> {
         if let Some(ticks) = &self.fixed_ticks {
-            return ticks
-                .iter()
-                .filter(|tick| self.shows(tick.value))
-                .cloned()
-                .collect();
+            return ticks.iter().filter(|tick| self.shows(tick.value)).cloned().collect();
         }
         match self.scale {
             Scale::Linear => self.linear_ticks(count),
@@ -142,10 +131,7 @@ impl Ruler {
         (first..=last)
             .map(|index| {
                 let value = index as f64 * step;
-                Tick {
-                    value,
-                    label: signed(value / unit, decimals),
-                }
+                Tick { value, label: signed(value / unit, decimals) }
             })
             .collect()
     }
@@ -173,11 +159,7 @@ fn positive(low: f64, high: f64) -> (f64, f64) {
         true => high.clamp(SIZES.0, SIZES.1),
         false => 1.0,
     };
-    let low = if low > 0.0 {
-        low.max(1e-280 * high)
-    } else {
-        1e-3 * high
-    };
+    let low = if low > 0.0 { low.max(1e-280 * high) } else { 1e-3 * high };
     match low < high * (1.0 - 1e-9) {
         true => (low, high),
         false => (0.5 * high, 2.0 * high),
@@ -205,10 +187,7 @@ fn decimals_for(step: f64) -> usize {
 
 /// Width of the widest of some labels, points.
 pub(super) fn widest(labels: &[Tick], size: f64) -> f64 {
-    labels
-        .iter()
-        .map(|tick| text::width(&tick.label, size, false))
-        .fold(0.0, f64::max)
+    labels.iter().map(|tick| text::width(&tick.label, size, false)).fold(0.0, f64::max)
 }
 
 impl Ruler {
@@ -255,10 +234,7 @@ impl Ruler {
         }
         let decades = (last - first + 1) as usize;
         let stride = decades.div_ceil(count.max(1)).max(1);
-        (first..=last)
-            .step_by(stride)
-            .map(|power| tick(1.0, power))
-            .collect()
+        (first..=last).step_by(stride).map(|power| tick(1.0, power)).collect()
     }
 
     /// Within a factor of about two a logarithmic axis is nearly a linear one, and takes its steps.
@@ -268,10 +244,7 @@ impl Ruler {
             .map(|tick| {
                 let power = (tick.value.log10() + 1e-9).floor() as i32;
                 let digit = tick.value / 10f64.powi(power);
-                Tick {
-                    label: logarithmic_label(digit, power, plain),
-                    ..tick
-                }
+                Tick { label: logarithmic_label(digit, power, plain), ..tick }
             })
             .collect()
     }
@@ -307,10 +280,7 @@ mod tests {
     #[test]
     fn linear_ticks_are_round_and_inside() {
         let linear = |low, high, count| labels(Scale::Linear, low, high, count);
-        assert_eq!(
-            linear(0.0, 0.05, 5),
-            ["0.00", "0.01", "0.02", "0.03", "0.04", "0.05"]
-        );
+        assert_eq!(linear(0.0, 0.05, 5), ["0.00", "0.01", "0.02", "0.03", "0.04", "0.05"]);
         assert_eq!(linear(-3.1, 2.2, 4), ["−2", "0", "2"]);
     }
 
@@ -333,10 +303,7 @@ mod tests {
             (Scale::Logarithmic, 3.0, 3.0),
         ] {
             let ruler = ruler(scale, low, high);
-            assert!(
-                ruler.high > ruler.low && !ruler.ticks(4).is_empty(),
-                "{ruler:?}"
-            );
+            assert!(ruler.high > ruler.low && !ruler.ticks(4).is_empty(), "{ruler:?}");
         }
     }
 
@@ -351,21 +318,10 @@ mod tests {
     #[test]
     fn short_logarithmic_ranges_have_at_least_two_labels() {
         let logarithmic = |low, high| labels(Scale::Logarithmic, low, high, 4);
-        assert_eq!(
-            logarithmic(1.5e-3, 4.4e-3),
-            ["0.0015", "0.002", "0.003", "0.004"]
-        );
-        assert_eq!(
-            logarithmic(2.6e-8, 1.7e-7),
-            ["3·10^{−8}", "5·10^{−8}", "10^{−7}"]
-        );
+        assert_eq!(logarithmic(1.5e-3, 4.4e-3), ["0.0015", "0.002", "0.003", "0.004"]);
+        assert_eq!(logarithmic(2.6e-8, 1.7e-7), ["3·10^{−8}", "5·10^{−8}", "10^{−7}"]);
         assert_eq!(logarithmic(21.0, 49.0), ["25", "30", "35", "40", "45"]);
-        for (low, high) in [
-            (2.1e-3, 4.9e-3),
-            (0.11, 0.13),
-            (6.1e-8, 8.9e-8),
-            (95.0, 102.0),
-        ] {
+        for (low, high) in [(2.1e-3, 4.9e-3), (0.11, 0.13), (6.1e-8, 8.9e-8), (95.0, 102.0)] {
             assert!(logarithmic(low, high).len() > 1, "{low} {high}");
         }
     }

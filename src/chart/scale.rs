@@ -22,8 +22,7 @@ impl Scale {
 /// Smallest and largest finite value; `(0, 1)` if there is none.
 pub fn extremes(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
     let finite = values.into_iter().filter(|value| value.is_finite());
-    let ends = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
-        (low.min(v), high.max(v))
-    });
+    let ends =
+        finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
     if ends.0 > ends.1 { (0.0, 1.0) } else { ends }
 }

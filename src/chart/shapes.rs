@@ -68,26 +68,17 @@ pub struct Shapes {
 impl Shapes {
     /// Polygons, each in a colour.
     pub fn polygons(polygons: Vec<(Vec<(f64, f64)>, &'static str)>) -> Self {
-        Self {
-            polygons,
-            ..Self::default()
-        }
+        Self { polygons, ..Self::default() }
     }
 
     /// Bands over the whole height, each from one abscissa to another in a colour.
     pub fn bands(bands: Vec<(f64, f64, &'static str)>) -> Self {
-        Self {
-            bands,
-            ..Self::default()
-        }
+        Self { bands, ..Self::default() }
     }
 
     /// The same without entries in the legend.
     pub fn unnamed(self) -> Self {
-        Self {
-            names: Vec::new(),
-            ..self
-        }
+        Self { names: Vec::new(), ..self }
     }
 
     /// The same with an entry in the legend.
@@ -102,9 +93,7 @@ impl Layer for Shapes {
         for (x, y) in self.polygons.iter().flat_map(|(points, _)| points) {
             see(*x, *y);
         }
-        self.bands
-            .iter()
-            .for_each(|band| see(band.0, f64::INFINITY));
+        self.bands.iter().for_each(|band| see(band.0, f64::INFINITY));
     }
 
     fn draw(&self, svg: &mut Svg, frame: &Frame) {

@@ -60,11 +60,7 @@ impl Surface {
     ) -> Self {
         let known: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
         let colours = Box::new(Colours::over(axis, map, &known));
-        Self {
-            mesh,
-            positions,
-            paint: Paint::Values(values, colours),
-        }
+        Self { mesh, positions, paint: Paint::Values(values, colours) }
     }
 
     /// Triangles in the colours of the parts that they belong to, by index; `parts` has colour and name of each ("": not in the
@@ -75,11 +71,7 @@ impl Surface {
         part_of: Vec<usize>,
         parts: Vec<(&'static str, String)>,
     ) -> Self {
-        Self {
-            mesh,
-            positions,
-            paint: Paint::Parts(part_of, parts),
-        }
+        Self { mesh, positions, paint: Paint::Parts(part_of, parts) }
     }
 
     /// The corners of the rectangle around the nodes of the surface, with `room` as a fraction of its size.
@@ -131,11 +123,7 @@ impl Surface {
         };
         let place = |node: u32| {
             let [x, y, z] = self.positions[node as usize];
-            [
-                frame.x.fraction(x) * width as f64,
-                (1.0 - frame.y.fraction(y)) * height as f64,
-                z,
-            ]
+            [frame.x.fraction(x) * width as f64, (1.0 - frame.y.fraction(y)) * height as f64, z]
         };
         for (triangle, corners) in self.mesh.triangles.iter().enumerate() {
             let shade = self.shade(corners);
@@ -143,9 +131,8 @@ impl Surface {
         }
         // An edge lies in its faces: it stands a little in front of them.
         let reach = self.positions.iter().map(|place| place[2]);
-        let (near, far) = reach.fold((f64::NEG_INFINITY, f64::INFINITY), |(near, far), z| {
-            (near.max(z), far.min(z))
-        });
+        let (near, far) = reach
+            .fold((f64::NEG_INFINITY, f64::INFINITY), |(near, far), z| (near.max(z), far.min(z)));
         let lift = 4e-3 * (near - far).max(0.0);
         for ends in &self.mesh.edges {
             canvas.line(ends.map(place), lift);
@@ -162,9 +149,7 @@ impl Surface {
                 (value - low) / (high - low).max(f64::MIN_POSITIVE) * LEVELS as f64
             }),
             Paint::Parts(part_of, _) => {
-                let part = part_of
-                    .get(triangle)
-                    .map(|part| (part % LEVELS) as f64 + 0.5);
+                let part = part_of.get(triangle).map(|part| (part % LEVELS) as f64 + 0.5);
                 [part.unwrap_or(f64::NAN); 3]
             }
         }
@@ -174,11 +159,8 @@ impl Surface {
     fn shade(&self, corners: &[u32; 3]) -> usize {
         let [a, b, c] = corners.map(|node| self.positions[node as usize]);
         let [u, v] = [b, c].map(|p| [p[0] - a[0], p[1] - a[1], p[2] - a[2]]);
-        let normal = [
-            u[1] * v[2] - u[2] * v[1],
-            u[2] * v[0] - u[0] * v[2],
-            u[0] * v[1] - u[1] * v[0],
-        ];
+        let normal =
+            [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
         let length = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
         let facing: f64 = normal.iter().zip(LIGHT).map(|(n, l)| n * l).sum();
         // A face seen from behind is lit like its back.
@@ -288,11 +270,7 @@ mod tests {
         let axis = Axis::new("", "").between(0.0, 1.0);
         let surface = Surface::new(Arc::new(mesh), positions, values, axis, ColourMap::Viridis);
         let mut canvas = Canvas {
-            image: IndexedImage {
-                width: 40,
-                height: 40,
-                pixels: vec![0; 1600],
-            },
+            image: IndexedImage { width: 40, height: 40, pixels: vec![0; 1600] },
             depth: vec![f64::NEG_INFINITY; 1600],
         };
         let place = |node: u32| {
@@ -315,10 +293,7 @@ mod tests {
     /// Parts have one colour each, whatever their triangles, and names in the legend where they have one.
     #[test]
     fn parts_have_one_colour_each_and_a_name_in_the_legend() {
-        let mesh = SurfaceMesh {
-            triangles: vec![[0, 1, 2], [0, 2, 3]],
-            edges: Vec::new(),
-        };
+        let mesh = SurfaceMesh { triangles: vec![[0, 1, 2], [0, 2, 3]], edges: Vec::new() };
         let parts = vec![("#ff0000", "disc".to_owned()), ("#00ff00", String::new())];
         let surface = Surface::of_parts(Arc::new(mesh), vec![[0.0; 3]; 4], vec![1, 0], parts);
         assert_eq!(surface.levels(0, &[0, 1, 2]), [1.5; 3]);

@@ -30,12 +30,7 @@ pub struct Rect {
 impl Rect {
     /// Rectangle from its upper left corner and size.
     pub fn new(x: f64, y: f64, width: f64, height: f64) -> Self {
-        Self {
-            x,
-            y,
-            width,
-            height,
-        }
+        Self { x, y, width, height }
     }
 
     /// Right edge.
@@ -71,28 +66,17 @@ pub struct Stroke {
 impl Stroke {
     /// A full opaque line.
     pub fn solid(colour: &'static str, width: f64) -> Self {
-        Self {
-            colour,
-            width,
-            dash: &[],
-            opacity: 1.0,
-        }
+        Self { colour, width, dash: &[], opacity: 1.0 }
     }
 
     /// A dashed opaque line.
     pub fn dashed(colour: &'static str, width: f64) -> Self {
-        Self {
-            dash: &[3.0, 2.0],
-            ..Self::solid(colour, width)
-        }
+        Self { dash: &[3.0, 2.0], ..Self::solid(colour, width) }
     }
 
     /// A dotted opaque line.
     pub fn dotted(colour: &'static str, width: f64) -> Self {
-        Self {
-            dash: &[1.0, 1.6],
-            ..Self::solid(colour, width)
-        }
+        Self { dash: &[1.0, 1.6], ..Self::solid(colour, width) }
     }
 
     /// The same line with another opacity.
@@ -168,18 +152,9 @@ impl Svg {
     /// An empty white drawing, `width` by `height` points; `name` prefixes its ids, so that several
     /// drawings can share one HTML page.
     pub fn new(name: &str, width: f64, height: f64) -> Self {
-        let prefix = name
-            .chars()
-            .map(|c| if c.is_ascii_alphanumeric() { c } else { '-' })
-            .collect();
-        Self {
-            width,
-            height,
-            prefix,
-            definitions: String::new(),
-            body: String::new(),
-            ids: 0,
-        }
+        let prefix =
+            name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
+        Self { width, height, prefix, definitions: String::new(), body: String::new(), ids: 0 }
     }
 
     /// Its width, points.
@@ -243,22 +218,14 @@ impl Svg {
     pub fn text(&mut self, x: f64, y: f64, markup: &str, style: &TextStyle) {
         let out = &mut self.body;
         let (x, y) = (number(x), number(y));
-        let _ = write!(
-            out,
-            r#"<text x="{x}" y="{y}" font-size="{}""#,
-            number(style.size)
-        );
+        let _ = write!(out, r#"<text x="{x}" y="{y}" font-size="{}""#, number(style.size));
         match style.anchor {
             Anchor::Start => {}
             Anchor::Middle => out.push_str(r#" text-anchor="middle""#),
             Anchor::End => out.push_str(r#" text-anchor="end""#),
         }
         if style.rotation != 0.0 {
-            let _ = write!(
-                out,
-                r#" transform="rotate({} {x} {y})""#,
-                number(style.rotation)
-            );
+            let _ = write!(out, r#" transform="rotate({} {x} {y})""#, number(style.rotation));
         }
         if style.bold {
             out.push_str(r#" font-weight="bold""#);
@@ -294,11 +261,7 @@ impl Svg {
 
     /// A PNG image stretched over a rectangle; `pixelated` keeps its pixels sharp.
     pub fn image(&mut self, rect: &Rect, png: &[u8], pixelated: bool) {
-        let rendering = if pixelated {
-            r#" style="image-rendering:pixelated""#
-        } else {
-            ""
-        };
+        let rendering = if pixelated { r#" style="image-rendering:pixelated""# } else { "" };
         let _ = writeln!(
             self.body,
             r#"<image {} preserveAspectRatio="none"{rendering} xlink:href="data:image/png;base64,{}"/>"#,

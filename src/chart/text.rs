@@ -109,11 +109,7 @@ pub fn parse(markup: &str) -> Vec<Run> {
     let mut chars = markup.chars().peekable();
     let flush = |current: &mut String, italic: bool, shift: i8, runs: &mut Vec<Run>| {
         if !current.is_empty() {
-            runs.push(Run {
-                text: std::mem::take(current),
-                italic,
-                shift,
-            });
+            runs.push(Run { text: std::mem::take(current), italic, shift });
         }
     };
     while let Some(c) = chars.next() {
@@ -255,19 +251,8 @@ mod tests {
     #[test]
     fn markup_splits_into_symbols_and_indices() {
         let runs = parse("*μ*_{c} = 10^{-3}");
-        let view: Vec<_> = runs
-            .iter()
-            .map(|r| (r.text.as_str(), r.italic, r.shift))
-            .collect();
-        assert_eq!(
-            view,
-            [
-                ("μ", true, 0),
-                ("c", false, -1),
-                (" = 10", false, 0),
-                ("-3", false, 1)
-            ]
-        );
+        let view: Vec<_> = runs.iter().map(|r| (r.text.as_str(), r.italic, r.shift)).collect();
+        assert_eq!(view, [("μ", true, 0), ("c", false, -1), (" = 10", false, 0), ("-3", false, 1)]);
     }
 
     #[test]

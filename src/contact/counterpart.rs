@@ -160,10 +160,7 @@ impl RigidCounterface {
         };
         let facing = outward.iter().map(|(at, normal)| self.arm(at).dot(normal));
         placed.sense = if facing.sum::<f64>() < 0.0 { 1.0 } else { -1.0 };
-        let radii: Vec<f64> = nodes
-            .iter()
-            .map(|&node| self.arm(&position(node)).norm())
-            .collect();
+        let radii: Vec<f64> = nodes.iter().map(|&node| self.arm(&position(node)).norm()).collect();
         let radius = match radius {
             Some(radius) => radius,
             None => self.common_radius(mesh, surface, (&nodes, &radii))?,
@@ -233,9 +230,8 @@ impl RigidCounterface {
 fn mean_normals(mesh: &Mesh, surface: &Boundary) -> Vec<(Vector3<f64>, Vector3<f64>)> {
     let of_face = |face: &BoundaryFace| {
         let corners = face.nodes[..face.kind.corner_count()].iter();
-        let corners: Vec<Vector3<f64>> = corners
-            .map(|&node| Vector3::from(mesh.nodes[node as usize]))
-            .collect();
+        let corners: Vec<Vector3<f64>> =
+            corners.map(|&node| Vector3::from(mesh.nodes[node as usize])).collect();
         let middle = corners.iter().sum::<Vector3<f64>>() / corners.len() as f64;
         let next = corners.iter().cycle().skip(1);
         let fan = corners.iter().zip(next);
@@ -258,9 +254,7 @@ impl PlacedCounterface<'_> {
 
     /// Distance of a point of the surface with these shares of its nodes, m.
     pub fn gap(&self, shares: &[(u32, f64)]) -> f64 {
-        let parts = shares
-            .iter()
-            .map(|(node, share)| self.heights[node] * share);
+        let parts = shares.iter().map(|(node, share)| self.heights[node] * share);
         parts.sum()
     }
 }

@@ -29,10 +29,7 @@ impl ContactInterface {
         let mut is_clamped = vec![false; mesh.node_count()];
         for boundary in &mesh.boundaries {
             if boundary.condition == BoundaryCondition::Clamped {
-                boundary
-                    .nodes
-                    .iter()
-                    .for_each(|&node| is_clamped[node as usize] = true);
+                boundary.nodes.iter().for_each(|&node| is_clamped[node as usize] = true);
             }
         }
         let mut meetings = meetings(mesh);
@@ -61,14 +58,7 @@ impl ContactInterface {
                 opposite.push(meeting.shares);
             }
         }
-        Self {
-            opposite,
-            angles,
-            tributary_lengths: lengths,
-            gaps,
-            counterface,
-            nodes,
-        }
+        Self { opposite, angles, tributary_lengths: lengths, gaps, counterface, nodes }
     }
 
     /// The opposite body's shares at contact node `i`, none on a rigid counterface.

@@ -67,10 +67,7 @@ impl FrictionDecay {
         let (speed, decay) = (slip_speed.abs(), self.decay_speed);
         let unit = (-speed / decay).exp();
         let by_speed = self.excess(speed) * speed / (decay * decay);
-        [
-            [unit, -unit / decay],
-            [by_speed, (self.excess(speed) / decay - by_speed) / decay],
-        ]
+        [[unit, -unit / decay], [by_speed, (self.excess(speed) / decay - by_speed) / decay]]
     }
 }
 
@@ -127,11 +124,7 @@ impl CoulombFriction {
     /// projection of `trial` onto the cone.
     pub fn project(&self, trial: f64, normal: f64) -> (f64, ContactStatus) {
         let cone = self.cone(normal);
-        let status = if trial.abs() <= cone {
-            ContactStatus::Stick
-        } else {
-            ContactStatus::Slip
-        };
+        let status = if trial.abs() <= cone { ContactStatus::Stick } else { ContactStatus::Slip };
         (trial.clamp(-cone, cone), status)
     }
 
@@ -152,11 +145,7 @@ impl CoulombFriction {
         let sense = node.free_slip.signum();
         let Some(decay) = self.decay else {
             let (force, status) = self.project(inertia * node.free_slip, normal);
-            return NodeFriction {
-                force,
-                status,
-                is_ambiguous: false,
-            };
+            return NodeFriction { force, status, is_ambiguous: false };
         };
         let pull = self.cone(normal) / inertia;
         let v_c = decay.decay_speed;
@@ -184,11 +173,7 @@ impl CoulombFriction {
         let pull = self.cone(normal) / inertia;
         let highest = free - pull;
         // From the last slip where the function is monotone, else from the right of its largest root.
-        let mut slip = if fall < 1.0 {
-            before.min(highest).max(0.0)
-        } else {
-            highest
-        };
+        let mut slip = if fall < 1.0 { before.min(highest).max(0.0) } else { highest };
         for _ in 0..NEWTON_STEPS {
             let excess = pull * decay.excess(slip);
             let slope = 1.0 - excess / v_c;

@@ -53,8 +53,7 @@ pub fn linearized(
     let frozen = state.frozen_below;
     let merge_many = |terms: &mut [Triplets]| {
         let many = terms.iter_mut();
-        many.filter(|term| term.entries.len() > MANY_ENTRIES)
-            .for_each(Triplets::merge);
+        many.filter(|term| term.entries.len() > MANY_ENTRIES).for_each(Triplets::merge);
     };
     let pressed = || (0..points.len()).filter(|&i| state.is_pressed[i]);
     for point in pressed().map(|i| &points[i]) {

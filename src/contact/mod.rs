@@ -60,10 +60,7 @@ pub struct SlidingContact {
 impl SlidingContact {
     /// The friction law.
     pub fn law(&self) -> CoulombFriction {
-        CoulombFriction {
-            friction_coefficient: self.friction_coefficient,
-            decay: self.decay,
-        }
+        CoulombFriction { friction_coefficient: self.friction_coefficient, decay: self.decay }
     }
 
     /// Friction of steady sliding at the surface speed `surface_speed` (m/s) of the counterface in the sense `direction`.
@@ -115,15 +112,9 @@ impl ContactStiffness {
     /// The same with the dashpot `beta_R k_n` of a stiffness damping that acts on the contact too.
     pub fn damped_by(self, stiffness_coefficient: f64) -> Self {
         if self.law.is_some() {
-            return Self {
-                law_damping: self.law_damping + stiffness_coefficient,
-                ..self
-            };
+            return Self { law_damping: self.law_damping + stiffness_coefficient, ..self };
         }
         let added = stiffness_coefficient * self.normal_stiffness.unwrap_or(0.0);
-        Self {
-            normal_damping: self.normal_damping + added,
-            ..self
-        }
+        Self { normal_damping: self.normal_damping + added, ..self }
     }
 }

@@ -119,10 +119,7 @@ fn add_face(face: &BoundaryFace, points: &[&SegmentPoint], sums: &mut BTreeMap<u
     let count = face.nodes.len();
     let mut mass = DMatrix::<f64>::zeros(count, count);
     let mut diagonal = vec![0.0; count];
-    let bases: Vec<Vec<f64>> = points
-        .iter()
-        .map(|point| positive_basis(face, point))
-        .collect();
+    let bases: Vec<Vec<f64>> = points.iter().map(|point| positive_basis(face, point)).collect();
     for (point, basis) in points.iter().zip(&bases) {
         for i in 0..count {
             diagonal[i] += point.area * basis[i];
@@ -172,9 +169,7 @@ impl MortarNode {
         let is_own = |dof: usize| dof / mesh.dimension == self.node as usize;
         row.sort_by(|a, b| {
             let key = |entry: &(usize, f64)| (!is_own(entry.0), -entry.1.abs());
-            key(a)
-                .partial_cmp(&key(b))
-                .expect("coefficients are finite")
+            key(a).partial_cmp(&key(b)).expect("coefficients are finite")
         });
         row.extend(row_along(mesh, &self.counter, direction, -1.0));
         row

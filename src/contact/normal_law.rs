@@ -48,19 +48,13 @@ fn excess_of_mean(x: f64) -> f64 {
 impl NormalLaw {
     /// Springs that do not stiffen, `p = k g`.
     pub fn linear(stiffness: f64) -> Self {
-        Self::Cubic {
-            stiffness,
-            cubic_stiffness: 0.0,
-        }
+        Self::Cubic { stiffness, cubic_stiffness: 0.0 }
     }
 
     /// The approach up to which the stiffness stays within a few times that at rest, m; without bound where it does not change.
     pub fn soft_approach(self) -> f64 {
         match self {
-            Self::Cubic {
-                stiffness,
-                cubic_stiffness,
-            } => (stiffness / cubic_stiffness).sqrt(),
+            Self::Cubic { stiffness, cubic_stiffness } => (stiffness / cubic_stiffness).sqrt(),
             Self::Exponential { height, .. } => height,
         }
     }
@@ -78,10 +72,7 @@ impl NormalLaw {
     /// `p(g) / g` and its derivative, Pa/m and Pa/m2, of an approach of zero or more.
     pub fn secant(self, approach: f64) -> [f64; 2] {
         match self {
-            Self::Cubic {
-                stiffness,
-                cubic_stiffness,
-            } => {
+            Self::Cubic { stiffness, cubic_stiffness } => {
                 let cubic = cubic_stiffness * approach;
                 [stiffness + cubic * approach, 2.0 * cubic]
             }
@@ -99,37 +90,31 @@ impl NormalLaw {
     /// `p(g)`, Pa.
     pub fn pressure(self, approach: f64) -> f64 {
         match self {
-            Self::Cubic {
-                stiffness,
-                cubic_stiffness,
-            } => approach * (stiffness + cubic_stiffness * approach * approach),
-            Self::Exponential {
-                reference_pressure,
-                height,
-            } => reference_pressure * (approach / height).exp_m1(),
+            Self::Cubic { stiffness, cubic_stiffness } => {
+                approach * (stiffness + cubic_stiffness * approach * approach)
+            }
+            Self::Exponential { reference_pressure, height } => {
+                reference_pressure * (approach / height).exp_m1()
+            }
         }
     }
 
     /// `dp / dg`, Pa/m.
     pub fn stiffness(self, approach: f64) -> f64 {
         match self {
-            Self::Cubic {
-                stiffness,
-                cubic_stiffness,
-            } => stiffness + 3.0 * cubic_stiffness * approach * approach,
-            Self::Exponential {
-                reference_pressure,
-                height,
-            } => reference_pressure * (approach / height).exp() / height,
+            Self::Cubic { stiffness, cubic_stiffness } => {
+                stiffness + 3.0 * cubic_stiffness * approach * approach
+            }
+            Self::Exponential { reference_pressure, height } => {
+                reference_pressure * (approach / height).exp() / height
+            }
         }
     }
 
     /// `d^2 p / dg^2`, Pa/m2.
     pub fn curvature(self, approach: f64) -> f64 {
         match self {
-            Self::Cubic {
-                cubic_stiffness, ..
-            } => 6.0 * cubic_stiffness * approach,
+            Self::Cubic { cubic_stiffness, .. } => 6.0 * cubic_stiffness * approach,
             Self::Exponential { height, .. } => self.stiffness(approach) / height,
         }
     }
@@ -158,14 +143,10 @@ impl NormalLaw {
 
     fn mean_closed(self, a: f64, b: f64) -> f64 {
         match self {
-            Self::Cubic {
-                stiffness,
-                cubic_stiffness,
-            } => 0.5 * (a + b) * (stiffness + 0.5 * cubic_stiffness * (a * a + b * b)),
-            Self::Exponential {
-                reference_pressure,
-                height,
-            } => {
+            Self::Cubic { stiffness, cubic_stiffness } => {
+                0.5 * (a + b) * (stiffness + 0.5 * cubic_stiffness * (a * a + b * b))
+            }
+            Self::Exponential { reference_pressure, height } => {
                 let excess = excess_of_mean((b - a) / height);
                 let start = (a / height).exp_m1();
                 reference_pressure * (start + excess * (start + 1.0))
@@ -179,12 +160,9 @@ impl NormalLaw {
         match (self, parameter) {
             (Self::Cubic { .. }, LawParameter::Stiffness) => Some([g, 1.0]),
             (Self::Cubic { .. }, LawParameter::CubicStiffness) => Some([g * g * g, 3.0 * g * g]),
-            (
-                Self::Exponential {
-                    reference_pressure, ..
-                },
-                LawParameter::ReferencePressure,
-            ) => Some([self.pressure(g), self.stiffness(g)].map(|x| x / reference_pressure)),
+            (Self::Exponential { reference_pressure, .. }, LawParameter::ReferencePressure) => {
+                Some([self.pressure(g), self.stiffness(g)].map(|x| x / reference_pressure))
+            }
             (Self::Exponential { height, .. }, LawParameter::Height) => {
                 let stiffness = self.stiffness(g);
                 let by_pressure = -stiffness * g / height;
@@ -197,23 +175,16 @@ impl NormalLaw {
     /// `g` at a pressure of zero or more, m.
     pub fn approach(self, pressure: f64) -> f64 {
         match self {
-            Self::Cubic {
-                stiffness,
-                cubic_stiffness: 0.0,
-            } => pressure / stiffness,
+            Self::Cubic { stiffness, cubic_stiffness: 0.0 } => pressure / stiffness,
             // The one real root, by the hyperbolic form of Cardano's formula.
-            Self::Cubic {
-                stiffness,
-                cubic_stiffness,
-            } => {
+            Self::Cubic { stiffness, cubic_stiffness } => {
                 let size = (stiffness / (3.0 * cubic_stiffness)).sqrt();
                 let turn = 1.5 * pressure / (stiffness * size);
                 2.0 * size * (turn.asinh() / 3.0).sinh()
             }
-            Self::Exponential {
-                reference_pressure,
-                height,
-            } => height * (pressure / reference_pressure).ln_1p(),
+            Self::Exponential { reference_pressure, height } => {
+                height * (pressure / reference_pressure).ln_1p()
+            }
         }
     }
 }
@@ -223,14 +194,8 @@ mod tests {
     use super::*;
 
     const LAWS: [NormalLaw; 2] = [
-        NormalLaw::Cubic {
-            stiffness: 1e13,
-            cubic_stiffness: 3e24,
-        },
-        NormalLaw::Exponential {
-            reference_pressure: 2e5,
-            height: 1.5e-6,
-        },
+        NormalLaw::Cubic { stiffness: 1e13, cubic_stiffness: 3e24 },
+        NormalLaw::Exponential { reference_pressure: 2e5, height: 1.5e-6 },
     ];
 
     /// Independent: Simpson's rule over the pressure, and differences.
@@ -282,10 +247,9 @@ mod tests {
         };
         let by_height = apart(with(2e5, 1.5001e-6), with(2e5, 1.4999e-6), 2e-10);
         let by_pressure = apart(with(2.0001e5, 1.5e-6), with(1.9999e5, 1.5e-6), 20.0);
-        for (parameter, differences) in [
-            (LawParameter::Height, by_height),
-            (LawParameter::ReferencePressure, by_pressure),
-        ] {
+        for (parameter, differences) in
+            [(LawParameter::Height, by_height), (LawParameter::ReferencePressure, by_pressure)]
+        {
             let rates = LAWS[1].rates(parameter, g).unwrap();
             for (rate, difference) in rates.iter().zip(differences) {
                 assert!((rate / difference - 1.0).abs() < 1e-6, "{parameter:?}");
@@ -298,10 +262,7 @@ mod tests {
         for law in LAWS {
             for approach in [0.0, 1e-8, 1e-6, 8e-6] {
                 let found = law.approach(law.pressure(approach));
-                assert!(
-                    (found - approach).abs() <= 1e-13 * 8e-6,
-                    "{law:?} {approach}"
-                );
+                assert!((found - approach).abs() <= 1e-13 * 8e-6, "{law:?} {approach}");
                 let step = 1e-10;
                 let rise = law.pressure(approach + step) - law.pressure(approach - step);
                 let slope = law.stiffness(approach);

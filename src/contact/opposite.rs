@@ -48,10 +48,8 @@ pub(super) fn meetings(mesh: &Mesh) -> Option<Vec<Meeting>> {
 
 fn pairs(mesh: &Mesh, nodes: &[u32]) -> Vec<Meeting> {
     let count = nodes.len();
-    let (lengths, curvature) = (
-        &mesh.contact_edge().tributary_lengths,
-        mesh.counterface.curvature(),
-    );
+    let (lengths, curvature) =
+        (&mesh.contact_edge().tributary_lengths, mesh.counterface.curvature());
     let is_quadratic = lengths[0] != lengths[1];
     let per_arc = count as f64 / std::f64::consts::TAU * curvature;
     let pair = |i: usize| {
@@ -74,11 +72,8 @@ fn pairs(mesh: &Mesh, nodes: &[u32]) -> Vec<Meeting> {
         };
         let slopes = stencil.iter().flat_map(|&(offset, weight)| {
             let dof = 2 * nodes[(i + offset) % count] as usize;
-            let normal = OppositeShare {
-                dof,
-                normal_slope: weight * per_arc,
-                ..OppositeShare::default()
-            };
+            let normal =
+                OppositeShare { dof, normal_slope: weight * per_arc, ..OppositeShare::default() };
             let tangential = OppositeShare {
                 dof: dof + 1,
                 tangential_slope: weight * per_arc,
@@ -118,18 +113,10 @@ impl Edge {
             Self {
                 start: arc(p),
                 extent: wrapped(surface, arc(q) - arc(p)),
-                nodes: [p, q]
-                    .into_iter()
-                    .chain(middle)
-                    .map(|n| n as usize)
-                    .collect(),
+                nodes: [p, q].into_iter().chain(middle).map(|n| n as usize).collect(),
             }
         };
-        mesh.outline_edges()
-            .into_iter()
-            .filter(is_edge)
-            .map(edge)
-            .collect()
+        mesh.outline_edges().into_iter().filter(is_edge).map(edge).collect()
     }
 
     /// Shape functions and their derivatives by the arc at a share `0..1` of the way from the first to the second end.
@@ -145,9 +132,7 @@ impl Edge {
             &[(0.5 * (1.0 - s), -0.5), (0.5 * (1.0 + s), 0.5)]
         };
         let nodes = self.nodes.iter().zip(of);
-        nodes
-            .map(|(&node, &(value, rate))| (node, value, rate * slope))
-            .collect()
+        nodes.map(|(&node, &(value, rate))| (node, value, rate * slope)).collect()
     }
 
     /// The part of this edge that has `other` before it, as shares of the way: `None` where they do not meet.
@@ -280,10 +265,7 @@ fn meeting(mesh: &Mesh, node: usize, sums: &Sums) -> Meeting {
     }
     let surface = &mesh.counterface;
     let normal = surface.normal_angle(mesh.plane_node(node));
-    let mut meeting = Meeting {
-        covered: sums.covered / sums.whole,
-        ..Meeting::default()
-    };
+    let mut meeting = Meeting { covered: sums.covered / sums.whole, ..Meeting::default() };
     for (&opposite, integrals) in &sums.opposite {
         let [share, slope] = integrals.map(|value| value / sums.covered);
         meeting.height += share * surface.gap(mesh.plane_node(opposite));

@@ -160,10 +160,9 @@ impl ContactSurface {
         }
         Err(match counter {
             None => PairError::AtRest(name()),
-            Some(counter) => PairError::NoSliding {
-                surface: name(),
-                counter: counter.name.clone(),
-            },
+            Some(counter) => {
+                PairError::NoSliding { surface: name(), counter: counter.name.clone() }
+            }
         })
     }
 
@@ -230,11 +229,7 @@ impl ContactSurface {
         let across = Vector3::from(site.normal).cross(&Vector3::from(site.direction));
         let is_sliding = speed > 0.0;
         let along = |direction: [f64; 3]| {
-            if is_sliding {
-                jump(direction)
-            } else {
-                Row::new()
-            }
+            if is_sliding { jump(direction) } else { Row::new() }
         };
         self.points.push(Point {
             weight,
@@ -256,9 +251,7 @@ impl ContactSurface {
 /// The motion of the region that a surface's faces belong to.
 fn motion_of<'a>(mesh: &Mesh, boundary: &Boundary, motions: &'a [Motion]) -> Option<&'a Motion> {
     let region = mesh.region(boundary.faces.first()?.element as usize);
-    motions
-        .iter()
-        .find(|motion| motion.regions.contains(&region))
+    motions.iter().find(|motion| motion.regions.contains(&region))
 }
 
 /// Directions at a point, and the sliding speed there, where the counterpart has the velocity `whole` relative to the own body.
@@ -271,11 +264,7 @@ fn site(position: [f64; 3], normal: [f64; 3], whole: Vector3<f64>) -> (ContactSi
     let site = ContactSite {
         position,
         normal,
-        direction: if is_sliding {
-            (sliding / speed).into()
-        } else {
-            [0.0; 3]
-        },
+        direction: if is_sliding { (sliding / speed).into() } else { [0.0; 3] },
     };
     (site, if is_sliding { speed } else { 0.0 })
 }

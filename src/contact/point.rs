@@ -73,7 +73,5 @@ impl ContactInterface {
 
 /// `row . u`.
 pub fn value_of(row: &[(usize, f64)], displacement: &[f64]) -> f64 {
-    row.iter()
-        .map(|&(dof, coefficient)| coefficient * displacement[dof])
-        .sum()
+    row.iter().map(|&(dof, coefficient)| coefficient * displacement[dof]).sum()
 }

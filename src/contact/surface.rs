@@ -73,11 +73,8 @@ struct Facet<'a> {
 
 impl<'a> Facet<'a> {
     fn of(mesh: &Mesh, face: &'a BoundaryFace) -> Self {
-        let points: Vec<Vector3<f64>> = face
-            .nodes
-            .iter()
-            .map(|&node| Vector3::from(mesh.nodes[node as usize]))
-            .collect();
+        let points: Vec<Vector3<f64>> =
+            face.nodes.iter().map(|&node| Vector3::from(mesh.nodes[node as usize])).collect();
         let corners = &points[..face.kind.corner_count()];
         let count = corners.len();
         let center = corners.iter().sum::<Vector3<f64>>() / count as f64;
@@ -104,11 +101,7 @@ impl<'a> Facet<'a> {
     /// Shape functions, position and outward normal of the point that projects onto `target` in `plane`.
     fn at(&self, plane: &Plane, target: Vector2<f64>) -> (Vec<f64>, Vector3<f64>, Vector3<f64>) {
         let is_triangle = self.face.kind.corner_count() == 3;
-        let mut place = if is_triangle {
-            [1.0 / 3.0; 2]
-        } else {
-            [0.0; 2]
-        };
+        let mut place = if is_triangle { [1.0 / 3.0; 2] } else { [0.0; 2] };
         let mut found = None;
         for _ in 0..NEWTON_STEPS {
             let shapes = self.face.kind.shape_functions(place);
@@ -154,10 +147,7 @@ impl Plane {
     fn of(facet: &Facet<'_>) -> Self {
         let edge = facet.points[1] - facet.points[0];
         let first = (edge - facet.normal * edge.dot(&facet.normal)).normalize();
-        Self {
-            origin: facet.center,
-            axes: [first, facet.normal.cross(&first)],
-        }
+        Self { origin: facet.center, axes: [first, facet.normal.cross(&first)] }
     }
 
     fn flat(&self, point: &Vector3<f64>) -> Vector2<f64> {
@@ -234,12 +224,7 @@ impl SurfacePair {
             }
         }
         if distance.is_finite() {
-            return PairError::Apart {
-                surface,
-                counter,
-                distance,
-                reach: self.reach,
-            };
+            return PairError::Apart { surface, counter, distance, reach: self.reach };
         }
         match is_turned {
             true => PairError::FacesAway { surface, counter },
@@ -320,10 +305,7 @@ fn quadrature(
         let corners = [middle, polygon[i], polygon[(i + 1) % polygon.len()]];
         let triangle = signed_area(&corners);
         for (shares, weight) in RULE {
-            let parts = corners
-                .iter()
-                .zip(shares)
-                .map(|(corner, share)| corner * share);
+            let parts = corners.iter().zip(shares).map(|(corner, share)| corner * share);
             let target = parts.sum::<Vector2<f64>>();
             let (values, position, outward) = facet.at(plane, target);
             let Some((counter, gap, normal)) = meet(target, &position, &outward) else {
@@ -391,10 +373,7 @@ struct Grid {
 impl Grid {
     fn of(facets: &[Facet<'_>]) -> Self {
         let largest = facets.iter().map(|facet| facet.radius).fold(0.0, f64::max);
-        let mut grid = Self {
-            cell: 2.0 * largest,
-            faces: BTreeMap::new(),
-        };
+        let mut grid = Self { cell: 2.0 * largest, faces: BTreeMap::new() };
         for (f, facet) in facets.iter().enumerate() {
             for cell in grid.cells(&facet.center, facet.radius) {
                 grid.faces.entry(cell).or_default().push(f);

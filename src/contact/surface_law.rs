@@ -38,18 +38,10 @@ impl CoulombFriction {
     /// linearised law to second order in time. Along that direction [`Self::resolve`] has the size; where the slip turns round
     /// within the step, the direction is that of `w*`.
     pub fn resolve_point(&self, point: &SlippingPoint, normal: f64) -> PointFriction {
-        let SlippingPoint {
-            inertia,
-            free_slip: free,
-            slip_before: before,
-        } = *point;
+        let SlippingPoint { inertia, free_slip: free, slip_before: before } = *point;
         let along = |[a, b]: [f64; 2], inertia: f64| -> Option<PointFriction> {
             let length = a.hypot(b);
-            let [a, b] = if length > 0.0 {
-                [a / length, b / length]
-            } else {
-                [1.0, 0.0]
-            };
+            let [a, b] = if length > 0.0 { [a / length, b / length] } else { [1.0, 0.0] };
             let part = |[x, y]: [f64; 2]| a * x + b * y;
             let node = SlippingNode {
                 inertia: point.inertia,
@@ -93,17 +85,10 @@ mod tests {
     use super::*;
     use crate::contact::FrictionDecay;
 
-    const LAW: CoulombFriction = CoulombFriction {
-        friction_coefficient: 0.4,
-        decay: None,
-    };
+    const LAW: CoulombFriction = CoulombFriction { friction_coefficient: 0.4, decay: None };
 
     fn point(free_slip: [f64; 2], slip_before: [f64; 2]) -> SlippingPoint {
-        SlippingPoint {
-            inertia: 10.0,
-            free_slip,
-            slip_before,
-        }
+        SlippingPoint { inertia: 10.0, free_slip, slip_before }
     }
 
     #[test]
@@ -124,10 +109,7 @@ mod tests {
     fn friction_that_falls_with_the_slip_speed_obeys_the_law_in_both_directions() {
         let law = CoulombFriction {
             friction_coefficient: 0.4,
-            decay: Some(FrictionDecay {
-                static_ratio: 1.5,
-                decay_speed: 0.8,
-            }),
+            decay: Some(FrictionDecay { static_ratio: 1.5, decay_speed: 0.8 }),
         };
         for (free, before) in [([1.2, 0.3], [1.1, 0.2]), ([2.0, -1.5], [1.9, -1.4])] {
             let found = law.resolve_point(&point(free, before), 10.0);
@@ -145,10 +127,7 @@ mod tests {
     fn a_small_motion_across_fast_sliding_meets_the_dashpot_of_the_linearised_law() {
         let (speed, across) = (2.0, 1e-7);
         let found = LAW.resolve_point(&point([speed, across], [speed, across]), 10.0);
-        let mean = [
-            speed - found.force[0] / 20.0,
-            across - found.force[1] / 20.0,
-        ];
+        let mean = [speed - found.force[0] / 20.0, across - found.force[1] / 20.0];
         assert!((found.force[1] / mean[1] - 4.0 / mean[0]).abs() < 1e-12);
     }
 }

@@ -29,10 +29,7 @@ pub struct Topography {
 impl Topography {
     /// From the points of a file: place and gap, m.
     pub fn new(file: &str, points: Vec<([f64; 3], f64)>) -> Self {
-        Self {
-            file: file.to_owned(),
-            points,
-        }
+        Self { file: file.to_owned(), points }
     }
 
     /// Adds the measured gap to that of each point of a pair.
@@ -145,10 +142,7 @@ struct Cells {
 
 impl Cells {
     fn of(points: &[([f64; 3], f64)], size: f64) -> Self {
-        let mut cells = Self {
-            size,
-            points: BTreeMap::new(),
-        };
+        let mut cells = Self { size, points: BTreeMap::new() };
         for (i, (place, _)) in points.iter().enumerate() {
             let cell = cells.cell(&Vector3::from(*place));
             cells.points.entry(cell).or_default().push(i);

@@ -106,11 +106,7 @@ impl BasinRequest {
             }
             runs.push(run);
         }
-        Ok(BasinBoundary {
-            low: bounds[0],
-            high: bounds[1],
-            runs,
-        })
+        Ok(BasinBoundary { low: bounds[0], high: bounds[1], runs })
     }
 }
 
@@ -151,14 +147,10 @@ impl DiscModel {
         let friction = point.contact.friction_coefficient;
         let limit = crate::cea::ModeLimit::Lowest(super::MODES);
         let onsets = self.onsets(friction, limit)?;
-        let own = onsets
-            .iter()
-            .filter(|onset| request.harmonics.contains(&onset.harmonic));
+        let own = onsets.iter().filter(|onset| request.harmonics.contains(&onset.harmonic));
         let slowest = own.map(|onset| onset.frequency).reduce(f64::min);
-        let slowest = slowest.ok_or(CycleError::StableSliding {
-            harmonics: request.harmonics,
-            friction,
-        })?;
+        let slowest =
+            slowest.ok_or(CycleError::StableSliding { harmonics: request.harmonics, friction })?;
         Ok(TAU / slowest)
     }
 }
@@ -243,20 +235,12 @@ impl Contest<'_> {
             initial: InitialState::SteadySliding,
             perturbation: Perturbation {
                 waves: waves
-                    .map(|(&harmonic, velocity)| StandingWave {
-                        harmonic,
-                        velocity,
-                        phase: 0.0,
-                    })
+                    .map(|(&harmonic, velocity)| StandingWave { harmonic, velocity, phase: 0.0 })
                     .collect(),
                 ..Perturbation::default()
             },
         };
-        Ok(CentralDifference::start(
-            self.model,
-            self.operator,
-            &settings,
-        )?)
+        Ok(CentralDifference::start(self.model, self.operator, &settings)?)
     }
 
     /// Amplitudes of both harmonics of the edge's tangential displacement, m.

@@ -116,9 +116,7 @@ impl WaveBody {
             .collect();
         Ok(Self {
             harmonics,
-            masses: (0..mesh.free_node_count())
-                .map(|i| mass.get(2 * i, 2 * i))
-                .collect(),
+            masses: (0..mesh.free_node_count()).map(|i| mass.get(2 * i, 2 * i)).collect(),
             support: support.map(|s| {
                 [s.stiffness, s.damping].map(|m| Matrix2::from_fn(|row, column| m[row][column]))
             }),
@@ -222,10 +220,8 @@ impl WaveBody {
     pub fn damping_form(&self, k: usize, damping: &RayleighDamping, profile: &[[c64; 2]]) -> f64 {
         let blocks = &self.harmonics[k];
         let unit = c64::new(0.0, 1.0);
-        let real: Vec<_> = profile
-            .iter()
-            .map(|u| nalgebra::Vector2::new(u[0], -unit * u[1]))
-            .collect();
+        let real: Vec<_> =
+            profile.iter().map(|u| nalgebra::Vector2::new(u[0], -unit * u[1])).collect();
         let mut sum = 0.0;
         for (i, u) in real.iter().enumerate() {
             let force = complex(&blocks.diagonal[i]) * u;

@@ -112,9 +112,7 @@ impl<'a> Branch<'a> {
         };
         if sense < 0.0 {
             heading.reverse();
-            inequalities
-                .iter_mut()
-                .for_each(|inequality| inequality.2 *= -1.0);
+            inequalities.iter_mut().for_each(|inequality| inequality.2 *= -1.0);
         }
         self.direction = heading.parameter.signum();
         let (mut length, mut goal) = self.nearest(&inequalities, flipped, &heading, samples);
@@ -231,10 +229,8 @@ impl<'a> Branch<'a> {
 
     /// Rates of gap and slip along a heading. Its tangential forces hold the friction coefficient's change already.
     fn wave_rates(&self, linear: &Linearization, heading: &Heading) -> [Vec<f64>; 2] {
-        let forces = [
-            self.wave.harmonics(&heading.normal),
-            self.wave.harmonics(&heading.tangential),
-        ];
+        let forces =
+            [self.wave.harmonics(&heading.normal), self.wave.harmonics(&heading.tangential)];
         let along_parameter = match self.parameter {
             Parameter::FrictionCoefficient => 0.0,
             _ => heading.parameter,
@@ -279,10 +275,7 @@ impl<'a> Branch<'a> {
         let ahead = if heading.parameter > 0.0 {
             samples.iter().find(|&&sample| sample > value + slightly)
         } else {
-            samples
-                .iter()
-                .rev()
-                .find(|&&sample| sample < value - slightly)
+            samples.iter().rev().find(|&&sample| sample < value - slightly)
         };
         if let Some(&sample) = ahead {
             let length = (sample - value) / heading.parameter;
@@ -347,11 +340,9 @@ fn slacks<'a>(
     points.flat_map(move |(i, &contact)| {
         let (normal, tangential) = (state.normal[i], state.tangential[i]);
         let list: [Option<(Event, f64)>; 3] = match contact {
-            PointState::Open => [
-                Some((Event::Touch(i), linear.normal_scale() * linear.gap[i])),
-                None,
-                None,
-            ],
+            PointState::Open => {
+                [Some((Event::Touch(i), linear.normal_scale() * linear.gap[i])), None, None]
+            }
             PointState::Stick => [
                 Some((Event::Lift(i), normal)),
                 Some((Event::SlideForward(i), friction * normal - tangential)),
@@ -359,10 +350,7 @@ fn slacks<'a>(
             ],
             slip => [
                 Some((Event::Lift(i), normal)),
-                Some((
-                    Event::Rest(i),
-                    -slip.drag() * linear.tangential_scale() * linear.slip[i],
-                )),
+                Some((Event::Rest(i), -slip.drag() * linear.tangential_scale() * linear.slip[i])),
                 None,
             ],
         };

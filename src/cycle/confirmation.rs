@@ -47,15 +47,9 @@ impl Confirmation {
         let within = |value: f64, wanted: f64, bound: f64| (value / wanted - 1.0).abs() <= bound;
         let statuses = self.status.iter().zip(&cycle.fractions);
         self.main_harmonic == Some(cycle.harmonic)
-            && within(
-                self.main_frequency_hz.unwrap_or(0.0),
-                cycle.frequency_hz(),
-                frequency_bound,
-            )
+            && within(self.main_frequency_hz.unwrap_or(0.0), cycle.frequency_hz(), frequency_bound)
             && within(self.external_power, cycle.powers.external, power_bound)
-            && statuses
-                .into_iter()
-                .all(|(a, b)| (a - b).abs() <= status_bound)
+            && statuses.into_iter().all(|(a, b)| (a - b).abs() <= status_bound)
     }
 }
 
@@ -141,9 +135,8 @@ impl MeshStepping<'_> {
             main_harmonic: main.map(|(&harmonic, _)| harmonic),
             status: counts.fractions(),
             external_power: powers.external / counted,
-            e_folds: leading.map_or(0.0, |found| {
-                found.exponent.re * periods as f64 / cycle.frequency_hz()
-            }),
+            e_folds: leading
+                .map_or(0.0, |found| found.exponent.re * periods as f64 / cycle.frequency_hz()),
         })
     }
 }

@@ -38,12 +38,7 @@ impl Turning {
     /// The boundaries of stick, slip and opening move from point to point: a grid of `N` points knows the parameter to
     /// `1 / N` of its value.
     pub(super) fn new(value: f64, direction: f64, points: usize) -> Self {
-        Self {
-            direction,
-            farthest: value,
-            share: 1.0 / points as f64,
-            folds: Vec::new(),
-        }
+        Self { direction, farthest: value, share: 1.0 / points as f64, folds: Vec::new() }
     }
 
     /// The next value along the branch.
@@ -106,9 +101,6 @@ mod tests {
         // Steps back of a thousandth on the way up are those of single points.
         assert!(followed(&[1.0, 1.2, 1.1988, 1.3, 1.2987, 1.4]).is_empty());
         // An S: up to 1.5, back to 1.1 with a step of its own, and up again.
-        assert_eq!(
-            followed(&[1.0, 1.5, 1.4, 1.4007, 1.1, 1.2, 1.8]),
-            [1.5, 1.1]
-        );
+        assert_eq!(followed(&[1.0, 1.5, 1.4, 1.4007, 1.1, 1.2, 1.8]), [1.5, 1.1]);
     }
 }

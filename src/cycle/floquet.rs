@@ -93,11 +93,7 @@ impl<'a> Krylov<'a> {
         }
         // What the mesh damps within a period is of no interest.
         let first = unit(period.map(&start));
-        Self {
-            period,
-            basis: vec![first],
-            columns: Vec::new(),
-        }
+        Self { period, basis: vec![first], columns: Vec::new() }
     }
 
     /// One more vector, orthogonalized twice.
@@ -109,10 +105,7 @@ impl<'a> Krylov<'a> {
             for (vector, entry) in self.basis.iter().zip(&mut column) {
                 let share = dot(vector, &image);
                 *entry += share;
-                image
-                    .iter_mut()
-                    .zip(vector)
-                    .for_each(|(x, v)| *x -= share * v);
+                image.iter_mut().zip(vector).for_each(|(x, v)| *x -= share * v);
             }
         }
         let length = dot(&image, &image).sqrt();
@@ -125,9 +118,8 @@ impl<'a> Krylov<'a> {
     /// Multipliers by falling modulus, one of each conjugate pair.
     fn multipliers(&self) -> Result<Vec<Multiplier>, CycleError> {
         let size = self.columns.len();
-        let matrix = Mat::from_fn(size, size, |i, j| {
-            self.columns[j].get(i).copied().unwrap_or(0.0)
-        });
+        let matrix =
+            Mat::from_fn(size, size, |i, j| self.columns[j].get(i).copied().unwrap_or(0.0));
         let eigen = real_eigen(matrix.as_ref(), false, 0)
             .map_err(|_| CycleError::Stability { dimension: size })?;
         let overflow = self.columns[size - 1][size];
@@ -135,11 +127,7 @@ impl<'a> Krylov<'a> {
             .filter(|&i| eigen.values[i].im >= 0.0)
             .map(|i| {
                 let coefficients = coefficients(&eigen, i);
-                let length = coefficients
-                    .iter()
-                    .map(|x| x.norm_sqr())
-                    .sum::<f64>()
-                    .sqrt();
+                let length = coefficients.iter().map(|x| x.norm_sqr()).sum::<f64>().sqrt();
                 let value = eigen.values[i];
                 Multiplier {
                     residual: overflow * coefficients[size - 1].norm() / (length * value.norm()),
@@ -184,16 +172,10 @@ impl<'a> Krylov<'a> {
         let mut exponents = Vec::new();
         for multiplier in kept {
             let vector = self.vector(&multiplier);
-            modes
-                .iter_mut()
-                .zip(&vector)
-                .for_each(|(x, v)| *x += v.re + v.im);
+            modes.iter_mut().zip(&vector).for_each(|(x, v)| *x += v.re + v.im);
             exponents.push(self.exponent(&multiplier, &vector, neutral));
         }
-        LeadingExponents {
-            stability: CycleStability { exponents },
-            modes: unit(modes),
-        }
+        LeadingExponents { stability: CycleStability { exponents }, modes: unit(modes) }
     }
 
     fn vector(&self, multiplier: &Multiplier) -> Vec<c64> {
@@ -256,12 +238,10 @@ impl<'a> Krylov<'a> {
 fn coefficients(eigen: &RealEigen, i: usize) -> Vec<c64> {
     let rows = 0..eigen.right.nrows();
     match eigen.values[i].im {
-        im if im > 0.0 => rows
-            .map(|row| c64::new(eigen.right[(row, i)], eigen.right[(row, i + 1)]))
-            .collect(),
-        _ => rows
-            .map(|row| c64::new(eigen.right[(row, i)], 0.0))
-            .collect(),
+        im if im > 0.0 => {
+            rows.map(|row| c64::new(eigen.right[(row, i)], eigen.right[(row, i + 1)])).collect()
+        }
+        _ => rows.map(|row| c64::new(eigen.right[(row, i)], 0.0)).collect(),
     }
 }
 

@@ -43,15 +43,8 @@ impl PhaseGrid {
         let clearance = CLEARANCE.min(0.25 * period);
         let resonant = period * (wished / period).round().max(1.0);
         let distance = (wished - resonant).abs();
-        let points = if distance < clearance {
-            resonant - clearance
-        } else {
-            wished
-        };
+        let points = if distance < clearance { resonant - clearance } else { wished };
         let points = 2 * (points as usize / 2).max(2) + 1;
-        Self {
-            points,
-            landing_share: wanted.max(RESOLVED / points as f64),
-        }
+        Self { points, landing_share: wanted.max(RESOLVED / points as f64) }
     }
 }

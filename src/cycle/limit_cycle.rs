@@ -127,17 +127,9 @@ impl LimitCycle {
     /// Speed of the cylinder above which a cycle without stick no longer depends on it, `max v_theta / a`, rad/s: friction
     /// then knows only the sense of sliding. `None` for a cycle with sticking points.
     pub fn saturation_speed(&self, inner_radius: f64) -> Option<f64> {
-        let sticks = self
-            .points
-            .iter()
-            .any(|point| point.status == ContactStatus::Stick);
-        let fastest = self
-            .points
-            .iter()
-            .filter(|point| point.status == ContactStatus::Slip);
-        let fastest = fastest
-            .map(|point| point.velocity[1])
-            .fold(f64::NEG_INFINITY, f64::max);
+        let sticks = self.points.iter().any(|point| point.status == ContactStatus::Stick);
+        let fastest = self.points.iter().filter(|point| point.status == ContactStatus::Slip);
+        let fastest = fastest.map(|point| point.velocity[1]).fold(f64::NEG_INFINITY, f64::max);
         (!sticks).then_some(fastest / inner_radius)
     }
 
@@ -173,18 +165,14 @@ impl EdgeMotion {
     pub fn of(wave: &Wave<'_>, state: &WaveState) -> Self {
         let normal = wave.harmonics(&state.normal);
         let tangential = wave.harmonics(&state.tangential);
-        let rates: Vec<c64> = (0..wave.body.harmonic_count())
-            .map(|k| wave.rate(k, state.frequencies()))
-            .collect();
+        let rates: Vec<c64> =
+            (0..wave.body.harmonic_count()).map(|k| wave.rate(k, state.frequencies())).collect();
         let displacement = rates.iter().enumerate().map(|(k, &rate)| {
             let at = DynamicCoefficients::new(rate, &state.point.damping);
             let (r, []) = wave.body.receptance(k, at, []);
             [0, 1].map(|row| r[(row, 0)] * normal[k] + r[(row, 1)] * tangential[k])
         });
-        Self {
-            displacement: displacement.collect(),
-            rates,
-        }
+        Self { displacement: displacement.collect(), rates }
     }
 
     pub fn points(&self, wave: &Wave<'_>, state: &WaveState) -> Vec<PhasePoint> {

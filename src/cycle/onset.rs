@@ -99,10 +99,7 @@ impl DiscModel {
                 return Ok(onset);
             }
             if highest >= LARGEST_FRICTION {
-                return Err(CycleError::NoOnset {
-                    family,
-                    limit: LARGEST_FRICTION,
-                });
+                return Err(CycleError::NoOnset { family, limit: LARGEST_FRICTION });
             }
             highest *= 2.0;
         }
@@ -126,9 +123,7 @@ pub fn unloaded(specification: &AnnulusSpecification) -> SlidingContact {
 pub fn refined(wave: &Wave<'_>, damping: &RayleighDamping, onset: &Onset) -> Option<Onset> {
     let friction = |frequency: f64| {
         let rate = c64::new(0.0, frequency * wave.order(1));
-        let (r, []) = wave
-            .body
-            .receptance(1, DynamicCoefficients::new(rate, damping), []);
+        let (r, []) = wave.body.receptance(1, DynamicCoefficients::new(rate, damping), []);
         -r[(0, 0)] / r[(0, 1)]
     };
     let start = onset.frequency / wave.order(1);
@@ -144,11 +139,7 @@ pub fn refined(wave: &Wave<'_>, damping: &RayleighDamping, onset: &Onset) -> Opt
         }
         now -= step;
     }
-    let found = Onset {
-        frequency: now,
-        friction_coefficient: friction(now).re,
-        ..*onset
-    };
+    let found = Onset { frequency: now, friction_coefficient: friction(now).re, ..*onset };
     let is_near = (now / start - 1.0).abs() < 0.2;
     (is_near && found.friction_coefficient > 0.0).then_some(found)
 }
@@ -182,18 +173,15 @@ pub fn largest_linear_wave(
     let mut limit = (f64::INFINITY, Event::Lift(0));
     for i in 0..points {
         let (normal, speed) = ((force * turn(i)).re, (velocity * turn(i)).re);
-        for (amplitude, event) in [
-            (mean / -normal, Event::Lift(i)),
-            (surface_speed / speed, Event::Rest(i)),
-        ] {
+        for (amplitude, event) in
+            [(mean / -normal, Event::Lift(i)), (surface_speed / speed, Event::Rest(i))]
+        {
             if amplitude > 0.0 && amplitude < limit.0 {
                 limit = (amplitude, event);
             }
         }
     }
-    let normal: Vec<f64> = (0..points)
-        .map(|i| mean + limit.0 * (force * turn(i)).re)
-        .collect();
+    let normal: Vec<f64> = (0..points).map(|i| mean + limit.0 * (force * turn(i)).re).collect();
     let mut state = WaveState {
         tangential: vec![0.0; points],
         normal,

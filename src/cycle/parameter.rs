@@ -65,17 +65,12 @@ impl Parameter {
     /// Whether solid bodies that slide on each other have it: friction of the first contact, to which the others keep their ratio,
     /// and damping; each motion and each load has keys of its own.
     pub fn is_of_solid_bodies(self) -> bool {
-        matches!(
-            self,
-            Self::FrictionCoefficient | Self::MassDamping | Self::StiffnessDamping
-        )
+        matches!(self, Self::FrictionCoefficient | Self::MassDamping | Self::StiffnessDamping)
     }
 
     /// The parameter of a case key.
     pub fn from_key(key: &str) -> Option<Self> {
-        Self::ALL
-            .into_iter()
-            .find(|parameter| parameter.key() == key)
+        Self::ALL.into_iter().find(|parameter| parameter.key() == key)
     }
 
     /// Whether it is one of the contact, not of the body.

@@ -67,11 +67,8 @@ impl CycleSolver {
         points: Option<usize>,
     ) -> Result<Self, CycleError> {
         check_mesh(specification, family.harmonic)?;
-        let model = DiscModel {
-            specification: *specification,
-            material: *material,
-            damping: *damping,
-        };
+        let model =
+            DiscModel { specification: *specification, material: *material, damping: *damping };
         let onset = model.onset_of(family, ModeLimit::Lowest(MODES))?;
         Self::born_at(&model, family, &onset, points)
     }
@@ -169,18 +166,12 @@ impl CycleSolver {
             let origin = TAU * shift / wave.points() as f64;
             let (state, event) = largest_linear_wave(&wave, point, &onset, origin);
             let mut branch = Branch::new(&wave, parameter, state, 1.0, Some(event));
-            let end = run(
-                &mut branch,
-                &[target],
-                MOST_STEPS_FROM_BIRTH,
-                |branch, step| matches!(step, Step::At(_)).then_some(branch.value()),
-            );
+            let end = run(&mut branch, &[target], MOST_STEPS_FROM_BIRTH, |branch, step| {
+                matches!(step, Step::At(_)).then_some(branch.value())
+            });
             let end = end.and_then(|_| {
                 let cycle = LimitCycle::new(&wave, branch.state.clone());
-                cycle
-                    .is_physical()
-                    .then_some(cycle)
-                    .ok_or(BranchEnd::Unphysical)
+                cycle.is_physical().then_some(cycle).ok_or(BranchEnd::Unphysical)
             });
             match end {
                 Ok(cycle) => return Ok(cycle),
@@ -239,10 +230,7 @@ impl CycleSolver {
     }
 
     fn unphysical(&self) -> CycleError {
-        CycleError::Unphysical {
-            family: self.family,
-            sectors: self.body.sector_count,
-        }
+        CycleError::Unphysical { family: self.family, sectors: self.body.sector_count }
     }
 
     /// The whole branch through `cycle` over `parameter` between the smallest and the largest of `values` (SI), with a
@@ -369,11 +357,7 @@ fn check_mesh(specification: &AnnulusSpecification, harmonic: usize) -> Result<(
         return Err(CycleError::Element);
     }
     if harmonic == 0 || harmonic > limit {
-        return Err(CycleError::Harmonic {
-            harmonic,
-            sectors,
-            limit,
-        });
+        return Err(CycleError::Harmonic { harmonic, sectors, limit });
     }
     Ok(())
 }
@@ -381,9 +365,7 @@ fn check_mesh(specification: &AnnulusSpecification, harmonic: usize) -> Result<(
 fn check(point: &OperatingPoint) -> Result<(), CycleError> {
     let contact = &point.contact;
     if !(contact.rotation_speed > 0.0 && contact.rotation_speed.is_finite()) {
-        return Err(CycleError::RotationSpeed {
-            rpm: contact.rotation_speed * 60.0 / TAU,
-        });
+        return Err(CycleError::RotationSpeed { rpm: contact.rotation_speed * 60.0 / TAU });
     }
     for (key, value) in [
         ("contact.interference", contact.interference),

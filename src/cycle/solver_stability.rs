@@ -27,10 +27,7 @@ impl SteppedCycle {
     /// partly with the amplitude and partly with its square.
     #[must_use]
     pub fn scaled_to(&self, cycle: &LimitCycle) -> Self {
-        Self {
-            cycle: cycle.clone(),
-            ..self.clone()
-        }
+        Self { cycle: cycle.clone(), ..self.clone() }
     }
 }
 
@@ -92,12 +89,7 @@ impl MeshStepping<'_> {
             ends[side] = settled;
         }
         let growing = ends[1].stability.leading();
-        let rate = |side: usize| {
-            ends[side]
-                .stability
-                .leading()
-                .map(|found| found.exponent.re)
-        };
+        let rate = |side: usize| ends[side].stability.leading().map(|found| found.exponent.re);
         // Stable cycles without a slow exponent say nothing about how far the change is.
         let share = match (rate(0), rate(1)) {
             (Some(before), Some(after)) if after > before => -before / (after - before),

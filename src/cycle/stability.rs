@@ -107,10 +107,7 @@ impl CycleStability {
 
     /// Circumferential harmonics of the modes that grow for sure, rising.
     pub fn growing_harmonics(&self) -> Vec<usize> {
-        let growing = self
-            .exponents
-            .iter()
-            .filter(|e| e.verdict() == Verdict::Unstable);
+        let growing = self.exponents.iter().filter(|e| e.verdict() == Verdict::Unstable);
         let mut harmonics: Vec<usize> = growing.map(|found| found.harmonic).collect();
         harmonics.sort_unstable();
         harmonics.dedup();

@@ -17,12 +17,8 @@ pub enum PointState {
 }
 
 /// Contact states by their codes.
-const POINT_STATES: [PointState; 4] = [
-    PointState::Open,
-    PointState::Stick,
-    PointState::SlipForward,
-    PointState::SlipBackward,
-];
+const POINT_STATES: [PointState; 4] =
+    [PointState::Open, PointState::Stick, PointState::SlipForward, PointState::SlipBackward];
 /// Columns of a state.
 pub(super) const STATE_COLUMNS: usize = 4;
 
@@ -126,12 +122,7 @@ impl WaveState {
     pub(super) fn phases(&self) -> Vec<Phase> {
         let across = self.second.map_or(1, |own| own.points);
         let along = self.contact.len() / across;
-        let first = Phase {
-            index: 0,
-            origin: self.origin,
-            points: along,
-            stride: 1,
-        };
+        let first = Phase { index: 0, origin: self.origin, points: along, stride: 1 };
         let second = self.second.map(|own| Phase {
             index: 1,
             origin: own.origin,
@@ -145,14 +136,9 @@ impl WaveState {
     pub fn active(&self) -> (Vec<usize>, Vec<usize>) {
         let those = |wanted: fn(PointState) -> bool| {
             let points = self.contact.iter().enumerate();
-            points
-                .filter_map(|(i, &state)| wanted(state).then_some(i))
-                .collect()
+            points.filter_map(|(i, &state)| wanted(state).then_some(i)).collect()
         };
-        (
-            those(|state| state != PointState::Open),
-            those(|state| state == PointState::Stick),
-        )
+        (those(|state| state != PointState::Open), those(|state| state == PointState::Stick))
     }
 
     /// Normal force where the point slips, with the sign of its drag: `dT / dmu`.
@@ -181,13 +167,8 @@ impl WaveState {
         [
             self.normal.clone(),
             self.tangential.clone(),
-            (self.contact.iter().filter_map(code))
-                .map(|code| code as f64)
-                .collect(),
-            [self.frequency, self.origin]
-                .into_iter()
-                .chain(second)
-                .collect(),
+            (self.contact.iter().filter_map(code)).map(|code| code as f64).collect(),
+            [self.frequency, self.origin].into_iter().chain(second).collect(),
         ]
     }
 
@@ -200,11 +181,9 @@ impl WaveState {
             return None;
         };
         let second = match *second {
-            [frequency, origin, points] => Some(SecondPhase {
-                frequency,
-                origin,
-                points: points as usize,
-            }),
+            [frequency, origin, points] => {
+                Some(SecondPhase { frequency, origin, points: points as usize })
+            }
             _ => None,
         };
         let state = |code: &f64| POINT_STATES.get(*code as usize).copied();
@@ -225,11 +204,6 @@ impl WaveState {
             let count = self.contact.iter().filter(|state| state.status() == status);
             count.count() as f64 / self.contact.len() as f64
         };
-        [
-            ContactStatus::Stick,
-            ContactStatus::Slip,
-            ContactStatus::Open,
-        ]
-        .map(share)
+        [ContactStatus::Stick, ContactStatus::Slip, ContactStatus::Open].map(share)
     }
 }

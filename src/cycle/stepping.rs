@@ -88,21 +88,13 @@ impl CycleSolver {
             mesh: &annulus.mesh,
             annulus: Some(&annulus),
             material: &self.material,
-            damping: RayleighDamping {
-                mass_coefficient: 0.0,
-                stiffness_coefficient: 0.0,
-            },
+            damping: RayleighDamping { mass_coefficient: 0.0, stiffness_coefficient: 0.0 },
             contact: super::onset::unloaded(&self.specification),
             stiffness: ContactStiffness::default(),
         };
         let operator = build_operator(&model, OperatorChoice::Auto, simd)?;
         let largest_frequency = largest_frequency(operator.as_ref());
-        Ok(MeshStepping {
-            solver: self,
-            annulus,
-            operator,
-            largest_frequency,
-        })
+        Ok(MeshStepping { solver: self, annulus, operator, largest_frequency })
     }
 }
 
@@ -116,9 +108,7 @@ impl MeshStepping<'_> {
         cycle: &LimitCycle,
         seed: Option<(usize, f64)>,
     ) -> Result<(CentralDifference<'_>, usize), CycleError> {
-        self.start_from(cycle, seed, |time_step| {
-            self.solver.starting_fields(cycle, time_step)
-        })
+        self.start_from(cycle, seed, |time_step| self.solver.starting_fields(cycle, time_step))
     }
 
     /// The same at the operating point of `cycle` from other fields: displacement at time zero (m) and velocity half a step of so
@@ -194,10 +184,7 @@ impl MeshStepping<'_> {
             },
             steps,
             friction_coefficient: point.contact.friction_coefficient,
-            places: normal
-                .zip(law.tangential_places())
-                .map(|(&n, &t)| [n, t])
-                .collect(),
+            places: normal.zip(law.tangential_places()).map(|(&n, &t)| [n, t]).collect(),
             contact: Vec::with_capacity(steps * law.status.len()),
             dofs: moving.map(|k| (k, masses[k].sqrt())).collect(),
             harmonic: self.solver.body().harmonic(),
@@ -222,12 +209,11 @@ impl Period<'_> {
     fn record(&mut self, run: &CentralDifference<'_>) {
         let law = run.contact();
         let nodes = law.status.iter().zip(&law.tangential_force);
-        self.contact
-            .extend(nodes.map(|(status, force)| match status {
-                ContactStatus::Open => NodeContact::Open,
-                ContactStatus::Stick => NodeContact::Stick,
-                ContactStatus::Slip => NodeContact::Slip(force.signum()),
-            }));
+        self.contact.extend(nodes.map(|(status, force)| match status {
+            ContactStatus::Open => NodeContact::Open,
+            ContactStatus::Stick => NodeContact::Stick,
+            ContactStatus::Slip => NodeContact::Slip(force.signum()),
+        }));
     }
 
     /// Means over the steps since the sums were last taken.
@@ -247,11 +233,7 @@ impl Period<'_> {
 
     /// The cycle with the powers and fractions of this period.
     pub(super) fn stepped(&self, cycle: &LimitCycle) -> LimitCycle {
-        LimitCycle {
-            powers: self.powers,
-            fractions: self.fractions,
-            ..cycle.clone()
-        }
+        LimitCycle { powers: self.powers, fractions: self.fractions, ..cycle.clone() }
     }
 
     /// `omega` of the wave, rad/s.
@@ -277,10 +259,7 @@ impl Period<'_> {
     /// Displacement and velocity as a perturbation: `(omega sqrt(m) u, sqrt(m) v)`, whose square is an energy.
     fn packed(&self, fields: &MotionFields) -> Vec<f64> {
         let omega = self.frequency();
-        let displacement = self
-            .dofs
-            .iter()
-            .map(|&(k, root)| omega * root * fields.displacement[k]);
+        let displacement = self.dofs.iter().map(|&(k, root)| omega * root * fields.displacement[k]);
         let velocity = self.dofs.iter().map(|&(k, root)| root * fields.velocity[k]);
         displacement.chain(velocity).collect()
     }

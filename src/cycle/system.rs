@@ -33,9 +33,7 @@ impl Heading {
     /// Turns it round.
     pub fn reverse(&mut self) {
         self.normal.iter_mut().for_each(|value| *value = -*value);
-        self.tangential
-            .iter_mut()
-            .for_each(|value| *value = -*value);
+        self.tangential.iter_mut().for_each(|value| *value = -*value);
         self.frequencies = self.frequencies.map(|value| -value);
         self.parameter = -self.parameter;
     }
@@ -120,9 +118,7 @@ impl<'a> System<'a> {
             contact,
             stick,
             force_scale,
-            scales: scales
-                .chain([parameter.of(&state.point).abs().max(1e-12)])
-                .collect(),
+            scales: scales.chain([parameter.of(&state.point).abs().max(1e-12)]).collect(),
             phases,
         }
     }
@@ -145,12 +141,7 @@ impl<'a> System<'a> {
         let phases = self.phases.iter();
         let lags = phases.map(|own| {
             let [from, to] = [from, to].map(|i| (i / own.stride) % own.points);
-            own.stride
-                * if to >= from {
-                    to - from
-                } else {
-                    to + own.points - from
-                }
+            own.stride * if to >= from { to - from } else { to + own.points - from }
         });
         lags.sum()
     }
@@ -316,16 +307,8 @@ impl<'a> System<'a> {
     /// Scaled components of a heading along the unknowns.
     fn scaled(&self, heading: &Heading) -> Vec<f64> {
         let mut values: Vec<f64> = Vec::with_capacity(self.size());
-        values.extend(
-            self.contact
-                .iter()
-                .map(|&i| heading.normal[i] / self.force_scale),
-        );
-        values.extend(
-            self.stick
-                .iter()
-                .map(|&i| heading.tangential[i] / self.force_scale),
-        );
+        values.extend(self.contact.iter().map(|&i| heading.normal[i] / self.force_scale));
+        values.extend(self.stick.iter().map(|&i| heading.tangential[i] / self.force_scale));
         let [first, second] = heading.frequencies;
         let scalars = match self.phases.len() {
             1 => vec![first, heading.parameter],

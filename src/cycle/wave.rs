@@ -220,10 +220,7 @@ struct HarmonicResponse {
 
 impl HarmonicResponse {
     fn new(wave: &Wave<'_>, k: usize, state: &WaveState, parameter: Parameter) -> Self {
-        let still = RayleighDamping {
-            mass_coefficient: 0.0,
-            stiffness_coefficient: 0.0,
-        };
+        let still = RayleighDamping { mass_coefficient: 0.0, stiffness_coefficient: 0.0 };
         let rate = wave.rate(k, state.frequencies());
         let [first, second] = wave.orders(k).map(|order| c64::new(0.0, order));
         let damping = &state.point.damping;
@@ -273,9 +270,8 @@ impl Linearization {
             |j: usize| wave.values(enumerated().map(|(_, r)| r.slip_rate * r.receptance[(1, j)]));
         let normal = wave.harmonics(&state.normal);
         let tangential = wave.harmonics(&state.tangential);
-        let moved: Vec<[[c64; 2]; 4]> = enumerated()
-            .map(|(k, r)| r.displacement([normal[k], tangential[k]]))
-            .collect();
+        let moved: Vec<[[c64; 2]; 4]> =
+            enumerated().map(|(k, r)| r.displacement([normal[k], tangential[k]])).collect();
         let gap_of = |which: usize| {
             wave.values(enumerated().map(|(k, _)| wave.look_ahead(k) * moved[k][which][0]))
         };
@@ -296,9 +292,8 @@ impl Linearization {
         let phases = state.phases();
         let scalars: Vec<usize> = (0..phases.len()).chain([2]).collect();
         let by = scalars.iter();
-        let mut by: Vec<[Vec<f64>; 2]> = by
-            .map(|&which| [gap_of(1 + which), velocity_change(which)])
-            .collect();
+        let mut by: Vec<[Vec<f64>; 2]> =
+            by.map(|&which| [gap_of(1 + which), velocity_change(which)]).collect();
         let first = phases.iter().map(|phase| {
             let k = wave.first(phase.index);
             let share = c64::from_polar(2.0 / wave.points() as f64, -phase.origin);
@@ -366,7 +361,6 @@ impl Wave<'_> {
         damping: &RayleighDamping,
         edge: [c64; 2],
     ) -> Vec<[c64; 2]> {
-        self.body
-            .profile(k, DynamicCoefficients::new(rate, damping), edge)
+        self.body.profile(k, DynamicCoefficients::new(rate, damping), edge)
     }
 }

@@ -80,9 +80,8 @@ pub fn assemble_region(
         MassKind::Consistent => consistent_mass(mesh, material, &is_own),
         MassKind::Lumped => diagonal(mesh, masses_of(mesh, material, &is_own)),
     };
-    let stiffness = assemble_congruent(mesh, &is_own, |e| {
-        element::stiffness(mesh, e, material.of(region))
-    });
+    let stiffness =
+        assemble_congruent(mesh, &is_own, |e| element::stiffness(mesh, e, material.of(region)));
     [mass, stiffness]
 }
 
@@ -222,9 +221,7 @@ pub fn assemble_extra_damping(
     kind: MassKind,
     common: RayleighDamping,
 ) -> Option<Triplets> {
-    let own: Vec<_> = (0..mesh.regions.len())
-        .map(|region| material.own_damping(region))
-        .collect();
+    let own: Vec<_> = (0..mesh.regions.len()).map(|region| material.own_damping(region)).collect();
     if own.iter().all(Option::is_none) && mesh.patches.is_empty() {
         return None;
     }
@@ -251,12 +248,7 @@ pub fn assemble_patch_damping(
         let (alpha, beta) = (patch.mass_coefficient, patch.stiffness_coefficient);
         for &e in &patch.elements {
             let [mass, stiffness] = element_matrices(mesh, material, kind, e as usize);
-            scatter(
-                &mut triplets,
-                mesh,
-                e as usize,
-                &(mass * alpha + stiffness * beta),
-            );
+            scatter(&mut triplets, mesh, e as usize, &(mass * alpha + stiffness * beta));
         }
     }
     triplets
@@ -265,9 +257,8 @@ pub fn assemble_patch_damping(
 /// Structural damping `sum_e eta_e K_e` over all dofs, N/m, in the plane for each metre of thickness; `None` where no material
 /// has any. The force on a motion `x e^{lambda t}` with `Im lambda > 0` is `i` times it.
 pub fn assemble_structural_damping(mesh: &Mesh, material: &dyn MaterialField) -> Option<Triplets> {
-    let losses: Vec<f64> = (0..mesh.regions.len().max(1))
-        .map(|region| material.of(region).loss_factor)
-        .collect();
+    let losses: Vec<f64> =
+        (0..mesh.regions.len().max(1)).map(|region| material.of(region).loss_factor).collect();
     if losses.iter().all(|loss| *loss == 0.0) {
         return None;
     }
@@ -326,10 +317,7 @@ pub fn assemble_tabled(
 
 /// Structural damping of materials and supports together.
 pub fn assemble_losses(mesh: &Mesh, material: &dyn MaterialField) -> Option<Triplets> {
-    let parts = [
-        assemble_structural_damping(mesh, material),
-        assemble_support_losses(mesh),
-    ];
+    let parts = [assemble_structural_damping(mesh, material), assemble_support_losses(mesh)];
     let parts = parts.into_iter().flatten();
     parts.reduce(|mut sum, part| {
         sum.entries.extend(part.entries);
@@ -345,9 +333,7 @@ fn assemble_congruent(
     let mut sum = ElementSum::new(mesh, keep);
     // Only what several elements share is kept.
     let mut copies = vec![0_u32; mesh.element_count()];
-    mesh.congruent_to
-        .iter()
-        .for_each(|&first| copies[first as usize] += 1);
+    mesh.congruent_to.iter().for_each(|&first| copies[first as usize] += 1);
     let mut cache: Vec<Option<DMatrix<f64>>> = vec![None; mesh.element_count()];
     for e in (0..mesh.element_count()).filter(|&e| keep(e)) {
         let first = mesh.congruent_to[e] as usize;
@@ -380,11 +366,7 @@ impl<'a> ElementSum<'a> {
         let size: usize = sizes.sum();
         let limit = if is_solid { MANY_ENTRIES } else { usize::MAX };
         triplets.entries.reserve_exact(size.min(limit));
-        Self {
-            mesh,
-            triplets,
-            limit,
-        }
+        Self { mesh, triplets, limit }
     }
 
     fn add(&mut self, element: usize, matrix: &DMatrix<f64>) {

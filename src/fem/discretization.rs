@@ -36,11 +36,7 @@ impl<'a> DiscretizationError<'a> {
             true => Degree::Quadratic,
             false => Degree::Linear,
         };
-        Self {
-            mesh,
-            materials,
-            recovery: Recovery::new(mesh, degree, true),
-        }
+        Self { mesh, materials, recovery: Recovery::new(mesh, degree, true) }
     }
 
     /// `a(e_w, e_x)` of each pair `[w, x]` over all dofs (m), region by region, J without conjugation.
@@ -64,10 +60,8 @@ impl<'a> DiscretizationError<'a> {
             .collect();
         let recovered = self.recovered(&sampled);
         // The error of each element's strain at the points of its stiffness, and its energy.
-        let energies: Vec<Vec<c64>> = elements
-            .par_iter()
-            .map(|&e| self.element_energies(e, pairs, &recovered))
-            .collect();
+        let energies: Vec<Vec<c64>> =
+            elements.par_iter().map(|&e| self.element_energies(e, pairs, &recovered)).collect();
         let regions = self.mesh.regions.len().max(1);
         let mut forms = vec![vec![c64::new(0.0, 0.0); regions]; pairs.len()];
         for (e, energy) in energies.iter().enumerate() {
@@ -82,9 +76,8 @@ impl<'a> DiscretizationError<'a> {
     fn recovered(&self, sampled: &[DMatrix<f64>]) -> Vec<Vec<(usize, DMatrix<f64>)>> {
         let first = &self.recovery.first_sample;
         let elements = 0..self.mesh.element_count();
-        let element_of: Vec<usize> = elements
-            .flat_map(|e| std::iter::repeat_n(e, first[e + 1] - first[e]))
-            .collect();
+        let element_of: Vec<usize> =
+            elements.flat_map(|e| std::iter::repeat_n(e, first[e + 1] - first[e])).collect();
         let (rows, width) = (self.components(), sampled.first().map_or(0, DMatrix::ncols));
         let nodes = (0..self.mesh.node_count()).into_par_iter();
         let at_node = |node: usize| {
@@ -115,9 +108,7 @@ impl<'a> DiscretizationError<'a> {
         let own = geometry.strain_operator(self.material(e), &points) * self.nodal(e, pairs);
         let nodes = self.mesh.element_nodes(e).iter().map(|&node| {
             let at_node = recovered[node as usize].iter();
-            at_node
-                .filter(|(own, _)| *own == region)
-                .map(|(_, strain)| strain)
+            at_node.filter(|(own, _)| *own == region).map(|(_, strain)| strain)
         });
         let nodes: Vec<&DMatrix<f64>> = nodes.flatten().collect();
         let rows = self.components();

@@ -75,11 +75,7 @@ impl ElementGeometry {
 
     /// An element with nodes at `points` and with their frames.
     pub fn of_nodes(kind: ElementKind, points: Vec<[f64; 3]>, frames: Vec<Matrix3<f64>>) -> Self {
-        Self {
-            kind,
-            points,
-            frames,
-        }
+        Self { kind, points, frames }
     }
 
     /// Number of nodes.
@@ -119,10 +115,7 @@ impl ElementGeometry {
         IntegrationPoint {
             place,
             values: shapes.iter().map(|shape| shape.0).collect(),
-            gradients: shapes
-                .iter()
-                .map(|shape| inverse * Vector3::from(shape.1))
-                .collect(),
+            gradients: shapes.iter().map(|shape| inverse * Vector3::from(shape.1)).collect(),
             measure: weight * determinant,
         }
     }
@@ -195,10 +188,7 @@ impl ElementGeometry {
     /// The material as this element sees it: solid elements take no plane formulation.
     fn solid_aware(&self, material: &ElasticMaterial) -> ElasticMaterial {
         match self.dimension() {
-            3 => ElasticMaterial {
-                formulation: PlaneFormulation::ThreeDimensional,
-                ..*material
-            },
+            3 => ElasticMaterial { formulation: PlaneFormulation::ThreeDimensional, ..*material },
             _ => *material,
         }
     }
@@ -230,10 +220,7 @@ impl ElementGeometry {
         let nodal = self.dimension() * self.node_count();
         let internal = full.nrows() - nodal;
         if internal == 0 {
-            return Condensed {
-                stiffness: full,
-                recovered: None,
-            };
+            return Condensed { stiffness: full, recovered: None };
         }
         let coupling = full.view((nodal, 0), (internal, nodal)).into_owned();
         let inner = full.view((nodal, nodal), (internal, internal)).into_owned();
@@ -243,10 +230,7 @@ impl ElementGeometry {
         let recovered = -factor.solve(&coupling);
         let mut condensed = full.view((0, 0), (nodal, nodal)) + coupling.transpose() * &recovered;
         mirror_upper_triangle(&mut condensed);
-        Condensed {
-            stiffness: condensed,
-            recovered: Some(recovered),
-        }
+        Condensed { stiffness: condensed, recovered: Some(recovered) }
     }
 
     /// Derivative of [`Self::stiffness`] where the elasticity changes at the `rate` of another material's:
@@ -259,15 +243,10 @@ impl ElementGeometry {
         let nodal = self.dimension() * self.node_count();
         let internal = change.nrows() - nodal;
         let Some(recovered) = self.stiffness(material).recovered else {
-            return Condensed {
-                stiffness: change,
-                recovered: None,
-            };
+            return Condensed { stiffness: change, recovered: None };
         };
         let mut follows = DMatrix::<f64>::identity(nodal + internal, nodal);
-        follows
-            .view_mut((nodal, 0), (internal, nodal))
-            .copy_from(&recovered);
+        follows.view_mut((nodal, 0), (internal, nodal)).copy_from(&recovered);
         let image = &change * &follows;
         let mut stiffness = follows.transpose() * &image;
         mirror_upper_triangle(&mut stiffness);
@@ -277,10 +256,7 @@ impl ElementGeometry {
         let factor = inner
             .cholesky()
             .expect("incompatible modes of a sound element have positive stiffness");
-        Condensed {
-            stiffness,
-            recovered: Some(-factor.solve(&load)),
-        }
+        Condensed { stiffness, recovered: Some(-factor.solve(&load)) }
     }
 
     /// Element geometric stiffness `K_sigma = ∫ (grad N_I . sigma . grad N_J) I dV` of a sum of stresses, in nodal frames, N/m,
@@ -393,11 +369,7 @@ pub fn nodal_values(mesh: &Mesh, element: usize, all: &[f64]) -> Vec<f64> {
     let d = mesh.dimension;
     let nodes = mesh.element_nodes(element).iter();
     nodes
-        .flat_map(|&node| {
-            all[d * node as usize..d * (node as usize + 1)]
-                .iter()
-                .copied()
-        })
+        .flat_map(|&node| all[d * node as usize..d * (node as usize + 1)].iter().copied())
         .collect()
 }
 

@@ -110,9 +110,7 @@ impl RelaxedMaterials {
             };
             (own, chain)
         });
-        Self {
-            regions: regions.collect(),
-        }
+        Self { regions: regions.collect() }
     }
 
     /// The chains, each with its region.
@@ -147,10 +145,7 @@ pub struct AnnulusMaterials {
 
 impl From<ElasticMaterial> for AnnulusMaterials {
     fn from(annulus: ElasticMaterial) -> Self {
-        Self {
-            annulus,
-            shaft: None,
-        }
+        Self { annulus, shaft: None }
     }
 }
 
@@ -204,11 +199,7 @@ impl ElasticMaterial {
 
     /// The same without stiffness.
     pub fn without_stiffness(&self) -> Self {
-        Self {
-            young_modulus: 0.0,
-            orthotropy: None,
-            ..*self
-        }
+        Self { young_modulus: 0.0, orthotropy: None, ..*self }
     }
 
     /// The same with all its stiffness multiplied by a factor.
@@ -241,10 +232,7 @@ impl ElasticMaterial {
 
     /// Lamé constants `[lambda, G]` of the solid, Pa.
     pub fn solid_lame_constants(&self) -> [f64; 2] {
-        let solid = Self {
-            formulation: PlaneFormulation::ThreeDimensional,
-            ..*self
-        };
+        let solid = Self { formulation: PlaneFormulation::ThreeDimensional, ..*self };
         solid.lame_constants()
     }
 
@@ -320,14 +308,7 @@ impl ElasticMaterial {
             PlaneFormulation::PlaneStress => 0.0,
             _ => normal(2),
         };
-        [
-            normal(0),
-            normal(1),
-            across,
-            g * strain[3],
-            g * strain[4],
-            g * strain[5],
-        ]
+        [normal(0), normal(1), across, g * strain[3], g * strain[4], g * strain[5]]
     }
 
     /// Out-of-plane stress `sigma_zz` for in-plane normal stresses, Pa; `None` of an orthotropic material, whose strains
@@ -384,10 +365,7 @@ mod tests {
 
     #[test]
     fn eigenvalue_and_kappa_are_inverse_and_the_slope_is_their_derivative() {
-        let damping = RayleighDamping {
-            mass_coefficient: 40.0,
-            stiffness_coefficient: 4.5e-7,
-        };
+        let damping = RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 4.5e-7 };
         let kappa = c64::new(4e9, 3e8);
         let lambda = damping.eigenvalue(kappa);
         assert!(lambda.im > 0.0);

@@ -78,10 +78,7 @@ impl MaxwellChain {
         let mut chain = Self {
             at_rest,
             elements: elements
-                .map(|(&time, stiffness)| MaxwellElement {
-                    time,
-                    stiffness: stiffness / at_rest,
-                })
+                .map(|(&time, stiffness)| MaxwellElement { time, stiffness: stiffness / at_rest })
                 .collect(),
             band_hz,
             largest_error: 0.0,
@@ -97,9 +94,8 @@ impl MaxwellChain {
     /// `K / K_0` at a frequency in Hz.
     pub fn ratio(&self, frequency_hz: f64) -> c64 {
         let elements = self.elements.iter();
-        let sum: c64 = elements
-            .map(|own| response(TAU * frequency_hz, own.time) * own.stiffness)
-            .sum();
+        let sum: c64 =
+            elements.map(|own| response(TAU * frequency_hz, own.time) * own.stiffness).sum();
         (sum + 1.0) * self.at_rest
     }
 
@@ -120,9 +116,7 @@ fn spread([low, high]: [f64; 2], per_decade: f64) -> Vec<f64> {
     let decades = (high / low).log10();
     let steps = (decades * per_decade).ceil().max(1.0);
     let count = steps as usize;
-    (0..=count)
-        .map(|i| low * (high / low).powf(i as f64 / steps))
-        .collect()
+    (0..=count).map(|i| low * (high / low).powf(i as f64 / steps)).collect()
 }
 
 /// `x >= 0` with the least `|A x - b|`.
@@ -198,11 +192,7 @@ mod tests {
             let chain = MaxwellChain::fit(&|_| c64::new(1.0, eta), [100.0, 10_000.0]);
             println!("{eta}: {:e} {}", chain.largest_error, chain.at_rest);
             // Two times a decade ripple by a few per cent of the loss; the real part rises by about 2 eta / pi a decade and factor e.
-            assert!(
-                chain.largest_error < 1.6 * eta,
-                "{eta} {:e}",
-                chain.largest_error
-            );
+            assert!(chain.largest_error < 1.6 * eta, "{eta} {:e}", chain.largest_error);
             assert!(chain.elements.iter().all(|own| own.stiffness > 0.0));
         }
     }

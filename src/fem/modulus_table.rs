@@ -23,11 +23,7 @@ impl ModulusTable {
     /// Of no rows.
     pub fn new(key: &str, file: &str, rows: Vec<[f64; 3]>) -> Self {
         assert!(!rows.is_empty(), "a table has rows");
-        Self {
-            key: key.to_owned(),
-            file: file.to_owned(),
-            rows,
-        }
+        Self { key: key.to_owned(), file: file.to_owned(), rows }
     }
 
     /// The key of the case that names its file.
@@ -64,10 +60,7 @@ impl ModulusTable {
     /// `[E, eta]` at a frequency in Hz.
     pub fn at(&self, frequency_hz: f64) -> [f64; 2] {
         let (row, share) = self.place(frequency_hz);
-        let [a, b] = [
-            self.rows[row],
-            self.rows[(row + 1).min(self.rows.len() - 1)],
-        ];
+        let [a, b] = [self.rows[row], self.rows[(row + 1).min(self.rows.len() - 1)]];
         [1, 2].map(|k| a[k] + share * (b[k] - a[k]))
     }
 
@@ -146,10 +139,7 @@ mod tests {
             let difference = (table.ratio(frequency + h) - table.ratio(frequency - h)) / (2.0 * h);
             let slope = table.slope(frequency) * TAU;
             // Round-off of the ratio over the step.
-            assert!(
-                (slope - difference).norm() < 1e-9 * (1.0 + slope.norm()),
-                "{frequency}"
-            );
+            assert!((slope - difference).norm() < 1e-9 * (1.0 + slope.norm()), "{frequency}");
         }
     }
 

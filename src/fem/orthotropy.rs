@@ -35,11 +35,7 @@ impl MaterialAxes {
             return None;
         }
         let two = rest.try_normalize(0.0)?;
-        Some(Self::Fixed(Matrix3::from_columns(&[
-            one,
-            two,
-            one.cross(&two),
-        ])))
+        Some(Self::Fixed(Matrix3::from_columns(&[one, two, one.cross(&two)])))
     }
 
     /// The axes at a place, unit vectors as columns. On the axis of revolution, where no direction is radial, any pair is taken.
@@ -105,10 +101,7 @@ impl Orthotropy {
             }
         }
         let r: [f64; 3] = std::array::from_fn(|k| self.poisson_ratios[k] / scale[k]);
-        let (middle, width) = (
-            -r[0] * r[1],
-            ((1.0 - r[0] * r[0]) * (1.0 - r[1] * r[1])).sqrt(),
-        );
+        let (middle, width) = (-r[0] * r[1], ((1.0 - r[0] * r[0]) * (1.0 - r[1] * r[1])).sqrt());
         if (r[2] - middle).abs() >= width {
             let bounds = [middle - width, middle + width].map(|end| end * scale[2]);
             return Err(Indefinite { which: 2, bounds });
@@ -162,9 +155,7 @@ impl Orthotropy {
                 let other = turned(&law, &turn);
                 let size = law.iter().flatten().fold(0.0_f64, |a, b| a.max(b.abs()));
                 let pairs = law.iter().flatten().zip(other.iter().flatten());
-                pairs
-                    .map(|(a, b)| (a - b).abs())
-                    .all(|difference| difference <= 1e-9 * size)
+                pairs.map(|(a, b)| (a - b).abs()).all(|difference| difference <= 1e-9 * size)
             }
         }
     }

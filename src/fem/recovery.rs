@@ -67,15 +67,11 @@ impl Recovery {
         };
         let recovered = |node: usize, region: usize| {
             let elements = patch_of(node, region).into_iter().map(|e| e as usize);
-            let samples: Vec<usize> = elements
-                .flat_map(|e| first_sample[e]..first_sample[e + 1])
-                .collect();
+            let samples: Vec<usize> =
+                elements.flat_map(|e| first_sample[e]..first_sample[e + 1]).collect();
             let places: Vec<[f64; 3]> = samples.iter().map(|&s| positions[s]).collect();
             let weights = weights_at(mesh.nodes[node], &places, degree);
-            RecoveredNode {
-                region,
-                weights: samples.into_iter().zip(weights).collect(),
-            }
+            RecoveredNode { region, weights: samples.into_iter().zip(weights).collect() }
         };
         let nodes = (0..mesh.node_count()).map(|node| {
             let mut regions: Vec<usize> = Vec::new();
@@ -88,10 +84,7 @@ impl Recovery {
             regions.into_iter().map(|r| recovered(node, r)).collect()
         });
         let nodes = nodes.collect();
-        Self {
-            first_sample,
-            nodes,
-        }
+        Self { first_sample, nodes }
     }
 
     /// Region of the first element around a node and its weights; `None` for a node without elements.
@@ -126,20 +119,13 @@ const UNDETERMINED: f64 = 1e-6;
 /// out.
 fn weights_at(origin: [f64; 3], places: &[[f64; 3]], degree: Degree) -> Vec<f64> {
     let count = places.len() as f64;
-    let centre = places
-        .iter()
-        .map(|p| Vector3::from(*p))
-        .sum::<Vector3<f64>>()
-        / count;
+    let centre = places.iter().map(|p| Vector3::from(*p)).sum::<Vector3<f64>>() / count;
     // In the principal axes of the samples, scaled by how far they spread.
     let offsets = places.iter().map(|p| Vector3::from(*p) - centre);
     let spread: Matrix3<f64> = offsets.map(|o| o * o.transpose() / count).sum();
     let eigen = spread.symmetric_eigen();
     let widest = eigen.eigenvalues.max();
-    let axes = eigen
-        .eigenvalues
-        .iter()
-        .zip(eigen.eigenvectors.column_iter());
+    let axes = eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter());
     let axes: Vec<Vector3<f64>> = axes
         .filter(|(spread, _)| **spread > FLAT * widest)
         .map(|(spread, axis)| axis / spread.sqrt())
@@ -157,19 +143,15 @@ fn weights_at(origin: [f64; 3], places: &[[f64; 3]], degree: Degree) -> Vec<f64>
     // About the means of the terms the slopes are independent of the mean of the samples.
     let rows: Vec<Vec<f64>> = places.iter().map(terms).collect();
     let size = rows.first().map_or(0, Vec::len);
-    let means: Vec<f64> = (0..size)
-        .map(|k| rows.iter().map(|row| row[k]).sum::<f64>() / count)
-        .collect();
+    let means: Vec<f64> =
+        (0..size).map(|k| rows.iter().map(|row| row[k]).sum::<f64>() / count).collect();
     let table = DMatrix::from_fn(rows.len(), size, |s, k| rows[s][k] - means[k]);
     let at = terms(&origin);
     let reach = DMatrix::from_fn(1, size, |_, k| at[k] - means[k]);
     let normal = (table.transpose() * &table).symmetric_eigen();
     let largest = normal.eigenvalues.iter().fold(0.0_f64, |m, v| m.max(*v));
     let mut weights = vec![1.0 / count; places.len()];
-    let pairs = normal
-        .eigenvalues
-        .iter()
-        .zip(normal.eigenvectors.column_iter());
+    let pairs = normal.eigenvalues.iter().zip(normal.eigenvectors.column_iter());
     for (eigenvalue, vector) in pairs.filter(|(value, _)| **value > UNDETERMINED * largest) {
         let slope = (&reach * vector)[0] / eigenvalue;
         let along = &table * vector;

@@ -118,12 +118,7 @@ fn add_element(mesh: &Mesh, element: usize, density: f64, spin: &Spin, terms: &m
                 }
                 RotationFrame::Turning => [across * (2.0 * mass), across * across * mass],
             };
-            add_block(
-                mesh,
-                [nodes[i], nodes[j]],
-                &gyroscopic,
-                &mut terms.gyroscopic,
-            );
+            add_block(mesh, [nodes[i], nodes[j]], &gyroscopic, &mut terms.gyroscopic);
             add_block(mesh, [nodes[i], nodes[j]], &transport, &mut terms.transport);
         }
     }

@@ -61,17 +61,11 @@ impl SectorMatrix {
                     let difference = step(column) - step(row);
                     let place = differences.iter().position(|&d| d == difference);
                     let place = place.expect("an element spans one sector");
-                    couplings[place]
-                        .1
-                        .add(dof(row), dof(column), matrix[(row, column)]);
+                    couplings[place].1.add(dof(row), dof(column), matrix[(row, column)]);
                 }
             }
         }
-        Self {
-            sector_count: sector.sector_count(),
-            parity,
-            couplings,
-        }
+        Self { sector_count: sector.sector_count(), parity, couplings }
     }
 
     /// A matrix that couples no two nodes, `2 x 2` blocks `(node, block)` of free sector nodes.
@@ -80,9 +74,7 @@ impl SectorMatrix {
         for &(node, block) in blocks {
             for (row, column) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                 let place = (2 * node + row, 2 * node + column);
-                matrix.couplings[0]
-                    .1
-                    .add(place.0, place.1, block[row][column]);
+                matrix.couplings[0].1.add(place.0, place.1, block[row][column]);
             }
         }
         matrix
@@ -148,11 +140,7 @@ impl SectorMatrix {
             for row in 0..dimension {
                 let across = [radial_row, tangential_row][row % 2];
                 // Along a row of the band, entries alternate between the same and the other component.
-                let pair = if half_bandwidth % 2 == 0 {
-                    [same, across]
-                } else {
-                    [across, same]
-                };
+                let pair = if half_bandwidth % 2 == 0 { [same, across] } else { [across, same] };
                 let terms = coupling.row(row).iter().enumerate();
                 for (sum, (k, term)) in result.row_mut(row).iter_mut().zip(terms) {
                     *sum += pair[k % 2] * term;
@@ -166,15 +154,8 @@ impl SectorMatrix {
 /// Half bandwidth of a sector's matrices; with room for the contact of two bodies, in which a node of the shaft takes part
 /// in the motion of the pair.
 pub fn half_bandwidth(sector: &SectorMesh) -> usize {
-    let of_one_body = if sector.specification.element.is_quadratic() {
-        9
-    } else {
-        3
-    };
-    let pair = sector
-        .specification
-        .shaft
-        .map_or(0, |_| 2 * sector.contact_count);
+    let of_one_body = if sector.specification.element.is_quadratic() { 9 } else { 3 };
+    let pair = sector.specification.shaft.map_or(0, |_| 2 * sector.contact_count);
     of_one_body + pair
 }
 

@@ -86,15 +86,12 @@ impl SolidMatrix {
         let offset = self.matrices.len();
         self.matrices.extend(other.matrices);
         let places = other.places.into_iter();
-        self.places
-            .extend(places.map(|(matrix, nodes)| (matrix + offset, nodes)));
+        self.places.extend(places.map(|(matrix, nodes)| (matrix + offset, nodes)));
     }
 
     /// Multiplies every entry.
     pub fn scaled(mut self, factor: f64) -> Self {
-        self.matrices
-            .iter_mut()
-            .for_each(|matrix| *matrix *= factor);
+        self.matrices.iter_mut().for_each(|matrix| *matrix *= factor);
         self
     }
 
@@ -112,9 +109,7 @@ impl SolidMatrix {
         }
         let of_block = |(node, block): (usize, &[[f64; 3]; 3])| -> Vec<(usize, usize, f64)> {
             let pairs = (0..9).map(|k| (k / 3, k % 3));
-            pairs
-                .map(|(c, d)| (3 * node + c, 3 * node + d, block[c][d]))
-                .collect()
+            pairs.map(|(c, d)| (3 * node + c, 3 * node + d, block[c][d])).collect()
         };
         let entries = blocks.iter().enumerate().flat_map(of_block);
         entries.filter(|entry| entry.2 != 0.0).collect()

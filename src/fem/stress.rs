@@ -22,11 +22,7 @@ pub struct NodalStress {
 impl NodalStress {
     /// Von Mises stress, Pa.
     pub fn von_mises(&self) -> f64 {
-        let (a, b, c) = (
-            self.radial - self.hoop,
-            self.hoop - self.axial,
-            self.axial - self.radial,
-        );
+        let (a, b, c) = (self.radial - self.hoop, self.hoop - self.axial, self.axial - self.radial);
         (0.5 * (a * a + b * b + c * c) + 3.0 * self.shear * self.shear).sqrt()
     }
 
@@ -138,9 +134,7 @@ pub fn revolved_stress(
         1 => count / 2 * per_sector..(count / 2 + 1) * per_sector,
         _ => 0..given * per_sector,
     };
-    shown
-        .map(|node| found[node].turned(frames[node].matrix()))
-        .collect()
+    shown.map(|node| found[node].turned(frames[node].matrix())).collect()
 }
 
 /// Recovered stress at each node in global axes and the region whose material it is of: that of its first element, where several meet;
@@ -185,8 +179,6 @@ fn in_frame(stress: Voigt, angle: f64, material: &ElasticMaterial) -> NodalStres
         radial,
         hoop,
         shear: local[(0, 1)],
-        axial: material
-            .out_of_plane_stress(radial, hoop)
-            .unwrap_or(stress[2]),
+        axial: material.out_of_plane_stress(radial, hoop).unwrap_or(stress[2]),
     }
 }

@@ -44,9 +44,7 @@ impl Triplets {
     /// Multiplies every value.
     pub fn scaled(&self, factor: f64) -> Self {
         let scale = |&(row, column, value): &(usize, usize, f64)| (row, column, factor * value);
-        Self {
-            entries: self.entries.iter().map(scale).collect(),
-        }
+        Self { entries: self.entries.iter().map(scale).collect() }
     }
 
     /// `y = A x` over all entries, `y` of length `rows`.

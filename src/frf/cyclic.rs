@@ -55,10 +55,8 @@ pub fn cyclic_response(
     let mut backward_error = 0.0_f64;
     let all: Vec<usize> = (0..=system.sector_count() / 2).collect();
     for numbers in all.chunks(system.harmonics_at_once(HARMONICS_AT_ONCE, ENTRIES_AT_ONCE)) {
-        let waves: Vec<Wave> = numbers
-            .par_iter()
-            .map(|&n| Wave::new(system, n, force, response))
-            .collect();
+        let waves: Vec<Wave> =
+            numbers.par_iter().map(|&n| Wave::new(system, n, force, response)).collect();
         let errors: Vec<f64> = receptance
             .par_chunks_mut(LANES)
             .zip(frequencies_hz.par_chunks(LANES))
@@ -68,10 +66,7 @@ pub fn cyclic_response(
     }
     let share = 1.0 / system.sector_count() as f64;
     receptance.iter_mut().for_each(|h| *h *= share);
-    Ok(CyclicResponse {
-        receptance,
-        backward_error,
-    })
+    Ok(CyclicResponse { receptance, backward_error })
 }
 
 /// One harmonic with what it has to do with force and response.
@@ -125,11 +120,7 @@ struct Lines<'a> {
 
 impl<'a> Lines<'a> {
     fn new(system: &CyclicSystem, frequencies_hz: &'a [f64]) -> Self {
-        Self {
-            frequencies_hz,
-            dimension: system.harmonic_dimension(),
-            batch: None,
-        }
+        Self { frequencies_hz, dimension: system.harmonic_dimension(), batch: None }
     }
 
     /// Adds the waves' shares of the response; returns the largest backward error.
@@ -243,10 +234,6 @@ impl Pivoted {
         }
         let largest = solution.iter().fold(0.0, |m: f64, x| m.max(x.norm()));
         let growth = norm * largest;
-        Self {
-            solution,
-            backward_error: residual / growth,
-            growth,
-        }
+        Self { solution, backward_error: residual / growth, growth }
     }
 }

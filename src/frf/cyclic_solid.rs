@@ -12,10 +12,7 @@ use crate::prestress::{SolidTangent, sector_unknowns, supports};
 #[derive(Clone, Debug)]
 pub(super) enum SolidState {
     Body(Box<SolidBody>),
-    Sliding {
-        tangent: Box<SolidTangent>,
-        friction_coefficient: f64,
-    },
+    Sliding { tangent: Box<SolidTangent>, friction_coefficient: f64 },
 }
 
 #[derive(Clone, Debug)]
@@ -79,10 +76,9 @@ impl SolidState {
 
     pub(super) fn harmonic(&self, n: usize, is_standing: bool) -> Harmonic {
         match self {
-            Self::Sliding {
-                tangent,
-                friction_coefficient,
-            } => sliding_harmonic(tangent, *friction_coefficient, (n, is_standing)),
+            Self::Sliding { tangent, friction_coefficient } => {
+                sliding_harmonic(tangent, *friction_coefficient, (n, is_standing))
+            }
             Self::Body(body) => body.harmonic(n, is_standing),
         }
     }

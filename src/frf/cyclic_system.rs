@@ -72,10 +72,7 @@ impl CyclicSystem {
 
     /// Small motions around steady sliding at a friction coefficient.
     pub fn sliding(tangent: &SectorTangent, friction_coefficient: f64) -> Self {
-        let state = State::Sliding {
-            tangent: Box::new(tangent.clone()),
-            friction_coefficient,
-        };
+        let state = State::Sliding { tangent: Box::new(tangent.clone()), friction_coefficient };
         let mut system = Self::new(tangent.sector(), state, &tangent.unknowns());
         let sector = tangent.sector();
         for node in sector.contact_nodes() {
@@ -112,9 +109,7 @@ impl CyclicSystem {
         damping: RayleighDamping,
         is_clamped: bool,
     ) -> Self {
-        Self::of_solid(SolidState::body(
-            sector, material, mass, damping, is_clamped,
-        ))
+        Self::of_solid(SolidState::body(sector, material, mass, damping, is_clamped))
     }
 
     /// Small motions of a body of revolution around steady sliding at a friction coefficient, the dashpot `mu p_0 / V`
@@ -124,10 +119,7 @@ impl CyclicSystem {
     /// body, not through the contact.
     pub fn solid_sliding(tangent: &SolidTangent, friction_coefficient: f64) -> Self {
         let tangent = Box::new(tangent.clone());
-        Self::of_solid(SolidState::Sliding {
-            tangent,
-            friction_coefficient,
-        })
+        Self::of_solid(SolidState::Sliding { tangent, friction_coefficient })
     }
 
     fn of_solid(state: SolidState) -> Self {
@@ -188,10 +180,8 @@ impl CyclicSystem {
             return Err(FrfError::NoNode { key, node, count });
         }
         let component = terminal.direction.component();
-        let component = component.ok_or(FrfError::NoAxes {
-            key,
-            direction: terminal.direction.name(),
-        })?;
+        let component =
+            component.ok_or(FrfError::NoAxes { key, direction: terminal.direction.name() })?;
         if component >= self.components {
             return Err(FrfError::in_plane(terminal, key));
         }
@@ -209,22 +199,16 @@ impl CyclicSystem {
     pub(super) fn harmonic(&self, n: usize) -> Harmonic {
         let is_standing = n == 0 || 2 * n == self.sector_count();
         match &self.state {
-            State::Body {
-                mass,
-                stiffness,
-                supports,
-                damping,
-            } => {
+            State::Body { mass, stiffness, supports, damping } => {
                 let supports = supports
                     .as_ref()
                     .map(|matrices| matrices.each_ref().map(|matrix| matrix.harmonic(n)));
                 let matrices = [mass.harmonic(n), stiffness.harmonic(n)];
                 held_harmonic(matrices, supports, *damping, is_standing)
             }
-            State::Sliding {
-                tangent,
-                friction_coefficient,
-            } => sliding_harmonic(tangent, *friction_coefficient, (n, is_standing)),
+            State::Sliding { tangent, friction_coefficient } => {
+                sliding_harmonic(tangent, *friction_coefficient, (n, is_standing))
+            }
             State::Solid(state) => state.harmonic(n, is_standing),
         }
     }

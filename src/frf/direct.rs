@@ -35,13 +35,7 @@ pub fn direct_response(
     response: impl Into<Port>,
     frequencies_hz: &[f64],
 ) -> Result<DirectResponse, FrfError> {
-    direct_response_with(
-        system,
-        &force.into(),
-        &response.into(),
-        frequencies_hz,
-        &|_| {},
-    )
+    direct_response_with(system, &force.into(), &response.into(), frequencies_hz, &|_| {})
 }
 
 /// As [`direct_response`]; `done` hears how many lines are solved, a few at a time, from any thread.
@@ -57,10 +51,7 @@ pub fn direct_response_with(
 ) -> Result<DirectResponse, FrfError> {
     check_frequencies(frequencies_hz)?;
     let first = frequencies_hz.first().copied().unwrap_or(0.0);
-    let fail = |source| FrfError::Factorization {
-        frequency_hz: first,
-        source,
-    };
+    let fail = |source| FrfError::Factorization { frequency_hz: first, source };
     let analyses = Analyses::of(system).map_err(fail)?;
     let at_once = match system.proportional() {
         Some(_) => LINES_AT_ONCE,

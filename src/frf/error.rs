@@ -118,18 +118,11 @@ impl FrfError {
 
     /// The boundary holds this terminal.
     pub(super) fn constrained(terminal: Terminal, key: &'static str) -> Self {
-        Self::Constrained {
-            key,
-            node: terminal.node + 1,
-            direction: terminal.direction.name(),
-        }
+        Self::Constrained { key, node: terminal.node + 1, direction: terminal.direction.name() }
     }
 
     /// A plane body has no such terminal.
     pub(super) fn in_plane(terminal: Terminal, key: &'static str) -> Self {
-        Self::InPlane {
-            key,
-            node: terminal.node + 1,
-        }
+        Self::InPlane { key, node: terminal.node + 1 }
     }
 }

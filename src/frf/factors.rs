@@ -27,10 +27,7 @@ pub(super) fn factorized(
     frequency_hz: f64,
 ) -> Result<c64, FrfError> {
     let values = system.dynamic_stiffness(frequency_hz);
-    let lu =
-        ComplexSparseLu::factorize(analysis, values).map_err(|source| FrfError::Factorization {
-            frequency_hz,
-            source,
-        })?;
+    let lu = ComplexSparseLu::factorize(analysis, values)
+        .map_err(|source| FrfError::Factorization { frequency_hz, source })?;
     Ok(response.observe(&lu.solve_refined(&force.complex_force(system.dimension()))))
 }

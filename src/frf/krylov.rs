@@ -95,11 +95,7 @@ impl<T: Entry> KrylovSpace<T> {
     /// The space of `g` alone.
     pub fn new(start: Vec<T>) -> Self {
         let length = norm(&start);
-        Self {
-            vectors: vec![scaled(start, 1.0 / length)],
-            images: Vec::new(),
-            length,
-        }
+        Self { vectors: vec![scaled(start, 1.0 / length)], images: Vec::new(), length }
     }
 
     /// Coordinates of the solution at each distance `d`.
@@ -161,9 +157,8 @@ impl<T: Entry> KrylovSpace<T> {
             let unit = if i == j { 1.0 } else { 0.0 };
             c64::new(unit, 0.0) - distance * image
         });
-        let mut y = Mat::from_fn(m, 1, |i, _| {
-            c64::new(if i == 0 { self.length } else { 0.0 }, 0.0)
-        });
+        let mut y =
+            Mat::from_fn(m, 1, |i, _| c64::new(if i == 0 { self.length } else { 0.0 }, 0.0));
         ComplexDenseLu::factorize(matrix).solve_in_place(y.as_mut());
         let y: Vec<c64> = (0..m).map(|i| y[(i, 0)]).collect();
         let size = y.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt();

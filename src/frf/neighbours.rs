@@ -54,9 +54,7 @@ fn proportional(
     let sigma = (TAU * middle).powi(2);
     let distances: Vec<c64> = lines.iter().map(|f| shift(rayleigh, *f) - sigma).collect();
     let [mass, _, _] = system.matrices();
-    let solved = space.solve(&distances, |v| {
-        factors.solve(system.multiply(mass, v, false))
-    });
+    let solved = space.solve(&distances, |v| factors.solve(system.multiply(mass, v, false)));
     let vectors = lines.iter().zip(solved).map(|(f, mut y)| {
         let factor = c64::new(1.0, TAU * f * rayleigh.stiffness_coefficient);
         y.iter_mut().for_each(|y| *y /= factor);
@@ -91,10 +89,7 @@ fn general(
     start.resize(2 * count, c64::new(0.0, 0.0));
     solve(&mut start[..count]);
     let mut space = KrylovSpace::new(start);
-    let distances: Vec<c64> = lines
-        .iter()
-        .map(|f| c64::new(TAU * f - omega, 0.0))
-        .collect();
+    let distances: Vec<c64> = lines.iter().map(|f| c64::new(TAU * f - omega, 0.0)).collect();
     let solved = space.solve(&distances, |z| {
         let (x, w) = z.split_at(count);
         let mut image = system.slope(omega, x, w);
@@ -182,10 +177,7 @@ mod tests {
         let options = TangentOptions {
             mass: MassKind::Consistent,
             geometric_stiffness: true,
-            damping: RayleighDamping {
-                mass_coefficient: 40.0,
-                stiffness_coefficient: 4.5e-7,
-            },
+            damping: RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 4.5e-7 },
             damping_model,
             contact: ContactStiffness::default(),
         };
@@ -207,10 +199,7 @@ mod tests {
                         factorized(&system, &analyses.lu, &5.into(), &200.into(), *f).unwrap();
                     // Backward errors of 1e-14 times condition numbers of 1e4 or less.
                     let found = found.expect("solved together");
-                    assert!(
-                        (found - own).norm() < 1e-10 * own.norm(),
-                        "{f}: {found} {own}"
-                    );
+                    assert!((found - own).norm() < 1e-10 * own.norm(), "{f}: {found} {own}");
                 }
             }
         }

@@ -28,10 +28,7 @@ impl Port {
 
     /// What is observed of `x`.
     pub(super) fn observe(&self, x: &[c64]) -> c64 {
-        self.0
-            .iter()
-            .map(|&(unknown, share)| x[unknown] * share)
-            .sum()
+        self.0.iter().map(|&(unknown, share)| x[unknown] * share).sum()
     }
 
     /// Its row of a basis: `e^T V`.

@@ -25,11 +25,7 @@ pub struct ReductionSettings {
 
 impl Default for ReductionSettings {
     fn default() -> Self {
-        Self {
-            tolerance: 1e-6,
-            shifts: 3,
-            most_shifts: 12,
-        }
+        Self { tolerance: 1e-6, shifts: 3, most_shifts: 12 }
     }
 }
 
@@ -78,10 +74,8 @@ pub fn reduced_response(
             vectors: 0,
         });
     }
-    let analysis = LuAnalysis::new(system.pattern()).map_err(|source| FrfError::Factorization {
-        frequency_hz: low,
-        source,
-    })?;
+    let analysis = LuAnalysis::new(system.pattern())
+        .map_err(|source| FrfError::Factorization { frequency_hz: low, source })?;
     let mut shifts: Vec<f64> = (0..settings.shifts.max(1))
         .map(|j| low + (high - low) * (j as f64 + 0.5) / settings.shifts.max(1) as f64)
         .collect();
@@ -92,10 +86,7 @@ pub fn reduced_response(
     let mut checks: Vec<(f64, c64)> = Vec::new();
     loop {
         let model = ReducedModel::project(system, &basis, force, response);
-        let receptance: Vec<c64> = frequencies_hz
-            .iter()
-            .map(|f| model.receptance(*f))
-            .collect();
+        let receptance: Vec<c64> = frequencies_hz.iter().map(|f| model.receptance(*f)).collect();
         let wanted = check_lines(frequencies_hz, &receptance, &shifts);
         for f in wanted {
             if checks.iter().all(|(known, _)| *known != f) {
@@ -172,10 +163,7 @@ fn extended(
         match SparseLu::factorize(analysis, system.undamped_stiffness(frequency_hz)) {
             Ok(lu) => break lu,
             Err(source) if attempt == 3 => {
-                return Err(FrfError::Factorization {
-                    frequency_hz,
-                    source,
-                });
+                return Err(FrfError::Factorization { frequency_hz, source });
             }
             Err(_) => {
                 // On an undamped resonance: beside it, the space is the same.

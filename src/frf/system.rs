@@ -80,19 +80,13 @@ impl FrfSystem {
             stiffness.extend(restricted(&springs.entries));
         }
         let dashpots = restricted(&dashpots.entries);
-        let positions = mass
-            .iter()
-            .chain(&stiffness)
-            .chain(&dashpots)
-            .map(|(row, column, _)| (*row, *column));
+        let positions =
+            mass.iter().chain(&stiffness).chain(&dashpots).map(|(row, column, _)| (*row, *column));
         let pattern = Arc::new(SparsityPattern::from_positions(unknowns.len(), positions));
         let values = |entries| MatrixPolynomial::on_pattern(&pattern, &[entries]).evaluate(0.0);
         let structural = structural.map_or_else(Vec::new, values);
         let tabled = tabled.into_iter().map(|(table, stiffness)| {
-            let gain = TabledGain {
-                table,
-                reference_hz: 0.0,
-            };
+            let gain = TabledGain { table, reference_hz: 0.0 };
             (gain, values(restricted(&stiffness.entries)))
         });
         let tabled = tabled.collect();
@@ -131,12 +125,7 @@ impl FrfSystem {
             tabled: tangent
                 .tabled
                 .iter()
-                .map(|part| {
-                    (
-                        part.gain.clone(),
-                        part.stiffness.evaluate(friction_coefficient),
-                    )
-                })
+                .map(|part| (part.gain.clone(), part.stiffness.evaluate(friction_coefficient)))
                 .collect(),
             proportional: tangent.proportional,
             is_symmetric: false,
@@ -147,10 +136,7 @@ impl FrfSystem {
 
     /// Bodies without contact from their tangent, whose matrices are symmetric unless a body turns.
     pub fn tied(tangent: &SlidingTangent) -> Self {
-        Self {
-            is_symmetric: !tangent.is_gyroscopic,
-            ..Self::sliding(tangent, 0.0)
-        }
+        Self { is_symmetric: !tangent.is_gyroscopic, ..Self::sliding(tangent, 0.0) }
     }
 
     /// Number of unknowns.
@@ -181,11 +167,7 @@ impl FrfSystem {
             return Err(FrfError::in_plane(terminal, key));
         }
         let direction = terminal.direction.name();
-        let on_axis = FrfError::OnAxis {
-            key,
-            node,
-            direction,
-        };
+        let on_axis = FrfError::OnAxis { key, node, direction };
         let local = terminal.direction.at(mesh, terminal.node, axis);
         let local = local.ok_or(on_axis)?;
         let mut shares = Row::new();
@@ -224,11 +206,7 @@ impl FrfSystem {
         let dof = 2 * terminal.node + component;
         let node = terminal.node + 1;
         match self.unknowns.unknown_of.get(dof) {
-            None => Err(FrfError::NoNode {
-                key,
-                node,
-                count: self.unknowns.unknown_of.len() / 2,
-            }),
+            None => Err(FrfError::NoNode { key, node, count: self.unknowns.unknown_of.len() / 2 }),
             Some(None) => Err(FrfError::constrained(terminal, key)),
             Some(Some(unknown)) => Ok(*unknown),
         }
@@ -269,9 +247,7 @@ impl FrfSystem {
         let largest = |sizes: &mut dyn Iterator<Item = f64>| sizes.fold(0.0, f64::max);
         let norm = largest(&mut row_sums.iter().copied());
         let size = norm * largest(&mut x.iter().map(|v| v.norm()));
-        let is_finite = residual
-            .iter()
-            .all(|r| r.re.is_finite() && r.im.is_finite());
+        let is_finite = residual.iter().all(|r| r.re.is_finite() && r.im.is_finite());
         let residual = largest(&mut residual.iter().map(|r| r.norm()));
         (if is_finite { residual } else { f64::INFINITY }, size)
     }
@@ -343,10 +319,7 @@ impl FrfSystem {
 
 /// Checks that every frequency is positive.
 pub(super) fn check_frequencies(frequencies_hz: &[f64]) -> Result<(), FrfError> {
-    match frequencies_hz
-        .iter()
-        .find(|f| !(**f > 0.0 && f.is_finite()))
-    {
+    match frequencies_hz.iter().find(|f| !(**f > 0.0 && f.is_finite())) {
         Some(value) => Err(FrfError::Frequency { value: *value }),
         None => Ok(()),
     }

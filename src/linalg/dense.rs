@@ -41,10 +41,7 @@ pub struct GrowingColumns {
 impl GrowingColumns {
     /// No columns of length `rows`.
     pub fn new(rows: usize) -> Self {
-        Self {
-            storage: Mat::zeros(rows, 0),
-            room: 0,
-        }
+        Self { storage: Mat::zeros(rows, 0), room: 0 }
     }
 
     /// Number of columns.
@@ -70,8 +67,7 @@ impl GrowingColumns {
             self.storage = roomy;
             self.room = room;
         }
-        self.storage
-            .resize_with(rows, total, |i, j| new[(i, j - known)]);
+        self.storage.resize_with(rows, total, |i, j| new[(i, j - known)]);
     }
 
     /// Takes the columns' place by their combinations, see [`combine`].
@@ -90,14 +86,7 @@ pub fn combine(a: &mut Mat<f64>, coefficients: MatRef<'_, f64>) {
         let count = STRIP.min(rows - first);
         let mut image = image.as_mut().subrows_mut(0, count);
         let strip = a.as_ref().submatrix(first, 0, count, known);
-        matmul(
-            image.rb_mut(),
-            Accum::Replace,
-            strip,
-            coefficients,
-            1.0,
-            Par::Seq,
-        );
+        matmul(image.rb_mut(), Accum::Replace, strip, coefficients, 1.0, Par::Seq);
         let mut place = a.as_mut().submatrix_mut(first, 0, count, kept);
         place.copy_from(image);
     }
@@ -130,9 +119,7 @@ pub fn column_mut(a: &mut Mat<f64>, j: usize) -> &mut [f64] {
 
 /// The columns of `a`, each by itself.
 pub fn columns_of(a: &Mat<f64>) -> Vec<Vec<f64>> {
-    (0..a.ncols())
-        .map(|j| column(a.as_ref(), j).to_vec())
-        .collect()
+    (0..a.ncols()).map(|j| column(a.as_ref(), j).to_vec()).collect()
 }
 
 /// The matrix of `rows` rows with these columns, if they are of that length.
@@ -169,12 +156,7 @@ pub fn column_blocks<T>(
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut lanes = [0.0; 8];
     let (a_chunks, b_chunks) = (a.chunks_exact(8), b.chunks_exact(8));
-    let tail: f64 = a_chunks
-        .remainder()
-        .iter()
-        .zip(b_chunks.remainder())
-        .map(|(x, y)| x * y)
-        .sum();
+    let tail: f64 = a_chunks.remainder().iter().zip(b_chunks.remainder()).map(|(x, y)| x * y).sum();
     for (x, y) in a_chunks.zip(b_chunks) {
         for lane in 0..8 {
             lanes[lane] += x[lane] * y[lane];
@@ -276,11 +258,7 @@ fn orthonormalize_down_to(
     }
     let columns = pick_columns(&w, &kept);
     let within = within.get(..kept.len(), ..).to_owned();
-    Orthonormalized {
-        columns,
-        against,
-        within,
-    }
+    Orthonormalized { columns, against, within }
 }
 
 /// Length of a column of unit length, nearly orthonormal to others, beyond them: more than this unless it is nothing but round-off.
@@ -304,10 +282,8 @@ fn independent_directions(mut w: Mat<f64>, drop_below: f64) -> Mat<f64> {
         let v = column(w.as_ref(), j);
         dot(v, v)
     };
-    let mut remaining: Vec<(usize, f64, f64)> = (0..w.ncols())
-        .map(|j| (j, square(&w, j)))
-        .map(|(j, s)| (j, s, s))
-        .collect();
+    let mut remaining: Vec<(usize, f64, f64)> =
+        (0..w.ncols()).map(|j| (j, square(&w, j))).map(|(j, s)| (j, s, s)).collect();
     while let Some(slot) =
         (0..remaining.len()).max_by(|&a, &b| remaining[a].1.total_cmp(&remaining[b].1))
     {
@@ -322,9 +298,7 @@ fn independent_directions(mut w: Mat<f64>, drop_below: f64) -> Mat<f64> {
             break;
         }
         remaining.remove(slot);
-        column_mut(&mut w, pivot)
-            .iter_mut()
-            .for_each(|v| *v /= norm);
+        column_mut(&mut w, pivot).iter_mut().for_each(|v| *v /= norm);
         kept.push(pivot);
         let direction = column(w.as_ref(), pivot).to_vec();
         for (j, estimate, reference) in &mut remaining {
@@ -346,15 +320,8 @@ fn independent_directions(mut w: Mat<f64>, drop_below: f64) -> Mat<f64> {
 /// Column `k` to read and column `j > k` to write.
 fn two_columns(w: &mut Mat<f64>, k: usize, j: usize) -> (&[f64], &mut [f64]) {
     let (head, tail) = w.as_mut().split_at_col_mut(j);
-    let q = head
-        .into_const()
-        .col(k)
-        .try_as_col_major()
-        .expect("owned columns are contiguous");
-    let v = tail
-        .col_mut(0)
-        .try_as_col_major_mut()
-        .expect("owned columns are contiguous");
+    let q = head.into_const().col(k).try_as_col_major().expect("owned columns are contiguous");
+    let v = tail.col_mut(0).try_as_col_major_mut().expect("owned columns are contiguous");
     (q.as_slice(), v.as_slice_mut())
 }
 

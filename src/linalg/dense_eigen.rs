@@ -31,10 +31,7 @@ pub struct RealEigen {
 pub fn symmetric_eigen(matrix: &Mat<f64>) -> (Vec<f64>, Mat<f64>) {
     interruption::check();
     match matrix.self_adjoint_eigen(faer::Side::Lower) {
-        Ok(found) => (
-            found.S().column_vector().iter().copied().collect(),
-            found.U().to_owned(),
-        ),
+        Ok(found) => (found.S().column_vector().iter().copied().collect(), found.U().to_owned()),
         Err(_) => (Vec::new(), Mat::zeros(matrix.nrows(), 0)),
     }
 }
@@ -131,10 +128,7 @@ pub fn real_eigenvalues(matrix: MatRef<'_, f64>) -> Result<Vec<c64>, LinalgError
         Default::default(),
     )
     .map_err(|_| failure)?;
-    let parts = real
-        .column_vector()
-        .iter()
-        .zip(imaginary.column_vector().iter());
+    let parts = real.column_vector().iter().zip(imaginary.column_vector().iter());
     Ok(parts.map(|(re, im)| c64::new(*re, *im)).collect())
 }
 
@@ -159,18 +153,9 @@ pub fn real_eigen(
     let (mut real, mut imaginary) = (Diag::<f64>::zeros(n), Diag::<f64>::zeros(n));
     let mut right = Mat::<f64>::zeros(n, n);
     let mut left = with_left.then(|| Mat::<f64>::zeros(n, n));
-    let left_mode = if with_left {
-        ComputeEigenvectors::Yes
-    } else {
-        ComputeEigenvectors::No
-    };
-    let scratch = evd_scratch::<f64>(
-        n,
-        left_mode,
-        ComputeEigenvectors::Yes,
-        Par::Seq,
-        Default::default(),
-    );
+    let left_mode = if with_left { ComputeEigenvectors::Yes } else { ComputeEigenvectors::No };
+    let scratch =
+        evd_scratch::<f64>(n, left_mode, ComputeEigenvectors::Yes, Par::Seq, Default::default());
     evd_real(
         matrix,
         real.as_mut(),
@@ -182,9 +167,8 @@ pub fn real_eigen(
         Default::default(),
     )
     .map_err(|_| failure)?;
-    let mut values: Vec<c64> = (0..n)
-        .map(|i| c64::new(real.column_vector()[i], imaginary.column_vector()[i]))
-        .collect();
+    let mut values: Vec<c64> =
+        (0..n).map(|i| c64::new(real.column_vector()[i], imaginary.column_vector()[i])).collect();
     order_conjugate_pairs(&mut values, &mut right, left.as_mut());
     let mut moduli: Vec<f64> = values.iter().map(|v| v.norm()).collect();
     moduli.sort_by(|a, b| b.total_cmp(a));
@@ -196,11 +180,7 @@ pub fn real_eigen(
         repair(matrix.transpose(), &values, smallest, left);
         conjugate(&values, left);
     }
-    Ok(RealEigen {
-        values,
-        right,
-        left,
-    })
+    Ok(RealEigen { values, right, left })
 }
 
 /// Makes the positive imaginary part come first in every pair.
@@ -217,10 +197,7 @@ fn order_conjugate_pairs(
         }
         if values[i].im < 0.0 {
             values.swap(i, i + 1);
-            for vectors in [Some(&mut *right), left.as_deref_mut()]
-                .into_iter()
-                .flatten()
-            {
+            for vectors in [Some(&mut *right), left.as_deref_mut()].into_iter().flatten() {
                 for row in 0..vectors.nrows() {
                     vectors[(row, i + 1)] = -vectors[(row, i + 1)];
                 }
@@ -256,10 +233,7 @@ fn repair(matrix: MatRef<'_, f64>, values: &[c64], smallest: f64, vectors: &mut 
         let vector = complex_column(values, vectors, j);
         let image = complex_column(values, &images, j);
         let pairs = image.iter().zip(&vector);
-        let error = pairs
-            .map(|(a, x)| (a - values[j] * x).norm_sqr())
-            .sum::<f64>()
-            .sqrt();
+        let error = pairs.map(|(a, x)| (a - values[j] * x).norm_sqr()).sum::<f64>().sqrt();
         let mut beyond = vector.clone();
         project_out(&mut beyond, &orthonormal(alike(values, vectors, &sound, j)));
         let is_independent = length(&beyond) > INDEPENDENT * length(&vector);
@@ -326,10 +300,7 @@ fn complex_column(values: &[c64], vectors: &Mat<f64>, j: usize) -> Vec<c64> {
         return real.iter().map(|&v| c64::new(v, 0.0)).collect();
     }
     let imaginary = column(vectors.as_ref(), j + 1);
-    real.iter()
-        .zip(imaginary)
-        .map(|(&p, &q)| c64::new(p, q))
-        .collect()
+    real.iter().zip(imaginary).map(|(&p, &q)| c64::new(p, q)).collect()
 }
 
 fn orthonormal(vectors: Vec<Vec<c64>>) -> Vec<Vec<c64>> {
@@ -345,15 +316,8 @@ fn orthonormal(vectors: Vec<Vec<c64>>) -> Vec<Vec<c64>> {
 
 fn project_out(vector: &mut [c64], basis: &[Vec<c64>]) {
     for direction in basis {
-        let overlap: c64 = direction
-            .iter()
-            .zip(vector.iter())
-            .map(|(d, v)| d.conj() * v)
-            .sum();
-        vector
-            .iter_mut()
-            .zip(direction)
-            .for_each(|(v, d)| *v -= overlap * d);
+        let overlap: c64 = direction.iter().zip(vector.iter()).map(|(d, v)| d.conj() * v).sum();
+        vector.iter_mut().zip(direction).for_each(|(v, d)| *v -= overlap * d);
     }
 }
 
@@ -414,11 +378,7 @@ mod tests {
         let n = 24;
         let mut blocks = Mat::<f64>::zeros(n, n);
         for k in 0..n / 2 {
-            let (re, im) = if k < 4 {
-                (-0.01, 0.7)
-            } else {
-                (-0.01 * k as f64, 1.0 / k as f64)
-            };
+            let (re, im) = if k < 4 { (-0.01, 0.7) } else { (-0.01 * k as f64, 1.0 / k as f64) };
             blocks[(2 * k, 2 * k)] = re;
             blocks[(2 * k + 1, 2 * k + 1)] = re;
             blocks[(2 * k, 2 * k + 1)] = im;
@@ -427,10 +387,7 @@ mod tests {
         let basis = random_columns(n, n, 11);
         let mut inverse = Mat::<f64>::identity(n, n);
         DenseLu::factorize(basis.clone()).solve_in_place(inverse.as_mut());
-        let a = product(
-            product(basis.as_ref(), blocks.as_ref()).as_ref(),
-            inverse.as_ref(),
-        );
+        let a = product(product(basis.as_ref(), blocks.as_ref()).as_ref(), inverse.as_ref());
         let eigen = real_eigen(a.as_ref(), true, usize::MAX).unwrap();
         let images = product(a.as_ref(), eigen.right.as_ref());
         for j in (0..n).filter(|&j| eigen.values[j].im > 0.0) {

@@ -25,11 +25,7 @@ pub fn few_eigenvalues(matrix: &Mat<f64>, leading: usize) -> Option<RealEigen> {
         max_applications: 20 * leading,
     };
     let found = krylov_schur(&DenseOperator(matrix), None, &settings).ok()?;
-    Some(RealEigen {
-        values: found.values,
-        right: found.vectors,
-        left: None,
-    })
+    Some(RealEigen { values: found.values, right: found.vectors, left: None })
 }
 
 /// A dense matrix as an operator.

@@ -83,9 +83,7 @@ fn normal_below(x: f64) -> f64 {
     } else if size < 5.0 * SQRT_2 {
         density * horner(&NUMERATOR) / horner(&DENOMINATOR)
     } else {
-        let fraction = [4.0, 3.0, 2.0, 1.0]
-            .iter()
-            .fold(size + 0.65, |b, k| size + k / b);
+        let fraction = [4.0, 3.0, 2.0, 1.0].iter().fold(size + 0.65, |b, k| size + k / b);
         density / fraction / (2.0 * PI).sqrt()
     };
     if x > 0.0 { 1.0 - tail } else { tail }
@@ -115,36 +113,21 @@ mod tests {
             let x = 0.1 * f64::from(i);
             let exact = 0.5 * libm::erfc(-x / SQRT_2);
             let tail = exact.min(1.0 - exact);
-            assert!(
-                (normal_below(x) - exact).abs() < 1e-8 * tail.min(1e-7) + 3e-16,
-                "{x}"
-            );
+            assert!((normal_below(x) - exact).abs() < 1e-8 * tail.min(1e-7) + 3e-16, "{x}");
         }
     }
 
     #[test]
     fn quantiles_invert_the_distribution() {
         let all = [
-            Distribution::Normal {
-                mean: 2.0,
-                deviation: 0.5,
-            },
-            Distribution::LogNormal {
-                median: 7.4e12,
-                deviation: 0.3,
-            },
-            Distribution::Uniform {
-                from: -1.0,
-                to: 3.0,
-            },
+            Distribution::Normal { mean: 2.0, deviation: 0.5 },
+            Distribution::LogNormal { median: 7.4e12, deviation: 0.3 },
+            Distribution::Uniform { from: -1.0, to: 3.0 },
         ];
         for distribution in all {
             for p in [1e-9, 1e-4, 0.025, 0.3, 0.5, 0.7, 0.975, 1.0 - 1e-6] {
                 let found = distribution.below(distribution.quantile(p));
-                assert!(
-                    (found - p).abs() < 1e-11 * p + 1e-15,
-                    "{distribution:?} {p} {found}"
-                );
+                assert!((found - p).abs() < 1e-11 * p + 1e-15, "{distribution:?} {p} {found}");
             }
         }
     }

@@ -96,10 +96,7 @@ mod tests {
         let n = (64 * 2 * COUNT) as f64;
         assert!(mean.abs() < 5.0 * n.sqrt(), "{mean}");
         assert!((square - n).abs() < 5.0 * (2.0 * n).sqrt(), "{square}");
-        assert!(
-            (fourth - 3.0 * n).abs() < 5.0 * (96.0 * n).sqrt(),
-            "{fourth}"
-        );
+        assert!((fourth - 3.0 * n).abs() < 5.0 * (96.0 * n).sqrt(), "{fourth}");
         assert!(cross.abs() < 5.0 * (0.5 * n).sqrt(), "{cross}");
     }
 }

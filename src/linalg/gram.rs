@@ -33,10 +33,7 @@ pub fn orthonormal_columns(mut w: Mat<f64>) -> Result<GramFactors, Mat<f64>> {
     combine(&mut w, first.coefficients.as_ref());
     let second = Pass::of(w.as_ref(), 0.0);
     combine(&mut w, second.coefficients.as_ref());
-    Ok(GramFactors {
-        columns: w,
-        within: product(second.within.as_ref(), first.within.as_ref()),
-    })
+    Ok(GramFactors { columns: w, within: product(second.within.as_ref(), first.within.as_ref()) })
 }
 
 /// Orthonormal basis of what the columns of `w` hold beyond an orthonormal `basis`: remainders shorter than `shortest`,
@@ -69,9 +66,7 @@ impl Pass {
         let count = w.ncols();
         let gram = Mat::from_fn(count, count, |i, j| raw[(i, j)] / (lengths[i] * lengths[j]));
         // Not a number where a column is zero: the comparison with its floor is false then.
-        let floors = lengths
-            .iter()
-            .map(|length| (shortest / length).max(DEPENDENT).powi(2));
+        let floors = lengths.iter().map(|length| (shortest / length).max(DEPENDENT).powi(2));
         let (kept, upper) = pivoted_cholesky(gram, &floors.collect::<Vec<_>>());
         let inverse = inverse_of_upper(&kept, &upper);
         let mut coefficients = Mat::zeros(count, kept.len());
@@ -84,11 +79,7 @@ impl Pass {
                 within[(i, j)] = upper[(i, j)] * lengths[j];
             }
         }
-        Self {
-            kept,
-            coefficients,
-            within,
-        }
+        Self { kept, coefficients, within }
     }
 }
 
@@ -126,9 +117,7 @@ fn inverse_of_upper(kept: &[usize], upper: &Mat<f64>) -> Mat<f64> {
     let mut inverse = Mat::zeros(count, count);
     for k in 0..count {
         for i in (0..=k).rev() {
-            let known: f64 = (i + 1..=k)
-                .map(|j| upper[(i, kept[j])] * inverse[(j, k)])
-                .sum();
+            let known: f64 = (i + 1..=k).map(|j| upper[(i, kept[j])] * inverse[(j, k)]).sum();
             let right = f64::from(i == k);
             inverse[(i, k)] = (right - known) / upper[(i, kept[i])];
         }
@@ -162,9 +151,7 @@ mod tests {
 
     #[test]
     fn complement_leaves_out_dependent_short_and_known_columns() {
-        let basis = orthonormal_columns(random_columns(60, 5, 2))
-            .unwrap()
-            .columns;
+        let basis = orthonormal_columns(random_columns(60, 5, 2)).unwrap().columns;
         let mut w = random_columns(60, 5, 3);
         for i in 0..60 {
             w[(i, 1)] = 2.0 * w[(i, 0)] - basis[(i, 3)];

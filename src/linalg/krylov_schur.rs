@@ -150,12 +150,7 @@ fn whole(
     let mut vectors = product(matrix.as_ref(), ritz.as_ref());
     let residuals = pair_residuals(&values, &ritz, &vectors);
     normalize_pairs(&values, &mut vectors);
-    Ok(RealPairs {
-        values,
-        vectors,
-        residuals,
-        applications: n,
-    })
+    Ok(RealPairs { values, vectors, residuals, applications: n })
 }
 
 /// Indices of the eigenvalues, largest modulus first, pairs unbroken.
@@ -178,10 +173,7 @@ fn wanted_count(
     let count = match wanted {
         Wanted::Largest(count) => count.min(dimension),
         Wanted::ModulusAtLeast(bound) => {
-            let inside = order
-                .iter()
-                .take_while(|&&i| eigen.values[i].norm() >= bound)
-                .count();
+            let inside = order.iter().take_while(|&&i| eigen.values[i].norm() >= bound).count();
             if is_exhausted { inside } else { inside + 1 }
         }
     };
@@ -269,10 +261,7 @@ impl<'a> BlockArnoldi<'a> {
             .map(|i| {
                 let (first, last) = pair_columns(&eigen.values, i);
                 let norm = |m: &Mat<f64>| {
-                    (first..=last)
-                        .map(|j| m.col(j).squared_norm_l2())
-                        .sum::<f64>()
-                        .sqrt()
+                    (first..=last).map(|j| m.col(j).squared_norm_l2()).sum::<f64>().sqrt()
                 };
                 norm(&overflow) / (norm(&eigen.right) * eigen.values[i].norm())
             })
@@ -287,9 +276,7 @@ impl<'a> BlockArnoldi<'a> {
         {
             kept.pop();
         }
-        let ritz = Mat::from_fn(self.dimension(), kept.len(), |i, j| {
-            eigen.right[(i, kept[j])]
-        });
+        let ritz = Mat::from_fn(self.dimension(), kept.len(), |i, j| eigen.right[(i, kept[j])]);
         let empty = Mat::<f64>::zeros(self.dimension(), 0);
         let vectors = orthonormalize(empty.as_ref(), ritz, 1e-12).columns;
         self.basis.combine(vectors.as_ref());
@@ -306,9 +293,8 @@ impl<'a> BlockArnoldi<'a> {
         settings: &KrylovSchurSettings,
     ) -> Result<RealPairs, LinalgError> {
         let values: Vec<c64> = chosen.iter().map(|&i| eigen.values[i]).collect();
-        let coefficients = Mat::from_fn(self.dimension(), chosen.len(), |i, j| {
-            eigen.right[(i, chosen[j])]
-        });
+        let coefficients =
+            Mat::from_fn(self.dimension(), chosen.len(), |i, j| eigen.right[(i, chosen[j])]);
         let ritz = product(self.basis.columns(), coefficients.as_ref());
         let mut vectors = self.operator.apply(ritz.as_ref());
         self.applications += chosen.len();
@@ -325,12 +311,7 @@ impl<'a> BlockArnoldi<'a> {
             });
         }
         normalize_pairs(&values, &mut vectors);
-        Ok(RealPairs {
-            values,
-            vectors,
-            residuals,
-            applications: self.applications,
-        })
+        Ok(RealPairs { values, vectors, residuals, applications: self.applications })
     }
 }
 
@@ -343,11 +324,9 @@ fn orthonormalize_block(basis: MatRef<'_, f64>, mut w: Mat<f64>) -> Orthonormali
         against += overlap;
     }
     match orthonormal_columns(w) {
-        Ok(factors) => Orthonormalized {
-            columns: factors.columns,
-            against,
-            within: factors.within,
-        },
+        Ok(factors) => {
+            Orthonormalized { columns: factors.columns, against, within: factors.within }
+        }
         Err(w) => {
             let mut rest = orthonormalize(basis, w, 1e-14);
             rest.against += against;
@@ -390,10 +369,7 @@ fn normalize_pairs(values: &[c64], vectors: &mut Mat<f64>) {
     let mut i = 0;
     while i < values.len() {
         let (first, last) = pair_columns(values, i);
-        let length = (first..=last)
-            .map(|j| vectors.col(j).squared_norm_l2())
-            .sum::<f64>()
-            .sqrt();
+        let length = (first..=last).map(|j| vectors.col(j).squared_norm_l2()).sum::<f64>().sqrt();
         for j in first..=last {
             vectors.col_mut(j).iter_mut().for_each(|v| *v /= length);
         }

@@ -99,11 +99,7 @@ impl MarketMatrix {
         let Some(whole) = whole else {
             return Err(wrong_line(at, size, expected));
         };
-        let mut matrix = Self {
-            rows: whole[0],
-            columns: whole[1],
-            entries: Vec::new(),
-        };
+        let mut matrix = Self { rows: whole[0], columns: whole[1], entries: Vec::new() };
         match is_coordinate {
             true => matrix.read_coordinates(lines, symmetry, whole[2])?,
             false => matrix.read_array(lines, symmetry)?,
@@ -173,21 +169,14 @@ impl MarketMatrix {
         }
         match found == places.len() {
             true => Ok(()),
-            false => Err(MatrixMarketError::Count {
-                promised: places.len(),
-                found,
-            }),
+            false => Err(MatrixMarketError::Count { promised: places.len(), found }),
         }
     }
 
     fn add(&mut self, (row, column): (usize, usize), value: f64, symmetry: Symmetry) {
         self.entries.push((row, column, value));
         if row != column && symmetry != Symmetry::General {
-            let mirrored = if symmetry == Symmetry::Skew {
-                -value
-            } else {
-                value
-            };
+            let mirrored = if symmetry == Symmetry::Skew { -value } else { value };
             self.entries.push((column, row, mirrored));
         }
     }
@@ -237,9 +226,7 @@ impl MarketMatrix {
 fn read_banner(banner: &str) -> Result<(bool, Symmetry), MatrixMarketError> {
     let words: Vec<String> = banner.split_whitespace().map(str::to_lowercase).collect();
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
-    let wrong = || MatrixMarketError::Banner {
-        found: banner.chars().take(80).collect(),
-    };
+    let wrong = || MatrixMarketError::Banner { found: banner.chars().take(80).collect() };
     let ["%%matrixmarket", "matrix", format, field, symmetry] = words[..] else {
         return Err(wrong());
     };
@@ -261,26 +248,17 @@ fn read_banner(banner: &str) -> Result<(bool, Symmetry), MatrixMarketError> {
 }
 
 fn whole_numbers(text: &str) -> Option<Vec<usize>> {
-    text.split_whitespace()
-        .map(|word| word.parse().ok())
-        .collect()
+    text.split_whitespace().map(|word| word.parse().ok()).collect()
 }
 
 fn wrong_line(line: usize, found: &str, expected: &'static str) -> MatrixMarketError {
-    MatrixMarketError::Line {
-        line,
-        found: found.chars().take(80).collect(),
-        expected,
-    }
+    MatrixMarketError::Line { line, found: found.chars().take(80).collect(), expected }
 }
 
 fn finite(line: usize, word: &str) -> Result<f64, MatrixMarketError> {
     match word.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
-        Ok(_) => Err(MatrixMarketError::NotFinite {
-            line,
-            found: word.to_owned(),
-        }),
+        Ok(_) => Err(MatrixMarketError::NotFinite { line, found: word.to_owned() }),
         Err(_) => Err(wrong_line(line, word, "a number")),
     }
 }
@@ -311,33 +289,18 @@ mod tests {
         let array = "%%MatrixMarket matrix array integer skew-symmetric\n2 2\n7\n";
         let read = MarketMatrix::read(array).unwrap();
         assert_eq!(read.entries, [(1, 0, 7.0), (0, 1, -7.0)]);
-        assert_eq!(
-            read.compressed_rows(),
-            (vec![0, 1, 2], vec![1, 0], vec![-7.0, 7.0])
-        );
+        assert_eq!(read.compressed_rows(), (vec![0, 1, 2], vec![1, 0], vec![-7.0, 7.0]));
     }
 
     #[test]
     fn what_is_no_matrix_is_refused_with_its_line() {
         let banner = "%%MatrixMarket matrix coordinate real general\n";
         for (body, message) in [
-            (
-                "2 2\n",
-                "line 2: \"2 2\" should be rows, columns and number of entries",
-            ),
-            (
-                "2 2 1\n1 x 3\n",
-                "line 3: \"1 x 3\" should be a row, a column and a value",
-            ),
+            ("2 2\n", "line 2: \"2 2\" should be rows, columns and number of entries"),
+            ("2 2 1\n1 x 3\n", "line 3: \"1 x 3\" should be a row, a column and a value"),
             ("2 2 1\n1 2 nan\n", "line 3: nan is not finite"),
-            (
-                "2 2 1\n3 1 1.0\n",
-                "line 3: entry (3, 1) lies outside a matrix of 2 x 2",
-            ),
-            (
-                "2 2 2\n1 1 1.0\n",
-                "the size line promises 2 entries, the file has 1",
-            ),
+            ("2 2 1\n3 1 1.0\n", "line 3: entry (3, 1) lies outside a matrix of 2 x 2"),
+            ("2 2 2\n1 1 1.0\n", "the size line promises 2 entries, the file has 1"),
         ] {
             let error = MarketMatrix::read(&format!("{banner}{body}")).unwrap_err();
             assert_eq!(error.to_string(), message);

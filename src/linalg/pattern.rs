@@ -57,12 +57,7 @@ impl SparsityPattern {
             row_indices,
         );
         let (row_pointers, row_positions, row_columns) = by_rows(&symbolic);
-        Self {
-            symbolic,
-            row_pointers,
-            row_positions,
-            row_columns,
-        }
+        Self { symbolic, row_pointers, row_positions, row_columns }
     }
 
     /// Number of rows and of columns.
@@ -112,9 +107,7 @@ impl SparsityPattern {
     /// Values sorted by rows.
     pub fn by_rows(&self, values: &[f64]) -> Vec<f64> {
         let positions = self.row_positions.iter();
-        positions
-            .map(|&position| values[position as usize])
-            .collect()
+        positions.map(|&position| values[position as usize]).collect()
     }
 
     /// Values in the order of the pattern, of values sorted by rows.
@@ -128,14 +121,8 @@ impl SparsityPattern {
 
     /// Index of `(row, column)` among the nonzeros, if it is one.
     pub fn position(&self, row: usize, column: usize) -> Option<usize> {
-        let (start, end) = (
-            self.column_pointers()[column],
-            self.column_pointers()[column + 1],
-        );
-        self.row_indices()[start..end]
-            .binary_search(&row)
-            .ok()
-            .map(|offset| start + offset)
+        let (start, end) = (self.column_pointers()[column], self.column_pointers()[column + 1]);
+        self.row_indices()[start..end].binary_search(&row).ok().map(|offset| start + offset)
     }
 
     /// The pattern as faer sees it.
@@ -152,10 +139,7 @@ impl SparsityPattern {
 /// Sorts the nonzeros of a column-wise pattern by rows: start of each row, index of each nonzero, its column.
 fn by_rows(symbolic: &SymbolicSparseColMat<usize>) -> (Vec<usize>, Vec<u32>, Vec<u32>) {
     let (dimension, count) = (symbolic.ncols(), symbolic.row_idx().len());
-    assert!(
-        u32::try_from(count).is_ok(),
-        "{count} nonzeros are too many"
-    );
+    assert!(u32::try_from(count).is_ok(), "{count} nonzeros are too many");
     let mut pointers = vec![0; dimension + 1];
     for &row in symbolic.row_idx() {
         pointers[row + 1] += 1;

@@ -116,11 +116,7 @@ impl MatrixPolynomial {
         for values in &coefficients {
             assert_eq!(values.len(), pattern.nonzero_count());
         }
-        Self {
-            pattern: Arc::clone(pattern),
-            coefficients,
-            origin: 0.0,
-        }
+        Self { pattern: Arc::clone(pattern), coefficients, origin: 0.0 }
     }
 
     /// The same coefficients with other weights, for `origin > 0`:
@@ -141,9 +137,7 @@ impl MatrixPolynomial {
 
     /// What each coefficient weighs.
     pub fn weights(&self) -> FrictionWeights {
-        FrictionWeights {
-            origin: self.origin,
-        }
+        FrictionWeights { origin: self.origin }
     }
 
     /// Coefficients of the powers of `mu`, of the polynomial that it is above [`Self::frozen_below`].
@@ -224,10 +218,7 @@ impl MatrixPolynomial {
             pointers.push(rows.len());
         }
         let pattern = SparsityPattern::from_columns(unknowns.len(), pointers, rows);
-        (
-            Self::from_coefficients(&Arc::new(pattern), vec![kept]),
-            unknowns,
-        )
+        (Self::from_coefficients(&Arc::new(pattern), vec![kept]), unknowns)
     }
 
     /// Nonzero values of `P(mu)`.
@@ -261,10 +252,7 @@ impl MatrixPolynomial {
     /// # Panics
     /// If they do not share one pattern.
     pub fn combination(alpha: f64, a: &Self, beta: f64, b: &Self) -> Self {
-        assert!(
-            Arc::ptr_eq(&a.pattern, &b.pattern),
-            "the two polynomials do not share a pattern"
-        );
+        assert!(Arc::ptr_eq(&a.pattern, &b.pattern), "the two polynomials do not share a pattern");
         let count = a.coefficients.len().max(b.coefficients.len());
         let mut coefficients = vec![vec![0.0; a.pattern.nonzero_count()]; count];
         for (factor, polynomial) in [(alpha, a), (beta, b)] {
@@ -301,9 +289,7 @@ mod tests {
             let weights = FrictionWeights::frozen_below(origin);
             for place in 0..5 {
                 let terms = weights.times_mu(place);
-                let sum: f64 = terms
-                    .map(|(at, factor)| factor * weights.at(at, above))
-                    .sum();
+                let sum: f64 = terms.map(|(at, factor)| factor * weights.at(at, above)).sum();
                 assert!((sum - above * weights.at(place, above)).abs() < 1e-15);
             }
         }

@@ -139,9 +139,7 @@ fn whole(operator: &dyn QuadraticOperator, pairs: usize) -> Result<QuadraticPair
 
 /// Columns of the first of each conjugate pair among the `count` pairs of largest modulus that oscillate.
 fn leading_pairs(values: &[c64], count: usize) -> Vec<usize> {
-    let mut columns: Vec<usize> = (0..values.len())
-        .filter(|&i| is_vibration(values[i]))
-        .collect();
+    let mut columns: Vec<usize> = (0..values.len()).filter(|&i| is_vibration(values[i])).collect();
     columns.sort_by(|&i, &j| values[j].norm().total_cmp(&values[i].norm()));
     columns.truncate(count);
     columns
@@ -248,9 +246,7 @@ impl<'a> TwoLevelArnoldi<'a> {
     /// `H`.
     fn projection(&self) -> Mat<f64> {
         let count = self.expanded;
-        Mat::from_fn(count, count, |i, j| {
-            self.projected[j].get(i).copied().unwrap_or(0.0)
-        })
+        Mat::from_fn(count, count, |i, j| self.projected[j].get(i).copied().unwrap_or(0.0))
     }
 
     /// `|B y| / (|s| |y|)` of the Ritz pairs whose vectors start in these columns.
@@ -312,9 +308,7 @@ mod tests {
         let (r, s) = (random_columns(size, size, 3), random_columns(size, size, 4));
         let inertia = |i: usize, j: usize| -f64::from(i == j) / ((1 + i) as f64).powi(2);
         Dense([
-            Mat::from_fn(size, size, |i, j| {
-                -2e-3 * r[(i, j)] / ((1 + i) * (1 + j)) as f64
-            }),
+            Mat::from_fn(size, size, |i, j| -2e-3 * r[(i, j)] / ((1 + i) * (1 + j)) as f64),
             Mat::from_fn(size, size, |i, j| {
                 inertia(i, j) + 1e-2 * s[(i, j)] / ((1 + i) * (1 + j)) as f64
             }),
@@ -425,12 +419,8 @@ mod tests {
     fn invariant_subspace_ends_the_iteration_with_what_there_is() {
         let operator = oscillators(3);
         let start = [random_columns(3, 1, 1), random_columns(3, 1, 2)];
-        let settings = QuadraticKrylovSettings {
-            pairs: 8,
-            least: 8,
-            tolerance: 1e-12,
-            max_applications: 100,
-        };
+        let settings =
+            QuadraticKrylovSettings { pairs: 8, least: 8, tolerance: 1e-12, max_applications: 100 };
         let found =
             quadratic_krylov(&operator, [start[0].as_ref(), start[1].as_ref()], &settings).unwrap();
         assert_eq!(found.values.len(), 3);

@@ -23,14 +23,12 @@ impl SparseCholesky {
     ) -> Result<Self, LinalgError> {
         interruption::check();
         let failure = |reason: String| LinalgError::Factorization { dimension, reason };
-        let triplets: Vec<_> = entries
-            .map(|(row, column, value)| Triplet::new(row, column, value))
-            .collect();
+        let triplets: Vec<_> =
+            entries.map(|(row, column, value)| Triplet::new(row, column, value)).collect();
         let matrix = SparseColMat::try_new_from_triplets(dimension, dimension, &triplets)
             .map_err(|error| failure(format!("{error:?}")))?;
-        let factor = matrix
-            .sp_cholesky(Side::Lower)
-            .map_err(|error| failure(format!("{error:?}")))?;
+        let factor =
+            matrix.sp_cholesky(Side::Lower).map_err(|error| failure(format!("{error:?}")))?;
         Ok(Self { factor })
     }
 

@@ -88,11 +88,7 @@ impl Order {
             own.sort_unstable();
             own
         });
-        Ok(Self {
-            unknowns: unknowns.collect(),
-            ends: ends.to_vec(),
-            places,
-        })
+        Ok(Self { unknowns: unknowns.collect(), ends: ends.to_vec(), places })
     }
 
     /// The front that eliminates what has a place.
@@ -144,10 +140,7 @@ impl DeterminantAnalysis {
                 fronts[front].entries.push(own);
             }
         }
-        Ok(Self {
-            dimension: pattern.dimension(),
-            fronts,
-        })
+        Ok(Self { dimension: pattern.dimension(), fronts })
     }
 
     /// `ln det A` of the matrix with nonzero `values` on the pattern analysed, its imaginary part up to multiples of `2 pi`.
@@ -207,9 +200,8 @@ fn eliminate(matrix: &mut Mat<c64>, width: usize) -> c64 {
     let (mut pivots, mut right, mut below, rest) = matrix.as_mut().split_at_mut(width, width);
     let (mut forward, mut inverse) = (vec![0_usize; width], vec![0_usize; width]);
     let scratch =
-        factor::lu_in_place_scratch::<usize, c64>(width, width, Par::Seq, Default::default()).or(
-            faer::perm::permute_rows_in_place_scratch::<usize, c64>(width, right.ncols()),
-        );
+        factor::lu_in_place_scratch::<usize, c64>(width, width, Par::Seq, Default::default())
+            .or(faer::perm::permute_rows_in_place_scratch::<usize, c64>(width, right.ncols()));
     let mut memory = MemBuffer::new(scratch);
     let (info, rows) = factor::lu_in_place(
         pivots.rb_mut(),
@@ -229,14 +221,7 @@ fn eliminate(matrix: &mut Mat<c64>, width: usize) -> c64 {
     solve_unit_lower_triangular_in_place(pivots, right.rb_mut(), Par::Seq);
     solve_lower_triangular_in_place(pivots.transpose(), below.rb_mut().transpose_mut(), Par::Seq);
     let minus = c64::new(-1.0, 0.0);
-    matmul(
-        rest,
-        Accum::Add,
-        below.as_ref(),
-        right.as_ref(),
-        minus,
-        Par::Seq,
-    );
+    matmul(rest, Accum::Add, below.as_ref(), right.as_ref(), minus, Par::Seq);
     sum
 }
 

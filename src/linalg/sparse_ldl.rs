@@ -44,10 +44,7 @@ impl LdlAnalysis {
             dimension: pattern.dimension(),
             reason: format!("{error:?}"),
         })?;
-        Ok(Self {
-            pattern: Arc::clone(pattern),
-            symbolic: Arc::new(symbolic),
-        })
+        Ok(Self { pattern: Arc::clone(pattern), symbolic: Arc::new(symbolic) })
     }
 }
 
@@ -88,11 +85,7 @@ impl SparseLdl {
                 dimension: symbolic.nrows(),
                 reason: format!("{error:?}"),
             })?;
-        let factored = Self {
-            analysis: analysis.clone(),
-            factors,
-            scratch: Mutex::default(),
-        };
+        let factored = Self { analysis: analysis.clone(), factors, scratch: Mutex::default() };
         factored.check(values)?;
         Ok(factored)
     }
@@ -125,10 +118,8 @@ impl SparseLdl {
         let width = count.div_ceil(count.div_ceil(BLOCK));
         let needed = symbolic.solve_in_place_scratch::<f64>(width, Par::Seq);
         // Another thread that solves at the same time finds none.
-        let mut memory = self
-            .scratch
-            .try_lock()
-            .map_or_else(|_| Vec::new(), |mut kept| take(&mut kept));
+        let mut memory =
+            self.scratch.try_lock().map_or_else(|_| Vec::new(), |mut kept| take(&mut kept));
         let length = needed.unaligned_bytes_required().max(memory.len());
         memory.resize(length, MaybeUninit::uninit());
         for block in column_blocks(right_sides, width) {
@@ -142,9 +133,8 @@ impl SparseLdl {
     fn check(&self, values: &[f64]) -> Result<(), LinalgError> {
         let pattern = &self.analysis.pattern;
         let n = pattern.dimension();
-        let right_side: Vec<f64> = (0..n)
-            .map(|i| 1.0 + (i as f64 * 0.618_033_988_749_895).fract())
-            .collect();
+        let right_side: Vec<f64> =
+            (0..n).map(|i| 1.0 + (i as f64 * 0.618_033_988_749_895).fract()).collect();
         let mut x = Mat::from_fn(n, 1, |i, _| right_side[i]);
         self.solve_in_place(x.as_mut());
         let (mut residual, mut row_sums) = (right_side, vec![0.0; n]);

@@ -28,10 +28,7 @@ impl LuAnalysis {
     pub fn new(pattern: &Arc<SparsityPattern>) -> Result<Self, LinalgError> {
         let symbolic = factorize_symbolic_lu(pattern.symbolic(), Default::default())
             .map_err(|error| failure(pattern.dimension(), error))?;
-        Ok(Self {
-            pattern: Arc::clone(pattern),
-            symbolic: Arc::new(symbolic),
-        })
+        Ok(Self { pattern: Arc::clone(pattern), symbolic: Arc::new(symbolic) })
     }
 
     /// The pattern analysed.
@@ -41,10 +38,7 @@ impl LuAnalysis {
 }
 
 fn failure(dimension: usize, error: impl std::fmt::Debug) -> LinalgError {
-    LinalgError::Factorization {
-        dimension,
-        reason: format!("{error:?}"),
-    }
+    LinalgError::Factorization { dimension, reason: format!("{error:?}") }
 }
 
 macro_rules! sparse_lu {

@@ -94,9 +94,7 @@ impl SparsityPattern {
         values: [&[f64]; N],
         x: MatRef<'_, f64>,
     ) -> [Mat<f64>; N] {
-        self.by_lanes(x, |input, index| {
-            lane_sums(values, input, self.column(index))
-        })
+        self.by_lanes(x, |input, index| lane_sums(values, input, self.column(index)))
     }
 
     /// `A x + B y` for each pair of columns, with `A` and `B` given by their nonzeros sorted by rows
@@ -108,9 +106,7 @@ impl SparsityPattern {
             let columns = &columns[places.clone()];
             let [a, b] = values.map(|values| &values[places.clone()]);
             let pairs = columns.iter().zip(a.iter().zip(b));
-            pairs
-                .map(|(&j, (a, b))| a * x[j as usize] + b * y[j as usize])
-                .sum()
+            pairs.map(|(&j, (a, b))| a * x[j as usize] + b * y[j as usize]).sum()
         })
     }
 
@@ -209,9 +205,7 @@ mod tests {
         let sorted = p.pattern().by_rows(&halves);
         let sum = p.pattern().multiply_sum([&sorted, &sorted], twice);
         assert!((sum - product(a.as_ref(), x.as_ref())).norm_max() < 1e-14);
-        let sum = p
-            .pattern()
-            .multiply_transpose_sum([&halves, &halves], twice);
+        let sum = p.pattern().multiply_transpose_sum([&halves, &halves], twice);
         assert!((sum - product(a.transpose(), x.as_ref())).norm_max() < 1e-14);
         let yt = p.pattern().multiply_transpose(&values, x.as_ref());
         assert!((yt - product(a.transpose(), x.as_ref())).norm_max() < 1e-14);

@@ -31,11 +31,7 @@ impl AnnulusMesh {
         validate(&spec)?;
         let radii = graded_radii(&spec);
         let mesh = build(&spec, spec.circumferential_elements);
-        Ok(Self {
-            mesh,
-            specification: spec,
-            radii,
-        })
+        Ok(Self { mesh, specification: spec, radii })
     }
 
     /// Nodes of one sector (one element wide in the circumferential direction).
@@ -90,10 +86,7 @@ mod tests {
 
     #[test]
     fn graded_elements_grow_by_the_given_ratio() {
-        let spec = AnnulusSpecification {
-            radial_grading: 1.1,
-            ..paper(ElementKind::Quad4)
-        };
+        let spec = AnnulusSpecification { radial_grading: 1.1, ..paper(ElementKind::Quad4) };
         let radii = AnnulusMesh::generate(&spec).unwrap().radii;
         for triple in radii.windows(3) {
             let ratio = (triple[2] - triple[1]) / (triple[1] - triple[0]);

@@ -94,10 +94,7 @@ impl Mesh {
         contact.check_single(&specification.contact, &labels)?;
         mesh.counterface = counterface(&mesh, contact, specification)?;
         let counterface = mesh.counterface;
-        let angles = mesh
-            .plane_nodes()
-            .into_iter()
-            .map(|point| counterface.normal_angle(point));
+        let angles = mesh.plane_nodes().into_iter().map(|point| counterface.normal_angle(point));
         mesh.frames = NodalFrames::Plane(angles.collect());
         let mut edge = contact_boundary(&mesh, contact, &specification.contact)?;
         edge.order_along(&mesh);
@@ -114,20 +111,12 @@ impl Mesh {
                 continue;
             }
             let curve = find(name, BodyPart::Boundary(name.clone()))?;
-            boundaries.push(held_boundary(
-                &mut mesh,
-                curve,
-                name,
-                *condition,
-                &contact.nodes,
-            ));
+            boundaries.push(held_boundary(&mut mesh, curve, name, *condition, &contact.nodes));
         }
         if let Some(name) = &specification.opposite {
             let curve = find(name, BodyPart::Opposite)?;
             Curve::check_apart([contact, curve], [&specification.contact, name], &labels)?;
-            let place = boundaries
-                .iter()
-                .position(|boundary| boundary.name == *name);
+            let place = boundaries.iter().position(|boundary| boundary.name == *name);
             if place.is_some_and(|b| boundaries[b].condition != BoundaryCondition::Free) {
                 let message = format!(
                     "boundaries.{name} is the contact curve of the other body (contact.counter_boundary): it can have no \
@@ -178,10 +167,7 @@ fn no_curve(file: &GmshFile, name: &str, part: BodyPart) -> MeshFileError {
         }
         _ => String::new(),
     };
-    let mut names: Vec<String> = known()
-        .take(NAMED)
-        .map(|name| format!("\"{name}\""))
-        .collect();
+    let mut names: Vec<String> = known().take(NAMED).map(|name| format!("\"{name}\"")).collect();
     match known().count().saturating_sub(NAMED) {
         0 => {}
         more => names.push(format!("{more} more")),
@@ -191,9 +177,7 @@ fn no_curve(file: &GmshFile, name: &str, part: BodyPart) -> MeshFileError {
     } else {
         format!("the file has {}", names.join(", "))
     };
-    refuse(format!(
-        "no physical curve is called \"{name}\"; {list}{hint}"
-    ))
+    refuse(format!("no physical curve is called \"{name}\"; {list}{hint}"))
 }
 
 /// Refuses a plane whose way does not lie along the contact curve: it would slide into the body or away from it.
@@ -242,21 +226,15 @@ fn counterface(
             check_along(direction, [to[0] - from[0], to[1] - from[1]], specification)?;
             let height = |p: &[f64; 2]| direction[0] * p[1] - direction[1] * p[0];
             let lowest = points.min_by(|a, b| height(a).total_cmp(&height(b)));
-            Ok(Counterface::Plane {
-                point: lowest.unwrap_or_default(),
-                direction,
-            })
+            Ok(Counterface::Plane { point: lowest.unwrap_or_default(), direction })
         }
         CounterfaceSpecification::Cylinder { center, radius } => {
             let distance = |p: [f64; 2]| (p[0] - center[0]).hypot(p[1] - center[1]);
             let distances: Vec<f64> = points.map(distance).collect();
             let mean = distances.iter().sum::<f64>() / distances.len() as f64;
             let off = |&(_, d): &(usize, f64)| (d - mean).abs();
-            let worst = distances
-                .iter()
-                .copied()
-                .enumerate()
-                .max_by(|a, b| off(a).total_cmp(&off(b)));
+            let worst =
+                distances.iter().copied().enumerate().max_by(|a, b| off(a).total_cmp(&off(b)));
             if let (None, Some((i, d))) = (radius, worst)
                 && (d - mean).abs() > ROUND * mean
             {
@@ -277,10 +255,7 @@ fn counterface(
                 .iter()
                 .map(|&(p, q, _)| {
                     let [p, q] = [p, q].map(|node| mesh.plane_node(node as usize));
-                    let middle = [
-                        0.5 * (p[0] + q[0]) - center[0],
-                        0.5 * (p[1] + q[1]) - center[1],
-                    ];
+                    let middle = [0.5 * (p[0] + q[0]) - center[0], 0.5 * (p[1] + q[1]) - center[1]];
                     middle[0] * (p[1] - q[1]) + middle[1] * (q[0] - p[0])
                 })
                 .sum();
@@ -337,10 +312,7 @@ fn held_boundary(
 ) -> Boundary {
     let weights = EdgeWeights::of(mesh, curve);
     let normal_angles = weights.normal_angles();
-    if matches!(
-        condition,
-        BoundaryCondition::Guide | BoundaryCondition::Fixed(_)
-    ) {
+    if matches!(condition, BoundaryCondition::Guide | BoundaryCondition::Fixed(_)) {
         let mut angles = mesh.frame_angles().to_vec();
         let contact: BTreeSet<u32> = contact.iter().copied().collect();
         for (&node, &angle) in curve.nodes.iter().zip(&normal_angles) {

@@ -151,11 +151,7 @@ impl Mesh {
                 // A multiple of a quarter turn leaves the matrix exactly diagonal.
                 let turn = normal - self.frame_angles()[node];
                 let is_straight = turn.sin().abs() < 1e-12;
-                let (sin, cos) = if is_straight {
-                    (0.0, 1.0)
-                } else {
-                    turn.sin_cos()
-                };
+                let (sin, cos) = if is_straight { (0.0, 1.0) } else { turn.sin_cos() };
                 let of = |along: f64, across: f64| {
                     let coupling = length * (along - across) * sin * cos;
                     [
@@ -178,11 +174,7 @@ impl Mesh {
             };
             let [stiffness, damping] = [&attachment.stiffness, &attachment.damping].map(block);
             if stiffness != [[0.0; 2]; 2] || damping != [[0.0; 2]; 2] {
-                supports.push(NodalSupport {
-                    node: attachment.node,
-                    stiffness,
-                    damping,
-                });
+                supports.push(NodalSupport { node: attachment.node, stiffness, damping });
             }
         }
         supports

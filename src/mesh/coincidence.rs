@@ -22,11 +22,7 @@ pub fn coincident_nodes<const D: usize>(points: &[[f64; D]], distance: f64) -> V
         let mut nearest: Option<(f64, u32)> = None;
         for corner in 0..1usize << D {
             let axis = |i: usize| {
-                if corner >> i & 1 == 0 {
-                    low[i]
-                } else {
-                    high[i]
-                }
+                if corner >> i & 1 == 0 { low[i] } else { high[i] }
             };
             let is_repeated = (0..D).any(|i| corner >> i & 1 == 1 && low[i] == high[i]);
             if is_repeated {
@@ -45,10 +41,7 @@ pub fn coincident_nodes<const D: usize>(points: &[[f64; D]], distance: f64) -> V
         // A place is known by its first node: later ones are paired with that.
         match nearest {
             Some((_, first)) => pairs.push((first, node as u32)),
-            None => nodes_of
-                .entry(point.map(cell))
-                .or_default()
-                .push(node as u32),
+            None => nodes_of.entry(point.map(cell)).or_default().push(node as u32),
         }
     }
     pairs.sort_unstable();
@@ -114,11 +107,7 @@ impl std::fmt::Display for UnmergedNodes {
             format!("{first} and {second} at ({x:.6}, {y:.6}{z}) m")
         });
         let named: Vec<String> = named.collect();
-        let more = if self.count > self.first.len() {
-            "; ..."
-        } else {
-            ""
-        };
+        let more = if self.count > self.first.len() { "; ..." } else { "" };
         write!(
             f,
             "{nodes} where another one lies, without being joined to it ({}{more})",

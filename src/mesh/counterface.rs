@@ -25,11 +25,7 @@ pub enum Counterface {
 
 impl Default for Counterface {
     fn default() -> Self {
-        Self::Cylinder {
-            center: [0.0; 2],
-            radius: 1.0,
-            is_inside: true,
-        }
+        Self::Cylinder { center: [0.0; 2], radius: 1.0, is_inside: true }
     }
 }
 
@@ -37,9 +33,7 @@ impl Counterface {
     /// Angle of the normal into the body at (the foot of) a point, rad: the first axis of a contact node's frame.
     pub fn normal_angle(&self, point: [f64; 2]) -> f64 {
         match *self {
-            Self::Cylinder {
-                center, is_inside, ..
-            } => {
+            Self::Cylinder { center, is_inside, .. } => {
                 let angle = (point[1] - center[1]).atan2(point[0] - center[0]);
                 if is_inside { angle } else { angle + PI }
             }
@@ -50,22 +44,13 @@ impl Counterface {
     /// Distance of a point from the surface, positive where there is a gap, m.
     pub fn gap(&self, point: [f64; 2]) -> f64 {
         match *self {
-            Self::Cylinder {
-                center,
-                radius,
-                is_inside,
-            } => {
+            Self::Cylinder { center, radius, is_inside } => {
                 let distance = (point[0] - center[0]).hypot(point[1] - center[1]);
-                if is_inside {
-                    distance - radius
-                } else {
-                    radius - distance
-                }
+                if is_inside { distance - radius } else { radius - distance }
             }
-            Self::Plane {
-                point: origin,
-                direction: [x, y],
-            } => x * (point[1] - origin[1]) - y * (point[0] - origin[0]),
+            Self::Plane { point: origin, direction: [x, y] } => {
+                x * (point[1] - origin[1]) - y * (point[0] - origin[0])
+            }
         }
     }
 
@@ -73,9 +58,7 @@ impl Counterface {
     /// speed is `Omega` in rad/s, a pure number for a plane.
     pub fn lever(&self) -> f64 {
         match *self {
-            Self::Cylinder {
-                radius, is_inside, ..
-            } => {
+            Self::Cylinder { radius, is_inside, .. } => {
                 if is_inside {
                     radius
                 } else {
@@ -100,10 +83,9 @@ impl Counterface {
     pub fn place(&self, point: [f64; 2]) -> f64 {
         match *self {
             Self::Cylinder { center, .. } => (point[1] - center[1]).atan2(point[0] - center[0]),
-            Self::Plane {
-                point: origin,
-                direction: [x, y],
-            } => x * (point[0] - origin[0]) + y * (point[1] - origin[1]),
+            Self::Plane { point: origin, direction: [x, y] } => {
+                x * (point[0] - origin[0]) + y * (point[1] - origin[1])
+            }
         }
     }
 }
@@ -115,11 +97,8 @@ mod tests {
     /// Independent check: the rate of turning of the normal, and the speed of the surface, by differences.
     #[test]
     fn levers_and_curvatures_are_those_of_the_moving_surface() {
-        let round = |is_inside| Counterface::Cylinder {
-            center: [0.3, -0.2],
-            radius: 0.5,
-            is_inside,
-        };
+        let round =
+            |is_inside| Counterface::Cylinder { center: [0.3, -0.2], radius: 0.5, is_inside };
         for counterface in [round(true), round(false)] {
             let at = |angle: f64| [0.3 + 0.5 * angle.cos(), -0.2 + 0.5 * angle.sin()];
             let (angle, small) = (0.7, 1e-6);
@@ -131,16 +110,10 @@ mod tests {
             assert!((along / small - counterface.lever()).abs() < 1e-6);
             let turned = counterface.normal_angle(moved[1]) - normal;
             assert!((turned / along - counterface.curvature()).abs() < 1e-5);
-            let outside = [
-                at(angle)[0] + 1e-3 * normal.cos(),
-                at(angle)[1] + 1e-3 * normal.sin(),
-            ];
+            let outside = [at(angle)[0] + 1e-3 * normal.cos(), at(angle)[1] + 1e-3 * normal.sin()];
             assert!((counterface.gap(outside) - 1e-3).abs() < 1e-9);
         }
-        let plane = Counterface::Plane {
-            point: [0.0, 1.0],
-            direction: [0.6, 0.8],
-        };
+        let plane = Counterface::Plane { point: [0.0, 1.0], direction: [0.6, 0.8] };
         let normal = plane.normal_angle([0.0; 2]);
         assert!((normal.cos() + 0.8).abs() < 1e-12 && (normal.sin() - 0.6).abs() < 1e-12);
         assert!((plane.gap([-0.8, 1.6]) - 1.0).abs() < 1e-12);

@@ -62,13 +62,7 @@ impl Curve {
         let is_closed = pieces.len() == 1 && nodes.first() == nodes.last() && nodes.len() > 2;
         let mut seen = std::collections::BTreeSet::new();
         nodes.retain(|&node| seen.insert(node));
-        Self {
-            edges: ordered,
-            nodes,
-            is_closed,
-            pieces,
-            touching,
-        }
+        Self { edges: ordered, nodes, is_closed, pieces, touching }
     }
 
     /// A contact curve must be one piece that does not touch itself.
@@ -110,11 +104,7 @@ impl Curve {
             )));
         }
         opposite.check_single(other, labels)?;
-        match contact
-            .nodes
-            .iter()
-            .find(|node| opposite.nodes.contains(node))
-        {
+        match contact.nodes.iter().find(|node| opposite.nodes.contains(node)) {
             None => Ok(()),
             Some(&node) => Err(MeshFileError::Body(format!(
                 "\"{name}\" (contact.boundary) and \"{other}\" (contact.counter_boundary) share node {}: mesh the bodies \
@@ -136,12 +126,8 @@ pub(super) struct EdgeWeights {
 impl EdgeWeights {
     /// Exact on straight edges; three Gauss points on parabolas.
     pub fn of(mesh: &Mesh, curve: &Curve) -> Self {
-        let place: BTreeMap<u32, usize> = curve
-            .nodes
-            .iter()
-            .enumerate()
-            .map(|(i, &node)| (node, i))
-            .collect();
+        let place: BTreeMap<u32, usize> =
+            curve.nodes.iter().enumerate().map(|(i, &node)| (node, i)).collect();
         let mut weights = Self {
             lengths: vec![0.0; curve.nodes.len()],
             normals: vec![[0.0; 2]; curve.nodes.len()],

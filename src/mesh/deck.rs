@@ -30,10 +30,7 @@ pub fn included_text(comment: &str, name: &str, text: &str) -> String {
 impl<'a> Deck<'a> {
     /// Splits a text into lines; `comment` begins comments of the format.
     pub fn new(text: &'a str, comment: &str) -> Self {
-        let mut deck = Self {
-            lines: Vec::new(),
-            names: vec![""],
-        };
+        let mut deck = Self { lines: Vec::new(), names: vec![""] };
         let mut stack = Vec::new();
         let mut place = Place { file: 0, line: 0 };
         for line in text.lines() {
@@ -68,17 +65,12 @@ impl<'a> Deck<'a> {
 
     /// An error at a place.
     pub fn error(&self, place: Place, message: impl Into<String>) -> MeshFileError {
-        MeshFileError::Syntax {
-            place: self.name(place),
-            message: message.into(),
-        }
+        MeshFileError::Syntax { place: self.name(place), message: message.into() }
     }
 
     /// The place of the last line.
     pub fn end(&self) -> Place {
-        self.lines
-            .last()
-            .map_or(Place { file: 0, line: 1 }, |l| l.0)
+        self.lines.last().map_or(Place { file: 0, line: 1 }, |l| l.0)
     }
 }
 

@@ -63,11 +63,7 @@ impl ElementKind {
     pub fn edge(self, edge: usize) -> (usize, usize, Option<usize>) {
         let row = self.row();
         let [start, end] = row.edges[edge];
-        (
-            start,
-            end,
-            row.is_quadratic.then_some(row.corners.len() + edge),
-        )
+        (start, end, row.is_quadratic.then_some(row.corners.len() + edge))
     }
 
     /// Faces of a solid element, edges of a plane one, with their local nodes in the order of [`FaceKind`]; the outward normal

@@ -54,23 +54,17 @@ impl Mesh {
             let is_same = |j: usize| faces.get(j).is_some_and(|other| other.0 == faces[i].0);
             !(is_same(i + 1) || i > 0 && is_same(i - 1))
         };
-        let mut alone: Vec<(u32, u32)> = (0..faces.len())
-            .filter(|&i| is_alone(i))
-            .map(|i| (faces[i].1, faces[i].2))
-            .collect();
+        let mut alone: Vec<(u32, u32)> =
+            (0..faces.len()).filter(|&i| is_alone(i)).map(|i| (faces[i].1, faces[i].2)).collect();
         alone.sort_unstable();
         let alone = alone.into_iter();
-        alone
-            .map(|(element, face)| self.element_face(element as usize, face as usize))
-            .collect()
+        alone.map(|(element, face)| self.element_face(element as usize, face as usize)).collect()
     }
 
     /// Edges that belong to one element only, as `(start, end, middle)` with the body on their left.
     pub fn outline_edges(&self) -> Vec<(u32, u32, Option<u32>)> {
         let faces = self.outer_faces().into_iter();
-        faces
-            .map(|face| (face.nodes[0], face.nodes[1], face.nodes.get(2).copied()))
-            .collect()
+        faces.map(|face| (face.nodes[0], face.nodes[1], face.nodes.get(2).copied())).collect()
     }
 
     /// The faces of a plane body along edges of its outline, in their order.
@@ -81,9 +75,7 @@ impl Mesh {
             .map(|face| ((face.nodes[0], face.nodes[1]), face))
             .collect();
         let edges = edges.iter();
-        edges
-            .filter_map(|&(start, end, _)| outer.get(&(start, end)).cloned())
-            .collect()
+        edges.filter_map(|&(start, end, _)| outer.get(&(start, end)).cloned()).collect()
     }
 
     /// Gives every boundary the outline edges whose nodes are all its own.
@@ -141,12 +133,7 @@ fn node_places(kind: FaceKind) -> Vec<[f64; 3]> {
     let corners: &[[f64; 3]] = match kind.corner_count() {
         2 => &[[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]],
         3 => &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-        _ => &[
-            [-1.0, -1.0, 0.0],
-            [1.0, -1.0, 0.0],
-            [1.0, 1.0, 0.0],
-            [-1.0, 1.0, 0.0],
-        ],
+        _ => &[[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]],
     };
     let middles = kind.node_count() - corners.len();
     let middle = |edge: usize| {

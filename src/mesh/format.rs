@@ -39,16 +39,7 @@ impl MeshFormat {
             let rest = line.strip_prefix('*');
             rest.is_some_and(|rest| rest.starts_with(|c: char| c == '*' || c.is_ascii_alphabetic()))
         };
-        let nastran = [
-            "SOL ",
-            "SOL,",
-            "CEND",
-            "BEGIN BULK",
-            "GRID",
-            "ID ",
-            "INIT MASTER",
-            "CORD2",
-        ];
+        let nastran = ["SOL ", "SOL,", "CEND", "BEGIN BULK", "GRID", "ID ", "INIT MASTER", "CORD2"];
         if first.starts_with("$MESHFORMAT") {
             return Self::Gmsh;
         }

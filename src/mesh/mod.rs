@@ -197,16 +197,12 @@ impl Mesh {
 
     /// Whether all elements are four-node quadrilaterals.
     pub fn is_quad4(&self) -> bool {
-        self.element_kinds
-            .iter()
-            .all(|&kind| kind == ElementKind::Quad4)
+        self.element_kinds.iter().all(|&kind| kind == ElementKind::Quad4)
     }
 
     /// The boundary called `name`.
     pub fn boundary(&self, name: &str) -> Option<&Boundary> {
-        self.boundaries
-            .iter()
-            .find(|boundary| boundary.name == name)
+        self.boundaries.iter().find(|boundary| boundary.name == name)
     }
 
     /// Direction of the first axis in which a node's motion and stress are reported, rad: outwards from the
@@ -239,11 +235,7 @@ impl Mesh {
     pub fn has_round_contact(&self) -> bool {
         let is_shaft = matches!(
             self.counterface,
-            Counterface::Cylinder {
-                center: [0.0, 0.0],
-                is_inside: true,
-                ..
-            }
+            Counterface::Cylinder { center: [0.0, 0.0], is_inside: true, .. }
         );
         is_shaft && self.contact_edge().is_closed
     }

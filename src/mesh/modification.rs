@@ -128,9 +128,7 @@ impl GmshFile {
     /// follow in the ratio of their distances from both. `None` where it has no such curve or no other one.
     pub fn with_curve_moved(&self, name: &str, [dx, dy]: [f64; 2]) -> Option<Self> {
         let nodes_of = |edges: &[CurveEdge]| -> BTreeSet<u32> {
-            let ends = edges
-                .iter()
-                .flat_map(|edge| [Some(edge.0), Some(edge.1), edge.2]);
+            let ends = edges.iter().flat_map(|edge| [Some(edge.0), Some(edge.1), edge.2]);
             ends.flatten().collect()
         };
         let moved = nodes_of(self.curves.get(name)?);

@@ -13,10 +13,7 @@ const LARGEST: f64 = 1e6;
 pub(super) fn used_nodes(file: &GmshFile) -> Result<Vec<Option<u32>>, MeshFileError> {
     let mut is_plane = vec![false; file.points.len()];
     for element in &file.elements {
-        element
-            .nodes
-            .iter()
-            .for_each(|&node| is_plane[node as usize] = true);
+        element.nodes.iter().for_each(|&node| is_plane[node as usize] = true);
     }
     if let Some(node) = (0..is_plane.len()).find(|&node| !file.is_used[node]) {
         return Err(MeshFileError::Body(format!(
@@ -47,10 +44,7 @@ pub(super) fn plane_body(file: &GmshFile, scale: f64) -> Result<Mesh, MeshFileEr
         ..Mesh::default()
     };
     let depth = file.points[file.elements[0].nodes[0] as usize][2];
-    let size = file
-        .points
-        .iter()
-        .fold(0.0_f64, |m, p| m.max(p[0].abs()).max(p[1].abs()));
+    let size = file.points.iter().fold(0.0_f64, |m, p| m.max(p[0].abs()).max(p[1].abs()));
     check_size(file, size, scale)?;
     refuse_doubled_elements(file)?;
     for (node, (&[x, y, z], index)) in file.points.iter().zip(&index_of).enumerate() {
@@ -67,19 +61,13 @@ pub(super) fn plane_body(file: &GmshFile, scale: f64) -> Result<Mesh, MeshFileEr
     let names: BTreeSet<&str> = file.elements.iter().map(|e| &*e.region).collect();
     let names: Vec<&str> = names.into_iter().collect();
     if names.len() > usize::from(u16::MAX) {
-        return Err(MeshFileError::Body(format!(
-            "{} physical surfaces are too many",
-            names.len()
-        )));
+        return Err(MeshFileError::Body(format!("{} physical surfaces are too many", names.len())));
     }
     mesh.regions = names.iter().map(|name| (*name).to_owned()).collect();
     let is_reversed = reversed_surfaces(file)?;
     for (e, element) in file.elements.iter().enumerate() {
-        let mut nodes: Vec<u32> = element
-            .nodes
-            .iter()
-            .filter_map(|&node| index_of[node as usize])
-            .collect();
+        let mut nodes: Vec<u32> =
+            element.nodes.iter().filter_map(|&node| index_of[node as usize]).collect();
         if is_reversed.contains(&element.entity) {
             let corners = element.kind.corner_count();
             nodes[..corners].reverse();
@@ -93,9 +81,8 @@ pub(super) fn plane_body(file: &GmshFile, scale: f64) -> Result<Mesh, MeshFileEr
         mesh.element_starts.push(mesh.elements.len() as u32);
         mesh.element_kinds.push(element.kind);
         mesh.congruent_to.push(e as u32);
-        let region = names
-            .binary_search(&&*element.region)
-            .expect("the names are those of all elements");
+        let region =
+            names.binary_search(&&*element.region).expect("the names are those of all elements");
         mesh.element_regions.push(region as u16);
     }
     mesh.check_elements(|e| file.elements[e].label)?;
@@ -139,11 +126,7 @@ fn reversed_surfaces(file: &GmshFile) -> Result<BTreeSet<i64>, MeshFileError> {
     }
     for element in &file.elements {
         let (clockwise, counter) = balance[&element.entity];
-        let is_minority = if area(element) < 0.0 {
-            counter > 0
-        } else {
-            clockwise > counter
-        };
+        let is_minority = if area(element) < 0.0 { counter > 0 } else { clockwise > counter };
         if is_minority {
             return Err(MeshFileError::Body(format!(
                 "element {} is inverted: its nodes run the other way round than those of the {} other elements of \
@@ -154,8 +137,6 @@ fn reversed_surfaces(file: &GmshFile) -> Result<BTreeSet<i64>, MeshFileError> {
             )));
         }
     }
-    let reversed = balance
-        .into_iter()
-        .filter(|(_, (clockwise, counter))| clockwise > counter);
+    let reversed = balance.into_iter().filter(|(_, (clockwise, counter))| clockwise > counter);
     Ok(reversed.map(|(entity, _)| entity).collect())
 }

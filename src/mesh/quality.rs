@@ -35,11 +35,8 @@ impl Mesh {
             }
         }
         let [a, b, c] = rows;
-        let cross = [
-            b[1] * c[2] - b[2] * c[1],
-            b[2] * c[0] - b[0] * c[2],
-            b[0] * c[1] - b[1] * c[0],
-        ];
+        let cross =
+            [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]];
         a[0] * cross[0] + a[1] * cross[1] + a[2] * cross[2]
     }
 
@@ -62,9 +59,7 @@ impl Mesh {
             return self.element_area(element);
         }
         let points = self.element_kind(element).quadrature().into_iter();
-        points
-            .map(|(place, weight)| weight * self.jacobian(element, place))
-            .sum()
+        points.map(|(place, weight)| weight * self.jacobian(element, place)).sum()
     }
 
     /// Volume of each region of a solid body, m3; area in the plane, m2.
@@ -83,9 +78,7 @@ impl Mesh {
         let cross = |p: [f64; 2], q: [f64; 2]| p[0] * q[1] - p[1] * q[0];
         let count = points.len();
         if !self.element_kind(element).is_quadratic() {
-            let sum: f64 = (0..count)
-                .map(|i| cross(points[i], points[(i + 1) % count]))
-                .sum();
+            let sum: f64 = (0..count).map(|i| cross(points[i], points[(i + 1) % count])).sum();
             return 0.5 * sum;
         }
         // Green's theorem on a parabola through p, m, q: (4 p x m + 4 m x q - p x q) / 6.
@@ -100,9 +93,7 @@ impl Mesh {
 
     /// Area of the body, m2.
     pub fn area(&self) -> f64 {
-        (0..self.element_count())
-            .map(|e| self.element_area(e))
-            .sum()
+        (0..self.element_count()).map(|e| self.element_area(e)).sum()
     }
 
     /// Quality of all elements.
@@ -146,24 +137,15 @@ impl Mesh {
         match (0..self.element_count()).find(|&e| self.jacobian_ratio(e) <= 0.0) {
             Some(element) => {
                 let nodes = self.element_nodes(element).iter();
-                let nodes: Vec<String> = nodes
-                    .map(|&node| self.labels[node as usize].to_string())
-                    .collect();
+                let nodes: Vec<String> =
+                    nodes.map(|&node| self.labels[node as usize].to_string()).collect();
                 Err(MeshFileError::Body(format!(
                     "element {} (nodes {}) is inverted or has no {}: its Jacobian is not positive everywhere; mesh the \
                      {} again, finer where it curves",
                     label(element),
                     nodes.join(", "),
-                    if self.dimension == 3 {
-                        "volume"
-                    } else {
-                        "area"
-                    },
-                    if self.dimension == 3 {
-                        "volume"
-                    } else {
-                        "surface"
-                    },
+                    if self.dimension == 3 { "volume" } else { "area" },
+                    if self.dimension == 3 { "volume" } else { "surface" },
                 )))
             }
             None => Ok(()),
@@ -176,19 +158,15 @@ impl Mesh {
     pub(super) fn check_held(&self) -> Result<(), MeshFileError> {
         let part = self.connected_parts();
         let parts = part.iter().max().map_or(0, |&last| last + 1);
-        let size = self
-            .nodes
-            .iter()
-            .fold(0.0_f64, |m, p| m.max(p[0].abs()).max(p[1].abs()));
+        let size = self.nodes.iter().fold(0.0_f64, |m, p| m.max(p[0].abs()).max(p[1].abs()));
         let mut held = vec![Matrix3::<f64>::zeros(); parts];
         for (b, boundary) in self.boundaries.iter().enumerate() {
             let (along, across) = match boundary.condition {
                 _ if b == self.contact => (true, false),
                 BoundaryCondition::Clamped => (true, true),
-                BoundaryCondition::Support(support) => (
-                    support.normal_stiffness > 0.0,
-                    support.tangential_stiffness > 0.0,
-                ),
+                BoundaryCondition::Support(support) => {
+                    (support.normal_stiffness > 0.0, support.tangential_stiffness > 0.0)
+                }
                 BoundaryCondition::Guide => (true, false),
                 // Held along x, along y.
                 BoundaryCondition::Fixed([x, y, _]) => (x, y),
@@ -234,11 +212,7 @@ impl Mesh {
                     "nothing holds {} (with node {} at {x:.4e}, {y:.4e} m): it can move as a rigid body (sliding \
                      friction holds nothing); give one of its boundaries ({}) condition = \"clamped\", \"support\" or \
                      \"guide\" under [boundaries.NAME]{unmerged}",
-                    if parts > 1 {
-                        "a part of the body that touches no other"
-                    } else {
-                        "the body"
-                    },
+                    if parts > 1 { "a part of the body that touches no other" } else { "the body" },
                     self.labels.get(node).copied().unwrap_or(node + 1),
                     names.join(", ")
                 )));

@@ -47,10 +47,7 @@ impl GmshFile {
             (name.clone(), halves.collect())
         });
         let curves = curves.collect();
-        Ok(Self {
-            curves,
-            ..refinement.fine
-        })
+        Ok(Self { curves, ..refinement.fine })
     }
 }
 
@@ -111,10 +108,7 @@ impl<'a> Refinement<'a> {
                 let split = match middle {
                     None => {
                         let plain = self.combined(&[a, b], [0.5, 0.5]);
-                        SplitEdge {
-                            middle: self.between(a, b, plain),
-                            halves: None,
-                        }
+                        SplitEdge { middle: self.between(a, b, plain), halves: None }
                     }
                     Some(m) => {
                         // The parabola at a quarter of the edge.
@@ -123,10 +117,7 @@ impl<'a> Refinement<'a> {
                             let plain = self.combined(&nodes, weights);
                             self.between(nodes[0], m, plain)
                         });
-                        SplitEdge {
-                            middle: m,
-                            halves: Some(halves),
-                        }
+                        SplitEdge { middle: m, halves: Some(halves) }
                     }
                 };
                 self.edges.insert(key, split);
@@ -134,10 +125,7 @@ impl<'a> Refinement<'a> {
             }
         };
         match split.halves {
-            Some([first, second]) if p > q => SplitEdge {
-                halves: Some([second, first]),
-                ..split
-            },
+            Some([first, second]) if p > q => SplitEdge { halves: Some([second, first]), ..split },
             _ => split,
         }
     }
@@ -163,9 +151,7 @@ impl<'a> Refinement<'a> {
         let halves = |i: usize| {
             let before = edges[(i + corners - 1) % corners].halves;
             let after = edges[i].halves;
-            after
-                .zip(before)
-                .map(|(after, before)| (after[0], before[1]))
+            after.zip(before).map(|(after, before)| (after[0], before[1]))
         };
         if corners == 3 {
             // The mid-side nodes of the inner triangle; inner edge i cuts off corner i.
@@ -181,9 +167,7 @@ impl<'a> Refinement<'a> {
                     halves(i).map_or(Vec::new(), |(after, before)| vec![after, inner[i], before]);
                 parts.push((around, mids));
             }
-            let mids = inner
-                .get(1..)
-                .map_or(Vec::new(), |rest| vec![rest[0], rest[1], inner[0]]);
+            let mids = inner.get(1..).map_or(Vec::new(), |rest| vec![rest[0], rest[1], inner[0]]);
             parts.push((middles, mids));
         } else {
             let center = match kind.is_quadratic() {
@@ -206,9 +190,8 @@ impl<'a> Refinement<'a> {
             for i in 0..4 {
                 let before = (i + 3) % 4;
                 let around = vec![nodes[i], middles[i], center, middles[before]];
-                let mids = halves(i).map_or(Vec::new(), |(first, last)| {
-                    vec![first, inner[i], inner[before], last]
-                });
+                let mids = halves(i)
+                    .map_or(Vec::new(), |(first, last)| vec![first, inner[i], inner[before], last]);
                 parts.push((around, mids));
             }
         }

@@ -51,9 +51,7 @@ impl GmshFile {
             .filter(|node| !cut.first_of.contains_key(&(*node as u32)))
             .collect();
         let mut place = vec![0; sector.node_count()];
-        own.iter()
-            .enumerate()
-            .for_each(|(rank, &node)| place[node] = rank);
+        own.iter().enumerate().for_each(|(rank, &node)| place[node] = rank);
         let moved = |node: u32, j: usize| -> u32 {
             let (node, j) = match cut.first_of.get(&node) {
                 Some(&first) => (first, (j + 1) % count),
@@ -95,9 +93,7 @@ impl GmshFile {
         let curves = self.curves.iter().map(|(name, edges)| {
             let copies = (0..count).flat_map(|j| {
                 let node = move |node: u32| of_file(&node, j);
-                edges
-                    .iter()
-                    .map(move |&(p, q, middle)| (node(p), node(q), middle.map(node)))
+                edges.iter().map(move |&(p, q, middle)| (node(p), node(q), middle.map(node)))
             });
             (name.clone(), copies.collect::<Vec<CurveEdge>>())
         });
@@ -188,11 +184,7 @@ impl Cut {
             )));
         }
         let second_of = first_of.iter().map(|(&second, &first)| (first, second));
-        Ok(Self {
-            second_of: second_of.collect(),
-            first_of,
-            outer,
-        })
+        Ok(Self { second_of: second_of.collect(), first_of, outer })
     }
 
     /// Refuses a sector that does not meet its copy, or meets it with other faces.
@@ -208,10 +200,7 @@ impl Cut {
         let mut is_cut: BTreeSet<FaceKey> = BTreeSet::new();
         let mut is_overlapping = false;
         for face in &self.outer {
-            let partners = face
-                .nodes
-                .iter()
-                .map(|node| self.second_of.get(node).copied());
+            let partners = face.nodes.iter().map(|node| self.second_of.get(node).copied());
             let Some(partners) = partners.collect::<Option<Vec<u32>>>() else {
                 continue;
             };
@@ -287,9 +276,9 @@ fn away(sector: &Mesh, p: u32, q: u32) -> f64 {
 }
 
 fn middle(sector: &Mesh, nodes: &[u32]) -> Vector3<f64> {
-    let sum = nodes.iter().fold(Vector3::zeros(), |sum, &node| {
-        sum + Vector3::from(sector.nodes[node as usize])
-    });
+    let sum = nodes
+        .iter()
+        .fold(Vector3::zeros(), |sum, &node| sum + Vector3::from(sector.nodes[node as usize]));
     sum / nodes.len() as f64
 }
 
@@ -305,9 +294,7 @@ fn outward(sector: &Mesh, face: &BoundaryFace) -> Vector3<f64> {
     let points = sector.face_points(face);
     let areas = face.kind.quadrature().into_iter();
     let areas = areas.map(|point| Vector3::from(face.kind.at(&points, point).area));
-    areas
-        .fold(Vector3::zeros(), |sum, area| sum + area)
-        .normalize()
+    areas.fold(Vector3::zeros(), |sum, area| sum + area).normalize()
 }
 
 /// Spheres about the elements of a sector: most elements are told from a point by them.
@@ -323,9 +310,7 @@ impl Inside {
             let reach = |&node: &u32| (Vector3::from(sector.nodes[node as usize]) - center).norm();
             (center, nodes.iter().map(reach).fold(0.0, f64::max))
         };
-        Self {
-            spheres: (0..sector.element_count()).map(sphere).collect(),
-        }
+        Self { spheres: (0..sector.element_count()).map(sphere).collect() }
     }
 
     /// Whether a point lies in an element, whose faces are taken as plane.

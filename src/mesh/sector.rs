@@ -60,9 +60,7 @@ impl SectorMesh {
         };
         let first = rays.last().map_or(0, |annulus| annulus.start);
         Ok(Self {
-            sector_node_of: (0..2 * per_sector)
-                .map(|node| position[node % per_sector])
-                .collect(),
+            sector_node_of: (0..2 * per_sector).map(|node| position[node % per_sector]).collect(),
             half_steps: (0..2 * per_sector)
                 .map(|node| 2 * (node / per_sector) + is_middle(node % per_sector))
                 .collect(),

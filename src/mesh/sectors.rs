@@ -20,22 +20,13 @@ impl Ray {
     /// Nodes within a sector.
     pub fn nodes(&self) -> std::ops::Range<usize> {
         let count = self.element_count();
-        let nodes = if self.is_quadratic {
-            3 * count + 2
-        } else {
-            count + 1
-        };
+        let nodes = if self.is_quadratic { 3 * count + 2 } else { count + 1 };
         self.start..self.start + nodes
     }
 
     /// Where the middle ray begins within a sector.
     pub fn middle(&self) -> usize {
-        self.start
-            + if self.is_quadratic {
-                2 * self.element_count() + 1
-            } else {
-                self.radii.len()
-            }
+        self.start + if self.is_quadratic { 2 * self.element_count() + 1 } else { self.radii.len() }
     }
 }
 
@@ -44,25 +35,14 @@ pub(super) fn rays(spec: &AnnulusSpecification) -> Vec<Ray> {
     let is_quadratic = spec.element.is_quadratic();
     let mut rays = Vec::new();
     if let Some(shaft) = spec.shaft {
-        let (count, width) = (
-            shaft.radial_elements,
-            spec.inner_radius - shaft.inner_radius,
-        );
+        let (count, width) = (shaft.radial_elements, spec.inner_radius - shaft.inner_radius);
         let radius = |i: usize| shaft.inner_radius + width * (i as f64 / count as f64);
         let mut radii: Vec<f64> = (0..=count).map(radius).collect();
         radii[count] = spec.inner_radius;
-        rays.push(Ray {
-            radii,
-            start: 0,
-            is_quadratic,
-        });
+        rays.push(Ray { radii, start: 0, is_quadratic });
     }
     let start = rays.last().map_or(0, |shaft: &Ray| shaft.nodes().end);
-    rays.push(Ray {
-        radii: graded_radii(spec),
-        start,
-        is_quadratic,
-    });
+    rays.push(Ray { radii: graded_radii(spec), start, is_quadratic });
     rays
 }
 
@@ -125,11 +105,8 @@ pub(super) fn build(spec: &AnnulusSpecification, built: usize) -> Mesh {
     mesh.nodes = nodes;
     mesh.frames = NodalFrames::Plane(frame_angles);
     mesh.add_edges_of_boundaries();
-    mesh.counterface = Counterface::Cylinder {
-        center: [0.0; 2],
-        radius: spec.inner_radius,
-        is_inside: true,
-    };
+    mesh.counterface =
+        Counterface::Cylinder { center: [0.0; 2], radius: spec.inner_radius, is_inside: true };
     mesh.is_cyclic = true;
     mesh
 }
@@ -138,11 +115,8 @@ pub(super) fn build(spec: &AnnulusSpecification, built: usize) -> Mesh {
 fn connect(spec: &AnnulusSpecification, rays: &[Ray], built: usize) -> Mesh {
     let sectors = spec.circumferential_elements;
     let per_sector = sector_node_count(spec);
-    let mut mesh = Mesh {
-        element_starts: vec![0],
-        regions: vec!["disc".to_owned()],
-        ..Mesh::default()
-    };
+    let mut mesh =
+        Mesh { element_starts: vec![0], regions: vec!["disc".to_owned()], ..Mesh::default() };
     if spec.shaft.is_some() {
         mesh.regions.push("shaft".to_owned());
     }
@@ -193,10 +167,7 @@ fn boundaries(
 ) -> Vec<Boundary> {
     let free = BoundaryCondition::Free;
     let annulus = &rays[rays.len() - 1];
-    let mut edges = vec![
-        ("inner", annulus, false, free),
-        ("outer", annulus, true, spec.outer),
-    ];
+    let mut edges = vec![("inner", annulus, false, free), ("outer", annulus, true, spec.outer)];
     if let Some(shaft) = spec.shaft {
         edges.push(("shaft", &rays[0], true, free));
         edges.push(("bore", &rays[0], false, shaft.bore));
@@ -214,9 +185,7 @@ fn boundaries(
             condition,
         };
         let angles = boundary.nodes.iter();
-        boundary.normal_angles = angles
-            .map(|&node| frame_angles[node as usize] + turn)
-            .collect();
+        boundary.normal_angles = angles.map(|&node| frame_angles[node as usize] + turn).collect();
         boundary
     });
     edges.collect()

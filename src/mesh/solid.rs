@@ -70,13 +70,8 @@ impl SolidSector {
         let radii = specification.corner_radii()?;
         let (nodes, index) = sheet_nodes(specification, &radii);
         let elements = elements(specification, &index);
-        let mut sector = Self {
-            specification: *specification,
-            nodes,
-            radii,
-            elements,
-            rings: Vec::new(),
-        };
+        let mut sector =
+            Self { specification: *specification, nodes, radii, elements, rings: Vec::new() };
         sector.rings = sector.contact_rings();
         Ok(sector)
     }
@@ -104,11 +99,7 @@ impl SolidSector {
     pub fn part(&self, count: usize) -> Mesh {
         let per_sector = self.node_count();
         let is_closed = count >= self.sector_count();
-        let sheets = if is_closed {
-            self.sector_count()
-        } else {
-            count + 1
-        };
+        let sheets = if is_closed { self.sector_count() } else { count + 1 };
         let place = |sheet: usize, k: usize| {
             let (sin, cos) = self.angle(k, sheet).sin_cos();
             let node = &self.nodes[k];
@@ -150,10 +141,7 @@ impl SolidSector {
     /// Elements along a radius and over the thickness.
     pub fn divisions(&self) -> [usize; 2] {
         let specification = &self.specification;
-        [
-            specification.annulus.radial_elements,
-            specification.axial_elements,
-        ]
+        [specification.annulus.radial_elements, specification.axial_elements]
     }
 
     /// Kind of all elements.
@@ -190,13 +178,13 @@ impl SolidSector {
     /// Dofs `3 node + component` that boundary conditions hold at zero.
     pub fn is_held(&self, dof: usize) -> bool {
         let conditions = SolidFace::ALL.iter().zip(&self.specification.conditions);
-        conditions
-            .filter(|(face, _)| self.is_on(dof / 3, **face))
-            .any(|(face, condition)| match condition {
+        conditions.filter(|(face, _)| self.is_on(dof / 3, **face)).any(|(face, condition)| {
+            match condition {
                 BoundaryCondition::Clamped => true,
                 BoundaryCondition::Guide => dof % 3 == face.normal_component(),
                 _ => false,
-            })
+            }
+        })
     }
 
     /// Largest distance of two nodes of one element in the numbering.
@@ -212,10 +200,7 @@ impl SolidSector {
         let face = self.specification.contact.face();
         let is_touched = |radius: f64| match self.specification.contact {
             SolidContact::Inner => true,
-            SolidContact::Ring {
-                inner_radius,
-                outer_radius,
-            } => {
+            SolidContact::Ring { inner_radius, outer_radius } => {
                 let slack = 1e-9 * self.specification.annulus.outer_radius;
                 radius >= inner_radius - slack && radius <= outer_radius + slack
             }
@@ -271,24 +256,13 @@ impl SolidSpecification {
     /// # Errors
     /// [`MeshError`] as in [`SolidSector::generate`].
     pub fn corner_radii(&self) -> Result<Vec<f64>, MeshError> {
-        let annulus = AnnulusSpecification {
-            outer: BoundaryCondition::Clamped,
-            ..self.annulus
-        };
+        let annulus = AnnulusSpecification { outer: BoundaryCondition::Clamped, ..self.annulus };
         validate(&annulus)?;
         if self.axial_elements == 0 {
-            return Err(MeshError::TooFewElements {
-                key: "axial_elements",
-                count: 0,
-                minimum: 1,
-            });
+            return Err(MeshError::TooFewElements { key: "axial_elements", count: 0, minimum: 1 });
         }
         let mut radii = graded_radii(&annulus);
-        if let SolidContact::Ring {
-            inner_radius,
-            outer_radius,
-        } = self.contact
-        {
+        if let SolidContact::Ring { inner_radius, outer_radius } = self.contact {
             fit(&mut radii, inner_radius, outer_radius)?;
         }
         Ok(radii)
@@ -319,18 +293,13 @@ fn fit(radii: &mut [f64], inner: f64, outer: f64) -> Result<(), MeshError> {
     let (low, high) = (radii[0], radii[last]);
     let nearest = |radii: &[f64], wanted: f64| {
         let distance = |i: &usize| (radii[*i] - wanted).abs();
-        (0..=last)
-            .min_by(|a, b| distance(a).total_cmp(&distance(b)))
-            .unwrap_or(0)
+        (0..=last).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0)
     };
     let slack = 1e-9 * high;
     let beside = [inner > low + slack, outer < high - slack];
     let minimum = 1 + beside.into_iter().map(usize::from).sum::<usize>();
     if last < minimum {
-        return Err(MeshError::NothingUnderRing {
-            count: last,
-            minimum,
-        });
+        return Err(MeshError::NothingUnderRing { count: last, minimum });
     }
     let place = |wanted: f64, radii: &[f64]| match wanted {
         w if w <= low + slack => 0,
@@ -349,11 +318,7 @@ fn fit(radii: &mut [f64], inner: f64, outer: f64) -> Result<(), MeshError> {
     for pair in ends.windows(2) {
         let ((from, a), (to, b)) = (pair[0], pair[1]);
         for i in from..=to {
-            let share = if to > from {
-                (old[i] - old[from]) / (old[to] - old[from])
-            } else {
-                0.0
-            };
+            let share = if to > from { (old[i] - old[from]) / (old[to] - old[from]) } else { 0.0 };
             radii[i] = a + (b - a) * share;
         }
         radii[to] = b;
@@ -365,10 +330,7 @@ fn fit(radii: &mut [f64], inner: f64, outer: f64) -> Result<(), MeshError> {
 type SheetIndex = Box<dyn Fn([usize; 2], usize) -> usize>;
 
 fn sheet_nodes(specification: &SolidSpecification, radii: &[f64]) -> (Vec<SheetNode>, SheetIndex) {
-    let (nr, nz) = (
-        specification.annulus.radial_elements,
-        specification.axial_elements,
-    );
+    let (nr, nz) = (specification.annulus.radial_elements, specification.axial_elements);
     let is_quadratic = specification.annulus.element.is_quadratic();
     let radius = |i: usize| match i % 2 {
         0 => radii[i / 2],
@@ -404,40 +366,26 @@ fn sheet_nodes(specification: &SolidSpecification, radii: &[f64]) -> (Vec<SheetN
     for (k, node) in nodes.iter().enumerate() {
         index[(node.place[0] * width + node.place[1]) * 2 + node.half_step] = k;
     }
-    (
-        nodes,
-        Box::new(move |[i, j], half| index[(i * width + j) * 2 + half]),
-    )
+    (nodes, Box::new(move |[i, j], half| index[(i * width + j) * 2 + half]))
 }
 
 /// Bricks of 20 or of 8 nodes.
 fn brick_kind(is_quadratic: bool) -> ElementKind {
-    if is_quadratic {
-        ElementKind::Hex20
-    } else {
-        ElementKind::Hex8
-    }
+    if is_quadratic { ElementKind::Hex20 } else { ElementKind::Hex8 }
 }
 
 fn elements(specification: &SolidSpecification, index: &SheetIndex) -> Vec<Vec<(usize, usize)>> {
-    let (nr, nz) = (
-        specification.annulus.radial_elements,
-        specification.axial_elements,
-    );
+    let (nr, nz) = (specification.annulus.radial_elements, specification.axial_elements);
     let places = brick_kind(specification.annulus.element.is_quadratic()).node_places();
     // Radially, around and axially, in halves of an element.
-    let places: Vec<[isize; 3]> = places
-        .into_iter()
-        .map(|place| place.map(|coordinate| coordinate as isize))
-        .collect();
+    let places: Vec<[isize; 3]> =
+        places.into_iter().map(|place| place.map(|coordinate| coordinate as isize)).collect();
     let mut elements = Vec::with_capacity(nr * nz);
     for j in 0..nz {
         for i in 0..nr {
             let node = |[a, b, c]: &[isize; 3]| {
-                let place = [
-                    (2 * i + 1).wrapping_add_signed(*a),
-                    (2 * j + 1).wrapping_add_signed(*c),
-                ];
+                let place =
+                    [(2 * i + 1).wrapping_add_signed(*a), (2 * j + 1).wrapping_add_signed(*c)];
                 let half = 1usize.wrapping_add_signed(*b);
                 (index(place, half % 2), half)
             };

@@ -172,9 +172,7 @@ impl Mesh {
             while axes.len() < 3 {
                 let rest = |axis: usize| {
                     let e = Vector3::<f64>::ith(axis, 1.0);
-                    e - axes
-                        .iter()
-                        .fold(Vector3::zeros(), |sum, b| sum + b * b[axis])
+                    e - axes.iter().fold(Vector3::zeros(), |sum, b| sum + b * b[axis])
                 };
                 let rests = [rest(0), rest(1), rest(2)];
                 let lengths = rests.map(|rest| rest.norm());
@@ -256,10 +254,8 @@ fn no_surface(surfaces: &BTreeMap<String, Vec<SurfaceFace>>, name: &str) -> Mesh
              or of none"
         ));
     }
-    let nearest = surfaces
-        .keys()
-        .map(|known| (strsim::damerau_levenshtein(known, name), known))
-        .min();
+    let nearest =
+        surfaces.keys().map(|known| (strsim::damerau_levenshtein(known, name), known)).min();
     let hint = match nearest {
         Some((distance, known)) if distance <= 1 + name.len() / 3 => {
             format!("; did you mean \"{known}\"?")
@@ -273,7 +269,5 @@ fn no_surface(surfaces: &BTreeMap<String, Vec<SurfaceFace>>, name: &str) -> Mesh
     } else {
         format!("the file has {}", names.join(", "))
     };
-    MeshFileError::Body(format!(
-        "no physical surface is called \"{name}\"; {list}{hint}"
-    ))
+    MeshFileError::Body(format!("no physical surface is called \"{name}\"; {list}{hint}"))
 }

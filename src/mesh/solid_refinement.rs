@@ -35,12 +35,7 @@ impl Mesh {
         for element in 0..self.element_count() {
             refinement.split(element);
         }
-        let Refinement {
-            mut fine,
-            places,
-            children,
-            ..
-        } = refinement;
+        let Refinement { mut fine, places, children, .. } = refinement;
         fine.congruent_to = (0..fine.element_count() as u32).collect();
         fine.frames = NodalFrames::global(3, fine.node_count());
         fine.check_elements(|element| element + 1)?;
@@ -55,17 +50,10 @@ impl Mesh {
                 .filter(|(place, _)| place.iter().all(|(corner, _)| own.contains(corner)));
             let between: BTreeSet<u32> = match boundary.is_covered() {
                 true => BTreeSet::new(),
-                false => own
-                    .iter()
-                    .copied()
-                    .chain(between.map(|own| *own.1))
-                    .collect(),
+                false => own.iter().copied().chain(between.map(|own| *own.1)).collect(),
             };
             let surface = fine.surface(&boundary.name, faces.cloned().collect());
-            Boundary {
-                condition: boundary.condition,
-                ..surface.with_nodes(&between)
-            }
+            Boundary { condition: boundary.condition, ..surface.with_nodes(&between) }
         };
         fine.boundaries = self.boundaries.iter().map(split).collect();
         fine.turn_frames_to_guides();
@@ -93,10 +81,7 @@ impl<'a> Refinement<'a> {
         Self {
             places: BTreeMap::new(),
             children: faces.map(|face| (key(face), Vec::new())).collect(),
-            parts: kinds
-                .into_iter()
-                .map(|kind| (kind, parts_of(kind)))
-                .collect(),
+            parts: kinds.into_iter().map(|kind| (kind, parts_of(kind))).collect(),
             next_label: 1 + coarse.labels.iter().copied().max().unwrap_or(0),
             fine: Mesh {
                 element_starts: vec![0],
@@ -112,10 +97,7 @@ impl<'a> Refinement<'a> {
 
     /// The parts of an element, and of its faces that belong to a boundary.
     fn split(&mut self, element: usize) {
-        let (kind, own) = (
-            self.coarse.element_kind(element),
-            self.coarse.element_nodes(element),
-        );
+        let (kind, own) = (self.coarse.element_kind(element), self.coarse.element_nodes(element));
         let corners = kind.corner_count();
         // Its own nodes are nodes of its parts: corners, and middles of edges as corners between them.
         for &corner in &own[..corners] {
@@ -151,12 +133,8 @@ impl<'a> Refinement<'a> {
             for key in &named {
                 self.split_face(key, child, number, &nodes);
             }
-            self.fine
-                .elements
-                .extend(nodes.iter().map(|(node, _)| node));
-            self.fine
-                .element_starts
-                .push(self.fine.elements.len() as u32);
+            self.fine.elements.extend(nodes.iter().map(|(node, _)| node));
+            self.fine.element_starts.push(self.fine.elements.len() as u32);
             self.fine.element_kinds.push(child);
             let region = self.coarse.element_regions[element];
             self.fine.element_regions.push(region);
@@ -216,9 +194,7 @@ fn parts_of(kind: ElementKind) -> Vec<Vec<[f64; 3]>> {
     let between =
         |p: usize, q: usize| [0, 1, 2].map(|axis| 0.5 * (corners[p][axis] + corners[q][axis]));
     let at_corner = |corner: usize| -> Vec<[f64; 3]> {
-        (0..corners.len())
-            .map(|other| between(corner, other))
-            .collect()
+        (0..corners.len()).map(|other| between(corner, other)).collect()
     };
     let mut parts: Vec<Vec<[f64; 3]>> = (0..corners.len()).map(at_corner).collect();
     match kind.with_corners(corners.len(), false) {

@@ -120,11 +120,7 @@ impl AnnulusSpecification {
     pub fn nodes_per_sector(&self) -> u128 {
         let of = |radial: usize| {
             let radial = radial as u128;
-            if self.element.is_quadratic() {
-                3 * radial + 2
-            } else {
-                radial + 1
-            }
+            if self.element.is_quadratic() { 3 * radial + 2 } else { radial + 1 }
         };
         let shaft = self.shaft.map_or(0, |shaft| of(shaft.radial_elements));
         of(self.radial_elements) + shaft
@@ -148,11 +144,7 @@ pub(super) fn validate(spec: &AnnulusSpecification) -> Result<(), MeshError> {
         ("radial_elements", spec.radial_elements, 1),
     ] {
         if count < minimum {
-            return Err(MeshError::TooFewElements {
-                key,
-                count,
-                minimum,
-            });
+            return Err(MeshError::TooFewElements { key, count, minimum });
         }
     }
     if spec.element.corner_count() != 4 {
@@ -170,18 +162,11 @@ pub(super) fn validate(spec: &AnnulusSpecification) -> Result<(), MeshError> {
         validate_shaft(spec, &shaft)?;
     }
     if !(spec.radial_grading > 0.0 && spec.radial_grading.is_finite()) {
-        return Err(MeshError::Grading {
-            value: spec.radial_grading,
-        });
+        return Err(MeshError::Grading { value: spec.radial_grading });
     }
-    let nodes = spec
-        .nodes_per_sector()
-        .saturating_mul(spec.circumferential_elements as u128);
+    let nodes = spec.nodes_per_sector().saturating_mul(spec.circumferential_elements as u128);
     if nodes > u128::from(u32::MAX / 2) {
-        return Err(MeshError::TooManyNodes {
-            nodes,
-            limit: u32::MAX / 2,
-        });
+        return Err(MeshError::TooManyNodes { nodes, limit: u32::MAX / 2 });
     }
     Ok(())
 }

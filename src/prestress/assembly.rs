@@ -134,24 +134,13 @@ impl<'a> Assembly<'a> {
             basis.congruent(&held)
         };
         let rotation = Rotation::of(mesh, materials, motions, (&basis, &seams), held)?;
-        let joined = Joined {
-            contacts: found?,
-            rotation,
-            elastic,
-            supports,
-            basis,
-            base,
-        };
+        let joined = Joined { contacts: found?, rotation, elastic, supports, basis, base };
         Ok(Self::of(mesh, materials, Arc::new(joined)))
     }
 
     /// From what was made of the same mesh and materials before.
     pub fn of(mesh: &'a Mesh, materials: &'a dyn MaterialField, joined: Arc<Joined>) -> Self {
-        Self {
-            mesh,
-            materials,
-            joined,
-        }
+        Self { mesh, materials, joined }
     }
 
     /// What is to be kept of it where the bodies are borrowed for a while only.
@@ -223,9 +212,7 @@ impl<'a> Assembly<'a> {
             ));
         }
         let mut stiffness = self.joined.elastic.clone();
-        stiffness
-            .entries
-            .extend_from_slice(&self.joined.supports[0].entries);
+        stiffness.entries.extend_from_slice(&self.joined.supports[0].entries);
         let none = || vec![0.0; self.mesh.dof_count()];
         let mut load = assemble_pressures(self.mesh).unwrap_or_else(none);
         if let Some(rotation) = &self.joined.rotation {
@@ -356,25 +343,19 @@ impl<'a> Assembly<'a> {
             .contacts
             .iter()
             .zip(&stretches)
-            .map(
-                |((contact, surface), (range, [forces, stiffnesses]))| ContactPart {
-                    points: &surface.points,
-                    state: PressedPoints {
-                        is_pressed: &state.is_pressed[range.clone()],
-                        normal_forces: forces,
-                        stiffnesses,
-                        frozen_below: state.frozen_below,
-                    },
-                    stiffness: contact.stiffness,
-                    has_own_dofs: contact.stiffness.normal_stiffness.is_none(),
+            .map(|((contact, surface), (range, [forces, stiffnesses]))| ContactPart {
+                points: &surface.points,
+                state: PressedPoints {
+                    is_pressed: &state.is_pressed[range.clone()],
+                    normal_forces: forces,
+                    stiffnesses,
+                    frozen_below: state.frozen_below,
                 },
-            )
+                stiffness: contact.stiffness,
+                has_own_dofs: contact.stiffness.normal_stiffness.is_none(),
+            })
             .collect();
-        let nodes = self
-            .joined
-            .contacts
-            .iter()
-            .flat_map(|(_, surface)| &surface.nodes);
+        let nodes = self.joined.contacts.iter().flat_map(|(_, surface)| &surface.nodes);
         let dofs = ContactDofs {
             tangential: nodes
                 .flat_map(|&node| (0..3).map(move |axis| 3 * node as usize + axis))

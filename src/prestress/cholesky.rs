@@ -21,11 +21,7 @@ impl CholeskySolver {
 
     pub fn solve(&self, mut right_side: Vec<f64>) -> Vec<f64> {
         let count = right_side.len();
-        self.solve_block(MatMut::from_column_major_slice_mut(
-            &mut right_side,
-            count,
-            1,
-        ));
+        self.solve_block(MatMut::from_column_major_slice_mut(&mut right_side, count, 1));
         right_side
     }
 

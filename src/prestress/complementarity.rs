@@ -133,13 +133,7 @@ pub(super) fn range(
         Ok(state)
     });
     let states = states.collect::<Result<Vec<_>, PrestressError>>()?;
-    Ok(PressedRange {
-        states,
-        state_of,
-        changes,
-        begins,
-        left_out,
-    })
+    Ok(PressedRange { states, state_of, changes, begins, left_out })
 }
 
 /// The pressed points at one friction coefficient, by the primal-dual active set (a semismooth Newton iteration on
@@ -170,9 +164,7 @@ fn pressed_points(
             wrong.for_each(|(i, _)| set[i] = !set[i]);
         }
     }
-    Err(PrestressError::NoState {
-        friction_coefficient,
-    })
+    Err(PrestressError::NoState { friction_coefficient })
 }
 
 /// How far each point violates its condition, N: the pull on a pressed one, the force of the point's own stiffness over

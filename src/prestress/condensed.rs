@@ -202,9 +202,8 @@ impl PressedBodies for CondensedContact<'_> {
 /// Springs at the points, in proportion to their weights, that together are about as stiff as a node of the bodies.
 fn spring_stiffnesses(points: &[Point], stiffness: &Triplets) -> Vec<f64> {
     let diagonal = stiffness.entries.iter().filter(|entry| entry.0 == entry.1);
-    let (sum, count) = diagonal.fold((0.0, 0_usize), |(sum, count), entry| {
-        (sum + entry.2.abs(), count + 1)
-    });
+    let (sum, count) =
+        diagonal.fold((0.0, 0_usize), |(sum, count), entry| (sum + entry.2.abs(), count + 1));
     let whole: f64 = points.iter().map(|point| point.weight).sum();
     let total = sum / count.max(1) as f64;
     let share = |point: &Point| total * point.weight / whole;

@@ -80,19 +80,9 @@ impl<'a> CyclicTangent<'a> {
         let rows = (0..size).flat_map(|row| pattern.row(at[row]).map(move |own| (row, own)));
         let entries = rows.map(|(row, (position, column))| {
             let [sector, column] = place_of[column];
-            Entry {
-                row,
-                column,
-                sector,
-                position,
-            }
+            Entry { row, column, sector, position }
         });
-        let own = Self {
-            entries: entries.collect(),
-            whole,
-            count,
-            at,
-        };
+        let own = Self { entries: entries.collect(), whole, count, at };
         own.check_alike()?;
         Ok(own)
     }
@@ -106,12 +96,7 @@ impl<'a> CyclicTangent<'a> {
             ("damping", &whole.damping),
             ("stiffness", &whole.stiffness),
         ];
-        named.extend(
-            whole
-                .structural
-                .iter()
-                .map(|own| ("structural damping", own)),
-        );
+        named.extend(whole.structural.iter().map(|own| ("structural damping", own)));
         let tabled = whole.tabled.iter().map(|own| &own.stiffness);
         named.extend(tabled.map(|own| ("stiffness of a part with a table", own)));
         for j in 1..self.count {

@@ -118,9 +118,7 @@ impl SectorPressing {
         let entries = entries.filter(|(row, ..)| *row < size);
         let entries = entries.map(|&(row, column, value)| (row, column % size, value));
         Some(Self {
-            stiffness: Triplets {
-                entries: entries.collect(),
-            },
+            stiffness: Triplets { entries: entries.collect() },
             elimination: Elimination::holding(size, (0..size).filter(|&dof| is_held(dof))),
             points: points.collect(),
             load,
@@ -161,12 +159,7 @@ fn copies(whole: &Pressing<'_>, size: usize, count: usize) -> Option<(Vec<usize>
         let [normal, slip] =
             [&own.normal, &own.slip].map(|row| seen_from(sector, row, size, count));
         let places = normal.iter().map(|entry| entry.0).collect();
-        alike.entry(places).or_default().push(PlacedPoint {
-            sector,
-            point,
-            normal,
-            slip,
-        });
+        alike.entry(places).or_default().push(PlacedPoint { sector, point, normal, slip });
     }
     let mut firsts: Vec<usize> = Vec::new();
     let mut first_of = vec![usize::MAX; whole.points.len()];
@@ -208,8 +201,7 @@ fn is_copy(whole: &Pressing<'_>, own: &PlacedPoint, first: &PlacedPoint) -> bool
 /// Entries of a row that are more than round-off.
 fn entries(row: &Row) -> impl Iterator<Item = &(usize, f64)> + Clone {
     let largest = row.iter().fold(0.0_f64, |m, entry| m.max(entry.1.abs()));
-    row.iter()
-        .filter(move |entry| entry.1.abs() > ROUND_OFF * largest)
+    row.iter().filter(move |entry| entry.1.abs() > ROUND_OFF * largest)
 }
 
 /// The sector of a row, whose dofs lie there and in the next one at most.
@@ -239,13 +231,9 @@ fn seen_from(sector: usize, row: &Row, size: usize, count: usize) -> SectorRow {
 /// Whether a matrix takes a vector that is turned by one sector to what it makes of the vector, turned.
 fn turns_with_body(matrix: &Triplets, size: usize, total: usize) -> bool {
     // Any vector that has no symmetry of its own.
-    let own: Vec<f64> = (0..total)
-        .map(|dof| (1.0 + dof as f64).sqrt().fract() - 0.5)
-        .collect();
+    let own: Vec<f64> = (0..total).map(|dof| (1.0 + dof as f64).sqrt().fract() - 0.5).collect();
     let turned = |values: &[f64]| -> Vec<f64> {
-        (0..total)
-            .map(|dof| values[(dof + total - size) % total])
-            .collect()
+        (0..total).map(|dof| values[(dof + total - size) % total]).collect()
     };
     let first = turned(&matrix.multiply(total, &own));
     let second = matrix.multiply(total, &turned(&own));

@@ -251,10 +251,7 @@ impl Elimination {
     /// # Errors
     /// [`PrestressError::Overconstrained`].
     pub fn require(&mut self, row: &Row, name: &str) -> Result<usize, PrestressError> {
-        self.take(row)
-            .ok_or_else(|| PrestressError::Overconstrained {
-                name: name.to_owned(),
-            })
+        self.take(row).ok_or_else(|| PrestressError::Overconstrained { name: name.to_owned() })
     }
 }
 

@@ -71,11 +71,7 @@ impl SteadySliding {
     ) -> Result<Self, PrestressError> {
         let own = [contact.friction_coefficient];
         let range = SlidingRange::solve_with(mesh, stiffness, contact, law, &own)?;
-        Ok(range
-            .states
-            .into_iter()
-            .next_back()
-            .expect("one state for each set"))
+        Ok(range.states.into_iter().next_back().expect("one state for each set"))
     }
 
     /// Full sliding on the annulus, whose normal forces do not depend on friction.
@@ -89,10 +85,8 @@ impl SteadySliding {
 
         // Separations in place of normal displacements, all of them pushed in by the interference.
         let mut basis = Elimination::holding(mesh.dof_count(), mesh.held_dofs());
-        let separations: Result<Vec<usize>, PrestressError> = points
-            .iter()
-            .map(|point| basis.require(&point.normal, "contact"))
-            .collect();
+        let separations: Result<Vec<usize>, PrestressError> =
+            points.iter().map(|point| basis.require(&point.normal, "contact")).collect();
         let separations = separations?;
         let stiffness = basis.congruent(stiffness);
         for &dof in &separations {
@@ -165,9 +159,8 @@ impl SteadySliding {
             values
         };
         let interface = ContactInterface::of(&annulus.mesh);
-        let normal_forces: Vec<f64> = (0..interface.len())
-            .map(|i| state.normal_forces[i % sector.contact_count])
-            .collect();
+        let normal_forces: Vec<f64> =
+            (0..interface.len()).map(|i| state.normal_forces[i % sector.contact_count]).collect();
         let springs = state.springs.as_ref().map(|springs| {
             let all = 0..interface.len();
             all.map(|i| springs[i % sector.contact_count]).collect()
@@ -261,10 +254,7 @@ impl SlidingRange {
             stiffness: &supported,
             load: mesh.pressure_forces().unwrap_or_else(|| vec![0.0; total]),
             elimination: Elimination::holding(total, mesh.held_dofs()),
-            pushed: points
-                .iter()
-                .map(|point| contact.interference - point.gap)
-                .collect(),
+            pushed: points.iter().map(|point| contact.interference - point.gap).collect(),
             stiffnesses: points
                 .iter()
                 .map(|point| law.map(|law| law.stiffness(0.0) * point.weight))
@@ -282,9 +272,7 @@ impl SlidingRange {
 
 fn check_pressed(interface: &ContactInterface, forces: &[f64]) -> Result<(), PrestressError> {
     let is_pressed = |force: f64| force > 0.0;
-    let open: Vec<usize> = (0..forces.len())
-        .filter(|&i| !is_pressed(forces[i]))
-        .collect();
+    let open: Vec<usize> = (0..forces.len()).filter(|&i| !is_pressed(forces[i])).collect();
     match open.first() {
         None => Ok(()),
         Some(&i) => Err(PrestressError::Separation {

@@ -16,10 +16,7 @@ pub fn supports(sector: &SolidSector) -> [SolidMatrix; 2] {
 /// Name, springs and dashpots of each supported face.
 pub(super) fn each_support(sector: &SolidSector) -> Vec<(&'static str, [SolidMatrix; 2])> {
     let mut all = Vec::new();
-    for (face, condition) in SolidFace::ALL
-        .into_iter()
-        .zip(&sector.specification.conditions)
-    {
+    for (face, condition) in SolidFace::ALL.into_iter().zip(&sector.specification.conditions) {
         let BoundaryCondition::Support(support) = condition else {
             continue;
         };
@@ -27,16 +24,9 @@ pub(super) fn each_support(sector: &SolidSector) -> Vec<(&'static str, [SolidMat
         let (normal, across) = (face.normal_component(), face.across_component());
         // Across, a face is tangential like around; a cylinder has its own word for it.
         let is_cylinder = normal == 0;
-        let axial = if is_cylinder {
-            support.axial_stiffness
-        } else {
-            support.tangential_stiffness
-        };
-        let axial_damping = if is_cylinder {
-            0.0
-        } else {
-            support.tangential_damping
-        };
+        let axial =
+            if is_cylinder { support.axial_stiffness } else { support.tangential_stiffness };
+        let axial_damping = if is_cylinder { 0.0 } else { support.tangential_damping };
         let values = [
             [
                 (normal, support.normal_stiffness),
@@ -70,16 +60,11 @@ pub(super) fn each_support(sector: &SolidSector) -> Vec<(&'static str, [SolidMat
 /// Forces of the pressures on the faces, the same in every sector, N.
 pub fn pressure_load(sector: &SolidSector) -> Vec<f64> {
     let mut load = vec![0.0; 3 * sector.node_count()];
-    for (face, condition) in SolidFace::ALL
-        .into_iter()
-        .zip(&sector.specification.conditions)
-    {
+    for (face, condition) in SolidFace::ALL.into_iter().zip(&sector.specification.conditions) {
         if let BoundaryCondition::Pressure(pressure) = condition {
             let unit = face_load(sector, &sector.face_elements(face), face.normal_component());
             let factor = pressure * face.inward_sign();
-            load.iter_mut()
-                .zip(unit)
-                .for_each(|(sum, value)| *sum += factor * value);
+            load.iter_mut().zip(unit).for_each(|(sum, value)| *sum += factor * value);
         }
     }
     load

@@ -114,13 +114,7 @@ impl<'a> PenaltyContact<'a> {
         let is_far = changed as f64 > MOST_CHANGED * is_pressed.len() as f64;
         let shares = is_pressed.iter().zip(&self.springs);
         let held: Vec<f64> = shares
-            .map(|(&is_pressed, spring)| {
-                if is_pressed {
-                    *spring
-                } else {
-                    OPEN_SHARE * spring
-                }
-            })
+            .map(|(&is_pressed, spring)| if is_pressed { *spring } else { OPEN_SHARE * spring })
             .collect();
         if is_far || self.is_slow && held != self.held {
             self.solver = factorize(&self.stiffness, &self.unknowns, &self.normals, &held)?;
@@ -135,8 +129,7 @@ impl<'a> PenaltyContact<'a> {
         for (i, forces) in along.iter().enumerate() {
             for (row, force) in [&self.normals[i], &self.drags[i]].into_iter().zip(forces) {
                 if *force != 0.0 {
-                    row.iter()
-                        .for_each(|&(dof, a)| right_side[dof] += force * a);
+                    row.iter().for_each(|&(dof, a)| right_side[dof] += force * a);
                 }
             }
         }
@@ -192,13 +185,7 @@ impl<'a> PenaltyContact<'a> {
     /// Springs and pushes of the tangents at some forces; whether any contact stiffens.
     fn follow_laws(&mut self, normal_forces: &[f64]) -> bool {
         let mut stiffens = false;
-        for (i, (law, point)) in self
-            .pressing
-            .laws
-            .iter()
-            .zip(self.pressing.points)
-            .enumerate()
-        {
+        for (i, (law, point)) in self.pressing.laws.iter().zip(self.pressing.points).enumerate() {
             if let Some(law) = law {
                 stiffens = true;
                 let force = normal_forces[i].max(0.0);
@@ -237,10 +224,7 @@ impl PressedBodies for PenaltyContact<'_> {
             let is_linear = !self.follow_laws(&normal_forces);
             let largest = normal_forces.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
             let is_settled = before.as_ref().is_some_and(|before| {
-                let moved = before
-                    .iter()
-                    .zip(&normal_forces)
-                    .map(|(a, b)| (a - b).abs());
+                let moved = before.iter().zip(&normal_forces).map(|(a, b)| (a - b).abs());
                 moved.fold(0.0, f64::max) <= SETTLED * largest
             });
             if is_linear || is_settled {
@@ -252,9 +236,7 @@ impl PressedBodies for PenaltyContact<'_> {
             }
             before = Some(normal_forces);
         }
-        Err(PrestressError::NoState {
-            friction_coefficient,
-        })
+        Err(PrestressError::NoState { friction_coefficient })
     }
 
     fn whole_displacement(&self, friction_coefficient: f64, state: &ContactState) -> Vec<f64> {

@@ -45,15 +45,13 @@ impl Pressing<'_> {
     pub(super) fn rows(&self, unknowns: &DofMap) -> [Vec<Row>; 2] {
         let over_unknowns = |row: &Row| -> Row {
             let all = self.elimination.transposed(row).into_iter();
-            all.filter_map(|(dof, a)| Some((unknowns.unknown_of[dof]?, a)))
-                .collect()
+            all.filter_map(|(dof, a)| Some((unknowns.unknown_of[dof]?, a))).collect()
         };
         let points = self.points.iter();
         let normals = points.clone().map(|point| over_unknowns(&point.normal));
         let drags = points.map(|point| {
             let slip = over_unknowns(&point.slip).into_iter();
-            slip.map(|(dof, a)| (dof, point.friction.drag * a))
-                .collect()
+            slip.map(|(dof, a)| (dof, point.friction.drag * a)).collect()
         });
         [normals.collect(), drags.collect()]
     }
@@ -69,9 +67,7 @@ impl Pressing<'_> {
         PrestressError::GapEverywhere {
             total: self.points.len(),
             distance: distances.fold(f64::INFINITY, f64::min).max(0.0),
-            interference: gaps
-                .map(|(point, pushed)| pushed + point.gap)
-                .fold(0.0, f64::max),
+            interference: gaps.map(|(point, pushed)| pushed + point.gap).fold(0.0, f64::max),
         }
     }
 }

@@ -124,9 +124,7 @@ pub(super) fn approaches(
 ) -> Vec<f64> {
     let face = sector.specification.contact.face();
     let mean = |nodes: &[usize]| {
-        let normals = nodes
-            .iter()
-            .map(|node| displacement[3 * node + face.normal_component()]);
+        let normals = nodes.iter().map(|node| displacement[3 * node + face.normal_component()]);
         face.inward_sign() * normals.sum::<f64>() / nodes.len() as f64
     };
     let rings = sector.rings.iter();
@@ -181,9 +179,7 @@ pub(super) fn press_rigidly(
             approaches,
         });
     }
-    Err(PrestressError::NoState {
-        friction_coefficient: contact.friction_coefficient,
-    })
+    Err(PrestressError::NoState { friction_coefficient: contact.friction_coefficient })
 }
 
 /// Springs that push and do not pull, `K u + int k (u_n - delta + g) n dA = f + int s g n dA` over the points of the face where
@@ -204,18 +200,12 @@ pub(super) fn press_on_springs(
     let mut values = vec![start.min(law.soft_approach()); rings];
     for _ in 0..SETS {
         // The tangent at the approaches found last, and what it pushes with.
-        let springs = Springs {
-            sector,
-            law,
-            approaches: &values,
-        };
+        let springs = Springs { sector, law, approaches: &values };
         let tangent = springs.tangent();
         let spring = System::new(sector, &[&tangent]);
         let own = springs.push();
         let system = System::new(sector, &[terms, &[&tangent]].concat());
-        let known = spring
-            .stiffness
-            .multiply(&distance(sector, &pushed, &field(sector, &values)));
+        let known = spring.stiffness.multiply(&distance(sector, &pushed, &field(sector, &values)));
         let loads = load.iter().zip(&own).zip(&known);
         let loads: Vec<f64> = loads.map(|((a, b), c)| a + b + c).collect();
         let displacement = system.solve(&loads, &vec![None; system.dofs])?;
@@ -245,9 +235,7 @@ pub(super) fn press_on_springs(
             displacement,
         });
     }
-    Err(PrestressError::NoState {
-        friction_coefficient: contact.friction_coefficient,
-    })
+    Err(PrestressError::NoState { friction_coefficient: contact.friction_coefficient })
 }
 
 /// The springs of the face where the rings' approaches are positive.
@@ -271,20 +259,14 @@ impl Springs<'_> {
     /// `int s g n dA`, N.
     fn push(&self) -> Vec<f64> {
         let system = System::new(self.sector, &[&self.secant()]);
-        system
-            .stiffness
-            .multiply(&field(self.sector, self.approaches))
+        system.stiffness.multiply(&field(self.sector, self.approaches))
     }
 
     /// A normal term with a weight that follows the approach.
     fn matrix(&self, weight: &dyn Fn(f64) -> f64) -> SolidMatrix {
         let at = |element: &FaceElement, _: f64, along: f64| weight(self.approach(element, along));
         let faces = self.sector.contact_elements();
-        face_matrix(
-            self.sector,
-            &faces,
-            &self.term(&at, &|element| self.span(element)),
-        )
+        face_matrix(self.sector, &faces, &self.term(&at, &|element| self.span(element)))
     }
 
     /// A normal term on some part of each element.
@@ -294,13 +276,7 @@ impl Springs<'_> {
         span: &'a dyn Fn(&FaceElement) -> [f64; 2],
     ) -> FaceTerm<'a> {
         let component = self.sector.specification.contact.face().normal_component();
-        FaceTerm {
-            row: component,
-            column: component,
-            weight,
-            span,
-            is_nodal: true,
-        }
+        FaceTerm { row: component, column: component, weight, span, is_nodal: true }
     }
 
     /// The approach at a point of an element, zero where it is open, m.
@@ -351,11 +327,7 @@ impl System {
             let zero = (sector.sector_count(), 0);
             term.add_harmonic(&mut stiffness, &all, zero, (MirrorParity::Even, 1.0));
         }
-        Self {
-            dofs,
-            is_held: (0..dofs).map(|dof| sector.is_held(dof)).collect(),
-            stiffness,
-        }
+        Self { dofs, is_held: (0..dofs).map(|dof| sector.is_held(dof)).collect(), stiffness }
     }
 
     /// Displacement under a load with some dofs prescribed and without tangential motion.
@@ -382,10 +354,8 @@ impl System {
         prescribed: &[Option<f64>],
         is_in: impl Fn(usize) -> bool,
     ) -> Result<Vec<f64>, PrestressError> {
-        let mut displacement: Vec<f64> = prescribed
-            .iter()
-            .map(|value| value.unwrap_or(0.0))
-            .collect();
+        let mut displacement: Vec<f64> =
+            prescribed.iter().map(|value| value.unwrap_or(0.0)).collect();
         let unknowns: Vec<usize> = (0..self.dofs)
             .filter(|&dof| is_in(dof % 3) && !self.is_held[dof] && prescribed[dof].is_none())
             .collect();

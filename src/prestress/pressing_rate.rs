@@ -83,10 +83,7 @@ impl SolidSlidingRate {
             (Some([_, by_speed]), Parameter::DecaySpeed) => by_speed,
             _ => [0.0; 2],
         };
-        SteadyFriction {
-            drag: base.sliding_direction * share,
-            slope,
-        }
+        SteadyFriction { drag: base.sliding_direction * share, slope }
     }
 
     /// `K u' = -K' u` with pressed rings where they are.
@@ -133,11 +130,7 @@ impl SolidSlidingRate {
         let face = sector.specification.contact.face();
         let (inward, component) = (face.inward_sign(), face.normal_component());
         let rings = base.approaches.len();
-        let springs = Springs {
-            sector,
-            law,
-            approaches: &base.approaches,
-        };
+        let springs = Springs { sector, law, approaches: &base.approaches };
         let spring = System::new(sector, &[&springs.tangent()]);
         let mut whole = System::new(sector, &[]);
         whole.stiffness.add_scaled(1.0, &system.stiffness);
@@ -211,10 +204,7 @@ impl SolidSlidingRate {
             let slope = |element: &FaceElement, _: f64, along: f64| {
                 at(element, along)[1] * slope_along(sector, springs.approaches, element, along)
             };
-            let moving = MovingSpan {
-                rate: &ends,
-                weight_slope: &slope,
-            };
+            let moving = MovingSpan { rate: &ends, weight_slope: &slope };
             let mut sum = face_matrix(sector, &faces, &springs.term(&rate, &span));
             let term = springs.term(&own, &span);
             sum.extend(face_matrix_rate(sector, &faces, &term, &moving));
@@ -228,10 +218,9 @@ impl SolidSlidingRate {
                 },
                 &|g| law.secant(g),
             ),
-            matrix(
-                &|g, moved| self.by_law(law, g)[1] + law.curvature(g) * moved,
-                &|g| [law.stiffness(g), law.curvature(g)],
-            ),
+            matrix(&|g, moved| self.by_law(law, g)[1] + law.curvature(g) * moved, &|g| {
+                [law.stiffness(g), law.curvature(g)]
+            }),
         ]
     }
 

@@ -66,9 +66,7 @@ impl Rotation {
         };
         let ground = GROUND * largest(&stiffness) / largest(&mass);
         let springs = mass.entries.into_iter();
-        stiffness
-            .entries
-            .extend(springs.map(|(row, column, value)| (row, column, ground * value)));
+        stiffness.entries.extend(springs.map(|(row, column, value)| (row, column, ground * value)));
         let unknowns = basis.unknowns();
         let solver = CholeskySolver::new(&stiffness, &unknowns)?;
         let load = unknowns.restrict(&basis.transposed_forces(&terms.centrifugal));
@@ -116,9 +114,7 @@ fn check_revolution(mesh: &Mesh, motion: &Motion, seams: &[usize]) -> Result<(),
             let velocity = motion.velocity(there.position);
             let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
             let along = dot(there.area, motion.axis);
-            let side = (dot(there.area, there.area) - along * along)
-                .max(0.0)
-                .sqrt();
+            let side = (dot(there.area, there.area) - along * along).max(0.0).sqrt();
             across += dot(velocity, there.area).abs();
             whole += dot(velocity, velocity).sqrt() * side;
         }

@@ -190,12 +190,7 @@ impl<'a> PressedSystem<'a> {
         if factor.negative_count() > 0 || !factor.is_finite() {
             return Err(PrestressError::Singular);
         }
-        Ok(Self {
-            sector,
-            stiffness,
-            unknowns,
-            factor,
-        })
+        Ok(Self { sector, stiffness, unknowns, factor })
     }
 
     /// Response to a load on all dofs with the distances held.
@@ -261,9 +256,7 @@ impl<'a> PressedSystem<'a> {
             }
         }
         let forces = forces.iter().zip(lengths);
-        Ok(forces
-            .map(|(force, w)| law.approach(force.max(0.0) / w))
-            .collect())
+        Ok(forces.map(|(force, w)| law.approach(force.max(0.0) / w)).collect())
     }
 
     /// Rates of distances, normal forces and springs where those of the forces with the distances held are `held`.
@@ -329,9 +322,7 @@ impl<'a> PressedSystem<'a> {
 
 fn check_pressed(sector: &SectorMesh, forces: &[f64]) -> Result<(), PrestressError> {
     let is_pressed = |force: f64| force > 0.0;
-    let open: Vec<usize> = (0..forces.len())
-        .filter(|&i| !is_pressed(forces[i]))
-        .collect();
+    let open: Vec<usize> = (0..forces.len()).filter(|&i| !is_pressed(forces[i])).collect();
     let Some(&first) = open.first() else {
         return Ok(());
     };

@@ -97,11 +97,7 @@ impl SectorTangent {
             mass: None,
             stress: None,
             turning: vec![0.0; self.terms.turning.len()],
-            normal_stiffness: self
-                .terms
-                .normal_stiffness
-                .as_ref()
-                .map(|k| vec![0.0; k.len()]),
+            normal_stiffness: self.terms.normal_stiffness.as_ref().map(|k| vec![0.0; k.len()]),
             friction_dashpots: None,
         };
         let mut drag = 0.0;
@@ -170,11 +166,7 @@ impl SectorTangent {
                 self.material_rate(&mut terms, parameter, region)?;
             }
         }
-        Ok(Some(TangentRate {
-            terms,
-            rayleigh: share,
-            drag,
-        }))
+        Ok(Some(TangentRate { terms, rayleigh: share, drag }))
     }
 
     /// Derivative with respect to a constant of a region's material.
@@ -189,19 +181,13 @@ impl SectorTangent {
         let is_alone = self.materials.len() == 1;
         // Matrices are linear in density and Lame's constants.
         let rate = match parameter {
-            Parameter::Density(_) => ElasticMaterial {
-                density: 1.0,
-                ..material.without_stiffness()
-            },
-            Parameter::YoungModulus(_) => ElasticMaterial {
-                young_modulus: 1.0,
-                density: 0.0,
-                ..material
-            },
-            _ => ElasticMaterial {
-                density: 0.0,
-                ..material.poisson_rate()
-            },
+            Parameter::Density(_) => {
+                ElasticMaterial { density: 1.0, ..material.without_stiffness() }
+            }
+            Parameter::YoungModulus(_) => {
+                ElasticMaterial { young_modulus: 1.0, density: 0.0, ..material }
+            }
+            _ => ElasticMaterial { density: 0.0, ..material.poisson_rate() },
         };
         let rate = self.of_region(region, rate);
         terms.own_damping =
@@ -268,9 +254,7 @@ impl SectorTangent {
         };
         let law = law.map(|law| (law, law_parameter));
         let elastic_rate = material.map(|(rate, _)| rate);
-        let base_rate = self
-            .base
-            .rate(&self.sector, &supported, elastic_rate, law)?;
+        let base_rate = self.base.rate(&self.sector, &supported, elastic_rate, law)?;
         terms.friction_dashpots = friction_dashpots(&base_rate, self.base.friction.slope);
         if self.terms.stress.is_some() {
             let mut stress = stress_stiffness(&self.sector, &self.materials, &base_rate);
@@ -290,10 +274,7 @@ impl SectorTangent {
     /// A material of one region, with the damping that the region has of its own, and nothing elsewhere: what one
     /// section of the case is the cause of.
     pub(super) fn of_region(&self, own: usize, elastic: ElasticMaterial) -> Vec<RegionMaterial> {
-        let nothing = ElasticMaterial {
-            density: 0.0,
-            ..elastic.without_stiffness()
-        };
+        let nothing = ElasticMaterial { density: 0.0, ..elastic.without_stiffness() };
         let regions = self.materials.iter().enumerate();
         let regions = regions.map(|(region, material)| RegionMaterial {
             elastic: if region == own { elastic } else { nothing },
@@ -309,11 +290,7 @@ impl SectorTangent {
         *materials.get_mut(1)?.damping.as_mut()? = share;
         terms.own_damping =
             sector::extra_damping(&self.sector, &materials, self.options.mass, unchanged);
-        Some(TangentRate {
-            terms,
-            rayleigh: unchanged,
-            drag: 0.0,
-        })
+        Some(TangentRate { terms, rayleigh: unchanged, drag: 0.0 })
     }
 
     /// A body with damping of its own has no part in the change of the common coefficients.

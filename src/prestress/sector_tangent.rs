@@ -71,9 +71,7 @@ impl SectorTangent {
         let supported = sector::supported_stiffness(sector, material);
         let law = options.contact.law;
         let base = SectorSliding::solve_with(sector, &supported, contact, law)?;
-        let stress = options
-            .geometric_stiffness
-            .then(|| stress_stiffness(sector, material, &base));
+        let stress = options.geometric_stiffness.then(|| stress_stiffness(sector, material, &base));
         let lengths = sector.tributary_lengths();
         let penalty = options.contact.normal_stiffness;
         let terms = Terms {
@@ -142,8 +140,7 @@ impl SectorTangent {
     pub fn tangential_unknowns(&self) -> Vec<usize> {
         let unknowns = self.unknowns();
         let dofs = self.sector.contact_nodes().map(|node| 2 * node + 1);
-        dofs.filter_map(|dof| unknowns.iter().position(|&u| u == dof))
-            .collect()
+        dofs.filter_map(|dof| unknowns.iter().position(|&u| u == dof)).collect()
     }
 
     /// Rayleigh coefficients.
@@ -207,9 +204,7 @@ impl SectorTangent {
     }
 
     pub(super) fn harmonic_of(&self, matrix: &Option<SectorMatrix>, n: usize) -> BandedMatrix {
-        matrix
-            .as_ref()
-            .map_or_else(|| self.zero(), |matrix| self.wave(matrix, n))
+        matrix.as_ref().map_or_else(|| self.zero(), |matrix| self.wave(matrix, n))
     }
 
     /// Harmonic `n` of a matrix over displacements, with distances across the contact.

@@ -56,15 +56,8 @@ pub(super) fn turning(
     base: &SectorSliding,
 ) -> Vec<f64> {
     let radius = sector.specification.inner_radius;
-    let factor = if options.geometric_stiffness {
-        1.0
-    } else {
-        0.0
-    };
-    base.normal_forces
-        .iter()
-        .map(|force| factor * force / radius)
-        .collect()
+    let factor = if options.geometric_stiffness { 1.0 } else { 0.0 };
+    base.normal_forces.iter().map(|force| factor * force / radius).collect()
 }
 
 pub(super) fn multiplied(mut polynomial: FrictionPolynomial, factor: f64) -> FrictionPolynomial {

@@ -65,10 +65,7 @@ impl SectorTangent {
 
     /// The shaft's node at the place of one contact node, and the normal dof of that at the place of another.
     fn opposites(&self, node: usize, other: usize) -> Option<[usize; 2]> {
-        Some([
-            self.sector.opposite(node)?,
-            2 * self.sector.opposite(other)?,
-        ])
+        Some([self.sector.opposite(node)?, 2 * self.sector.opposite(other)?])
     }
 
     /// Derivative along the angle of the wave `e^{i n theta}` at the contact nodes, `u'_i = i sum_j d_ij u_j`, the mean of both
@@ -81,10 +78,6 @@ impl SectorTangent {
         if self.sector.contact_count == 1 {
             return vec![(0, start, 0, whole)];
         }
-        vec![
-            (0, start, 0, -whole),
-            (0, start, 1, 4.0 * half),
-            (1, start + 1, 0, 2.0 * half),
-        ]
+        vec![(0, start, 0, -whole), (0, start, 1, 4.0 * half), (1, start + 1, 0, 2.0 * half)]
     }
 }

@@ -101,20 +101,14 @@ impl SolidSliding {
 
     /// Displacement at a friction coefficient, m.
     pub fn displacement(&self, friction_coefficient: f64) -> Vec<f64> {
-        let both = self
-            .pressed_displacement
-            .iter()
-            .zip(&self.sheared_displacement);
+        let both = self.pressed_displacement.iter().zip(&self.sheared_displacement);
         both.map(|(a, b)| a + friction_coefficient * b).collect()
     }
 
     /// Slip speed `V = |Omega| r`, m/s, and friction of steady sliding at a radius.
     pub fn friction(&self, radius: f64) -> (f64, SteadyFriction) {
         let speed = self.contact.rotation_speed.abs() * radius;
-        (
-            speed,
-            self.contact.steady_friction(self.sliding_direction, speed),
-        )
+        (speed, self.contact.steady_friction(self.sliding_direction, speed))
     }
 
     /// Friction torque of the whole body at a friction coefficient, N m.

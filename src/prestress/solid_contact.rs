@@ -59,11 +59,7 @@ pub(super) fn contact_terms(
     sector: &SolidSector,
     contact: &ContactStiffness,
 ) -> ContactTerms {
-    let face = Face {
-        base,
-        sector,
-        rate: None,
-    };
+    let face = Face { base, sector, rate: None };
     face.terms(contact, 0.0)
 }
 
@@ -74,11 +70,7 @@ pub(super) fn contact_term_rates(
     sector: &SolidSector,
     (contact, stiffness_rate): (&ContactStiffness, f64),
 ) -> ContactTerms {
-    let face = Face {
-        base,
-        sector,
-        rate: Some(rate),
-    };
+    let face = Face { base, sector, rate: Some(rate) };
     face.terms(contact, stiffness_rate)
 }
 
@@ -103,10 +95,7 @@ impl Face<'_> {
         let inwards = constant(face.inward_sign(), 0.0);
         let drag = |element: &FaceElement, r: f64| inwards.times(self.friction(element, r).0);
         let normal_and_drag = |value: &dyn Fn(&FaceElement, f64) -> Weight| {
-            [
-                pressed(normal, normal, value, &one),
-                pressed(1, normal, value, &drag),
-            ]
+            [pressed(normal, normal, value, &one), pressed(1, normal, value, &drag)]
         };
         let dashpot = |value: f64| move |_: &FaceElement, _: f64| constant(value, 0.0);
         let mut dashpots: [SolidMatrix; 2] = match contact.normal_damping {
@@ -155,13 +144,7 @@ impl Face<'_> {
     ) -> SolidMatrix {
         let faces = self.sector.contact_elements();
         let span = |element: &FaceElement| self.base.pressed_span(self.sector, element);
-        let of = |weight| FaceTerm {
-            row,
-            column,
-            weight,
-            span: &span,
-            is_nodal,
-        };
+        let of = |weight| FaceTerm { row, column, weight, span: &span, is_nodal };
         let value = |element: &FaceElement, r: f64, at: f64| weight(element, r, at).value;
         let Some(changes) = self.rate else {
             return face_matrix(self.sector, &faces, &of(&value));
@@ -242,11 +225,7 @@ impl Face<'_> {
                 rate: drag,
                 slope: self.base.sliding_direction * friction.slope * speed,
             },
-            Weight {
-                value: friction.slope,
-                rate: slope,
-                slope: curvature * speed,
-            },
+            Weight { value: friction.slope, rate: slope, slope: curvature * speed },
         )
     }
 
@@ -263,9 +242,5 @@ impl Face<'_> {
 }
 
 fn constant(value: f64, rate: f64) -> Weight {
-    Weight {
-        value,
-        rate,
-        slope: 0.0,
-    }
+    Weight { value, rate, slope: 0.0 }
 }

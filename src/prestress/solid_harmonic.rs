@@ -74,10 +74,7 @@ impl SolidHarmonic {
         let [c0, c1] = &self.damping;
         let mut damping = sum(&[c0, c1]);
         let across = self.across.values().iter();
-        damping
-            .iter_mut()
-            .zip(across)
-            .for_each(|(c, a)| *c += mu * a);
+        damping.iter_mut().zip(across).for_each(|(c, a)| *c += mu * a);
         let [k0, k1] = &self.stiffness;
         let moving = self.moving();
         let h = self.mass.half_bandwidth();

@@ -39,10 +39,7 @@ impl SolidTangent {
             Parameter::MassCoefficient => rate.rayleigh.mass_coefficient = 1.0,
             Parameter::StiffnessCoefficient => rate.rayleigh.stiffness_coefficient = 1.0,
             Parameter::Density(0) => {
-                let unit = ElasticMaterial {
-                    density: 1.0,
-                    ..material
-                };
+                let unit = ElasticMaterial { density: 1.0, ..material };
                 rate.terms.mass = solid::mass(&self.sector, &unit, self.options.mass);
             }
             // An orthotropic material has neither constant.
@@ -52,10 +49,7 @@ impl SolidTangent {
                 return Ok(None);
             }
             Parameter::YoungModulus(0) => {
-                let unit = ElasticMaterial {
-                    young_modulus: 1.0,
-                    ..material
-                };
+                let unit = ElasticMaterial { young_modulus: 1.0, ..material };
                 self.follow(&mut rate, parameter, Some(unit))?;
             }
             Parameter::PoissonRatio(0) => {
@@ -143,10 +137,7 @@ impl SolidTangent {
     /// Derivative of the matrices of harmonic `n`, and in [`SolidHarmonic::rigid`] that of the factors.
     pub fn harmonic_rate(&self, rate: &SolidRate, n: usize) -> SolidHarmonic {
         let mut harmonic = self.assembled(&rate.terms, n);
-        let RayleighDamping {
-            mass_coefficient,
-            stiffness_coefficient,
-        } = rate.rayleigh;
+        let RayleighDamping { mass_coefficient, stiffness_coefficient } = rate.rayleigh;
         if mass_coefficient != 0.0 {
             let mass = self.sum(n, MirrorParity::Even, &[&self.terms.mass]);
             harmonic.damping[0].add_scaled(mass_coefficient, &mass);

@@ -107,12 +107,8 @@ impl SolidTangent {
     /// `M` and `K` without friction, all unknowns.
     pub fn at_rest(&self, n: usize) -> [BandedMatrix; 2] {
         let terms = &self.terms;
-        let stiffness = [
-            &terms.elastic,
-            &terms.stress[0],
-            &terms.contact.penalty[0],
-            &self.supports[0],
-        ];
+        let stiffness =
+            [&terms.elastic, &terms.stress[0], &terms.contact.penalty[0], &self.supports[0]];
         [
             self.sum(n, MirrorParity::Even, &[&terms.mass]),
             self.sum(n, MirrorParity::Even, &stiffness),
@@ -123,12 +119,7 @@ impl SolidTangent {
     pub fn harmonic(&self, n: usize) -> SolidHarmonic {
         let mut harmonic = self.assembled(&self.terms, n);
         let [springs, dashpots] = &self.supports;
-        self.add(
-            &mut harmonic.stiffness[0],
-            n,
-            MirrorParity::Even,
-            &[springs],
-        );
+        self.add(&mut harmonic.stiffness[0], n, MirrorParity::Even, &[springs]);
         self.add(&mut harmonic.damping[0], n, MirrorParity::Even, &[dashpots]);
         harmonic.rigid = self.rigid();
         harmonic
@@ -208,11 +199,7 @@ impl SolidTangent {
         let nodes = self.rigid_nodes().filter_map(|node| {
             let normal = self.unknown_of[3 * node + face.normal_component()]?;
             let drag = self.base.friction(self.sector.nodes[node].radius).1.drag;
-            Some((
-                normal,
-                self.unknown_of[3 * node + 1],
-                face.inward_sign() * drag,
-            ))
+            Some((normal, self.unknown_of[3 * node + 1], face.inward_sign() * drag))
         });
         nodes.collect()
     }

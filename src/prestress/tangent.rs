@@ -238,10 +238,7 @@ impl SlidingTangent {
                     basis.drop_unknown(pivot);
                     let drag = point.friction.drag;
                     let slip = point.slip.iter().map(|&(dof, along)| (dof, drag * along));
-                    friction.push(RigidFriction {
-                        lift: point.lift.clone(),
-                        slip: slip.collect(),
-                    });
+                    friction.push(RigidFriction { lift: point.lift.clone(), slip: slip.collect() });
                 }
             }
         }
@@ -312,16 +309,10 @@ impl SlidingTangent {
         }
         // Its entries are those of the stiffness.
         let structural = (!losses.is_empty()).then(|| on_pattern(&projected(&losses)));
-        let tabled = body
-            .tabled
-            .iter()
-            .map(|(table, stiffness)| TabledStiffness {
-                gain: TabledGain {
-                    table: Arc::clone(table),
-                    reference_hz: 0.0,
-                },
-                stiffness: on_pattern(&projected(std::slice::from_ref(stiffness))),
-            });
+        let tabled = body.tabled.iter().map(|(table, stiffness)| TabledStiffness {
+            gain: TabledGain { table: Arc::clone(table), reference_hz: 0.0 },
+            stiffness: on_pattern(&projected(std::slice::from_ref(stiffness))),
+        });
         let tabled: Vec<TabledStiffness> = tabled.collect();
         let is_viscous = structural.is_none() && tabled.is_empty();
         let is_whole = options.damping_model == DampingModel::WholeTangent && !has_supports;
@@ -342,10 +333,7 @@ impl SlidingTangent {
             contact_tangential: touched(&dofs.tangential),
             contact_normal: touched(&dofs.normal),
             contact_opposite: touched(&dofs.opposite),
-            distances: basis
-                .combinations()
-                .map(|(dof, row)| (dof, row.clone()))
-                .collect(),
+            distances: basis.combinations().map(|(dof, row)| (dof, row.clone())).collect(),
             contact_angles: dofs.angles.clone(),
             sliding_direction: dofs.sliding_direction,
             friction,

@@ -53,18 +53,13 @@ impl HarmonicParts {
     pub fn of_regions(&self, friction: f64, x: &[c64]) -> Vec<PartForms> {
         let of = |region: &RegionWave| {
             let [mass, stiffness] = [&region.mass, &region.elastic].map(|a| a.form(x, x).re);
-            let stress = region
-                .stress
-                .as_ref()
-                .filter(|_| self.stress_damping != 0.0);
+            let stress = region.stress.as_ref().filter(|_| self.stress_damping != 0.0);
             let stress = stress.map_or(0.0, |[pressed, sheared]| {
                 let turned = c64::new(0.0, friction) * sheared.form(x, x);
                 (pressed.form(x, x) + turned).re
             });
-            let RayleighDamping {
-                mass_coefficient: alpha,
-                stiffness_coefficient: beta,
-            } = region.damping;
+            let RayleighDamping { mass_coefficient: alpha, stiffness_coefficient: beta } =
+                region.damping;
             PartForms {
                 mass,
                 stiffness,
@@ -104,10 +99,8 @@ impl HarmonicParts {
         let one = c64::new(1.0, 0.0);
         let mut forces = vec![c64::new(0.0, 0.0); x.len()];
         for region in &self.regions {
-            let RayleighDamping {
-                mass_coefficient: alpha,
-                stiffness_coefficient: beta,
-            } = region.damping;
+            let RayleighDamping { mass_coefficient: alpha, stiffness_coefficient: beta } =
+                region.damping;
             let RegionWave { mass, elastic, .. } = region;
             mass.add_product(root * (root + alpha), x, &mut forces);
             elastic.add_product(one + root * beta, x, &mut forces);
@@ -141,11 +134,7 @@ fn stress_damping(options: &TangentOptions) -> f64 {
 pub struct SectorParts<'a> {
     tangent: &'a SectorTangent,
     /// Mass, stiffness and geometric stiffness of each region, with its damping.
-    regions: Vec<(
-        [SectorMatrix; 2],
-        Option<[SectorMatrix; 2]>,
-        RayleighDamping,
-    )>,
+    regions: Vec<([SectorMatrix; 2], Option<[SectorMatrix; 2]>, RayleighDamping)>,
     /// Name, springs and dashpots of each supported edge.
     supports: Vec<(String, [SectorMatrix; 2])>,
 }
@@ -157,20 +146,14 @@ impl<'a> SectorParts<'a> {
         let all = tangent.materials.iter().enumerate();
         let regions = all.map(|(region, material)| {
             let own = tangent.of_region(region, material.elastic);
-            let matrices = [
-                sector::mass(sector, &own, options.mass),
-                sector::stiffness(sector, &own),
-            ];
+            let matrices =
+                [sector::mass(sector, &own, options.mass), sector::stiffness(sector, &own)];
             let stress = tangent.terms.stress.as_ref();
             let stress = stress.map(|_| stress_stiffness(sector, &own, &tangent.base));
             let damping = material.damping.unwrap_or(options.damping);
             (matrices, stress, damping)
         });
-        Self {
-            tangent,
-            regions: regions.collect(),
-            supports: sector::each_support(sector),
-        }
+        Self { tangent, regions: regions.collect(), supports: sector::each_support(sector) }
     }
 
     /// Names of the supported edges.
@@ -197,17 +180,11 @@ impl<'a> SectorParts<'a> {
         let sector = &self.tangent.sector;
         let contact = sector.contact_nodes().map(|node| {
             let both = std::iter::once(node).chain(sector.opposite(node));
-            both.flat_map(|node| [2 * node, 2 * node + 1])
-                .filter_map(place)
-                .collect()
+            both.flat_map(|node| [2 * node, 2 * node + 1]).filter_map(place).collect()
         });
         HarmonicParts {
             regions: regions.collect(),
-            supports: self
-                .supports
-                .iter()
-                .map(|(_, own)| own.each_ref().map(wave))
-                .collect(),
+            supports: self.supports.iter().map(|(_, own)| own.each_ref().map(wave)).collect(),
             contact: contact.collect(),
             stress_damping: stress_damping(&self.tangent.options),
         }
@@ -264,10 +241,7 @@ impl<'a> SolidParts<'a> {
         };
         let supports = self.supports.iter();
         let contact = tangent.sector.rings.iter().map(|ring| {
-            let dofs = ring
-                .nodes
-                .iter()
-                .flat_map(|&node| [0, 1, 2].map(|c| 3 * node + c));
+            let dofs = ring.nodes.iter().flat_map(|&node| [0, 1, 2].map(|c| 3 * node + c));
             dofs.filter_map(|dof| tangent.unknown_of()[dof]).collect()
         });
         HarmonicParts {

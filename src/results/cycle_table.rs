@@ -19,26 +19,11 @@ const COMMON: [CycleColumn; 14] = [
     ("power of the counterface (W)", "/power_w/external", 1.0, 2),
     ("of it while sticking (W)", "/power_w/stick", 1.0, 2),
     ("while sliding (W)", "/power_w/slide", 1.0, 2),
-    (
-        "dissipated in the contact (W)",
-        "/power_w/contact_dissipated",
-        1.0,
-        2,
-    ),
+    ("dissipated in the contact (W)", "/power_w/contact_dissipated", 1.0, 2),
     ("material damping (W)", "/power_w/material_damping", 1.0, 2),
     ("normal contact (W)", "/power_w/normal_contact", 1.0, 2),
-    (
-        "transient from it (Hz)",
-        "/confirmation/main_frequency_hz",
-        1.0,
-        2,
-    ),
-    (
-        "fastest growth of a perturbation (1/s)",
-        "/stability/leading/growth_rate_per_s",
-        1.0,
-        1,
-    ),
+    ("transient from it (Hz)", "/confirmation/main_frequency_hz", 1.0, 2),
+    ("fastest growth of a perturbation (1/s)", "/stability/leading/growth_rate_per_s", 1.0, 1),
 ];
 
 /// The cycles of a summary, one row each: `own` columns of the kind of body first; `absence` says why there is none.
@@ -113,8 +98,7 @@ pub fn cycle_results(name: &str, cycle: &Value, extent: Extent) -> Vec<(String, 
         ("stability", verdict.map(str::to_owned)),
     ];
     let rows = rows.into_iter();
-    rows.filter_map(|(what, value)| Some((format!("{name}: {what}"), value?)))
-        .collect()
+    rows.filter_map(|(what, value)| Some((format!("{name}: {what}"), value?))).collect()
 }
 
 /// Heading of the columns that [`printed_cycle`] fills.

@@ -62,12 +62,7 @@ pub fn draw_all(
         let svg = figure.to_svg(options.width_mm)?;
         let data = figure.data();
         let (name, caption) = (figure.name, figure.caption);
-        Ok(NamedFigure {
-            name,
-            caption,
-            svg,
-            data,
-        })
+        Ok(NamedFigure { name, caption, svg, data })
     };
     let drawn: Vec<_> = declarations.into_par_iter().map(draw).collect();
     let is_drawn = |drawing: &Result<_, _>| !matches!(drawing, Err(ChartError::Empty { .. }));

@@ -40,9 +40,7 @@ pub fn write(
         };
         folder.write(&name, |out| write_fit(out, &named.response, fit, k))?;
     }
-    folder.write(DAMPING_BLOCK, |out| {
-        out.write_all(summary.damping_block().as_bytes())
-    })?;
+    folder.write(DAMPING_BLOCK, |out| out.write_all(summary.damping_block().as_bytes()))?;
     write_summary(folder, summary)
 }
 
@@ -88,13 +86,7 @@ fn write_fit(
     fit: &ModalFit,
     number: usize,
 ) -> std::io::Result<()> {
-    let columns = [
-        "frequency_hz",
-        "real",
-        "imaginary",
-        "fit_real",
-        "fit_imaginary",
-    ];
+    let columns = ["frequency_hz", "real", "imaginary", "fit_real", "fit_imaginary"];
     let mut table = Table::new(out, &columns)?;
     for (f, h) in response.frequencies_hz().iter().zip(response.values()) {
         let model = fit.evaluate(number, *f);

@@ -47,9 +47,7 @@ pub struct NpzArchive {
 
 impl Default for NpzArchive {
     fn default() -> Self {
-        Self {
-            zip: ZipWriter::new(Cursor::new(Vec::new())),
-        }
+        Self { zip: ZipWriter::new(Cursor::new(Vec::new())) }
     }
 }
 
@@ -120,10 +118,7 @@ mod tests {
     fn header_is_aligned_and_names_type_and_shape() {
         let bytes = header("<f8", &[2, 3]);
         assert_eq!(bytes.len() % 64, 0);
-        assert_eq!(
-            usize::from(bytes[8]) + 256 * usize::from(bytes[9]),
-            bytes.len() - 10
-        );
+        assert_eq!(usize::from(bytes[8]) + 256 * usize::from(bytes[9]), bytes.len() - 10);
         let text = String::from_utf8_lossy(&bytes[10..]);
         assert!(text.starts_with("{'descr': '<f8', 'fortran_order': False, 'shape': (2,3,), }"));
         assert!(text.ends_with('\n'));

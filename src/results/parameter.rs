@@ -18,9 +18,7 @@ pub fn parameter_axis(key: &str) -> Axis {
 
 /// A value of a case key among others, as text in the unit that [`shared_unit`] gives them: at most four significant digits.
 pub fn in_unit(value: f64, factor: f64) -> String {
-    let rounded: f64 = format!("{:.3e}", value * factor)
-        .parse()
-        .unwrap_or(value * factor);
+    let rounded: f64 = format!("{:.3e}", value * factor).parse().unwrap_or(value * factor);
     literal(&rounded.to_string())
 }
 

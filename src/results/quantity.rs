@@ -40,12 +40,7 @@ const fn quantity_of(
     unit: &'static str,
     format: Format,
 ) -> Quantity<'static> {
-    Quantity {
-        key,
-        caption,
-        unit,
-        format,
-    }
+    Quantity { key, caption, unit, format }
 }
 
 use Format::{Count, Fixed, Percent, Scientific, Significant};
@@ -67,36 +62,16 @@ const QUANTITIES: &[Quantity<'static>] = &[
     quantity_of("residual", "residual", "", Scientific(1)),
     quantity_of("largest_residual", "largest residual", "", Scientific(1)),
     quantity_of("largest_error", "largest error", "", Scientific(1)),
-    quantity_of(
-        "backward_error",
-        "largest backward error",
-        "",
-        Scientific(1),
-    ),
-    quantity_of(
-        "max_balance_residual",
-        "energy balance residual",
-        "",
-        Scientific(1),
-    ),
-    quantity_of(
-        "balance_residual",
-        "energy balance residual",
-        "",
-        Scientific(1),
-    ),
+    quantity_of("backward_error", "largest backward error", "", Scientific(1)),
+    quantity_of("max_balance_residual", "energy balance residual", "", Scientific(1)),
+    quantity_of("balance_residual", "energy balance residual", "", Scientific(1)),
     quantity_of("lines", "lines", "", Count),
     quantity_of("basis_vectors", "basis vectors", "", Count),
     quantity_of("noise", "noise", "", Significant(3)),
     // Modes.
     quantity_of("harmonic", "n", "", Count),
     quantity_of("branch", "branch", "", Count),
-    quantity_of(
-        "friction_coefficient",
-        "friction coefficient",
-        "",
-        Significant(6),
-    ),
+    quantity_of("friction_coefficient", "friction coefficient", "", Significant(6)),
     quantity_of("critical_friction", "critical friction", "", Fixed(6)),
     quantity_of("restabilized_friction", "stable again from", "", Fixed(6)),
     quantity_of("frequency_hz", "frequency", "Hz", Fixed(2)),
@@ -113,19 +88,9 @@ const QUANTITIES: &[Quantity<'static>] = &[
     quantity_of("main_frequency_hz", "main frequency", "Hz", Fixed(1)),
     quantity_of("main_harmonic", "nodal diameters", "", Count),
     quantity_of("second_frequency_hz", "second frequency", "Hz", Fixed(1)),
-    quantity_of(
-        "envelope_ratio",
-        "largest over smallest envelope",
-        "",
-        Fixed(2),
-    ),
+    quantity_of("envelope_ratio", "largest over smallest envelope", "", Fixed(2)),
     quantity_of("rate_per_s", "growth rate", "1/s", Fixed(1)),
-    quantity_of(
-        "first_nonlinearity_s",
-        "first node that sticks or opens",
-        "s",
-        Fixed(6),
-    ),
+    quantity_of("first_nonlinearity_s", "first node that sticks or opens", "s", Fixed(6)),
     quantity_of("settled_from_s", "settled from", "s", Fixed(6)),
     quantity_of("status.stick", "stick", "", Fixed(3)),
     quantity_of("status.slip", "slip", "", Fixed(3)),
@@ -133,48 +98,18 @@ const QUANTITIES: &[Quantity<'static>] = &[
     quantity_of("power_w.external", "external power", "W", Fixed(2)),
     quantity_of("power_w.stick", "stick power", "W", Fixed(2)),
     quantity_of("power_w.slide", "slide power", "W", Fixed(2)),
-    quantity_of(
-        "power_w.contact_dissipated",
-        "dissipated in the contact",
-        "W",
-        Fixed(2),
-    ),
-    quantity_of(
-        "power_w.material_damping",
-        "dissipated in the body",
-        "W",
-        Fixed(2),
-    ),
-    quantity_of(
-        "power_w.normal_contact",
-        "normal contact power",
-        "W",
-        Fixed(2),
-    ),
-    quantity_of(
-        "power_w.contact_damping",
-        "dissipated in dashpots of the contact",
-        "W",
-        Fixed(2),
-    ),
-    quantity_of(
-        "ambiguous_friction",
-        "contact nodes free to stick or slip",
-        "",
-        Percent(2),
-    ),
+    quantity_of("power_w.contact_dissipated", "dissipated in the contact", "W", Fixed(2)),
+    quantity_of("power_w.material_damping", "dissipated in the body", "W", Fixed(2)),
+    quantity_of("power_w.normal_contact", "normal contact power", "W", Fixed(2)),
+    quantity_of("power_w.contact_damping", "dissipated in dashpots of the contact", "W", Fixed(2)),
+    quantity_of("ambiguous_friction", "contact nodes free to stick or slip", "", Percent(2)),
     quantity_of(
         "unconverged_steps",
         "steps without converged forces between the bodies",
         "",
         Count,
     ),
-    quantity_of(
-        "element_steps_per_s",
-        "element-steps",
-        "1/s",
-        Significant(3),
-    ),
+    quantity_of("element_steps_per_s", "element-steps", "1/s", Significant(3)),
     quantity_of("contact_open_fraction", "contact open", "", Percent(1)),
     // Basins.
     quantity_of("winner", "n that always wins", "", Count),
@@ -263,11 +198,7 @@ impl Quantity<'_> {
             Percent(_) => "%",
             _ => self.unit,
         };
-        if unit.is_empty() || !value.is_finite() {
-            number
-        } else {
-            format!("{number} {unit}")
-        }
+        if unit.is_empty() || !value.is_finite() { number } else { format!("{number} {unit}") }
     }
 
     /// A value of a summary as people read it: numbers in the quantity's format, text as it is, nothing for null.
@@ -285,12 +216,7 @@ impl Quantity<'_> {
 
 /// A number with so many decimals, without the sign of a zero; `-` where there is none.
 pub fn fixed(value: f64, decimals: usize) -> String {
-    let quantity = Quantity {
-        key: "",
-        caption: "",
-        unit: "",
-        format: Fixed(decimals),
-    };
+    let quantity = Quantity { key: "", caption: "", unit: "", format: Fixed(decimals) };
     quantity.number(value)
 }
 
@@ -313,11 +239,7 @@ pub fn significant(value: f64, digits: usize) -> String {
 
 /// Without zeros at the end of the decimals.
 fn trimmed(number: &str) -> &str {
-    if number.contains('.') {
-        number.trim_end_matches('0').trim_end_matches('.')
-    } else {
-        number
-    }
+    if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number }
 }
 
 #[cfg(test)]
@@ -339,14 +261,8 @@ mod tests {
     #[test]
     fn a_path_has_the_quantity_of_its_longest_known_end() {
         assert_eq!(quantity("cycles.0.status.stick").caption, "stick");
-        assert_eq!(
-            quantity("transient.power_w.stick").label(),
-            "stick power (W)"
-        );
-        assert_eq!(
-            quantity("peak_acceleration_m_per_s2").label(),
-            "peak acceleration (m/s2)"
-        );
+        assert_eq!(quantity("transient.power_w.stick").label(), "stick power (W)");
+        assert_eq!(quantity("peak_acceleration_m_per_s2").label(), "peak acceleration (m/s2)");
     }
 
     #[test]

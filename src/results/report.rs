@@ -71,17 +71,12 @@ impl ReportSection {
     pub fn results(paragraphs: Vec<String>, rows: Vec<(String, String)>) -> Self {
         let rows = rows.into_iter().map(|(name, value)| vec![name, value]);
         let table = ReportTable::new("", ["quantity", "value"], rows);
-        Self::new(RESULTS)
-            .with_paragraphs(paragraphs)
-            .with_tables([table])
+        Self::new(RESULTS).with_paragraphs(paragraphs).with_tables([table])
     }
 
     /// An empty part.
     pub fn new(heading: impl Into<String>) -> Self {
-        Self {
-            heading: heading.into(),
-            ..Self::default()
-        }
+        Self { heading: heading.into(), ..Self::default() }
     }
 
     /// The same with further paragraphs.
@@ -129,9 +124,8 @@ pub fn number(summary: &Value, pointer: &str) -> Option<f64> {
 
 /// The number at a JSON pointer times a factor, with so many decimals; empty if there is none.
 pub fn cell(summary: &Value, pointer: &str, factor: f64, decimals: usize) -> String {
-    number(summary, pointer).map_or_else(String::new, |value| {
-        format!("{:.decimals$}", factor * value)
-    })
+    number(summary, pointer)
+        .map_or_else(String::new, |value| format!("{:.decimals$}", factor * value))
 }
 
 /// The entries of an array of a summary; none if there is no such array.
@@ -196,10 +190,7 @@ mod tests {
     fn numbers_of_the_box_come_before_words_and_pictures() {
         let mut report = report();
         let row = ("main frequency".into(), "9433 Hz".into());
-        report.sections.insert(
-            0,
-            ReportSection::results(vec!["In words.".into()], vec![row]),
-        );
+        report.sections.insert(0, ReportSection::results(vec!["In words.".into()], vec![row]));
         let html = report.to_html();
         let at = |text: &str| html.find(text).unwrap();
         assert!(at("<dd>9433 Hz</dd>") < at("In words.") && at("In words.") < at("<svg"));

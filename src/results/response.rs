@@ -47,10 +47,7 @@ pub struct ResponseSummary {
 impl Summary for ResponseSummary {
     fn headline(&self) -> Vec<Entry> {
         let error = self.largest_error.or(self.backward_error).and_then(present);
-        vec![
-            Entry::new("lines", self.lines),
-            Entry::new("largest_error", error),
-        ]
+        vec![Entry::new("lines", self.lines), Entry::new("largest_error", error)]
     }
 }
 
@@ -76,11 +73,7 @@ pub fn write_response(
     values: &[c64],
 ) -> Result<(), FolderError> {
     let name = quantity.name();
-    let columns = [
-        "frequency_hz",
-        &format!("{name}_real"),
-        &format!("{name}_imaginary"),
-    ];
+    let columns = ["frequency_hz", &format!("{name}_real"), &format!("{name}_imaginary")];
     folder.write(RESPONSE_TABLE, |out| {
         let mut table = Table::new(out, &columns)?;
         for (f, h) in frequencies_hz.iter().zip(values) {
@@ -106,10 +99,7 @@ pub fn draw_response_report(
         sections: vec![
             ReportSection::new("Frequency response")
                 .with_paragraphs([summary.description.clone()])
-                .with_figures(draw_all(
-                    vec![Box::new(|| Ok(response_figure(response)))],
-                    options,
-                )?),
+                .with_figures(draw_all(vec![Box::new(|| Ok(response_figure(response)))], options)?),
         ],
         manifest: folder.manifest().clone(),
     };
@@ -149,10 +139,7 @@ fn followed_phase(frequencies: &[f64], values: &[c64]) -> Vec<(f64, f64)> {
 /// values is their standard deviation.
 fn maxima(magnitude: &[f64]) -> Vec<usize> {
     let logs: Vec<f64> = magnitude.iter().map(|m| m.max(1e-300).ln()).collect();
-    let mut steps: Vec<f64> = logs
-        .windows(2)
-        .map(|pair| (pair[1] - pair[0]).abs())
-        .collect();
+    let mut steps: Vec<f64> = logs.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
     steps.sort_by(f64::total_cmp);
     let noise = steps.get(steps.len() / 2).copied().unwrap_or(0.0) / 0.95;
     let least = PROMINENCE.0.max(PROMINENCE.1 * noise);
@@ -171,11 +158,8 @@ fn maxima(magnitude: &[f64]) -> Vec<usize> {
         let near = &logs[i.saturating_sub(3)..(i + 4).min(logs.len())];
         near.iter().all(|value| *value <= logs[*i])
     };
-    let mut found: Vec<(f64, usize)> = peaks
-        .filter(is_high)
-        .map(|i| (rise(i), i))
-        .filter(|(rise, _)| *rise > least)
-        .collect();
+    let mut found: Vec<(f64, usize)> =
+        peaks.filter(is_high).map(|i| (rise(i), i)).filter(|(rise, _)| *rise > least).collect();
     found.sort_by(|a, b| b.0.total_cmp(&a.0));
     found.truncate(MOST_MAXIMA);
     found.into_iter().map(|(_, place)| place).collect()
@@ -190,9 +174,7 @@ fn response_figure(response: &FrequencyResponse) -> Figure {
     let quarters =
         [-180, -90, 0, 90, 180].map(|d: i32| (f64::from(d), d.to_string().replace('-', "−")));
     let over = |y: Axis, height: f64, line: Line| {
-        Panel::new(Axis::kilohertz().tight(), y)
-            .height(height)
-            .layer(line)
+        Panel::new(Axis::kilohertz().tight(), y).height(height).layer(line)
     };
     let size = Line::new(frequencies, &magnitude).solid(SERIES[0], 0.8);
     let places = maxima(&magnitude);
@@ -234,10 +216,7 @@ mod tests {
             .map(|i| {
                 let f = i as f64;
                 let one = |f0: f64| c64::new(1.0, 0.0) / c64::new(f0 * f0 - f * f, 0.02 * f0 * f);
-                let sum = modes
-                    .iter()
-                    .map(|&f0| one(f0))
-                    .fold(c64::new(0.0, 0.0), |a, b| a + b);
+                let sum = modes.iter().map(|&f0| one(f0)).fold(c64::new(0.0, 0.0), |a, b| a + b);
                 sum * (c64::new(1.0, 0.0) + noise.draw() * 0.07)
             })
             .collect();

@@ -52,22 +52,12 @@ fn write_peaks(out: &mut dyn std::io::Write, summary: &SignalSummary) -> std::io
         ("superharmonic_of_peak", &|row| {
             row.2.superharmonic.as_ref().map(|line| line.of_peak).into()
         }),
-        ("order", &|row| {
-            row.2.superharmonic.as_ref().map(|line| line.order).into()
-        }),
-        ("nearest_mode", &|row| {
-            mode(row).map(|mode| mode.mode).into()
-        }),
-        ("mode_frequency_hz", &|row| {
-            mode(row).map(|mode| mode.frequency_hz).into()
-        }),
-        ("harmonic", &|row| {
-            mode(row).and_then(|mode| mode.harmonic).into()
-        }),
+        ("order", &|row| row.2.superharmonic.as_ref().map(|line| line.order).into()),
+        ("nearest_mode", &|row| mode(row).map(|mode| mode.mode).into()),
+        ("mode_frequency_hz", &|row| mode(row).map(|mode| mode.frequency_hz).into()),
+        ("harmonic", &|row| mode(row).and_then(|mode| mode.harmonic).into()),
         ("branch", &|row| mode(row).map(|mode| mode.branch).into()),
-        ("direction", &|row| {
-            mode(row).and_then(|mode| mode.direction).into()
-        }),
+        ("direction", &|row| mode(row).and_then(|mode| mode.direction).into()),
     ];
     let rows = summary.channels.iter().flat_map(|channel| {
         let peaks = channel.peaks.iter().enumerate();

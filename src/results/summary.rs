@@ -19,10 +19,7 @@ pub struct CriticalSummary {
 
 impl From<CriticalValue> for CriticalSummary {
     fn from(own: CriticalValue) -> Self {
-        Self {
-            key: own.parameter.key().to_owned(),
-            value: own.parameter.in_key_units(own.value),
-        }
+        Self { key: own.parameter.key().to_owned(), value: own.parameter.in_key_units(own.value) }
     }
 }
 
@@ -46,10 +43,7 @@ pub struct Entry {
 impl Entry {
     /// An entry.
     pub fn new(path: impl Into<String>, value: impl Into<Value>) -> Self {
-        Self {
-            path: path.into(),
-            value: value.into(),
-        }
+        Self { path: path.into(), value: value.into() }
     }
 }
 
@@ -257,10 +251,7 @@ mod tests {
         });
         let read = PointSummary::read(&transient).unwrap();
         assert_eq!(read.own.harmonic, Some(2));
-        assert_eq!(
-            (read.own.status.stick, read.own.status.open),
-            (Some(0.25), None)
-        );
+        assert_eq!((read.own.status.stick, read.own.status.open), (Some(0.25), None));
         assert_eq!(read.growth[0].rate_per_s, Some(952.0));
         let cycles = json!({ "cycles": [
             { "harmonic": 1, "onset": 2, "error": "none", "confirmation": null },

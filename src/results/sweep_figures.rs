@@ -86,18 +86,10 @@ impl Study {
     fn of(records: &[PointRecord]) -> Self {
         let value = |record: &PointRecord, key: &str| number(record.swept.get(key));
         let several = |key: &&String| {
-            let first = records
-                .first()
-                .map_or(f64::NAN, |record| value(record, key));
+            let first = records.first().map_or(f64::NAN, |record| value(record, key));
             first.is_finite() && records.iter().any(|record| value(record, key) != first)
         };
-        let keys = || {
-            records
-                .iter()
-                .flat_map(|record| record.swept.keys())
-                .take(8)
-                .filter(several)
-        };
+        let keys = || records.iter().flat_map(|record| record.swept.keys()).take(8).filter(several);
         let key = keys().find(|key| *key == SPEED).or_else(|| keys().next());
         let key = key.cloned().unwrap_or_default();
         let mut series: Vec<Series> = Vec::new();
@@ -124,10 +116,7 @@ impl Study {
             };
             match series.iter_mut().find(|series| series.name == name) {
                 Some(series) => series.cycles.push(cycle),
-                None => series.push(Series {
-                    name,
-                    cycles: vec![cycle],
-                }),
+                None => series.push(Series { name, cycles: vec![cycle] }),
             }
         }
         for series in &mut series {
@@ -140,10 +129,8 @@ impl Study {
     }
 
     fn axis(&self) -> Axis {
-        let values = self
-            .series
-            .iter()
-            .flat_map(|series| series.cycles.iter().map(|cycle| cycle.value));
+        let values =
+            self.series.iter().flat_map(|series| series.cycles.iter().map(|cycle| cycle.value));
         parameter_axis(&self.key).scaled(Scale::for_values(values, 10.0))
     }
 
@@ -185,19 +172,12 @@ impl Study {
                 .at_rim(text)
                 .name(name)
         });
-        let mut panel = Panel::new(
-            self.axis(),
-            Axis::new("main frequency *f*", "kHz").times(1e-3),
-        )
-        .height(180.0)
-        .layers(modes);
+        let mut panel = Panel::new(self.axis(), Axis::new("main frequency *f*", "kHz").times(1e-3))
+            .height(180.0)
+            .layers(modes);
         for (index, series) in self.series.iter().enumerate() {
-            let line = Line::through(
-                series
-                    .cycles
-                    .iter()
-                    .map(|cycle| (cycle.value, cycle.frequency_hz)),
-            );
+            let line =
+                Line::through(series.cycles.iter().map(|cycle| (cycle.value, cycle.frequency_hz)));
             panel = panel.layer(line.nth(index).name(series.name.clone()));
             let selected = series.selection().filter(|_| self.key == SPEED);
             panel = panel.layers(selected.map(|speed| {
@@ -208,18 +188,12 @@ impl Study {
             }));
         }
         let all = || self.series.iter().flat_map(|series| &series.cycles);
-        panel = panel.layers(rings(all(), |cycle| {
-            vec![(cycle.value, cycle.frequency_hz)]
-        }));
+        panel = panel.layers(rings(all(), |cycle| vec![(cycle.value, cycle.frequency_hz)]));
         for (harmonic, marker) in (0..).zip(Marker::ALL.iter().cycle()).take(9) {
             for (index, series) in self.series.iter().enumerate() {
-                let own = series
-                    .cycles
-                    .iter()
-                    .filter(|cycle| cycle.harmonic == Some(harmonic));
-                let (points, rows): (Vec<(f64, f64)>, _) = own
-                    .map(|cycle| ((cycle.value, cycle.frequency_hz), cycle.point))
-                    .unzip();
+                let own = series.cycles.iter().filter(|cycle| cycle.harmonic == Some(harmonic));
+                let (points, rows): (Vec<(f64, f64)>, _) =
+                    own.map(|cycle| ((cycle.value, cycle.frequency_hz), cycle.point)).unzip();
                 let named = Points::new(points.iter().copied())
                     .marker(*marker, 0.01, INK)
                     .name(format!("*n* = {harmonic}"));
@@ -257,9 +231,7 @@ impl Study {
             let no_stick = series.end_of_stick().filter(|_| self.key == SPEED);
             Panel::new(
                 self.axis().tight(),
-                Axis::new("contact nodes", "%")
-                    .times(100.0)
-                    .between(0.0, 1.0),
+                Axis::new("contact nodes", "%").times(100.0).between(0.0, 1.0),
             )
             .plain()
             .heading(series.name.clone())
@@ -277,9 +249,7 @@ impl Study {
                     .name("computed"),
             )
             .layers(no_stick.map(|speed| {
-                Rule::vertical(speed)
-                    .beside("*ω*^{+}")
-                    .name("*ω*^{+}: no stick from here on")
+                Rule::vertical(speed).beside("*ω*^{+}").name("*ω*^{+}: no stick from here on")
             }))
         });
         let caption = format!(
@@ -299,10 +269,7 @@ impl Series {
     /// The value from which on one harmonic is selected for good, where another was selected before.
     fn selection(&self) -> Option<f64> {
         let last = self.cycles.last()?.harmonic?;
-        let other = self
-            .cycles
-            .iter()
-            .rposition(|cycle| cycle.harmonic != Some(last))?;
+        let other = self.cycles.iter().rposition(|cycle| cycle.harmonic != Some(last))?;
         Some(self.cycles.get(other + 1)?.value)
     }
 
@@ -382,11 +349,7 @@ fn critical(records: &[PointRecord], highest_friction: f64) -> Result<Figure, Ch
     let mut points: Vec<(f64, &Vec<Value>)> = records
         .iter()
         .filter_map(|record| {
-            let found = record
-                .summaries
-                .get("cea")?
-                .get("critical_frictions")?
-                .as_array()?;
+            let found = record.summaries.get("cea")?.get("critical_frictions")?.as_array()?;
             Some((record.swept.get(key)?.as_f64()?, found))
         })
         .collect();
@@ -403,11 +366,8 @@ fn critical(records: &[PointRecord], highest_friction: f64) -> Result<Figure, Ch
             part("direction").unwrap_or(0) as i8,
         )
     };
-    let mut names: Vec<(Option<usize>, usize, i8)> = points
-        .iter()
-        .flat_map(|point| point.1)
-        .map(branch_of)
-        .collect();
+    let mut names: Vec<(Option<usize>, usize, i8)> =
+        points.iter().flat_map(|point| point.1).map(branch_of).collect();
     names.sort_unstable();
     names.dedup();
     let branches: Vec<CriticalBranch> = names
@@ -415,8 +375,7 @@ fn critical(records: &[PointRecord], highest_friction: f64) -> Result<Figure, Ch
         .map(|branch| {
             let lowest = |found: &Vec<Value>| {
                 let own = found.iter().filter(|entry| branch_of(entry) == branch);
-                own.map(|entry| number(entry.get("critical_friction")))
-                    .fold(f64::NAN, f64::min)
+                own.map(|entry| number(entry.get("critical_friction"))).fold(f64::NAN, f64::min)
             };
             CriticalBranch {
                 branch,

@@ -5,11 +5,7 @@ use std::io::{self, Write};
 
 /// A number in the shortest form that reads back as the same bits; empty if it is not finite, 0.0 for -0.0.
 pub fn format_number(value: f64) -> String {
-    if value.is_finite() {
-        format!("{:?}", value + 0.0)
-    } else {
-        String::new()
-    }
+    if value.is_finite() { format!("{:?}", value + 0.0) } else { String::new() }
 }
 
 /// A cell that no spreadsheet takes for a formula: one that begins like one, and is no number, stands behind an apostrophe.
@@ -39,10 +35,7 @@ impl<W: Write> Table<W> {
     pub fn new(out: W, columns: &[&str]) -> io::Result<Self> {
         let mut writer = csv::Writer::from_writer(out);
         writer.write_record(columns.iter().map(|name| tamed(name.as_bytes())))?;
-        Ok(Self {
-            writer,
-            columns: columns.len(),
-        })
+        Ok(Self { writer, columns: columns.len() })
     }
 
     /// Writes one row of cells.

@@ -65,20 +65,12 @@ pub struct Field {
 impl Field {
     /// One value for each node or element.
     pub fn scalars(name: &str, values: Vec<f64>) -> Self {
-        Self {
-            name: name.to_owned(),
-            components: 1,
-            values: Values::Real(values),
-        }
+        Self { name: name.to_owned(), components: 1, values: Values::Real(values) }
     }
 
     /// One whole number for each node or element: an id or a code.
     pub fn integers(name: &str, values: Vec<i64>) -> Self {
-        Self {
-            name: name.to_owned(),
-            components: 1,
-            values: Values::Integer(values),
-        }
+        Self { name: name.to_owned(), components: 1, values: Values::Integer(values) }
     }
 
     /// One number of the whole file.
@@ -104,10 +96,7 @@ impl Field {
     /// letter each.
     pub fn solid_stresses(stresses: &[SolidStress], axes: &str) -> Vec<Self> {
         let mut fields = vec![
-            Self::scalars(
-                "von_mises_pa",
-                stresses.iter().map(SolidStress::von_mises).collect(),
-            ),
+            Self::scalars("von_mises_pa", stresses.iter().map(SolidStress::von_mises).collect()),
             Self::scalars(
                 "hydrostatic_pressure_pa",
                 stresses.iter().map(SolidStress::pressure).collect(),
@@ -143,11 +132,7 @@ impl Field {
         let field = |name: &str, k: usize| {
             Self::scalars(name, turned.iter().map(|stress| stress[k]).collect())
         };
-        vec![
-            field("stress_xx_pa", 0),
-            field("stress_yy_pa", 1),
-            field("stress_xy_pa", 2),
-        ]
+        vec![field("stress_xx_pa", 0), field("stress_yy_pa", 1), field("stress_xy_pa", 2)]
     }
 
     /// Contact status of all `count` nodes: 0 open, 1 stick, 2 slip at the nodes of the contact edge, -1 off it.
@@ -195,10 +180,7 @@ pub fn solid_vectors(name: &str, sector: &SolidSector, nodal: &[f64]) -> Field {
             values.extend([u[0] * cos - u[1] * sin, u[0] * sin + u[1] * cos, u[2]]);
         }
     }
-    Field {
-        components: 3,
-        ..Field::scalars(name, values)
-    }
+    Field { components: 3, ..Field::scalars(name, values) }
 }
 
 /// Turns nodal-frame vectors (`dimension * node_count` values) into Cartesian `(x, y, z)` triples.
@@ -206,19 +188,13 @@ pub fn cartesian_vectors(mesh: &Mesh, nodal: &[f64]) -> Vec<f64> {
     if mesh.dimension == 3 {
         let nodes = nodal.chunks_exact(3).enumerate();
         let turned = nodes.map(|(node, u)| mesh.frame(node) * Vector3::from_column_slice(u));
-        return turned
-            .flat_map(|vector| [vector.x, vector.y, vector.z])
-            .collect();
+        return turned.flat_map(|vector| [vector.x, vector.y, vector.z]).collect();
     }
     let pairs = nodal.chunks_exact(2).zip(mesh.frame_angles());
     pairs
         .flat_map(|(pair, angle)| {
             let (sine, cosine) = angle.sin_cos();
-            [
-                pair[0] * cosine - pair[1] * sine,
-                pair[0] * sine + pair[1] * cosine,
-                0.0,
-            ]
+            [pair[0] * cosine - pair[1] * sine, pair[0] * sine + pair[1] * cosine, 0.0]
         })
         .collect()
 }
@@ -242,11 +218,7 @@ impl EncodedMesh {
     pub fn new(mesh: &Mesh) -> io::Result<Self> {
         let points = mesh.nodes.iter().flatten().copied();
         let ends = mesh.element_starts[1..].iter().map(|&end| i64::from(end));
-        let types: Vec<u8> = mesh
-            .element_kinds
-            .iter()
-            .map(|kind| kind.formats().vtk)
-            .collect();
+        let types: Vec<u8> = mesh.element_kinds.iter().map(|kind| kind.formats().vtk).collect();
         let connectivity = mesh.elements.iter().map(|node| i64::from(*node));
         Ok(Self {
             node_count: mesh.node_count(),
@@ -283,11 +255,7 @@ impl EncodedMesh {
             all.map(move |&(node, half)| ((j + half / 2) % sectors * per_sector + node) as i64)
         });
         // VTK's hexahedra of 8 and of 20 nodes.
-        let (per_element, kind) = if sector.is_quadratic() {
-            (20, 25)
-        } else {
-            (8, 12)
-        };
+        let (per_element, kind) = if sector.is_quadratic() { (20, 25) } else { (8, 12) };
         Ok(Self {
             node_count: sectors * per_sector,
             element_count: count,
@@ -364,13 +332,7 @@ pub fn write_vtu(
                 ));
             }
             let blob = compress(&field.values.bytes())?;
-            array(
-                out,
-                field.values.kind(),
-                &field.name,
-                field.components,
-                offset,
-            )?;
+            array(out, field.values.kind(), &field.name, field.components, offset)?;
             offset += blob.len();
             blobs.push(blob);
         }
@@ -392,10 +354,7 @@ pub fn write_vtu(
             writeln!(out, "</{tag}>")?;
         }
     }
-    write!(
-        out,
-        "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_"
-    )?;
+    write!(out, "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_")?;
     let geometry = geometry.iter().map(|entry| entry.4);
     for blob in blobs.iter().chain(geometry) {
         out.write_all(blob)?;
@@ -441,7 +400,5 @@ fn array(
 
 /// Text inside an XML attribute.
 pub(super) fn escape(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('"', "&quot;")
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }

@@ -108,11 +108,7 @@ pub enum SignalError {
 /// Checks that every sample is finite.
 pub(super) fn check_finite(what: &'static str, samples: &[f64]) -> Result<(), SignalError> {
     match samples.iter().position(|v| !v.is_finite()) {
-        Some(i) => Err(SignalError::NotFinite {
-            what,
-            index: i + 1,
-            value: samples[i],
-        }),
+        Some(i) => Err(SignalError::NotFinite { what, index: i + 1, value: samples[i] }),
         None => Ok(()),
     }
 }
@@ -126,10 +122,6 @@ pub(super) fn check_positive(
     if value > 0.0 && value.is_finite() {
         Ok(())
     } else {
-        Err(SignalError::NotPositive {
-            what,
-            value,
-            remedy,
-        })
+        Err(SignalError::NotPositive { what, value, remedy })
     }
 }

@@ -161,11 +161,7 @@ fn search(
     let signal = demodulated(samples, sampling_rate, frequency_hz)?;
     let largest = samples.iter().fold(0.0f64, |m, x| m.max(x.abs()));
     let floor = round_off_floor(largest);
-    let strongest = signal
-        .log_amplitude
-        .iter()
-        .copied()
-        .fold(f64::MIN, f64::max);
+    let strongest = signal.log_amplitude.iter().copied().fold(f64::MIN, f64::max);
     if strongest.exp() <= floor {
         let amplitude = strongest.exp();
         return Err(NoGrowth::BelowRoundOff { amplitude, floor });
@@ -202,13 +198,7 @@ fn demodulated(
     // Half of a real vibration turns one way, half the other.
     let doubled: Vec<f64> = centred(samples).iter().map(|x| 2.0 * x).collect();
     let taper = Window::BlackmanHarris.coefficients(block);
-    Ok(demodulate(
-        &doubled,
-        sampling_rate,
-        frequency_hz,
-        &taper,
-        hop,
-    ))
+    Ok(demodulate(&doubled, sampling_rate, frequency_hz, &taper, hop))
 }
 
 /// The interval over which the logarithmic envelope changes most while it stays within
@@ -226,9 +216,7 @@ fn longest_line(
     let mut best = None;
     let mut best_gain = 1.0;
     for first in (0..n).step_by(stride) {
-        let above = signal.log_amplitude[first..]
-            .iter()
-            .take_while(|a| **a > floor);
+        let above = signal.log_amplitude[first..].iter().take_while(|a| **a > floor);
         let end = first + above.count();
         for last in ((first + shortest)..=end).rev().step_by(stride) {
             let (slope, deviation) = line(&sums, first, last);
@@ -278,14 +266,8 @@ mod tests {
         for sigma in [300.0, 700.0, 1500.0] {
             let stage = exponential_stage(&squeal(sigma, 9870.0, 9440.0), 5e5, None).unwrap();
             // The stage is cut where the envelope deviates by 1 %: the slope keeps 1 %.
-            assert!(
-                (stage.rate_per_s.value / sigma - 1.0).abs() < 0.01,
-                "{stage:?}"
-            );
-            assert!(
-                (stage.frequency_hz.value / 9870.0 - 1.0).abs() < 1e-3,
-                "{stage:?}"
-            );
+            assert!((stage.rate_per_s.value / sigma - 1.0).abs() < 0.01, "{stage:?}");
+            assert!((stage.frequency_hz.value / 9870.0 - 1.0).abs() < 1e-3, "{stage:?}");
         }
     }
 
@@ -301,15 +283,9 @@ mod tests {
         let stage = over_all(&x, rate, 1010.0);
         // Leakage of the negative frequency and of the removed mean through the window: -92 dB.
         assert!((stage.rate_per_s.value - 150.0).abs() < 0.05, "{stage:?}");
-        assert!(
-            (stage.frequency_hz.value - 1000.0).abs() < 0.01,
-            "{stage:?}"
-        );
+        assert!((stage.frequency_hz.value - 1000.0).abs() < 0.01, "{stage:?}");
         let start = (150.0 * stage.start).exp();
-        assert!(
-            (stage.initial_amplitude / start - 1.0).abs() < 1e-3,
-            "{stage:?}"
-        );
+        assert!((stage.initial_amplitude / start - 1.0).abs() < 1e-3, "{stage:?}");
     }
 
     #[test]

@@ -70,10 +70,7 @@ impl SpectralResolution {
             }
             None => count.min((LONGEST_BLOCK * sampling_rate).max(16.0) as usize),
         };
-        Ok(Self {
-            resolution_hz: lobe * sampling_rate / block as f64,
-            block,
-        })
+        Ok(Self { resolution_hz: lobe * sampling_rate / block as f64, block })
     }
 }
 
@@ -112,10 +109,10 @@ pub fn main_frequency(samples: &[f64], sampling_rate: f64) -> Result<SpectralLin
     check_signal(samples, sampling_rate, 16)?;
     let resolution = SpectralResolution::of(samples.len(), sampling_rate, None)?;
     let lines = spectral_lines(samples, sampling_rate, resolution, 1)?;
-    lines.into_iter().next().ok_or(SignalError::NoResonance {
-        low_hz: 0.0,
-        high_hz: 0.5 * sampling_rate,
-    })
+    lines
+        .into_iter()
+        .next()
+        .ok_or(SignalError::NoResonance { low_hz: 0.0, high_hz: 0.5 * sampling_rate })
 }
 
 /// Maxima of the spectrum that stand out, strongest first.
@@ -181,11 +178,7 @@ fn located(spectrum: &AmplitudeSpectrum, k: usize) -> SpectralLine {
     let log = |i: usize| spectrum.amplitudes[i].max(f64::MIN_POSITIVE).ln();
     let (left, middle, right) = (log(k - 1), log(k), log(k + 1));
     let bend = left - 2.0 * middle + right;
-    let shift = if bend < 0.0 {
-        (0.5 * (left - right) / bend).clamp(-0.5, 0.5)
-    } else {
-        0.0
-    };
+    let shift = if bend < 0.0 { (0.5 * (left - right) / bend).clamp(-0.5, 0.5) } else { 0.0 };
     SpectralLine {
         frequency_hz: (k as f64 + shift) * spectrum.frequencies_hz[1],
         amplitude: (middle - 0.25 * (left - right) * shift).exp(),
@@ -239,10 +232,7 @@ mod tests {
                 })
                 .collect();
             let line = main_frequency(&x, rate).unwrap();
-            assert!(
-                (line.frequency_hz / frequency - 1.0).abs() < 1e-4,
-                "{line:?}"
-            );
+            assert!((line.frequency_hz / frequency - 1.0).abs() < 1e-4, "{line:?}");
             assert!((line.amplitude - 3.0).abs() < 0.01);
         }
     }
@@ -291,12 +281,7 @@ mod tests {
         let x: Vec<f64> = (0..512_000)
             .map(|j| {
                 let tone = (TAU * 9433.0 * f64::from(j) / rate).sin();
-                0.1 * noise()
-                    + if (170_000..340_000).contains(&j) {
-                        tone
-                    } else {
-                        0.0
-                    }
+                0.1 * noise() + if (170_000..340_000).contains(&j) { tone } else { 0.0 }
             })
             .collect();
         for resolution in [None, Some(5.0), Some(50.0)] {

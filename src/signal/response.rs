@@ -80,10 +80,7 @@ impl FrequencyResponse {
         has_phase: bool,
     ) -> Result<Self, SignalError> {
         if frequencies_hz.len() != values.len() {
-            return Err(SignalError::Length {
-                left: frequencies_hz.len(),
-                right: values.len(),
-            });
+            return Err(SignalError::Length { left: frequencies_hz.len(), right: values.len() });
         }
         if values.len() < 8 {
             return Err(SignalError::TooShort {
@@ -98,10 +95,7 @@ impl FrequencyResponse {
         check_finite("response value", &parts)?;
         for (i, f) in frequencies_hz.iter().enumerate() {
             if *f < 0.0 || (i > 0 && *f <= frequencies_hz[i - 1]) {
-                return Err(SignalError::NotRising {
-                    index: i + 1,
-                    value: *f,
-                });
+                return Err(SignalError::NotRising { index: i + 1, value: *f });
             }
         }
         Ok(Self {
@@ -187,10 +181,7 @@ impl FrequencyResponse {
 
     /// Largest distance of successive frequencies, Hz.
     pub fn resolution_hz(&self) -> f64 {
-        self.frequencies_hz
-            .windows(2)
-            .map(|w| w[1] - w[0])
-            .fold(0.0, f64::max)
+        self.frequencies_hz.windows(2).map(|w| w[1] - w[0]).fold(0.0, f64::max)
     }
 
     /// The same response as another quantity: values times `(i omega)^k`, `k` the difference in
@@ -223,10 +214,7 @@ impl FrequencyResponse {
     /// [`SignalError::TooShort`] if fewer than 8 lines remain.
     pub fn within(&self, low_hz: f64, high_hz: f64) -> Result<Self, SignalError> {
         let first = self.frequencies_hz.partition_point(|f| *f < low_hz);
-        let last = self
-            .frequencies_hz
-            .partition_point(|f| *f <= high_hz)
-            .max(first);
+        let last = self.frequencies_hz.partition_point(|f| *f <= high_hz).max(first);
         let part = Self::checked(
             self.frequencies_hz[first..last].to_vec(),
             self.values[first..last].to_vec(),

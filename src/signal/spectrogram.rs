@@ -97,11 +97,7 @@ pub fn spectrogram(
         let middle = 0.5 * ((range.start + range.end - 1) * hop) as f64 + 0.5 * block as f64;
         times.push(middle / sampling_rate);
     }
-    Ok(Spectrogram {
-        times,
-        frequencies_hz,
-        magnitudes,
-    })
+    Ok(Spectrogram { times, frequencies_hz, magnitudes })
 }
 
 #[cfg(test)]
@@ -114,11 +110,7 @@ mod tests {
         (0..count)
             .map(|j| {
                 let t = j as f64 / rate;
-                if t < switch {
-                    (TAU * 5800.0 * t).sin()
-                } else {
-                    1e3 * (TAU * 9900.0 * t).sin()
-                }
+                if t < switch { (TAU * 5800.0 * t).sin() } else { 1e3 * (TAU * 9900.0 * t).sin() }
             })
             .collect()
     }
@@ -126,33 +118,18 @@ mod tests {
     #[test]
     fn half_millisecond_windows_follow_a_frequency_switch_on_one_scale() {
         let (rate, switch) = (5e5, 0.01);
-        let options = SpectrogramOptions {
-            max_frequency_hz: 2e4,
-            ..SpectrogramOptions::default()
-        };
+        let options = SpectrogramOptions { max_frequency_hz: 2e4, ..SpectrogramOptions::default() };
         let s = spectrogram(&switching(rate, switch, 10_000), rate, &options).unwrap();
         assert!(s.frequencies_hz.last().is_some_and(|f| *f <= 2e4));
-        for (t, row) in s
-            .times
-            .iter()
-            .zip(s.magnitudes.chunks(s.frequencies_hz.len()))
-        {
+        for (t, row) in s.times.iter().zip(s.magnitudes.chunks(s.frequencies_hz.len())) {
             if (t - switch).abs() < 5e-4 {
                 continue;
             }
-            let (want, amplitude) = if *t < switch {
-                (5800.0, 1.0)
-            } else {
-                (9900.0, 1e3)
-            };
+            let (want, amplitude) = if *t < switch { (5800.0, 1.0) } else { (9900.0, 1e3) };
             let best = (0..row.len()).fold(0, |b, k| if row[k] > row[b] { k } else { b });
             // Bin of the padded transform: 500 kHz / 1024 = 488 Hz; scalloping of a padded Hann: 2 %.
             assert!((s.frequencies_hz[best] - want).abs() < 488.0, "{t}");
-            assert!(
-                (row[best] / amplitude - 1.0).abs() < 0.03,
-                "{t} {}",
-                row[best]
-            );
+            assert!((row[best] / amplitude - 1.0).abs() < 0.03, "{t} {}", row[best]);
         }
     }
 
@@ -162,10 +139,7 @@ mod tests {
         for (j, v) in switching(5e5, 0.0, 400).into_iter().enumerate() {
             x[300_000 + j] = v;
         }
-        let options = SpectrogramOptions {
-            most_rows: 100,
-            ..SpectrogramOptions::default()
-        };
+        let options = SpectrogramOptions { most_rows: 100, ..SpectrogramOptions::default() };
         let s = spectrogram(&x, 5e5, &options).unwrap();
         assert!(s.times.len() <= 100);
         let top = s.magnitudes.iter().copied().fold(0.0, f64::max);

@@ -152,17 +152,12 @@ mod tests {
     use std::f64::consts::TAU;
 
     fn tone(count: usize, rate: f64, frequency: f64, amplitude: f64) -> Vec<f64> {
-        (0..count)
-            .map(|j| amplitude * (TAU * frequency * j as f64 / rate + 0.4).cos())
-            .collect()
+        (0..count).map(|j| amplitude * (TAU * frequency * j as f64 / rate + 0.4).cos()).collect()
     }
 
     #[test]
     fn amplitude_of_a_tone_on_a_bin_is_read_exactly_with_every_window_and_average() {
-        let x: Vec<f64> = tone(1000, 1e4, 1200.0, 2.5)
-            .iter()
-            .map(|v| v + 7.0)
-            .collect();
+        let x: Vec<f64> = tone(1000, 1e4, 1200.0, 2.5).iter().map(|v| v + 7.0).collect();
         for window in [Window::Hann, Window::BlackmanHarris] {
             for (block, averages) in [(1000, 1), (250, 7)] {
                 let s = averaged_spectrum(&x, 1e4, window, block, 1).unwrap();

@@ -44,11 +44,7 @@ pub(super) fn median(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     let half = sorted.len() / 2;
-    if sorted.len() % 2 == 1 {
-        sorted[half]
-    } else {
-        0.5 * (sorted[half - 1] + sorted[half])
-    }
+    if sorted.len() % 2 == 1 { sorted[half] } else { 0.5 * (sorted[half - 1] + sorted[half]) }
 }
 
 /// Standard normal numbers from sums of twelve uniform ones, for tests.
@@ -57,9 +53,7 @@ pub(super) fn gaussian_sequence(seed: u64) -> impl FnMut() -> f64 {
     let mut state = seed;
     move || {
         let uniform = || {
-            state = state
-                .wrapping_mul(6364136223846793005)
-                .wrapping_add(1442695040888963407);
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             (state >> 11) as f64 / (1u64 << 53) as f64
         };
         std::iter::repeat_with(uniform).take(12).sum::<f64>() - 6.0
@@ -83,13 +77,7 @@ mod tests {
 
     #[test]
     fn student_quantiles_match_the_published_table() {
-        for (n, t) in [
-            (1.0, 12.706),
-            (5.0, 2.571),
-            (6.0, 2.447),
-            (10.0, 2.228),
-            (30.0, 2.042),
-        ] {
+        for (n, t) in [(1.0, 12.706), (5.0, 2.571), (6.0, 2.447), (10.0, 2.228), (30.0, 2.042)] {
             assert!((student_95(n) - t).abs() < 2e-3, "{n}: {}", student_95(n));
         }
     }

@@ -25,10 +25,7 @@ impl Window {
         (0..length)
             .map(|j| {
                 let x = TAU * j as f64 / length as f64;
-                a.iter()
-                    .enumerate()
-                    .map(|(m, c)| c * (m as f64 * x).cos())
-                    .sum()
+                a.iter().enumerate().map(|(m, c)| c * (m as f64 * x).cos()).sum()
             })
             .collect()
     }

@@ -14,12 +14,8 @@ use std::f64::consts::TAU;
 /// Distance from the nearest node, as a share of half the body's size, beyond which a point lies off the body.
 const FAR: f64 = 0.05;
 /// Factors to metres that a file may have been written without, with the units.
-const UNITS: [(f64, &str); 4] = [
-    (1e-3, "millimetres"),
-    (1e-2, "centimetres"),
-    (0.0254, "inches"),
-    (1e3, "kilometres"),
-];
+const UNITS: [(f64, &str); 4] =
+    [(1e-3, "millimetres"), (1e-2, "centimetres"), (0.0254, "inches"), (1e3, "kilometres")];
 
 /// What the shapes of a file have to do with the modes of a case.
 pub struct Assurance {
@@ -78,9 +74,7 @@ pub fn assurance(
         .collect();
 
     // The matrix and the pairs.
-    let values = modes
-        .iter()
-        .map(|mode| mode.shape.as_deref().unwrap_or_default());
+    let values = modes.iter().map(|mode| mode.shape.as_deref().unwrap_or_default());
     let values: Vec<&[c64]> = values.collect();
     let matrix = criteria(&model.mesh, &values, shapes, &placed);
     let mut notes = Vec::new();
@@ -145,8 +139,7 @@ pub(in crate::study) fn placed(
     scale: f64,
 ) -> Result<Vec<Placed>, StudyError> {
     let all = shapes.iter();
-    all.map(|shape| Placed::of(case, mesh, shape, scale))
-        .collect()
+    all.map(|shape| Placed::of(case, mesh, shape, scale)).collect()
 }
 
 /// The criterion of every shape with every mode, `[shape][mode]`.
@@ -158,8 +151,7 @@ pub(in crate::study) fn criteria(
 ) -> Vec<Vec<f64>> {
     let row = |(shape, placed): (&MeasuredShape, &Placed)| -> Vec<f64> {
         let each = modes.iter();
-        each.map(|phi| criterion(mesh, phi, shape, placed))
-            .collect()
+        each.map(|phi| criterion(mesh, phi, shape, placed)).collect()
     };
     shapes.iter().zip(placed).map(row).collect()
 }
@@ -178,9 +170,7 @@ impl Placed {
         let reach = FAR * case.body.size();
         let nearest = |factor: f64| -> Vec<(usize, f64)> {
             let points = shape.points.iter();
-            points
-                .map(|point| nearest_node(mesh, point.map(|x| factor * x)))
-                .collect()
+            points.map(|point| nearest_node(mesh, point.map(|x| factor * x))).collect()
         };
         let own = nearest(scale);
         let off = own.iter().filter(|(_, away)| *away > reach).count();
@@ -196,10 +186,7 @@ impl Placed {
             .into());
         }
         Ok(Self {
-            nodes: own
-                .iter()
-                .map(|(node, away)| (*away <= reach).then_some(*node))
-                .collect(),
+            nodes: own.iter().map(|(node, away)| (*away <= reach).then_some(*node)).collect(),
             off,
             farthest: own.iter().fold(0.0, |m, (_, away)| m.max(*away)),
         })
@@ -309,11 +296,7 @@ fn paired(matrix: &[Vec<f64>]) -> Vec<MacPair> {
     };
     let mut pairs: Vec<MacPair> = pairs
         .into_iter()
-        .map(|(shape, mode)| MacPair {
-            shape: shape + 1,
-            mode: mode + 1,
-            mac: matrix[shape][mode],
-        })
+        .map(|(shape, mode)| MacPair { shape: shape + 1, mode: mode + 1, mac: matrix[shape][mode] })
         .collect();
     pairs.sort_by_key(|pair| pair.shape);
     pairs

@@ -60,10 +60,7 @@ pub fn matrices(case: &Case) -> Result<ExportedSystem, StudyError> {
     let mut system = ExportedSystem {
         dimension: body.mesh.dimension,
         friction_coefficient: friction,
-        friction_range: [
-            below.fold(smallest, f64::max),
-            above.fold(largest, f64::min),
-        ],
+        friction_range: [below.fold(smallest, f64::max), above.fold(largest, f64::min)],
         proportional_damping: tangent
             .proportional
             .map(|rayleigh| [rayleigh.mass_coefficient, rayleigh.stiffness_coefficient]),
@@ -72,18 +69,17 @@ pub fn matrices(case: &Case) -> Result<ExportedSystem, StudyError> {
         contact: Vec::new(),
     };
     let matrices = &mut system.matrices;
-    matrices.extend(powers("M", &tangent.mass, |friction_power| {
-        MatrixRole::Mass { friction_power }
+    matrices
+        .extend(powers("M", &tangent.mass, |friction_power| MatrixRole::Mass { friction_power }));
+    matrices.extend(powers("C", &tangent.damping, |friction_power| MatrixRole::Damping {
+        friction_power,
     }));
-    matrices.extend(powers("C", &tangent.damping, |friction_power| {
-        MatrixRole::Damping { friction_power }
-    }));
-    matrices.extend(powers("K", &tangent.stiffness, |friction_power| {
-        MatrixRole::Stiffness { friction_power }
+    matrices.extend(powers("K", &tangent.stiffness, |friction_power| MatrixRole::Stiffness {
+        friction_power,
     }));
     if let Some(losses) = &tangent.structural {
-        matrices.extend(powers("H", losses, |friction_power| {
-            MatrixRole::Structural { friction_power }
+        matrices.extend(powers("H", losses, |friction_power| MatrixRole::Structural {
+            friction_power,
         }));
     }
     contact_rows(&body, &mut system);
@@ -116,19 +112,17 @@ impl<'a> SlidingBody<'a> {
                     let points = surface.points.iter().zip(&surface.sites);
                     points.map(move |(point, site)| (contact, point, *site))
                 });
-                let points = all
-                    .enumerate()
-                    .map(|(i, (contact, point, site))| SlidingPoint {
-                        point,
-                        exported: ExportedContactPoint {
-                            node: None,
-                            contact: Some(contact.name.clone()),
-                            place: site.position,
-                            is_pressed: own.base().is_pressed[i],
-                            weight: point.weight,
-                            normal_force: forces.get(i).copied().unwrap_or(0.0),
-                        },
-                    });
+                let points = all.enumerate().map(|(i, (contact, point, site))| SlidingPoint {
+                    point,
+                    exported: ExportedContactPoint {
+                        node: None,
+                        contact: Some(contact.name.clone()),
+                        place: site.position,
+                        is_pressed: own.base().is_pressed[i],
+                        weight: point.weight,
+                        normal_force: forces.get(i).copied().unwrap_or(0.0),
+                    },
+                });
                 Ok(Self {
                     mesh: &own.body.mesh,
                     tangent: own.own_tangent().map_err(CeaError::from)?,
@@ -233,15 +227,11 @@ fn contact_rows(body: &SlidingBody<'_>, system: &mut ExportedSystem) {
             }
         }
         let kept = sum.into_iter();
-        kept.filter(|entry| entry.1.abs() > 1e-14 * largest)
-            .collect()
+        kept.filter(|entry| entry.1.abs() > 1e-14 * largest).collect()
     };
     let (mut normal, mut slip) = (Vec::new(), Vec::new());
     for (i, own) in body.points.iter().enumerate() {
-        let rows = [
-            (&own.point.normal, &mut normal),
-            (&own.point.slip, &mut slip),
-        ];
+        let rows = [(&own.point.normal, &mut normal), (&own.point.slip, &mut slip)];
         for (row, entries) in rows {
             let row = over_unknowns(row).into_iter();
             entries.extend(row.map(|(unknown, share)| (i, unknown, share)));

@@ -15,10 +15,7 @@ impl Shard {
     /// Numbers of those of `count` points that belong to a shard, ascending from 1; all without one. Points are dealt
     /// out in turn, so that neighbours, which cost alike, go to different shards.
     pub fn points(shard: Option<Self>, count: usize) -> Vec<usize> {
-        let shard = shard.unwrap_or(Self {
-            number: 1,
-            count: 1,
-        });
+        let shard = shard.unwrap_or(Self { number: 1, count: 1 });
         (shard.number..=count).step_by(shard.count).collect()
     }
 }
@@ -54,11 +51,7 @@ impl<'a> SweepPlan<'a> {
     /// # Errors
     /// A case without `[sweep]`, and one without the section of an analysis that it asks for.
     pub fn new(case: &'a Case) -> Result<Self, CaseErrors> {
-        let mut plan = Self {
-            case,
-            sweep: case.require_sweep()?,
-            analyses: Vec::new(),
-        };
+        let mut plan = Self { case, sweep: case.require_sweep()?, analyses: Vec::new() };
         // Sections may exist at the points only, made by swept keys. A first point that is invalid
         // as a combination of values is a failed point, not a bad sweep.
         let first = plan.point_case(1);
@@ -116,9 +109,7 @@ impl<'a> SweepPlan<'a> {
     pub fn swept(&self, point: usize) -> Map<String, Value> {
         let overrides = self.sweep.overrides(point - 1);
         let pairs = overrides.iter().filter_map(|text| text.split_once('='));
-        pairs
-            .map(|(key, value)| (key.to_owned(), json_value(value)))
-            .collect()
+        pairs.map(|(key, value)| (key.to_owned(), json_value(value))).collect()
     }
 
     /// The case of a point: the sweep's with the swept values as overrides, and no `[sweep]`.
@@ -171,9 +162,8 @@ mod tests {
         let case = case(SEVEN);
         let plan = SweepPlan::new(&case).unwrap();
         for count in 1..=9 {
-            let mut all: Vec<usize> = (1..=count)
-                .flat_map(|number| plan.points(Some(Shard { number, count })))
-                .collect();
+            let mut all: Vec<usize> =
+                (1..=count).flat_map(|number| plan.points(Some(Shard { number, count }))).collect();
             all.sort_unstable();
             assert_eq!(all, [1, 2, 3, 4, 5, 6, 7]);
         }
@@ -203,9 +193,6 @@ mod tests {
     fn a_case_runs_the_analyses_that_it_has_sections_for() {
         let both =
             "[sweep]\n\"contact.friction_coefficient\" = [0.2]\n[transient]\nduration = 0.01";
-        assert_eq!(
-            SweepPlan::new(&case(both)).unwrap().analysis_names(),
-            ["transient", "cea"]
-        );
+        assert_eq!(SweepPlan::new(&case(both)).unwrap().analysis_names(), ["transient", "cea"]);
     }
 }

@@ -83,10 +83,7 @@ pub fn preflight(case: &Case, available: f64) -> Result<Preflight, StudyError> {
             let sector = found.cost.dofs as usize / sectors;
             if sector.saturating_mul(modes) <= MOST_EIGENVALUE_WORK {
                 // Both methods find the same modes, or none.
-                let by_sectors = Cea {
-                    method: CeaMethod::Cyclic,
-                    ..cea.clone()
-                };
+                let by_sectors = Cea { method: CeaMethod::Cyclic, ..cea.clone() };
                 let tried = eigenvalues::preflight(case, &by_sectors);
                 found.tolerate("cea", tried)?;
             }

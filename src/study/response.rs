@@ -43,11 +43,7 @@ enum System {
     /// Harmonic by harmonic.
     Cyclic(Box<CyclicSystem>),
     /// The whole mesh, with the ports of force and response.
-    Whole {
-        system: Box<FrfSystem>,
-        ports: Box<[Port; 2]>,
-        reduction: Reduction,
-    },
+    Whole { system: Box<FrfSystem>, ports: Box<[Port; 2]>, reduction: Reduction },
 }
 
 /// Whether a whole mesh is projected on a small space.
@@ -146,11 +142,7 @@ impl<'a> FrequencyStudy<'a> {
                 found.backward_error = Some(solved.backward_error);
                 found.solved = solved.receptance;
             }
-            System::Whole {
-                system,
-                ports,
-                reduction,
-            } => {
+            System::Whole { system, ports, reduction } => {
                 let [force, response] = &**ports;
                 let settings = ReductionSettings::default();
                 let reduced = (*reduction != Reduction::No).then(|| {
@@ -269,20 +261,11 @@ fn annulus(
     if frf.boundary == FrfBoundary::Sliding {
         let options = tangent_options(case, frf.mass);
         let tangent = SectorTangent::linearize(&sector, case.materials(), &options, contact)?;
-        return Ok(CyclicSystem::sliding(
-            &tangent,
-            contact.friction_coefficient,
-        ));
+        return Ok(CyclicSystem::sliding(&tangent, contact.friction_coefficient));
     }
     let is_clamped = frf.boundary == FrfBoundary::Clamped;
     let rayleigh = case.damping.rayleigh;
-    Ok(CyclicSystem::body(
-        &sector,
-        &case.material,
-        frf.mass,
-        rayleigh,
-        is_clamped,
-    ))
+    Ok(CyclicSystem::body(&sector, &case.material, frf.mass, rayleigh, is_clamped))
 }
 
 fn solid(
@@ -295,20 +278,11 @@ fn solid(
     if frf.boundary == FrfBoundary::Sliding {
         let options = tangent_options(case, frf.mass);
         let tangent = SolidTangent::linearize(&sector, &case.material, &options, contact)?;
-        return Ok(CyclicSystem::solid_sliding(
-            &tangent,
-            contact.friction_coefficient,
-        ));
+        return Ok(CyclicSystem::solid_sliding(&tangent, contact.friction_coefficient));
     }
     let is_clamped = frf.boundary == FrfBoundary::Clamped;
     let rayleigh = case.damping.rayleigh;
-    Ok(CyclicSystem::solid_body(
-        &sector,
-        &case.material,
-        frf.mass,
-        rayleigh,
-        is_clamped,
-    ))
+    Ok(CyclicSystem::solid_body(&sector, &case.material, frf.mass, rayleigh, is_clamped))
 }
 
 /// Matrices of the whole mesh as it is held, and the ports of force and response.
@@ -345,11 +319,7 @@ fn whole(case: &Case, frf: &Frf, reduction: Reduction) -> Result<System, StudyEr
     };
     let force = port(frf.force, "force_node")?;
     let response = port(frf.response, "response_node")?;
-    Ok(System::Whole {
-        system: Box::new(system),
-        ports: Box::new([force, response]),
-        reduction,
-    })
+    Ok(System::Whole { system: Box::new(system), ports: Box::new([force, response]), reduction })
 }
 
 /// A plane body as it is held.
@@ -357,19 +327,14 @@ fn plane(case: &Case, frf: &Frf, mesh: &Mesh) -> Result<FrfSystem, StudyError> {
     if frf.boundary != FrfBoundary::Sliding {
         let is_clamped = frf.boundary == FrfBoundary::Clamped;
         let (materials, rayleigh) = (case.materials(), case.damping.rayleigh);
-        return Ok(FrfSystem::body(
-            mesh, materials, frf.mass, rayleigh, is_clamped,
-        ));
+        return Ok(FrfSystem::body(mesh, materials, frf.mass, rayleigh, is_clamped));
     }
     let stiffness = assemble_stiffness(mesh, case.materials());
     let options = tangent_options(case, frf.mass);
     let law = options.contact.law;
     let base = SteadySliding::solve_with(mesh, &stiffness, &case.contact.sliding, law)?;
     let tangent = SlidingTangent::linearize(mesh, case.materials(), &stiffness, &base, &options);
-    Ok(FrfSystem::sliding(
-        &tangent,
-        case.contact.sliding.friction_coefficient,
-    ))
+    Ok(FrfSystem::sliding(&tangent, case.contact.sliding.friction_coefficient))
 }
 
 /// An assembly as it is held: sliding, or its bodies as they are tied, without their contacts.
@@ -383,11 +348,7 @@ fn assembly(case: &Case, frf: &Frf, body: &AssemblyBody) -> Result<FrfSystem, St
         ));
     }
     // Without contact there is no base state to find, and nothing may hold the bodies.
-    let mut apart = AssemblyBody {
-        contacts: Vec::new(),
-        base: BaseChoice::Closed,
-        ..body.clone()
-    };
+    let mut apart = AssemblyBody { contacts: Vec::new(), base: BaseChoice::Closed, ..body.clone() };
     if frf.boundary == FrfBoundary::Free {
         let mesh = Arc::make_mut(&mut apart.mesh);
         for boundary in &mut mesh.boundaries {

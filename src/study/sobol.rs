@@ -56,11 +56,7 @@ impl ScrambledSobol {
     /// The sequence in so many dimensions, at most [`Self::LARGEST_DIMENSION`].
     pub fn new(dimensions: usize, seed: u64) -> Self {
         let of = |dimension: usize| (directions(dimension), mixed(seed, dimension as u64));
-        Self {
-            dimensions: (0..dimensions.min(Self::LARGEST_DIMENSION))
-                .map(of)
-                .collect(),
-        }
+        Self { dimensions: (0..dimensions.min(Self::LARGEST_DIMENSION)).map(of).collect() }
     }
 
     /// Point `index`, each coordinate between 0 and 1, ends excluded.

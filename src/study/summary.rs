@@ -37,10 +37,7 @@ pub fn summarize(
 /// Mode shapes are not computed.
 fn cea(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
     let start = Instant::now();
-    let cea = Cea {
-        shapes_at: Vec::new(),
-        ..case.require_cea()?.clone()
-    };
+    let cea = Cea { shapes_at: Vec::new(), ..case.require_cea()?.clone() };
     let model = SlidingModel::new(case, &cea)?;
     let solution = eigenvalues::solve_modes(case, &cea, &model)?;
     eigenvalues::refuse_no_modes(case, &cea, &solution.sweep)?;
@@ -59,12 +56,7 @@ fn transient(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
         steps_timed: solved.steps,
         stepping_s: solved.stepping_s,
         wall_s: start.elapsed().as_secs_f64(),
-        ..study.report(
-            &solved.record,
-            &solved.analysis,
-            solved.plan,
-            solved.operator,
-        )
+        ..study.report(&solved.record, &solved.analysis, solved.plan, solved.operator)
     };
     Ok(object(&results::transient::summary(&report, manifest))?)
 }

@@ -16,10 +16,7 @@ pub fn free_spectrum(system: &FreeSystem) -> Result<FreeSpectrum, StudyError> {
     let [mass, damping, stiffness] = [&own.mass, &own.damping, &own.stiffness].map(dense);
     let all = quadratic_modes(mass.as_ref(), damping.as_ref(), stiffness.as_ref())?;
     let total = all.len();
-    let mut modes: Vec<_> = all
-        .into_iter()
-        .filter(|mode| mode.eigenvalue.im > 0.0)
-        .collect();
+    let mut modes: Vec<_> = all.into_iter().filter(|mode| mode.eigenvalue.im > 0.0).collect();
     let overdamped = total - modes.len();
     modes.sort_by(|a, b| a.eigenvalue.im.total_cmp(&b.eigenvalue.im));
     match system.modes {

@@ -106,9 +106,7 @@ impl TransientAnalysis {
         let mut analysis = Self::without_growth(record);
         let stage = grown_samples(record);
         let fitted = harmonics.iter();
-        analysis.growth = fitted
-            .filter_map(|&n| growth(record, stage.clone(), n))
-            .collect();
+        analysis.growth = fitted.filter_map(|&n| growth(record, stage.clone(), n)).collect();
         refuse_powers(&mut analysis.growth);
         analysis
     }
@@ -123,18 +121,13 @@ impl TransientAnalysis {
             let series = series(record, late.clone(), n)?;
             Some(strongest_vibration(&series, 1.0 / record.sample_interval)?.1)
         };
-        let sizes = record
-            .followed_harmonics()
-            .map(|n| (n, size(n).unwrap_or(0.0)));
+        let sizes = record.followed_harmonics().map(|n| (n, size(n).unwrap_or(0.0)));
         // The edge moves with its modes: its harmonics are so many sensors.
         let sensor = sizes.max_by(|a, b| a.1.total_cmp(&b.1));
         let strongest = sensor.and_then(|(n, _)| growth(record, stage, n));
         analysis.growth = strongest.into_iter().collect();
         let of_modes = |vibration: &mut Vibration| *vibration = Vibration::Strongest;
-        analysis
-            .growth
-            .iter_mut()
-            .for_each(|growth| of_modes(&mut growth.vibration));
+        analysis.growth.iter_mut().for_each(|growth| of_modes(&mut growth.vibration));
         if let Some(Unsettled::Growing { vibration, .. }) = &mut analysis.settling.reason {
             of_modes(vibration);
         }
@@ -161,20 +154,14 @@ impl TransientAnalysis {
     /// Without a linear stage: that of a run that starts on a limit cycle.
     #[must_use]
     pub fn from_limit_cycle(self) -> Self {
-        Self {
-            growth: Vec::new(),
-            first_nonlinearity: None,
-            ..self
-        }
+        Self { growth: Vec::new(), first_nonlinearity: None, ..self }
     }
 }
 
 /// Samples of the linear stage after the perturbation: what is seeded later grows from there.
 fn grown_samples(record: &Recorder) -> Range<usize> {
     let stage = linear_stage(&record.rows);
-    let seeded = record
-        .rows
-        .partition_point(|row| row.time < record.seed_time);
+    let seeded = record.rows.partition_point(|row| row.time < record.seed_time);
     stage.start.max(seeded).min(stage.end)..stage.end
 }
 
@@ -202,11 +189,7 @@ fn refuse_powers(growths: &mut [Growth]) {
             powers.any(|k| {
                 own == k * harmonic
                     && is_near(stage.rate_per_s.value, k as f64 * rate, POWER_RATE)
-                    && is_near(
-                        stage.frequency_hz.value,
-                        k as f64 * frequency,
-                        POWER_FREQUENCY,
-                    )
+                    && is_near(stage.frequency_hz.value, k as f64 * frequency, POWER_FREQUENCY)
             })
         };
         if let Some(&(harmonic, ..)) = waves.iter().find(|wave| power(wave)) {
@@ -219,9 +202,7 @@ fn refuse_powers(growths: &mut [Growth]) {
 /// a run from steady sliding.
 fn linear_stage(rows: &[SampleRow]) -> Range<usize> {
     let (mut best, mut start) = (0..0, 0);
-    let first = rows
-        .first()
-        .map_or_else(StatusCounts::default, |row| row.counts);
+    let first = rows.first().map_or_else(StatusCounts::default, |row| row.counts);
     let opened = match first.stick == 0 && first.slip > 0 {
         true => first.open,
         false => 0,
@@ -348,11 +329,7 @@ mod tests {
 
     #[test]
     fn the_square_of_a_growing_wave_is_no_stage_of_twice_its_harmonic() {
-        let exactly = |value: f64| Estimate {
-            value,
-            low: value,
-            high: value,
-        };
+        let exactly = |value: f64| Estimate { value, low: value, high: value };
         let growth = |harmonic: usize, rate: f64, frequency: f64| Growth {
             vibration: Vibration::Harmonic(harmonic),
             stage: Ok(ExponentialStage {

@@ -70,9 +70,7 @@ impl AssemblyTransientModel<'_> {
         let [springs, _] = self.assembly.supports();
         stiffness.entries.extend_from_slice(&springs.entries);
         let followers = followers.into_iter();
-        let followers = followers
-            .map(|(dof, shares)| (dof as u32, shares))
-            .collect();
+        let followers = followers.map(|(dof, shares)| (dof as u32, shares)).collect();
         let stiffness = basis.congruent(&stiffness);
         let operator = AssembledOperator::new(&stiffness, own, followers, simd)?;
         Ok(Box::new(operator))
@@ -97,10 +95,7 @@ impl AssemblyTransientModel<'_> {
             gaps: vec![0.0; nodes.len()],
             nodes,
             tributary_lengths: areas,
-            counterface: Counterface::Plane {
-                point: [0.0; 2],
-                direction: [1.0, 0.0],
-            },
+            counterface: Counterface::Plane { point: [0.0; 2], direction: [1.0, 0.0] },
             opposite: Vec::new(),
         }
     }
@@ -124,14 +119,10 @@ impl AssemblyTransientModel<'_> {
 
     fn sliding_state(&self) -> Result<PressedState, TransientError> {
         let friction_coefficient = self.contact.friction_coefficient;
-        let PressedRange {
-            states, state_of, ..
-        } = self.assembly.range(&[friction_coefficient])?;
+        let PressedRange { states, state_of, .. } = self.assembly.range(&[friction_coefficient])?;
         let place = state_of.first().copied();
         let state = place.and_then(|at| states.into_iter().nth(at));
-        let none = PrestressError::NoState {
-            friction_coefficient,
-        };
+        let none = PrestressError::NoState { friction_coefficient };
         Ok(state.ok_or(none)?)
     }
 
@@ -197,9 +188,7 @@ impl AssemblyTransientModel<'_> {
             },
         };
         let assembly = self.assembly;
-        Ok(LagrangeContact::at_points(
-            operator, assembly, friction, &damped_by,
-        ))
+        Ok(LagrangeContact::at_points(operator, assembly, friction, &damped_by))
     }
 
     /// The velocity of a perturbation over all dofs, m/s: waves along the axis of the motion over all bodies, and noise.
@@ -212,11 +201,8 @@ impl AssemblyTransientModel<'_> {
         let axis = nalgebra::Vector3::from(self.axis[1]);
         let mut velocity = vec![0.0; mesh.dof_count()];
         for node in 0..mesh.node_count() {
-            let along = perturbation.along(&Place {
-                depth: 0.0,
-                angle: self.place(node)[1],
-                tangent: 0.0,
-            });
+            let along =
+                perturbation.along(&Place { depth: 0.0, angle: self.place(node)[1], tangent: 0.0 });
             let own = mesh.frame(node).transpose() * axis * along;
             velocity[3 * node..3 * node + 3].copy_from_slice(own.as_slice());
         }

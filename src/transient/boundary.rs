@@ -48,24 +48,16 @@ impl BoundaryForces {
         for &(row, column, value) in &damping.entries {
             *rows.entry(row).or_default().entry(column).or_default() += value;
         }
-        for (dof, _) in pressure
-            .iter()
-            .enumerate()
-            .filter(|(_, force)| **force != 0.0)
-        {
+        for (dof, _) in pressure.iter().enumerate().filter(|(_, force)| **force != 0.0) {
             rows.entry(dof).or_default();
         }
-        let mut forces = Self {
-            rows: Vec::new(),
-            entries: Vec::new(),
-        };
+        let mut forces = Self { rows: Vec::new(), entries: Vec::new() };
         for (dof, columns) in rows {
             let place = operator.position(dof);
             let mass = operator.masses()[place];
             if mass > 0.0 {
-                let entries = columns
-                    .into_iter()
-                    .map(|(dof, value)| (operator.position(dof), value));
+                let entries =
+                    columns.into_iter().map(|(dof, value)| (operator.position(dof), value));
                 forces.entries.extend(entries);
                 forces.rows.push(Row {
                     place,

@@ -119,8 +119,7 @@ impl<'a> CentralDifference<'a> {
             }
             let is_sampled = self.next_step.is_multiple_of(self.plan.steps_per_sample);
             if is_sampled {
-                self.displacement_before
-                    .copy_from_slice(&self.fields.displacement);
+                self.displacement_before.copy_from_slice(&self.fields.displacement);
                 self.velocity_before.copy_from_slice(&self.fields.velocity);
             }
             self.advance();
@@ -140,20 +139,14 @@ impl<'a> CentralDifference<'a> {
         self.boundary.apply(&mut self.fields, share);
         self.relaxation.apply(&mut self.fields);
         // (6): multipliers of this step, which hold the constraints at its end.
-        self.contact
-            .apply(&mut self.fields, &self.coefficients, shares);
+        self.contact.apply(&mut self.fields, &self.coefficients, shares);
         // (7) with beta_2 = 1/2; the power of material damping is (11), with one of its velocities half a step old.
         let damping = self.operator.advance(&mut self.fields, &self.coefficients);
         // (9), (10): powers at the contact.
-        let (powers, counts) = self
-            .contact
-            .settle(&mut self.fields, &self.coefficients, shares);
-        let relaxed = self
-            .relaxation
-            .settle(&mut self.fields, self.plan.time_step);
+        let (powers, counts) = self.contact.settle(&mut self.fields, &self.coefficients, shares);
+        let relaxed = self.relaxation.settle(&mut self.fields, self.plan.time_step);
         let [own_damping, pressure] =
-            self.boundary
-                .settle(&mut self.fields, self.plan.time_step, share);
+            self.boundary.settle(&mut self.fields, self.plan.time_step, share);
         let damping = damping + own_damping + relaxed;
         // (12), with the work of the normal forces and of boundary pressures, which the paper leaves out.
         let net = powers.stick + powers.slide + powers.normal + pressure - damping - powers.damping;
@@ -165,29 +158,20 @@ impl<'a> CentralDifference<'a> {
         // Round-off of the running sum of dt K v goes.
         if self.next_step.is_multiple_of(REFRESH) {
             let fields = &mut self.fields;
-            self.operator
-                .multiply(&mut fields.displacement, &mut fields.elastic);
+            self.operator.multiply(&mut fields.displacement, &mut fields.elastic);
         }
     }
 
     /// Share of the interference and of the boundary pressures that acts at `time`: a linear ramp.
     pub(super) fn expanded_share(&self, time: f64) -> f64 {
-        if time.max(0.0) < self.expansion_time {
-            time.max(0.0) / self.expansion_time
-        } else {
-            1.0
-        }
+        if time.max(0.0) < self.expansion_time { time.max(0.0) / self.expansion_time } else { 1.0 }
     }
 
     /// These shares one step before `step`, at it and one step after.
     fn shares(&self, step: u64) -> [f64; 3] {
         let dt = self.plan.time_step;
         let at = |step: f64| self.expanded_share(step * dt);
-        [
-            at(step as f64 - 1.0),
-            at(step as f64),
-            at((step + 1) as f64),
-        ]
+        [at(step as f64 - 1.0), at(step as f64), at((step + 1) as f64)]
     }
 
     fn sample(&mut self, observer: &mut dyn Observer) -> Result<ControlFlow<()>, TransientError> {
@@ -197,19 +181,11 @@ impl<'a> CentralDifference<'a> {
         self.largest_energy = self.largest_energy.max(energy);
         let imbalance = (energy - self.initial_energy - self.net_work).abs();
         // A body at rest has no energy to be relative to.
-        let balance_residual = if imbalance == 0.0 {
-            0.0
-        } else {
-            imbalance / self.largest_energy
-        };
+        let balance_residual = if imbalance == 0.0 { 0.0 } else { imbalance / self.largest_energy };
         self.check(energy, balance_residual)?;
         self.largest_residual = self.largest_residual.max(balance_residual);
         let step = self.next_step - 1;
-        let steps = if step == 0 {
-            1
-        } else {
-            self.plan.steps_per_sample
-        };
+        let steps = if step == 0 { 1 } else { self.plan.steps_per_sample };
         let powers = std::mem::take(&mut self.powers).scaled(1.0 / steps as f64);
         let material_damping = std::mem::take(&mut self.damping_power) / steps as f64;
         let counts = std::mem::take(&mut self.counts);

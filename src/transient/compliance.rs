@@ -105,11 +105,7 @@ impl CompliantContact {
         let elastic = assemble_stiffness(model.mesh, model.material);
         let base = SteadySliding::solve(model.mesh, &elastic, &model.contact)?;
         let forces = base.normal_forces(model.contact.friction_coefficient);
-        Ok(Some(Self::of(
-            [stiffness, model.stiffness.normal_damping],
-            shares,
-            &forces,
-        )))
+        Ok(Some(Self::of([stiffness, model.stiffness.normal_damping], shares, &forces)))
     }
 
     /// A contact that stiffens with pressure; dashpots that follow its stiffness have that of the base state.
@@ -119,10 +115,7 @@ impl CompliantContact {
         shares: &[f64],
     ) -> Result<Self, TransientError> {
         let stiffness = &model.stiffness;
-        let mut damping: Vec<f64> = shares
-            .iter()
-            .map(|w| stiffness.normal_damping * w)
-            .collect();
+        let mut damping: Vec<f64> = shares.iter().map(|w| stiffness.normal_damping * w).collect();
         if stiffness.law_damping > 0.0 {
             let elastic = assemble_stiffness(model.mesh, model.material);
             let base = SteadySliding::solve_with(model.mesh, &elastic, &model.contact, Some(law))?;
@@ -352,14 +345,8 @@ mod tests {
     #[test]
     fn stiffening_contact_closes_its_balance_at_every_step() {
         let laws = [
-            NormalLaw::Cubic {
-                stiffness: 1e13,
-                cubic_stiffness: 1e26,
-            },
-            NormalLaw::Exponential {
-                reference_pressure: 1e5,
-                height: 5e-8,
-            },
+            NormalLaw::Cubic { stiffness: 1e13, cubic_stiffness: 1e26 },
+            NormalLaw::Exponential { reference_pressure: 1e5, height: 5e-8 },
         ];
         let (dt, mass, share) = (1e-7, 1e-3, 7e-4);
         for law in laws {
@@ -383,10 +370,7 @@ mod tests {
                         let size = before.abs().max(free.abs());
                         let spring = share * law.stiffness(before.max(after).max(0.0));
                         let rounded = 1e-15 * size * (spring * size + force);
-                        assert!(
-                            (work - energy - lost).abs() < 16.0 * rounded,
-                            "{law:?} {node:?}"
-                        );
+                        assert!((work - energy - lost).abs() < 16.0 * rounded, "{law:?} {node:?}");
                         assert!(force >= 0.0 && lost >= -16.0 * rounded);
                     }
                 }

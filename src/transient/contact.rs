@@ -84,9 +84,7 @@ impl LagrangeContact {
         let place = |dof: usize| operator.position(dof);
         let normal: Vec<usize> = (0..count).map(|i| place(interface.normal_dof(i))).collect();
         Ok(Self {
-            tangential: (0..count)
-                .map(|i| place(interface.tangential_dof(i)))
-                .collect(),
+            tangential: (0..count).map(|i| place(interface.tangential_dof(i))).collect(),
             masses: normal.iter().map(|&k| operator.masses()[k]).collect(),
             normal,
             gaps: interface.gaps.clone(),
@@ -144,19 +142,12 @@ impl LagrangeContact {
         }
         let expansion = self.interference * shares[2];
         let dt = coefficients.time_step;
-        let (alpha, beta) = (
-            coefficients.mass_coefficient,
-            coefficients.stiffness_coefficient,
-        );
+        let (alpha, beta) = (coefficients.mass_coefficient, coefficients.stiffness_coefficient);
         self.ambiguous = 0;
         for i in 0..self.normal.len() {
             let (n, t, mass) = (self.normal[i], self.tangential[i], self.masses[i]);
-            let before = [
-                fields.velocity[n],
-                fields.velocity[t],
-                fields.elastic[n],
-                fields.elastic[t],
-            ];
+            let before =
+                [fields.velocity[n], fields.velocity[t], fields.elastic[n], fields.elastic[t]];
             self.before[i] = before;
             let [v_n, v_t, q_n, q_t] = before;
             let trial_n = v_n - dt * (q_n + (alpha * v_n + beta * fields.elastic_rate[n]));
@@ -278,10 +269,7 @@ impl LagrangeContact {
         }
         let dt = coefficients.time_step;
         let mut powers = ContactPowers::default();
-        let mut counts = StatusCounts {
-            ambiguous: self.ambiguous,
-            ..StatusCounts::default()
-        };
+        let mut counts = StatusCounts { ambiguous: self.ambiguous, ..StatusCounts::default() };
         if let Some(opposite) = &self.opposite {
             opposite.settle(fields, dt);
         }

@@ -94,9 +94,8 @@ impl<'a> TransientModel<'a> {
         supports.retain(|support| is_part(support.node));
         if supports.iter().any(|s| s.damping != [[0.0; 2]; 2]) {
             let masses = lumped_masses(self.mesh, self.material);
-            let rates = supports
-                .iter()
-                .map(|s| (s.damping[0][0] + s.damping[1][1]) / masses[s.node]);
+            let rates =
+                supports.iter().map(|s| (s.damping[0][0] + s.damping[1][1]) / masses[s.node]);
             bound.mass_coefficient += rates.fold(0.0, f64::max);
         }
         // Patches may overlap.

@@ -56,9 +56,7 @@ impl TwoFrequencies {
             })
             .collect();
         let strongest = |lines: &mut dyn Iterator<Item = &(usize, RotatingLine)>| {
-            lines
-                .max_by(|a, b| a.1.amplitude.total_cmp(&b.1.amplitude))
-                .copied()
+            lines.max_by(|a, b| a.1.amplitude.total_cmp(&b.1.amplitude)).copied()
         };
         let (_, first) = strongest(&mut lines.iter().filter(|(n, _)| *n == wave))?;
         let frequency = first.frequency_hz;
@@ -105,15 +103,13 @@ fn envelope_ratio(record: &Recorder, range: &Range<usize>, frequency: f64) -> f6
         .collect();
     let period = ((1.0 / (frequency * record.sample_interval)).round() as usize).max(2);
     let sizes = displacement.windows(period + 1).map(|window| {
-        let [low, high] = window
-            .iter()
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &value| {
+        let [low, high] =
+            window.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &value| {
                 [low.min(value), high.max(value)]
             });
         0.5 * (high - low)
     });
-    let [smallest, largest] = sizes.fold([f64::INFINITY, 0.0_f64], |[low, high], size| {
-        [low.min(size), high.max(size)]
-    });
+    let [smallest, largest] =
+        sizes.fold([f64::INFINITY, 0.0_f64], |[low, high], size| [low.min(size), high.max(size)]);
     largest / smallest
 }

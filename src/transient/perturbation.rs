@@ -41,15 +41,8 @@ pub struct Perturbation {
 impl Perturbation {
     /// Waves of one amplitude (m/s) and no phase, at the start.
     pub fn of(harmonics: &[usize], velocity: f64) -> Self {
-        let wave = |&harmonic: &usize| StandingWave {
-            harmonic,
-            velocity,
-            phase: 0.0,
-        };
-        Self {
-            waves: harmonics.iter().map(wave).collect(),
-            ..Self::default()
-        }
+        let wave = |&harmonic: &usize| StandingWave { harmonic, velocity, phase: 0.0 };
+        Self { waves: harmonics.iter().map(wave).collect(), ..Self::default() }
     }
 
     /// Harmonics of the waves.
@@ -94,10 +87,7 @@ impl Perturbation {
     /// Velocity of the waves along the sliding, m/s.
     pub(super) fn along(&self, place: &Place) -> f64 {
         // Amplitudes relative to the largest: waves of one amplitude have the factor one, exactly.
-        let largest = self
-            .waves
-            .iter()
-            .fold(0.0, |m: f64, w| m.max(w.velocity.abs()));
+        let largest = self.waves.iter().fold(0.0, |m: f64, w| m.max(w.velocity.abs()));
         if largest == 0.0 {
             return 0.0;
         }
@@ -154,9 +144,7 @@ pub(super) struct Place {
 fn places_on(annulus: &AnnulusMesh) -> Vec<Place> {
     let specification = &annulus.specification;
     let (inner, outer) = (specification.inner_radius, specification.outer_radius);
-    let bore = specification
-        .shaft
-        .map_or(inner, |shaft| shaft.inner_radius);
+    let bore = specification.shaft.map_or(inner, |shaft| shaft.inner_radius);
     let per_sector = annulus.sector_node_count();
     let first = annulus.mesh.contact_edge().nodes[0] as usize;
     let nodes = annulus.mesh.nodes.iter().zip(annulus.mesh.frame_angles());
@@ -174,20 +162,16 @@ fn places_on(annulus: &AnnulusMesh) -> Vec<Place> {
 
 fn places(mesh: &Mesh) -> Vec<Place> {
     let counterface = mesh.counterface;
-    let gaps: Vec<f64> = mesh
-        .plane_nodes()
-        .into_iter()
-        .map(|p| counterface.gap(p).max(0.0))
-        .collect();
+    let gaps: Vec<f64> =
+        mesh.plane_nodes().into_iter().map(|p| counterface.gap(p).max(0.0)).collect();
     let deepest = gaps.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
     let along = mesh
         .contact_edge()
         .nodes
         .iter()
         .map(|&node| counterface.place(mesh.plane_node(node as usize)));
-    let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| {
-        (low.min(s), high.max(s))
-    });
+    let (low, high) =
+        along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| (low.min(s), high.max(s)));
     let angle = |point: [f64; 2]| match counterface {
         Counterface::Cylinder { .. } => counterface.place(point),
         Counterface::Plane { .. } => TAU * (counterface.place(point) - low) / (high - low),

@@ -251,9 +251,7 @@ impl Recorder {
         // What the run was made with stays; what is asked of it from here on is new.
         let rest = fresh.rows.capacity().saturating_sub(done);
         self.rows.reserve(rest);
-        self.probe_rows
-            .iter_mut()
-            .for_each(|rows| rows.reserve(rest));
+        self.probe_rows.iter_mut().for_each(|rows| rows.reserve(rest));
         self.snapshot_indices = fresh.snapshot_indices;
         self.tributary_lengths = fresh.tributary_lengths;
         self.contact_angles = fresh.contact_angles;
@@ -322,10 +320,7 @@ fn probe_turns(body: &TransientBody<'_>, probes: &[usize]) -> Vec<[f64; 2]> {
         return vec![[1.0, 0.0]; probes.len()];
     };
     let turn = |&probe: &usize| {
-        let (frame, reported) = (
-            mesh.frame_angles()[probe - 1],
-            mesh.reported_angle(probe - 1),
-        );
+        let (frame, reported) = (mesh.frame_angles()[probe - 1], mesh.reported_angle(probe - 1));
         let (sin, cos) = (frame - reported).sin_cos();
         [cos, sin]
     };

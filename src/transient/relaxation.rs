@@ -76,9 +76,7 @@ impl Relaxation {
             part.elements = elements.collect();
             Some(part)
         });
-        Self {
-            parts: parts.collect(),
-        }
+        Self { parts: parts.collect() }
     }
 
     /// Adds the forces of the coming step to the elastic accelerations.
@@ -228,10 +226,7 @@ impl Part {
 fn multiply(ends: &[usize], entries: &[(usize, f64)], x: &[f64], y: &mut [f64]) {
     let mut start = 0;
     for (y, &end) in y.iter_mut().zip(ends) {
-        *y = entries[start..end]
-            .iter()
-            .map(|&(j, value)| value * x[j])
-            .sum();
+        *y = entries[start..end].iter().map(|&(j, value)| value * x[j]).sum();
         start = end;
     }
 }

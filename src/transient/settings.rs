@@ -138,21 +138,14 @@ impl StepPlan {
         let wanted = match settings.time_step {
             TimeStep::Auto => (SAFETY * limit).min(settings.sample_interval),
             TimeStep::Seconds(step) if step > limit => {
-                return Err(TransientError::StepAboveLimit {
-                    step,
-                    limit,
-                    largest_frequency,
-                });
+                return Err(TransientError::StepAboveLimit { step, limit, largest_frequency });
             }
             TimeStep::Seconds(step) => step,
         };
         let interval = settings.sample_interval;
         // A millionth of slack: 2e-6 / 1e-7 must be 20 steps, not 21.
         if interval < wanted * (1.0 - 1e-6) {
-            return Err(TransientError::SampleBelowStep {
-                interval,
-                step: wanted,
-            });
+            return Err(TransientError::SampleBelowStep { interval, step: wanted });
         }
         let steps_per_sample = (interval / wanted * (1.0 - 1e-6)).ceil().max(1.0);
         Ok(Self {
@@ -188,10 +181,8 @@ pub fn whole_intervals(duration: f64, sample_interval: f64) -> u64 {
 
 pub(super) fn check_times(settings: &TransientSettings) -> Result<(), TransientError> {
     let perturbation = &settings.perturbation;
-    let mut positive = vec![
-        ("duration", settings.duration),
-        ("sample_interval", settings.sample_interval),
-    ];
+    let mut positive =
+        vec![("duration", settings.duration), ("sample_interval", settings.sample_interval)];
     if let TimeStep::Seconds(step) = settings.time_step {
         positive.push(("time_step", step));
     }
@@ -217,29 +208,12 @@ pub(super) fn check_times(settings: &TransientSettings) -> Result<(), TransientE
     };
     let duration = settings.duration;
     for (setting, value, remedy) in [
-        (
-            "sample_interval",
-            settings.sample_interval,
-            "a run has two samples at least",
-        ),
-        (
-            "expansion_time",
-            expansion_time,
-            "the cylinder would never be fully expanded",
-        ),
-        (
-            "perturbation.at",
-            perturbation.time,
-            "the velocity would never be added",
-        ),
+        ("sample_interval", settings.sample_interval, "a run has two samples at least"),
+        ("expansion_time", expansion_time, "the cylinder would never be fully expanded"),
+        ("perturbation.at", perturbation.time, "the velocity would never be added"),
     ] {
         if value > duration * (1.0 + 1e-9) {
-            return Err(TransientError::BeyondEnd {
-                setting,
-                value,
-                duration,
-                remedy,
-            });
+            return Err(TransientError::BeyondEnd { setting, value, duration, remedy });
         }
     }
     Ok(())

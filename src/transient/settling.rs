@@ -213,10 +213,9 @@ impl Settling {
         // Length of a block, samples.
         let interval = record.sample_interval;
         let (length, wanted) = match main {
-            Some((_, frequency)) => (
-                (PERIODS / (frequency.abs() * interval)).ceil() as usize,
-                FEWEST_BLOCKS,
-            ),
+            Some((_, frequency)) => {
+                ((PERIODS / (frequency.abs() * interval)).ceil() as usize, FEWEST_BLOCKS)
+            }
             None => (fifth.len() / QUIET_BLOCKS, QUIET_BLOCKS),
         };
         let length = length.max(QUIET_BLOCKS);

@@ -123,9 +123,7 @@ impl SolidTransientModel<'_> {
         let mut all = Triplets::default();
         for s in 0..self.sector.sector_count() {
             let offset = 3 * s * self.sector.node_count();
-            let moved = own
-                .iter()
-                .map(|&(i, j, value)| (offset + i, offset + j, value));
+            let moved = own.iter().map(|&(i, j, value)| (offset + i, offset + j, value));
             all.entries.extend(moved);
         }
         all
@@ -152,12 +150,7 @@ impl SolidTransientModel<'_> {
             Some(_) => Some(self.base()?),
             None => None,
         };
-        Ok(LagrangeContact::on_face(
-            operator,
-            interface,
-            self,
-            base.as_ref(),
-        ))
+        Ok(LagrangeContact::on_face(operator, interface, self, base.as_ref()))
     }
 
     /// The velocity of a perturbation over all dofs, m/s: waves along `e_theta`, uniform over the thickness, which fade towards the
@@ -169,10 +162,8 @@ impl SolidTransientModel<'_> {
         let sector = self.sector;
         perturbation.check_harmonics(sector.sector_count())?;
         let specification = &sector.specification;
-        let (inner, outer) = (
-            specification.annulus.inner_radius,
-            specification.annulus.outer_radius,
-        );
+        let (inner, outer) =
+            (specification.annulus.inner_radius, specification.annulus.outer_radius);
         let fades_inwards =
             specification.conditions[SolidFace::Inner as usize] == BoundaryCondition::Clamped;
         let per_sector = sector.node_count();

@@ -39,9 +39,7 @@ pub(super) fn amplitudes(
     harmonic: usize,
 ) -> Option<Vec<Complex64>> {
     let parts = range.map(|sample| record.amplitude(sample, harmonic));
-    parts
-        .map(|parts| parts.map(|[re, im]| Complex64::new(re, im)))
-        .collect()
+    parts.map(|parts| parts.map(|[re, im]| Complex64::new(re, im))).collect()
 }
 
 /// A followed harmonic about its mean, m.

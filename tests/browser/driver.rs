@@ -17,15 +17,9 @@ pub struct Browser {
 
 /// Whether there is a driver; says so where there is none, and refuses that where a browser is asked for.
 pub fn is_there() -> bool {
-    let found = Command::new("chromedriver")
-        .arg("--version")
-        .output()
-        .is_ok();
+    let found = Command::new("chromedriver").arg("--version").output().is_ok();
     let is_required = std::env::var_os("FRICTIONSIM_BROWSER").is_some();
-    assert!(
-        found || !is_required,
-        "FRICTIONSIM_BROWSER is set, but there is no chromedriver"
-    );
+    assert!(found || !is_required, "FRICTIONSIM_BROWSER is set, but there is no chromedriver");
     if !found {
         eprintln!(
             "skipped: no chromedriver on this machine (Debian: apt-get install chromium chromium-driver)"
@@ -37,28 +31,17 @@ pub fn is_there() -> bool {
 impl Browser {
     /// A window in which pages are this large.
     pub fn open([width, height]: [usize; 2]) -> Self {
-        let port = TcpListener::bind("127.0.0.1:0")
-            .unwrap()
-            .local_addr()
-            .unwrap()
-            .port();
+        let port = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
         let driver = Command::new("chromedriver")
             .arg(format!("--port={port}"))
             .stdout(Stdio::null())
             .stderr(Stdio::null())
             .spawn()
             .unwrap();
-        let mut browser = Self {
-            driver,
-            port,
-            session: String::new(),
-        };
+        let mut browser = Self { driver, port, session: String::new() };
         let start = Instant::now();
         while TcpStream::connect(("127.0.0.1", port)).is_err() {
-            assert!(
-                start.elapsed() < Duration::from_secs(30),
-                "chromedriver does not answer"
-            );
+            assert!(start.elapsed() < Duration::from_secs(30), "chromedriver does not answer");
             std::thread::sleep(Duration::from_millis(50));
         }
         let options = json!({ "args": [
@@ -80,10 +63,7 @@ impl Browser {
 
     /// Opens a file; waits until its scripts have done their part.
     pub fn visit(&self, file: &Path) {
-        self.post(
-            "/url",
-            json!({ "url": format!("file://{}", file.display()) }),
-        );
+        self.post("/url", json!({ "url": format!("file://{}", file.display()) }));
     }
 
     /// As [`Browser::visit`], and waits until the scripts have done their part.
@@ -109,11 +89,7 @@ impl Browser {
     pub fn wait(&self, script: &str) {
         let start = Instant::now();
         while self.run(script) != json!(true) {
-            assert!(
-                start.elapsed() < Duration::from_secs(10),
-                "{script}: {:?}",
-                self.messages()
-            );
+            assert!(start.elapsed() < Duration::from_secs(10), "{script}: {:?}", self.messages());
             std::thread::sleep(Duration::from_millis(30));
         }
     }
@@ -155,15 +131,9 @@ impl Browser {
     }
 
     fn find(&self, selector: &str) -> String {
-        let found = self.post(
-            "/element",
-            json!({ "using": "css selector", "value": selector }),
-        );
-        let id = found
-            .as_object()
-            .and_then(|ids| ids.values().next()?.as_str());
-        id.unwrap_or_else(|| panic!("{selector}: {found}"))
-            .to_owned()
+        let found = self.post("/element", json!({ "using": "css selector", "value": selector }));
+        let id = found.as_object().and_then(|ids| ids.values().next()?.as_str());
+        id.unwrap_or_else(|| panic!("{selector}: {found}")).to_owned()
     }
 
     /// What the console has been told.
@@ -194,11 +164,7 @@ impl Browser {
     fn exchange(&self, method: &str, path: &str, body: &Value) -> std::io::Result<Value> {
         let mut stream = TcpStream::connect(("127.0.0.1", self.port))?;
         stream.set_read_timeout(Some(Duration::from_secs(60)))?;
-        let body = if method == "POST" {
-            body.to_string()
-        } else {
-            String::new()
-        };
+        let body = if method == "POST" { body.to_string() } else { String::new() };
         write!(
             stream,
             "{method} {path} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nContent-Type: application/json\r\n\

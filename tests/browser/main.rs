@@ -25,10 +25,7 @@ fn eigenvalues_move_with_friction_and_modes_with_time() {
         browser.run("return document.querySelector('#locus .more p[aria-live]').textContent")
     };
     let count = |browser: &Browser| {
-        browser
-            .run("return document.querySelectorAll('#locus .more li').length")
-            .as_u64()
-            .unwrap()
+        browser.run("return document.querySelectorAll('#locus .more li').length").as_u64().unwrap()
     };
     assert_eq!(
         (at(&browser), count(&browser)),
@@ -36,17 +33,11 @@ fn eigenvalues_move_with_friction_and_modes_with_time() {
     );
     browser.send("#locus input[type=range]", "\u{E010}");
     let rows = rows_of(&folder.path().join("out/eigenvalues.csv"));
-    let unstable = rows
-        .iter()
-        .filter(|row| row[0] == "0.6" && row[9] == "true")
-        .count() as u64;
+    let unstable = rows.iter().filter(|row| row[0] == "0.6" && row[9] == "true").count() as u64;
     assert!(unstable > 0);
     assert_eq!(
         (at(&browser), count(&browser)),
-        (
-            json!(format!("friction coefficient = 0.6: {unstable} unstable")),
-            unstable
-        )
+        (json!(format!("friction coefficient = 0.6: {unstable} unstable")), unstable)
     );
     assert_ne!(browser.run("return document.querySelector('#locus input[type=range]').getAttribute('aria-valuetext')"), Value::Null);
 
@@ -81,9 +72,7 @@ fn solid_bodies_are_turned_and_their_modes_move() {
     let browser = Browser::open(WIDE);
     let canvas = |figure: &str, what: &str| {
         let figure = figure.replace('.', "\\\\.");
-        browser.run(&format!(
-            "return document.querySelector('#{figure} canvas').{what}"
-        ))
+        browser.run(&format!("return document.querySelector('#{figure} canvas').{what}"))
     };
 
     // A mesh: its regions and boundaries from every side.
@@ -119,10 +108,7 @@ fn solid_bodies_are_turned_and_their_modes_move() {
         "cea.friction_coefficients=[0.4]",
         "cea.shapes_at=[0.4]",
     ];
-    let cases = [
-        ("brake.toml", &assembly[..]),
-        ("disc-three-dimensions.toml", &revolution[..]),
-    ];
+    let cases = [("brake.toml", &assembly[..]), ("disc-three-dimensions.toml", &revolution[..])];
     for (name, set) in cases {
         let (_folder, report) = report_of("cea", name, set);
         browser.visit_ready(&report);
@@ -162,17 +148,10 @@ fn tables_are_sorted_and_filtered() {
             "return [...{table}.tBodies[0].rows].filter(r => !r.hidden).map(r => Number(r.cells[{column}].textContent))"
         );
         let values = browser.run(&script);
-        values
-            .as_array()
-            .unwrap()
-            .iter()
-            .map(|v| v.as_f64().unwrap())
-            .collect()
+        values.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
     };
     let sort = |browser: &Browser| {
-        browser.run(&format!(
-            "{table}.tHead.rows[0].cells[1].querySelector('button').click()"
-        ))
+        browser.run(&format!("{table}.tHead.rows[0].cells[1].querySelector('button').click()"))
     };
     let before = column(&browser, 1);
     sort(&browser);
@@ -181,9 +160,7 @@ fn tables_are_sorted_and_filtered() {
     sort(&browser);
     assert!(column(&browser, 1).iter().rev().is_sorted());
     assert_eq!(
-        browser.run(&format!(
-            "return {table}.tHead.rows[0].cells[1].getAttribute('aria-sort')"
-        )),
+        browser.run(&format!("return {table}.tHead.rows[0].cells[1].getAttribute('aria-sort')")),
         json!("descending")
     );
     browser.run(&format!(
@@ -221,16 +198,10 @@ fn a_run_is_zoomed_read_heard_and_taken_along() {
     };
     let all = view(&browser);
     // The last sample, 12 ms, is an end of the axis.
-    assert!(
-        (all[1] - 12.0).abs() < 1e-9 && all[0].abs() < 1e-9,
-        "{all:?}"
-    );
+    assert!((all[1] - 12.0).abs() < 1e-9 && all[0].abs() < 1e-9, "{all:?}");
     press(&browser, "overview-5", "Zoom in");
     let half = view(&browser);
-    assert!(
-        (half[1] - half[0] - 0.5 * (all[1] - all[0])).abs() < 1e-9,
-        "{half:?}"
-    );
+    assert!((half[1] - half[0] - 0.5 * (all[1] - all[0])).abs() < 1e-9, "{half:?}");
     browser.run("document.querySelector('#overview-5 .plot').focus()");
     browser.send("#overview-5 .plot", "\u{E014}");
     assert!(view(&browser)[0] > half[0]);
@@ -246,17 +217,11 @@ fn a_run_is_zoomed_read_heard_and_taken_along() {
 
     // The samples, against the table of the run.
     let taken = data_of(&browser, "overview-5");
-    assert_eq!(
-        taken[0][..2],
-        ["time t (ms)", "tangential acceleration, node 5: aθ (m/s²)"]
-    );
+    assert_eq!(taken[0][..2], ["time t (ms)", "tangential acceleration, node 5: aθ (m/s²)"]);
     let rows = rows_of(&folder.path().join("out/probe-5.csv"));
     assert_eq!(taken.len() - 1, rows.len());
     let number = |text: &str| text.parse::<f64>().unwrap();
-    let largest = rows
-        .iter()
-        .map(|row| number(&row[6]).abs())
-        .fold(0.0, f64::max);
+    let largest = rows.iter().map(|row| number(&row[6]).abs()).fold(0.0, f64::max);
     for (own, row) in taken[1..].iter().zip(&rows) {
         // Single precision, eight digits.
         assert!((number(&own[0]) - 1e3 * number(&row[0])).abs() < 1e-6);
@@ -290,10 +255,7 @@ fn a_run_is_zoomed_read_heard_and_taken_along() {
          if (audio.error || audio.readyState < 2) return 'no sound: ' + audio.error?.message;\
          return [audio.duration, audio.previousElementSibling.textContent]",
     );
-    assert!(
-        (heard[0].as_f64().unwrap_or(0.0) - 2.0).abs() < 1e-3,
-        "{heard}"
-    );
+    assert!((heard[0].as_f64().unwrap_or(0.0) - 2.0).abs() < 1e-3, "{heard}");
     let summary: Value = serde_json::from_str(
         &std::fs::read_to_string(folder.path().join("out/summary.json")).unwrap(),
     )
@@ -360,24 +322,14 @@ fn without_scripts_numbers_and_pictures_are_there() {
     let html = std::fs::read_to_string(&report).unwrap();
     // The same page, its scripts as text.
     let silent = report.with_file_name("silent.html");
-    std::fs::write(
-        &silent,
-        html.replace("<script>", "<script type=\"text/plain\">"),
-    )
-    .unwrap();
+    std::fs::write(&silent, html.replace("<script>", "<script type=\"text/plain\">")).unwrap();
     let browser = Browser::open(WIDE);
     browser.visit(&silent);
-    assert_eq!(
-        browser.run("return document.documentElement.dataset.ready ?? null"),
-        Value::Null
-    );
+    assert_eq!(browser.run("return document.documentElement.dataset.ready ?? null"), Value::Null);
     let visible = browser.run("return [...document.querySelectorAll('dd, td, figure svg')].every(e => e.getClientRects().length > 0)");
     assert_eq!(visible, json!(true));
     let counted = browser.run("return [document.querySelectorAll('td').length, document.querySelectorAll('figure svg').length]");
-    assert_eq!(
-        counted,
-        json!([html.matches("<td").count(), html.matches("<figure").count()])
-    );
+    assert_eq!(counted, json!([html.matches("<td").count(), html.matches("<figure").count()]));
     check_accessibility(&browser);
     keep_screenshot(&browser, "without-scripts-1280.png");
 }
@@ -389,43 +341,21 @@ fn two_runs_are_compared_number_by_number_and_curve_over_curve() {
     }
     let (folder, _) = eigenvalue_report();
     let (other, _) = eigenvalue_report();
-    let set = [
-        "--set",
-        "material.poisson_ratio=0.36",
-        "--force",
-        "--out",
-        "out",
-    ];
-    let again: Vec<&str> = EIGENVALUE_SET
-        .iter()
-        .flat_map(|set| ["--set", *set])
-        .collect();
-    let arguments: Vec<&str> = ["cea", "case.toml"]
-        .into_iter()
-        .chain(again)
-        .chain(set)
-        .collect();
+    let set = ["--set", "material.poisson_ratio=0.36", "--force", "--out", "out"];
+    let again: Vec<&str> = EIGENVALUE_SET.iter().flat_map(|set| ["--set", *set]).collect();
+    let arguments: Vec<&str> = ["cea", "case.toml"].into_iter().chain(again).chain(set).collect();
     frictionsim(other.path(), &arguments);
     let paths = [&folder, &other].map(|f| f.path().join("out").display().to_string());
-    frictionsim(
-        folder.path(),
-        &["compare", &paths[0], &paths[1], "--out", "both"],
-    );
+    frictionsim(folder.path(), &["compare", &paths[0], &paths[1], "--out", "both"]);
     let rows = rows_of(&folder.path().join("both/compare.csv"));
     let summary = |folder: &TempDir| -> Value {
         let text = std::fs::read_to_string(folder.path().join("out/summary.json")).unwrap();
         serde_json::from_str(&text).unwrap()
     };
-    let critical = |summary: &Value| {
-        summary["critical_frictions"][0]["critical_friction"]
-            .as_f64()
-            .unwrap()
-    };
+    let critical =
+        |summary: &Value| summary["critical_frictions"][0]["critical_friction"].as_f64().unwrap();
     let (one, two) = (critical(&summary(&folder)), critical(&summary(&other)));
-    let row = rows
-        .iter()
-        .find(|row| row[0].ends_with(".critical_friction"))
-        .unwrap();
+    let row = rows.iter().find(|row| row[0].ends_with(".critical_friction")).unwrap();
     let number = |at: usize| row[at].parse::<f64>().unwrap();
     assert_eq!((number(2), number(3)), (one, two), "{row:?}");
     assert!(
@@ -437,12 +367,8 @@ fn two_runs_are_compared_number_by_number_and_curve_over_curve() {
     // Curves of both runs in one panel.
     press(&browser, "pairs", "Zoom");
     let names = browser.run("return [...document.querySelectorAll('#pairs .series')].map(b => b.textContent.split(': ')[0])");
-    let names: std::collections::BTreeSet<&str> = names
-        .as_array()
-        .unwrap()
-        .iter()
-        .filter_map(Value::as_str)
-        .collect();
+    let names: std::collections::BTreeSet<&str> =
+        names.as_array().unwrap().iter().filter_map(Value::as_str).collect();
     assert_eq!(names.len(), 2, "{names:?}");
     check_accessibility(&browser);
     check_silence(&browser);

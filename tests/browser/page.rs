@@ -13,9 +13,7 @@ pub const WIDE: [usize; 2] = [1280, 900];
 pub const PHONE: [usize; 2] = [400, 800];
 
 pub fn case(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("cases")
-        .join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name)
 }
 
 /// Runs the program in a folder.
@@ -26,11 +24,7 @@ pub fn frictionsim(folder: &Path, arguments: &[&str]) {
         .current_dir(folder)
         .output()
         .unwrap();
-    assert!(
-        run.status.success(),
-        "{arguments:?}: {}",
-        String::from_utf8_lossy(&run.stderr)
-    );
+    assert!(run.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&run.stderr));
 }
 
 /// A case of the collection in `folder`, with a title that has markup in it, and its report.
@@ -85,18 +79,11 @@ pub fn data_of(browser: &Browser, figure: &str) -> Vec<Vec<String>> {
     browser.run("window.taken = null; URL.createObjectURL = blob => { blob.text().then(t => window.taken = t); return 'blob:none'; }; HTMLAnchorElement.prototype.click = function () { window.takenName = this.download; };");
     press(browser, figure, "Data");
     browser.wait("return window.taken !== null");
-    assert_eq!(
-        browser.run("return window.takenName"),
-        json!(format!("{figure}.csv"))
-    );
+    assert_eq!(browser.run("return window.takenName"), json!(format!("{figure}.csv")));
     let text = browser.run("return window.taken");
-    let mut reader = csv::ReaderBuilder::new()
-        .has_headers(false)
-        .from_reader(text.as_str().unwrap().as_bytes());
-    reader
-        .records()
-        .map(|row| row.unwrap().iter().map(str::to_owned).collect())
-        .collect()
+    let mut reader =
+        csv::ReaderBuilder::new().has_headers(false).from_reader(text.as_str().unwrap().as_bytes());
+    reader.records().map(|row| row.unwrap().iter().map(str::to_owned).collect()).collect()
 }
 
 pub fn check_accessibility(browser: &Browser) {
@@ -121,17 +108,8 @@ pub fn check_text_stays_text(browser: &Browser) {
         ),
         json!(true)
     );
-    assert!(
-        browser
-            .run("return document.title")
-            .as_str()
-            .unwrap()
-            .starts_with(MARKUP)
-    );
-    assert_eq!(
-        browser.run("return document.querySelectorAll('img').length"),
-        json!(0)
-    );
+    assert!(browser.run("return document.title").as_str().unwrap().starts_with(MARKUP));
+    assert_eq!(browser.run("return document.querySelectorAll('img').length"), json!(0));
 }
 
 pub fn keep_screenshot(browser: &Browser, name: &str) {
@@ -143,8 +121,5 @@ pub fn keep_screenshot(browser: &Browser, name: &str) {
 /// Rows of a table without its header.
 pub fn rows_of(path: &Path) -> Vec<Vec<String>> {
     let mut reader = csv::Reader::from_path(path).unwrap();
-    reader
-        .records()
-        .map(|row| row.unwrap().iter().map(str::to_owned).collect())
-        .collect()
+    reader.records().map(|row| row.unwrap().iter().map(str::to_owned).collect()).collect()
 }

@@ -146,20 +146,12 @@ type Names = Vec<String>;
 fn named_paths(code: &str, module: &[String]) -> Vec<Names> {
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
     let mut paths = Vec::new();
-    for (root, kept) in [
-        ("crate::", 0),
-        ("super::", module.len() - 1),
-        ("self::", module.len()),
-    ] {
+    for (root, kept) in [("crate::", 0), ("super::", module.len() - 1), ("self::", module.len())] {
         for (at, _) in code.match_indices(root) {
             // `super::super::` is found at its first word, and the end of a longer word is none.
             let before = code[..at].chars().next_back();
             if before.is_none_or(|c| !is_word(c) && c != ':') {
-                paths_of(
-                    &code[at + root.len()..],
-                    module[..kept].to_vec(),
-                    &mut paths,
-                );
+                paths_of(&code[at + root.len()..], module[..kept].to_vec(), &mut paths);
             }
         }
     }
@@ -195,25 +187,17 @@ fn modules() -> BTreeMap<Names, String> {
     rust_files(&source, &mut files);
     let module = |path: PathBuf| {
         let relative = path.strip_prefix(&source).unwrap().with_extension("");
-        let mut names: Names = relative
-            .iter()
-            .map(|name| name.to_str().unwrap().to_owned())
-            .collect();
+        let mut names: Names =
+            relative.iter().map(|name| name.to_str().unwrap().to_owned()).collect();
         names.retain(|name| !["mod", "lib", "main"].contains(&name.as_str()));
         (names, without_comments(&fs::read_to_string(path).unwrap()))
     };
-    files
-        .into_iter()
-        .map(module)
-        .filter(|(names, _)| !names.is_empty())
-        .collect()
+    files.into_iter().map(module).filter(|(names, _)| !names.is_empty()).collect()
 }
 
 /// The module that defines what a path names, through the `pub use` of the faces of folders.
 fn home_of(path: &[String], modules: &BTreeMap<Names, String>) -> Option<Names> {
-    let depth = (1..=path.len())
-        .rev()
-        .find(|&n| modules.contains_key(&path[..n]))?;
+    let depth = (1..=path.len()).rev().find(|&n| modules.contains_key(&path[..n]))?;
     let (module, item) = (&path[..depth], path.get(depth));
     let Some(item) = item else {
         return Some(module.to_vec());
@@ -242,17 +226,9 @@ fn no_files_name_each_other_in_a_circle() {
     for (module, code) in modules.iter().filter(|(module, _)| !is_face(module)) {
         let paths = named_paths(code, module);
         let homes = paths.iter().filter_map(|path| home_of(path, &modules));
-        named.insert(
-            module,
-            homes
-                .filter(|home| home != module && !is_face(home))
-                .collect(),
-        );
+        named.insert(module, homes.filter(|home| home != module && !is_face(home)).collect());
     }
-    assert!(
-        named.values().map(BTreeSet::len).sum::<usize>() > 500,
-        "imports were not found"
-    );
+    assert!(named.values().map(BTreeSet::len).sum::<usize>() > 500, "imports were not found");
     // What names nothing that is left, and what nothing left names, is taken away until only circles and ways between them are.
     let is_end = |named: &BTreeMap<&Names, BTreeSet<Names>>, module: &Names| {
         !named[module].iter().any(|to| named.contains_key(to))
@@ -264,20 +240,9 @@ fn no_files_name_each_other_in_a_circle() {
     let left: Vec<String> = named
         .iter()
         .map(|(module, to)| {
-            let to = to
-                .iter()
-                .filter(|t| named.contains_key(t))
-                .map(|t| t.join("::"));
-            format!(
-                "{} names {}",
-                module.join("::"),
-                to.collect::<Vec<_>>().join(", ")
-            )
+            let to = to.iter().filter(|t| named.contains_key(t)).map(|t| t.join("::"));
+            format!("{} names {}", module.join("::"), to.collect::<Vec<_>>().join(", "))
         })
         .collect();
-    assert!(
-        left.is_empty(),
-        "circles, and what stands on them:\n{}",
-        left.join("\n")
-    );
+    assert!(left.is_empty(), "circles, and what stands on them:\n{}", left.join("\n"));
 }

@@ -33,9 +33,7 @@ fn run(folder: &Path, command: &str, out: &str) -> String {
     let case = folder.join("case.toml");
     std::fs::write(&case, CASE).unwrap();
     let mut program = Command::cargo_bin("frictionsim").unwrap();
-    let program = program
-        .current_dir(folder)
-        .args([command, "case.toml", "--out", out]);
+    let program = program.current_dir(folder).args([command, "case.toml", "--out", out]);
     let output = program.assert().success().get_output().stdout.clone();
     String::from_utf8(output).unwrap()
 }
@@ -44,10 +42,7 @@ fn run(folder: &Path, command: &str, out: &str) -> String {
 fn the_boundary_separates_all_transients_of_its_search() {
     let folder = tempfile::tempdir().unwrap();
     let printed = run(folder.path(), "basin", "out");
-    assert!(
-        printed.contains("n = 2 wins where its amplitude"),
-        "{printed}"
-    );
+    assert!(printed.contains("n = 2 wins where its amplitude"), "{printed}");
     let summary = std::fs::read(folder.path().join("out/summary.json")).unwrap();
     let summary: serde_json::Value = serde_json::from_slice(&summary).unwrap();
     let [low, high] = ["low", "high"].map(|end| summary["boundary"][end].as_f64().unwrap());
@@ -57,14 +52,7 @@ fn the_boundary_separates_all_transients_of_its_search() {
     assert!(rows.len() > 2);
     for row in rows {
         let (ratio, winner) = (row[1], row[2]);
-        assert!(
-            if winner == 1.0 {
-                ratio <= low
-            } else {
-                ratio >= high
-            },
-            "{ratio}: {winner}"
-        );
+        assert!(if winner == 1.0 { ratio <= low } else { ratio >= high }, "{ratio}: {winner}");
     }
 }
 
@@ -72,17 +60,8 @@ fn the_boundary_separates_all_transients_of_its_search() {
 fn a_study_of_basins_has_columns_and_a_map() {
     let folder = tempfile::tempdir().unwrap();
     let printed = run(folder.path(), "sweep", "map");
-    assert!(
-        printed.contains("ratio below") && printed.contains("ratio above"),
-        "{printed}"
-    );
+    assert!(printed.contains("ratio below") && printed.contains("ratio above"), "{printed}");
     let table = std::fs::read_to_string(folder.path().join("map/points.csv")).unwrap();
-    assert!(
-        table
-            .lines()
-            .next()
-            .unwrap()
-            .contains("boundary.low,boundary.high")
-    );
+    assert!(table.lines().next().unwrap().contains("boundary.low,boundary.high"));
     assert!(folder.path().join("map/figures/basins.svg").exists());
 }

@@ -59,17 +59,12 @@ impl Bench {
 
     /// Runs `command` on `inputs` alone.
     pub fn run_on(&self, command: &str, inputs: &[&Path], overrides: &[&str]) -> Answer {
-        let out = tempfile::Builder::new()
-            .prefix("run")
-            .tempdir_in(self.folder.path())
-            .unwrap()
-            .keep();
+        let out =
+            tempfile::Builder::new().prefix("run").tempdir_in(self.folder.path()).unwrap().keep();
         let mut program = Command::new(env!("CARGO_BIN_EXE_frictionsim"));
         program.arg(command).args(inputs).arg("--json");
         if command != "check" {
-            program
-                .args(["-qq", "--no-figures", "--force", "--out"])
-                .arg(&out);
+            program.args(["-qq", "--no-figures", "--force", "--out"]).arg(&out);
         }
         for setting in overrides {
             program.args(["--set", setting]);
@@ -101,11 +96,7 @@ impl Bench {
 /// The table as Markdown: a row for each analysis, a column for each body, the reasons of refusals below.
 fn table(kinds: &[Kind], cells: &[(&str, Vec<Cell>)]) -> String {
     let names: Vec<&str> = kinds.iter().map(|kind| kind.name).collect();
-    let mut text = format!(
-        "| | {} |\n|---|{}\n",
-        names.join(" | "),
-        "---|".repeat(names.len())
-    );
+    let mut text = format!("| | {} |\n|---|{}\n", names.join(" | "), "---|".repeat(names.len()));
     let mut reasons: Vec<&str> = Vec::new();
     for (analysis, row) in cells {
         write!(text, "| {analysis} |").unwrap();
@@ -162,12 +153,8 @@ fn every_analysis_of_every_body_is_right_or_refused_with_a_reason() {
     let table = table(&kinds, &cells);
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/README.md");
     let text = std::fs::read_to_string(&path).unwrap();
-    let (before, rest) = text
-        .split_once(BEGIN)
-        .expect("tests/README.md has the table's place");
-    let (stored, after) = rest
-        .split_once(END)
-        .expect("tests/README.md has the table's end");
+    let (before, rest) = text.split_once(BEGIN).expect("tests/README.md has the table's place");
+    let (stored, after) = rest.split_once(END).expect("tests/README.md has the table's end");
     if std::env::var_os("FRICTIONSIM_WRITE_TABLE").is_some() {
         std::fs::write(&path, format!("{before}{BEGIN}{table}{END}{after}")).unwrap();
     } else {

@@ -71,14 +71,9 @@ fn eigenvalues_of_bilinear_elements_converge_with_order_two() {
     // n = 0 once and n = 1 in both directions.
     assert_eq!(orders.len(), 3);
     // Eigenvalues converge with twice the degree; coarse meshes are not quite asymptotic.
-    assert!(
-        orders.iter().all(|order| (order - 2.0).abs() < 0.2),
-        "{orders:?}"
-    );
+    assert!(orders.iter().all(|order| (order - 2.0).abs() < 0.2), "{orders:?}");
     let all = quantities(&summary["series"][0]);
-    let onset = all
-        .iter()
-        .find(|q| q["name"].as_str().unwrap().starts_with("critical"));
+    let onset = all.iter().find(|q| q["name"].as_str().unwrap().starts_with("critical"));
     assert_eq!(onset.unwrap()["verdict"], "converging");
 }
 
@@ -97,10 +92,7 @@ fn eigenvalues_of_quadratic_elements_converge_with_order_four() {
     ];
     let orders = frequency_orders(&summary(folder.path(), &text, &coarse));
     assert_eq!(orders.len(), 3);
-    assert!(
-        orders.iter().all(|order| (order - 4.0).abs() < 0.5),
-        "{orders:?}"
-    );
+    assert!(orders.iter().all(|order| (order - 4.0).abs() < 0.5), "{orders:?}");
 }
 
 #[test]
@@ -111,9 +103,8 @@ fn richardson_of_coarse_meshes_comes_nearer_to_a_fine_one_than_the_finest_of_the
     let text = text.replace("[1, 1.5, 2.25]", "[4, 6, 8]");
     let fine = summary(folder.path(), &text, &["--no-figures", "--force"]);
     let limit = |q: &Value| q["extrapolated"].as_f64().unwrap();
-    for (coarse, fine) in quantities(&coarse["series"][0])
-        .iter()
-        .zip(quantities(&fine["series"][0]))
+    for (coarse, fine) in
+        quantities(&coarse["series"][0]).iter().zip(quantities(&fine["series"][0]))
     {
         if !coarse["name"].as_str().unwrap().starts_with("frequency") {
             continue;
@@ -135,19 +126,12 @@ fn a_transient_is_tabled_over_mesh_and_time_step_with_figures_and_report() {
     );
     let run = command(folder.path(), &text, &[]).code(0);
     let printed = String::from_utf8(run.get_output().stdout.clone()).unwrap();
-    for line in [
-        "cea over the mesh",
-        "transient over the mesh",
-        "transient over the time step",
-    ] {
+    for line in ["cea over the mesh", "transient over the mesh", "transient over the time step"] {
         assert!(printed.contains(line), "{printed}");
     }
     // What decides is printed, the other modes are in the table.
     let left = printed.lines().find(|line| line.contains("--verbose"));
-    assert!(
-        left.is_some_and(|line| line.contains("do not grow")),
-        "{printed}"
-    );
+    assert!(left.is_some_and(|line| line.contains("do not grow")), "{printed}");
     assert!(printed.lines().count() < 60, "{printed}");
     let out = folder.path().join("out");
     for name in [
@@ -162,10 +146,7 @@ fn a_transient_is_tabled_over_mesh_and_time_step_with_figures_and_report() {
     let summary: Value =
         serde_json::from_str(&std::fs::read_to_string(out.join("summary.json")).unwrap()).unwrap();
     let [cea, mesh, step] = [0, 1, 2].map(|k| &summary["series"][k]);
-    assert_eq!(
-        cea["levels"],
-        serde_json::json!(["18 x 4", "27 x 6", "36 x 8"])
-    );
+    assert_eq!(cea["levels"], serde_json::json!(["18 x 4", "27 x 6", "36 x 8"]));
     let steps: Vec<f64> = serde_json::from_value(step["sizes"].clone()).unwrap();
     // A quarter of a step that divides the sample interval divides it too.
     assert!((steps[0] / steps[2] - 4.0).abs() < 1e-12, "{steps:?}");
@@ -184,50 +165,26 @@ fn bad_factors_are_refused_with_file_line_and_key() {
     let lines = DISC.lines().count() + CEA.lines().count() + 2;
     for (keys, message) in [
         ("factors = [1, 2]", "convergence.factors has 2 values"),
-        (
-            "factors = [1, 3, 2]",
-            "convergence.factors must rise, but 2 follows 3",
-        ),
-        (
-            "factors = [-1, 1, 2]",
-            "convergence.factors = -1 must be positive",
-        ),
-        (
-            "factors = \"fine\"",
-            "convergence.factors = \"fine\" must be a list",
-        ),
-        (
-            "factors = [1, 1.01, 2]",
-            "does not refine that of 1, 36 x 8",
-        ),
+        ("factors = [1, 3, 2]", "convergence.factors must rise, but 2 follows 3"),
+        ("factors = [-1, 1, 2]", "convergence.factors = -1 must be positive"),
+        ("factors = \"fine\"", "convergence.factors = \"fine\" must be a list"),
+        ("factors = [1, 1.01, 2]", "does not refine that of 1, 36 x 8"),
         ("factors = [0.01, 1, 2]", "0 x 0, has too few elements"),
         ("factors = [1, 2, 1e9]", "above the limit"),
-        (
-            "time_step_factors = [1, 0.5, 0.25]",
-            "convergence.time_step_factors needs a [transient]",
-        ),
-        (
-            "analyses = [\"transient\"]",
-            "names \"transient\", which this case cannot run",
-        ),
+        ("time_step_factors = [1, 0.5, 0.25]", "convergence.time_step_factors needs a [transient]"),
+        ("analyses = [\"transient\"]", "names \"transient\", which this case cannot run"),
         ("factor = [1, 2, 3]", "unknown key `convergence.factor`"),
     ] {
         let text = format!("{DISC}{CEA}[convergence]\n{keys}\n");
         let run = command(folder.path(), &text, &[]).code(2);
         let stderr = String::from_utf8(run.get_output().stderr.clone()).unwrap();
         assert!(stderr.contains(message), "{keys}: {stderr}");
-        assert!(
-            stderr.contains(&format!("disc.toml:{lines}")),
-            "{lines}: {stderr}"
-        );
+        assert!(stderr.contains(&format!("disc.toml:{lines}")), "{lines}: {stderr}");
     }
     let rising = format!("{DISC}{TRANSIENT}[convergence]\ntime_step_factors = [1, 2, 4]\n");
     let run = command(folder.path(), &rising, &[]).code(2);
     let stderr = String::from_utf8(run.get_output().stderr.clone()).unwrap();
-    assert!(
-        stderr.contains("convergence.time_step_factors must fall"),
-        "{stderr}"
-    );
+    assert!(stderr.contains("convergence.time_step_factors must fall"), "{stderr}");
     let none = command(folder.path(), DISC, &[]).code(2);
     let stderr = String::from_utf8(none.get_output().stderr.clone()).unwrap();
     assert!(stderr.contains("no [convergence] section"), "{stderr}");
@@ -239,10 +196,7 @@ fn limit_cycles_are_compared_harmonic_by_harmonic_and_doubtful_levels_are_named(
     let text = format!("{DISC}[cycle]\nharmonics = [1, 2]\n[convergence]\nfactors = [2, 2.5, 3]\n");
     let found = summary(folder.path(), &text, &["--no-figures"]);
     let series = found["series"].as_array().unwrap();
-    let names: Vec<&str> = series
-        .iter()
-        .map(|s| s["analysis"].as_str().unwrap())
-        .collect();
+    let names: Vec<&str> = series.iter().map(|s| s["analysis"].as_str().unwrap()).collect();
     assert_eq!(names, ["cycle-n1", "cycle-n1-onset2", "cycle-n2"]);
     // Transients: 270 x 52 elements, last fifth of 50 ms; for the second onset 180 x 35, started on the cycle.
     for (series, wanted) in series.iter().zip([10229.8, 7667.4, 9431.5]) {
@@ -251,15 +205,10 @@ fn limit_cycles_are_compared_harmonic_by_harmonic_and_doubtful_levels_are_named(
         let finest = frequency["values"][2].as_f64().unwrap();
         assert!((finest / wanted - 1.0).abs() < 3e-3, "{finest}");
     }
-    let text = text
-        .replace("[2, 2.5, 3]", "[1, 1.5, 2]")
-        .replace("[1, 2]", "[2]");
+    let text = text.replace("[2, 2.5, 3]", "[1, 1.5, 2]").replace("[1, 2]", "[2]");
     let found = summary(folder.path(), &text, &["--no-figures", "--force"]);
     let notes = found["series"][0]["notes"].to_string();
-    assert!(
-        notes.contains("36 x 8: NOT CONFIRMED") && notes.contains("54 x 12: n = 2"),
-        "{notes}"
-    );
+    assert!(notes.contains("36 x 8: NOT CONFIRMED") && notes.contains("54 x 12: n = 2"), "{notes}");
     let verdict = &quantities(&found["series"][0])[0]["verdict"];
     assert_eq!(verdict, "missing");
 }

@@ -67,13 +67,7 @@ fn shipped_case_follows_both_waves_over_the_speed_and_says_where_the_single_one_
     let header = "contact.rotation_speed_rpm,class,growth_rate_per_s,wave_frequency_rad_per_s,harmonic,frequency_hz,uncertainty_per_s";
     assert_eq!(table.lines().next().unwrap(), header);
     let branch = std::fs::read_to_string(out.join("branch-n1.csv")).unwrap();
-    assert!(
-        branch
-            .lines()
-            .next()
-            .unwrap()
-            .ends_with("growth_rate_per_s")
-    );
+    assert!(branch.lines().next().unwrap().ends_with("growth_rate_per_s"));
 }
 
 #[test]
@@ -82,11 +76,8 @@ fn what_cannot_be_found_says_why_and_what_to_change() {
     assert_eq!(code, 2, "{text}");
     assert!(text.contains("quad4"), "{text}");
     // A mesh too coarse for the wave: it is refused, not reported.
-    let coarse = [
-        "mesh.circumferential_elements=60",
-        "mesh.radial_elements=12",
-        "cycle.harmonics=[2]",
-    ];
+    let coarse =
+        ["mesh.circumferential_elements=60", "mesh.radial_elements=12", "cycle.harmonics=[2]"];
     let arguments: Vec<&str> = coarse.iter().flat_map(|set| ["--set", set]).collect();
     let (code, text) = error(&arguments);
     assert_eq!(code, 1, "{text}");
@@ -108,11 +99,7 @@ fn below_every_onset_steady_sliding_is_said_to_be_stable_once_and_that_is_no_fai
         .unwrap();
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     let text = String::from_utf8(output.stdout).unwrap();
-    assert_eq!(
-        text.matches("steady sliding is stable").count(),
-        1,
-        "{text}"
-    );
+    assert_eq!(text.matches("steady sliding is stable").count(), 1, "{text}");
     assert!(text.contains("0.1 < 0.12"), "{text}");
 }
 
@@ -134,10 +121,7 @@ fn a_wave_that_the_transient_does_not_confirm_is_said_to_be_none() {
     ];
     let output = run(&coarse, &folder.path().join("cycle"));
     let warning = String::from_utf8(output.stderr).unwrap();
-    assert!(
-        warning.contains("NOT CONFIRMED") && warning.contains("refine the mesh"),
-        "{warning}"
-    );
+    assert!(warning.contains("NOT CONFIRMED") && warning.contains("refine the mesh"), "{warning}");
     let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(summary["cycles"][0]["confirmation"]["agrees"], false);
     // The same cases without the test of the transient.
@@ -159,15 +143,7 @@ fn a_study_of_limit_cycles_has_the_same_table_for_any_threads() {
             "cycle.continuation.count=3",
         ];
         let run = Command::new(env!("CARGO_BIN_EXE_frictionsim"))
-            .args([
-                "sweep",
-                case,
-                "--quiet",
-                "--no-figures",
-                "--threads",
-                threads,
-                "--out",
-            ])
+            .args(["sweep", case, "--quiet", "--no-figures", "--threads", threads, "--out"])
             .arg(&out)
             .args(set.iter().flat_map(|set| ["--set", set]))
             .output()
@@ -211,26 +187,14 @@ fn an_interrupted_search_says_what_is_kept_and_can_be_started_again() {
     }
     // The handler is in place as soon as the folder is.
     std::thread::sleep(std::time::Duration::from_millis(200));
-    let killed = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status()
-        .unwrap();
+    let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
     assert!(killed.success());
     let output = child.wait_with_output().unwrap();
     let text = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(130), "{text}");
-    assert!(
-        text.contains("interrupted; nothing of this run is kept"),
-        "{text}"
-    );
+    assert!(text.contains("interrupted; nothing of this run is kept"), "{text}");
     let again = run(
-        &[
-            "--force",
-            "--set",
-            "cycle.continuation.count=2",
-            "--set",
-            "cycle.stability=none",
-        ],
+        &["--force", "--set", "cycle.continuation.count=2", "--set", "cycle.stability=none"],
         &out,
     );
     assert!(again.status.success(), "{again:?}");
@@ -285,20 +249,11 @@ fn the_cycle_of_a_whole_mesh_has_the_same_bytes_for_any_threads() {
     let folder = tempfile::tempdir().unwrap();
     let table = |threads: &str| {
         let out = folder.path().join(threads);
-        let set = [
-            "--threads",
-            threads,
-            "--set",
-            "cycle.confirmation_periods=0",
-        ];
+        let set = ["--threads", threads, "--set", "cycle.confirmation_periods=0"];
         let output = run_block(&set, &out);
         assert!(output.status.success(), "{output:?}");
-        [
-            "cycle-mode7.csv",
-            "contact-mode7.npz",
-            "stability-mode7.csv",
-        ]
-        .map(|name| std::fs::read(out.join(name)).unwrap())
+        ["cycle-mode7.csv", "contact-mode7.npz", "stability-mode7.csv"]
+            .map(|name| std::fs::read(out.join(name)).unwrap())
     };
     assert!(table("1") == table("2"));
 }
@@ -306,33 +261,18 @@ fn the_cycle_of_a_whole_mesh_has_the_same_bytes_for_any_threads() {
 #[test]
 fn a_body_without_symmetry_says_what_it_does_not_use_and_where_nothing_grows() {
     let folder = tempfile::tempdir().unwrap();
-    let set = [
-        "--set",
-        "cycle.harmonics=[1]",
-        "--set",
-        "contact.friction_coefficient=0.5",
-    ];
+    let set = ["--set", "cycle.harmonics=[1]", "--set", "contact.friction_coefficient=0.5"];
     let output = run_block(&set, &folder.path().join("stable"));
-    let (words, text) = (
-        String::from_utf8(output.stdout).unwrap(),
-        String::from_utf8(output.stderr).unwrap(),
-    );
+    let (words, text) =
+        (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
     assert!(output.status.success(), "{text}");
     assert!(text.contains("cycle.harmonics is not used"), "{text}");
     let summary: Value = serde_json::from_str(&words).unwrap();
     assert_eq!(summary["steady_sliding_stable"], true);
-    assert!(
-        summary["least_stable"]["growth_rate_per_s"]
-            .as_f64()
-            .unwrap()
-            < 0.0
-    );
+    assert!(summary["least_stable"]["growth_rate_per_s"].as_f64().unwrap() < 0.0);
 
     let rest = run_block(&["--set", "contact.speed=0"], &folder.path().join("rest"));
     let text = String::from_utf8(rest.stderr).unwrap();
     assert_eq!(rest.status.code(), Some(2), "{text}");
-    assert!(
-        text.contains("contact.speed") && text.contains("sticks at rest"),
-        "{text}"
-    );
+    assert!(text.contains("contact.speed") && text.contains("sticks at rest"), "{text}");
 }

@@ -10,9 +10,7 @@ use tempfile::{TempDir, tempdir};
 
 /// A command on a shipped case with a coarse mesh, without figures, into `name` of a folder.
 fn words(command: &str, case: &str, folder: &TempDir, name: &str, set: &[&str]) -> Vec<OsString> {
-    let case = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("cases")
-        .join(case);
+    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(case);
     let out = folder.path().join(name);
     let mut words: Vec<OsString> = vec![command.into(), case.into(), "--out".into(), out.into()];
     let coarse = ["mesh.circumferential_elements=16", "mesh.radial_elements=3"];
@@ -48,11 +46,8 @@ fn interruption(failure: &EmbeddedFailure) -> &str {
     }
 }
 
-const RUN: [&str; 3] = [
-    "output.probes=[1]",
-    "output.sample_interval=1e-5",
-    "contact.friction_coefficient=0.3",
-];
+const RUN: [&str; 3] =
+    ["output.probes=[1]", "output.sample_interval=1e-5", "contact.friction_coefficient=0.3"];
 
 fn transient(folder: &TempDir, name: &str, duration: &str) -> Vec<OsString> {
     let set = [&RUN[..], &[duration]].concat();
@@ -113,11 +108,7 @@ fn a_sweep_that_is_stopped_keeps_its_finished_points() {
 #[test]
 fn an_eigenvalue_analysis_is_stopped_between_factorizations() {
     let folder = tempdir().unwrap();
-    let set = [
-        "cea.method=sparse",
-        "mesh.radial_elements=35",
-        "mesh.circumferential_elements=180",
-    ];
+    let set = ["cea.method=sparse", "mesh.radial_elements=35", "mesh.circumferential_elements=180"];
     let case = words("cea", "polycarbonate-disc.toml", &folder, "cea", &set);
     let run = EmbeddedRun::default();
     let own = run.clone();
@@ -155,10 +146,7 @@ fn bad_words_and_bad_cases_are_failures_as_on_the_command_line() {
     assert!(failure.messages()[0].contains("--colour"));
     let set = ["contact.friction_coefficient=-1"];
     let bad = run(words("cea", "polycarbonate-disc.toml", &folder, "x", &set)).unwrap_err();
-    assert!(
-        matches!(&bad, EmbeddedFailure::Command(Failure::Case(_))),
-        "{bad:?}"
-    );
+    assert!(matches!(&bad, EmbeddedFailure::Command(Failure::Case(_))), "{bad:?}");
 }
 
 #[test]
@@ -168,15 +156,10 @@ fn warnings_are_kept_for_the_caller_and_each_run_has_its_own() {
     let set = |thickness: &'static str| ["cea.friction_coefficients=[0.3]", thickness];
     let case = "polycarbonate-disc.toml";
     let thick = set("geometry.thickness=9.0");
-    loud.run(words("cea", case, &folder, "thick", &thick), 1)
-        .unwrap();
+    loud.run(words("cea", case, &folder, "thick", &thick), 1).unwrap();
     let usual = set("geometry.thickness=0.009");
-    calm.run(words("cea", case, &folder, "usual", &usual), 1)
-        .unwrap();
+    calm.run(words("cea", case, &folder, "usual", &usual), 1).unwrap();
     let said = loud.take_log();
-    assert!(
-        said.contains("WARN") && said.contains("thickness"),
-        "{said}"
-    );
+    assert!(said.contains("WARN") && said.contains("thickness"), "{said}");
     assert_eq!(calm.take_log(), "");
 }

@@ -19,15 +19,9 @@ fn the_gallery_has_a_picture_of_every_shipped_case() {
     let script = std::fs::read_to_string(root.join("examples/gallery")).unwrap();
     for case in frictionsim::app::shipped::all_cases() {
         let picture = format!("examples/figures/gallery/{}.png", case.name());
-        assert!(
-            root.join(&picture).exists(),
-            "{picture}: run examples/gallery"
-        );
+        assert!(root.join(&picture).exists(), "{picture}: run examples/gallery");
         assert!(readme.contains(&format!("(../{picture})")), "{picture}");
-        assert!(
-            script.contains(&format!("\ndraw {} ", case.name())),
-            "{picture}"
-        );
+        assert!(script.contains(&format!("\ndraw {} ", case.name())), "{picture}");
     }
 }
 

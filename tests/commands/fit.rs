@@ -15,9 +15,7 @@ use serde_json::Value;
 use std::path::Path;
 
 fn path(name: &str) -> std::path::PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("cases")
-        .join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name)
 }
 
 fn case(name: &str, set: &[&str]) -> Case {
@@ -32,11 +30,7 @@ fn run(name: &str, table: &str, set: &[&str]) -> (i32, Value, String) {
     let modes = folder.path().join("modes.csv");
     std::fs::write(&modes, table).unwrap();
     let mut command = Command::cargo_bin("frictionsim").unwrap();
-    command
-        .arg("fit")
-        .arg(path(name))
-        .arg(&modes)
-        .args(["--json", "--no-figures", "--out"]);
+    command.arg("fit").arg(path(name)).arg(&modes).args(["--json", "--no-figures", "--out"]);
     command.arg(folder.path().join("out"));
     for text in set {
         command.args(["--set", text]);
@@ -50,19 +44,13 @@ fn run(name: &str, table: &str, set: &[&str]) -> (i32, Value, String) {
 const COARSE_DISC: [&str; 2] = ["mesh.circumferential_elements=40", "mesh.radial_elements=8"];
 
 fn disc_table() -> String {
-    let rows = table_1::TABLE_1
-        .iter()
-        .map(|(real, frequency, ..)| format!("{real},{frequency}\n"));
+    let rows = table_1::TABLE_1.iter().map(|(real, frequency, ..)| format!("{real},{frequency}\n"));
     "real_hz,frequency_hz\n".to_owned() + &rows.collect::<String>()
 }
 
 #[test]
 fn table_1_gives_back_the_three_values_that_the_paper_leaves_out() {
-    let set = [
-        "mesh.circumferential_elements=60",
-        "mesh.radial_elements=12",
-        "fit.starts=4",
-    ];
+    let set = ["mesh.circumferential_elements=60", "mesh.radial_elements=12", "fit.starts=4"];
     let (code, found, said) = run("fit-table-1.toml", &disc_table(), &set);
     assert_eq!(code, 0, "{said}");
     let value = |key: &str| found["parameters"][key]["value"].as_f64().unwrap();
@@ -73,12 +61,7 @@ fn table_1_gives_back_the_three_values_that_the_paper_leaves_out() {
     assert!((stiffness / 7.4e12 - 1.0).abs() < 0.15, "{stiffness:e}");
     assert!(found["worst_percent"].as_f64().unwrap() < 0.2);
     // Every row is the mode that the exact continuum model says it is.
-    for (row, wanted) in found["residuals"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .zip(table_1::TABLE_1)
-    {
+    for (row, wanted) in found["residuals"].as_array().unwrap().iter().zip(table_1::TABLE_1) {
         assert_eq!(row["mode"]["harmonic"], wanted.2, "{row}");
         assert_eq!(row["mode"]["branch"], wanted.3, "{row}");
     }
@@ -87,10 +70,7 @@ fn table_1_gives_back_the_three_values_that_the_paper_leaves_out() {
 #[test]
 fn one_support_stiffness_explains_the_four_frequencies_heard() {
     let table = std::fs::read_to_string(path("squeal.csv")).unwrap();
-    let set = [
-        "mesh.circumferential_elements=60",
-        "mesh.radial_elements=16",
-    ];
+    let set = ["mesh.circumferential_elements=60", "mesh.radial_elements=16"];
     let (code, found, said) = run("fit-test-bench.toml", &table, &set);
     assert_eq!(code, 0, "{said}");
     assert!(found["worst_percent"].as_f64().unwrap() < 5.0, "{found:#}");
@@ -100,21 +80,14 @@ fn one_support_stiffness_explains_the_four_frequencies_heard() {
     assert!(value > 1.3e11 && value < 2.2e11, "{value:e}");
     assert!(stiffness["low"].as_f64().unwrap() < value);
     let heard = found["residuals"].as_array().unwrap().iter();
-    assert!(
-        heard
-            .clone()
-            .all(|row| row["mode"]["real_hz"].as_f64().unwrap() > 0.0)
-    );
+    assert!(heard.clone().all(|row| row["mode"]["real_hz"].as_f64().unwrap() > 0.0));
 }
 
 /// In how many of `seeds` noisy spectra of a case the interval of each fitted parameter holds the value of the case.
 fn coverage(case: &Case, limit_hz: f64, noise: [f64; 2], seeds: u64) -> Vec<usize> {
     let (modes, _) = modes_below(case, limit_hz, false).unwrap();
     let keys = &case.require_fit().unwrap().parameters;
-    let truth: Vec<f64> = keys
-        .iter()
-        .map(|p| case.number(&p.parameter.key).unwrap())
-        .collect();
+    let truth: Vec<f64> = keys.iter().map(|p| case.number(&p.parameter.key).unwrap()).collect();
     let mut hits = vec![0; truth.len()];
     for seed in 0..seeds {
         let mut stream = GaussianNoise::new(seed);
@@ -146,11 +119,8 @@ fn intervals_of_three_parameters_hold_the_truth_in_95_of_100_noisy_spectra() {
         "contact.normal_stiffness=7e12",
         "fit.starts=1",
     ];
-    let set = [
-        ["mesh.circumferential_elements=30", "mesh.radial_elements=4"].as_slice(),
-        &truth,
-    ]
-    .concat();
+    let set = [["mesh.circumferential_elements=30", "mesh.radial_elements=4"].as_slice(), &truth]
+        .concat();
     let case = case("fit-table-1.toml", &set);
     // Real parts are known ten times worse than frequencies: the weight between them is found.
     let hits = coverage(&case, 15_000.0, [1e-4, 1e-3], 100);
@@ -189,19 +159,13 @@ fn intervals_hold_on_an_imported_mesh() {
 
 #[test]
 fn what_the_data_cannot_tell_apart_is_named() {
-    let set = [
-        "fit.parameters.\"material.density\"=[1000, 1500]",
-        "fit.starts=2",
-    ];
+    let set = ["fit.parameters.\"material.density\"=[1000, 1500]", "fit.starts=2"];
     let set = [COARSE_DISC.as_slice(), &set].concat();
     let (code, _, said) = run("fit-table-1.toml", &disc_table(), &set);
     assert_eq!(code, 1, "{said}");
-    for part in [
-        "cannot tell",
-        "material.young_modulus",
-        "material.density",
-        "contact.normal_stiffness",
-    ] {
+    for part in
+        ["cannot tell", "material.young_modulus", "material.density", "contact.normal_stiffness"]
+    {
         assert!(said.contains(part), "{part}: {said}");
     }
 }
@@ -211,24 +175,14 @@ fn a_line_that_no_mode_can_be_is_named() {
     let table = "frequency_hz,harmonic,unstable\n7660,1,1\n9900,2,1\n10500,1,1\n9000,0,1\n";
     let (code, _, said) = run("fit-table-1.toml", table, &COARSE_DISC);
     assert_eq!(code, 1, "{said}");
-    assert!(
-        said.contains("line 5") && said.contains("n = 0, unstable"),
-        "{said}"
-    );
+    assert!(said.contains("line 5") && said.contains("n = 0, unstable"), "{said}");
 }
 
 #[test]
 fn more_parameters_than_data_and_bad_tables_are_refused_before_anything_runs() {
-    let (code, _, said) = run(
-        "fit-table-1.toml",
-        "frequency_hz\n5857\n7655\n",
-        &COARSE_DISC,
-    );
+    let (code, _, said) = run("fit-table-1.toml", "frequency_hz\n5857\n7655\n", &COARSE_DISC);
     assert_eq!(code, 2, "{said}");
-    assert!(
-        said.contains("3 parameters") && said.contains("2 measured"),
-        "{said}"
-    );
+    assert!(said.contains("3 parameters") && said.contains("2 measured"), "{said}");
     let (code, _, said) = run("fit-table-1.toml", "frequency_hz\nabc\n", &COARSE_DISC);
     assert_eq!(code, 2, "{said}");
     assert!(said.contains("modes.csv:2:1"), "{said}");
@@ -242,10 +196,7 @@ fn a_fit_on_its_bound_says_so() {
     let table = "frequency_hz,harmonic\n5857,0\n7655,1\n9884,2\n11258,3\n";
     let (code, found, said) = run("fit-table-1.toml", table, &set);
     assert_eq!(code, 0, "{said}");
-    assert_eq!(
-        found["parameters"]["material.young_modulus"]["at_bound"],
-        2.2e9
-    );
+    assert_eq!(found["parameters"]["material.young_modulus"]["at_bound"], 2.2e9);
     assert!(said.contains("is at its bound"), "{said}");
 }
 
@@ -253,27 +204,12 @@ fn a_fit_on_its_bound_says_so() {
 fn bad_parameters_are_errors_of_the_case() {
     let file = std::fs::read_to_string(path("fit-table-1.toml")).unwrap();
     for (text, part) in [
-        (
-            "fit.parameters.\"material.poisson_ratio\"=[0.45, 0.3]",
-            "must rise",
-        ),
-        (
-            "fit.parameters.\"material.poisson_ratio\"=[0.3, 0.5]",
-            "must lie strictly between",
-        ),
-        (
-            "fit.parameters.\"material.poisson_ratio\"=0.3",
-            "not bounds",
-        ),
-        (
-            "fit.parameters.\"material.formulation\"=[0, 1]",
-            "must be a number",
-        ),
+        ("fit.parameters.\"material.poisson_ratio\"=[0.45, 0.3]", "must rise"),
+        ("fit.parameters.\"material.poisson_ratio\"=[0.3, 0.5]", "must lie strictly between"),
+        ("fit.parameters.\"material.poisson_ratio\"=0.3", "not bounds"),
+        ("fit.parameters.\"material.formulation\"=[0, 1]", "must be a number"),
         ("fit.parameters.\"material.poisson\"=[0, 1]", "did you mean"),
-        (
-            "fit.parameters.\"transient.duration\"=[0, 1]",
-            "no parameter of the model",
-        ),
+        ("fit.parameters.\"transient.duration\"=[0, 1]", "no parameter of the model"),
         (
             "fit.parameters.\"contact.interference\"={ from = 0, to = 1, scale = \"log\" }",
             "positive bounds",
@@ -330,12 +266,8 @@ fn shapes_tell_modes_apart_that_cross() {
             is_unstable: false,
         })
         .collect();
-    let parameters = [BoundedParameter {
-        name: "p".to_owned(),
-        from: 0.8,
-        to: 1.6,
-        is_logarithmic: false,
-    }];
+    let parameters =
+        [BoundedParameter { name: "p".to_owned(), from: 0.8, to: 1.6, is_logarithmic: false }];
     let with = |shape_of: [Option<usize>; 2]| {
         let problem = FitProblem {
             model: &model,

@@ -22,10 +22,7 @@ const BETA: f64 = 4.5e-7;
 /// A measurement with noise relative to the magnitude, as `frictionsim frf` writes it.
 fn noisy(values: &[c64], relative: f64, seed: u64) -> Vec<c64> {
     let mut noise = GaussianNoise::new(seed);
-    values
-        .iter()
-        .map(|h| h + noise.draw() * (relative * h.norm()))
-        .collect()
+    values.iter().map(|h| h + noise.draw() * (relative * h.norm())).collect()
 }
 
 /// Driving-point accelerance of the free polycarbonate disc at its rim, up to 10 kHz.
@@ -47,48 +44,30 @@ fn free_disc(step_hz: f64) -> (Vec<f64>, Vec<c64>) {
         formulation: PlaneFormulation::PlaneStrain,
         ..ElasticMaterial::PLAIN
     };
-    let damping = RayleighDamping {
-        mass_coefficient: ALPHA,
-        stiffness_coefficient: BETA,
-    };
+    let damping = RayleighDamping { mass_coefficient: ALPHA, stiffness_coefficient: BETA };
     let annulus = AnnulusMesh::generate(&specification).unwrap();
     let mass = MassKind::Consistent;
     let system = FrfSystem::body(&annulus.mesh, &material, mass, damping, false);
-    let rim = Terminal {
-        node: 18,
-        direction: Direction::Radial,
-    };
+    let rim = Terminal { node: 18, direction: Direction::Radial };
     let unknown = system.unknown(rim, "force_node").unwrap();
-    let f: Vec<f64> = (1..=(1e4 / step_hz) as usize)
-        .map(|i| i as f64 * step_hz)
-        .collect();
+    let f: Vec<f64> = (1..=(1e4 / step_hz) as usize).map(|i| i as f64 * step_hz).collect();
     let settings = ReductionSettings::default();
     let found = reduced_response(&system, unknown, unknown, &f, &settings).unwrap();
-    let accelerance = f
-        .iter()
-        .zip(&found.receptance)
-        .map(|(f, h)| -h * (TAU * f).powi(2))
-        .collect();
+    let accelerance =
+        f.iter().zip(&found.receptance).map(|(f, h)| -h * (TAU * f).powi(2)).collect();
     (f, accelerance)
 }
 
 fn identified(f: &[f64], h: Vec<c64>) -> Identification {
     let response = FrequencyResponse::new(f.to_vec(), h, ResponseQuantity::Accelerance).unwrap();
-    identify(
-        std::slice::from_ref(&response),
-        &IdentificationOptions::default(),
-    )
-    .unwrap()
+    identify(std::slice::from_ref(&response), &IdentificationOptions::default()).unwrap()
 }
 
 #[test]
 fn free_disc_with_one_percent_noise_gives_back_its_coefficients_at_1_hz() {
     let (f, h) = free_disc(1.0);
     let found = identified(&f, noisy(&h, 0.01, 1));
-    let (alpha, beta) = (
-        found.rayleigh.mass_coefficient,
-        found.rayleigh.stiffness_coefficient,
-    );
+    let (alpha, beta) = (found.rayleigh.mass_coefficient, found.rayleigh.stiffness_coefficient);
     assert!((alpha.value / ALPHA - 1.0).abs() < 0.1, "{alpha:?}");
     assert!((beta.value / BETA - 1.0).abs() < 0.03, "{beta:?}");
     // The tails of neighbours spoil the half-power factors, not those of the fit.
@@ -120,10 +99,8 @@ fn pull(estimate: Estimate, truth: f64) -> f64 {
 fn over_100_noise_seeds_the_errors_are_as_large_as_stated_and_the_intervals_hold_the_truth() {
     // Four lines where the hammer test has sixteen: the intervals are wider, the claim is the same.
     let (f, h) = free_disc(4.0);
-    let found: Vec<Identification> = (1..=100u64)
-        .into_par_iter()
-        .map(|seed| identified(&f, noisy(&h, 0.01, seed)))
-        .collect();
+    let found: Vec<Identification> =
+        (1..=100u64).into_par_iter().map(|seed| identified(&f, noisy(&h, 0.01, seed))).collect();
     let share = |holds: &dyn Fn(&Identification) -> bool| found.iter().filter(|r| holds(r)).count();
     let holds = |e: Estimate, truth: f64| e.low <= truth && truth <= e.high;
     let alpha = share(&|r| holds(r.rayleigh.mass_coefficient, ALPHA));
@@ -134,10 +111,7 @@ fn over_100_noise_seeds_the_errors_are_as_large_as_stated_and_the_intervals_hold
         "alpha covered {alpha}, beta {beta}; within 10 % {near_alpha}, within 3 % {near_beta}"
     );
     assert!(alpha >= 90 && beta >= 90, "{alpha} {beta}");
-    assert!(
-        near_alpha >= 95 && near_beta >= 95,
-        "{near_alpha} {near_beta}"
-    );
+    assert!(near_alpha >= 95 && near_beta >= 95, "{near_alpha} {near_beta}");
     // The same mode by mode. Of 100 independent pulls the mean is known to 0.1 and the standard
     // deviation to 0.07: four of those.
     // Correlated noise would move the mean (the same error 100 times) and shrink the deviation.
@@ -161,9 +135,7 @@ fn over_100_noise_seeds_the_errors_are_as_large_as_stated_and_the_intervals_hold
 
 /// Accelerance of a free body: rigid motion and modes `(frequency, damping factor, residue)`.
 fn modal_sum(modes: &[(f64, f64, f64)], step: f64, highest: f64) -> (Vec<f64>, Vec<c64>) {
-    let f: Vec<f64> = (1..=(highest / step) as usize)
-        .map(|i| i as f64 * step)
-        .collect();
+    let f: Vec<f64> = (1..=(highest / step) as usize).map(|i| i as f64 * step).collect();
     let h = f
         .iter()
         .map(|f| {
@@ -181,12 +153,8 @@ fn modal_sum(modes: &[(f64, f64, f64)], step: f64, highest: f64) -> (Vec<f64>, V
     (f, h)
 }
 
-const SEPARATE: [(f64, f64, f64); 4] = [
-    (900.0, 0.006, 1.2),
-    (1800.0, 0.005, 0.8),
-    (3100.0, 0.006, 1.5),
-    (4300.0, 0.0075, 1.0),
-];
+const SEPARATE: [(f64, f64, f64); 4] =
+    [(900.0, 0.006, 1.2), (1800.0, 0.005, 0.8), (3100.0, 0.006, 1.5), (4300.0, 0.0075, 1.0)];
 
 #[test]
 fn a_close_pair_under_one_peak_is_found_as_two_and_flagged() {
@@ -197,15 +165,9 @@ fn a_close_pair_under_one_peak_is_found_as_two_and_flagged() {
     assert_eq!(found.modes.len(), 5);
     for (index, frequency, zeta) in [(2, 3100.0, 0.006), (3, 3125.0, 0.0062)] {
         let fitted = found.modes[index].fitted;
-        assert!(
-            (fitted.frequency_hz.value - frequency).abs() < 1.0,
-            "{fitted:?}"
-        );
+        assert!((fitted.frequency_hz.value - frequency).abs() < 1.0, "{fitted:?}");
         // Two modes a bandwidth apart share their information: 5 % is three standard errors.
-        assert!(
-            (fitted.damping_factor.value / zeta - 1.0).abs() < 0.05,
-            "{fitted:?}"
-        );
+        assert!((fitted.damping_factor.value / zeta - 1.0).abs() < 0.05, "{fitted:?}");
         assert!(fitted.overlaps_hz.is_some());
     }
     let doubtful = found
@@ -223,19 +185,13 @@ fn a_response_without_phase_gives_the_same_damping() {
     let moduli: Vec<f64> = noisy(&h, 0.005, 5).iter().map(|z| z.norm()).collect();
     let response =
         FrequencyResponse::from_magnitudes(f, &moduli, ResponseQuantity::Accelerance).unwrap();
-    let found = identify(
-        std::slice::from_ref(&response),
-        &IdentificationOptions::default(),
-    )
-    .unwrap();
+    let found =
+        identify(std::slice::from_ref(&response), &IdentificationOptions::default()).unwrap();
     assert_eq!(found.modes.len(), 4);
     for (mode, (frequency, zeta, _)) in found.modes.iter().zip(SEPARATE) {
         assert!((mode.fitted.frequency_hz.value / frequency - 1.0).abs() < 1e-3);
         // 0.5 % noise over some ten lines of each band.
-        assert!(
-            (mode.fitted.damping_factor.value / zeta - 1.0).abs() < 0.02,
-            "{mode:?}"
-        );
+        assert!((mode.fitted.damping_factor.value / zeta - 1.0).abs() < 0.02, "{mode:?}");
     }
 }
 
@@ -244,18 +200,12 @@ fn identification_does_not_depend_on_the_quantity_measured() {
     let (f, h) = modal_sum(&SEPARATE, 1.0, 5000.0);
     let response =
         FrequencyResponse::new(f, noisy(&h, 0.01, 9), ResponseQuantity::Accelerance).unwrap();
-    let want = identify(
-        std::slice::from_ref(&response),
-        &IdentificationOptions::default(),
-    )
-    .unwrap();
+    let want =
+        identify(std::slice::from_ref(&response), &IdentificationOptions::default()).unwrap();
     for quantity in [ResponseQuantity::Mobility, ResponseQuantity::Receptance] {
         let converted = response.converted(quantity).unwrap();
-        let got = identify(
-            std::slice::from_ref(&converted),
-            &IdentificationOptions::default(),
-        )
-        .unwrap();
+        let got =
+            identify(std::slice::from_ref(&converted), &IdentificationOptions::default()).unwrap();
         for (a, b) in got.modes.iter().zip(&want.modes) {
             let miss = a.fitted.damping_factor.value - b.fitted.damping_factor.value;
             // Same data, same relative noise; the additive part of the noise model may differ.
@@ -293,20 +243,14 @@ fn two_responses_of_one_body_have_common_poles_with_smaller_errors() {
 fn coarse_lines_and_flat_noise_are_refused_with_the_reason() {
     let (f, h) = modal_sum(&SEPARATE, 24.0, 5000.0);
     let response = FrequencyResponse::new(f, h, ResponseQuantity::Accelerance).unwrap();
-    let error = identify(
-        std::slice::from_ref(&response),
-        &IdentificationOptions::default(),
-    )
-    .unwrap_err();
+    let error =
+        identify(std::slice::from_ref(&response), &IdentificationOptions::default()).unwrap_err();
     assert!(matches!(error, SignalError::Unresolved { .. }), "{error}");
     let f: Vec<f64> = (1..2000).map(f64::from).collect();
     let flat = noisy(&vec![c64::new(1.0, 0.0); f.len()], 0.02, 1);
     let response = FrequencyResponse::new(f, flat, ResponseQuantity::Accelerance).unwrap();
-    let error = identify(
-        std::slice::from_ref(&response),
-        &IdentificationOptions::default(),
-    )
-    .unwrap_err();
+    let error =
+        identify(std::slice::from_ref(&response), &IdentificationOptions::default()).unwrap_err();
     assert!(matches!(error, SignalError::NoResonance { .. }), "{error}");
 }
 
@@ -323,11 +267,7 @@ fn the_command_prints_both_estimators_and_a_block_that_parses() {
     std::fs::write(&table, format!("Frequency [Hz];Real;Imag\r\n{rows}")).unwrap();
     let run = |more: &[&str]| {
         let mut command = Command::cargo_bin("frictionsim").unwrap();
-        command
-            .current_dir(folder.path())
-            .arg("identify")
-            .arg(&table)
-            .args(more);
+        command.current_dir(folder.path()).arg("identify").arg(&table).args(more);
         command.output().unwrap()
     };
     let output = run(&["--json", "--quiet"]);
@@ -346,10 +286,7 @@ fn the_command_prints_both_estimators_and_a_block_that_parses() {
     assert!(parsed["damping"]["mass_coefficient"].is_float());
     assert!(results.join("figures/identification.png").exists());
     let text = String::from_utf8(run(&[]).stdout).unwrap();
-    assert!(
-        text.contains("half-power") && text.contains("[damping]"),
-        "{text}"
-    );
+    assert!(text.contains("half-power") && text.contains("[damping]"), "{text}");
 }
 
 #[test]

@@ -46,10 +46,7 @@ fn predicted_candidates_are_those_that_run_again() {
     assert!(base > 0.0);
     // A hole that is moved so far is no small change: its prediction only ranks it.
     let is_small = |own: &&Value| own["confirmed"].is_object() && own["kind"] != "offset";
-    assert!(
-        candidates.iter().any(|own| own["kind"] == "offset"),
-        "{said}"
-    );
+    assert!(candidates.iter().any(|own| own["kind"] == "offset"), "{said}");
     for own in candidates.iter().filter(is_small) {
         let [predicted, confirmed] = ["predicted", "confirmed"]
             .map(|state| own[state]["growth_rate_per_s"].as_f64().unwrap());
@@ -69,9 +66,7 @@ fn predicted_candidates_are_those_that_run_again() {
     let keys = best.lines().filter(|line| !line.starts_with('#'));
     assert!(
         keys.clone().count() > 0
-            && keys
-                .into_iter()
-                .all(|line| line.starts_with("modifications.improve."))
+            && keys.into_iter().all(|line| line.starts_with("modifications.improve."))
     );
 }
 
@@ -95,11 +90,7 @@ fn contributions_of_a_modified_disc_are_its_growth_rates() {
         "cea.friction_coefficients=[0.0, 0.3]",
     ];
     let output = run(folder.path(), "cea", &set);
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let table = |name: &str| -> Vec<std::collections::BTreeMap<String, String>> {
         let path = folder.path().join("out").join(name);
         let mut reader = csv::Reader::from_path(path).unwrap();
@@ -122,10 +113,7 @@ fn contributions_of_a_modified_disc_are_its_growth_rates() {
             }
         }
         let whole = number(&mode["growth_rate_per_s"]);
-        assert!(
-            (growth - whole).abs() < 1e-9 * whole.abs().max(1e5),
-            "{growth} {whole}"
-        );
+        assert!((growth - whole).abs() < 1e-9 * whole.abs().max(1e5), "{growth} {whole}");
         assert!((kinetic - 1.0).abs() < 1e-12, "{kinetic}");
     }
 }
@@ -134,16 +122,8 @@ fn contributions_of_a_modified_disc_are_its_growth_rates() {
 fn what_cannot_be_improved_is_refused_with_the_remedy() {
     let folder = tempfile::tempdir().unwrap();
     for (command, set, said) in [
-        (
-            "improve",
-            "contact.friction_coefficient=0.05",
-            "there is nothing to improve",
-        ),
-        (
-            "improve",
-            "improve.forbidden=rim",
-            "it has \"disc\", \"inner\", \"outer\"",
-        ),
+        ("improve", "contact.friction_coefficient=0.05", "there is nothing to improve"),
+        ("improve", "improve.forbidden=rim", "it has \"disc\", \"inner\", \"outer\""),
         ("cea", "modifications.a.mass=0.01", "needs `at`"),
         (
             "cea",
@@ -158,10 +138,7 @@ fn what_cannot_be_improved_is_refused_with_the_remedy() {
         let errors = String::from_utf8_lossy(&output.stderr).into_owned();
         assert_eq!(output.status.success(), said.is_empty(), "{set}: {errors}");
         assert!(errors.contains(said), "{set}: {errors}");
-        assert!(
-            said.is_empty() || output.status.code() == Some(2),
-            "{set}: {errors}"
-        );
+        assert!(said.is_empty() || output.status.code() == Some(2), "{set}: {errors}");
     }
 }
 
@@ -192,10 +169,7 @@ fn the_front_of_mass_against_critical_friction_is_run_again_and_rises() {
         assert!(weight >= mass - 1e-15 && weight < 0.06, "{own}");
         if own["on_front"] == true {
             let beside = |state: &Value| state["unstable_beside"].as_u64().unwrap();
-            assert!(
-                beside(&own["confirmed"]) <= beside(&summary["base"]),
-                "{own}"
-            );
+            assert!(beside(&own["confirmed"]) <= beside(&summary["base"]), "{own}");
             assert!(weight > mass && onset(&own["confirmed"]) > reached, "{own}");
             (reached, count) = (onset(&own["confirmed"]), count + 1);
             mass = weight;

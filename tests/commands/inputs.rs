@@ -52,11 +52,7 @@ impl Block {
             let top = [node(i + 1, SIDE), node(i, SIDE)];
             [(1, [node(i, 0), node(i + 1, 0)]), (2, top)]
         });
-        Self {
-            edges: edges.collect(),
-            points,
-            quads,
-        }
+        Self { edges: edges.collect(), points, quads }
     }
 
     fn text(&self, region: &str) -> String {
@@ -121,9 +117,7 @@ fn check(folder: &TempDir) -> assert_cmd::assert::Assert {
 #[test]
 fn nodes_that_coincide_without_being_joined_are_counted_and_located() {
     let whole = folder(&Block::new(SIDE + 1).text("block"), CASE);
-    check(&whole)
-        .code(0)
-        .stdout(contains("another one lies").not());
+    check(&whole).code(0).stdout(contains("another one lies").not());
     // Columns 1 to 4 are doubled; 4 edges on either side of the crack are free, and 4 + 4 of the two vertical sides.
     let cracked = folder(&Block::new(1).text("block"), CASE);
     check(&cracked)
@@ -168,10 +162,7 @@ fn an_element_with_a_small_jacobian_is_said_with_its_place() {
 fn a_plane_that_slides_into_the_face_or_away_from_it_is_refused_at_its_direction() {
     let mesh = Block::new(SIDE + 1).text("block");
     for direction in ["[0.0, 1.0]", "[0.0, -1.0]", "[1.0, 0.5]", "[-1.0, 0.0]"] {
-        let case = CASE.replace(
-            "direction = [1.0, 0.0]",
-            &format!("direction = {direction}"),
-        );
+        let case = CASE.replace("direction = [1.0, 0.0]", &format!("direction = {direction}"));
         check(&folder(&mesh, &case))
             .code(2)
             .stderr(contains(format!("direction = {direction}")))
@@ -192,12 +183,7 @@ fn errors_of_names_stand_at_the_key_that_is_wrong() {
             "boundary = \"contct\"",
             "did you mean \"contact\"?",
         ),
-        (
-            "[boundaries.top]",
-            "[boundaries.tpo]",
-            "[boundaries.tpo]",
-            "did you mean \"top\"?",
-        ),
+        ("[boundaries.top]", "[boundaries.tpo]", "[boundaries.tpo]", "did you mean \"top\"?"),
         (
             "counterface = \"plane\"",
             "counterface = \"body\"\ncounter_boundary = \"tops\"",
@@ -238,27 +224,16 @@ fn a_mesh_in_millimetres_is_told_by_its_scale_and_one_beyond_all_lengths_refused
         .stdout(contains("geometry.inner_radius").not());
     let far = mesh.replace("\n25 0.004 0.004 0\n", "\n25 1e300 0.004 0\n");
     assert_ne!(far, mesh);
-    check(&folder(&far, CASE))
-        .code(2)
-        .stderr(contains("node 25 lies at 1e300 m"));
+    check(&folder(&far, CASE)).code(2).stderr(contains("node 25 lies at 1e300 m"));
 }
 
 #[test]
 fn meshes_of_other_programs_are_told_by_their_content_whatever_their_name() {
     for (text, said) in [
-        (
-            "*Heading\n test\n*Node\n1, 0., 0.\n",
-            "no solid or plane elements (*ELEMENT",
-        ),
-        (
-            "$ comment\nBEGIN BULK\nGRID,1,,0.,0.,0.\n",
-            "no solid elements (CTETRA",
-        ),
+        ("*Heading\n test\n*Node\n1, 0., 0.\n", "no solid or plane elements (*ELEMENT"),
+        ("$ comment\nBEGIN BULK\nGRID,1,,0.,0.,0.\n", "no solid elements (CTETRA"),
         ("    -1\n  2411\n", "it is truncated (-1 expected)"),
-        (
-            "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n",
-            "meshio leaves such files",
-        ),
+        ("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n", "meshio leaves such files"),
     ] {
         check(&folder(text, CASE)).code(2).stderr(contains(said));
     }
@@ -294,12 +269,7 @@ fn tone(channel: &str) -> String {
     let mut text = format!("time_s,\"{channel}\"\n");
     for i in 0..1000 {
         let time = f64::from(i) / 20e3;
-        writeln!(
-            text,
-            "{time},{}",
-            (std::f64::consts::TAU * 1e3 * time).sin()
-        )
-        .unwrap();
+        writeln!(text, "{time},{}", (std::f64::consts::TAU * 1e3 * time).sin()).unwrap();
     }
     text
 }
@@ -320,24 +290,15 @@ fn a_measurement_is_never_replaced_by_its_own_sound() {
     {
         use std::os::unix::fs::PermissionsExt;
         let mode = |name| fs::metadata(at(name)).unwrap().permissions().mode();
-        assert_eq!(
-            mode("tone.wav"),
-            mode("tone.csv"),
-            "as any file, under the umask"
-        );
+        assert_eq!(mode("tone.wav"), mode("tone.csv"), "as any file, under the umask");
     }
     // The sound is now the measurement; neither it nor another file goes.
     let refused = run(&["tone.wav", "--wav", "tone.wav", "--force", "-o", "s"]);
-    refused
-        .code(2)
-        .stderr(contains("is the measurement itself"));
+    refused.code(2).stderr(contains("is the measurement itself"));
     fs::write(at("other.wav"), "kept").unwrap();
     for option in ["--wav", "--uff"] {
         let refused = run(&["tone.csv", option, "other.wav", "-o", "t"]);
-        refused
-            .code(2)
-            .stderr(contains(option))
-            .stderr(contains("the file exists"));
+        refused.code(2).stderr(contains(option)).stderr(contains("the file exists"));
         assert!(!at("t").exists(), "nothing is done before");
     }
     assert_eq!(fs::read(at("tone.wav")).unwrap(), sound);
@@ -349,8 +310,7 @@ fn a_measurement_is_never_replaced_by_its_own_sound() {
 /// Whether a terminal would act on some character of a text.
 fn acts(text: &str) -> bool {
     let is_mark = |c| matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    text.chars()
-        .any(|c| (c.is_control() && c != '\n' && c != '\t') || is_mark(c))
+    text.chars().any(|c| (c.is_control() && c != '\n' && c != '\t') || is_mark(c))
 }
 
 #[test]
@@ -386,9 +346,7 @@ fn nothing_from_a_file_or_an_option_acts_on_the_terminal() {
             assert!(!acts(&text), "{arguments:?}: {text:?}");
         }
     }
-    let json = frictionsim(&folder, &["check", "block.toml", "--json"])
-        .output()
-        .unwrap();
+    let json = frictionsim(&folder, &["check", "block.toml", "--json"]).output().unwrap();
     let object: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
     assert_eq!(object["cases"][0]["title"], EVIL);
 }
@@ -399,9 +357,8 @@ fn results_outlive_a_forced_run_that_fails_and_are_replaced_by_one_that_ends() {
     let folder = folder(&mesh, CASE);
     let listing = || {
         let entries = fs::read_dir(folder.path().join("out")).unwrap();
-        let mut names: Vec<_> = entries
-            .map(|e| e.unwrap().file_name().into_string().unwrap())
-            .collect();
+        let mut names: Vec<_> =
+            entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
         names.sort();
         names
     };
@@ -412,9 +369,7 @@ fn results_outlive_a_forced_run_that_fails_and_are_replaced_by_one_that_ends() {
     let bytes = fs::read(folder.path().join("out/summary.json")).unwrap();
 
     // Refused: another command without --force; nothing is left behind.
-    run(&["cea", "block.toml"])
-        .code(2)
-        .stderr(contains("--force"));
+    run(&["cea", "block.toml"]).code(2).stderr(contains("--force"));
     assert_eq!(listing(), before);
     // Fails while it runs: the transient blows up.
     let blows_up = [
@@ -429,15 +384,9 @@ fn results_outlive_a_forced_run_that_fails_and_are_replaced_by_one_that_ends() {
         "output.sample_interval=1e-5",
     ];
     run(&blows_up).code(predicates::ord::gt(0));
-    let kept: Vec<String> = listing()
-        .into_iter()
-        .filter(|name| name != ".replacing")
-        .collect();
+    let kept: Vec<String> = listing().into_iter().filter(|name| name != ".replacing").collect();
     assert_eq!(kept, before);
-    assert_eq!(
-        fs::read(folder.path().join("out/summary.json")).unwrap(),
-        bytes
-    );
+    assert_eq!(fs::read(folder.path().join("out/summary.json")).unwrap(), bytes);
     // One that ends takes the place of all of it.
     run(&["cea", "block.toml", "--force"]).code(0);
     let after = listing();
@@ -452,22 +401,9 @@ fn an_input_in_the_output_folder_is_not_replaced() {
     let inside = folder.path().join("in");
     fs::create_dir(&inside).unwrap();
     fs::write(inside.join("peaks.csv"), tone("a")).unwrap();
-    let arguments = [
-        "signal",
-        "in/peaks.csv",
-        "-o",
-        "in",
-        "--force",
-        "--no-figures",
-    ];
-    frictionsim(&folder, &arguments)
-        .assert()
-        .code(2)
-        .stderr(contains("which is the input"));
-    assert_eq!(
-        fs::read_to_string(inside.join("peaks.csv")).unwrap(),
-        tone("a")
-    );
+    let arguments = ["signal", "in/peaks.csv", "-o", "in", "--force", "--no-figures"];
+    frictionsim(&folder, &arguments).assert().code(2).stderr(contains("which is the input"));
+    assert_eq!(fs::read_to_string(inside.join("peaks.csv")).unwrap(), tone("a"));
     assert_eq!(fs::read_dir(&inside).unwrap().count(), 1, "no lock is left");
 }
 
@@ -479,15 +415,7 @@ fn files_of_others_that_look_unfinished_stay() {
     for name in [".writing-report-of-mine", ".writing-abc"] {
         fs::write(out.join(name), "mine").unwrap();
     }
-    let arguments = [
-        "mesh",
-        "block.toml",
-        "-o",
-        "out",
-        "--force",
-        "--no-figures",
-        "-q",
-    ];
+    let arguments = ["mesh", "block.toml", "-o", "out", "--force", "--no-figures", "-q"];
     frictionsim(&folder, &arguments).assert().code(0);
     frictionsim(&folder, &arguments).assert().code(0);
     assert!(out.join(".writing-report-of-mine").exists() && out.join(".writing-abc").exists());
@@ -498,10 +426,7 @@ fn files_of_others_that_look_unfinished_stay() {
 fn a_file_size_limit_of_the_shell_is_a_full_disk() {
     let folder = folder(&Block::new(SIDE + 1).text("block"), CASE);
     let program = assert_cmd::cargo::cargo_bin("frictionsim");
-    let line = format!(
-        "ulimit -f 1; {} mesh block.toml --no-figures -q -o out",
-        program.display()
-    );
+    let line = format!("ulimit -f 1; {} mesh block.toml --no-figures -q -o out", program.display());
     Command::new("sh")
         .current_dir(folder.path())
         .args(["-c", &line])
@@ -550,23 +475,18 @@ fn a_small_file_that_inflates_to_a_huge_one_is_refused() {
     let path: &Path = &folder.path().join("bomb.mat");
     fs::write(path, bomb(100 << 20)).unwrap();
     assert!(fs::metadata(path).unwrap().len() < 1 << 20);
-    frictionsim(
-        &folder,
-        &["signal", "bomb.mat", "--rate", "1000", "--no-figures"],
-    )
-    .assert()
-    .code(2)
-    .stderr(contains("MATLAB file"))
-    .stderr(contains("million numbers, the limit"));
+    frictionsim(&folder, &["signal", "bomb.mat", "--rate", "1000", "--no-figures"])
+        .assert()
+        .code(2)
+        .stderr(contains("MATLAB file"))
+        .stderr(contains("million numbers, the limit"));
 }
 
 #[test]
 fn a_run_that_was_interrupted_while_it_replaces_others_goes_on_where_it_was() {
     use frictionsim::results::{Manifest, OutputFolder, Replace};
-    let manifest = |command: &str| Manifest {
-        case_hash: command.to_owned(),
-        ..Manifest::new(command)
-    };
+    let manifest =
+        |command: &str| Manifest { case_hash: command.to_owned(), ..Manifest::new(command) };
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     let open = |command, replace| OutputFolder::open(folder.path(), &manifest(command), replace);
@@ -576,26 +496,16 @@ fn a_run_that_was_interrupted_while_it_replaces_others_goes_on_where_it_was() {
     assert!(open("transient", Replace::SameCase).is_err());
 
     let begun = open("transient", Replace::Anything).unwrap();
-    begun
-        .write("checkpoint.bin", |out| out.write_all(b"state"))
-        .unwrap();
+    begun.write("checkpoint.bin", |out| out.write_all(b"state")).unwrap();
     begun.suspend().unwrap();
     assert_eq!(fs::read(at("table.csv")).unwrap(), b"old");
-    assert!(OutputFolder::is_begun(
-        folder.path(),
-        &manifest("transient")
-    ));
+    assert!(OutputFolder::is_begun(folder.path(), &manifest("transient")));
     // Killed before its end once more.
     drop(open("transient", Replace::SameCase).unwrap());
 
     let again = open("transient", Replace::SameCase).unwrap();
-    assert_eq!(
-        fs::read(again.path().join("checkpoint.bin")).unwrap(),
-        b"state"
-    );
-    again
-        .write("energy.csv", |out| out.write_all(b"new"))
-        .unwrap();
+    assert_eq!(fs::read(again.path().join("checkpoint.bin")).unwrap(), b"state");
+    again.write("energy.csv", |out| out.write_all(b"new")).unwrap();
     again.finish().unwrap();
     assert!(
         !at("table.csv").exists() && !at(".replacing").exists() && !at("checkpoint.bin").exists()
@@ -607,62 +517,31 @@ fn a_run_that_was_interrupted_while_it_replaces_others_goes_on_where_it_was() {
 fn answers_to_common_slips_name_what_was_meant() {
     let mesh = Block::new(SIDE + 1).text("block");
     let folder = folder(&mesh, CASE);
-    fs::write(
-        folder.path().join("table.toml"),
-        "frequency_hz,real\n1,2\n3,4\n",
-    )
-    .unwrap();
+    fs::write(folder.path().join("table.toml"), "frequency_hz,real\n1,2\n3,4\n").unwrap();
     fs::write(folder.path().join("mesh.toml"), &mesh).unwrap();
-    fs::write(
-        folder.path().join("comma.toml"),
-        "[contact]\nfriction_coefficient = 0,3\n",
-    )
-    .unwrap();
+    fs::write(folder.path().join("comma.toml"), "[contact]\nfriction_coefficient = 0,3\n").unwrap();
     fs::write(folder.path().join("disc.csv"), &mesh).unwrap();
     let frf = "frf.frequencies_hz={from=1,to=10,step=1}";
     let continuation = "cycle.continuation={key=\"contact.friction\",from=0.1,to=0.2}";
     for (arguments, said) in [
-        (
-            &["check", "table.toml"][..],
-            "this is a table of values, not a case",
-        ),
+        (&["check", "table.toml"][..], "this is a table of values, not a case"),
         (
             &["cea", "block.toml", "contact.friction_coefficient=0.2"],
             "is changed by --set 'contact.friction_coefficient=0.2'",
         ),
         (&["check", "mesh.toml"], "this is a Gmsh mesh"),
         (&["check", "comma.toml"], "decimal point, not a comma: 0.3"),
+        (&["signal", "disc.csv"], "this is a Gmsh mesh, not a measurement"),
         (
-            &["signal", "disc.csv"],
-            "this is a Gmsh mesh, not a measurement",
-        ),
-        (
-            &[
-                "check",
-                "block.toml",
-                "--set",
-                "output.probes=[{r=0.02,angle=90}]",
-            ],
+            &["check", "block.toml", "--set", "output.probes=[{r=0.02,angle=90}]"],
             "did you mean `radius`?",
         ),
         (
-            &[
-                "check",
-                "block.toml",
-                "--set",
-                "output.probes=[{r=0.02,angle=90}]",
-            ],
+            &["check", "block.toml", "--set", "output.probes=[{r=0.02,angle=90}]"],
             "did you mean `angle_deg`?",
         ),
         (
-            &[
-                "check",
-                "block.toml",
-                "--set",
-                frf,
-                "--set",
-                "frf.force_node=1",
-            ],
+            &["check", "block.toml", "--set", frf, "--set", "frf.force_node=1"],
             "did you mean `count`?",
         ),
         (
@@ -680,21 +559,8 @@ fn answers_to_common_slips_name_what_was_meant() {
         ),
         (&["eigen", "block.toml"], "`frictionsim cea`"),
     ] {
-        frictionsim(&folder, arguments)
-            .assert()
-            .code(2)
-            .stderr(contains(said));
+        frictionsim(&folder, arguments).assert().code(2).stderr(contains(said));
     }
-    let range = [
-        "check",
-        "block.toml",
-        "--set",
-        frf,
-        "--set",
-        "frf.force_node=1",
-    ];
-    frictionsim(&folder, &range)
-        .assert()
-        .code(2)
-        .stderr(contains("missing or empty").not());
+    let range = ["check", "block.toml", "--set", frf, "--set", "frf.force_node=1"];
+    frictionsim(&folder, &range).assert().code(2).stderr(contains("missing or empty").not());
 }

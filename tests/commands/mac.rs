@@ -24,9 +24,8 @@ fn measured() -> Vec<Motion> {
     // A linear congruential generator, between -1 and 1.
     let mut state = 12345_u64;
     let mut noise = || {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     };
     let modes = solution.sweep.points[0].modes.iter().rev();
@@ -53,16 +52,8 @@ fn table(shapes: &[Motion], scale: f64) -> String {
     for (k, shape) in shapes.iter().enumerate() {
         for ([x, y], [u, v]) in shape {
             let (x, y) = (scale * x, scale * y);
-            writeln!(
-                text,
-                "s{k},{}.5,{x},{y},{},{},{}{:+}j",
-                1000 + k,
-                u.re,
-                u.im,
-                v.re,
-                v.im
-            )
-            .unwrap();
+            writeln!(text, "s{k},{}.5,{x},{y},{},{},{}{:+}j", 1000 + k, u.re, u.im, v.re, v.im)
+                .unwrap();
         }
     }
     text
@@ -86,18 +77,9 @@ fn universal(shapes: &[Motion]) -> String {
     text += "    -1\n";
     for (k, shape) in shapes.iter().enumerate() {
         writeln!(text, "    -1\n    55\nNONE\nNONE\nNONE\nNONE\nNONE").unwrap();
-        writeln!(
-            text,
-            "         1         3         2         8         5         3"
-        )
-        .unwrap();
+        writeln!(text, "         1         3         2         8         5         3").unwrap();
         writeln!(text, "         2         6         1{:>10}", k + 1).unwrap();
-        writeln!(
-            text,
-            "  1.0E+00  {:.5e} 0.0 0.0 0.0 0.0",
-            6283.0 * (k + 1) as f64
-        )
-        .unwrap();
+        writeln!(text, "  1.0E+00  {:.5e} 0.0 0.0 0.0 0.0", 6283.0 * (k + 1) as f64).unwrap();
         for (n, (_, [u, v])) in shape.iter().enumerate() {
             writeln!(text, "{:>10}", n + 1).unwrap();
             writeln!(
@@ -152,23 +134,13 @@ fn points_off_the_body_are_counted_and_wrong_units_recognised() {
     let output = run(folder.path(), &table(&shapes, 1e3), &[]);
     let errors = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(2), "{errors}");
-    assert!(
-        errors.contains("millimetres: add --scale 0.001"),
-        "{errors}"
-    );
-    assert!(
-        run(folder.path(), &table(&shapes, 1e3), &["--scale", "0.001"])
-            .status
-            .success()
-    );
+    assert!(errors.contains("millimetres: add --scale 0.001"), "{errors}");
+    assert!(run(folder.path(), &table(&shapes, 1e3), &["--scale", "0.001"]).status.success());
 
     shapes[0][3].0 = [0.5, 0.5];
     let output = run(folder.path(), &table(&shapes, 1.0), &[]);
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
-    assert!(
-        output.status.success() && said.contains("1 of 51 points lie off the body"),
-        "{said}"
-    );
+    assert!(output.status.success() && said.contains("1 of 51 points lie off the body"), "{said}");
 }
 
 #[test]
@@ -177,10 +149,7 @@ fn a_table_has_shapes_by_their_names_in_any_columns() {
                 a;100;0;1;0,5;1;2+3j\nb;200;0;1;1;2;3\na;100;1;1;;-1;nan\n";
     let shapes = read_shapes(text.as_bytes(), "s.csv").unwrap();
     assert_eq!(shapes.len(), 2);
-    assert_eq!(
-        (shapes[0].name.as_str(), shapes[0].frequency_hz),
-        ("a", Some(100.0))
-    );
+    assert_eq!((shapes[0].name.as_str(), shapes[0].frequency_hz), ("a", Some(100.0)));
     assert_eq!(shapes[0].points, [[0.0, 1.0, 0.0], [1.0, 1.0, 0.0]]);
     let first = [Some(c64::new(2.0, 3.0)), Some(c64::new(1.0, 0.5)), None];
     assert_eq!(shapes[0].motion[0], first);
@@ -211,9 +180,7 @@ fn what_is_no_shape_is_named_with_its_place() {
         ("x,y,ux\n1,2,0\n", "no row of numbers"),
         ("-1\n55\na\n-1\n", "header"),
     ] {
-        let error = read_shapes(text.as_bytes(), "s.csv")
-            .unwrap_err()
-            .to_string();
+        let error = read_shapes(text.as_bytes(), "s.csv").unwrap_err().to_string();
         assert!(error.contains(part), "{text:?}: {error}");
     }
 }
@@ -251,11 +218,7 @@ fn measured_shapes_are_data_of_a_fit() {
         text
     };
     let rows: String = frequencies.iter().map(|f| format!("{f}\n")).collect();
-    std::fs::write(
-        folder.path().join("modes.csv"),
-        format!("frequency_hz\n{rows}"),
-    )
-    .unwrap();
+    std::fs::write(folder.path().join("modes.csv"), format!("frequency_hz\n{rows}")).unwrap();
 
     let output = fit_with(folder.path(), &named(1.0), &[]);
     let said = String::from_utf8_lossy(&output.stderr);
@@ -272,11 +235,7 @@ fn measured_shapes_are_data_of_a_fit() {
 
     let refused: [(String, &[&str], &str); 3] = [
         (named(1000.0), &[], "--scale 0.001"),
-        (
-            named(1.0),
-            &["--set", "fit.shape_weight=0"],
-            "fit.shape_weight",
-        ),
+        (named(1.0), &["--set", "fit.shape_weight=0"], "fit.shape_weight"),
         (table(&measured(), 1.0), &[], "belongs to no line"),
     ];
     for (shapes, set, words) in refused {

@@ -77,17 +77,11 @@ fn axes_and_constants_that_do_not_fit_are_refused_with_the_reason() {
     let refusals = [
         ("material.axes=global", "circumferential harmonics"),
         ("material.axes=[[1, 0, 0], [-3, 0, 0]]", "are parallel"),
-        (
-            "material.axes=[[1, 0, 1], [0, 1, 0]]",
-            "one axis of the material along z",
-        ),
+        ("material.axes=[[1, 0, 1], [0, 1, 0]]", "one axis of the material along z"),
         ("material.axes=[[1, 0, 0]]", "needs two vectors"),
         ("material.poisson_ratios=[0.2, 2.5, 0.2]", "nu_13 = 2.5"),
         ("material.young_moduli=[1e9, 2e9]", "2 of three numbers"),
-        (
-            "material.young_modulus=2e9",
-            "beside the keys of an orthotropic material",
-        ),
+        ("material.young_modulus=2e9", "beside the keys of an orthotropic material"),
     ];
     for (change, reason) in refusals {
         let message = read(&[change]).unwrap_err();
@@ -110,20 +104,12 @@ fn structural_damping_has_its_meaning_or_is_refused() {
     let run = "transient={ duration=1e-4, expansion_time=5e-5 }";
     let case = read(&["material.loss_factor=0.1", "mesh.element=\"quad4\"", run]).unwrap();
     let message = case.require_transient().unwrap_err().to_string();
-    for part in [
-        "material.loss_factor",
-        "cea.max_frequency_hz",
-        "stiffness_coefficient",
-    ] {
+    for part in ["material.loss_factor", "cea.max_frequency_hz", "stiffness_coefficient"] {
         assert!(message.contains(part), "{message}");
     }
     // With a band to keep it over, a chain stands for it, whose error is known.
-    let band = [
-        "material.loss_factor=0.1",
-        "mesh.element=\"quad4\"",
-        run,
-        "cea.max_frequency_hz=12000.0",
-    ];
+    let band =
+        ["material.loss_factor=0.1", "mesh.element=\"quad4\"", run, "cea.max_frequency_hz=12000.0"];
     let stepped = read(&band).unwrap();
     stepped.require_transient().unwrap();
     let chains = stepped.relaxed.as_ref().unwrap();
@@ -133,10 +119,7 @@ fn structural_damping_has_its_meaning_or_is_refused() {
     // Sectors take both waves of a harmonic from one real problem; the whole mesh is solved instead.
     let cyclic = Solver::of(&case, CeaMethod::Cyclic).err().unwrap();
     assert!(cyclic.to_string().contains("conjugate pairs"), "{cyclic}");
-    assert!(matches!(
-        Solver::of(&case, CeaMethod::Auto),
-        Ok(Solver::WholeMesh)
-    ));
+    assert!(matches!(Solver::of(&case, CeaMethod::Auto), Ok(Solver::WholeMesh)));
     let beyond = read(&["material.loss_factor=1.5"]).unwrap_err();
     assert!(beyond.contains("material.loss_factor = 1.5"), "{beyond}");
 }

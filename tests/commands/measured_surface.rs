@@ -33,10 +33,7 @@ fn table(header: &str, gap: impl Fn(f64, f64) -> f64) -> String {
 /// Standard output and standard error of an analysis with one mode.
 fn cea(case: &Path, set: &[&str]) -> (bool, String) {
     let mut program = Command::cargo_bin("frictionsim").unwrap();
-    program
-        .arg("cea")
-        .arg(case)
-        .args(["--out", "run", "--force", "--no-figures"]);
+    program.arg("cea").arg(case).args(["--out", "run", "--force", "--no-figures"]);
     program.current_dir(case.parent().unwrap());
     program.args(["--unset", "cea.max_frequency_hz", "--set", "cea.modes=1"]);
     program.args(["--set", "cea.friction_coefficients=[0.4]"]);
@@ -60,17 +57,10 @@ fn a_pad_that_is_worn_at_one_end_touches_at_the_other_and_keeps_its_table() {
     let (is_done, said) = cea(&case, &[GAP]);
     assert!(is_done, "{said}");
     let run = folder.path().join("run");
-    assert_eq!(
-        fs::read_to_string(run.join("gap-Outer_Friction_face.csv")).unwrap(),
-        worn
-    );
+    assert_eq!(fs::read_to_string(run.join("gap-Outer_Friction_face.csv")).unwrap(), worn);
     let points = fs::read_to_string(run.join("prestress.csv")).unwrap();
     let mut counts = [[0; 2]; 2];
-    for row in points
-        .lines()
-        .skip(1)
-        .filter(|row| row.starts_with("Outer"))
-    {
+    for row in points.lines().skip(1).filter(|row| row.starts_with("Outer")) {
         let cells: Vec<&str> = row.split(',').collect();
         let [x, y]: [f64; 2] = [1, 2].map(|k| cells[k].parse().unwrap());
         let angle = y.atan2(x).to_degrees() - 90.0;
@@ -98,9 +88,7 @@ fn measured_surfaces_that_cannot_be_meant_are_refused_with_the_remedy() {
     let refused = |set: &[&str], parts: &[&str]| {
         let (is_done, said) = cea(&case, set);
         assert!(!is_done, "{said}");
-        parts
-            .iter()
-            .for_each(|part| assert!(said.contains(part), "{part}: {said}"));
+        parts.iter().for_each(|part| assert!(said.contains(part), "{part}: {said}"));
     };
     refused(&[GAP], &["cannot read the table", "wear.csv"]);
     write(table("x,y,z,gap_um", |_, _| 1.0));
@@ -112,10 +100,7 @@ fn measured_surfaces_that_cannot_be_meant_are_refused_with_the_remedy() {
     write(millimetres);
     refused(
         &[GAP],
-        &[
-            "no measured point of wear.csv",
-            "are metres in the coordinates of the mesh",
-        ],
+        &["no measured point of wear.csv", "are metres in the coordinates of the mesh"],
     );
     write(table("x,y,z,gap", |_, _| 1e-6));
     let closed = [
@@ -123,8 +108,5 @@ fn measured_surfaces_that_cannot_be_meant_are_refused_with_the_remedy() {
         "contacts.Outer_Friction_face.state=closed",
         "contacts.Inner_Friction_face.state=closed",
     ];
-    refused(
-        &closed,
-        &["closed and free of stress", "leave one of the two out"],
-    );
+    refused(&closed, &["closed and free of stress", "leave one of the two out"]);
 }

@@ -14,11 +14,7 @@ fn shipped(name: &str) -> String {
 /// Runs the program in a folder of its own; the object that it prints.
 fn object(folder: &TempDir, arguments: &[&str]) -> Value {
     let mut command = Command::cargo_bin("frictionsim").unwrap();
-    let assert = command
-        .current_dir(folder.path())
-        .args(arguments)
-        .assert()
-        .success();
+    let assert = command.current_dir(folder.path()).args(arguments).assert().success();
     serde_json::from_slice(&assert.get_output().stdout).unwrap()
 }
 
@@ -26,10 +22,7 @@ fn object(folder: &TempDir, arguments: &[&str]) -> Value {
 #[test]
 fn the_statistics_of_a_brake_of_an_input_file_are_those_of_its_geometry() {
     let folder = tempfile::tempdir().unwrap();
-    let summary = object(
-        &folder,
-        &["mesh", &shipped("brake.toml"), "--json", "--no-figures"],
-    );
+    let summary = object(&folder, &["mesh", &shipped("brake.toml"), "--json", "--no-figures"]);
     let mesh = &summary["mesh"];
     assert_eq!(mesh["nodes"], 1140);
     assert_eq!(mesh["elements_by_kind"]["hex8"], 592);
@@ -41,24 +34,12 @@ fn the_statistics_of_a_brake_of_an_input_file_are_those_of_its_geometry() {
         1e-9 * density * triangle * (radii[1] * radii[1] - radii[0] * radii[0]) * thickness
     };
     for (name, exact) in [
-        (
-            "Disc_Disc_iron",
-            mass(36.0, 10.0, [45.0, 110.0], 12.0, 7200.0),
-        ),
-        (
-            "Outer_Lining",
-            mass(7.0, 50.0 / 7.0, [72.0, 106.0], 10.0, 2600.0),
-        ),
-        (
-            "Inner_Backplate",
-            mass(8.0, 7.0, [70.0, 108.0], 5.0, 7850.0),
-        ),
+        ("Disc_Disc_iron", mass(36.0, 10.0, [45.0, 110.0], 12.0, 7200.0)),
+        ("Outer_Lining", mass(7.0, 50.0 / 7.0, [72.0, 106.0], 10.0, 2600.0)),
+        ("Inner_Backplate", mass(8.0, 7.0, [70.0, 108.0], 5.0, 7850.0)),
     ] {
         let regions = mesh["regions"].as_array().unwrap();
-        let region = regions
-            .iter()
-            .find(|region| region["name"] == name)
-            .unwrap();
+        let region = regions.iter().find(|region| region["name"] == name).unwrap();
         let found = region["mass_kg"].as_f64().unwrap();
         // Coordinates have nine digits in the file.
         assert!((found / exact - 1.0).abs() < 1e-7, "{name} {found} {exact}");
@@ -89,10 +70,7 @@ fn the_case_that_init_writes_for_an_input_file_runs_as_it_is() {
     let folder = tempfile::tempdir().unwrap();
     fs::copy(shipped("meshes/brake.inp"), folder.path().join("brake.inp")).unwrap();
     let mut init = Command::cargo_bin("frictionsim").unwrap();
-    init.current_dir(folder.path())
-        .args(["init", "--from", "brake.inp"])
-        .assert()
-        .success();
+    init.current_dir(folder.path()).args(["init", "--from", "brake.inp"]).assert().success();
     let text = fs::read_to_string(folder.path().join("brake.toml")).unwrap();
     assert!(
         text.contains("file = \"brake.inp\"") && text.contains("# Not used: *COMPLEX FREQUENCY"),
@@ -119,17 +97,10 @@ fn the_case_that_init_writes_for_an_input_file_runs_as_it_is() {
     );
     let lowest = summary["friction"][0]["modes"][0]["frequency_hz"].as_f64();
     println!("{lowest:?} {}", summary["largest_residual"]);
-    assert!(
-        summary["largest_residual"].as_f64().unwrap() < 1e-8,
-        "{summary}"
-    );
+    assert!(summary["largest_residual"].as_f64().unwrap() < 1e-8, "{summary}");
     // A second time nothing is replaced.
     let mut again = Command::cargo_bin("frictionsim").unwrap();
-    again
-        .current_dir(folder.path())
-        .args(["init", "--from", "brake.inp"])
-        .assert()
-        .code(2);
+    again.current_dir(folder.path()).args(["init", "--from", "brake.inp"]).assert().code(2);
 }
 
 /// The picture names every region and what holds, loads and touches the bodies; `plot` draws it again to the same bytes.
@@ -137,10 +108,7 @@ fn the_case_that_init_writes_for_an_input_file_runs_as_it_is() {
 fn the_picture_of_solid_bodies_names_regions_and_boundaries() {
     let folder = tempfile::tempdir().unwrap();
     let picture = folder.path().join("out/figures/mesh.svg");
-    object(
-        &folder,
-        &["mesh", &shipped("brake.toml"), "--json", "-o", "out"],
-    );
+    object(&folder, &["mesh", &shipped("brake.toml"), "--json", "-o", "out"]);
     let drawn = fs::read_to_string(&picture).unwrap();
     let words = [
         "Disc_Disc_iron",
@@ -185,41 +153,22 @@ fn fields_of_bodies_of_revolution_have_their_stress() {
     let run = |command: &str, changes: &[&str]| {
         let mut run = Command::cargo_bin("frictionsim").unwrap();
         let case = shipped("ring-on-layer.toml");
-        run.current_dir(folder.path())
-            .args([command, &case, "--force"]);
+        run.current_dir(folder.path()).args([command, &case, "--force"]);
         run.args(coarse).args(changes).assert().success();
     };
     let holds_stress = |file: &str| {
         let bytes = fs::read(folder.path().join("out").join(file)).unwrap();
         let text = String::from_utf8_lossy(&bytes);
-        for name in [
-            "von_mises_pa",
-            "stress_zz_pa",
-            "stress_rt_pa",
-            "stress_rz_pa",
-        ] {
+        for name in ["von_mises_pa", "stress_zz_pa", "stress_rt_pa", "stress_rz_pa"] {
             assert!(text.contains(&format!("Name=\"{name}\"")), "{file}: {name}");
         }
     };
     run(
         "cea",
-        &[
-            "--set",
-            "cea.friction_coefficients=[0.2]",
-            "--set",
-            "cea.max_frequency_hz=8000.0",
-        ],
+        &["--set", "cea.friction_coefficients=[0.2]", "--set", "cea.max_frequency_hz=8000.0"],
     );
     holds_stress("prestress.vtu");
-    run(
-        "transient",
-        &[
-            "--set",
-            "transient.duration=1e-4",
-            "--set",
-            "output.snapshots=[1e-4]",
-        ],
-    );
+    run("transient", &["--set", "transient.duration=1e-4", "--set", "output.snapshots=[1e-4]"]);
     let snapshots = fs::read_dir(folder.path().join("out/snapshots")).unwrap();
     let first = snapshots.flatten().next().unwrap().file_name();
     holds_stress(&format!("snapshots/{}", first.to_string_lossy()));

@@ -60,22 +60,10 @@ fn numbers_that_a_law_lacks_or_does_not_have_are_said_with_their_key() {
     let linear = DISC.replace("normal_law = \"exponential\"", "");
     for (text, set, part) in [
         (DISC, "contact.height=-1e-6", "contact.height"),
-        (
-            DISC,
-            "contact.normal_stiffness=1e12",
-            "has no effect with normal_law = \"exponential\"",
-        ),
-        (
-            DISC,
-            "contact.normal_law=cubic",
-            "contact.reference_pressure has no effect",
-        ),
+        (DISC, "contact.normal_stiffness=1e12", "has no effect with normal_law = \"exponential\""),
+        (DISC, "contact.normal_law=cubic", "contact.reference_pressure has no effect"),
         (DISC, "contact.loss_factor=2", "contact.loss_factor = 2"),
-        (
-            &linear,
-            "contact.friction_coefficient=0.2",
-            "has no effect with normal_law = \"linear\"",
-        ),
+        (&linear, "contact.friction_coefficient=0.2", "has no effect with normal_law = \"linear\""),
     ] {
         let message = read(text, &[set]).unwrap_err();
         assert!(message.contains(part), "{set}: {message}");
@@ -90,10 +78,7 @@ fn numbers_that_a_law_lacks_or_does_not_have_are_said_with_their_key() {
         .replace("reference_pressure = 2e5", "loss_factor = 0.1")
         .replace("height = 2e-6", "");
     let message = read(&rigid, &[]).unwrap_err();
-    assert!(
-        message.contains("rigid contact, which stores no energy"),
-        "{message}"
-    );
+    assert!(message.contains("rigid contact, which stores no energy"), "{message}");
     let solid = DISC
         .replace("plane-strain", "three-dimensional")
         .replace("[mesh]", "thickness = 0.009\n[mesh]\naxial_elements = 2");
@@ -101,10 +86,7 @@ fn numbers_that_a_law_lacks_or_does_not_have_are_said_with_their_key() {
     // Rotating waves, where transients and basins begin, are those of rigid contact.
     let wave = "transient={ duration=1e-4, initial=\"limit-cycle\", limit_cycle_harmonic=1 }";
     let message = read(DISC, &[wave]).unwrap_err();
-    assert!(
-        message.contains("rotating wave of rigid contact"),
-        "{message}"
-    );
+    assert!(message.contains("rotating wave of rigid contact"), "{message}");
     let basin = read(DISC, &["basin={}", "cycle={}"]).unwrap();
     assert!(!basin.has_rotating_waves());
     assert!(basin.require_basin().is_ok());
@@ -122,9 +104,7 @@ fn both_methods_have_the_same_tables() {
     std::fs::write(&case, DISC).unwrap();
     let number = |row: &csv::StringRecord, columns: &csv::StringRecord, name: &str| -> f64 {
         let place = columns.iter().position(|column| column == name);
-        row[place.unwrap_or_else(|| panic!("{name} in {columns:?}"))]
-            .parse()
-            .unwrap_or(f64::NAN)
+        row[place.unwrap_or_else(|| panic!("{name} in {columns:?}"))].parse().unwrap_or(f64::NAN)
     };
     let sensitivities = |method: &str| {
         let out = folder.path().join(method);
@@ -132,25 +112,12 @@ fn both_methods_have_the_same_tables() {
         run("cea", &case, &out, &[&method, "cea.sensitivities=true"]);
         let mut table = csv::Reader::from_path(out.join("sensitivities.csv")).unwrap();
         let columns = table.headers().unwrap().clone();
-        let names = [
-            "growth_rate_per_s",
-            "frequency_hz",
-            "growth_rate_per_height",
-        ];
-        let names = [
-            &names[..],
-            &[
-                "frequency_hz_per_height",
-                "frequency_hz_per_reference_pressure",
-            ],
-        ];
+        let names = ["growth_rate_per_s", "frequency_hz", "growth_rate_per_height"];
+        let names =
+            [&names[..], &["frequency_hz_per_height", "frequency_hz_per_reference_pressure"]];
         let rows = table.records().map(|row| {
             let row = row.unwrap();
-            names
-                .concat()
-                .iter()
-                .map(|name| number(&row, &columns, name))
-                .collect::<Vec<f64>>()
+            names.concat().iter().map(|name| number(&row, &columns, name)).collect::<Vec<f64>>()
         });
         rows.collect::<Vec<_>>()
     };
@@ -158,18 +125,12 @@ fn both_methods_have_the_same_tables() {
     let mut compared = 0;
     for own in &sparse {
         let apart = |row: &&Vec<f64>| (row[0] - own[0]).hypot(row[1] - own[1]);
-        let same = cyclic
-            .iter()
-            .min_by(|a, b| apart(a).total_cmp(&apart(b)))
-            .unwrap();
+        let same = cyclic.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))).unwrap();
         assert!(apart(&same) < 1e-6 * own[1].abs());
         for (a, b) in own.iter().zip(same).skip(2) {
             // Differences of matrices with a step of 1e-4.
             let scale = own[1] / 2e-6;
-            assert!(
-                (a - b).abs() < 1e-5 * b.abs() + 1e-9 * scale,
-                "{own:?} {same:?}"
-            );
+            assert!((a - b).abs() < 1e-5 * b.abs() + 1e-9 * scale, "{own:?} {same:?}");
             compared += 1;
         }
     }
@@ -188,10 +149,7 @@ fn both_methods_have_the_same_tables() {
     assert!(a.len() == b.len() && a.len() > 5);
     let largest = |v: &[f64]| v.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     for (a, b) in a.iter().zip(&b) {
-        assert!(
-            (a - b).abs() < 1e-7 * b.abs().max(1e-12 * largest(&[*b])),
-            "{a} {b}"
-        );
+        assert!((a - b).abs() < 1e-7 * b.abs().max(1e-12 * largest(&[*b])), "{a} {b}");
     }
 }
 

@@ -74,17 +74,10 @@ fn check_redrawn(folder: &TempDir, expected: &[&str]) {
         let columns = table.split("</thead>").next().unwrap();
         let columns = columns.matches("<th scope=\"col\"").count();
         let rows = table.split("<tr>").filter(|row| row.contains("<td"));
-        assert!(
-            rows.into_iter()
-                .all(|row| columns == 0 || row.matches("<td").count() == columns)
-        );
+        assert!(rows.into_iter().all(|row| columns == 0 || row.matches("<td").count() == columns));
     }
 
-    plot(folder, &["--threads", "1"])
-        .assert()
-        .code(0)
-        .stdout(contains("figures in"))
-        .stderr("");
+    plot(folder, &["--threads", "1"]).assert().code(0).stdout(contains("figures in")).stderr("");
     assert_same(&first, &files(&out));
     fs::remove_dir_all(out.join("figures")).unwrap();
     fs::remove_file(out.join("report.html")).unwrap();
@@ -105,10 +98,7 @@ fn assert_same(first: &BTreeMap<String, Vec<u8>>, second: &BTreeMap<String, Vec<
     }
 }
 
-const COARSE: [&str; 2] = [
-    "mesh.circumferential_elements=60",
-    "mesh.radial_elements=12",
-];
+const COARSE: [&str; 2] = ["mesh.circumferential_elements=60", "mesh.radial_elements=12"];
 
 #[test]
 fn eigenvalue_figures_are_drawn_again_to_the_same_bytes() {
@@ -120,13 +110,7 @@ fn eigenvalue_figures_are_drawn_again_to_the_same_bytes() {
         "cea.shapes_at=[0.2,0.3]",
     ];
     run(&folder, "cea", "polycarbonate-disc.toml", &set, &[]);
-    let expected = [
-        "locus",
-        "pairs",
-        "prestress",
-        "modes-mu-0.3",
-        "branch-n1-1-against",
-    ];
+    let expected = ["locus", "pairs", "prestress", "modes-mu-0.3", "branch-n1-1-against"];
     check_redrawn(&folder, &expected);
 }
 
@@ -141,13 +125,7 @@ const SHORT: [&str; 5] = [
 #[test]
 fn transient_figures_are_drawn_again_to_the_same_bytes() {
     let folder = tempfile::tempdir().unwrap();
-    run(
-        &folder,
-        "transient",
-        "polycarbonate-610rpm.toml",
-        &SHORT,
-        &[],
-    );
+    run(&folder, "transient", "polycarbonate-610rpm.toml", &SHORT, &[]);
     let expected = [
         "overview-1",
         "overview-200",
@@ -183,10 +161,7 @@ fn study_figures_are_drawn_again_to_the_same_bytes() {
     assert!(text.contains("unstable mode of the eigenvalue analysis"));
 }
 
-const CYCLE_MESH: [&str; 2] = [
-    "mesh.circumferential_elements=90",
-    "mesh.radial_elements=18",
-];
+const CYCLE_MESH: [&str; 2] = ["mesh.circumferential_elements=90", "mesh.radial_elements=18"];
 const CYCLE: [&str; 3] = [CYCLE_MESH[0], CYCLE_MESH[1], "cycle.continuation.count=9"];
 
 #[test]
@@ -248,12 +223,7 @@ fn study_of_limit_cycles_is_drawn_again_to_the_same_bytes() {
     check_redrawn(&folder, &["branch-frequencies", "branch-shares"]);
     let drawing = folder.path().join("out/figures/branch-shares.svg");
     let text = fs::read_to_string(drawing).unwrap();
-    for curve in [
-        "n</tspan> = 1",
-        "n</tspan> = 2",
-        "μ</tspan> = 0.2",
-        "μ</tspan> = 0.3",
-    ] {
+    for curve in ["n</tspan> = 1", "n</tspan> = 2", "μ</tspan> = 0.2", "μ</tspan> = 0.3"] {
         assert!(text.contains(curve), "{curve}");
     }
 }
@@ -261,19 +231,8 @@ fn study_of_limit_cycles_is_drawn_again_to_the_same_bytes() {
 #[test]
 fn limit_cycles_without_figures_are_drawn_later() {
     let folder = tempfile::tempdir().unwrap();
-    let set = [
-        CYCLE_MESH[0],
-        CYCLE_MESH[1],
-        "cycle.harmonics=[2]",
-        "cycle.continuation.count=2",
-    ];
-    run(
-        &folder,
-        "cycle",
-        "limit-cycle.toml",
-        &set,
-        &["--no-figures"],
-    );
+    let set = [CYCLE_MESH[0], CYCLE_MESH[1], "cycle.harmonics=[2]", "cycle.continuation.count=2"];
+    run(&folder, "cycle", "limit-cycle.toml", &set, &["--no-figures"]);
     let out = folder.path().join("out");
     assert!(!out.join("figures").exists() && !out.join("report.html").exists());
     plot(&folder, &[]).assert().code(0);
@@ -307,10 +266,7 @@ fn response_and_identification_are_drawn_again_to_the_same_bytes() {
     check_redrawn(&folder, &["response"]);
     let table = folder.path().join("response.csv");
     fs::rename(folder.path().join("out/frf.csv"), &table).unwrap();
-    plot(&folder, &[])
-        .assert()
-        .code(2)
-        .stderr(contains("frf.csv"));
+    plot(&folder, &[]).assert().code(2).stderr(contains("frf.csv"));
     fs::remove_dir_all(folder.path().join("out")).unwrap();
     run_on(&folder, "identify", "response.csv", &[], &[]);
     check_redrawn(&folder, &["identification"]);
@@ -326,13 +282,7 @@ fn signal_figures_are_drawn_again_to_the_same_bytes() {
         text += &format!("{t:?},{left:?},{right:?}\n");
     }
     fs::write(folder.path().join("signal.csv"), text).unwrap();
-    run_on(
-        &folder,
-        "signal",
-        "signal.csv",
-        &[],
-        &["--channel", "right", "--window", "0.002"],
-    );
+    run_on(&folder, "signal", "signal.csv", &[], &["--channel", "right", "--window", "0.002"]);
     check_redrawn(&folder, &["signal-1", "spectrum-1"]);
 }
 
@@ -341,13 +291,7 @@ fn a_run_without_figures_is_drawn_later_and_loses_no_file() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
     let no_figures = ["--no-figures"];
-    run(
-        &folder,
-        "transient",
-        "polycarbonate-610rpm.toml",
-        &SHORT,
-        &no_figures,
-    );
+    run(&folder, "transient", "polycarbonate-610rpm.toml", &SHORT, &no_figures);
     let before = files(&out);
     assert!(!out.join("figures").exists() && !out.join("report.html").exists());
     plot(&folder, &[]).assert().code(0);
@@ -357,13 +301,7 @@ fn a_run_without_figures_is_drawn_later_and_loses_no_file() {
         assert!(after.get(name) == Some(bytes), "{name}");
     }
     // Figures belong to the run from now on: without them it starts from a clean folder.
-    run(
-        &folder,
-        "transient",
-        "polycarbonate-610rpm.toml",
-        &SHORT,
-        &no_figures,
-    );
+    run(&folder, "transient", "polycarbonate-610rpm.toml", &SHORT, &no_figures);
     assert!(!out.join("figures/overview-200.png").exists());
 }
 
@@ -371,20 +309,11 @@ fn a_run_without_figures_is_drawn_later_and_loses_no_file() {
 fn folders_that_cannot_be_drawn_are_bad_usage_with_a_reason() {
     let folder = tempfile::tempdir().unwrap();
     let refuse = |more: &[&str], reason: &str| {
-        plot(&folder, more)
-            .assert()
-            .code(2)
-            .stderr(contains(reason));
+        plot(&folder, more).assert().code(2).stderr(contains(reason));
     };
     refuse(&[], "it has no manifest.json");
     refuse(&["--dpi", "5"], "20 to 1200");
-    run(
-        &folder,
-        "transient",
-        "polycarbonate-610rpm.toml",
-        &SHORT,
-        &["--no-figures"],
-    );
+    run(&folder, "transient", "polycarbonate-610rpm.toml", &SHORT, &["--no-figures"]);
     let record = folder.path().join("out/record.bin");
     let mut bytes = fs::read(&record).unwrap();
     let middle = bytes.len() / 2;
@@ -401,11 +330,7 @@ fn folders_that_cannot_be_drawn_are_bad_usage_with_a_reason() {
     refuse(&[], "the run did not end");
     let manifest = folder.path().join("out/manifest.json");
     let text = fs::read_to_string(&manifest).unwrap();
-    fs::write(
-        &manifest,
-        text.replacen("transient.duration", "transient.durations", 1),
-    )
-    .unwrap();
+    fs::write(&manifest, text.replacen("transient.duration", "transient.durations", 1)).unwrap();
     refuse(&[], "its manifest.json is damaged (its checksum");
 }
 

@@ -23,20 +23,10 @@ const CASE: &str = "title = \"Two pads\"
 [cea]\nfriction_coefficients = [0.0, 0.3, 0.6]\nmodes = 12\n";
 
 fn pads() -> Vec<u8> {
-    let block = |name, origin, size, counts| Block {
-        name,
-        origin,
-        size,
-        counts,
-    };
+    let block = |name, origin, size, counts| Block { name, origin, size, counts };
     let blocks = [
         block("slab", [0.0; 3], [0.06, 0.03, 0.01], [6, 3, 1]),
-        block(
-            "left",
-            [0.005, 0.005, 0.01],
-            [0.015, 0.02, 0.012],
-            [3, 3, 2],
-        ),
+        block("left", [0.005, 0.005, 0.01], [0.015, 0.02, 0.012], [3, 3, 2]),
         block("right", [0.035, 0.005, 0.01], [0.02, 0.02, 0.01], [3, 3, 2]),
     ];
     file_of(&blocks, |point| point)
@@ -55,11 +45,7 @@ fn number(row: &BTreeMap<String, String>, column: &str) -> f64 {
 
 fn cea(folder: &Path, case: &Path, set: &[&str]) -> String {
     let mut command = Command::cargo_bin("frictionsim").unwrap();
-    command
-        .arg("cea")
-        .arg(case)
-        .args(["--out"])
-        .arg(folder.join("out"));
+    command.arg("cea").arg(case).args(["--out"]).arg(folder.join("out"));
     command.args(["--force", "--no-figures"]);
     for text in set {
         command.args(["--set", text]);
@@ -81,11 +67,8 @@ fn what_parts_supports_and_contacts_add_is_the_growth_rate() {
     let said = cea(folder.path(), &case, &[]);
     let out = folder.path().join("out");
     let rows = table(&out.join("contributions.csv"));
-    let coefficients = BTreeMap::from([
-        ("slab", [10.0, 1e-7]),
-        ("left", [5.0, 2e-7]),
-        ("right", [40.0, 4.5e-7]),
-    ]);
+    let coefficients =
+        BTreeMap::from([("slab", [10.0, 1e-7]), ("left", [5.0, 2e-7]), ("right", [40.0, 4.5e-7])]);
     let mut is_fed = false;
     for mode in table(&out.join("eigenvalues.csv")) {
         let is_own = |row: &&BTreeMap<String, String>| {
@@ -94,27 +77,19 @@ fn what_parts_supports_and_contacts_add_is_the_growth_rate() {
         };
         let own: Vec<_> = rows.iter().filter(is_own).collect();
         assert_eq!(own.len(), 6, "three parts, a support, two contacts");
-        let (growth, omega) = (
-            number(&mode, "growth_rate_per_s"),
-            TAU * number(&mode, "frequency_hz"),
-        );
+        let (growth, omega) =
+            (number(&mode, "growth_rate_per_s"), TAU * number(&mode, "frequency_hz"));
         let sum: f64 = own.iter().map(|row| number(row, "growth_rate_per_s")).sum();
         // Contacts are found from their forces, which a residual of 1e-12 of the eigenproblem carries.
         assert!((sum - growth).abs() < 1e-8 * omega, "{sum} {growth}");
         for share in ["kinetic_share", "strain_share"] {
-            let shares = own
-                .iter()
-                .map(|row| number(row, share))
-                .filter(|share| share.is_finite());
+            let shares = own.iter().map(|row| number(row, share)).filter(|share| share.is_finite());
             assert!((shares.sum::<f64>() - 1.0).abs() < 1e-12);
         }
         let fed = own.iter().filter(|row| row["kind"] == "contact");
         let fed: Vec<f64> = fed.map(|row| number(row, "growth_rate_per_s")).collect();
         if number(&mode, "friction_coefficient") == 0.0 {
-            assert!(
-                fed.iter().all(|fed| fed.abs() < 1e-8 * omega),
-                "{fed:?} without friction"
-            );
+            assert!(fed.iter().all(|fed| fed.abs() < 1e-8 * omega), "{fed:?} without friction");
             // `-2 g_r = alpha_r T_r + beta_r U_r`: every region tells the same strain energy of the whole.
             let parts = own.iter().filter(|row| row["kind"] == "part");
             let whole: Vec<f64> = parts
@@ -126,10 +101,7 @@ fn what_parts_supports_and_contacts_add_is_the_growth_rate() {
                 })
                 .collect();
             let same = |energy: &f64| (energy / whole[0] - 1.0).abs() < 1e-6;
-            assert!(
-                whole.iter().all(same) && whole[0] < omega * omega * 1.01,
-                "{whole:?}"
-            );
+            assert!(whole.iter().all(same) && whole[0] < omega * omega * 1.01, "{whole:?}");
         } else {
             is_fed |= fed.iter().any(|fed| *fed > 1.0);
         }
@@ -173,10 +145,7 @@ fn loss_factors_of_supports_and_contacts_are_told_where_they_act() {
             assert!((sum - growth).abs() < 1e-8 * omega, "{name} {sum} {growth}");
             if number(&mode, "friction_coefficient") == 0.0 {
                 let taken = own().find(|row| row["name"] == name).map(rate).unwrap();
-                assert!(
-                    (taken - growth).abs() < 1e-8 * omega,
-                    "{name} {taken} {growth}"
-                );
+                assert!((taken - growth).abs() < 1e-8 * omega, "{name} {taken} {growth}");
                 assert!(growth <= 0.0);
                 largest = largest.max(-growth / omega);
             }
@@ -198,15 +167,8 @@ fn an_unstable_mode_consists_of_the_modes_without_friction() {
     ];
     for method in ["cyclic", "sparse"] {
         let method = format!("cea.method={method}");
-        let said = cea(
-            folder.path(),
-            &case,
-            &[&set[..], &[method.as_str()]].concat(),
-        );
-        assert!(
-            said.contains("comes from mode") && said.contains("contact feeds"),
-            "{said}"
-        );
+        let said = cea(folder.path(), &case, &[&set[..], &[method.as_str()]].concat());
+        assert!(said.contains("comes from mode") && said.contains("contact feeds"), "{said}");
         let rows = table(&folder.path().join("out/coupling.csv"));
         let mut sums: BTreeMap<(String, String), f64> = BTreeMap::new();
         for row in &rows {
@@ -235,35 +197,20 @@ fn the_feed_over_the_contact_points_adds_up_to_that_of_the_contacts() {
         "materials.Inner_Lining.young_modulus=3e9",
     ];
     let compliant = ["contact.normal_stiffness=7.4e12", "cea.method=\"sparse\""];
-    let falling = [
-        "contact.static_friction_ratio=1.3",
-        "contact.decay_speed=1.0",
-    ];
-    let kinds: [(&Path, &[&str]); 4] = [
-        (&brake, &soft),
-        (&disc, &[]),
-        (&disc, &compliant),
-        (&disc, &falling),
-    ];
+    let falling = ["contact.static_friction_ratio=1.3", "contact.decay_speed=1.0"];
+    let kinds: [(&Path, &[&str]); 4] =
+        [(&brake, &soft), (&disc, &[]), (&disc, &compliant), (&disc, &falling)];
     for (path, set) in kinds {
         cea(folder.path(), path, set);
         let out = folder.path().join("out");
-        let (feed, rows) = (
-            table(&out.join("feed.csv")),
-            table(&out.join("contributions.csv")),
-        );
+        let (feed, rows) = (table(&out.join("feed.csv")), table(&out.join("contributions.csv")));
         let own: BTreeSet<&String> = feed.iter().map(|row| &row["mode"]).collect();
         assert!(!own.is_empty(), "{set:?}: no unstable mode");
         let friction = number(&feed[0], "friction_coefficient");
         for mode in own {
             let points = feed.iter().filter(|row| row["mode"] == **mode);
-            let sum: f64 = points
-                .clone()
-                .map(|row| number(row, "growth_rate_per_s"))
-                .sum();
-            let size: f64 = points
-                .map(|row| number(row, "growth_rate_per_s").abs())
-                .sum();
+            let sum: f64 = points.clone().map(|row| number(row, "growth_rate_per_s")).sum();
+            let size: f64 = points.map(|row| number(row, "growth_rate_per_s").abs()).sum();
             let is_contact = |row: &&BTreeMap<String, String>| {
                 row["mode"] == **mode
                     && row["kind"] == "contact"
@@ -273,10 +220,7 @@ fn the_feed_over_the_contact_points_adds_up_to_that_of_the_contacts() {
             let fed: f64 = contacts.map(|row| number(row, "growth_rate_per_s")).sum();
             let omega = TAU * number(rows.iter().find(is_contact).unwrap(), "frequency_hz");
             // What is left is the residual of the eigenpair, 1e-12 of the forces of inertia and less.
-            assert!(
-                (sum - fed).abs() < 1e-9 * (omega + size),
-                "{set:?}: {sum} {fed}"
-            );
+            assert!((sum - fed).abs() < 1e-9 * (omega + size), "{set:?}: {sum} {fed}");
         }
         assert!(out.join("feed.vtu").exists());
     }
@@ -285,8 +229,7 @@ fn the_feed_over_the_contact_points_adds_up_to_that_of_the_contacts() {
 /// Rows of a table by friction value, mode and what they are about.
 fn rows_by(path: &Path, names: &[&str]) -> BTreeMap<Vec<String>, BTreeMap<String, String>> {
     let rows = table(path).into_iter();
-    rows.map(|row| (names.iter().map(|name| row[*name].clone()).collect(), row))
-        .collect()
+    rows.map(|row| (names.iter().map(|name| row[*name].clone()).collect(), row)).collect()
 }
 
 /// Independent check: the matrices of one sector tell the same budget as those of the whole mesh, row by row at every friction value:
@@ -325,12 +268,8 @@ fn sectors_tell_the_same_budget_as_the_whole_mesh() {
         "materials.shaft.mass_coefficient=5.0",
         "materials.shaft.stiffness_coefficient=1e-8",
     ];
-    let kinds: [Vec<&str>; 4] = [
-        rim.to_vec(),
-        [&rim[..], &springs].concat(),
-        falling.to_vec(),
-        shaft.to_vec(),
-    ];
+    let kinds: [Vec<&str>; 4] =
+        [rim.to_vec(), [&rim[..], &springs].concat(), falling.to_vec(), shaft.to_vec()];
     for set in kinds {
         let mut found = Vec::new();
         for method in ["cyclic", "sparse"] {
@@ -352,10 +291,7 @@ fn sectors_tell_the_same_budget_as_the_whole_mesh() {
         let [(budget, sums, feed), (whole, whole_sums, whole_feed)] = &found[..] else {
             unreachable!()
         };
-        assert_eq!(
-            budget.keys().collect::<Vec<_>>(),
-            whole.keys().collect::<Vec<_>>()
-        );
+        assert_eq!(budget.keys().collect::<Vec<_>>(), whole.keys().collect::<Vec<_>>());
         for (key, row) in budget {
             let omega = TAU * number(row, "frequency_hz");
             for (column, scale) in [
@@ -374,9 +310,7 @@ fn sectors_tell_the_same_budget_as_the_whole_mesh() {
             assert!((sum - whole_sums[key]).abs() < 1e-6, "{set:?} {key:?}");
         }
         assert!(!feed.is_empty() && feed.len() == whole_feed.len());
-        let size = feed
-            .iter()
-            .map(|row| number(row, "growth_rate_per_s").abs());
+        let size = feed.iter().map(|row| number(row, "growth_rate_per_s").abs());
         let size = size.fold(0.0, f64::max);
         for (own, other) in feed.iter().zip(whole_feed) {
             assert_eq!((&own["x_m"], &own["mode"]), (&other["x_m"], &other["mode"]));
@@ -405,10 +339,7 @@ fn a_guided_body_of_revolution_has_the_budget_of_the_plane_disc() {
     ];
     let out = folder.path().join("out");
     cea(folder.path(), &case, &plane);
-    let (budget, feed) = (
-        table(&out.join("contributions.csv")),
-        table(&out.join("feed.csv")),
-    );
+    let (budget, feed) = (table(&out.join("contributions.csv")), table(&out.join("feed.csv")));
     cea(folder.path(), &case, &solid);
     let solids = table(&out.join("contributions.csv"));
     for row in &budget {
@@ -478,12 +409,7 @@ const ROTOR: &str = "title = \"Two pads on a rotor\"
 #[test]
 fn gyroscopic_forces_have_their_own_row_in_the_budget() {
     let folder = tempfile::tempdir().unwrap();
-    let block = |name, origin, size, counts| Block {
-        name,
-        origin,
-        size,
-        counts,
-    };
+    let block = |name, origin, size, counts| Block { name, origin, size, counts };
     let blocks = [
         block("ring", [0.06, 0.0, 0.0], [0.06, TAU, 0.01], [2, 24, 1]),
         block("first", [0.08, 0.3, 0.01], [0.03, 0.8, 0.01], [2, 3, 1]),
@@ -505,9 +431,8 @@ fn gyroscopic_forces_have_their_own_row_in_the_budget() {
             row["mode"] == mode["mode"]
                 && row["friction_coefficient"] == mode["friction_coefficient"]
         });
-        let own: Vec<(&str, f64)> = own
-            .map(|row| (row["kind"].as_str(), number(row, "growth_rate_per_s")))
-            .collect();
+        let own: Vec<(&str, f64)> =
+            own.map(|row| (row["kind"].as_str(), number(row, "growth_rate_per_s"))).collect();
         let omega = TAU * number(&mode, "frequency_hz");
         let sum: f64 = own.iter().map(|(_, rate)| rate).sum();
         let growth = number(&mode, "growth_rate_per_s");

@@ -164,10 +164,7 @@ fn tables_hold_one_row_for_each_mode_of_a_tabulated_friction_value() {
     let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
     assert_eq!(rows.len(), 6);
     let last = &rows[5];
-    assert_eq!(
-        (last[0], last[1], last[6], last[8], last[9]),
-        ("0.3", "2", "2", "-1", "true")
-    );
+    assert_eq!((last[0], last[1], last[6], last[8], last[9]), ("0.3", "2", "2", "-1", "true"));
     let number = |cell: &str| cell.parse::<f64>().unwrap();
     // zeta = -Re / |lambda|, and growth rate = 2 pi Re.
     assert!((number(last[4]) + 12.5 / 12.5f64.hypot(9900.0)).abs() < 1e-15);
@@ -182,10 +179,7 @@ fn tables_hold_one_row_for_each_mode_of_a_tabulated_friction_value() {
             "2,0,-1,0.1382,9893.0,0.9,9950.0,false,"
         ]
     );
-    assert_eq!(
-        summary["critical_frictions"][0]["critical_friction"],
-        0.1382
-    );
+    assert_eq!(summary["critical_frictions"][0]["critical_friction"], 0.1382);
     assert_eq!(summary["largest_residual"], 1e-13);
     assert_eq!(summary["unstable_counts"][2]["unstable"], 1);
     assert_eq!(summary["manifest"]["case_hash"], "a");
@@ -214,10 +208,7 @@ fn the_printed_table_tells_stable_ranges_from_unstable_modes() {
     );
     let last = short.lines().last().unwrap();
     assert!(last.contains("0.138200"), "the answer stands last\n{short}");
-    assert!(
-        !text.contains("0.25 "),
-        "a value solved for its shapes alone\n{text}"
-    );
+    assert!(!text.contains("0.25 "), "a value solved for its shapes alone\n{text}");
 }
 
 /// Value of an attribute in an XML tag.
@@ -229,15 +220,10 @@ fn attribute<'a>(tag: &'a str, name: &str) -> &'a str {
 /// Decodes the appended arrays of a VTU file by name, from the format's description alone.
 fn decode(bytes: &[u8], name: &str) -> Vec<u8> {
     let marker = b"<AppendedData encoding=\"raw\">\n_";
-    let split = bytes
-        .windows(marker.len())
-        .position(|window| window == marker)
-        .unwrap();
+    let split = bytes.windows(marker.len()).position(|window| window == marker).unwrap();
     let head = std::str::from_utf8(&bytes[..split]).unwrap();
-    let tag = head
-        .split("<DataArray")
-        .find(|tag| tag.contains(&format!("Name=\"{name}\"")))
-        .unwrap();
+    let tag =
+        head.split("<DataArray").find(|tag| tag.contains(&format!("Name=\"{name}\""))).unwrap();
     let offset: usize = attribute(tag, "offset").parse().unwrap();
     let data = &bytes[split + marker.len() + offset..];
     let word = |i: usize| u64::from_le_bytes(data[8 * i..8 * i + 8].try_into().unwrap()) as usize;
@@ -246,25 +232,17 @@ fn decode(bytes: &[u8], name: &str) -> Vec<u8> {
     let mut out = Vec::new();
     for block in 0..blocks {
         let end = start + word(3 + block);
-        ZlibDecoder::new(&data[start..end])
-            .read_to_end(&mut out)
-            .unwrap();
+        ZlibDecoder::new(&data[start..end]).read_to_end(&mut out).unwrap();
         start = end;
     }
-    let expected = if last == 0 {
-        blocks * size
-    } else {
-        (blocks - 1) * size + last
-    };
+    let expected = if last == 0 { blocks * size } else { (blocks - 1) * size + last };
     assert_eq!(out.len(), expected);
     out
 }
 
 fn floats(bytes: &[u8]) -> Vec<f64> {
     let words = bytes.chunks_exact(8);
-    words
-        .map(|word| f64::from_le_bytes(word.try_into().unwrap()))
-        .collect()
+    words.map(|word| f64::from_le_bytes(word.try_into().unwrap())).collect()
 }
 
 #[test]
@@ -312,12 +290,7 @@ fn a_rigid_translation_is_one_cartesian_vector_at_every_node() {
     let polar: Vec<f64> = mesh
         .frame_angles()
         .iter()
-        .flat_map(|angle| {
-            [
-                angle.cos() + 2.0 * angle.sin(),
-                2.0 * angle.cos() - angle.sin(),
-            ]
-        })
+        .flat_map(|angle| [angle.cos() + 2.0 * angle.sin(), 2.0 * angle.cos() - angle.sin()])
         .collect();
     for vector in cartesian_vectors(&mesh, &polar).chunks_exact(3) {
         assert!((vector[0] - 1.0).abs() < 1e-15 && (vector[1] - 2.0).abs() < 1e-15);
@@ -332,10 +305,7 @@ fn shapes_come_as_real_and_imaginary_fields_in_a_collection() {
     let output = OutputFolder::open(folder.path(), &manifest("a"), Replace::SameCase).unwrap();
     write(&output, &report(&mesh, &sweep, &field(&mesh))).unwrap();
     let collection = fs::read_to_string(folder.path().join("modes.pvd")).unwrap();
-    let entry = collection
-        .lines()
-        .find(|line| line.contains("<DataSet"))
-        .unwrap();
+    let entry = collection.lines().find(|line| line.contains("<DataSet")).unwrap();
     let bytes = fs::read(folder.path().join(attribute(entry, "file"))).unwrap();
     let shape = sweep.points[3].modes[1].shape.as_ref().unwrap();
     let real: Vec<f64> = shape.iter().map(|value| value.re).collect();
@@ -370,15 +340,10 @@ fn open(path: &Path, hash: &str, replace: Replace) -> Result<OutputFolder, Folde
 fn a_folder_of_another_case_is_refused_until_forced() {
     let folder = tempfile::tempdir().unwrap();
     let first = open(folder.path(), "a", Replace::SameCase).unwrap();
-    first
-        .write("modes/old.csv", |out| out.write_all(b"1"))
-        .unwrap();
+    first.write("modes/old.csv", |out| out.write_all(b"1")).unwrap();
     first.finish().unwrap();
     let refused = open(folder.path(), "b", Replace::SameCase).unwrap_err();
-    assert!(
-        matches!(refused, FolderError::OtherCase { .. }),
-        "{refused}"
-    );
+    assert!(matches!(refused, FolderError::OtherCase { .. }), "{refused}");
     assert!(refused.to_string().contains("--force"));
     assert!(folder.path().join("modes/old.csv").exists());
     // Finished results stay until the new run has its own.
@@ -394,9 +359,7 @@ fn a_complete_run_leaves_no_file_of_an_earlier_one() {
     for names in [["a.csv", "b.csv"], ["a.csv", "c.csv"]] {
         let output = open(folder.path(), "a", Replace::SameCase).unwrap();
         for name in names {
-            output
-                .write(name, |out| out.write_all(name.as_bytes()))
-                .unwrap();
+            output.write(name, |out| out.write_all(name.as_bytes())).unwrap();
         }
         output.finish().unwrap();
     }
@@ -412,9 +375,7 @@ fn a_complete_run_leaves_no_file_of_an_earlier_one() {
 fn what_a_killed_run_left_does_not_survive_another_case() {
     let folder = tempfile::tempdir().unwrap();
     let killed = open(folder.path(), "a", Replace::SameCase).unwrap();
-    killed
-        .write("figures/early.svg", |out| out.write_all(b"1"))
-        .unwrap();
+    killed.write("figures/early.svg", |out| out.write_all(b"1")).unwrap();
     // The process dies: no end of the run, and a temporary file half written.
     drop(killed);
     fs::write(folder.path().join("figures/.writing-x"), "half").unwrap();
@@ -453,10 +414,7 @@ fn files_of_unknown_origin_are_not_mixed_with_results() {
     fs::write(folder.path().join("thesis.tex"), "x").unwrap();
     let refused = open(folder.path(), "a", Replace::SameCase).unwrap_err();
     assert!(refused.to_string().contains("thesis.tex"), "{refused}");
-    open(folder.path(), "a", Replace::Anything)
-        .unwrap()
-        .finish()
-        .unwrap();
+    open(folder.path(), "a", Replace::Anything).unwrap().finish().unwrap();
     assert!(folder.path().join("thesis.tex").exists());
 }
 
@@ -464,9 +422,7 @@ fn files_of_unknown_origin_are_not_mixed_with_results() {
 fn a_failed_write_leaves_the_earlier_file_whole() {
     let folder = tempfile::tempdir().unwrap();
     let output = open(folder.path(), "a", Replace::SameCase).unwrap();
-    output
-        .write("table.csv", |out| out.write_all(b"whole"))
-        .unwrap();
+    output.write("table.csv", |out| out.write_all(b"whole")).unwrap();
     let error = output.write("table.csv", |out| {
         out.write_all(b"half")?;
         Err(std::io::ErrorKind::StorageFull.into())

@@ -68,12 +68,8 @@ modes = 8
 ";
 
 fn block() -> Vec<u8> {
-    let block = Block {
-        name: "block",
-        origin: [0.0; 3],
-        size: [0.04, 0.03, 0.02],
-        counts: [4, 3, 2],
-    };
+    let block =
+        Block { name: "block", origin: [0.0; 3], size: [0.04, 0.03, 0.02], counts: [4, 3, 2] };
     file_of(&[block], |point| point)
 }
 
@@ -83,14 +79,7 @@ fn run(folder: &Path, command: &str, case: &str, out: &str, sets: &[&str]) -> (b
     fs::write(folder.join("case.toml"), case).unwrap();
     let mut program = Command::cargo_bin("frictionsim").unwrap();
     program.current_dir(folder);
-    program.args([
-        command,
-        "case.toml",
-        "--out",
-        out,
-        "--force",
-        "--no-figures",
-    ]);
+    program.args([command, "case.toml", "--out", out, "--force", "--no-figures"]);
     sets.iter().for_each(|set| {
         program.args(["--set", set]);
     });
@@ -106,8 +95,7 @@ fn modes(folder: &Path, out: &str) -> Vec<[f64; 3]> {
     let of = |name| headers.iter().position(|header| header == name).unwrap();
     let columns = ["friction_coefficient", "frequency_hz", "growth_rate_per_s"].map(of);
     let rows = reader.records().map(|row| row.unwrap());
-    rows.map(|row| columns.map(|column| row[column].parse().unwrap()))
-        .collect()
+    rows.map(|row| columns.map(|column| row[column].parse().unwrap())).collect()
 }
 
 /// Largest distance of a mode from the nearest of the others at the same friction, relative.
@@ -157,21 +145,13 @@ fn a_generated_body_of_revolution_takes_what_breaks_its_symmetry() {
     let mass =
         format!("{DISC}\n[modifications.weight]\nat = {{ x = 0.0905, y = 0.0 }}\nmass = 0.01\n");
     let free = "boundaries.outer={condition=\"support\",normal_stiffness=1e10,tangential_stiffness=1e10,axial_stiffness=1e10}";
-    let (is_done, said) = run(
-        folder.path(),
-        "cea",
-        DISC,
-        "plain",
-        &[free, "cea.method=\"sparse\""],
-    );
+    let (is_done, said) =
+        run(folder.path(), "cea", DISC, "plain", &[free, "cea.method=\"sparse\""]);
     assert!(is_done, "{said}");
     let (is_done, said) = run(folder.path(), "cea", &mass, "mass", &[free]);
     assert!(is_done, "{said}");
     let [plain, loaded] = ["plain", "mass"].map(|out| modes(folder.path(), out));
-    assert!(
-        loaded[0][1] < plain[0][1] * (1.0 - 1e-4),
-        "{loaded:?} {plain:?}"
-    );
+    assert!(loaded[0][1] < plain[0][1] * (1.0 - 1e-4), "{loaded:?} {plain:?}");
     // Without damping of its own, losses of 1 % damp a mode that contact does not by half as much.
     let lossy = [
         "material.loss_factor=0.01",
@@ -180,25 +160,14 @@ fn a_generated_body_of_revolution_takes_what_breaks_its_symmetry() {
     ];
     let (is_done, said) = run(folder.path(), "cea", DISC, "lossy", &lossy);
     assert!(is_done, "{said}");
-    for mode in modes(folder.path(), "lossy")
-        .iter()
-        .filter(|mode| mode[0] == 0.0)
-    {
+    for mode in modes(folder.path(), "lossy").iter().filter(|mode| mode[0] == 0.0) {
         let damping = -mode[2] / (TAU * mode[1]);
         assert!((damping - 0.005).abs() < 1e-5, "{mode:?}");
     }
     let (is_done, said) = run(folder.path(), "matrices", DISC, "refused", &[]);
-    assert!(
-        !is_done && said.contains("cea.method = \"sparse\""),
-        "{said}"
-    );
-    let (is_done, said) = run(
-        folder.path(),
-        "matrices",
-        DISC,
-        "written",
-        &["cea.method=\"sparse\""],
-    );
+    assert!(!is_done && said.contains("cea.method = \"sparse\""), "{said}");
+    let (is_done, said) =
+        run(folder.path(), "matrices", DISC, "written", &["cea.method=\"sparse\""]);
     assert!(is_done, "{said}");
 }
 
@@ -219,14 +188,10 @@ fn a_block_of_solid_elements_slides_on_a_rigid_plane() {
         ),
     ];
     for (command, section) in analyses {
-        let sets: Vec<&str> = std::iter::once(section)
-            .filter(|set| !set.is_empty())
-            .collect();
+        let sets: Vec<&str> = std::iter::once(section).filter(|set| !set.is_empty()).collect();
         let case = if command == "improve" {
-            BLOCK.replace(
-                "friction_coefficients = [0.0, 0.3]",
-                "friction_coefficients = [0.0, 0.9]",
-            )
+            BLOCK
+                .replace("friction_coefficients = [0.0, 0.3]", "friction_coefficients = [0.0, 0.9]")
         } else {
             BLOCK.to_owned()
         };
@@ -240,10 +205,7 @@ fn a_block_of_solid_elements_slides_on_a_rigid_plane() {
                     .args(["check", "case.toml"])
                     .output()
                     .unwrap();
-                (
-                    output.status.success(),
-                    String::from_utf8_lossy(&output.stderr).into_owned(),
-                )
+                (output.status.success(), String::from_utf8_lossy(&output.stderr).into_owned())
             }
             _ => run(folder.path(), command, &case, command, &sets),
         };
@@ -263,10 +225,7 @@ fn a_block_of_solid_elements_slides_on_a_rigid_plane() {
 fn rigid_counterfaces_of_solid_bodies_that_cannot_be_are_refused_at_their_keys() {
     let folder = tempfile::tempdir().unwrap();
     for (change, parts) in [
-        (
-            ("speed = 0.5", ""),
-            ["missing key `contact.speed`", "--> case.toml"],
-        ),
+        (("speed = 0.5", ""), ["missing key `contact.speed`", "--> case.toml"]),
         (
             ("direction = [1.0, 0.0, 0.0]", "direction = [1.0, 0.0]"),
             ["needs three numbers", "contact.direction"],
@@ -279,15 +238,9 @@ fn rigid_counterfaces_of_solid_bodies_that_cannot_be_are_refused_at_their_keys()
             ("speed = 0.5", "speed = 0.5\nrotation_speed_rpm = 3.0"),
             ["not both", "rotation_speed_rpm"],
         ),
-        (
-            ("\"plane\"", "\"body\""),
-            ["is for two plane bodies", "[contacts.NAME]"],
-        ),
+        (("\"plane\"", "\"body\""), ["is for two plane bodies", "[contacts.NAME]"]),
         (("\"plane\"", "\"sphere\""), ["is not round", "radius"]),
-        (
-            ("speed = 0.5", "speed = 0.0"),
-            ["contact.speed = 0", "the contact sticks"],
-        ),
+        (("speed = 0.5", "speed = 0.0"), ["contact.speed = 0", "the contact sticks"]),
     ] {
         let case = BLOCK.replace(change.0, change.1);
         assert_ne!(case, BLOCK);

@@ -78,14 +78,7 @@ impl Revolved {
         for (i, nodes) in elements.iter().enumerate() {
             let list: Vec<String> = nodes.iter().map(usize::to_string).collect();
             let (first, rest) = list.split_at(10);
-            writeln!(
-                text,
-                "{}, {},\n{}",
-                i + 1,
-                first.join(", "),
-                rest.join(", ")
-            )
-            .unwrap();
+            writeln!(text, "{}, {},\n{}", i + 1, first.join(", "), rest.join(", ")).unwrap();
         }
         text += "*SOLID SECTION, ELSET=Eall, MATERIAL=steel\n*MATERIAL, NAME=steel\n*ELASTIC\n210000., 0.3\n*DENSITY\n7.8e-9\n";
         (nodes, text)
@@ -98,11 +91,7 @@ fn rotor() -> Revolved {
     let after = (0..10).map(|i| 50.25 + 5.0 * f64::from(i));
     let tube = before.chain(after).map(|z| [0.5, 1.0, z, z + 5.0]);
     let disc = [[0.5, 1.0], [1.0, 3.0], [3.0, 5.0]].map(|[a, b]| [a, b, 50.0, 50.25]);
-    Revolved {
-        around: 16,
-        cells: tube.chain(disc).collect(),
-        holes: Vec::new(),
-    }
+    Revolved { around: 16, cells: tube.chain(disc).collect(), holes: Vec::new() }
 }
 
 /// Appends what holds the rotor in bearings: the mean displacement of the bore's 16 nodes at each end vanishes.
@@ -141,11 +130,7 @@ fn columns_of<const N: usize>(
     std::fs::write(folder.join("rotor.inp"), deck).unwrap();
     let run = |arguments: &[&str]| {
         let mut program = Command::cargo_bin("frictionsim").unwrap();
-        let output = program
-            .current_dir(folder)
-            .args(arguments)
-            .output()
-            .unwrap();
+        let output = program.current_dir(folder).args(arguments).output().unwrap();
         let errors = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success(), "{arguments:?}: {errors}");
     };
@@ -167,13 +152,7 @@ fn columns_of<const N: usize>(
 
 /// Frequencies of an input file with `cea` keys added, rad/s.
 fn modes_of(folder: &Path, deck: &str, more: &str) -> Vec<f64> {
-    let found = columns_of(
-        folder,
-        deck,
-        more,
-        ["cea", "eigenvalues.csv"],
-        ["frequency_hz"],
-    );
+    let found = columns_of(folder, deck, more, ["cea", "eigenvalues.csv"], ["frequency_hz"]);
     found.iter().map(|[frequency]| TAU * frequency).collect()
 }
 
@@ -192,24 +171,13 @@ fn a_rotor_above_its_critical_speed_has_the_published_frequencies_in_its_turning
     });
     let held: Vec<String> = held.map(|(_, number)| number.to_string()).collect();
     assert_eq!(held.len(), 24);
-    let set = format!(
-        "*NSET, NSET=Nfix\n{}\n*BOUNDARY\nNfix, 1, 3\n",
-        held.join(",\n")
-    );
-    let found = modes_of(
-        folder.path(),
-        &(mesh.clone() + &set + &load),
-        "[cea]\nmodes = 10\n",
-    );
-    let published = [
-        5.089832, 11737.65, 14535.82, 23381.42, 34851.37, 38368.38, 45038.27, 49577.86,
-    ];
+    let set = format!("*NSET, NSET=Nfix\n{}\n*BOUNDARY\nNfix, 1, 3\n", held.join(",\n"));
+    let found = modes_of(folder.path(), &(mesh.clone() + &set + &load), "[cea]\nmodes = 10\n");
+    let published =
+        [5.089832, 11737.65, 14535.82, 23381.42, 34851.37, 38368.38, 45038.27, 49577.86];
     for (found, published) in found.iter().zip(published) {
         println!("{found} {published}");
-        assert!(
-            (found / published - 1.0).abs() < 5e-3,
-            "{found} {published}"
-        );
+        assert!((found / published - 1.0).abs() < 5e-3, "{found} {published}");
     }
 
     // The mean displacement of the bore's nodes at each end vanishes; weak springs hold the turn about the axis.
@@ -224,10 +192,7 @@ fn a_rotor_above_its_critical_speed_has_the_published_frequencies_in_its_turning
     ];
     for (found, published) in found[1..].iter().zip(published) {
         println!("{found} {published}");
-        assert!(
-            (found / published - 1.0).abs() < 5e-3,
-            "{found} {published}"
-        );
+        assert!((found / published - 1.0).abs() < 5e-3, "{found} {published}");
     }
 }
 
@@ -264,10 +229,7 @@ fn an_undamped_rotor_answers_a_force_in_its_turning_frame_by_a_hermitian_matrix(
         println!("{force} {observed}: {found:?} {expected:?} mm/N");
         let error = (found[0] - expected[0]).hypot(found[1] - expected[1]);
         assert!(error < 5e-3 * 0.55149, "{force} {observed}: {found:?}");
-        assert!(
-            force != observed || found[1].abs() < 1e-8 * found[0],
-            "{found:?}"
-        );
+        assert!(force != observed || found[1].abs() < 1e-8 * found[0], "{found:?}");
     }
 }
 
@@ -290,11 +252,7 @@ fn frequencies_of_a_turning_ring_in_both_frames_differ_by_multiples_of_its_speed
         let motion = format!(
             "[motion.Eall]\naxis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = {rpm:?}\nrotation_terms = true\nframe = \"{frame}\"\n"
         );
-        modes_of(
-            folder.path(),
-            &deck,
-            &format!("{motion}{springs}[cea]\nmodes = 20\n"),
-        )
+        modes_of(folder.path(), &deck, &format!("{motion}{springs}[cea]\nmodes = 20\n"))
     };
     let (turning, rest) = (modes("turning"), modes("rest"));
     println!("{turning:?}\n{rest:?}");
@@ -311,21 +269,13 @@ fn frequencies_of_a_turning_ring_in_both_frames_differ_by_multiples_of_its_speed
 #[test]
 fn a_frame_that_turns_turns_with_every_region_and_needs_the_inertia() {
     let folder = tempfile::tempdir().unwrap();
-    let ring = Revolved {
-        around: 8,
-        cells: vec![[60.0, 80.0, 0.0, 8.0]],
-        holes: Vec::new(),
-    };
+    let ring = Revolved { around: 8, cells: vec![[60.0, 80.0, 0.0, 8.0]], holes: Vec::new() };
     let (_, mesh) = ring.text();
     std::fs::write(folder.path().join("ring.inp"), mesh).unwrap();
     let case = "[mesh]\nfile = \"ring.inp\"\nunits = \"mm-t-s\"\n[motion.Eall]\naxis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = 100.0\nframe = \"turning\"\n[cea]\nmodes = 2\n";
     std::fs::write(folder.path().join("case.toml"), case).unwrap();
     let mut program = Command::cargo_bin("frictionsim").unwrap();
-    let output = program
-        .current_dir(folder.path())
-        .args(["check", "case.toml"])
-        .output()
-        .unwrap();
+    let output = program.current_dir(folder.path()).args(["check", "case.toml"]).output().unwrap();
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(!output.status.success());
     assert!(

@@ -49,14 +49,7 @@ fn a_squeal_is_named_by_its_mode_with_superharmonics_and_growth_rate() {
     let output = Command::cargo_bin("frictionsim")
         .unwrap()
         .current_dir(folder.path())
-        .args([
-            "signal",
-            "probe.csv",
-            "--case",
-            "disc.toml",
-            "--json",
-            "--quiet",
-        ])
+        .args(["signal", "probe.csv", "--case", "disc.toml", "--json", "--quiet"])
         .output()
         .unwrap();
     assert!(output.status.success(), "{output:?}");
@@ -86,9 +79,8 @@ fn a_squeal_is_named_by_its_mode_with_superharmonics_and_growth_rate() {
 fn a_steady_tone_beside_no_unstable_mode_is_given_none_and_can_be_heard() {
     let folder = tempfile::tempdir().unwrap();
     let tone = |k: u32| (TAU * 9433.0 * f64::from(k) / 2.5e5).sin();
-    let rows: String = (0..20_000)
-        .map(|k| format!("{:.7},{:.9}\n", f64::from(k) / 2.5e5, tone(k)))
-        .collect();
+    let rows: String =
+        (0..20_000).map(|k| format!("{:.7},{:.9}\n", f64::from(k) / 2.5e5, tone(k))).collect();
     std::fs::write(folder.path().join("tone.csv"), format!("time_s,x\n{rows}")).unwrap();
     std::fs::write(folder.path().join("disc.toml"), CASE).unwrap();
     let run = |more: &[&str]| {
@@ -110,19 +102,12 @@ fn a_steady_tone_beside_no_unstable_mode_is_given_none_and_can_be_heard() {
     let [distance, frequency] =
         ["distance", "frequency_hz"].map(|key| nearest[key].as_f64().unwrap());
     // The line is located to a small part of the resolution, a few hertz.
-    assert!(
-        distance > 0.03 && (distance - (frequency / 9433.0 - 1.0)).abs() < 1e-3,
-        "{nearest}"
-    );
+    assert!(distance > 0.03 && (distance - (frequency / 9433.0 - 1.0)).abs() < 1e-3, "{nearest}");
     assert!(channel["growth"].is_null() && channel["no_growth"].is_string());
     // 250 kHz is played five times slower.
     let sound = std::fs::read(folder.path().join("tone.wav")).unwrap();
     assert_eq!(&sound[24..28], 50_000u32.to_le_bytes());
-    for nonsense in [
-        ["--window", "0"],
-        ["--resolution", "1"],
-        ["--max-frequency", "0"],
-    ] {
+    for nonsense in [["--window", "0"], ["--resolution", "1"], ["--max-frequency", "0"]] {
         let refused = run(&nonsense);
         assert_eq!(refused.status.code(), Some(2), "{nonsense:?}");
         let message = String::from_utf8(refused.stderr).unwrap();
@@ -133,24 +118,15 @@ fn a_steady_tone_beside_no_unstable_mode_is_given_none_and_can_be_heard() {
 #[test]
 fn a_signal_without_time_needs_a_rate_and_says_so() {
     let folder = tempfile::tempdir().unwrap();
-    let rows: String = (0..200)
-        .map(|i| format!("{}\n", (0.5 * f64::from(i)).sin()))
-        .collect();
+    let rows: String = (0..200).map(|i| format!("{}\n", (0.5 * f64::from(i)).sin())).collect();
     std::fs::write(folder.path().join("bare.txt"), rows).unwrap();
     let run = |more: &[&str]| {
         let mut command = Command::cargo_bin("frictionsim").unwrap();
-        command
-            .current_dir(folder.path())
-            .args(["signal", "bare.txt"])
-            .args(more);
+        command.current_dir(folder.path()).args(["signal", "bare.txt"]).args(more);
         command.output().unwrap()
     };
     let refused = run(&[]);
     assert_eq!(refused.status.code(), Some(2));
-    assert!(
-        String::from_utf8(refused.stderr)
-            .unwrap()
-            .contains("--rate HZ")
-    );
+    assert!(String::from_utf8(refused.stderr).unwrap().contains("--rate HZ"));
     assert!(run(&["--rate", "1000"]).status.success());
 }

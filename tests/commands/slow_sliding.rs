@@ -44,11 +44,7 @@ fn spectrum(frictions: &str) -> (Vec<[f64; 2]>, String) {
 #[test]
 fn modes_that_slow_sliding_overdamps_end_their_branches_and_are_said() {
     let (coarse, said) = spectrum("[0.0, 0.32]");
-    for part in [
-        "near critical damping",
-        "2972 Hz from friction 0 on",
-        "mu p / V",
-    ] {
+    for part in ["near critical damping", "2972 Hz from friction 0 on", "mu p / V"] {
         assert!(said.contains(part), "{part:?} is not in\n{said}");
     }
     let (fine, _) = spectrum("[0.0, 0.02, 0.16, 0.32]");

@@ -43,15 +43,7 @@ impl Study {
     fn sweep(&self, folder: &str, options: &[&str]) -> Command {
         let mut command = Command::new(PROGRAM);
         command
-            .args([
-                "sweep",
-                "study.toml",
-                "--quiet",
-                "--threads",
-                "2",
-                "--out",
-                folder,
-            ])
+            .args(["sweep", "study.toml", "--quiet", "--threads", "2", "--out", folder])
             .args(options)
             .current_dir(self.root.path());
         command
@@ -93,9 +85,7 @@ fn table(folder: &Path) -> String {
 
 /// Numbers from 0 to 1 that look random and are the same every time.
 fn next_random(state: &mut u64) -> f64 {
-    *state = state
-        .wrapping_mul(6364136223846793005)
-        .wrapping_add(1442695040888963407);
+    *state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
     (*state >> 11) as f64 / (1_u64 << 53) as f64
 }
 
@@ -105,10 +95,8 @@ fn killed_sweeps_resume_to_identical_results() {
     let clock = Instant::now();
     study.run("whole", &[]);
     let whole_time = clock.elapsed();
-    let (expected, expected_points) = (
-        table(&study.folder("whole")),
-        points(&study.folder("whole")),
-    );
+    let (expected, expected_points) =
+        (table(&study.folder("whole")), points(&study.folder("whole")));
     assert_eq!(expected_points.len(), 30);
     assert!(!expected.contains("failed"));
 
@@ -144,23 +132,15 @@ fn killed_sweeps_resume_to_identical_results() {
 fn processes_side_by_side_share_the_points_of_one_folder() {
     let study = Study::new();
     study.run("alone", &[]);
-    let mut children: Vec<Child> = (0..3)
-        .map(|_| study.start("shared", &["--resume"]))
-        .collect();
+    let mut children: Vec<Child> = (0..3).map(|_| study.start("shared", &["--resume"])).collect();
     for child in &mut children {
         assert!(child.wait().unwrap().success());
     }
     let output = study.run("shared", &["--resume", "--json"]);
     let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(summary["ran"], 0);
-    assert_eq!(
-        table(&study.folder("shared")),
-        table(&study.folder("alone"))
-    );
-    assert_eq!(
-        points(&study.folder("shared")),
-        points(&study.folder("alone"))
-    );
+    assert_eq!(table(&study.folder("shared")), table(&study.folder("alone")));
+    assert_eq!(points(&study.folder("shared")), points(&study.folder("alone")));
 }
 
 #[test]
@@ -170,26 +150,18 @@ fn shards_collect_to_the_table_of_the_whole_sweep() {
     study.run("shards", &["--shard", "2/3"]);
     let collect = || {
         let mut command = Command::new(PROGRAM);
-        command
-            .args(["collect", "shards"])
-            .current_dir(study.root.path());
+        command.args(["collect", "shards"]).current_dir(study.root.path());
         command.output().unwrap()
     };
     study.run("shards", &["--shard", "1/3"]);
     let partial = collect();
     assert_eq!(partial.status.code(), Some(1));
     let text = String::from_utf8_lossy(&partial.stdout);
-    assert!(
-        text.contains("missing: 3, 6, 9, 12, 15, 18, 21, 24, 27, 30"),
-        "{text}"
-    );
+    assert!(text.contains("missing: 3, 6, 9, 12, 15, 18, 21, 24, 27, 30"), "{text}");
     assert_eq!(table(&study.folder("shards")).lines().count(), 21);
     study.run("shards", &["--shard", "3/3"]);
     assert!(collect().status.success());
-    assert_eq!(
-        table(&study.folder("shards")),
-        table(&study.folder("whole"))
-    );
+    assert_eq!(table(&study.folder("shards")), table(&study.folder("whole")));
 }
 
 #[test]
@@ -203,25 +175,13 @@ fn a_full_disk_is_named_and_leaves_earlier_points_whole() {
     let script = "trap '' XFSZ; ulimit -f 1; exec \"$0\" \"$@\"";
     let mut limited = Command::new("sh");
     limited
-        .args([
-            "-c",
-            script,
-            PROGRAM,
-            "sweep",
-            "study.toml",
-            "--quiet",
-            "--out",
-            "full",
-        ])
+        .args(["-c", script, PROGRAM, "sweep", "study.toml", "--quiet", "--out", "full"])
         .args(["--shard", "2/2"])
         .current_dir(study.root.path());
     let output = limited.output().unwrap();
     let errors = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{errors}");
-    assert!(
-        errors.contains("no room left") && errors.contains("point-"),
-        "{errors}"
-    );
+    assert!(errors.contains("no room left") && errors.contains("point-"), "{errors}");
     assert_eq!(points(&study.folder("full")), before);
     study.run("full", &["--resume"]);
     assert_eq!(table(&study.folder("full")), table(&study.folder("whole")));
@@ -231,14 +191,7 @@ fn a_full_disk_is_named_and_leaves_earlier_points_whole() {
 fn a_failed_point_ends_in_exit_code_1_after_all_others_are_done() {
     let study = Study::new();
     let output = study
-        .sweep(
-            "failing",
-            &[
-                "--set",
-                "sweep.\"transient.time_step\"=[\"auto\", 3.9e-6]",
-                "--json",
-            ],
-        )
+        .sweep("failing", &["--set", "sweep.\"transient.time_step\"=[\"auto\", 3.9e-6]", "--json"])
         .output()
         .unwrap();
     assert_eq!(output.status.code(), Some(1));
@@ -246,11 +199,7 @@ fn a_failed_point_ends_in_exit_code_1_after_all_others_are_done() {
     assert_eq!(summary["finished"], 60);
     let failed = summary["failed"].as_array().unwrap();
     assert_eq!(failed.len(), 30, "{failed:?}");
-    assert!(
-        failed
-            .iter()
-            .all(|point| point["swept"]["transient.time_step"] == 3.9e-6)
-    );
+    assert!(failed.iter().all(|point| point["swept"]["transient.time_step"] == 3.9e-6));
     assert_eq!(table(&study.folder("failing")).lines().count(), 61);
 }
 
@@ -262,9 +211,7 @@ fn a_shell_loop_over_transients_gives_what_the_sweep_gives() {
          \"$0\" transient study.toml --set contact.friction_coefficient=$mu --json --quiet --no-figures \
          || exit; done";
     let mut shell = Command::new("sh");
-    shell
-        .args(["-c", script, PROGRAM])
-        .current_dir(study.root.path());
+    shell.args(["-c", script, PROGRAM]).current_dir(study.root.path());
     let output = shell.output().unwrap();
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{errors}");
@@ -277,14 +224,7 @@ fn a_shell_loop_over_transients_gives_what_the_sweep_gives() {
     for (one, text) in looped.iter().zip(swept.values()) {
         let point: Value = serde_json::from_str(text).unwrap();
         let other = &point["summaries"]["transient"];
-        for key in [
-            "steps",
-            "main_frequency_hz",
-            "status",
-            "power_w",
-            "harmonics",
-            "growth",
-        ] {
+        for key in ["steps", "main_frequency_hz", "status", "power_w", "harmonics", "growth"] {
             assert_eq!(one[key], other[key], "{key}");
         }
     }
@@ -325,9 +265,7 @@ fn steps(folder: &Path) -> usize {
     let entries = std::fs::read_dir(folder.join("progress"));
     let names = entries.into_iter().flatten().flatten();
     let is_whole = |name: &str| name.ends_with(".bin");
-    names
-        .filter(|entry| is_whole(&entry.file_name().to_string_lossy()))
-        .count()
+    names.filter(|entry| is_whole(&entry.file_name().to_string_lossy())).count()
 }
 
 #[test]
@@ -341,10 +279,7 @@ fn an_eigenvalue_sweep_stopped_twice_resumes_to_identical_tables() {
         command.stdout(Stdio::null()).stderr(Stdio::piped());
         let mut child = command.spawn().unwrap();
         while steps(&stopped) < wanted {
-            assert!(
-                child.try_wait().unwrap().is_none(),
-                "over before it was stopped"
-            );
+            assert!(child.try_wait().unwrap().is_none(), "over before it was stopped");
             std::thread::sleep(std::time::Duration::from_millis(2));
         }
         let kill = Command::new("kill").arg(child.id().to_string()).status();

@@ -95,10 +95,7 @@ fn the_table_is_the_same_bytes_for_any_threads_shards_and_restarts() {
     let case = study(GRID);
     let root = tempfile::tempdir().unwrap();
     let whole = root.path().join("whole");
-    assert_eq!(
-        sweep(&case, &whole, None, 1, Start::Fresh, &formula).unwrap(),
-        15
-    );
+    assert_eq!(sweep(&case, &whole, None, 1, Start::Fresh, &formula).unwrap(), 15);
     let expected = table(&whole);
     assert_eq!(expected.lines().count(), 16);
     assert!(expected.starts_with(
@@ -287,10 +284,7 @@ fn the_operating_matrix_lists_every_unstable_mode_and_reversed_rotation_mirrors_
         .unwrap();
     assert!(output.status.success(), "{output:?}");
     let printed = String::from_utf8_lossy(&output.stdout);
-    assert!(
-        printed.contains("of 8 operating conditions (4 points)"),
-        "{printed}"
-    );
+    assert!(printed.contains("of 8 operating conditions (4 points)"), "{printed}");
 
     // Every row of the modes of the points that grows is in the table, at both frictions.
     let rows = |name: &str| -> Vec<BTreeMap<String, String>> {
@@ -315,9 +309,7 @@ fn the_operating_matrix_lists_every_unstable_mode_and_reversed_rotation_mirrors_
     };
     let own = rows("modes.csv");
     let grows = own.iter().filter(|row| row["unstable"] == "true").count();
-    let of_own = unstable
-        .iter()
-        .filter(|row| row["friction_coefficient"] == "0.3");
+    let of_own = unstable.iter().filter(|row| row["friction_coefficient"] == "0.3");
     assert_eq!(of_own.count(), grows);
     assert!(grows > 4, "{grows}");
     for modulus in ["2.5e9", "5e9"] {
@@ -325,10 +317,7 @@ fn the_operating_matrix_lists_every_unstable_mode_and_reversed_rotation_mirrors_
         assert_eq!(one.len(), other.len());
         for (a, b) in one.iter().zip(&other) {
             let near = |x: f64, y: f64| (x - y).abs() < 1e-6 * x.abs();
-            assert!(
-                near(a.0, b.0) && near(a.1, b.1) && near(a.2, b.2),
-                "{a:?} {b:?}"
-            );
+            assert!(near(a.0, b.0) && near(a.1, b.1) && near(a.2, b.2), "{a:?} {b:?}");
             // It grows behind its critical friction.
             assert!(a.1 > 0.0 && a.2 < 0.3, "{a:?}");
         }
@@ -339,12 +328,7 @@ fn the_operating_matrix_lists_every_unstable_mode_and_reversed_rotation_mirrors_
     for text in ["unstable_modes.csv", "forward, speed", "reverse, speed"] {
         assert!(html.contains(text), "{text}");
     }
-    assert!(
-        folder
-            .path()
-            .join("out/figures/operating-matrix.png")
-            .exists()
-    );
+    assert!(folder.path().join("out/figures/operating-matrix.png").exists());
 }
 
 #[test]
@@ -362,14 +346,8 @@ fn keys_that_go_together_take_the_same_values_at_every_point() {
     assert_eq!(plan.keys().len(), 3);
     let file = include_str!("../../cases/polycarbonate-disc.toml");
     for (also, said) in [
-        (
-            "[\"material.densty\"]",
-            "did you mean \"material.density\"?",
-        ),
-        (
-            "[\"contact.friction_coefficient\"]",
-            "sets contact.friction_coefficient twice",
-        ),
+        ("[\"material.densty\"]", "did you mean \"material.density\"?"),
+        ("[\"contact.friction_coefficient\"]", "sets contact.friction_coefficient twice"),
     ] {
         let sweep = format!(
             "\n[sweep]\n\"contact.friction_coefficient\" = [0.2]\n\"damping.mass_coefficient\" = {{ values = [1.0], also = {also} }}\n"

@@ -58,20 +58,14 @@ fn results(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
         "snapshots.pvd",
         "snapshots/snapshot-001.vtu",
     ];
-    names
-        .iter()
-        .map(|name| (PathBuf::from(name), fs::read(folder.join(name)).unwrap()))
-        .collect()
+    names.iter().map(|name| (PathBuf::from(name), fs::read(folder.join(name)).unwrap())).collect()
 }
 
 #[test]
 fn every_promised_file_column_and_summary_key_is_there() {
     let folder = folder();
     let out = folder.path().join("out");
-    frictionsim(&arguments(&out, &[]))
-        .assert()
-        .code(0)
-        .stdout(contains("over the last fifth"));
+    frictionsim(&arguments(&out, &[])).assert().code(0).stdout(contains("over the last fifth"));
     let first_line = |name: &str| {
         let text = fs::read_to_string(out.join(name)).unwrap();
         text.lines().next().unwrap().to_owned()
@@ -182,12 +176,7 @@ fn a_ring_without_an_element_under_it_is_refused_with_the_count_that_it_needs() 
         for elements in [1, 2] {
             Command::cargo_bin("frictionsim")
                 .unwrap()
-                .args([
-                    command,
-                    &case("ring-on-layer.toml"),
-                    "--no-figures",
-                    "--out",
-                ])
+                .args([command, &case("ring-on-layer.toml"), "--no-figures", "--out"])
                 .arg(folder.path().join("out"))
                 .args(["--set", &format!("mesh.radial_elements={elements}")])
                 .assert()
@@ -204,45 +193,23 @@ fn a_jammed_block_is_said_to_jam_and_to_leave_small_displacements() {
     let out = folder.path().join("out");
     let assert = Command::cargo_bin("frictionsim")
         .unwrap()
-        .args([
-            "transient",
-            &case("sliding-block.toml"),
-            "--no-figures",
-            "--out",
-        ])
+        .args(["transient", &case("sliding-block.toml"), "--no-figures", "--out"])
         .arg(&out)
         .args(["--set", "contact.friction_coefficient=0.9"])
         .assert()
         .code(0)
-        .stdout(contains(
-            "the body jams: there is no state of steady sliding",
-        ))
+        .stdout(contains("the body jams: there is no state of steady sliding"))
         .stdout(contains("leaves the theory of small displacements"));
     // A body without symmetry has no harmonic anywhere.
     let text = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
-    assert!(
-        !text.contains("harmonic") && !text.contains("nodal"),
-        "{text}"
-    );
+    assert!(!text.contains("harmonic") && !text.contains("nodal"), "{text}");
     let summary = summary(&out);
     assert_eq!(summary["notes"].as_array().unwrap().len(), 2);
     assert!(summary["main_harmonic"].is_null());
     assert_eq!(summary["harmonics"].as_array().unwrap().len(), 0);
-    assert_eq!(
-        summary["significant_harmonics_m"]
-            .as_object()
-            .unwrap()
-            .len(),
-        0
-    );
+    assert_eq!(summary["significant_harmonics_m"].as_object().unwrap().len(), 0);
     assert!(!out.join("harmonics.csv").exists());
-    assert!(
-        summary["growth"]
-            .as_array()
-            .unwrap()
-            .iter()
-            .all(|g| g["harmonic"].is_null())
-    );
+    assert!(summary["growth"].as_array().unwrap().iter().all(|g| g["harmonic"].is_null()));
 }
 
 #[test]
@@ -298,17 +265,11 @@ fn results_are_the_same_bytes_for_any_number_of_threads() {
 /// Starts a run and waits for its first checkpoint.
 fn start_until_checkpoint(arguments: &[String], out: &Path) -> Child {
     let mut command = std::process::Command::new(assert_cmd::cargo::cargo_bin("frictionsim"));
-    command
-        .args(arguments)
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped());
+    command.args(arguments).stdout(Stdio::null()).stderr(Stdio::piped());
     let child = command.spawn().unwrap();
     let start = Instant::now();
     while !out.join("checkpoint.bin").exists() {
-        assert!(
-            start.elapsed() < Duration::from_secs(60),
-            "no checkpoint after a minute"
-        );
+        assert!(start.elapsed() < Duration::from_secs(60), "no checkpoint after a minute");
         std::thread::sleep(Duration::from_millis(2));
     }
     child
@@ -336,10 +297,7 @@ fn a_killed_run_resumes_to_the_bytes_of_an_uninterrupted_one() {
         }
         summary
     };
-    assert_eq!(
-        without_times(summary(&killed)),
-        without_times(summary(&whole))
-    );
+    assert_eq!(without_times(summary(&killed)), without_times(summary(&whole)));
 }
 
 #[cfg(unix)]
@@ -349,9 +307,8 @@ fn an_interrupted_run_keeps_what_it_has_and_says_how_to_go_on() {
     let out = folder.path().join("out");
     let mut arguments = arguments(&out, &OFTEN);
     let child = start_until_checkpoint(&arguments, &out);
-    let status = std::process::Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
+    let status =
+        std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
     assert!(status.unwrap().success());
     let output = child.wait_with_output().unwrap();
     if output.status.code() == Some(0) {
@@ -374,16 +331,12 @@ fn a_finished_run_is_extended_bit_for_bit() {
     let folder = folder();
     let (whole, part) = (folder.path().join("whole"), folder.path().join("part"));
     let asked = |duration: &'static str| {
-        let mut all = vec![
-            "output.snapshots=[0.002, 0.005]",
-            "transient.perturbation.velocity=0.5",
-        ];
+        let mut all =
+            vec!["output.snapshots=[0.002, 0.005]", "transient.perturbation.velocity=0.5"];
         all.push(duration);
         all
     };
-    frictionsim(&arguments(&whole, &asked("transient.duration=0.006")))
-        .assert()
-        .code(0);
+    frictionsim(&arguments(&whole, &asked("transient.duration=0.006"))).assert().code(0);
     frictionsim(&arguments(&part, &asked("transient.duration=0.003")))
         .assert()
         .code(0)
@@ -402,9 +355,10 @@ fn a_finished_run_is_extended_bit_for_bit() {
     frictionsim(&longer).assert().code(0);
     let mut shorter = arguments(&part, &asked("transient.duration=0.004"));
     shorter.push("--resume".to_owned());
-    frictionsim(&shorter).assert().code(2).stderr(contains(
-        "has come to 0.006000 s, beyond transient.duration = 0.004 s",
-    ));
+    frictionsim(&shorter)
+        .assert()
+        .code(2)
+        .stderr(contains("has come to 0.006000 s, beyond transient.duration = 0.004 s"));
     // Nor can it go on from other seeds.
     let mut other = arguments(
         &part,
@@ -415,29 +369,23 @@ fn a_finished_run_is_extended_bit_for_bit() {
         ],
     );
     other.push("--resume".to_owned());
-    frictionsim(&other).assert().code(2).stderr(contains(
-        "transient.perturbation.noise is 0.001 here, not given there",
-    ));
+    frictionsim(&other)
+        .assert()
+        .code(2)
+        .stderr(contains("transient.perturbation.noise is 0.001 here, not given there"));
 }
 
 #[test]
 fn no_number_that_is_none_is_printed_or_written() {
     let folder = folder();
-    for (name, set) in [
-        ("still", "contact.rotation_speed_rpm=0"),
-        ("short", "transient.duration=0.0006"),
-    ] {
+    for (name, set) in
+        [("still", "contact.rotation_speed_rpm=0"), ("short", "transient.duration=0.0006")]
+    {
         let out = folder.path().join(name);
         let output = frictionsim(&arguments(&out, &[set])).output().unwrap();
         assert!(output.status.success(), "{output:?}");
         let mut texts = vec![String::from_utf8_lossy(&output.stdout).into_owned()];
-        for file in [
-            "summary.json",
-            "energy.csv",
-            "contact.csv",
-            "harmonics.csv",
-            "probe-1.csv",
-        ] {
+        for file in ["summary.json", "energy.csv", "contact.csv", "harmonics.csv", "probe-1.csv"] {
             texts.push(fs::read_to_string(out.join(file)).unwrap());
         }
         for text in &texts {
@@ -445,10 +393,7 @@ fn no_number_that_is_none_is_printed_or_written() {
             for word in words {
                 let word = word.trim_end_matches(['%', '.', ')']);
                 let is_zero = word.parse::<f64>().is_ok_and(|value| value == 0.0);
-                assert!(
-                    !["NaN", "nan", "inf", "-inf"].contains(&word),
-                    "{name}: {word}"
-                );
+                assert!(!["NaN", "nan", "inf", "-inf"].contains(&word), "{name}: {word}");
                 assert!(!(is_zero && word.starts_with('-')), "{name}: {word}");
             }
         }
@@ -469,21 +414,12 @@ fn a_damaged_checkpoint_is_refused_with_the_reason_and_left_alone() {
     bytes[middle] ^= 1;
     fs::write(&path, &bytes).unwrap();
     arguments.push("--resume".to_owned());
-    frictionsim(&arguments)
-        .assert()
-        .code(2)
-        .stderr(contains("checksum"));
+    frictionsim(&arguments).assert().code(2).stderr(contains("checksum"));
     fs::write(&path, &bytes[..middle]).unwrap();
-    frictionsim(&arguments)
-        .assert()
-        .code(2)
-        .stderr(contains("bytes where"));
+    frictionsim(&arguments).assert().code(2).stderr(contains("bytes where"));
     bytes[8] = 99;
     fs::write(&path, &bytes).unwrap();
-    frictionsim(&arguments)
-        .assert()
-        .code(2)
-        .stderr(contains("format 99"));
+    frictionsim(&arguments).assert().code(2).stderr(contains("format 99"));
     assert_eq!(fs::read(&path).unwrap(), bytes);
 }
 
@@ -500,22 +436,13 @@ fn bad_settings_are_bad_cases_with_their_bound() {
             "transient.perturbation.velocity=[1e-3, 2e-3]",
             "has 2 values, transient.perturbation.harmonics has 1",
         ),
-        (
-            "transient.perturbation={ phase_deg = 90 }",
-            "without harmonics",
-        ),
-        (
-            "transient.perturbation.at=0.0041",
-            "after the end of the run",
-        ),
+        ("transient.perturbation={ phase_deg = 90 }", "without harmonics"),
+        ("transient.perturbation.at=0.0041", "after the end of the run"),
         ("transient.perturbation.noise_seed=2", "without noise"),
         ("transient.expansion_time=0.005", "never be fully expanded"),
         ("output.sample_interval=0.01", "above transient.duration"),
     ] {
-        frictionsim(&arguments(&out, &[overrides]))
-            .assert()
-            .code(2)
-            .stderr(contains(message));
+        frictionsim(&arguments(&out, &[overrides])).assert().code(2).stderr(contains(message));
     }
     assert!(!out.join("summary.json").exists());
 }
@@ -524,10 +451,9 @@ fn bad_settings_are_bad_cases_with_their_bound() {
 #[test]
 fn shipped_cases_end_in_the_limit_cycles_that_their_titles_say() {
     let folder = folder();
-    for (name, harmonic, lifts_off) in [
-        ("polycarbonate-610rpm.toml", 2, true),
-        ("polycarbonate-70rpm.toml", 1, false),
-    ] {
+    for (name, harmonic, lifts_off) in
+        [("polycarbonate-610rpm.toml", 2, true), ("polycarbonate-70rpm.toml", 1, false)]
+    {
         let out = folder.path().join(name);
         let mut arguments = arguments(&out, &["transient.duration=0.04"]);
         arguments[1] = case(name);

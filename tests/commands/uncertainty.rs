@@ -17,14 +17,8 @@ const COARSE: [&str; 5] = [
 
 fn command(name: &str, out: &Path, set: &[&str], further: &[&str]) -> Command {
     let mut command = Command::cargo_bin("frictionsim").unwrap();
-    let case: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("cases")
-        .join(name);
-    command
-        .arg("uncertainty")
-        .arg(case)
-        .args(["--json", "--no-figures", "--out"])
-        .arg(out);
+    let case: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name);
+    command.arg("uncertainty").arg(case).args(["--json", "--no-figures", "--out"]).arg(out);
     for text in COARSE.iter().chain(set) {
         command.args(["--set", text]);
     }
@@ -33,9 +27,7 @@ fn command(name: &str, out: &Path, set: &[&str], further: &[&str]) -> Command {
 }
 
 fn run(out: &Path, set: &[&str], further: &[&str]) -> Value {
-    let output = command("squeal-probability.toml", out, set, further)
-        .output()
-        .unwrap();
+    let output = command("squeal-probability.toml", out, set, further).output().unwrap();
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(output.status.success(), "{said}");
     serde_json::from_slice(&output.stdout).unwrap()
@@ -65,11 +57,7 @@ fn the_distribution_of_onsets_is_that_of_the_modulus_seen_through_one_curve() {
             "--out",
         ]);
         command.arg(folder.path().join(&modulus));
-        for text in COARSE[..3]
-            .iter()
-            .chain(&set[..2])
-            .chain([&modulus.as_str()])
-        {
+        for text in COARSE[..3].iter().chain(&set[..2]).chain([&modulus.as_str()]) {
             command.args(["--set", text]);
         }
         let output = command.output().unwrap();
@@ -84,25 +72,13 @@ fn the_distribution_of_onsets_is_that_of_the_modulus_seen_through_one_curve() {
     let (low, middle, high) = (at(2.5e9 - 1.644854e8), at(2.5e9), at(2.5e9 + 1.644854e8));
     let (least, most) = (low.min(high), low.max(high));
     let spread = most - least;
-    assert!(
-        (number("median") - middle).abs() < 0.03 * spread,
-        "{critical} {middle}"
-    );
-    assert!(
-        (number("p05") - least).abs() < 0.05 * spread,
-        "{critical} {least}"
-    );
-    assert!(
-        (number("p95") - most).abs() < 0.05 * spread,
-        "{critical} {most}"
-    );
+    assert!((number("median") - middle).abs() < 0.03 * spread, "{critical} {middle}");
+    assert!((number("p05") - least).abs() < 0.05 * spread, "{critical} {least}");
+    assert!((number("p95") - most).abs() < 0.05 * spread, "{critical} {most}");
     assert!(number("mean_low") < number("mean") && number("mean") < number("mean_high"));
     let index = &found["sobol"]["material.young_modulus"];
     for order in ["first", "total"] {
-        assert!(
-            (index[order].as_f64().unwrap() - 1.0).abs() < 0.02,
-            "{index}"
-        );
+        assert!((index[order].as_f64().unwrap() - 1.0).abs() < 0.02, "{index}");
     }
 }
 
@@ -116,11 +92,7 @@ fn threads_shards_and_interruptions_leave_the_same_bytes() {
     assert!(!two.join("samples.csv").exists());
     run(&two, &[], &["--threads", "2", "--resume"]);
     let bytes = |folder: &Path, name: &str| std::fs::read(folder.join(name)).unwrap();
-    for name in [
-        "samples.csv",
-        "points/point-000001.json",
-        "points/point-000003.json",
-    ] {
+    for name in ["samples.csv", "points/point-000001.json", "points/point-000003.json"] {
         assert!(bytes(&one, name) == bytes(&two, name), "{name}");
     }
     let table = String::from_utf8(bytes(&one, "samples.csv")).unwrap();
@@ -133,9 +105,7 @@ fn threads_shards_and_interruptions_leave_the_same_bytes() {
     }
     assert_eq!(found["sobol"].as_object().unwrap().len(), 4);
     // A finished run is not repeated in silence.
-    let again = command("squeal-probability.toml", &one, &[], &[])
-        .output()
-        .unwrap();
+    let again = command("squeal-probability.toml", &one, &[], &[]).output().unwrap();
     assert_eq!(again.status.code(), Some(2));
 }
 
@@ -143,21 +113,13 @@ fn threads_shards_and_interruptions_leave_the_same_bytes() {
 fn a_design_is_named_that_brings_the_probability_below_a_bound() {
     let folder = tempfile::tempdir().unwrap();
     let few = ["uncertainty.samples=32", "uncertainty.index_samples=0"];
-    let design = [
-        "--robust",
-        "contact.friction_coefficient=0.02:0.3:5",
-        "--bound",
-        "0.2",
-    ];
+    let design = ["--robust", "contact.friction_coefficient=0.02:0.3:5", "--bound", "0.2"];
     let found = run(&folder.path().join("out"), &few, &design);
     let curve = &found["robust"]["curves"][0];
     let points = curve["points"].as_array().unwrap();
     assert_eq!(points.len(), 5);
     // Friction makes squeal: none with the least, more with each.
-    let p: Vec<f64> = points
-        .iter()
-        .map(|point| point[1].as_f64().unwrap())
-        .collect();
+    let p: Vec<f64> = points.iter().map(|point| point[1].as_f64().unwrap()).collect();
     assert!(p.is_sorted() && p[0] < 0.2 && p[4] > 0.2, "{p:?}");
     let reached = curve["reaches_bound_at"].as_f64().unwrap();
     assert!(reached > 0.02 && reached < 0.3);
@@ -170,14 +132,9 @@ fn distributions_that_reach_forbidden_values_are_refused_or_said() {
     let folder = tempfile::tempdir().unwrap();
     let of = |text: &str| {
         let set = [text, "uncertainty.samples=2", "uncertainty.index_samples=0"];
-        let output = command(
-            "squeal-probability.toml",
-            folder.path(),
-            &set,
-            &["--dry-run"],
-        )
-        .output()
-        .unwrap();
+        let output = command("squeal-probability.toml", folder.path(), &set, &["--dry-run"])
+            .output()
+            .unwrap();
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         (output.status.code().unwrap(), said)
     };
@@ -191,10 +148,7 @@ fn distributions_that_reach_forbidden_values_are_refused_or_said() {
         ("{ triangular = [0.3, 0.4] }", "unknown key `triangular`"),
         ("{ normal = [0.38] }", "two numbers"),
         ("{ normal = [0.38, \"x\"] }", "a finite number"),
-        (
-            "{ normal = [0.38, 0.01], uniform = [0.3, 0.4] }",
-            "two distributions",
-        ),
+        ("{ normal = [0.38, 0.01], uniform = [0.3, 0.4] }", "two distributions"),
         ("0.3", "no distribution"),
     ] {
         let (code, said) = of(&format!("{key}={value}"));

@@ -54,10 +54,7 @@ pub fn block(kind: ElementKind, cells: [usize; 3], map: impl Fn([f64; 3]) -> [f6
     }
     let corner =
         |i: usize, j: usize, k: usize| (i + (cells[0] + 1) * (j + (cells[1] + 1) * k)) as u32;
-    let mut file = GmshFile {
-        dimension: 3,
-        ..GmshFile::default()
-    };
+    let mut file = GmshFile { dimension: 3, ..GmshFile::default() };
     let mut middles: BTreeMap<(u32, u32), u32> = BTreeMap::new();
     for (i, j, k) in (0..cells[2])
         .flat_map(|k| (0..cells[1]).flat_map(move |j| (0..cells[0]).map(move |i| (i, j, k))))

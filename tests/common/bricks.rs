@@ -21,11 +21,7 @@ pub fn file_of(blocks: &[Block], place: impl Fn([f64; 3]) -> [f64; 3]) -> Vec<u8
         for k in 0..=nz {
             for j in 0..=ny {
                 for i in 0..=nx {
-                    let share = [
-                        i as f64 / nx as f64,
-                        j as f64 / ny as f64,
-                        k as f64 / nz as f64,
-                    ];
+                    let share = [i as f64 / nx as f64, j as f64 / ny as f64, k as f64 / nz as f64];
                     let at = |axis: usize| block.origin[axis] + block.size[axis] * share[axis];
                     let [x, y, z] = place([at(0), at(1), at(2)]);
                     node_count += 1;
@@ -46,12 +42,7 @@ pub fn file_of(blocks: &[Block], place: impl Fn([f64; 3]) -> [f64; 3]) -> Vec<u8
             for j in 0..ny {
                 for i in 0..nx {
                     let ring = |k: usize| {
-                        [
-                            node(i, j, k),
-                            node(i + 1, j, k),
-                            node(i + 1, j + 1, k),
-                            node(i, j + 1, k),
-                        ]
+                        [node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k)]
                     };
                     element(5, group, &[ring(k), ring(k + 1)].concat());
                 }

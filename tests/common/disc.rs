@@ -13,10 +13,8 @@ pub const POLYCARBONATE: ElasticMaterial = ElasticMaterial {
     ..ElasticMaterial::PLAIN
 };
 
-pub const DAMPING: RayleighDamping = RayleighDamping {
-    mass_coefficient: 40.0,
-    stiffness_coefficient: 4.5e-7,
-};
+pub const DAMPING: RayleighDamping =
+    RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 4.5e-7 };
 
 /// An even mesh of the disc.
 pub fn annulus(

@@ -16,11 +16,7 @@ pub fn fma_peak() -> f64 {
         let mut sums = [0.5_f64; SUMS];
         for _ in 0..ROUNDS {
             for sum in &mut sums {
-                *sum = if fused {
-                    sum.mul_add(x, 1.0)
-                } else {
-                    *sum * x + 1.0
-                };
+                *sum = if fused { sum.mul_add(x, 1.0) } else { *sum * x + 1.0 };
             }
         }
         sums

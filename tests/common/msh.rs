@@ -9,12 +9,8 @@ pub struct Form {
     pub is_binary: bool,
 }
 
-pub const FORMS: [Form; 4] = [
-    form(false, false),
-    form(false, true),
-    form(true, false),
-    form(true, true),
-];
+pub const FORMS: [Form; 4] =
+    [form(false, false), form(false, true), form(true, false), form(true, true)];
 
 const fn form(is_new: bool, is_binary: bool) -> Form {
     Form { is_new, is_binary }
@@ -147,11 +143,7 @@ fn write_elements(out: &mut Out, mesh: &Mesh, form: Form, numbers: &[usize]) {
         }
     }
     for e in 0..mesh.element_count() {
-        let nodes = mesh
-            .element_nodes(e)
-            .iter()
-            .map(|&node| number(node))
-            .collect();
+        let nodes = mesh.element_nodes(e).iter().map(|&node| number(node)).collect();
         let kind = mesh.element_kind(e).gmsh_type() as i32;
         all.push((kind, mesh.region(e) as i32 + 1, nodes));
     }
@@ -175,13 +167,9 @@ fn write_elements(out: &mut Out, mesh: &Mesh, form: Form, numbers: &[usize]) {
             }
             (false, is_binary) => {
                 if is_binary {
-                    [*kind, 1, 2, i as i32 + 1]
-                        .into_iter()
-                        .for_each(|value| out.int(value));
+                    [*kind, 1, 2, i as i32 + 1].into_iter().for_each(|value| out.int(value));
                 } else {
-                    [i as i32 + 1, *kind, 2]
-                        .into_iter()
-                        .for_each(|value| out.int(value));
+                    [i as i32 + 1, *kind, 2].into_iter().for_each(|value| out.int(value));
                 }
                 out.int(*tag);
                 out.int(*tag);

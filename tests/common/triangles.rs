@@ -15,9 +15,8 @@ pub fn triangles(specification: &AnnulusSpecification, is_quadratic: bool) -> Me
     let mut mesh = quads.mesh;
     let mut state = 12345_u64;
     let mut draw = move || {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 40) as f64 / (1_u64 << 24) as f64
     };
     for [x, y, _] in &mut mesh.nodes {
@@ -88,10 +87,7 @@ pub fn body(file: &GmshFile) -> Mesh {
     let specification = BodySpecification {
         scale: 1.0,
         contact: "inner".to_owned(),
-        counterface: CounterfaceSpecification::Cylinder {
-            center: [0.0; 2],
-            radius: None,
-        },
+        counterface: CounterfaceSpecification::Cylinder { center: [0.0; 2], radius: None },
         opposite: None,
         conditions: vec![("outer".to_owned(), BoundaryCondition::Clamped)],
     };

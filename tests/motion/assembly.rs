@@ -30,10 +30,8 @@ const STEEL: ElasticMaterial = ElasticMaterial {
     ..ElasticMaterial::PLAIN
 };
 
-const DAMPING: RayleighDamping = RayleighDamping {
-    mass_coefficient: 50.0,
-    stiffness_coefficient: 1e-7,
-};
+const DAMPING: RayleighDamping =
+    RayleighDamping { mass_coefficient: 50.0, stiffness_coefficient: 1e-7 };
 
 const FRICTION: f64 = 0.4;
 
@@ -56,15 +54,8 @@ fn mesh_of(plate: [usize; 3], with_lower: bool) -> Mesh {
         counts,
     };
     let lower = block("lower", 0.0, 0.02, [4, 3, 2]);
-    let upper = [
-        block("upper", 0.02, 0.015, [5, 4, 2]),
-        block("plate", 0.035, 0.005, plate),
-    ];
-    let blocks: Vec<Block> = with_lower
-        .then_some(lower)
-        .into_iter()
-        .chain(upper)
-        .collect();
+    let upper = [block("upper", 0.02, 0.015, [5, 4, 2]), block("plate", 0.035, 0.005, plate)];
+    let blocks: Vec<Block> = with_lower.then_some(lower).into_iter().chain(upper).collect();
     let held = BoundaryCondition::Fixed([true, true, false]);
     let conditions = [
         ("plate_x0", held),
@@ -73,9 +64,7 @@ fn mesh_of(plate: [usize; 3], with_lower: bool) -> Mesh {
     ];
     let conditions = &conditions[..if with_lower { 3 } else { 2 }];
     let conditions = conditions.iter();
-    let conditions: Vec<_> = conditions
-        .map(|&(name, own)| (name.to_owned(), own))
-        .collect();
+    let conditions: Vec<_> = conditions.map(|&(name, own)| (name.to_owned(), own)).collect();
     let file = file_of(&blocks, |point| point);
     Mesh::from_solids(&GmshFile::read(&file).unwrap(), 1.0, &conditions).unwrap()
 }
@@ -93,13 +82,7 @@ fn on_rigid_plane<'a>(
         motion: RigidMotion::Turning(speed),
         interference: 5e-7,
     };
-    between(
-        mesh,
-        &STEEL,
-        Counterpart::Rigid(plane),
-        springs,
-        (None, &[]),
-    )
+    between(mesh, &STEEL, Counterpart::Rigid(plane), springs, (None, &[]))
 }
 
 fn assembly<'a>(
@@ -118,13 +101,7 @@ fn assembly<'a>(
         inertia: None,
     };
     let lower = Counterpart::Surface(boundary(mesh, "lower_z1"));
-    between(
-        mesh,
-        materials,
-        lower,
-        (normal_stiffness, law),
-        (decay, &[motion]),
-    )
+    between(mesh, materials, lower, (normal_stiffness, law), (decay, &[motion]))
 }
 
 /// The upper block on what it slides on, glued to the plate.
@@ -140,10 +117,7 @@ fn between<'a>(
         surface: boundary(mesh, "upper_z0"),
         counter,
         friction: PairFriction { ratio: 1.0, decay },
-        stiffness: ContactStiffness {
-            normal_stiffness,
-            ..ContactStiffness::default()
-        },
+        stiffness: ContactStiffness { normal_stiffness, ..ContactStiffness::default() },
         law,
         topography: None,
     };
@@ -178,19 +152,14 @@ fn settings(initial: InitialState, duration: f64, noise: f64) -> TransientSettin
         sample_interval: 2e-6,
         expansion_time: 1e-4,
         initial,
-        perturbation: Perturbation {
-            noise,
-            ..Perturbation::default()
-        },
+        perturbation: Perturbation { noise, ..Perturbation::default() },
     }
 }
 
 /// The record of a run, and the largest speed at its end, m/s.
 fn run(assembly: &Assembly<'_>, settings: &TransientSettings) -> (Recorder, f64) {
     let body = TransientBody::from(model(assembly));
-    let operator = body
-        .operator(OperatorChoice::Auto, SimdLevel::Scalar)
-        .unwrap();
+    let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar).unwrap();
     let mut run = CentralDifference::start(body, operator.as_ref(), settings).unwrap();
     let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
     run.run(&mut record).unwrap();
@@ -218,24 +187,14 @@ fn modes(assembly: &Assembly<'_>) -> Vec<ComplexMode> {
         count_modes: false,
     };
     let found = sweep(&tangent, &request, &|_| {}).unwrap();
-    found
-        .points
-        .into_iter()
-        .flat_map(|point| point.modes)
-        .collect()
+    found.points.into_iter().flat_map(|point| point.modes).collect()
 }
 
 /// Rigid contact, constant springs, and springs that stiffen to about the same at the pressure of 2 MPa.
 const SPRINGS: [(Option<f64>, Option<NormalLaw>); 3] = [
     (None, None),
     (Some(5e12), None),
-    (
-        Some(1e6 / 6e-7),
-        Some(NormalLaw::Exponential {
-            reference_pressure: 1e6,
-            height: 6e-7,
-        }),
-    ),
+    (Some(1e6 / 6e-7), Some(NormalLaw::Exponential { reference_pressure: 1e6, height: 6e-7 })),
 ];
 
 /// Independent: the base state of the eigenvalue analysis, through a tie and a contact whose meshes do not match, is at rest.
@@ -249,10 +208,7 @@ fn steady_sliding_of_an_assembly_is_an_equilibrium_of_its_transient() {
         let state = &assembly.range(&[FRICTION]).unwrap().states[0];
         let pressed = state.is_pressed.iter().filter(|pressed| **pressed);
         let open = state.is_pressed.len() - pressed.count();
-        println!(
-            "{springs:?}: {speed:e} m/s, {counts:?}, {}",
-            record.unconverged_steps
-        );
+        println!("{springs:?}: {speed:e} m/s, {counts:?}, {}", record.unconverged_steps);
         // Sliding at 2 m/s; round-off of the pressed displacement over a step.
         assert!(speed < 1e-7, "{speed:e}");
         // Over the steps of a sample.
@@ -271,16 +227,10 @@ fn the_energy_of_an_assembly_closes_from_rest_to_sliding() {
         let sum = |of: fn(&frictionsim::transient::SampleRow) -> u64| -> u64 {
             record.rows.iter().map(of).sum()
         };
-        let counts = [
-            sum(|row| row.counts.stick),
-            sum(|row| row.counts.slip),
-            sum(|row| row.counts.open),
-        ];
+        let counts =
+            [sum(|row| row.counts.stick), sum(|row| row.counts.slip), sum(|row| row.counts.open)];
         let residual = TransientAnalysis::without_symmetry(&record).largest_residual;
-        println!(
-            "{springs:?}: {residual:e}, {counts:?}, {}",
-            record.unconverged_steps
-        );
+        println!("{springs:?}: {residual:e}, {counts:?}, {}", record.unconverged_steps);
         assert!(counts.iter().all(|&count| count > 0), "{counts:?}");
         assert!(residual < 1e-11, "{residual:e}");
         assert_eq!(record.unconverged_steps, 0);
@@ -333,10 +283,7 @@ fn an_assembly_goes_on_from_a_saved_state_bit_by_bit() {
 fn a_vibration_of_an_assembly_grows_as_its_eigenvalue_says() {
     // Lumped masses are the same before and after the tie is eliminated where its meshes match.
     let mesh = mesh([5, 4, 1]);
-    let decay = FrictionDecay {
-        static_ratio: 4.0,
-        decay_speed: 1.0,
-    };
+    let decay = FrictionDecay { static_ratio: 4.0, decay_speed: 1.0 };
     for springs in SPRINGS {
         let assembly = assembly(&mesh, &STEEL, springs, Some(decay), 10.0);
         let settings = settings(InitialState::SteadySliding, 4e-3, 1e-6);
@@ -350,29 +297,17 @@ fn grows_as_one_of(modes: &[ComplexMode], record: &Recorder) -> [f64; 2] {
     let stage = analysis.growth[0].stage.as_ref().unwrap();
     let found = [stage.rate_per_s.value, stage.frequency_hz.value.abs()];
     let expected = nearest(modes, found[1]);
-    println!(
-        "{found:?}, eigenvalue {expected:?}, residual {:e}",
-        analysis.largest_residual
-    );
+    println!("{found:?}, eigenvalue {expected:?}, residual {:e}", analysis.largest_residual);
     assert!(analysis.largest_residual < 1e-10);
-    assert!(
-        (found[0] / expected[0] - 1.0).abs() < 0.01,
-        "{found:?} {expected:?}"
-    );
-    assert!(
-        (found[1] / expected[1] - 1.0).abs() < 1e-3,
-        "{found:?} {expected:?}"
-    );
+    assert!((found[0] / expected[0] - 1.0).abs() < 0.01, "{found:?} {expected:?}");
+    assert!((found[1] / expected[1] - 1.0).abs() < 1e-3, "{found:?} {expected:?}");
     expected
 }
 
 /// Growth (1/s) and frequency (Hz) of the mode next to a frequency.
 fn nearest(modes: &[ComplexMode], frequency_hz: f64) -> [f64; 2] {
     let distance = |mode: &&ComplexMode| (mode.frequency_hz() - frequency_hz).abs();
-    let own = modes
-        .iter()
-        .min_by(|a, b| distance(a).total_cmp(&distance(b)))
-        .unwrap();
+    let own = modes.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap();
     [std::f64::consts::TAU * own.real_hz(), own.frequency_hz()]
 }
 
@@ -390,18 +325,11 @@ fn losing(mesh: &Mesh) -> (RelaxedMaterials, Vec<TabledMaterial>) {
     let rows = (0..=400).map(|i| {
         let frequency = BAND[0] * (BAND[1] / BAND[0]).powf(f64::from(i) / 400.0);
         let ratio = chain.ratio(frequency);
-        [
-            frequency,
-            STEEL.young_modulus * ratio.re,
-            ratio.im / ratio.re,
-        ]
+        [frequency, STEEL.young_modulus * ratio.re, ratio.im / ratio.re]
     });
     let table = ModulusTable::new("materials.upper.table", "chain.csv", rows.collect());
     let own = |young_modulus| RegionMaterial {
-        elastic: ElasticMaterial {
-            young_modulus,
-            ..STEEL
-        },
+        elastic: ElasticMaterial { young_modulus, ..STEEL },
         damping: None,
     };
     let mut materials = vec![TabledMaterial::from(own(STEEL.young_modulus)); count];
@@ -418,10 +346,7 @@ fn losing(mesh: &Mesh) -> (RelaxedMaterials, Vec<TabledMaterial>) {
 fn losses_of_an_assembly_slow_its_growth_as_the_eigenvalue_says() {
     let mesh = mesh([5, 4, 1]);
     let (in_time, tabled) = losing(&mesh);
-    let decay = Some(FrictionDecay {
-        static_ratio: 4.0,
-        decay_speed: 1.0,
-    });
+    let decay = Some(FrictionDecay { static_ratio: 4.0, decay_speed: 1.0 });
     let springs = SPRINGS[1];
     let lossless = modes(&assembly(&mesh, &STEEL, springs, decay, 10.0));
     let expected = modes(&assembly(&mesh, &tabled, springs, decay, 10.0));

@@ -23,10 +23,7 @@ fn disc() -> AnnulusSpecification {
 }
 
 fn operating(rpm: f64) -> OperatingPoint {
-    OperatingPoint {
-        contact: contact(rpm),
-        damping: DAMPING,
-    }
+    OperatingPoint { contact: contact(rpm), damping: DAMPING }
 }
 
 fn solver(harmonic: usize) -> CycleSolver {
@@ -143,14 +140,10 @@ fn cycle_without_stick_does_not_depend_on_the_speed() {
     point.contact.friction_coefficient = 0.2;
     let start = solver.find(&point).unwrap();
     let speed = |rpm: f64| rpm * TAU / 60.0;
-    let fast = solver
-        .continue_to(&start, Parameter::RotationSpeed, speed(5000.0))
-        .unwrap();
+    let fast = solver.continue_to(&start, Parameter::RotationSpeed, speed(5000.0)).unwrap();
     let saturation = fast.saturation_speed(disc().inner_radius).unwrap();
     assert!(saturation < speed(5000.0));
-    let faster = solver
-        .continue_to(&fast, Parameter::RotationSpeed, speed(6000.0))
-        .unwrap();
+    let faster = solver.continue_to(&fast, Parameter::RotationSpeed, speed(6000.0)).unwrap();
     assert!((faster.state.frequency / fast.state.frequency - 1.0).abs() < 1e-9);
     assert!((faster.powers.external / fast.powers.external / 1.2 - 1.0).abs() < 1e-9);
     // Just below that speed points stick, just above none does.
@@ -183,16 +176,11 @@ fn branch_over_friction_is_born_at_the_onset_of_the_linear_theory() {
 fn branch_visits_every_value_and_meets_the_cycle_found_from_birth() {
     let solver = solver(2);
     let start = solver.find(&operating(400.0)).unwrap();
-    let values: Vec<f64> = (0..9)
-        .map(|i| (200.0 + 100.0 * i as f64) * TAU / 60.0)
-        .collect();
+    let values: Vec<f64> = (0..9).map(|i| (200.0 + 100.0 * i as f64) * TAU / 60.0).collect();
     let branch = solver.follow(&start, Parameter::RotationSpeed, &values);
     assert_eq!(branch.ends, [BranchEnd::Range; 2]);
     for value in &values {
-        let found = branch
-            .cycles
-            .iter()
-            .any(|c| c.state.point.contact.rotation_speed == *value);
+        let found = branch.cycles.iter().any(|c| c.state.point.contact.rotation_speed == *value);
         assert!(found, "{value}");
     }
     let along = branch.cycles.iter().find(|c| {
@@ -227,18 +215,12 @@ fn reference_cycles_of_the_fine_mesh_have_the_transients_frequencies_and_statuse
         let cycle = solver.find(&operating(rpm)).unwrap();
         let label = format!("n = {harmonic} at {rpm} rpm");
         assert!(cycle.powers.balance_residual() < 1e-8, "{label}");
-        assert!(
-            (cycle.frequency_hz() / frequency - 1.0).abs() < 5e-4,
-            "{label}"
-        );
+        assert!((cycle.frequency_hz() / frequency - 1.0).abs() < 5e-4, "{label}");
         // Two ends of an arc, each within a phase of 159 or 171.
         assert!((cycle.fractions[0] - stick).abs() < 0.0126, "{label}");
         assert!((cycle.fractions[2] - open).abs() < 0.0126, "{label}");
         // The landing time takes out twice the energy of an impact, which is 0.4 % of the external power.
-        assert!(
-            (cycle.powers.external / external - 1.0).abs() < 0.008,
-            "{label}"
-        );
+        assert!((cycle.powers.external / external - 1.0).abs() < 0.008, "{label}");
         let found = cycle.powers.stick / cycle.powers.external;
         assert!((found - share).abs() < 0.0126, "{label} {found}");
     }
@@ -249,10 +231,7 @@ fn lightly_damped_cycle_has_the_transients_frequency_and_statuses() {
     // With so little damping a resonance takes the edge's response to a force at the same point through zero.
     // Explicit transient, 180 x 35, n = 1 seeded, last fifth of 60 ms, amplitudes constant to 1e-4.
     let point = OperatingPoint {
-        damping: RayleighDamping {
-            mass_coefficient: 40.0,
-            stiffness_coefficient: 1.5e-7,
-        },
+        damping: RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 1.5e-7 },
         ..operating(610.0)
     };
     let specification = annulus(ElementKind::Quad4, 180, 35);
@@ -265,18 +244,13 @@ fn lightly_damped_cycle_has_the_transients_frequency_and_statuses() {
     assert!(cycle.powers.balance_residual() < 1e-8);
     // The same cycle by way of the damping.
     let from = solver.find(&operating(610.0)).unwrap();
-    let along = solver
-        .continue_to(&from, Parameter::StiffnessDamping, 1.5e-7)
-        .unwrap();
+    let along = solver.continue_to(&from, Parameter::StiffnessDamping, 1.5e-7).unwrap();
     assert!((along.frequency_hz() / cycle.frequency_hz() - 1.0).abs() < 5e-4);
 }
 
 #[test]
 fn cycle_of_the_second_onset_is_the_transients_and_loses_stability_where_they_leave_it() {
-    let family = Family {
-        harmonic: 1,
-        onset: 2,
-    };
+    let family = Family { harmonic: 1, onset: 2 };
     let specification = annulus(ElementKind::Quad4, 180, 35);
     let solver =
         CycleSolver::of_family(&specification, &POLYCARBONATE, &DAMPING, family, None).unwrap();
@@ -296,16 +270,10 @@ fn cycle_of_the_second_onset_is_the_transients_and_loses_stability_where_they_le
         let verdict = solver.stability(&cycle).unwrap().verdict();
         assert_ne!(verdict, wrong, "{rpm} rpm");
     }
-    let third = Family {
-        harmonic: 1,
-        onset: 30,
-    };
+    let third = Family { harmonic: 1, onset: 30 };
     let none =
         CycleSolver::of_family(&specification, &POLYCARBONATE, &DAMPING, third, None).unwrap_err();
-    assert!(
-        none.to_string()
-            .starts_with("n = 1, onset 30: steady sliding has no such")
-    );
+    assert!(none.to_string().starts_with("n = 1, onset 30: steady sliding has no such"));
 }
 
 #[test]

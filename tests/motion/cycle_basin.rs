@@ -42,10 +42,7 @@ fn a_kick_tips_sliding_into_its_cycle_at_the_amplitude_of_the_unstable_cycle() {
     assert!(high / low < 1.02 && found.runs.iter().all(|run| run.is_settled));
     // In units of the amplitude at which a contact node sticks.
     let expected = unstable * TAU * cycle.motion.frequency_hz / speed;
-    assert!(
-        low < 1.1 * expected && high > 0.9 * expected,
-        "{low} {high} {expected}"
-    );
+    assert!(low < 1.1 * expected && high > 0.9 * expected, "{low} {high} {expected}");
 }
 
 /// Two waves of the annulus, once seeded along their harmonics and told apart by them, once by their modes: the ratio at which the
@@ -63,10 +60,7 @@ fn modes_of_an_annulus_compete_as_its_waves_do() {
     let simd = SimdLevel::detect();
     let waves = bounds(&boundary(&case, simd).unwrap());
     // The first to be the faster one, of one nodal diameter.
-    let mut request = BasinRequest {
-        periods: 10,
-        ..case.require_basin().unwrap().clone()
-    };
+    let mut request = BasinRequest { periods: 10, ..case.require_basin().unwrap().clone() };
     let (mut rivals, _) = boundary_of_modes(&case, &request, simd).unwrap();
     rivals.sort_unstable_by(|a, b| b.cmp(a));
     request.modes = Some(rivals.to_vec());

@@ -67,20 +67,15 @@ fn a_branch_bends_back_at_the_speed_at_which_integration_from_event_to_event_los
     let at = branch.motions.iter().position(|own| own.is_fold).unwrap();
     let known = |own: &[frictionsim::cycle::periodic::BranchMotion], wanted: bool| {
         let verdicts = own.iter().filter_map(|own| own.is_stable());
-        let (right, all) = verdicts.fold((0, 0), |(right, all), stable| {
-            (right + usize::from(stable == wanted), all + 1)
-        });
+        let (right, all) = verdicts
+            .fold((0, 0), |(right, all), stable| (right + usize::from(stable == wanted), all + 1));
         assert!(all > 0 && right == all, "{right} of {all}, wanted {wanted}");
     };
     known(&branch.motions[..at], true);
     known(&branch.motions[at + 1..], false);
     assert_eq!(branch.ends, [BranchEnd::Range, BranchEnd::Birth]);
     let last = branch.motions.last().unwrap();
-    assert!(
-        (last.value / onset - 1.0).abs() < 0.02,
-        "{} {onset}",
-        last.value
-    );
+    assert!((last.value / onset - 1.0).abs() < 0.02, "{} {onset}", last.value);
     assert_eq!(branch.coexistence(), [[onset, fold]]);
 }
 
@@ -149,10 +144,7 @@ fn a_branch_that_goes_on_after_an_interruption_is_the_same_bit_by_bit() {
     let whole = searched(&case, &Unwatched);
     // As an interruption leaves it after two and four steps.
     for most in [2, 4] {
-        let memory = Memory {
-            most,
-            ..Memory::default()
-        };
+        let memory = Memory { most, ..Memory::default() };
         searched(&case, &memory);
         assert_eq!(memory.steps.lock().unwrap().len().min(2), 2);
         let again = searched(&case, &memory);

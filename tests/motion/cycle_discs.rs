@@ -39,10 +39,7 @@ fn aluminium(elements: [usize; 2]) -> (DiscModel, SlidingContact) {
     let model = DiscModel {
         specification: ring([0.03, 0.075], elements),
         material: metal(70e9, 0.33, 2700.0),
-        damping: RayleighDamping {
-            mass_coefficient: 0.0,
-            stiffness_coefficient: 1.5e-7,
-        },
+        damping: RayleighDamping { mass_coefficient: 0.0, stiffness_coefficient: 1.5e-7 },
     };
     let contact = SlidingContact {
         decay: None,
@@ -61,10 +58,7 @@ fn steel(elements: [usize; 2]) -> (DiscModel, SlidingContact) {
             formulation: PlaneFormulation::PlaneStrain,
             ..metal(210e9, 0.3, 7850.0)
         },
-        damping: RayleighDamping {
-            mass_coefficient: 100.0,
-            stiffness_coefficient: 4e-7,
-        },
+        damping: RayleighDamping { mass_coefficient: 100.0, stiffness_coefficient: 4e-7 },
     };
     let contact = SlidingContact {
         decay: None,
@@ -76,10 +70,7 @@ fn steel(elements: [usize; 2]) -> (DiscModel, SlidingContact) {
 }
 
 fn point(model: &DiscModel, contact: &SlidingContact) -> OperatingPoint {
-    OperatingPoint {
-        contact: *contact,
-        damping: model.damping,
-    }
+    OperatingPoint { contact: *contact, damping: model.damping }
 }
 
 #[test]
@@ -130,35 +121,20 @@ fn scaled_lengths_moduli_densities_and_times_scale_the_results() {
     assert!(ratio(one.0.friction_coefficient, two.0.friction_coefficient) < 1e-9);
     assert!(ratio(one.0.frequency, two.0.frequency * time) < 1e-9);
     let [first, second] = [&one.1, &two.1];
-    assert!(
-        ratio(
-            first.cycle.state.frequency,
-            second.cycle.state.frequency * time
-        ) < 1e-8
-    );
+    assert!(ratio(first.cycle.state.frequency, second.cycle.state.frequency * time) < 1e-8);
     // W/m: stress times length times velocity.
     let power = modulus * length * length / time;
-    assert!(
-        ratio(
-            first.cycle.powers.external * power,
-            second.cycle.powers.external
-        ) < 1e-4
-    );
+    assert!(ratio(first.cycle.powers.external * power, second.cycle.powers.external) < 1e-4);
     let leading = |s: &frictionsim::cycle::SteppedCycle| s.stability.leading().unwrap().exponent;
     let difference = (leading(first) - leading(second) * time).norm();
     // A hundredth of a per cent of omega: where a node lands between two steps is round-off's choice.
-    assert!(
-        difference < 1e-4 * first.cycle.state.frequency,
-        "{difference}"
-    );
+    assert!(difference < 1e-4 * first.cycle.state.frequency, "{difference}");
 }
 
 #[test]
 fn leading_exponent_does_not_depend_on_the_number_of_phases_beyond_its_uncertainty() {
     let (model, contact) = steel([150, 24]);
-    let onset = model
-        .onset_of(Family::lowest(1), ModeLimit::Lowest(20))
-        .unwrap();
+    let onset = model.onset_of(Family::lowest(1), ModeLimit::Lowest(20)).unwrap();
     let found: Vec<(usize, f64, f64)> = [81, 99, 121, 141, 181]
         .into_iter()
         .map(|phases| {
@@ -189,9 +165,7 @@ fn external_power_is_the_transients_and_the_verdict_is_what_transients_do() {
         let stepping = solver.stepping(SimdLevel::detect()).unwrap();
         let settled = stepping.settle(&cycle, None).unwrap();
         // A hundred periods and more, seeded in the leading harmonic.
-        let run = stepping
-            .confirm(&settled.cycle, Some(&settled.stability), 100)
-            .unwrap();
+        let run = stepping.confirm(&settled.cycle, Some(&settled.stability), 100).unwrap();
         println!(
             "{family}: {:?} {run:?} {}",
             settled.stability.leading(),

@@ -22,10 +22,7 @@ pub fn shipped(name: &str, overrides: &[&str]) -> Case {
 
 /// The block at a friction coefficient at which one mode grows.
 fn block(overrides: &[&str]) -> Case {
-    let own = [
-        "contact.friction_coefficient=0.7",
-        "cycle={ confirmation_periods = 20 }",
-    ];
+    let own = ["contact.friction_coefficient=0.7", "cycle={ confirmation_periods = 20 }"];
     shipped("sliding-block.toml", &[&own, overrides].concat())
 }
 
@@ -84,18 +81,12 @@ fn the_cycle_of_a_block_is_that_of_its_transient() {
     // The shift in phase has the multiplier 1, but for nodes that change their status at whole steps. That bends the map, which
     // differences over a finite perturbation see: 0.0004 to 0.008 off with 216 to 2443 steps of a period, without a law in them.
     let shift = multipliers.shift.unwrap();
-    assert!(
-        (shift.re - 1.0).abs() < 0.01 && shift.im.abs() < 1e-9,
-        "{shift}"
-    );
+    assert!((shift.re - 1.0).abs() < 0.01 && shift.im.abs() < 1e-9, "{shift}");
 }
 
 #[test]
 fn springs_and_dashpots_of_the_contact_are_those_of_the_transient() {
-    let springs = [
-        "contact.normal_stiffness=2e13",
-        "contact.tangential_damping=1e3",
-    ];
+    let springs = ["contact.normal_stiffness=2e13", "contact.tangential_damping=1e3"];
     let result = hold_to_transient(&block(&[&FROM_NOISE[..], &springs].concat()));
     let powers = found(&result).motion.powers;
     assert!(powers.contact.damping > 0.0 && powers.balance_residual() < 1e-6);
@@ -120,9 +111,7 @@ fn the_cycle_of_a_disc_on_a_deformable_shaft_is_that_of_its_transient() {
 
 #[test]
 fn energy_of_a_cycle_closes_and_its_parts_add_up() {
-    let results = cycles(&block(&[
-        "cycle={ confirmation_periods = 0, stability = \"none\" }",
-    ]));
+    let results = cycles(&block(&["cycle={ confirmation_periods = 0, stability = \"none\" }"]));
     let cycle = found(&results[0]);
     let motion = &cycle.motion;
     // The balance of the time loop closes to round-off; what the motion misses its start by is left, times the energies that
@@ -146,10 +135,7 @@ fn energy_of_a_cycle_closes_and_its_parts_add_up() {
     assert!(told.last().unwrap().remainder <= 1e-3);
     assert!(told.len() < motion.harmonics.len() && told.len() > 1);
     // Time begins where the node that moves most is farthest ahead.
-    let ahead = motion
-        .instants
-        .iter()
-        .map(|at| at.displacement[motion.node][1]);
+    let ahead = motion.instants.iter().map(|at| at.displacement[motion.node][1]);
     let farthest = ahead.fold(f64::NEG_INFINITY, f64::max);
     let first = motion.instants[0].displacement[motion.node][1];
     assert!((farthest - first).abs() < 1e-3 * motion.amplitude);
@@ -163,16 +149,9 @@ fn a_branch_of_cycles_goes_from_neighbour_to_neighbour() {
     let branch = found(&results[0]).branch.as_ref().unwrap();
     let values: Vec<f64> = branch.motions.iter().map(|own| own.value).collect();
     // The values asked for, and others between them.
-    assert!(
-        values.is_sorted() && values[0] == 0.64 && values.ends_with(&[0.7]),
-        "{values:?}"
-    );
+    assert!(values.is_sorted() && values[0] == 0.64 && values.ends_with(&[0.7]), "{values:?}");
     let near = |wanted: f64| values.iter().any(|value| (value - wanted).abs() < 1e-12);
-    assert!(
-        [0.66, 0.68].into_iter().all(near),
-        "{values:?} {:?}",
-        branch.ends
-    );
+    assert!([0.66, 0.68].into_iter().all(near), "{values:?} {:?}", branch.ends);
     // The first one is the cycle that is found from its own mode.
     let own = cycles(&block(&[
         "contact.friction_coefficient=0.64",
@@ -234,10 +213,7 @@ fn the_critical_damping_of_stable_sliding_is_where_the_onset_is_the_friction() {
     let critical = critical.unwrap();
     assert!(onset.friction_coefficient > 0.05 && critical.value < 4.5e-7);
     let (_, there) = at(critical.value);
-    assert!(
-        (there.friction_coefficient / 0.05 - 1.0).abs() < 1e-3,
-        "{there:?}"
-    );
+    assert!((there.friction_coefficient / 0.05 - 1.0).abs() < 1e-3, "{there:?}");
 }
 
 /// In slow sliding the nodes of the pad stick together, at whole steps, and the motion repeats itself to no more than 1e-5; it is that
@@ -254,16 +230,8 @@ fn the_cycle_of_a_pad_in_slow_sliding_is_that_of_its_transient() {
     let results = cycles(&case);
     let motion = &found(&results[0]).motion;
     assert!(motion.residual < 1e-4, "{}", motion.residual);
-    assert!(
-        (motion.frequency_hz / 15_368.5 - 1.0).abs() < 1e-3,
-        "{}",
-        motion.frequency_hz
-    );
-    assert!(
-        (motion.fractions[0] - 0.375).abs() < 0.01,
-        "{:?}",
-        motion.fractions
-    );
+    assert!((motion.frequency_hz / 15_368.5 - 1.0).abs() < 1e-3, "{}", motion.frequency_hz);
+    assert!((motion.fractions[0] - 0.375).abs() < 0.01, "{:?}", motion.fractions);
 }
 
 /// The same cycle by two methods: a wave along its phase, and a motion of the whole mesh.
@@ -291,16 +259,10 @@ fn rotating_waves_are_periodic_motions_of_the_whole_mesh() {
         ],
     ));
     let distance = |result: &PeriodicResult| {
-        let motion = result
-            .outcome
-            .as_ref()
-            .ok()
-            .map(|found| found.motion.frequency_hz);
+        let motion = result.outcome.as_ref().ok().map(|found| found.motion.frequency_hz);
         (motion.unwrap_or(0.0) / wave.frequency_hz() - 1.0).abs()
     };
-    let nearest = all
-        .iter()
-        .min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    let nearest = all.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
     let motion = &found(nearest.unwrap()).motion;
     // The phases of the wave's own search are the difference.
     assert!(
@@ -328,10 +290,7 @@ fn rotating_waves_are_periodic_motions_of_the_whole_mesh() {
     let other = waves[0].stability.as_ref().unwrap().as_ref();
     let other = other.unwrap().leading().unwrap();
     let bound = own.uncertainty + other.uncertainty;
-    assert!(
-        (own.growth_rate - other.exponent.re).abs() < bound,
-        "{own:?} {other:?}"
-    );
+    assert!((own.growth_rate - other.exponent.re).abs() < bound, "{own:?} {other:?}");
 }
 
 #[test]
@@ -342,19 +301,13 @@ fn an_oscillator_that_sticks_and_slips_agrees_with_integration_from_event_to_eve
     assert_eq!(results.len(), 1);
     let motion = &found(&results[0]).motion;
     let reference = EventDriven::new(&case);
-    let (frequency, stick) = reference
-        .run([1e-6, 1e-6, 0.0, 0.0], 1.2e-8, 120, 20)
-        .unwrap();
+    let (frequency, stick) = reference.run([1e-6, 1e-6, 0.0, 0.0], 1.2e-8, 120, 20).unwrap();
     // A node comes to rest or leaves it at a step of 2.5e-9 s, half a step late each time.
     assert!(
         (motion.frequency_hz / frequency - 1.0).abs() < 1e-4,
         "{} {frequency}",
         motion.frequency_hz
     );
-    assert!(
-        (motion.fractions[0] - stick).abs() < 1e-3,
-        "{:?} {stick}",
-        motion.fractions
-    );
+    assert!((motion.fractions[0] - stick).abs() < 1e-3, "{:?} {stick}", motion.fractions);
     assert!(stick > 0.02, "{stick}");
 }

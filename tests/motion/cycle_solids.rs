@@ -142,10 +142,7 @@ impl Kept {
     /// What a search leaves that stops after so many of its steps.
     pub fn after(self, count: usize) -> Self {
         let steps = self.steps.into_inner().unwrap();
-        Self {
-            earlier: steps.into_iter().take(count).collect(),
-            ..Self::default()
-        }
+        Self { earlier: steps.into_iter().take(count).collect(), ..Self::default() }
     }
 }
 
@@ -184,12 +181,7 @@ fn a_branch_of_solid_bodies_goes_on_after_an_interruption_bit_by_bit() {
         let (a, b) = (found(a), found(b));
         assert_eq!(a.motion, b.motion);
         let [a, b] = [a, b].map(|own| &own.branch.as_ref().unwrap().motions);
-        assert!(
-            a.len() > 23 && a.len() == b.len(),
-            "{} {}",
-            a.len(),
-            b.len()
-        );
+        assert!(a.len() > 23 && a.len() == b.len(), "{} {}", a.len(), b.len());
         for (a, b) in a.iter().zip(b) {
             assert_eq!((a.value, &a.motion), (b.value, &b.motion));
         }
@@ -203,9 +195,6 @@ fn parameters_that_solid_bodies_do_not_have_are_refused_with_those_they_have() {
     let case = pad(folder.path(), &[range]);
     let error = PeriodicStudy::new(&case, SimdLevel::detect()).err();
     let text = error.unwrap().to_string();
-    assert!(
-        text.contains("cannot be followed over contact.interference"),
-        "{text}"
-    );
+    assert!(text.contains("cannot be followed over contact.interference"), "{text}");
     assert!(text.contains("contact.friction_coefficient"), "{text}");
 }

@@ -14,10 +14,7 @@ use frictionsim::transient::{
 };
 
 fn operating(rpm: f64) -> OperatingPoint {
-    OperatingPoint {
-        contact: contact(rpm),
-        damping: DAMPING,
-    }
+    OperatingPoint { contact: contact(rpm), damping: DAMPING }
 }
 
 fn solver(harmonic: usize) -> CycleSolver {
@@ -35,22 +32,14 @@ fn run(solver: &CycleSolver, cycle: &LimitCycle, perturbed: usize, duration: f64
         time_step: TimeStep::Auto,
         sample_interval: 2e-6,
         expansion_time: 0.0,
-        initial: InitialState::LimitCycle {
-            harmonic: cycle.harmonic,
-            onset: 1,
-        },
+        initial: InitialState::LimitCycle { harmonic: cycle.harmonic, onset: 1 },
         perturbation: Perturbation::of(&[perturbed], 1e-3),
     };
     let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let operator = operator.as_ref();
     let refused = CentralDifference::start(model, operator, &settings);
-    assert!(matches!(
-        refused.err(),
-        Some(TransientError::FieldsMissing { .. })
-    ));
-    let step = StepPlan::new(operator, &DAMPING, &settings)
-        .unwrap()
-        .time_step;
+    assert!(matches!(refused.err(), Some(TransientError::FieldsMissing { .. })));
+    let step = StepPlan::new(operator, &DAMPING, &settings).unwrap().time_step;
     let [displacement, _] = solver.field(cycle, 0.0);
     let [_, velocity] = solver.field(cycle, -0.5 * step);
     let mut run =
@@ -62,13 +51,9 @@ fn run(solver: &CycleSolver, cycle: &LimitCycle, perturbed: usize, duration: f64
 
 /// Amplitude of a harmonic of the contact edge over the times `from..to`.
 fn amplitudes(record: &Recorder, harmonic: usize, from: f64, to: f64) -> Vec<(f64, f64)> {
-    let rows = record
-        .rows
-        .iter()
-        .filter(|row| (from..to).contains(&row.time));
+    let rows = record.rows.iter().filter(|row| (from..to).contains(&row.time));
     let amplitude = |pair: [f64; 2]| pair[0].hypot(pair[1]);
-    rows.map(|row| (row.time, amplitude(row.harmonics[harmonic])))
-        .collect()
+    rows.map(|row| (row.time, amplitude(row.harmonics[harmonic]))).collect()
 }
 
 /// Slope of the logarithm, 1/s.
@@ -96,17 +81,11 @@ fn transient_started_on_a_stable_cycle_stays_and_forgets_other_harmonics_at_the_
     assert!((first / last - 1.0).abs() < 5e-3, "{first} {last}");
     let analysis = TransientAnalysis::of(&record, &[2]);
     let frequency = analysis.last_fifth.main_frequency_hz.unwrap();
-    assert!(
-        (frequency / cycle.frequency_hz() - 1.0).abs() < 5e-4,
-        "{frequency}"
-    );
+    assert!((frequency / cycle.frequency_hz() - 1.0).abs() < 5e-4, "{frequency}");
 
     // Perturbed in harmonic 1, it decays as the leading exponent of the odd class says.
     let measured = rate(&amplitudes(&record, 1, 2e-3, 8e-3));
-    assert!(
-        (measured / odd.exponent.re - 1.0).abs() < 0.1,
-        "{measured} {odd:?}"
-    );
+    assert!((measured / odd.exponent.re - 1.0).abs() < 0.1, "{measured} {odd:?}");
 }
 
 #[test]
@@ -120,10 +99,7 @@ fn transient_leaves_an_unstable_cycle_at_the_rate_found() {
     assert_eq!(stability.growing_harmonics(), [1]);
     let record = run(&solver, &cycle, 1, 25e-3);
     let measured = rate(&amplitudes(&record, 1, 12e-3, 25e-3));
-    assert!(
-        (measured / leading.exponent.re - 1.0).abs() < 0.02,
-        "{measured} {leading:?}"
-    );
+    assert!((measured / leading.exponent.re - 1.0).abs() < 0.02, "{measured} {leading:?}");
 }
 
 #[test]
@@ -149,19 +125,12 @@ fn single_wave_loses_stability_to_a_double_one_far_from_its_own_frequency() {
         })
         .collect();
     let measured = rate(&scatter);
-    assert!(
-        (measured / leading.exponent.re - 1.0).abs() < 0.1,
-        "{measured} {leading:?}"
-    );
+    assert!((measured / leading.exponent.re - 1.0).abs() < 0.1, "{measured} {leading:?}");
     // Transients leave the cycle at 650 rpm and stay at 620.
     for (rpm, is_stable) in [(620.0, true), (650.0, false)] {
         point.contact.rotation_speed = operating(rpm).contact.rotation_speed;
         let cycle = solver.find(&point).unwrap();
-        assert_eq!(
-            solver.stability(&cycle).unwrap().is_stable(),
-            is_stable,
-            "{rpm}"
-        );
+        assert_eq!(solver.stability(&cycle).unwrap().is_stable(), is_stable, "{rpm}");
     }
 }
 

@@ -18,10 +18,7 @@ fn solver() -> CycleSolver {
 }
 
 fn cycle(solver: &CycleSolver, rpm: f64) -> LimitCycle {
-    let contact = SlidingContact {
-        friction_coefficient: FRICTION,
-        ..contact(rpm)
-    };
+    let contact = SlidingContact { friction_coefficient: FRICTION, ..contact(rpm) };
     let damping = DAMPING;
     solver.find(&OperatingPoint { contact, damping }).unwrap()
 }

@@ -70,11 +70,7 @@ impl EventDriven {
                 case.damping.rayleigh.stiffness_coefficient,
             ],
             speed: interface.surface_speed(contact.rotation_speed),
-            friction: [
-                contact.friction_coefficient,
-                decay.static_ratio,
-                decay.decay_speed,
-            ],
+            friction: [contact.friction_coefficient, decay.static_ratio, decay.decay_speed],
         }
     }
 
@@ -159,9 +155,7 @@ impl EventDriven {
             if !event {
                 continue;
             }
-            let left: Vec<usize> = (0..2)
-                .filter(|&i| self.overrun(i, &x, states) > 0.0)
-                .collect();
+            let left: Vec<usize> = (0..2).filter(|&i| self.overrun(i, &x, states) > 0.0).collect();
             for i in left {
                 let force = self.holding(i, &x);
                 if states[i] != 0.0 && force.abs() <= self.limit(i, &x, 0.0) {

@@ -23,10 +23,8 @@ use frictionsim::transient::{
     TimeStep, TransientAnalysis, TransientModel, TransientSettings, build_operator,
 };
 
-const CYLINDER: CounterfaceSpecification = CounterfaceSpecification::Cylinder {
-    center: [0.0; 2],
-    radius: None,
-};
+const CYLINDER: CounterfaceSpecification =
+    CounterfaceSpecification::Cylinder { center: [0.0; 2], radius: None };
 
 fn options(mass: MassKind, geometric_stiffness: bool) -> TangentOptions {
     TangentOptions {
@@ -68,21 +66,14 @@ fn assert_one_spectrum(found: &[ComplexMode], expected: &[ComplexMode], toleranc
     assert_eq!(found.len(), expected.len());
     for (a, b) in found.iter().zip(expected) {
         let error = (a.eigenvalue - b.eigenvalue).norm() / b.eigenvalue.norm();
-        assert!(
-            error < tolerance,
-            "{} {} {error:e}",
-            a.eigenvalue,
-            b.eigenvalue
-        );
+        assert!(error < tolerance, "{} {} {error:e}", a.eigenvalue, b.eigenvalue);
     }
 }
 
 #[test]
 fn every_form_of_the_file_reads_to_one_mesh() {
     for element in [ElementKind::Quad4, ElementKind::Quad8] {
-        let mesh = AnnulusMesh::generate(&annulus(element, 12, 3))
-            .unwrap()
-            .mesh;
+        let mesh = AnnulusMesh::generate(&annulus(element, 12, 3)).unwrap().mesh;
         let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
         let read =
             FORMS.map(|form| GmshFile::read(&write_msh(&mesh, form, &numbers, |p| p)).unwrap());
@@ -104,9 +95,7 @@ fn every_form_of_the_file_reads_to_one_mesh() {
 /// The imported disc has the spectrum of the generated one, also turned, renumbered and in millimetres.
 #[test]
 fn turned_renumbered_and_scaled_meshes_have_one_spectrum() {
-    let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad8, 24, 4))
-        .unwrap()
-        .mesh;
+    let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad8, 24, 4)).unwrap().mesh;
     let contact = contact(610.0);
     let options = options(MassKind::Consistent, true);
     let expected = modes(&mesh, &options, &contact);
@@ -134,10 +123,7 @@ fn supported(stiffness: f64) -> BoundaryCondition {
 fn a_supported_rim_gives_the_sounds_of_the_prototype() {
     type Row = (usize, f64, f64);
     let rows: [(BoundaryCondition, &[Row]); 3] = [
-        (
-            BoundaryCondition::Clamped,
-            &[(1, 6883.0, 110.0), (2, 8761.0, 93.0), (1, 10314.0, 173.0)],
-        ),
+        (BoundaryCondition::Clamped, &[(1, 6883.0, 110.0), (2, 8761.0, 93.0), (1, 10314.0, 173.0)]),
         (
             supported(2.0e11),
             &[
@@ -160,10 +146,7 @@ fn a_supported_rim_gives_the_sounds_of_the_prototype() {
             ],
         ),
     ];
-    let material = ElasticMaterial {
-        formulation: PlaneFormulation::PlaneStress,
-        ..POLYCARBONATE
-    };
+    let material = ElasticMaterial { formulation: PlaneFormulation::PlaneStress, ..POLYCARBONATE };
     for (outer, expected) in rows {
         let mut specification = annulus(ElementKind::Quad8, 96, 20);
         specification.outer = outer;
@@ -174,14 +157,8 @@ fn a_supported_rim_gives_the_sounds_of_the_prototype() {
             count_modes: false,
         };
         let options = options(MassKind::Consistent, false);
-        let found = cyclic::sweep(
-            &specification,
-            &material,
-            &options,
-            &contact(610.0),
-            &request,
-        )
-        .unwrap();
+        let found =
+            cyclic::sweep(&specification, &material, &options, &contact(610.0), &request).unwrap();
         let modes = &found.sweep.points[0].modes;
         for &(harmonic, frequency, growth) in expected {
             let near = modes.iter().find(|mode| {
@@ -189,10 +166,7 @@ fn a_supported_rim_gives_the_sounds_of_the_prototype() {
                     && (mode.frequency_hz() / frequency - 1.0).abs() < 2e-3
                     && (mode.real_hz() - growth).abs() < 3.0
             });
-            assert!(
-                near.is_some(),
-                "{outer:?}: n = {harmonic}, {frequency} Hz, {growth}"
-            );
+            assert!(near.is_some(), "{outer:?}: n = {harmonic}, {frequency} Hz, {growth}");
         }
     }
 }
@@ -218,14 +192,8 @@ fn a_supported_rim_has_one_spectrum_by_sectors_and_as_a_whole() {
         shapes_at: &[],
         count_modes: false,
     };
-    let found = cyclic::sweep(
-        &specification,
-        &POLYCARBONATE,
-        &options,
-        &contact(610.0),
-        &request,
-    )
-    .unwrap();
+    let found =
+        cyclic::sweep(&specification, &POLYCARBONATE, &options, &contact(610.0), &request).unwrap();
     assert_one_spectrum(&sparse, &found.sweep.points[0].modes, 1e-8);
 }
 
@@ -253,12 +221,7 @@ pub fn rectangle(width: f64, height: f64, nx: usize, ny: usize) -> Vec<u8> {
         elements.push(format!("1 2 4 4 {} {}", node(0, j), node(0, j + 1)));
         elements.push(format!("1 2 2 2 {} {}", node(nx, j), node(nx, j + 1)));
         for i in 0..nx {
-            let corners = [
-                node(i, j),
-                node(i + 1, j),
-                node(i + 1, j + 1),
-                node(i, j + 1),
-            ];
+            let corners = [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
             let corners = corners.map(|n| n.to_string()).join(" ");
             elements.push(format!("3 2 5 5 {corners}"));
         }
@@ -275,9 +238,7 @@ fn block_specification() -> BodySpecification {
     BodySpecification {
         scale: 1.0,
         contact: "bottom".to_owned(),
-        counterface: CounterfaceSpecification::Plane {
-            direction: Some([1.0, 0.0]),
-        },
+        counterface: CounterfaceSpecification::Plane { direction: Some([1.0, 0.0]) },
         opposite: None,
         conditions: vec![
             ("right".to_owned(), BoundaryCondition::Guide),
@@ -287,12 +248,7 @@ fn block_specification() -> BodySpecification {
 }
 
 fn plane(friction_coefficient: f64) -> SlidingContact {
-    SlidingContact {
-        decay: None,
-        friction_coefficient,
-        interference: 0.0,
-        rotation_speed: 1.5,
-    }
+    SlidingContact { decay: None, friction_coefficient, interference: 0.0, rotation_speed: 1.5 }
 }
 
 /// A block that a pressure presses on a moving plane and a smooth stop holds: forces balance, no node is pulled, no
@@ -309,27 +265,16 @@ fn a_pressed_block_is_in_balance() {
         let state = &range.states[k];
         let forces = state.normal_forces(*friction);
         let total: f64 = forces.iter().sum();
-        assert!(
-            (total / (1e6 * width) - 1.0).abs() < 1e-8,
-            "{friction} {total}"
-        );
+        assert!((total / (1e6 * width) - 1.0).abs() < 1e-8, "{friction} {total}");
         let displacement = state.displacement(*friction);
         for (i, force) in forces.iter().enumerate() {
             let gap = displacement[state.interface.normal_dof(i)];
-            assert!(
-                *force >= -1e-9 * total && gap >= -1e-15,
-                "{friction} {i} {force} {gap}"
-            );
+            assert!(*force >= -1e-9 * total && gap >= -1e-15, "{friction} {i} {force} {gap}");
         }
         // The plane drags the block along its direction with the friction of the whole force.
         assert!((state.torque(*friction) - friction * total).abs() < 1e-9 * total);
     }
-    assert!(
-        range
-            .states
-            .iter()
-            .all(|state| state.is_pressed.iter().all(|is| *is))
-    );
+    assert!(range.states.iter().all(|state| state.is_pressed.iter().all(|is| *is)));
 }
 
 /// On an elastic mounting the drag tilts the block: nodes open one by one as friction rises.
@@ -345,31 +290,20 @@ fn a_block_on_an_elastic_mounting_lifts_a_corner_as_friction_rises() {
     specification.conditions = vec![("top".to_owned(), BoundaryCondition::Support(mounting))];
     let mesh = Mesh::from_gmsh(&file, &specification).unwrap();
     let stiffness = assemble_stiffness(&mesh, &POLYCARBONATE);
-    let contact = SlidingContact {
-        interference: 1e-5,
-        ..plane(0.5)
-    };
+    let contact = SlidingContact { interference: 1e-5, ..plane(0.5) };
     let frictions = [0.1, 0.3, 0.5];
     let range = SlidingRange::solve(&mesh, &stiffness, &contact, &frictions).unwrap();
     let mut open = Vec::new();
     for (friction, &k) in frictions.iter().zip(&range.state_of) {
         let state = &range.states[k];
-        let (forces, displacement) = (
-            state.normal_forces(*friction),
-            state.displacement(*friction),
-        );
+        let (forces, displacement) =
+            (state.normal_forces(*friction), state.displacement(*friction));
         let total: f64 = forces.iter().sum();
         for (i, force) in forces.iter().enumerate() {
             let gap = displacement[state.interface.normal_dof(i)] - 1e-5;
             // Round-off of the interpolation in the friction coefficient.
-            assert!(
-                *force >= -1e-6 * total && gap >= -1e-11,
-                "{friction} {i} {force} {gap}"
-            );
-            assert!(
-                *force <= 1e-6 * total || gap.abs() < 1e-11,
-                "{friction} {i} {force} {gap}"
-            );
+            assert!(*force >= -1e-6 * total && gap >= -1e-11, "{friction} {i} {force} {gap}");
+            assert!(*force <= 1e-6 * total || gap.abs() < 1e-11, "{friction} {i} {force} {gap}");
         }
         open.push(state.is_pressed.iter().filter(|is| !**is).count());
     }
@@ -381,9 +315,7 @@ fn a_block_on_an_elastic_mounting_lifts_a_corner_as_friction_rises() {
 /// The eigenvalue's growth and frequency in the linear stage of a transient, on a disc whose hole is off centre.
 #[test]
 fn a_body_without_symmetry_grows_in_time_as_its_eigenvalue_says() {
-    let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 60, 12))
-        .unwrap()
-        .mesh;
+    let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 60, 12)).unwrap().mesh;
     let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
     // The rim moves by 5 mm, the hole stays.
     let shift = |[x, y]: [f64; 2]| {
@@ -393,10 +325,7 @@ fn a_body_without_symmetry_grows_in_time_as_its_eigenvalue_says() {
     let body = disc_body(&write_msh(&mesh, FORMS[0], &numbers, shift), 1.0);
     let contact = contact(610.0);
     let found = modes(&body, &options(MassKind::Lumped, false), &contact);
-    let exact = found
-        .iter()
-        .max_by(|a, b| a.growth_rate().total_cmp(&b.growth_rate()))
-        .unwrap();
+    let exact = found.iter().max_by(|a, b| a.growth_rate().total_cmp(&b.growth_rate())).unwrap();
     let model = TransientModel {
         mesh: &body,
         annulus: None,
@@ -423,13 +352,7 @@ fn a_body_without_symmetry_grows_in_time_as_its_eigenvalue_says() {
     let analysis = TransientAnalysis::of(&record, &[2]);
     let growth = analysis.growth[0].stage.as_ref().unwrap();
     let (rate, frequency) = (growth.rate_per_s.value, growth.frequency_hz.value.abs());
-    println!(
-        "{} {} {} {}",
-        rate,
-        exact.growth_rate(),
-        frequency,
-        exact.frequency_hz()
-    );
+    println!("{} {} {} {}", rate, exact.growth_rate(), frequency, exact.frequency_hz());
     assert!((rate / exact.growth_rate() - 1.0).abs() < 0.01);
     assert!((frequency / exact.frequency_hz() - 1.0).abs() < 1e-3);
 }
@@ -452,10 +375,7 @@ fn energy_closes_with_supports_pressure_and_partial_contact() {
         mesh: &mesh,
         annulus: None,
         material: &POLYCARBONATE,
-        damping: RayleighDamping {
-            mass_coefficient: 40.0,
-            stiffness_coefficient: 1e-7,
-        },
+        damping: RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 1e-7 },
         contact: plane(0.5),
         stiffness: ContactStiffness::default(),
     };
@@ -494,9 +414,7 @@ fn bad_files_and_names_are_refused_with_a_remedy() {
     let misspelt = with(&|s| s.contact = "botom".to_owned());
     let loose = with(&|s| s.conditions.clear());
     let away = with(&|s| {
-        s.counterface = CounterfaceSpecification::Plane {
-            direction: Some([-1.0, 0.0]),
-        };
+        s.counterface = CounterfaceSpecification::Plane { direction: Some([-1.0, 0.0]) };
     });
     let half = &good[..good.len() / 2];
     let inverted = good.replacen("3 2 5 5 1 2 7 6", "3 2 5 5 1 6 7 2", 1);
@@ -531,13 +449,10 @@ fn bad_files_and_names_are_refused_with_a_remedy() {
 /// Consistency check: mutated files never panic, and what is read of them stays small.
 #[test]
 fn mutated_files_are_read_or_refused() {
-    let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad8, 6, 2))
-        .unwrap()
-        .mesh;
+    let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad8, 6, 2)).unwrap().mesh;
     let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
-    let seeds: Vec<Vec<u8>> = FORMS
-        .map(|form: Form| write_msh(&mesh, form, &numbers, |p| p))
-        .into();
+    let seeds: Vec<Vec<u8>> =
+        FORMS.map(|form: Form| write_msh(&mesh, form, &numbers, |p| p)).into();
     let specification = BodySpecification {
         scale: 1.0,
         contact: "inner".to_owned(),
@@ -547,9 +462,8 @@ fn mutated_files_are_read_or_refused() {
     };
     let mut state = 1_u64;
     let mut draw = |below: usize| {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 33) as usize % below
     };
     for round in 0..4000 {

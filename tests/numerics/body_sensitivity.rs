@@ -76,9 +76,8 @@ impl Body {
                     continue;
                 };
                 onsets += 1;
-                let critical = sides
-                    .each_ref()
-                    .map(|s| nearest_onset(&s.1, onset.critical_friction));
+                let critical =
+                    sides.each_ref().map(|s| nearest_onset(&s.1, onset.critical_friction));
                 let difference = (critical[0] - critical[1]) / (2.0 * step);
                 let error = (onset.derivatives[at].unwrap() - difference).abs();
                 assert!(
@@ -97,34 +96,25 @@ impl Body {
 fn nearest((friction, sweep): &(f64, FrictionSweep), eigenvalue: c64) -> c64 {
     let points = sweep.points.iter();
     let point = points.filter(|point| point.friction_coefficient == *friction);
-    let all = point
-        .flat_map(|point| &point.modes)
-        .map(|mode| mode.eigenvalue);
+    let all = point.flat_map(|point| &point.modes).map(|mode| mode.eigenvalue);
     let distance = |other: &c64| (other - eigenvalue).norm();
-    all.min_by(|a, b| distance(a).total_cmp(&distance(b)))
-        .unwrap()
+    all.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()
 }
 
 fn nearest_onset(sweep: &FrictionSweep, friction: f64) -> f64 {
     let all = sweep.intervals.iter().map(|i| i.critical_friction);
     let distance = |other: &f64| (other - friction).abs();
-    all.min_by(|a, b| distance(a).total_cmp(&distance(b)))
-        .unwrap()
+    all.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()
 }
 
 /// A body without symmetry: its hub is round, its outer edge an oval about another centre, on an elastic support.
 fn oval(contact: &str) -> Body {
     let folder = tempfile::tempdir().unwrap();
-    let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 24, 4))
-        .unwrap()
-        .mesh;
+    let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 24, 4)).unwrap().mesh;
     let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
     let oval = write_msh(&mesh, FORMS[2], &numbers, |[x, y]: [f64; 2]| {
         let outwards = (x.hypot(y) - 0.0205) / 0.07;
-        [
-            x * (1.0 + 0.3 * outwards) + 0.006 * outwards,
-            y * (1.0 - 0.1 * outwards),
-        ]
+        [x * (1.0 + 0.3 * outwards) + 0.006 * outwards, y * (1.0 - 0.1 * outwards)]
     });
     std::fs::write(folder.path().join("oval.msh"), oval).unwrap();
     let text = format!(
@@ -161,14 +151,8 @@ fn sensitivities_of_an_oval_on_springs_are_differences_of_its_spectra() {
     springs.check(&[
         ("contact.normal_stiffness", "normal_stiffness"),
         ("damping.stiffness_coefficient", "stiffness_coefficient"),
-        (
-            "boundaries.outer.normal_stiffness",
-            "boundaries.outer.normal_stiffness",
-        ),
-        (
-            "boundaries.outer.normal_damping",
-            "boundaries.outer.normal_damping",
-        ),
+        ("boundaries.outer.normal_stiffness", "boundaries.outer.normal_stiffness"),
+        ("boundaries.outer.normal_damping", "boundaries.outer.normal_damping"),
     ]);
 }
 
@@ -192,12 +176,7 @@ fn sensitivities_of_a_block_whose_corner_lifts_are_differences_of_its_spectra() 
 fn sensitivities_of_an_assembly_are_differences_of_its_spectra() {
     let folder = tempfile::tempdir().unwrap();
     let blocks = [
-        Block {
-            name: "lower",
-            origin: [0.0; 3],
-            size: [0.05, 0.04, 0.02],
-            counts: [3, 2, 1],
-        },
+        Block { name: "lower", origin: [0.0; 3], size: [0.05, 0.04, 0.02], counts: [3, 2, 1] },
         Block {
             name: "upper",
             origin: [0.005, 0.004, 0.02],
@@ -205,11 +184,7 @@ fn sensitivities_of_an_assembly_are_differences_of_its_spectra() {
             counts: [2, 2, 1],
         },
     ];
-    std::fs::write(
-        folder.path().join("blocks.msh"),
-        file_of(&blocks, |point| point),
-    )
-    .unwrap();
+    std::fs::write(folder.path().join("blocks.msh"), file_of(&blocks, |point| point)).unwrap();
     let text = "[mesh]\nfile = \"blocks.msh\"\n[boundaries.lower_z0]\ncondition = \"clamped\"\n\
         [boundaries.upper_x0]\ncondition = \"fixed\"\ndirections = [\"x\"]\n\
         [boundaries.upper_y0]\ncondition = \"fixed\"\ndirections = [\"y\"]\n\
@@ -223,25 +198,10 @@ fn sensitivities_of_an_assembly_are_differences_of_its_spectra() {
         .to_owned();
     let body = Body { folder, text };
     body.check(&[
-        (
-            "materials.upper.young_modulus",
-            "materials.upper.young_modulus",
-        ),
-        (
-            "boundaries.upper_z1.pressure",
-            "boundaries.upper_z1.pressure",
-        ),
-        (
-            "motion.lower.rotation_speed_rpm",
-            "motion.lower.rotation_speed_rpm",
-        ),
-        (
-            "contacts.pad.normal_stiffness",
-            "contacts.pad.normal_stiffness",
-        ),
-        (
-            "contacts.pad.friction_coefficient",
-            "contacts.pad.friction_coefficient",
-        ),
+        ("materials.upper.young_modulus", "materials.upper.young_modulus"),
+        ("boundaries.upper_z1.pressure", "boundaries.upper_z1.pressure"),
+        ("motion.lower.rotation_speed_rpm", "motion.lower.rotation_speed_rpm"),
+        ("contacts.pad.normal_stiffness", "contacts.pad.normal_stiffness"),
+        ("contacts.pad.friction_coefficient", "contacts.pad.friction_coefficient"),
     ]);
 }

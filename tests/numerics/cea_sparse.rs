@@ -110,28 +110,17 @@ impl Disc {
 }
 
 fn run(tangent: &SlidingTangent, values: &[f64], limit: ModeLimit) -> FrictionSweep {
-    let request = SweepRequest {
-        friction_coefficients: values,
-        limit,
-        shapes_at: &[],
-        count_modes: false,
-    };
+    let request =
+        SweepRequest { friction_coefficients: values, limit, shapes_at: &[], count_modes: false };
     sweep(tangent, &request, &|_| {}).unwrap()
 }
 
 /// `mu_c = (c^2 + ((A - B)/2)^2) / (c d)`: where the two eigenvalues of `K` meet.
 #[test]
 fn two_degrees_of_freedom_flutter_at_the_closed_form_friction() {
-    for (a, b, c, d) in [
-        (4.0, 3.0, 0.5, 2.0),
-        (9.0, 4.0, 1.0, 10.0),
-        (2.0, 2.0, 0.3, 1.0),
-    ] {
+    for (a, b, c, d) in [(4.0, 3.0, 0.5, 2.0), (9.0, 4.0, 1.0, 10.0), (2.0, 2.0, 0.3, 1.0)] {
         let critical = (c * c + 0.25_f64 * (a - b) * (a - b)) / (c * d);
-        let stiffness = vec![
-            vec![(0, 0, a), (0, 1, c), (1, 0, c), (1, 1, b)],
-            vec![(0, 1, -d)],
-        ];
+        let stiffness = vec![vec![(0, 0, a), (0, 1, c), (1, 0, c), (1, 1, b)], vec![(0, 1, -d)]];
         let mass = vec![vec![(0, 0, 1.0), (1, 1, 1.0)]];
         let undamped = Some(RayleighDamping::default());
         let tangent = problem(2, [mass, Vec::new(), stiffness], undamped);
@@ -200,8 +189,7 @@ fn sweep_of_a_general_quadratic_problem_equals_a_dense_decomposition() {
 fn dense_eigenvalues(tangent: &SlidingTangent, mu: f64) -> Vec<c64> {
     let size = tangent.mass.dimension();
     let dense = |p: &MatrixPolynomial| {
-        p.pattern()
-            .multiply(&p.evaluate(mu), Mat::<f64>::identity(size, size).as_ref())
+        p.pattern().multiply(&p.evaluate(mu), Mat::<f64>::identity(size, size).as_ref())
     };
     let lu = DenseLu::factorize(dense(&tangent.mass));
     let (mut stiff, mut damped) = (dense(&tangent.stiffness), dense(&tangent.damping));
@@ -229,10 +217,7 @@ fn quadratic_and_reduced_problem_have_one_spectrum() {
         quadratic.proportional = None;
         let values = [0.0, 0.3, 0.7];
         let limit = ModeLimit::Lowest(20);
-        let (a, b) = (
-            run(&reduced, &values, limit),
-            run(&quadratic, &values, limit),
-        );
+        let (a, b) = (run(&reduced, &values, limit), run(&quadratic, &values, limit));
         for (p, q) in a.points.iter().zip(&b.points) {
             for (m, n) in p.modes.iter().zip(&q.modes) {
                 let difference = (m.eigenvalue - n.eigenvalue).norm();
@@ -268,11 +253,8 @@ fn sweep_agrees_with_krylov_schur_at_the_same_friction() {
         max_applications: 5000,
     };
     let pairs = krylov_schur(&operator, None, &settings).unwrap();
-    let mut exact: Vec<c64> = pairs
-        .values
-        .iter()
-        .filter_map(|&s| linearization.eigenvalue(s))
-        .collect();
+    let mut exact: Vec<c64> =
+        pairs.values.iter().filter_map(|&s| linearization.eigenvalue(s)).collect();
     exact.sort_by(|a, b| a.im.total_cmp(&b.im));
     for (mode, exact) in result.points[0].modes.iter().zip(&exact) {
         assert!((mode.eigenvalue - exact).norm() < 1e-9 * exact.norm());
@@ -284,10 +266,7 @@ fn sweep_agrees_with_krylov_schur_at_the_same_friction() {
 /// Krylov-Schur iteration on vectors of full length at each of them.
 #[test]
 fn sweep_with_general_damping_agrees_with_krylov_schur_at_every_friction() {
-    let disc = Disc {
-        damping_model: DampingModel::BodyOnly,
-        ..Disc::coarse()
-    };
+    let disc = Disc { damping_model: DampingModel::BodyOnly, ..Disc::coarse() };
     let tangent = disc.tangent();
     let values: Vec<f64> = (0..9).map(|i| f64::from(i) * 0.075).collect();
     let result = run(&tangent, &values, ModeLimit::Lowest(8));
@@ -311,11 +290,7 @@ fn sweep_with_general_damping_agrees_with_krylov_schur_at_every_friction() {
         assert_eq!(point.modes.len(), 8);
         for (mode, exact) in point.modes.iter().zip(&exact) {
             let error = (mode.eigenvalue - exact).norm() / exact.norm();
-            assert!(
-                error < 1e-9,
-                "{mu}: {} {exact} {error:.1e}",
-                mode.eigenvalue
-            );
+            assert!(error < 1e-9, "{mu}: {} {exact} {error:.1e}", mode.eigenvalue);
             assert!(mode.residual < 1e-9);
         }
     }
@@ -333,10 +308,7 @@ fn sweep_is_bitwise_equal_on_one_and_two_threads() {
         count_modes: false,
     };
     let on_threads = |count| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(count)
-            .build()
-            .unwrap();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build().unwrap();
         pool.install(|| sweep(&tangent, &request, &|_| {}).unwrap())
     };
     let (one, two) = (on_threads(1), on_threads(2));
@@ -371,12 +343,7 @@ impl SweepWatch for Kept {
 #[test]
 fn sweep_goes_on_from_any_step_to_the_same_bits() {
     for damping_model in [DampingModel::WholeTangent, DampingModel::BodyOnly] {
-        let disc = Disc {
-            circumferential: 24,
-            radial: 6,
-            damping_model,
-            ..Disc::coarse()
-        };
+        let disc = Disc { circumferential: 24, radial: 6, damping_model, ..Disc::coarse() };
         let (tangent, values) = (disc.tangent(), [0.1, 0.2, 0.3]);
         let request = SweepRequest {
             friction_coefficients: &values,
@@ -389,10 +356,7 @@ fn sweep_goes_on_from_any_step_to_the_same_bits() {
         let steps = first.new.into_inner().unwrap();
         assert!(steps.len() > 4, "{}", steps.len());
         for done in [1, 2, steps.len() - 2, steps.len()] {
-            let rest = Kept {
-                known: steps[..done].to_vec(),
-                ..Kept::default()
-            };
+            let rest = Kept { known: steps[..done].to_vec(), ..Kept::default() };
             assert!(sweep(&tangent, &request, &rest).unwrap() == whole);
             assert_eq!(rest.new.into_inner().unwrap().len(), steps.len() - done);
         }
@@ -408,12 +372,7 @@ fn inertia_count_equals_the_number_of_modes_below_the_limit() {
         let below = modes.frequencies.iter().filter(|&&w| w < TAU * hz).count();
         // Damping lowers frequencies by parts in 1e4 only.
         assert_eq!(result.points[0].modes.len(), below);
-        assert!(
-            result.points[0]
-                .modes
-                .iter()
-                .all(|m| m.frequency_hz() < hz && m.direction == 0)
-        );
+        assert!(result.points[0].modes.iter().all(|m| m.frequency_hz() < hz && m.direction == 0));
     }
 }
 
@@ -422,26 +381,14 @@ fn reversed_rotation_mirrors_the_modes() {
     let forward = Disc::coarse().tangent();
     // The same friction acting the other way is the mirror image of the disc.
     let mut backward = forward.clone();
-    for polynomial in [
-        &mut backward.mass,
-        &mut backward.damping,
-        &mut backward.stiffness,
-    ] {
+    for polynomial in [&mut backward.mass, &mut backward.damping, &mut backward.stiffness] {
         let mut coefficients = polynomial.coefficients().to_vec();
-        coefficients
-            .iter_mut()
-            .skip(1)
-            .step_by(2)
-            .flatten()
-            .for_each(|v| *v = -*v);
+        coefficients.iter_mut().skip(1).step_by(2).flatten().for_each(|v| *v = -*v);
         *polynomial = MatrixPolynomial::from_coefficients(polynomial.pattern(), coefficients);
     }
     backward.sliding_direction = -forward.sliding_direction;
     let limit = ModeLimit::Lowest(16);
-    let (a, b) = (
-        run(&forward, &[0.0, 0.4], limit),
-        run(&backward, &[0.0, 0.4], limit),
-    );
+    let (a, b) = (run(&forward, &[0.0, 0.4], limit), run(&backward, &[0.0, 0.4], limit));
     for (m, n) in a.points[1].modes.iter().zip(&b.points[1].modes) {
         assert!((m.eigenvalue - n.eigenvalue).norm() < 1e-9 * m.eigenvalue.norm());
         // Directions are told against the rotor, which is mirrored too.
@@ -471,10 +418,7 @@ fn bad_requests_are_refused_with_the_bound() {
     assert!(matches!(many, CeaError::TooManyModes { .. }));
     let negative = ask(&[0.1, -0.2], ModeLimit::Lowest(4));
     assert_eq!(negative, CeaError::Friction { value: -0.2 });
-    assert!(matches!(
-        ask(&[], ModeLimit::Lowest(4)),
-        CeaError::NoFriction
-    ));
+    assert!(matches!(ask(&[], ModeLimit::Lowest(4)), CeaError::NoFriction));
 }
 
 #[test]
@@ -500,26 +444,12 @@ fn paper_disc_reproduces_table_1_and_the_critical_friction_coefficients() {
             mode.real_hz(),
             mode.frequency_hz()
         );
-        assert!(
-            relative < 3e-3,
-            "mode {}: {} Hz",
-            i + 1,
-            mode.frequency_hz()
-        );
+        assert!(relative < 3e-3, "mode {}: {} Hz", i + 1, mode.frequency_hz());
         assert!(real < 10.0, "mode {}: {} Hz", i + 1, mode.real_hz());
-        assert_eq!(
-            (mode.harmonic, mode.branch),
-            (row.2, row.3),
-            "mode {}",
-            i + 1
-        );
+        assert_eq!((mode.harmonic, mode.branch), (row.2, row.3), "mode {}", i + 1);
         let is_unstable = [3, 5, 7].contains(&(i + 1));
         // Mode 26 sits on the stability boundary.
-        assert!(
-            i + 1 == 26 || mode.is_unstable() == is_unstable,
-            "mode {}",
-            i + 1
-        );
+        assert!(i + 1 == 26 || mode.is_unstable() == is_unstable, "mode {}", i + 1);
         let expected = match (mode.harmonic, mode.real_hz() > rayleigh(mode)) {
             (0, _) => 0,
             (_, true) => -1,
@@ -529,11 +459,8 @@ fn paper_disc_reproduces_table_1_and_the_critical_friction_coefficients() {
     }
     // Onsets of the exact continuum; modes 7, 5, 3.
     for (harmonic, branch, critical) in [(1, 1, 0.1224), (2, 0, 0.1382), (1, 0, 0.2121)] {
-        let interval = result
-            .intervals
-            .iter()
-            .find(|i| (i.harmonic, i.branch) == (harmonic, branch))
-            .unwrap();
+        let interval =
+            result.intervals.iter().find(|i| (i.harmonic, i.branch) == (harmonic, branch)).unwrap();
         println!("{interval:?}");
         assert!((interval.critical_friction - critical).abs() < 3e-3);
         assert_eq!(interval.direction, -1);

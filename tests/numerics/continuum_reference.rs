@@ -20,10 +20,7 @@ const DISC: Annulus = Annulus {
 };
 
 /// The disc with the Poisson's ratio that fits Table 1.
-const FITTED: Annulus = Annulus {
-    poisson_ratio: 0.3805,
-    ..DISC
-};
+const FITTED: Annulus = Annulus { poisson_ratio: 0.3805, ..DISC };
 
 /// Contact stiffness that fits Table 1, Pa/m.
 const NORMAL_STIFFNESS: f64 = 7.4e12;
@@ -69,10 +66,7 @@ fn undamped_frictionless_frequencies_match_the_exact_values() {
         for (harmonic, values) in expected.iter().enumerate() {
             let computed = undamped_hz(&DISC, harmonic, &contact);
             for (value, exact) in computed.iter().zip(*values) {
-                assert!(
-                    (value - exact).abs() <= 0.00501,
-                    "n = {harmonic}: {value} {exact}"
-                );
+                assert!((value - exact).abs() <= 0.00501, "n = {harmonic}: {value} {exact}");
             }
         }
     };
@@ -84,10 +78,7 @@ fn undamped_frictionless_frequencies_match_the_exact_values() {
 fn frictionless_frequencies_are_roots_of_the_bessel_determinant() {
     // The determinant changes sign within 1e-10 of every spectral frequency: far above the 1e-13
     // of round-off, far below any discretisation error of the finite elements.
-    let stress = Annulus {
-        plane_strain: false,
-        ..DISC
-    };
+    let stress = Annulus { plane_strain: false, ..DISC };
     for annulus in [DISC, stress] {
         for contact in [
             Contact::rigid(0.0),
@@ -138,10 +129,8 @@ fn eigenvalues_with_friction_are_complex_roots_of_the_bessel_determinant() {
 
 #[test]
 fn eigenvalues_do_not_depend_on_the_polynomial_degree() {
-    let contact = Contact {
-        prestress_interference: Some(25e-6),
-        ..Contact::penalty(0.3, NORMAL_STIFFNESS)
-    };
+    let contact =
+        Contact { prestress_interference: Some(25e-6), ..Contact::penalty(0.3, NORMAL_STIFFNESS) };
     for harmonic in 0..=6 {
         let reference = FITTED.kappas(harmonic, &contact);
         for degree in [20, 30] {
@@ -201,9 +190,7 @@ fn frequency_splits_show_damping_acting_through_friction() {
     let contact = Contact::penalty(0.3, NORMAL_STIFFNESS);
     for (harmonic, branch, split) in [(1, 0, 5.0), (2, 0, 17.0), (1, 1, 23.0)] {
         let [forward, backward] = [1, -1].map(|direction| {
-            FITTED
-                .branch(harmonic, branch, direction, &contact, RAYLEIGH)
-                .frequency_hz()
+            FITTED.branch(harmonic, branch, direction, &contact, RAYLEIGH).frequency_hz()
         });
         // Two frequencies rounded to 1 Hz.
         assert!((backward - forward - split).abs() < 1.0);
@@ -219,14 +206,10 @@ fn critical_frictions_are_those_of_the_continuum_model() {
         (3, 1, 0, 0.2121, 5e-5),
         (26, 2, 2, 0.301, 5e-4),
     ] {
-        let critical = FITTED
-            .critical_friction(harmonic, branch, &contact, RAYLEIGH, 1.0)
-            .unwrap_or(f64::NAN);
+        let critical =
+            FITTED.critical_friction(harmonic, branch, &contact, RAYLEIGH, 1.0).unwrap_or(f64::NAN);
         println!("mode {mode}: {critical:.6}");
-        assert!(
-            (critical - expected).abs() < 1.02 * digit,
-            "mode {mode}: {critical}"
-        );
+        assert!((critical - expected).abs() < 1.02 * digit, "mode {mode}: {critical}");
     }
 }
 
@@ -276,9 +259,7 @@ fn exact_steady_state_is_the_static_solution_of_the_spectral_element() {
         })
         .collect();
     let force = |row: usize| -> c64 {
-        (0..field.len())
-            .map(|column| stiffness[(row, column)] * field[column])
-            .sum()
+        (0..field.len()).map(|column| stiffness[(row, column)] * field[column]).sum()
     };
     let scale = DISC.inner_radius * state.pressure;
     for row in 0..2 * degree {
@@ -298,10 +279,7 @@ fn a_rigid_rotation_leaves_the_prestressed_inner_edge_in_balance() {
     // Objectivity: u_theta = r turns body, pressure and traction together; only the rows of the
     // clamped outer edge may see a force. Without the turning of the contact forces the residual
     // would be p itself.
-    let contact = Contact {
-        prestress_interference: Some(25e-6),
-        ..Contact::rigid(0.3)
-    };
+    let contact = Contact { prestress_interference: Some(25e-6), ..Contact::rigid(0.3) };
     let degree = continuum::DEGREE;
     let (stiffness, _) = DISC.unconstrained_pencil(0, &contact, degree);
     let middle = 0.5 * (DISC.inner_radius + DISC.outer_radius);
@@ -325,15 +303,10 @@ fn prestress_moves_the_critical_frictions_little() {
     // p / G = 0.3 %: the prestress may move critical frictions by that order, not more. The
     // stiffnesses k_n and friction are untouched by it.
     let without = Contact::penalty(0.0, NORMAL_STIFFNESS);
-    let with = Contact {
-        prestress_interference: Some(25e-6),
-        ..without
-    };
+    let with = Contact { prestress_interference: Some(25e-6), ..without };
     for (harmonic, branch) in [(1, 1), (2, 0), (1, 0)] {
         let [x, y] = [without, with].map(|contact| {
-            FITTED
-                .critical_friction(harmonic, branch, &contact, RAYLEIGH, 1.0)
-                .unwrap_or(f64::NAN)
+            FITTED.critical_friction(harmonic, branch, &contact, RAYLEIGH, 1.0).unwrap_or(f64::NAN)
         });
         println!("n = {harmonic}, branch {branch}: {x:.6} {y:.6}");
         assert!((x - y).abs() < 0.003, "{x} {y}");

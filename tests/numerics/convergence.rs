@@ -31,12 +31,7 @@ struct Study {
 
 impl Study {
     fn of(contact: Contact, rayleigh: Rayleigh) -> Self {
-        Self {
-            annulus: DISC,
-            contact,
-            mass: MassKind::Consistent,
-            rayleigh,
-        }
+        Self { annulus: DISC, contact, mass: MassKind::Consistent, rayleigh }
     }
 
     fn assert_rates(&self, element: ElementKind) {
@@ -51,9 +46,7 @@ impl Study {
         });
         let mut cancelled = 0;
         for harmonic in 0..=4 {
-            let exact = self
-                .annulus
-                .eigenvalues(harmonic, &self.contact, self.rayleigh);
+            let exact = self.annulus.eigenvalues(harmonic, &self.contact, self.rayleigh);
             let computed = [0, 1, 2].map(|level| meshes[level].eigenvalues(harmonic));
             let directions: &[i8] = if harmonic == 0 { &[0] } else { &[1, -1] };
             for (direction, branch) in directions.iter().flat_map(|&d| [(d, 0), (d, 1)]) {
@@ -97,10 +90,7 @@ impl Study {
 }
 
 fn with_prestress(contact: Contact) -> Contact {
-    Contact {
-        prestress_interference: Some(INTERFERENCE),
-        ..contact
-    }
+    Contact { prestress_interference: Some(INTERFERENCE), ..contact }
 }
 
 #[test]
@@ -153,26 +143,17 @@ fn prestressed_eigenvalues_of_quad8_converge_to_the_prestressed_continuum() {
 
 #[test]
 fn plane_stress_eigenvalues_converge_like_plane_strain() {
-    let annulus = Annulus {
-        plane_strain: false,
-        ..DISC
-    };
+    let annulus = Annulus { plane_strain: false, ..DISC };
     for element in [ElementKind::Quad4, ElementKind::Quad8] {
-        Study {
-            annulus,
-            ..Study::of(Contact::penalty(0.3, NORMAL_STIFFNESS), RAYLEIGH)
-        }
-        .assert_rates(element);
+        Study { annulus, ..Study::of(Contact::penalty(0.3, NORMAL_STIFFNESS), RAYLEIGH) }
+            .assert_rates(element);
     }
 }
 
 #[test]
 fn lumped_mass_keeps_the_rate_of_quad4() {
-    Study {
-        mass: MassKind::Lumped,
-        ..Study::of(Contact::rigid(0.3), RAYLEIGH)
-    }
-    .assert_rates(ElementKind::Quad4);
+    Study { mass: MassKind::Lumped, ..Study::of(Contact::rigid(0.3), RAYLEIGH) }
+        .assert_rates(ElementKind::Quad4);
 }
 
 #[test]
@@ -185,13 +166,8 @@ fn the_discrete_model_turns_unstable_where_the_continuum_does() {
         with_prestress(Contact::penalty(0.0, NORMAL_STIFFNESS)),
         with_prestress(Contact::rigid(0.0)),
     ] {
-        let mut discrete = Discretisation::new(
-            &specification,
-            &DISC,
-            &contact,
-            MassKind::Consistent,
-            RAYLEIGH,
-        );
+        let mut discrete =
+            Discretisation::new(&specification, &DISC, &contact, MassKind::Consistent, RAYLEIGH);
         for (harmonic, branch) in [(1, 1), (2, 0), (1, 0)] {
             let critical = DISC
                 .critical_friction(harmonic, branch, &contact, RAYLEIGH, 1.0)
@@ -240,13 +216,8 @@ fn a_reversed_rotor_mirrors_the_spectrum() {
 fn folded_blocks_act_like_the_full_matrices_on_a_rotating_wave() {
     let [specification, ..] = refinements(ElementKind::Quad8);
     let contact = with_prestress(Contact::rigid(0.3));
-    let discrete = Discretisation::new(
-        &specification,
-        &DISC,
-        &contact,
-        MassKind::Consistent,
-        RAYLEIGH,
-    );
+    let discrete =
+        Discretisation::new(&specification, &DISC, &contact, MassKind::Consistent, RAYLEIGH);
     let matrix = &discrete.tangent.stiffness;
     let harmonic = 3;
     let folded = discrete.fold(matrix, harmonic);
@@ -266,9 +237,7 @@ fn folded_blocks_act_like_the_full_matrices_on_a_rotating_wave() {
     }
     let largest = full.iter().fold(0.0_f64, |m, value| m.max(value.norm()));
     for (row, value) in full.iter().enumerate() {
-        let block: c64 = (0..size)
-            .map(|column| folded[(row % size, column)] * shape(column))
-            .sum();
+        let block: c64 = (0..size).map(|column| folded[(row % size, column)] * shape(column)).sum();
         let error = (value - block * phase(row / size)).norm();
         assert!(error < 1e-11 * largest, "row {row}: {error:e}");
     }
@@ -277,12 +246,8 @@ fn folded_blocks_act_like_the_full_matrices_on_a_rotating_wave() {
 #[test]
 fn steady_sliding_converges_to_lame_and_the_shear_field() {
     let exact = DISC.prestress(INTERFERENCE, 0.3);
-    const NAMES: [&str; 4] = [
-        "radial displacement",
-        "tangential displacement",
-        "mean pressure",
-        "torque",
-    ];
+    const NAMES: [&str; 4] =
+        ["radial displacement", "tangential displacement", "mean pressure", "torque"];
     for element in [ElementKind::Quad4, ElementKind::Quad8] {
         let errors = refinements(element).map(|specification| {
             let mesh = AnnulusMesh::generate(&specification).expect("a valid mesh");
@@ -324,10 +289,9 @@ fn nodal_pressure_converges_at_second_order_or_faster() {
     // of the mean, which converges with the fourth power.
     let exact = DISC.prestress(INTERFERENCE, 0.3).pressure;
     // Quad4: of the order of the squared angle of an element, (2 pi / 120)^2 = 2.7e-3.
-    for (element, slope, bound) in [
-        (ElementKind::Quad4, 1.9, 2.7e-3),
-        (ElementKind::Quad8, 2.5, 1e-4),
-    ] {
+    for (element, slope, bound) in
+        [(ElementKind::Quad4, 1.9, 2.7e-3), (ElementKind::Quad8, 2.5, 1e-4)]
+    {
         let errors = refinements(element).map(|specification| {
             let mesh = AnnulusMesh::generate(&specification).expect("a valid mesh");
             let pressures = base_state(&mesh, &DISC, FORWARD).pressures(0.3);

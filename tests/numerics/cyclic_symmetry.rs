@@ -17,10 +17,7 @@ fn disc_sector(count: usize, [around, radial]: [usize; 2], shift: f64) -> String
     let node = |i: usize, j: usize| 1 + i * (radial + 1) + j;
     let (mut nodes, mut elements) = (String::new(), String::new());
     let is_hole = |i: usize, j: usize| {
-        let [t, r] = [
-            (i as f64 + 0.5) / around as f64,
-            (j as f64 + 0.5) / radial as f64,
-        ];
+        let [t, r] = [(i as f64 + 0.5) / around as f64, (j as f64 + 0.5) / radial as f64];
         (0.3..0.55).contains(&t) && (0.6..0.8).contains(&r)
     };
     for i in 0..=around {
@@ -45,22 +42,13 @@ fn disc_sector(count: usize, [around, radial]: [usize; 2], shift: f64) -> String
     let mut add = |kind: usize, group: usize, list: &[usize]| {
         total += 1;
         let list: Vec<String> = list.iter().map(usize::to_string).collect();
-        writeln!(
-            elements,
-            "{total} {kind} 2 {group} {group} {}",
-            list.join(" ")
-        )
-        .unwrap();
+        writeln!(elements, "{total} {kind} 2 {group} {group} {}", list.join(" ")).unwrap();
     };
     for i in 0..around {
         add(1, 1, &[node(i, 0), node(i + 1, 0)]);
         for j in (0..radial).filter(|&j| !is_hole(i, j)) {
             let [a, b] = [i, i + 1];
-            add(
-                3,
-                2,
-                &[node(a, j), node(a, j + 1), node(b, j + 1), node(b, j)],
-            );
+            add(3, 2, &[node(a, j), node(a, j + 1), node(b, j + 1), node(b, j)]);
             // Edges towards the hole.
             let sides = [
                 (i > 0 && is_hole(i - 1, j), [node(a, j), node(a, j + 1)]),
@@ -136,10 +124,7 @@ fn assert_same(name: &str, mesh: &[u8], text: &str) {
         worst[1] = worst[1].max((a.critical_friction - b.critical_friction).abs());
     }
     println!("{} critical; worst {worst:?}", waves.len());
-    assert!(
-        worst[0] < 1e-9 && worst[1] < 5e-9 && worst[2] < 0.2,
-        "{worst:?}"
-    );
+    assert!(worst[0] < 1e-9 && worst[1] < 5e-9 && worst[2] < 0.2, "{worst:?}");
 }
 
 /// Consistency check: waves around the body against its whole mesh, with rigid contact and with a springy one, of an odd and an even
@@ -147,10 +132,7 @@ fn assert_same(name: &str, mesh: &[u8], text: &str) {
 #[test]
 fn waves_around_a_plane_body_have_the_spectrum_of_its_whole_mesh() {
     let analysis = "[cea]\nmodes = 20\nfriction_coefficients = [0.0, 0.2, 0.4, 0.6]\n";
-    let cases = [
-        (3, "", [20, 8]),
-        (4, "normal_stiffness = 7.4e12\n", [14, 8]),
-    ];
+    let cases = [(3, "", [20, 8]), (4, "normal_stiffness = 7.4e12\n", [14, 8])];
     for (count, contact, size) in cases {
         let mesh = disc_sector(count, size, 0.0);
         let text = screwed_disc(count, &format!("{contact}{analysis}"));
@@ -267,10 +249,7 @@ fn sectors_that_do_not_meet_are_refused() {
         case.unwrap_err().to_string()
     };
     let wrong = refused("wrong-count", 5, 0.0);
-    assert!(
-        wrong.contains("mesh.sectors") && wrong.contains("72.000000 degrees"),
-        "{wrong}"
-    );
+    assert!(wrong.contains("mesh.sectors") && wrong.contains("72.000000 degrees"), "{wrong}");
     assert!(wrong.contains("138.000000 degrees"), "{wrong}");
     let shifted = refused("other-nodes", 3, 0.3);
     assert!(shifted.contains("with other nodes"), "{shifted}");

@@ -35,8 +35,7 @@ fn grid_operator(side: usize, skew: f64) -> MatrixPolynomial {
 
 fn to_dense(p: &MatrixPolynomial) -> Mat<f64> {
     let n = p.dimension();
-    p.pattern()
-        .multiply(&p.evaluate(0.0), Mat::<f64>::identity(n, n).as_ref())
+    p.pattern().multiply(&p.evaluate(0.0), Mat::<f64>::identity(n, n).as_ref())
 }
 
 #[derive(Debug)]
@@ -78,12 +77,7 @@ fn inverse_of(p: &MatrixPolynomial) -> Inverse {
 }
 
 fn settings(wanted: Wanted) -> KrylovSchurSettings {
-    KrylovSchurSettings {
-        wanted,
-        tolerance: 1e-12,
-        block: 4,
-        max_applications: 2000,
-    }
+    KrylovSchurSettings { wanted, tolerance: 1e-12, block: 4, max_applications: 2000 }
 }
 
 #[test]
@@ -159,9 +153,7 @@ fn symmetric_factors_solve_definite_and_indefinite_systems() {
         }
         let exact = random_columns(p.dimension(), 3, 8);
         let mut x = p.pattern().multiply(&values, exact.as_ref());
-        SparseLdl::factorize(&analysis, &values)
-            .unwrap()
-            .solve_in_place(x.as_mut());
+        SparseLdl::factorize(&analysis, &values).unwrap().solve_in_place(x.as_mut());
         // Unpivoted: allow the growth that the indefinite shift brings.
         assert!((&x - &exact).norm_max() < 1e-9, "shift {shift}");
     }
@@ -181,10 +173,7 @@ fn krylov_schur_finds_the_same_pairs_as_a_dense_decomposition() {
         dense.sort_by(|a, b| b.norm().total_cmp(&a.norm()));
         for (theta, exact) in pairs.values.iter().zip(&dense) {
             assert!((theta.norm() - exact.norm()).abs() < 1e-10 * exact.norm());
-            let nearest = dense
-                .iter()
-                .map(|e| (e - theta).norm())
-                .fold(f64::MAX, f64::min);
+            let nearest = dense.iter().map(|e| (e - theta).norm()).fold(f64::MAX, f64::min);
             assert!(nearest < 1e-9 * theta.norm(), "skew {skew}: {theta}");
         }
         let images = product(to_dense(&p).as_ref(), pairs.vectors.as_ref());
@@ -200,19 +189,12 @@ fn krylov_schur_finds_the_same_pairs_as_a_dense_decomposition() {
 fn krylov_schur_by_modulus_returns_all_eigenvalues_beyond_the_bound() {
     let p = grid_operator(20, 0.0);
     let bound = 1.0 / 0.9;
-    let pairs = krylov_schur(
-        &inverse_of(&p),
-        None,
-        &settings(Wanted::ModulusAtLeast(bound)),
-    )
-    .unwrap();
+    let pairs =
+        krylov_schur(&inverse_of(&p), None, &settings(Wanted::ModulusAtLeast(bound))).unwrap();
     let dense = real_eigen(to_dense(&p).as_ref(), false, 0).unwrap().values;
     let expected = dense.iter().filter(|v| v.re < 0.9).count();
     // Degenerate pairs (i, j), (j, i) included, and one witness beyond the bound.
-    assert_eq!(
-        pairs.values.iter().filter(|t| t.norm() >= bound).count(),
-        expected
-    );
+    assert_eq!(pairs.values.iter().filter(|t| t.norm() >= bound).count(), expected);
     assert!(pairs.values.len() > expected);
 }
 
@@ -223,10 +205,7 @@ fn krylov_schur_agrees_with_the_iteration_of_faer() {
     let pairs = krylov_schur(&inverse_of(&p), None, &settings(Wanted::Largest(12))).unwrap();
     let factors = inverse_of(&p);
     // Beyond 74 basis vectors this oracle itself goes wrong.
-    let parameters = PartialEigenParams {
-        max_dim: 60,
-        ..Default::default()
-    };
+    let parameters = PartialEigenParams { max_dim: 60, ..Default::default() };
     let scratch = partial_eigen_scratch(&factors, 12, Par::Seq, parameters);
     let (mut vectors, mut values) = (Mat::<c64>::zeros(n, 12), vec![c64::new(0.0, 0.0); 12]);
     let start = random_columns(n, 1, 99);

@@ -99,15 +99,8 @@ fn both_mass_matrices_carry_the_mass_of_the_ring() {
             let momentum = mass.multiply(2 * mesh.node_count(), &translation);
             let total: f64 = momentum.iter().zip(&translation).map(|(p, v)| p * v).sum();
             // A polygon of 180 sides lacks 2e-4 of its circle's area, parabolic sides far less.
-            let tolerance = if element == ElementKind::Quad4 {
-                3e-4
-            } else {
-                1e-7
-            };
-            assert!(
-                (total / exact - 1.0).abs() < tolerance,
-                "{element:?} {kind:?} {total}"
-            );
+            let tolerance = if element == ElementKind::Quad4 { 3e-4 } else { 1e-7 };
+            assert!((total / exact - 1.0).abs() < tolerance, "{element:?} {kind:?} {total}");
         }
     }
 }
@@ -148,18 +141,8 @@ fn contact_without_interference_is_reported_as_open_with_node_and_angle() {
     let material = polycarbonate(PlaneFormulation::PlaneStrain);
     let mesh = annulus(ElementKind::Quad4, 24, 4);
     let stiffness = assemble_stiffness(&mesh, &material);
-    let contact = SlidingContact {
-        interference: -1e-6,
-        ..paper_contact()
-    };
+    let contact = SlidingContact { interference: -1e-6, ..paper_contact() };
     let error = SteadySliding::solve(&mesh, &stiffness, &contact).unwrap_err();
-    assert!(matches!(
-        error,
-        PrestressError::Separation {
-            count: 24,
-            node: 1,
-            ..
-        }
-    ));
+    assert!(matches!(error, PrestressError::Separation { count: 24, node: 1, .. }));
     assert!(error.to_string().contains("contact.interference"));
 }

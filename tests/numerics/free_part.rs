@@ -29,12 +29,8 @@ const CONSTANTS: [(&str, f64); 9] = [
 fn lining(name: &str, sections: &str, overrides: &[String]) -> Case {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("free-part-{name}"));
     fs::create_dir_all(&folder).unwrap();
-    let block = Block {
-        name: "part",
-        origin: [0.0; 3],
-        size: [0.05, 0.04, 0.02],
-        counts: [4, 3, 2],
-    };
+    let block =
+        Block { name: "part", origin: [0.0; 3], size: [0.05, 0.04, 0.02], counts: [4, 3, 2] };
     fs::write(folder.join("part.msh"), file_of(&[block], |point| point)).unwrap();
     let text = format!(
         r#"
@@ -63,11 +59,7 @@ fn dense(case: &Case) -> Vec<f64> {
         }
         matrix
     };
-    let mass = full(&assemble_mass(
-        &body.mesh,
-        &body.materials,
-        MassKind::Consistent,
-    ));
+    let mass = full(&assemble_mass(&body.mesh, &body.materials, MassKind::Consistent));
     let stiffness = full(&assemble_stiffness(&body.mesh, &body.materials));
     let factor = mass.cholesky().unwrap().l();
     let half = factor.solve_lower_triangular(&stiffness).unwrap();
@@ -110,10 +102,7 @@ fn free_modes_are_those_of_the_dense_pencil_above_its_rigid_motions() {
             let error = (mode.eigenvalue - lambda).norm() / omega;
             assert!(error < 1e-8, "{k}: {} {lambda} {error:e}", mode.eigenvalue);
         }
-        let below = expected
-            .iter()
-            .filter(|omega| **omega < TAU * 16000.0)
-            .count();
+        let below = expected.iter().filter(|omega| **omega < TAU * 16000.0).count();
         match k {
             1 => assert_eq!(modes.len(), below),
             0 => assert_eq!(modes.len(), 12),

@@ -37,10 +37,8 @@ fn material() -> ElasticMaterial {
     }
 }
 
-const DAMPING: RayleighDamping = RayleighDamping {
-    mass_coefficient: 40.0,
-    stiffness_coefficient: 4.5e-7,
-};
+const DAMPING: RayleighDamping =
+    RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 4.5e-7 };
 
 fn body(is_clamped: bool, damping: RayleighDamping) -> FrfSystem {
     let mass = MassKind::Consistent;
@@ -76,11 +74,7 @@ fn sliding(damping_model: DampingModel) -> FrfSystem {
 fn unknown(system: &FrfSystem, node: usize, is_tangential: bool) -> usize {
     let terminal = Terminal {
         node,
-        direction: if is_tangential {
-            Direction::Tangential
-        } else {
-            Direction::Radial
-        },
+        direction: if is_tangential { Direction::Tangential } else { Direction::Radial },
     };
     system.unknown(terminal, "force_node").unwrap()
 }
@@ -92,29 +86,20 @@ fn free_disc_moves_as_a_rigid_body_far_below_its_first_resonance() {
     // A radial force passes through the centre: no rotation, acceleration F / m.
     let rim = unknown(&system, RADIAL, false);
     let frequency = 20.0;
-    let h = direct_response(&system, rim, rim, &[frequency])
-        .unwrap()
-        .receptance[0];
+    let h = direct_response(&system, rim, rim, &[frequency]).unwrap().receptance[0];
     // Mass of the polygonal mesh: that of the polygon with 48 corners.
     let polygon = 48.0 / 2.0 * (TAU / 48.0).sin();
     let mass = 1228.0 * polygon * (0.0905f64.powi(2) - 0.0205f64.powi(2));
     let accelerance = -h.re * (TAU * frequency).powi(2);
     // Elastic modes add (20 / 2800)^2, times the few modes there are.
-    assert!(
-        (accelerance * mass - 1.0).abs() < 1e-3,
-        "{}",
-        accelerance * mass
-    );
+    assert!((accelerance * mass - 1.0).abs() < 1e-3, "{}", accelerance * mass);
 }
 
 #[test]
 fn excitation_and_response_of_a_body_without_friction_can_be_exchanged() {
     for is_clamped in [false, true] {
         let system = body(is_clamped, DAMPING);
-        let (a, b) = (
-            unknown(&system, 3, true),
-            unknown(&system, 5 + 11 * 7, false),
-        );
+        let (a, b) = (unknown(&system, 3, true), unknown(&system, 5 + 11 * 7, false));
         let f = [500.0, 4321.0, 9000.0];
         let there = direct_response(&system, a, b, &f).unwrap().receptance;
         let back = direct_response(&system, b, a, &f).unwrap().receptance;
@@ -143,10 +128,7 @@ fn reduction_agrees_with_direct_solution_for_every_boundary() {
         for (x, y) in reduced.receptance.iter().zip(&direct) {
             // Between the check lines the stated error is an estimate: ten times it, and at an
             // antiresonance relative to a thousandth of the largest response.
-            assert!(
-                (x - y).norm() < 1e-5 * y.norm().max(1e-3 * top),
-                "{k}: {x} {y}"
-            );
+            assert!((x - y).norm() < 1e-5 * y.norm().max(1e-3 * top), "{k}: {x} {y}");
         }
     }
 }
@@ -154,20 +136,11 @@ fn reduction_agrees_with_direct_solution_for_every_boundary() {
 #[test]
 fn a_clamped_node_and_a_missing_one_are_refused_with_their_key() {
     let system = body(true, DAMPING);
-    let at = |node| Terminal {
-        node,
-        direction: Direction::Radial,
-    };
+    let at = |node| Terminal { node, direction: Direction::Radial };
     let error = system.unknown(at(RADIAL), "force_node").unwrap_err();
-    assert!(
-        matches!(error, FrfError::Constrained { node: 11, .. }),
-        "{error}"
-    );
+    assert!(matches!(error, FrfError::Constrained { node: 11, .. }), "{error}");
     let error = system.unknown(at(100_000), "response_node").unwrap_err();
-    assert!(
-        error.to_string().contains("frf.response_node = 100001"),
-        "{error}"
-    );
+    assert!(error.to_string().contains("frf.response_node = 100001"), "{error}");
     let error = direct_response(&system, 0, 0, &[-1.0]).unwrap_err();
     assert!(matches!(error, FrfError::Frequency { value: -1.0 }));
 }

@@ -16,15 +16,12 @@ use frictionsim::study::response::FrequencyStudy;
 
 /// Even and odd numbers of sectors differ in their last harmonic.
 fn meshes() -> [AnnulusSpecification; 3] {
-    [
-        (24, ElementKind::Quad4),
-        (25, ElementKind::Quad4),
-        (16, ElementKind::Quad8),
-    ]
-    .map(|(circumferential, element)| AnnulusSpecification {
-        radial_grading: 1.1,
-        ..annulus(element, circumferential, 6)
-    })
+    [(24, ElementKind::Quad4), (25, ElementKind::Quad4), (16, ElementKind::Quad8)].map(
+        |(circumferential, element)| AnnulusSpecification {
+            radial_grading: 1.1,
+            ..annulus(element, circumferential, 6)
+        },
+    )
 }
 
 fn terminals(specification: &AnnulusSpecification, is_sliding: bool) -> Vec<[Terminal; 2]> {
@@ -32,18 +29,10 @@ fn terminals(specification: &AnnulusSpecification, is_sliding: bool) -> Vec<[Ter
     let per_sector = mesh.node_count() / specification.circumferential_elements;
     let at = |sector: usize, position: usize, is_tangential: bool| Terminal {
         node: sector * per_sector + position,
-        direction: if is_tangential {
-            Direction::Tangential
-        } else {
-            Direction::Radial
-        },
+        direction: if is_tangential { Direction::Tangential } else { Direction::Radial },
     };
     // On the contact edge, inside, and (Quad8) on the middle ray of a sector.
-    let middle = if specification.element.is_quadratic() {
-        per_sector - 4
-    } else {
-        2
-    };
+    let middle = if specification.element.is_quadratic() { per_sector - 4 } else { 2 };
     vec![
         [at(0, 0, true), at(0, 0, true)],
         [at(3, 0, true), at(9, 4, false)],
@@ -53,9 +42,8 @@ fn terminals(specification: &AnnulusSpecification, is_sliding: bool) -> Vec<[Ter
     ]
 }
 
-const FREQUENCIES: [f64; 11] = [
-    100.0, 777.0, 1500.0, 2345.0, 2800.0, 3456.0, 4321.0, 5678.0, 7000.0, 8765.0, 10_000.0,
-];
+const FREQUENCIES: [f64; 11] =
+    [100.0, 777.0, 1500.0, 2345.0, 2800.0, 3456.0, 4321.0, 5678.0, 7000.0, 8765.0, 10_000.0];
 
 fn assert_agreement(
     whole: &FrfSystem,
@@ -66,9 +54,8 @@ fn assert_agreement(
     assert_eq!(whole.dimension(), cyclic.dimension());
     for [force, response] in terminals {
         let unknowns = [force, response].map(|t| whole.unknown(*t, "node").unwrap());
-        let direct = direct_response(whole, unknowns[0], unknowns[1], &FREQUENCIES)
-            .unwrap()
-            .receptance;
+        let direct =
+            direct_response(whole, unknowns[0], unknowns[1], &FREQUENCIES).unwrap().receptance;
         let solved = cyclic_response(cyclic, *force, *response, &FREQUENCIES).unwrap();
         assert!(solved.backward_error <= 1e-14);
         let top = direct.iter().map(|h| h.norm()).fold(0.0, f64::max);
@@ -94,10 +81,7 @@ fn harmonics_of_a_free_and_a_clamped_body_sum_to_the_response_of_the_whole_mesh(
             for mass in [MassKind::Consistent, MassKind::Lumped] {
                 let whole = FrfSystem::body(&mesh, &POLYCARBONATE, mass, DAMPING, is_clamped);
                 let cyclic = CyclicSystem::body(&sector, &POLYCARBONATE, mass, DAMPING, is_clamped);
-                let what = format!(
-                    "{:?}, clamped {is_clamped}, {mass:?}",
-                    specification.element
-                );
+                let what = format!("{:?}, clamped {is_clamped}, {mass:?}", specification.element);
                 assert_agreement(&whole, &cyclic, &terminals(specification, false), &what);
             }
         }
@@ -118,20 +102,15 @@ fn harmonics_in_sliding_contact_sum_to_the_response_of_the_whole_mesh() {
                     geometric_stiffness: true,
                     damping: DAMPING,
                     damping_model,
-                    contact: ContactStiffness {
-                        normal_stiffness,
-                        ..ContactStiffness::default()
-                    },
+                    contact: ContactStiffness { normal_stiffness, ..ContactStiffness::default() },
                 };
                 let whole =
                     SlidingTangent::linearize(&mesh, &POLYCARBONATE, &stiffness, &base, &options);
                 let cyclic =
                     SectorTangent::linearize(&sector, &POLYCARBONATE, &options, &contact(610.0))
                         .unwrap();
-                let what = format!(
-                    "{:?}, {damping_model:?}, {normal_stiffness:?}",
-                    specification.element
-                );
+                let what =
+                    format!("{:?}, {damping_model:?}, {normal_stiffness:?}", specification.element);
                 assert_agreement(
                     &FrfSystem::sliding(&whole, 0.3),
                     &CyclicSystem::sliding(&cyclic, 0.3),
@@ -149,20 +128,11 @@ fn held_and_missing_nodes_and_negative_frequencies_are_refused_with_their_key() 
     let sector = SectorMesh::generate(&specification).unwrap();
     let mass = MassKind::Consistent;
     let system = CyclicSystem::body(&sector, &POLYCARBONATE, mass, DAMPING, true);
-    let at = |node| Terminal {
-        node,
-        direction: Direction::Radial,
-    };
+    let at = |node| Terminal { node, direction: Direction::Radial };
     let error = system.check(at(6), "force_node").unwrap_err();
-    assert!(
-        matches!(error, FrfError::Constrained { node: 7, .. }),
-        "{error}"
-    );
+    assert!(matches!(error, FrfError::Constrained { node: 7, .. }), "{error}");
     let error = system.check(at(7 * 24), "response_node").unwrap_err();
-    assert!(
-        error.to_string().contains("frf.response_node = 169"),
-        "{error}"
-    );
+    assert!(error.to_string().contains("frf.response_node = 169"), "{error}");
     let error = cyclic_response(&system, at(0), at(0), &[-1.0]).unwrap_err();
     assert!(matches!(error, FrfError::Frequency { value: -1.0 }));
 }
@@ -203,11 +173,7 @@ fn a_disc_on_a_shaft_responds_without_contact_as_the_disc_alone() {
     };
     for boundary in ["free", "clamped"] {
         let apart = respond(boundary, &["frf.method=\"direct\""]);
-        let rigid = [
-            "geometry.shaft_inner_radius",
-            "mesh.shaft_radial_elements",
-            "materials",
-        ];
+        let rigid = ["geometry.shaft_inner_radius", "mesh.shaft_radial_elements", "materials"];
         let rigid = rigid.map(unset);
         let alone = respond(boundary, &rigid.each_ref().map(String::as_str));
         assert_eq!((apart.0, alone.0), ("direct", "cyclic"));

@@ -22,10 +22,7 @@ const RADIAL: usize = 5;
 const OMEGA: f64 = TAU * 1e5;
 
 fn specification() -> AnnulusSpecification {
-    AnnulusSpecification {
-        radial_grading: 1.1,
-        ..annulus(ElementKind::Quad4, 18, RADIAL)
-    }
+    AnnulusSpecification { radial_grading: 1.1, ..annulus(ElementKind::Quad4, 18, RADIAL) }
 }
 
 fn options(damping_model: DampingModel, contact: ContactStiffness) -> TangentOptions {
@@ -55,11 +52,7 @@ fn cyclic(options: &TangentOptions, friction_coefficient: f64) -> CyclicSystem {
 fn at(sector: usize, ring: usize, is_tangential: bool) -> Terminal {
     Terminal {
         node: sector * (RADIAL + 1) + ring,
-        direction: if is_tangential {
-            Direction::Tangential
-        } else {
-            Direction::Radial
-        },
+        direction: if is_tangential { Direction::Tangential } else { Direction::Radial },
     }
 }
 
@@ -106,13 +99,7 @@ impl ModalForm {
                 square += (again[(i, j)] - companion[(i, j)]).norm_sqr();
             }
         }
-        Self {
-            poles,
-            right,
-            left,
-            mass,
-            defect: square.sqrt(),
-        }
+        Self { poles, right, left, mass, defect: square.sqrt() }
     }
 
     /// `sum_k r_k l_k^T b / (i omega - lambda_k)` of the response, and a bound of its error.
@@ -127,18 +114,12 @@ impl ModalForm {
         let s = c64::new(0.0, TAU * frequency_hz);
         let amplitude: Vec<c64> = (0..2 * size)
             .map(|k| {
-                let sum: c64 = (0..size)
-                    .map(|i| self.left[(k, size + i)] * input[(i, 0)])
-                    .sum();
+                let sum: c64 = (0..size).map(|i| self.left[(k, size + i)] * input[(i, 0)]).sum();
                 sum / (s - self.poles[k])
             })
             .collect();
         let state: Vec<c64> = (0..2 * size)
-            .map(|i| {
-                (0..2 * size)
-                    .map(|k| self.right[(i, k)] * amplitude[k])
-                    .sum()
-            })
+            .map(|i| (0..2 * size).map(|k| self.right[(i, k)] * amplitude[k]).sum())
             .collect();
         let row: Vec<c64> = (0..2 * size)
             .map(|j| {
@@ -185,11 +166,7 @@ fn responses_in_sliding_contact_are_the_sums_over_right_and_left_eigenvectors() 
             let direct = direct_response(&whole, unknowns[0], unknowns[1], &frequencies).unwrap();
             let waves = cyclic_response(&cyclic, force, response, &frequencies).unwrap();
             let mut worst = (0.0f64, 0.0f64);
-            let top = direct
-                .receptance
-                .iter()
-                .map(|h| h.norm())
-                .fold(0.0, f64::max);
+            let top = direct.receptance.iter().map(|h| h.norm()).fold(0.0, f64::max);
             for (k, f) in frequencies.iter().enumerate() {
                 let (sum, bound) = modal.response(*f, unknowns[0], unknowns[1]);
                 // The bound must itself be small, or it would say nothing.
@@ -225,11 +202,8 @@ fn at_a_critical_friction_of_the_eigenvalue_analysis_the_response_grows_as_one_o
         count_modes: false,
     };
     let found = sweep(&tangent, &request, &|_| {}).unwrap();
-    let onsets: Vec<_> = found
-        .intervals
-        .iter()
-        .filter(|interval| !interval.unstable_from_start)
-        .collect();
+    let onsets: Vec<_> =
+        found.intervals.iter().filter(|interval| !interval.unstable_from_start).collect();
     assert!(onsets.len() >= 2, "{onsets:?}");
     for onset in onsets {
         // There one pole lies on the imaginary axis: beside it h = r / (2 pi i distance) + the rest.

@@ -23,11 +23,7 @@ fn half_space_speed() -> c64 {
     let nu = POISSON_RATIO;
     let residual = |c: c64| {
         let root = |z: c64| {
-            if z.sqrt().re < 0.0 {
-                -z.sqrt()
-            } else {
-                z.sqrt()
-            }
+            if z.sqrt().re < 0.0 { -z.sqrt() } else { z.sqrt() }
         };
         let p = root(1.0 - c * c * ((1.0 - 2.0 * nu) / (2.0 * (1.0 - nu))));
         let q = root(1.0 - c * c);
@@ -65,10 +61,7 @@ fn annulus_speed(n: usize) -> c64 {
         formulation: PlaneFormulation::PlaneStrain,
         ..ElasticMaterial::PLAIN
     };
-    let undamped = RayleighDamping {
-        mass_coefficient: 0.0,
-        stiffness_coefficient: 0.0,
-    };
+    let undamped = RayleighDamping { mass_coefficient: 0.0, stiffness_coefficient: 0.0 };
     let options = TangentOptions {
         mass: MassKind::Consistent,
         geometric_stiffness: false,
@@ -90,17 +83,11 @@ fn annulus_speed(n: usize) -> c64 {
         Mat::from_fn(size, size, |i, j| {
             let factors = (0..).map(|power| c64::new(0.0, FRICTION).powi(power));
             let values = terms.iter().zip(factors);
-            values
-                .map(|(term, factor)| factor * term.get(i, j))
-                .sum::<c64>()
+            values.map(|(term, factor)| factor * term.get(i, j)).sum::<c64>()
         })
     };
     let (mass, stiffness) = (dense(&harmonic.mass), dense(&harmonic.stiffness));
-    let kappas = mass
-        .partial_piv_lu()
-        .solve(&stiffness)
-        .eigenvalues()
-        .unwrap();
+    let kappas = mass.partial_piv_lu().solve(&stiffness).eigenvalues().unwrap();
     // lambda^2 = -kappa, e^{i n theta + lambda t}: c = i lambda / n.
     let speeds = kappas.into_iter().flat_map(|kappa: c64| {
         let lambda = (-kappa).sqrt();
@@ -118,9 +105,6 @@ fn short_waves_on_an_annulus_tend_to_those_of_the_sliding_half_space() {
     let theory = half_space_speed();
     println!("{long} {short} {limit} {theory}");
     assert!((theory.norm() / c64::new(1.4207, 0.2984).norm() - 1.0).abs() < 1e-4);
-    assert!(
-        (limit.re.abs() / theory.re.abs() - 1.0).abs() < 5e-3,
-        "{limit}"
-    );
+    assert!((limit.re.abs() / theory.re.abs() - 1.0).abs() < 5e-3, "{limit}");
     assert!((limit.im / theory.im - 1.0).abs() < 5e-3, "{limit}");
 }

@@ -41,10 +41,7 @@ impl Body {
         let own = points.filter(|point| point.friction_coefficient == friction);
         let modes = own.flat_map(|point| &point.modes);
         let away = |value: &c64| (value - eigenvalue).norm();
-        modes
-            .map(|mode| mode.eigenvalue)
-            .min_by(|a, b| away(a).total_cmp(&away(b)))
-            .unwrap()
+        modes.map(|mode| mode.eigenvalue).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap()
     }
 
     /// `d growth / d p` at `p = 0` by the second-order difference over `0`, `h`, `2 h`; `keys` make a value of `p`.
@@ -66,25 +63,12 @@ impl Body {
         for &node in nodes {
             let label = mesh.node_label(node);
             let with_mass = |p: f64| {
-                vec![
-                    format!("modifications.t.at={label}"),
-                    format!("modifications.t.mass={p:?}"),
-                ]
+                vec![format!("modifications.t.at={label}"), format!("modifications.t.mass={p:?}")]
             };
             let by_mass = self.difference(eigenvalue, mass, &with_mass);
             near("mass", fields.mass[node], by_mass, &fields.mass);
-            self.check_direction(
-                eigenvalue,
-                ("stiffness", spring),
-                (mesh, node),
-                &fields.spring,
-            );
-            self.check_direction(
-                eigenvalue,
-                ("damping", dashpot),
-                (mesh, node),
-                &fields.dashpot,
-            );
+            self.check_direction(eigenvalue, ("stiffness", spring), (mesh, node), &fields.spring);
+            self.check_direction(eigenvalue, ("damping", dashpot), (mesh, node), &fields.dashpot);
         }
         self.check_patch(eigenvalue, mesh, fields);
     }
@@ -126,11 +110,7 @@ impl Body {
 
     /// Damping of the region `patch`, and a share of it taken away.
     fn check_patch(&self, eigenvalue: c64, mesh: &Mesh, fields: &TargetFields) {
-        let region = mesh
-            .regions
-            .iter()
-            .position(|name| name == "patch")
-            .unwrap();
+        let region = mesh.regions.iter().position(|name| name == "patch").unwrap();
         let own = || (0..mesh.element_count()).filter(|&e| mesh.region(e) == region);
         let size = |e: usize| match mesh.dimension {
             2 => mesh.element_area(e),
@@ -141,10 +121,7 @@ impl Body {
         let elastic = *case.materials().of(region);
         let weaker = |p: f64| {
             vec![
-                format!(
-                    "materials.patch.young_modulus={:?}",
-                    elastic.young_modulus * (1.0 - p)
-                ),
+                format!("materials.patch.young_modulus={:?}", elastic.young_modulus * (1.0 - p)),
                 format!("materials.patch.density={:?}", elastic.density * (1.0 - p)),
             ]
         };
@@ -165,12 +142,7 @@ impl Body {
         };
         let by_damping = self.difference(eigenvalue, 1e-8, &damped);
         let first = own().next().unwrap();
-        near(
-            "damping",
-            fields.damping[first] * size(first),
-            by_damping,
-            &[by_damping],
-        );
+        near("damping", fields.damping[first] * size(first), by_damping, &[by_damping]);
     }
 }
 
@@ -189,20 +161,14 @@ fn brick_volume(mesh: &Mesh, element: usize) -> f64 {
     let at = |k: usize| mesh.nodes[nodes[k] as usize];
     let edge = |k: usize| [0, 1, 2].map(|axis| at(k)[axis] - at(0)[axis]);
     let (a, b, c) = (edge(1), edge(3), edge(4));
-    let cross = [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ];
+    let cross = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
     (0..3).map(|k| cross[k] * c[k]).sum::<f64>().abs()
 }
 
 /// A disc as a mesh file, some of whose elements are the region `patch`; its points moved by `place`.
 fn disc(place: impl Fn([f64; 2]) -> [f64; 2], rest: &str) -> Body {
     let folder = tempfile::tempdir().unwrap();
-    let mut mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 24, 4))
-        .unwrap()
-        .mesh;
+    let mut mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 24, 4)).unwrap().mesh;
     mesh.regions.push("patch".to_owned());
     // Two elements on one ray, away from both edges.
     for element in [4 * 5 + 1, 4 * 5 + 2] {
@@ -252,21 +218,12 @@ fn fields_of_an_oval_on_supports_are_differences_of_its_spectra() {
 #[test]
 fn fields_of_an_assembly_are_differences_of_its_spectra() {
     let folder = tempfile::tempdir().unwrap();
-    let block = |name, origin, size, counts| Block {
-        name,
-        origin,
-        size,
-        counts,
-    };
+    let block = |name, origin, size, counts| Block { name, origin, size, counts };
     let blocks = [
         block("slab", [0.0; 3], [0.06, 0.03, 0.01], [6, 3, 1]),
         block("patch", [0.005, 0.005, 0.01], [0.02, 0.02, 0.02], [3, 3, 2]),
     ];
-    std::fs::write(
-        folder.path().join("pads.msh"),
-        file_of(&blocks, |point| point),
-    )
-    .unwrap();
+    std::fs::write(folder.path().join("pads.msh"), file_of(&blocks, |point| point)).unwrap();
     let text = "[mesh]\nfile = \"pads.msh\"\n\
         [material]\nyoung_modulus = 7e9\npoisson_ratio = 0.3\ndensity = 2000.0\n\
         [materials.patch]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3\ndensity = 1228.0\n\

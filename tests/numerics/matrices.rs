@@ -40,9 +40,7 @@ fn the_public_disk_brake_problem_has_its_eigenvalues_of_every_size() {
     let found = quadratic_modes(mass.as_ref(), damping.as_ref(), stiffness.as_ref()).unwrap();
     assert_eq!(found.len(), exact.len());
     for exact in exact {
-        let distances = found
-            .iter()
-            .map(|mode| (mode.eigenvalue - exact).norm() / exact.norm());
+        let distances = found.iter().map(|mode| (mode.eigenvalue - exact).norm() / exact.norm());
         let error = distances.fold(f64::INFINITY, f64::min);
         // A prototype in another language, by the same windows, has 3e-13.
         assert!(error < 2e-12, "{exact}: {error:e}");
@@ -58,12 +56,7 @@ fn block(folder: &TempDir) {
     for j in 0..4 {
         for i in 0..6 {
             let (x, y) = (0.01 * f64::from(i), 0.01 * f64::from(j));
-            mesh += &format!(
-                "{} {} {} 0\n",
-                1 + i + 6 * j,
-                x + 0.2 * y,
-                y * (1.0 + 4.0 * x)
-            );
+            mesh += &format!("{} {} {} 0\n", 1 + i + 6 * j, x + 0.2 * y, y * (1.0 + 4.0 * x));
         }
     }
     mesh += "$EndNodes\n$Elements\n25\n";
@@ -71,11 +64,7 @@ fn block(folder: &TempDir) {
     for (tag, row) in [(1, 0), (2, 3)] {
         for i in 1..6 {
             number += 1;
-            mesh += &format!(
-                "{number} 1 2 {tag} {tag} {} {}\n",
-                i + 6 * row,
-                i + 1 + 6 * row
-            );
+            mesh += &format!("{number} 1 2 {tag} {tag} {} {}\n", i + 6 * row, i + 1 + 6 * row);
         }
     }
     for j in 0..3 {
@@ -98,9 +87,7 @@ fn block(folder: &TempDir) {
 
 fn run(folder: &TempDir, command: &str, set: &[&str]) -> std::process::Output {
     let mut program = Command::cargo_bin("frictionsim").unwrap();
-    program
-        .current_dir(folder.path())
-        .args([command, "block.toml", "--quiet", "--no-figures"]);
+    program.current_dir(folder.path()).args([command, "block.toml", "--quiet", "--no-figures"]);
     program.args(["--force", "--out", command]);
     for text in set {
         program.args(["--set", text]);
@@ -136,20 +123,10 @@ fn assembled(folder: &Path, friction: f64) -> [Mat<f64>; 4] {
 fn exported_matrices_solved_densely_have_the_eigenvalues_of_the_analysis() {
     let folder = tempfile::tempdir().unwrap();
     block(&folder);
-    for contact in [
-        &[][..],
-        &[
-            "contact.normal_stiffness=1e13",
-            "contact.normal_damping=1e4",
-        ],
-    ] {
+    for contact in [&[][..], &["contact.normal_stiffness=1e13", "contact.normal_damping=1e4"]] {
         for command in ["cea", "matrices"] {
             let output = run(&folder, command, contact);
-            assert!(
-                output.status.success(),
-                "{}",
-                String::from_utf8_lossy(&output.stderr)
-            );
+            assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         }
         assert!(listed_modes_found(&folder, 0.3) >= 6);
     }
@@ -161,10 +138,7 @@ fn lossy_eigenvalues([mass, damping, stiffness, losses]: [&Mat<f64>; 4]) -> Vec<
     let scale = (stiffness.norm_l2() / mass.norm_l2()).sqrt();
     let complex = |re: &Mat<f64>, im: Option<&Mat<f64>>, factor: f64| {
         Mat::<c64>::from_fn(size, size, |i, j| {
-            c64::new(
-                re[(i, j)] * factor,
-                im.map_or(0.0, |im| im[(i, j)] * factor),
-            )
+            c64::new(re[(i, j)] * factor, im.map_or(0.0, |im| im[(i, j)] * factor))
         })
     };
     let lu = complex(mass, None, 1.0).partial_piv_lu();
@@ -185,11 +159,8 @@ fn lossy_eigenvalues([mass, damping, stiffness, losses]: [&Mat<f64>; 4]) -> Vec<
 fn exported_structural_damping_has_the_eigenvalues_of_the_analysis() {
     let folder = tempfile::tempdir().unwrap();
     block(&folder);
-    let lossy = [
-        "material.loss_factor=0.03",
-        "contact.normal_stiffness=1e13",
-        "contact.loss_factor=0.1",
-    ];
+    let lossy =
+        ["material.loss_factor=0.03", "contact.normal_stiffness=1e13", "contact.loss_factor=0.1"];
     for command in ["cea", "matrices"] {
         let output = run(&folder, command, &lossy);
         let said = String::from_utf8_lossy(&output.stderr);
@@ -210,9 +181,7 @@ fn listed_modes_found(folder: &TempDir, friction: f64) -> usize {
         found.iter().map(|mode| mode.eigenvalue).collect()
     };
     let table = fs::read_to_string(folder.path().join("cea/eigenvalues.csv")).unwrap();
-    let mut rows = table
-        .lines()
-        .map(|line| line.split(',').collect::<Vec<_>>());
+    let mut rows = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
     let header = rows.next().unwrap();
     let column = |name: &str| header.iter().position(|own| *own == name).unwrap();
     let mut count = 0;
@@ -232,18 +201,9 @@ fn listed_modes_found(folder: &TempDir, friction: f64) -> usize {
 /// Whether an unknown is a vertical motion of the upper block, whose nodes come second in the file.
 fn lifted(out: &Path, unknown: usize) -> f64 {
     let unknowns = fs::read_to_string(out.join("unknowns.csv")).unwrap();
-    let row: Vec<&str> = unknowns
-        .lines()
-        .nth(1 + unknown)
-        .unwrap()
-        .split(',')
-        .collect();
+    let row: Vec<&str> = unknowns.lines().nth(1 + unknown).unwrap().split(',').collect();
     let is_high = row[1].parse::<usize>().unwrap() > 18;
-    if is_high {
-        row[5].parse().unwrap()
-    } else {
-        0.0
-    }
+    if is_high { row[5].parse().unwrap() } else { 0.0 }
 }
 
 /// Two blocks that slide on each other, on springs and rigidly, and the rows of their contact.
@@ -282,16 +242,12 @@ fn exported_matrices_of_solid_bodies_have_the_eigenvalues_of_the_analysis() {
             parted[point] += share * lifted(&out, unknown);
         }
         let expected = if contact.is_empty() { 0.0 } else { 1.0 };
-        assert!(
-            parted.iter().all(|own| (own - expected).abs() < 1e-12),
-            "{parted:?}"
-        );
+        assert!(parted.iter().all(|own| (own - expected).abs() < 1e-12), "{parted:?}");
         let points = fs::read_to_string(out.join("contact.csv")).unwrap();
         assert!(points.starts_with("point,contact,status,area_m2,normal_force_n,x_m,y_m,z_m\n"));
         let forces = points.lines().skip(1);
-        let sum: f64 = forces
-            .map(|line| line.split(',').nth(4).unwrap().parse::<f64>().unwrap())
-            .sum();
+        let sum: f64 =
+            forces.map(|line| line.split(',').nth(4).unwrap().parse::<f64>().unwrap()).sum();
         // 1 MPa on 400 mm2, but for what the springs of the side bear.
         assert!((sum / 400.0 - 1.0).abs() < 0.02, "{sum}");
     }
@@ -305,10 +261,7 @@ fn tall_block(folder: &TempDir, contact: &str, frictions: &str) {
         size: [0.02, 0.02, height],
         counts,
     };
-    let blocks = [
-        block("low", 0.0, 0.01, [2, 2, 1]),
-        block("high", 0.01, 0.03, [3, 2, 2]),
-    ];
+    let blocks = [block("low", 0.0, 0.01, [2, 2, 1]), block("high", 0.01, 0.03, [3, 2, 2])];
     let text = format!(
         "[mesh]\nfile = \"block.msh\"\n[material]\nyoung_modulus = 2e10\npoisson_ratio = 0.3\ndensity = 2500.0\n\
         [damping]\nmass_coefficient = 10.0\nstiffness_coefficient = 1e-7\n\
@@ -403,20 +356,13 @@ fn archives_hold_compressed_rows_as_scipy_reads_them() {
     let mut archive = zip::ZipArchive::new(fs::File::open(out.join("K.npz")).unwrap()).unwrap();
     let mut entry = |name: &str| {
         let mut bytes = Vec::new();
-        archive
-            .by_name(name)
-            .unwrap()
-            .read_to_end(&mut bytes)
-            .unwrap();
+        archive.by_name(name).unwrap().read_to_end(&mut bytes).unwrap();
         let header = 10 + usize::from(bytes[8]) + 256 * usize::from(bytes[9]);
         let text = String::from_utf8_lossy(&bytes[10..header]).into_owned();
         (text, bytes[header..].to_vec())
     };
     let (text, bytes) = entry("format.npy");
-    assert!(
-        text.contains("'descr': '|S3'") && text.contains("'shape': ()"),
-        "{text}"
-    );
+    assert!(text.contains("'descr': '|S3'") && text.contains("'shape': ()"), "{text}");
     assert_eq!(bytes, b"csr");
     for (name, values) in [("indptr.npy", pointers), ("indices.npy", columns)] {
         let (text, bytes) = entry(name);
@@ -462,11 +408,7 @@ fn cea_of_a_superelement_lists_the_oscillating_modes_of_its_matrices() {
     let folder = tempfile::tempdir().unwrap();
     brake(&folder, "K.mtx");
     let output = run(&folder, "cea", &[]);
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/numerics/nlevp");
     let text = fs::read_to_string(data.join("disk_brake100_eigenvalues.csv")).unwrap();
     let exact: Vec<f64> = text
@@ -483,10 +425,8 @@ fn cea_of_a_superelement_lists_the_oscillating_modes_of_its_matrices() {
         .collect();
     assert_eq!(found.len(), exact.len());
     for exact in exact {
-        let nearest = found
-            .iter()
-            .map(|own| (own / exact - 1.0).abs())
-            .fold(f64::INFINITY, f64::min);
+        let nearest =
+            found.iter().map(|own| (own / exact - 1.0).abs()).fold(f64::INFINITY, f64::min);
         // Some decay a hundred times faster than they oscillate: digits of the frequency are those of the whole over that.
         assert!(nearest < 1e-9, "{exact}: {nearest:e}");
     }
@@ -498,10 +438,7 @@ fn superelements_that_cannot_be_solved_are_refused_with_matrix_and_reason() {
     for (matrix, words) in [
         ("2 2 1\n1 1 1.0\n", "superelements.brake.stiffness is 2 x 2"),
         ("100 100 1\n1 1 inf\n", "line 3: inf is not finite"),
-        (
-            "100 100 1\n101 1 1.0\n",
-            "lies outside a matrix of 100 x 100",
-        ),
+        ("100 100 1\n101 1 1.0\n", "lies outside a matrix of 100 x 100"),
     ] {
         brake(&folder, "other.mtx");
         let text = format!("%%MatrixMarket matrix coordinate real general\n{matrix}");

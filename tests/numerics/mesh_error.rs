@@ -9,9 +9,7 @@ use std::path::PathBuf;
 
 /// Shipped cases, with the sweep of their own made short.
 fn shipped(name: &str, modes: usize, frictions: &str) -> Case {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-        .join("cases")
-        .join(format!("{name}.toml"));
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("cases").join(format!("{name}.toml"));
     let overrides = [
         format!("cea.modes={modes}"),
         format!("cea.friction_coefficients={frictions}"),
@@ -43,9 +41,7 @@ fn estimates(solution: &Solution) -> Vec<[f64; 2]> {
 /// What the estimates say of the difference of two meshes, over that difference, by mode.
 fn effectivities(coarse: &[[f64; 2]], fine: &[[f64; 2]]) -> Vec<f64> {
     let pairs = coarse.iter().zip(fine);
-    pairs
-        .map(|([a, of_a], [b, of_b])| (of_a - of_b) / (a - b))
-        .collect()
+    pairs.map(|([a, of_a], [b, of_b])| (of_a - of_b) / (a - b)).collect()
 }
 
 /// Independent check: the same body on elements of half the size. Linear bricks in space, quadratic triangles in the plane, with contact,
@@ -77,10 +73,7 @@ fn estimates_of_frequencies_are_within_a_factor_of_two_of_the_error_by_refinemen
         let [coarse, fine] = [coarse, fine].map(|case| estimates(&solved(&case)));
         let found = effectivities(&coarse, &fine);
         println!("{name}: {found:.3?}");
-        assert!(
-            found.iter().all(|e| (0.5..most).contains(e)),
-            "{name}: {found:?}"
-        );
+        assert!(found.iter().all(|e| (0.5..most).contains(e)), "{name}: {found:?}");
         // Both meshes are fine enough for the error to fall as its order says.
         let falls = coarse.iter().zip(&fine).all(|(a, b)| b[1] < 0.4 * a[1]);
         assert!(falls, "{name}: {coarse:?} {fine:?}");

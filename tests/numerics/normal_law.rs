@@ -13,14 +13,8 @@ use frictionsim::prestress::{
 use std::f64::consts::TAU;
 
 const LAWS: [NormalLaw; 2] = [
-    NormalLaw::Exponential {
-        reference_pressure: 2e5,
-        height: 4e-6,
-    },
-    NormalLaw::Cubic {
-        stiffness: 2e11,
-        cubic_stiffness: 1e22,
-    },
+    NormalLaw::Exponential { reference_pressure: 2e5, height: 4e-6 },
+    NormalLaw::Cubic { stiffness: 2e11, cubic_stiffness: 1e22 },
 ];
 
 fn stiffening(law: NormalLaw) -> ContactStiffness {
@@ -57,10 +51,7 @@ fn disc_and_interface_share_the_interference() {
 /// Cross-method: harmonic by harmonic, and over the whole mesh, whose base state is solved by complementarity.
 #[test]
 fn harmonics_and_whole_mesh_have_the_same_spectrum() {
-    for (law, element) in LAWS
-        .into_iter()
-        .zip([ElementKind::Quad4, ElementKind::Quad8])
-    {
+    for (law, element) in LAWS.into_iter().zip([ElementKind::Quad4, ElementKind::Quad8]) {
         let specification = annulus(element, 24, 5);
         let mut options = paper_options();
         options.contact = stiffening(law);
@@ -84,10 +75,7 @@ fn harmonics_and_whole_mesh_have_the_same_spectrum() {
             for mode in &own.modes {
                 let distance = |m: &ComplexMode| (m.eigenvalue - mode.eigenvalue).norm();
                 let nearest = whole.modes.iter().map(distance).fold(f64::MAX, f64::min);
-                assert!(
-                    nearest < 1e-8 * mode.eigenvalue.norm(),
-                    "{law:?} {mode:?} {nearest:e}"
-                );
+                assert!(nearest < 1e-8 * mode.eigenvalue.norm(), "{law:?} {mode:?} {nearest:e}");
             }
         }
     }
@@ -97,10 +85,7 @@ fn harmonics_and_whole_mesh_have_the_same_spectrum() {
 /// `(p + p_r) A / (h m)` of the exponential law.
 #[test]
 fn the_frequency_of_a_block_follows_the_pressure_on_it() {
-    let law = NormalLaw::Exponential {
-        reference_pressure: 1e5,
-        height: 5e-4,
-    };
+    let law = NormalLaw::Exponential { reference_pressure: 1e5, height: 5e-4 };
     for pressure in [1e4, 1e5, 1e6] {
         let mesh = block(pressure);
         let elastic = assemble_stiffness(&mesh, &STEEL);
@@ -141,10 +126,7 @@ fn the_frequency_of_a_block_follows_the_pressure_on_it() {
 /// Theory: a law that hardly stiffens is linear contact under the same pressure.
 #[test]
 fn a_law_that_hardly_stiffens_is_linear_contact() {
-    let law = NormalLaw::Cubic {
-        stiffness: 7.4e12,
-        cubic_stiffness: 1.0,
-    };
+    let law = NormalLaw::Cubic { stiffness: 7.4e12, cubic_stiffness: 1.0 };
     let specification = annulus(ElementKind::Quad4, 24, 5);
     let request = SweepRequest {
         friction_coefficients: &[0.0, 0.4],
@@ -163,10 +145,7 @@ fn a_law_that_hardly_stiffens_is_linear_contact() {
     };
     let sliding = contact(610.0);
     let own = spectrum(stiffening(law), sliding);
-    let linear = ContactStiffness {
-        normal_stiffness: Some(7.4e12),
-        ..ContactStiffness::default()
-    };
+    let linear = ContactStiffness { normal_stiffness: Some(7.4e12), ..ContactStiffness::default() };
     for (a, b) in own.iter().zip(spectrum(linear, sliding)) {
         assert!((a - b).norm() < 1e-11 * b.norm(), "{a} {b}");
     }

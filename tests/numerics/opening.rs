@@ -59,8 +59,7 @@ fn sweep(folder: &TempDir, frictions: &[f64]) -> FrictionSweep {
 /// Intervals that do not begin beyond the wanted modes.
 fn located(sweep: &FrictionSweep) -> Vec<&UnstableInterval> {
     let own = sweep.intervals.iter();
-    own.filter(|interval| !interval.unstable_from_start)
-        .collect()
+    own.filter(|interval| !interval.unstable_from_start).collect()
 }
 
 /// The growth rate at a friction value of the mode nearest to a frequency, over that in rad/s.
@@ -103,22 +102,12 @@ fn critical_friction_does_not_depend_on_the_friction_values_asked_for() {
     for frictions in [&[0.1, 0.4, 0.8][..], &[0.1, 0.3, 0.35, 0.6, 0.7, 0.8]] {
         let other = sweep(&folder, frictions);
         let pairs = located(&coarse).into_iter().zip(located(&other));
-        assert_eq!(
-            located(&coarse).len(),
-            located(&other).len(),
-            "{frictions:?}"
-        );
+        assert_eq!(located(&coarse).len(), located(&other).len(), "{frictions:?}");
         for (a, b) in pairs {
             let difference = (a.critical_friction - b.critical_friction).abs();
             // To 1e-9 a change of the contact state is located; the base state is known to 1e-8.
-            assert!(
-                difference < 1e-8,
-                "{frictions:?} {difference:e} {a:?} {b:?}"
-            );
-            assert!(
-                (a.frequency_hz / b.frequency_hz - 1.0).abs() < 1e-8,
-                "{a:?} {b:?}"
-            );
+            assert!(difference < 1e-8, "{frictions:?} {difference:e} {a:?} {b:?}");
+            assert!((a.frequency_hz / b.frequency_hz - 1.0).abs() < 1e-8, "{a:?} {b:?}");
         }
     }
 }

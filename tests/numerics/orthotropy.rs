@@ -103,10 +103,8 @@ fn ritz(orthotropy: &Orthotropy, density: f64, size: [f64; 3], degree: usize) ->
             .filter(|(i, function)| is_own(*i, function))
             .collect();
         // Legendre's polynomials are orthogonal: the mass is diagonal.
-        let scale: Vec<f64> = own
-            .iter()
-            .map(|(_, a)| 1.0 / (density * integral(a, a, 3, 3)).sqrt())
-            .collect();
+        let scale: Vec<f64> =
+            own.iter().map(|(_, a)| 1.0 / (density * integral(a, a, 3, 3)).sqrt()).collect();
         let entry = |at: usize, beside: usize| {
             let ((i, a), (j, b)) = (own[at], own[beside]);
             // c_iijj, and c_ijij = c_ijji = G_ij.
@@ -125,10 +123,7 @@ fn ritz(orthotropy: &Orthotropy, density: f64, size: [f64; 3], degree: usize) ->
         squares.extend(symmetric.symmetric_eigenvalues().iter());
     }
     squares.sort_by(f64::total_cmp);
-    squares
-        .iter()
-        .map(|square| square.max(0.0).sqrt() / (2.0 * PI))
-        .collect()
+    squares.iter().map(|square| square.max(0.0).sqrt() / (2.0 * PI)).collect()
 }
 
 /// Independent check: free modes of a cube of lining, whose axes and edges are turned in space together, on 20-node bricks.
@@ -186,18 +181,15 @@ fn a_thin_orthotropic_plate_has_the_frequencies_of_kirchhoffs_theory() {
             + d2 * (n / b).powi(4);
         PI * PI * (sum / (2500.0 * h)).sqrt() / (2.0 * PI)
     };
-    let mut expected: Vec<f64> = [(1.0, 1.0), (2.0, 1.0), (1.0, 2.0), (2.0, 2.0)]
-        .map(|(m, n)| exact(m, n))
-        .to_vec();
+    let mut expected: Vec<f64> =
+        [(1.0, 1.0), (2.0, 1.0), (1.0, 2.0), (2.0, 2.0)].map(|(m, n)| exact(m, n)).to_vec();
     expected.sort_by(f64::total_cmp);
     let edges = ["x0", "x1", "y0", "y1"].map(|face| {
         let along_x = face.starts_with('x');
         let fixed = BoundaryCondition::Fixed([!along_x, along_x, true]);
         (face.to_owned(), fixed)
     });
-    let file = block(ElementKind::Hex20, [20, 16, 1], |[x, y, z]| {
-        [a * x, b * y, h * z]
-    });
+    let file = block(ElementKind::Hex20, [20, 16, 1], |[x, y, z]| [a * x, b * y, h * z]);
     let mesh = Mesh::from_solids(&file, 1.0, &edges).unwrap();
     let found = Pencil::of_material(&mesh, &solid(orthotropy)).frequencies(4);
     for (found, exact) in found.iter().zip(&expected) {
@@ -244,18 +236,12 @@ fn isotropic_constants_given_as_orthotropic_have_the_isotropic_stiffness() {
     ];
     let flat = [ElementKind::Tri3, ElementKind::Quad8];
     for formulation in formulations {
-        let plain = ElasticMaterial {
-            formulation,
-            ..plain
-        };
+        let plain = ElasticMaterial { formulation, ..plain };
         let kinds: &[ElementKind] = match formulation {
             PlaneFormulation::ThreeDimensional => &SOLIDS,
             _ => &flat,
         };
-        for (&kind, axes) in kinds
-            .iter()
-            .flat_map(|kind| all_axes.map(|axes| (kind, axes)))
-        {
+        for (&kind, axes) in kinds.iter().flat_map(|kind| all_axes.map(|axes| (kind, axes))) {
             let nodes = kind.node_count();
             let geometry = match kind.dimension() {
                 2 => {
@@ -271,9 +257,7 @@ fn isotropic_constants_given_as_orthotropic_have_the_isotropic_stiffness() {
                     ElementGeometry::of_nodes(kind, (0..nodes).map(around).collect(), frames)
                 }
                 _ => {
-                    let file = block(kind, [1; 3], |[x, y, z]| {
-                        [x + 0.2 * y, y, 0.8 * z - 0.1 * x]
-                    });
+                    let file = block(kind, [1; 3], |[x, y, z]| [x + 0.2 * y, y, 0.8 * z - 0.1 * x]);
                     ElementGeometry::new(&Mesh::from_solids(&file, 1.0, &[]).unwrap(), 0)
                 }
             };
@@ -283,10 +267,7 @@ fn isotropic_constants_given_as_orthotropic_have_the_isotropic_stiffness() {
             assert!(error < 1e-12, "{kind:?} {formulation:?} {axes:?} {error:e}");
         }
     }
-    let [e, nu] = as_nine(&plain, all_axes[0])
-        .orthotropy
-        .unwrap()
-        .mean_constants();
+    let [e, nu] = as_nine(&plain, all_axes[0]).orthotropy.unwrap().mean_constants();
     assert!((e / 2.5e9 - 1.0).abs() < 1e-12 && (nu / 0.3805 - 1.0).abs() < 1e-12);
 }
 
@@ -301,10 +282,7 @@ fn plane_formulations_reduce_the_compliance_of_the_solid() {
     let [e1, e2, e3] = constants.young_moduli;
     let [n12, n13, n23] = constants.poisson_ratios;
     let in_plane = |formulation| {
-        let material = ElasticMaterial {
-            formulation,
-            ..solid(constants)
-        };
+        let material = ElasticMaterial { formulation, ..solid(constants) };
         let law = material.elasticity_at([0.1, 0.2, 0.0]);
         let at = [0, 1, 3];
         let law = Matrix3::from_fn(|i, j| law[at[i]][at[j]]);
@@ -333,10 +311,7 @@ fn plane_formulations_reduce_the_compliance_of_the_solid() {
 #[test]
 fn the_check_names_the_ratio_that_costs_positive_energy() {
     let broken = |ratios: [f64; 3]| {
-        let constants = Orthotropy {
-            poisson_ratios: ratios,
-            ..lining(MaterialAxes::global())
-        };
+        let constants = Orthotropy { poisson_ratios: ratios, ..lining(MaterialAxes::global()) };
         constants.check().err()
     };
     assert!(broken([0.25, 0.3, 0.2]).is_none());
@@ -348,12 +323,9 @@ fn the_check_names_the_ratio_that_costs_positive_energy() {
     assert_eq!(broken([0.2, 2.4, 0.2]).unwrap().which, 1);
     // Each is possible, not all together: just inside and outside of the bound that is named.
     let [low, high] = broken([0.9, 1.6, 1.9]).unwrap().bounds;
-    for (value, holds) in [
-        (low + 1e-9, true),
-        (low - 1e-9, false),
-        (high - 1e-9, true),
-        (high + 1e-9, false),
-    ] {
+    for (value, holds) in
+        [(low + 1e-9, true), (low - 1e-9, false), (high - 1e-9, true), (high + 1e-9, false)]
+    {
         assert_eq!(broken([0.9, 1.6, value]).is_none(), holds, "{value}");
     }
 }

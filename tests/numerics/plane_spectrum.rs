@@ -15,15 +15,8 @@ use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, Tangen
 const NORMAL_STIFFNESS: f64 = 7.4e12;
 
 /// Harmonic, branch and direction of the lowest modes at friction 0.3.
-const EXACT: [(usize, usize, i8); 7] = [
-    (0, 0, 0),
-    (1, 0, 1),
-    (1, 0, -1),
-    (2, 0, 1),
-    (2, 0, -1),
-    (1, 1, 1),
-    (1, 1, -1),
-];
+const EXACT: [(usize, usize, i8); 7] =
+    [(0, 0, 0), (1, 0, 1), (1, 0, -1), (2, 0, 1), (2, 0, -1), (1, 1, 1), (1, 1, -1)];
 
 fn modes(mesh: &Mesh, count: usize) -> Vec<ComplexMode> {
     let options = TangentOptions {
@@ -85,9 +78,7 @@ fn import(mesh: &Mesh) -> Mesh {
 #[test]
 fn five_thousand_imported_elements_give_table_1_and_the_continuum() {
     let triangles = triangles(&annulus(ElementKind::Quad4, 120, 21), true);
-    let quads = AnnulusMesh::generate(&annulus(ElementKind::Quad8, 160, 31))
-        .unwrap()
-        .mesh;
+    let quads = AnnulusMesh::generate(&annulus(ElementKind::Quad8, 160, 31)).unwrap().mesh;
     for mesh in [triangles, quads] {
         let mesh = import(&mesh);
         assert!((4900..5100).contains(&mesh.element_count()));
@@ -111,14 +102,10 @@ fn five_thousand_imported_elements_give_table_1_and_the_continuum() {
 /// Slopes of the mean error of the lowest eigenvalues over three meshes, each split from the one before.
 #[test]
 fn eigenvalues_on_unstructured_meshes_converge_with_orders_two_and_four() {
-    for (kind, around, radial, order) in [
-        (ElementKind::Tri3, 48, 9, 2.0),
-        (ElementKind::Tri6, 24, 4, 4.0),
-    ] {
-        let mesh = triangles(
-            &annulus(ElementKind::Quad4, around, radial),
-            kind.is_quadratic(),
-        );
+    for (kind, around, radial, order) in
+        [(ElementKind::Tri3, 48, 9, 2.0), (ElementKind::Tri6, 24, 4, 4.0)]
+    {
+        let mesh = triangles(&annulus(ElementKind::Quad4, around, radial), kind.is_quadratic());
         let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
         let bytes = write_msh(&mesh, FORMS[3], &numbers, |p| p);
         let mut file = GmshFile::read(&bytes).unwrap();
@@ -132,9 +119,6 @@ fn eigenvalues_on_unstructured_meshes_converge_with_orders_two_and_four() {
         let slope = (errors[1] / errors[2]).log2();
         println!("{kind:?} {errors:?} {slope}");
         // A family of three meshes shows its order within a tenth of it.
-        assert!(
-            (slope - order).abs() < 0.1 * order,
-            "{kind:?} {errors:?} {slope}"
-        );
+        assert!((slope - order).abs() < 0.1 * order, "{kind:?} {errors:?} {slope}");
     }
 }

@@ -26,14 +26,8 @@ fn row(is_quadratic: bool) -> GmshFile {
         [0, 1].map(|k| ring.map(|(i, j)| corner(i, j, k))).concat()
     };
     let mut elements = vec![cell(0)];
-    let sides = [
-        [0, 1, 2, 3],
-        [4, 7, 6, 5],
-        [0, 4, 5, 1],
-        [1, 5, 6, 2],
-        [2, 6, 7, 3],
-        [3, 7, 4, 0],
-    ];
+    let sides =
+        [[0, 1, 2, 3], [4, 7, 6, 5], [0, 4, 5, 1], [1, 5, 6, 2], [2, 6, 7, 3], [3, 7, 4, 0]];
     for (number, middle) in [(1, 16), (2, 17)] {
         for side in sides {
             let [a, b, c, d] = side.map(|local: usize| cell(number)[local]);
@@ -44,10 +38,7 @@ fn row(is_quadratic: bool) -> GmshFile {
         }
     }
     // Middles of the edges, then a map of all that is linear, so that edges stay straight.
-    let mut file = GmshFile {
-        dimension: 3,
-        ..GmshFile::default()
-    };
+    let mut file = GmshFile { dimension: 3, ..GmshFile::default() };
     let mut middles: BTreeMap<[u32; 2], u32> = BTreeMap::new();
     for (number, mut nodes) in elements.into_iter().enumerate() {
         let kind = ElementKind::Tet4.with_corners(nodes.len(), is_quadratic);
@@ -78,11 +69,7 @@ fn row(is_quadratic: bool) -> GmshFile {
 /// Theory: in a body of bricks, pyramids and tetrahedra a linear displacement has a constant stress and no force inside.
 #[test]
 fn bricks_pyramids_and_tetrahedra_in_one_body_pass_the_patch_test() {
-    let gradient = [
-        [1e-3, 4e-4, -2e-4],
-        [3e-4, -7e-4, 5e-4],
-        [2e-4, -1e-4, 6e-4],
-    ];
+    let gradient = [[1e-3, 4e-4, -2e-4], [3e-4, -7e-4, 5e-4], [2e-4, -1e-4, 6e-4]];
     let [lambda, shear] = STEEL.lame_constants();
     let dilatation: f64 = (0..3).map(|k| gradient[k][k]).sum();
     let exact = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)].map(|(i, j)| {
@@ -91,9 +78,8 @@ fn bricks_pyramids_and_tetrahedra_in_one_body_pass_the_patch_test() {
     });
     for is_quadratic in [false, true] {
         let mesh = Mesh::from_solids(&row(is_quadratic), 1.0, &[]).unwrap();
-        let kinds: std::collections::BTreeSet<ElementKind> = (0..mesh.element_count())
-            .map(|e| mesh.element_kind(e))
-            .collect();
+        let kinds: std::collections::BTreeSet<ElementKind> =
+            (0..mesh.element_count()).map(|e| mesh.element_kind(e)).collect();
         assert_eq!(kinds.len(), 3);
         let nodes = mesh.nodes.iter();
         let displacement: Vec<f64> = nodes
@@ -103,20 +89,12 @@ fn bricks_pyramids_and_tetrahedra_in_one_body_pass_the_patch_test() {
         let scale = forces.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
         let mut is_outer = vec![false; mesh.node_count()];
         for face in mesh.outer_faces() {
-            face.nodes
-                .iter()
-                .for_each(|&node| is_outer[node as usize] = true);
+            face.nodes.iter().for_each(|&node| is_outer[node as usize] = true);
         }
-        let inner: Vec<usize> = (0..mesh.dof_count())
-            .filter(|dof| !is_outer[dof / 3])
-            .collect();
+        let inner: Vec<usize> = (0..mesh.dof_count()).filter(|dof| !is_outer[dof / 3]).collect();
         assert!(inner.len() >= 6);
         for dof in inner {
-            assert!(
-                forces[dof].abs() < 1e-12 * scale,
-                "{is_quadratic} {dof} {:e}",
-                forces[dof]
-            );
+            assert!(forces[dof].abs() < 1e-12 * scale, "{is_quadratic} {dof} {:e}", forces[dof]);
         }
         for stress in solid_stress(&mesh, &STEEL, &displacement) {
             for (found, exact) in stress.0.iter().zip(exact) {
@@ -143,32 +121,15 @@ fn bodies_of_mixed_shapes_are_refined_without_cracks() {
 /// edges 01, 03, 04, 12, 14, 23, 24, 34.
 #[test]
 fn pyramids_of_gmsh_are_read_in_the_order_of_its_manual() {
-    let corners = [
-        [0.0, 0.0, 0.0],
-        [2.0, 0.0, 0.1],
-        [2.1, 1.0, 0.0],
-        [0.0, 1.2, 0.0],
-        [0.9, 0.6, 1.5],
-    ];
-    let edges = [
-        [0, 1],
-        [0, 3],
-        [0, 4],
-        [1, 2],
-        [1, 4],
-        [2, 3],
-        [2, 4],
-        [3, 4],
-    ];
+    let corners =
+        [[0.0, 0.0, 0.0], [2.0, 0.0, 0.1], [2.1, 1.0, 0.0], [0.0, 1.2, 0.0], [0.9, 0.6, 1.5]];
+    let edges = [[0, 1], [0, 3], [0, 4], [1, 2], [1, 4], [2, 3], [2, 4], [3, 4]];
     let middle = |[p, q]: [usize; 2]| -> [f64; 3] {
         std::array::from_fn(|axis| 0.5 * (corners[p][axis] + corners[q][axis]))
     };
     for (number, count) in [(7, 5), (19, 13)] {
-        let points: Vec<[f64; 3]> = corners
-            .into_iter()
-            .chain(edges.map(middle))
-            .take(count)
-            .collect();
+        let points: Vec<[f64; 3]> =
+            corners.into_iter().chain(edges.map(middle)).take(count).collect();
         let mut text = format!("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{count}\n");
         for (node, [x, y, z]) in points.iter().enumerate() {
             writeln!(text, "{} {x} {y} {z}", node + 1).unwrap();

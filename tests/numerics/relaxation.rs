@@ -31,10 +31,7 @@ fn relaxed() -> RelaxedMaterials {
 
 /// Friction at which the wave grows slowly enough for a long linear stage.
 fn sliding() -> SlidingContact {
-    SlidingContact {
-        friction_coefficient: 0.15,
-        ..contact(610.0)
-    }
+    SlidingContact { friction_coefficient: 0.15, ..contact(610.0) }
 }
 
 fn disc() -> AnnulusMesh {
@@ -48,10 +45,7 @@ fn settings(duration: f64, at: f64) -> TransientSettings {
         sample_interval: 4e-6,
         expansion_time: 1e-4,
         initial: InitialState::SteadySliding,
-        perturbation: Perturbation {
-            time: at,
-            ..Perturbation::of(&[HARMONIC], 1e-8)
-        },
+        perturbation: Perturbation { time: at, ..Perturbation::of(&[HARMONIC], 1e-8) },
     }
 }
 
@@ -66,10 +60,7 @@ fn eigenvalue() -> f64 {
     });
     let table = ModulusTable::new("materials.disc.table", "chain.csv", rows.collect());
     let own = RegionMaterial {
-        elastic: ElasticMaterial {
-            young_modulus: table.static_modulus(),
-            ..POLYCARBONATE
-        },
+        elastic: ElasticMaterial { young_modulus: table.static_modulus(), ..POLYCARBONATE },
         damping: None,
     };
     let table = Some(Arc::new(table));
@@ -94,8 +85,7 @@ fn eigenvalue() -> f64 {
     let found = sweep(&tangent, &request, &|_| {}).unwrap();
     let modes = found.points[0].modes.iter();
     let own = modes.filter(|mode| mode.harmonic == HARMONIC);
-    own.map(|mode| mode.growth_rate())
-        .fold(f64::NEG_INFINITY, f64::max)
+    own.map(|mode| mode.growth_rate()).fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// Cross-method: a seeded wave grows as the eigenvalue at its own frequency says; the energy of springs and what dashpots take of it
@@ -129,10 +119,7 @@ fn a_kick_keeps_the_balance_and_a_run_goes_on_to_the_same_bits() {
     let model = TransientModel::of_annulus(&disc, &materials, undamped, sliding());
     let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let settings = TransientSettings {
-        perturbation: Perturbation {
-            time: 2e-4,
-            ..Perturbation::of(&[HARMONIC], 1e-2)
-        },
+        perturbation: Perturbation { time: 2e-4, ..Perturbation::of(&[HARMONIC], 1e-2) },
         ..settings(1e-3, 0.0)
     };
     let start = || CentralDifference::start(model, operator.as_ref(), &settings).unwrap();

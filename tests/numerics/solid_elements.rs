@@ -23,20 +23,15 @@ const STEEL: ElasticMaterial = ElasticMaterial {
 
 /// A parallelepiped without right angles.
 fn skewed([x, y, z]: [f64; 3]) -> [f64; 3] {
-    [
-        0.10 * x + 0.02 * y - 0.01 * z,
-        0.01 * x + 0.08 * y + 0.02 * z,
-        0.06 * z - 0.01 * y,
-    ]
+    [0.10 * x + 0.02 * y - 0.01 * z, 0.01 * x + 0.08 * y + 0.02 * z, 0.06 * z - 0.01 * y]
 }
 
 /// Numbers spread over -0.5 to 0.5, always the same.
 fn draws() -> impl FnMut() -> f64 {
     let mut state = 2_u64;
     move || {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 40) as f64 / (1_u64 << 24) as f64 - 0.5
     }
 }
@@ -50,9 +45,7 @@ fn distorted(kind: ElementKind, bend: f64) -> GmshFile {
     let corners = kind.corner_count();
     let mut is_corner = vec![false; before.len()];
     for element in &file.elements {
-        element.nodes[..corners]
-            .iter()
-            .for_each(|&node| is_corner[node as usize] = true);
+        element.nodes[..corners].iter().for_each(|&node| is_corner[node as usize] = true);
     }
     for (node, point) in file.points.iter_mut().enumerate() {
         if is_corner[node] && is_inner(&before[node]) {
@@ -69,18 +62,12 @@ fn distorted(kind: ElementKind, bend: f64) -> GmshFile {
                 continue;
             }
             let [p, q] = ends.map(|end| file.points[element.nodes[end] as usize]);
-            let moved = if is_inner(&before[middle as usize]) {
-                bend
-            } else {
-                0.0
-            };
+            let moved = if is_inner(&before[middle as usize]) { bend } else { 0.0 };
             file.points[middle as usize] =
                 [0, 1, 2].map(|axis| 0.5 * (p[axis] + q[axis]) + moved * draw());
         }
     }
-    file.points
-        .iter_mut()
-        .for_each(|point| *point = skewed(*point));
+    file.points.iter_mut().for_each(|point| *point = skewed(*point));
     file
 }
 
@@ -98,9 +85,8 @@ fn sample(mesh: &Mesh, field: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Vec<f64>
 /// The six rigid motions about a point inside.
 fn rigid_motions(mesh: &Mesh) -> Vec<Vec<f64>> {
     let center = Vector3::new(0.05, 0.04, 0.03);
-    let mut motions: Vec<Vec<f64>> = (0..3)
-        .map(|axis| sample(mesh, |_| Vector3::ith(axis, 1.0)))
-        .collect();
+    let mut motions: Vec<Vec<f64>> =
+        (0..3).map(|axis| sample(mesh, |_| Vector3::ith(axis, 1.0))).collect();
     for axis in 0..3 {
         let turn = |p: Vector3<f64>| Vector3::ith(axis, 1.0).cross(&(p - center));
         motions.push(sample(mesh, turn));
@@ -130,9 +116,7 @@ impl Pencil {
                 .collect()
         };
         let mut stiffness = assemble_stiffness(mesh, material);
-        stiffness
-            .entries
-            .extend(assemble_supports(mesh)[0].entries.iter());
+        stiffness.entries.extend(assemble_supports(mesh)[0].entries.iter());
         Self {
             stiffness: free(&stiffness),
             mass: free(&assemble_mass(mesh, material, MassKind::Consistent)),
@@ -152,14 +136,10 @@ impl Pencil {
 
     /// `(K - shift M)^-1` applied to columns.
     fn solve(&self, shift: f64) -> impl Fn(&DMatrix<f64>) -> DMatrix<f64> + use<> {
-        let shifted = self
-            .mass
-            .iter()
-            .map(|&(i, j, value)| (i, j, -shift * value));
+        let shifted = self.mass.iter().map(|&(i, j, value)| (i, j, -shift * value));
         let entries = self.stiffness.iter().copied().chain(shifted);
-        let entries: Vec<Triplet<usize, usize, f64>> = entries
-            .map(|(i, j, value)| Triplet::new(i, j, value))
-            .collect();
+        let entries: Vec<Triplet<usize, usize, f64>> =
+            entries.map(|(i, j, value)| Triplet::new(i, j, value)).collect();
         let size = self.unknowns.len();
         let matrix = SparseColMat::try_new_from_triplets(size, size, &entries).unwrap();
         let factor = matrix.sp_lu().unwrap();
@@ -185,18 +165,13 @@ impl Pencil {
             let half = factor.solve_lower_triangular(&stiffness).unwrap();
             let whole = factor.solve_lower_triangular(&half.transpose()).unwrap();
             let eigen = SymmetricEigen::new((&whole + whole.transpose()) * 0.5);
-            let turned = factor
-                .transpose()
-                .solve_upper_triangular(&eigen.eigenvectors)
-                .unwrap();
+            let turned = factor.transpose().solve_upper_triangular(&eigen.eigenvectors).unwrap();
             vectors = images * turned;
             squares = eigen.eigenvalues.iter().copied().collect();
             squares.sort_by(f64::total_cmp);
         }
         let squares = squares[..count].iter();
-        squares
-            .map(|square| square.max(0.0).sqrt() / (2.0 * PI))
-            .collect()
+        squares.map(|square| square.max(0.0).sqrt() / (2.0 * PI)).collect()
     }
 
     /// Rayleigh's quotient of a column.
@@ -233,11 +208,7 @@ fn every_kind_passes_the_patch_test_on_a_distorted_block() {
     let exact = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)].map(|at| exact[at]);
     for kind in SOLIDS {
         // Curved inner edges too where the quadrature is exact on them.
-        let bends = if kind == ElementKind::Tet10 {
-            vec![0.0, 0.03]
-        } else {
-            vec![0.0]
-        };
+        let bends = if kind == ElementKind::Tet10 { vec![0.0, 0.03] } else { vec![0.0] };
         for bend in bends {
             let mesh = Mesh::from_solids(&distorted(kind, bend), 1.0, &[]).unwrap();
             let displacement = sample(&mesh, |p| gradient * p);
@@ -246,24 +217,15 @@ fn every_kind_passes_the_patch_test_on_a_distorted_block() {
             let scale = forces.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
             let mut is_outer = vec![false; mesh.node_count()];
             for face in mesh.outer_faces() {
-                face.nodes
-                    .iter()
-                    .for_each(|&node| is_outer[node as usize] = true);
+                face.nodes.iter().for_each(|&node| is_outer[node as usize] = true);
             }
             let inner = (0..mesh.dof_count()).filter(|dof| !is_outer[dof / 3]);
             for dof in inner {
-                assert!(
-                    forces[dof].abs() < 1e-12 * scale,
-                    "{kind:?} {dof} {:e}",
-                    forces[dof]
-                );
+                assert!(forces[dof].abs() < 1e-12 * scale, "{kind:?} {dof} {:e}", forces[dof]);
             }
             for stress in solid_stress(&mesh, &STEEL, &displacement) {
                 for (found, exact) in stress.0.iter().zip(exact) {
-                    assert!(
-                        (found - exact).abs() < 1e-10 * STEEL.young_modulus * 1e-3,
-                        "{kind:?}"
-                    );
+                    assert!((found - exact).abs() < 1e-10 * STEEL.young_modulus * 1e-3, "{kind:?}");
                 }
             }
         }
@@ -276,10 +238,7 @@ fn free_blocks_of_every_kind_have_six_rigid_motions_and_no_other() {
     for kind in SOLIDS {
         let mesh = Mesh::from_solids(&distorted(kind, 0.02), 1.0, &[]).unwrap();
         let stiffness = assemble_stiffness(&mesh, &STEEL);
-        let largest = stiffness
-            .entries
-            .iter()
-            .fold(0.0_f64, |m, e| m.max(e.2.abs()));
+        let largest = stiffness.entries.iter().fold(0.0_f64, |m, e| m.max(e.2.abs()));
         for motion in rigid_motions(&mesh) {
             for force in stiffness.multiply(mesh.dof_count(), &motion) {
                 assert!(force.abs() < 1e-13 * largest, "{kind:?} {force:e}");
@@ -303,10 +262,7 @@ fn masses_have_the_volume_and_inertia_of_the_block() {
     let inertia = Matrix3::identity() * second.trace() - second;
     for kind in SOLIDS {
         let mesh = Mesh::from_solids(&distorted(kind, 0.0), 1.0, &[]).unwrap();
-        assert!(
-            (mesh.region_measures()[0] / volume - 1.0).abs() < 1e-13,
-            "{kind:?}"
-        );
+        assert!((mesh.region_measures()[0] / volume - 1.0).abs() < 1e-13, "{kind:?}");
         let mass = assemble_mass(&mesh, &STEEL, MassKind::Consistent);
         let motions = rigid_motions(&mesh);
         let energy = |i: usize, j: usize| -> f64 {
@@ -362,10 +318,7 @@ fn the_lame_mode_of_a_cube_converges_with_the_order_of_the_kind() {
             ElementKind::Hex8 | ElementKind::Hex20 => 0.02,
             _ => 0.4,
         };
-        assert!(
-            order > expected - shortfall,
-            "{kind:?} {errors:?} order {order}"
-        );
+        assert!(order > expected - shortfall, "{kind:?} {errors:?} order {order}");
     }
 }
 
@@ -391,10 +344,7 @@ fn quadratic_kinds_and_incompatible_bricks_agree_on_a_clamped_beam() {
         let found = beam(kind, cells);
         println!("{kind:?} {found:?} {reference:?}");
         for (found, reference) in found.iter().zip(&reference) {
-            assert!(
-                (found / reference - 1.0).abs() < tolerance,
-                "{kind:?} {found} {reference}"
-            );
+            assert!((found / reference - 1.0).abs() < tolerance, "{kind:?} {found} {reference}");
         }
     }
 }
@@ -405,10 +355,7 @@ fn pressure_guides_and_springs_on_faces_hold_a_uniform_stress_at_any_angle() {
     const PRESSURE: f64 = 3e6;
     const SPRING: f64 = 2e11;
     let turn = Rotation3::from_euler_angles(0.3, -0.5, 0.8);
-    let support = ElasticSupport {
-        normal_stiffness: SPRING,
-        ..ElasticSupport::default()
-    };
+    let support = ElasticSupport { normal_stiffness: SPRING, ..ElasticSupport::default() };
     let conditions = [
         ("x0", BoundaryCondition::Support(support)),
         ("x1", BoundaryCondition::Pressure(PRESSURE)),
@@ -431,28 +378,15 @@ fn pressure_guides_and_springs_on_faces_hold_a_uniform_stress_at_any_angle() {
         let exact = sample(&mesh, |p| {
             let q = turn.inverse() * p;
             let across = STEEL.poisson_ratio * strain;
-            let local = Vector3::new(
-                -strain * q.x - PRESSURE / SPRING,
-                across * q.y,
-                across * q.z,
-            );
+            let local = Vector3::new(-strain * q.x - PRESSURE / SPRING, across * q.y, across * q.z);
             turn * local
         });
         for (found, exact) in found.iter().zip(&exact) {
-            assert!(
-                (found - exact).abs() < 1e-11 * 1e-3,
-                "{kind:?} {found} {exact}"
-            );
+            assert!((found - exact).abs() < 1e-11 * 1e-3, "{kind:?} {found} {exact}");
         }
         for stress in solid_stress(&mesh, &STEEL, &found) {
-            assert!(
-                (stress.von_mises() / PRESSURE - 1.0).abs() < 1e-8,
-                "{kind:?}"
-            );
-            assert!(
-                (stress.pressure() / (PRESSURE / 3.0) - 1.0).abs() < 1e-8,
-                "{kind:?}"
-            );
+            assert!((stress.von_mises() / PRESSURE - 1.0).abs() < 1e-8, "{kind:?}");
+            assert!((stress.pressure() / (PRESSURE / 3.0) - 1.0).abs() < 1e-8, "{kind:?}");
         }
     }
 }
@@ -476,10 +410,7 @@ fn geometric_stiffness_of_rigid_rotations_is_the_work_of_the_stress() {
                 None => 0.0,
                 Some(axis) => volume * (stress.trace() - stress[(axis, axis)]),
             };
-            assert!(
-                (work - exact).abs() < 1e-11 * volume * stress.amax(),
-                "{kind:?} {k}"
-            );
+            assert!((work - exact).abs() < 1e-11 * volume * stress.amax(), "{kind:?} {k}");
         }
     }
 }
@@ -497,9 +428,7 @@ fn a_turned_block_has_the_same_frequencies() {
             *point = [place.x, place.y, place.z];
         }
         let turned = Mesh::from_solids(&file, 1.0, &clamped).unwrap();
-        let pairs = frequencies(&plain, 8)
-            .into_iter()
-            .zip(frequencies(&turned, 8));
+        let pairs = frequencies(&plain, 8).into_iter().zip(frequencies(&turned, 8));
         for (a, b) in pairs {
             assert!((a / b - 1.0).abs() < 1e-10, "{kind:?} {a} {b}");
         }
@@ -563,9 +492,6 @@ fn the_ventilated_disc_has_the_volumes_and_pad_faces_of_its_geometry() {
         // Quadratic edges of 25 mm on circles of 10 mm and more.
         let tolerance = if name == "bolts" { 2e-2 } else { 2e-3 };
         println!("{name} {found} {exact}");
-        assert!(
-            (found / exact - 1.0).abs() < tolerance,
-            "{name} {found} {exact}"
-        );
+        assert!((found / exact - 1.0).abs() < tolerance, "{name} {found} {exact}");
     }
 }

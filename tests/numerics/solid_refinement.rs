@@ -15,11 +15,7 @@ const STEEL: ElasticMaterial = ElasticMaterial {
 /// A barrel-shaped block.
 fn barrel([x, y, z]: [f64; 3]) -> [f64; 3] {
     let bulge = 1.0 + 0.3 * z * (1.0 - z);
-    [
-        0.1 * bulge * (x - 0.5),
-        0.08 * bulge * (y - 0.4),
-        0.06 * z + 0.01 * x * y,
-    ]
+    [0.1 * bulge * (x - 0.5), 0.08 * bulge * (y - 0.4), 0.06 * z + 0.01 * x * y]
 }
 
 fn mesh(file: &GmshFile) -> Mesh {
@@ -70,16 +66,11 @@ fn refined_solids_fit_together_and_keep_volume_surfaces_and_conditions() {
 fn a_refined_block_is_the_block_meshed_finer() {
     let straight = |[x, y, z]: [f64; 3]| [0.1 * x + 0.01 * z, 0.08 * y, 0.06 * z];
     for kind in [ElementKind::Hex8, ElementKind::Hex20] {
-        let split = mesh(&block(kind, [2, 2, 1], straight))
-            .refined_solids()
-            .unwrap();
+        let split = mesh(&block(kind, [2, 2, 1], straight)).refined_solids().unwrap();
         let meshed = mesh(&block(kind, [4, 4, 2], straight));
         let sorted = |mesh: &Mesh| {
-            let mut points: Vec<[i64; 3]> = mesh
-                .nodes
-                .iter()
-                .map(|point| point.map(|x| (1e9 * x).round() as i64))
-                .collect();
+            let mut points: Vec<[i64; 3]> =
+                mesh.nodes.iter().map(|point| point.map(|x| (1e9 * x).round() as i64)).collect();
             points.sort_unstable();
             points
         };
@@ -91,9 +82,7 @@ fn a_refined_block_is_the_block_meshed_finer() {
 /// A set of nodes that is no surface: an edge keeps being one.
 #[test]
 fn nodes_between_those_of_a_held_edge_are_held_too() {
-    let mut file = block(ElementKind::Tet10, [2, 2, 2], |place| {
-        place.map(|x| 0.1 * x)
-    });
+    let mut file = block(ElementKind::Tet10, [2, 2, 2], |place| place.map(|x| 0.1 * x));
     let is_on_edge = |p: &[f64; 3]| p[0] == 0.0 && p[1] == 0.0;
     let nodes = (0..file.points.len() as u32).filter(|&k| is_on_edge(&file.points[k as usize]));
     file.node_sets.insert("edge".to_owned(), nodes.collect());

@@ -43,10 +43,8 @@ fn tangent_with(
         ..annulus(ElementKind::Quad4, 16, 3)
     };
     let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
-    let lossy = |loss_factor: f64, elastic: ElasticMaterial| ElasticMaterial {
-        loss_factor,
-        ..elastic
-    };
+    let lossy =
+        |loss_factor: f64, elastic: ElasticMaterial| ElasticMaterial { loss_factor, ..elastic };
     let steel = ElasticMaterial {
         young_modulus: 2.1e11,
         poisson_ratio: 0.3,
@@ -55,10 +53,7 @@ fn tangent_with(
     };
     let materials = AnnulusMaterials {
         annulus: lossy(disc, POLYCARBONATE),
-        shaft: Some(RegionMaterial {
-            elastic: lossy(shaft, steel),
-            damping: None,
-        }),
+        shaft: Some(RegionMaterial { elastic: lossy(shaft, steel), damping: None }),
     };
     let elastic = assemble_stiffness(&mesh, &materials);
     let base = SteadySliding::solve(&mesh, &elastic, &contact(610.0)).unwrap();
@@ -99,9 +94,7 @@ pub fn largest_error(found: &[c64], expected: &[c64]) -> f64 {
 pub fn dense(polynomial: &MatrixPolynomial, mu: f64) -> Mat<f64> {
     let size = polynomial.dimension();
     let identity = Mat::<f64>::identity(size, size);
-    polynomial
-        .pattern()
-        .multiply(&polynomial.evaluate(mu), identity.as_ref())
+    polynomial.pattern().multiply(&polynomial.evaluate(mu), identity.as_ref())
 }
 
 /// Eigenvalues with `Im > 0` of `lambda^2 M + lambda C + K + i H`, by rising frequency.
@@ -141,10 +134,8 @@ fn one_loss_factor_turns_every_undamped_eigenvalue_by_the_root_of_its_stiffness(
         let found = solved(&tangent([eta; 2], RayleighDamping::default()), &frictions);
         let turn = c64::new(1.0, eta).sqrt();
         for point in 0..frictions.len() {
-            let expected: Vec<c64> = eigenvalues(&undamped, point)
-                .iter()
-                .map(|value| value * turn)
-                .collect();
+            let expected: Vec<c64> =
+                eigenvalues(&undamped, point).iter().map(|value| value * turn).collect();
             let error = largest_error(&eigenvalues(&found, point), &expected);
             println!("eta {eta} mu {} {error:e}", frictions[point]);
             assert!(error < 1e-9, "{eta} {error:e}");
@@ -156,10 +147,7 @@ fn one_loss_factor_turns_every_undamped_eigenvalue_by_the_root_of_its_stiffness(
 /// no growth.
 #[test]
 fn loss_factors_of_disc_and_shaft_have_the_spectrum_of_the_dense_matrices() {
-    let viscous = RayleighDamping {
-        mass_coefficient: 20.0,
-        stiffness_coefficient: 1e-7,
-    };
+    let viscous = RayleighDamping { mass_coefficient: 20.0, stiffness_coefficient: 1e-7 };
     agrees_with_the_dense_matrices(&tangent([0.02, 0.2], viscous));
 }
 
@@ -189,10 +177,7 @@ fn agrees_with_the_dense_matrices(tangent: &SlidingTangent) {
         let own = eigenvalues(&found, point);
         let error = largest_error(&expected, &own);
         let highest = own.last().unwrap().im;
-        let count = expected
-            .iter()
-            .filter(|v| v.im <= highest * 1.000_001)
-            .count();
+        let count = expected.iter().filter(|v| v.im <= highest * 1.000_001).count();
         println!("mu {mu} {error:e} {count} {}", own.len());
         assert!(error < 1e-9, "{mu} {error:e}");
         assert_eq!(count, own.len(), "{mu}");
@@ -213,21 +198,15 @@ fn agrees_with_the_dense_matrices(tangent: &SlidingTangent) {
 fn the_response_with_loss_factors_is_that_of_the_dense_matrix() {
     let tangent = tangent([0.02, 0.2], RayleighDamping::default());
     let system = FrfSystem::sliding(&tangent, 0.3);
-    let terminal = |node: usize| Terminal {
-        node,
-        direction: Direction::Radial,
-    };
+    let terminal = |node: usize| Terminal { node, direction: Direction::Radial };
     let free = (0..60).filter_map(|node| system.unknown(terminal(node), "force_node").ok());
     let free: Vec<usize> = free.collect();
     let (force, response) = (free[2], free[9]);
     let lines = [500.0, 4000.0, 7000.0];
     let found = direct_response(&system, force, response, &lines).unwrap();
-    let [mass, stiffness, lost] = [
-        &tangent.mass,
-        &tangent.stiffness,
-        tangent.structural.as_ref().unwrap(),
-    ]
-    .map(|p| dense(p, 0.3));
+    let [mass, stiffness, lost] =
+        [&tangent.mass, &tangent.stiffness, tangent.structural.as_ref().unwrap()]
+            .map(|p| dense(p, 0.3));
     let n = mass.nrows();
     for (frequency, found) in lines.iter().zip(found.receptance) {
         let square = (TAU * frequency).powi(2);
@@ -268,18 +247,12 @@ fn derivatives_with_loss_factors_are_differences_of_eigenvalues() {
     let difference = |k: usize, sides: [c64; 2], own: c64| {
         let slope = (sides[0] - sides[1]) / (2.0 * step);
         // The second order of the differences, where branches bend.
-        assert!(
-            (slope - own).norm() < 1e-5 * targets[k].norm(),
-            "{k} {slope} {own}"
-        );
+        assert!((slope - own).norm() < 1e-5 * targets[k].norm(), "{k} {slope} {own}");
         assert!(own.norm() > 0.0);
     };
     let nearest = |all: &[c64], k: usize| {
-        let apart = |a: &&c64, b: &&c64| {
-            (*a - targets[k])
-                .norm()
-                .total_cmp(&(*b - targets[k]).norm())
-        };
+        let apart =
+            |a: &&c64, b: &&c64| (*a - targets[k]).norm().total_cmp(&(*b - targets[k]).norm());
         *all.iter().min_by(apart).unwrap()
     };
     let at = |tangent: &SlidingTangent, mu: f64| eigenvalues(&solved(tangent, &[mu]), 0);

@@ -59,30 +59,16 @@ fn tangent(rows: Vec<[f64; 3]>, contact_stiffness: ContactStiffness) -> SlidingT
         ..POLYCARBONATE
     };
     let table = ModulusTable::new("materials.disc.table", "rubber.csv", rows);
-    let disc = ElasticMaterial {
-        young_modulus: table.static_modulus(),
-        ..POLYCARBONATE
-    };
-    let own = |elastic| RegionMaterial {
-        elastic,
-        damping: None,
-    };
-    let materials = vec![
-        TabledMaterial {
-            own: own(disc),
-            table: Some(Arc::new(table)),
-        },
-        own(steel).into(),
-    ];
+    let disc = ElasticMaterial { young_modulus: table.static_modulus(), ..POLYCARBONATE };
+    let own = |elastic| RegionMaterial { elastic, damping: None };
+    let materials =
+        vec![TabledMaterial { own: own(disc), table: Some(Arc::new(table)) }, own(steel).into()];
     let elastic = assemble_stiffness(&mesh, &materials);
     let base = SteadySliding::solve(&mesh, &elastic, &contact(610.0)).unwrap();
     let options = TangentOptions {
         mass: MassKind::Consistent,
         geometric_stiffness: true,
-        damping: RayleighDamping {
-            mass_coefficient: 20.0,
-            stiffness_coefficient: 1e-7,
-        },
+        damping: RayleighDamping { mass_coefficient: 20.0, stiffness_coefficient: 1e-7 },
         damping_model: DampingModel::WholeTangent,
         contact: contact_stiffness,
     };
@@ -152,10 +138,7 @@ fn a_flat_table_is_a_material_with_a_loss_factor() {
 /// Consistency check: derivatives by friction and by the modulus are differences of whole solutions, the stiffness following.
 #[test]
 fn derivatives_follow_the_frequency_of_the_mode() {
-    let springs = ContactStiffness {
-        normal_stiffness: Some(2e12),
-        ..ContactStiffness::default()
-    };
+    let springs = ContactStiffness { normal_stiffness: Some(2e12), ..ContactStiffness::default() };
     let (mu, step) = (0.4, 1e-3);
     let tangent_of = |scale: f64| tangent(rubber(scale), springs);
     let own = tangent_of(1e9);
@@ -166,9 +149,7 @@ fn derivatives_follow_the_frequency_of_the_mode() {
         [1.0, -1.0].map(|s| eigenvalues(&solved(&tangent_of(1e9 * (1.0 + s * step)), &[mu]), 0));
     let nearest = |all: &[c64], value: c64| {
         let distance = |v: &&c64| (**v - value).norm();
-        *all.iter()
-            .min_by(|a, b| distance(a).total_cmp(&distance(b)))
-            .unwrap()
+        *all.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()
     };
     for pair in pairs.iter().flatten() {
         let value = pair.eigenvalue;
@@ -208,10 +189,7 @@ fn derivatives_follow_the_frequency_of_the_mode() {
 fn a_line_of_the_response_has_the_stiffness_of_its_frequency() {
     let tangent = tangent(rubber(1e9), ContactStiffness::default());
     let system = FrfSystem::sliding(&tangent, 0.3);
-    let terminal = |node: usize| Terminal {
-        node,
-        direction: Direction::Radial,
-    };
+    let terminal = |node: usize| Terminal { node, direction: Direction::Radial };
     let free = (0..60).filter_map(|node| system.unknown(terminal(node), "force_node").ok());
     let free: Vec<usize> = free.collect();
     let (force, response) = (free[2], free[9]);
@@ -219,9 +197,7 @@ fn a_line_of_the_response_has_the_stiffness_of_its_frequency() {
     let found = direct_response(&system, force, response, &lines).unwrap();
     for (line, own) in lines.iter().zip(found.receptance) {
         let frozen = FrfSystem::sliding(&tangent.at_frequency(*line), 0.3);
-        let expected = direct_response(&frozen, force, response, &[*line])
-            .unwrap()
-            .receptance[0];
+        let expected = direct_response(&frozen, force, response, &[*line]).unwrap().receptance[0];
         // Round-off of two factorizations times the condition of the matrix.
         assert!((own - expected).norm() < 1e-8 * expected.norm(), "{line}");
     }
@@ -238,12 +214,7 @@ fn a_mode_beyond_the_table_is_refused_with_its_frequency() {
         count_modes: false,
     };
     let error = sweep(&tangent, &request, &|_| {}).unwrap_err();
-    let CeaError::BeyondTable {
-        range_hz,
-        frequency_hz,
-        ..
-    } = &error
-    else {
+    let CeaError::BeyondTable { range_hz, frequency_hz, .. } = &error else {
         panic!("{error}");
     };
     assert_eq!(*range_hz, [100.0, 3000.0]);
@@ -277,18 +248,10 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
         let layers = [0.0, FACE, FACE + CORE, 2.0 * FACE + CORE];
         let (layer, share) = ((3.0 * z) as usize, (3.0 * z).fract());
         let top = layers[(layer + 1).min(3)];
-        [
-            LENGTH * x,
-            0.02 * y,
-            layers[layer] + share * (top - layers[layer]),
-        ]
+        [LENGTH * x, 0.02 * y, layers[layer] + share * (top - layers[layer])]
     });
     for element in &mut file.elements {
-        let middle: f64 = element
-            .nodes
-            .iter()
-            .map(|&n| file.points[n as usize][2])
-            .sum();
+        let middle: f64 = element.nodes.iter().map(|&n| file.points[n as usize][2]).sum();
         let middle = middle / element.nodes.len() as f64;
         let is_core = middle > FACE && middle < FACE + CORE;
         element.region = if is_core { "core" } else { "faces" }.into();
@@ -312,10 +275,7 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
         formulation: PlaneFormulation::ThreeDimensional,
         ..ElasticMaterial::PLAIN
     };
-    let own = |elastic| RegionMaterial {
-        elastic,
-        damping: None,
-    };
+    let own = |elastic| RegionMaterial { elastic, damping: None };
     let poisson_ratio = 0.3;
     let core = TabledMaterial {
         own: own(solid(table.static_modulus(), poisson_ratio, 1000.0)),
@@ -323,15 +283,8 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
     };
     let face: TabledMaterial = own(solid(7e10, 0.0, 2700.0)).into();
     let regions = mesh.regions.iter();
-    let materials: Vec<TabledMaterial> = regions
-        .map(|name| {
-            if name == "core" {
-                core.clone()
-            } else {
-                face.clone()
-            }
-        })
-        .collect();
+    let materials: Vec<TabledMaterial> =
+        regions.map(|name| if name == "core" { core.clone() } else { face.clone() }).collect();
     let closed = BaseChoice::Closed;
     let assembly = Assembly::new(&mesh, &materials, &[], &[], &[], closed).unwrap();
     let state = assembly.range(&[0.0]).unwrap();
@@ -367,28 +320,17 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
             lambda =
                 c64::new(0.0, 1.0) * (rigidity(lambda.im / TAU) * (wave.powi(4) / mass)).sqrt();
         }
-        let nearest = found
-            .iter()
-            .min_by(|a, b| (**a - lambda).norm().total_cmp(&(**b - lambda).norm()));
+        let nearest =
+            found.iter().min_by(|a, b| (**a - lambda).norm().total_cmp(&(**b - lambda).norm()));
         let own = *nearest.unwrap();
         let loss = |lambda: c64| {
             let square = lambda * lambda;
             square.im.abs() / square.re.abs()
         };
-        println!(
-            "{n}: {own} {lambda}; eta {:.5} {:.5}",
-            loss(own),
-            loss(lambda)
-        );
+        println!("{n}: {own} {lambda}; eta {:.5} {:.5}", loss(own), loss(lambda));
         // The theory leaves out shear of the faces, rotatory inertia and stretch of the core.
-        assert!(
-            (loss(own) / loss(lambda) - 1.0).abs() < 0.01,
-            "{n} {own} {lambda}"
-        );
-        assert!(
-            (own.im / lambda.im - 1.0).abs() < 0.01,
-            "{n} {own} {lambda}"
-        );
+        assert!((loss(own) / loss(lambda) - 1.0).abs() < 0.01, "{n} {own} {lambda}");
+        assert!((own.im / lambda.im - 1.0).abs() < 0.01, "{n} {own} {lambda}");
     }
 }
 
@@ -459,16 +401,8 @@ fn a_rubber_mounted_mass_moves_at_the_modulus_of_its_own_frequency() {
     }
     println!("{found} {lambda}");
     // The steel gives way by a ten-thousandth.
-    assert!(
-        (found - lambda).norm() < 2e-4 * lambda.norm(),
-        "{found} {lambda}"
-    );
-    let other = mount(
-        "other",
-        &RUBBER.replace("0.45", "0.46"),
-        "[cea]\nmodes = 1\n",
-    )
-    .unwrap();
+    assert!((found - lambda).norm() < 2e-4 * lambda.norm(), "{found} {lambda}");
+    let other = mount("other", &RUBBER.replace("0.45", "0.46"), "[cea]\nmodes = 1\n").unwrap();
     assert_ne!(case.raw.hash(), other.raw.hash());
 }
 
@@ -476,31 +410,13 @@ fn a_rubber_mounted_mass_moves_at_the_modulus_of_its_own_frequency() {
 fn tables_that_no_material_has_are_refused_with_file_line_and_remedy() {
     let head = "frequency_hz,young_modulus,loss_factor\n";
     for (rows, parts) in [
-        (
-            "100,5e6,0.1\n50,6e6,0.1\n",
-            ["rubber.csv:3", "does not lie above", "sort the rows"],
-        ),
-        (
-            "10,5e6,0.1\n100,-1,0.1\n",
-            ["rubber.csv:3", "not above zero", "positive"],
-        ),
-        (
-            "10,0,0.1\n100,5e6,0.1\n",
-            ["rubber.csv:2", "not above zero", "positive"],
-        ),
-        (
-            "10,5e6,0.1\n100,6e6,1.2\n",
-            ["rubber.csv:3", "beyond 1", "percent"],
-        ),
-        (
-            "10,5e6,-0.1\n100,6e6,0.2\n",
-            ["rubber.csv:2", "below zero", "zero or positive"],
-        ),
+        ("100,5e6,0.1\n50,6e6,0.1\n", ["rubber.csv:3", "does not lie above", "sort the rows"]),
+        ("10,5e6,0.1\n100,-1,0.1\n", ["rubber.csv:3", "not above zero", "positive"]),
+        ("10,0,0.1\n100,5e6,0.1\n", ["rubber.csv:2", "not above zero", "positive"]),
+        ("10,5e6,0.1\n100,6e6,1.2\n", ["rubber.csv:3", "beyond 1", "percent"]),
+        ("10,5e6,-0.1\n100,6e6,0.2\n", ["rubber.csv:2", "below zero", "zero or positive"]),
         ("10,5e6,0.1\n", ["rubber.csv:2", "one row", "more rows"]),
-        (
-            "10,5e6,x\n100,5e6,0.1\n",
-            ["rubber.csv:2", "not a number", "loss_factor"],
-        ),
+        ("10,5e6,x\n100,5e6,0.1\n", ["rubber.csv:2", "not a number", "loss_factor"]),
     ] {
         let message = mount("bad", &format!("{head}{rows}"), "[cea]\nmodes = 1\n").unwrap_err();
         for part in parts {
@@ -521,11 +437,7 @@ fn tables_that_no_material_has_are_refused_with_file_line_and_remedy() {
     let case = mount("short", &short, "[cea]\nmodes = 1\n").unwrap();
     let cea = case.require_cea().unwrap();
     let error = preflight(&case, cea).unwrap_err().to_string();
-    for part in [
-        "materials.rubber.table",
-        "10 to 200 Hz",
-        "Hz: a modulus beyond a table",
-    ] {
+    for part in ["materials.rubber.table", "10 to 200 Hz", "Hz: a modulus beyond a table"] {
         assert!(error.contains(part), "{error}");
     }
     let frf = "[frf]\nforce_node = 1\nresponse_node = 1\nboundary = \"clamped\"\nfrequencies_hz = [100.0, 5000.0]\n";
@@ -535,8 +447,5 @@ fn tables_that_no_material_has_are_refused_with_file_line_and_remedy() {
         Err(error) => Err(error.to_string()),
     });
     let error = error.unwrap_err();
-    assert!(
-        error.contains("10 to 3000 Hz") && error.contains("5000"),
-        "{error}"
-    );
+    assert!(error.contains("10 to 3000 Hz") && error.contains("5000"), "{error}");
 }

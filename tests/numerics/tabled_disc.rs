@@ -59,9 +59,7 @@ fn an_onset_has_the_modulus_of_its_own_frequency() {
     for onset in crossed.iter().take(2) {
         let nearest = |[modulus, loss_factor]: [f64; 2]| {
             let material = format!("young_modulus = {modulus:?}\nloss_factor = {loss_factor:?}");
-            let frozen = modes_and_onsets(&disc_of(&material, GRID))
-                .unwrap()
-                .intervals;
+            let frozen = modes_and_onsets(&disc_of(&material, GRID)).unwrap().intervals;
             let distance = |own: f64| (own - onset.critical_friction).abs();
             let distances = frozen.iter().map(|own| distance(own.critical_friction));
             distances.fold(f64::INFINITY, f64::min)
@@ -82,10 +80,7 @@ fn a_flat_table_of_a_shaft_is_its_material() {
         );
         let case = disc_of("young_modulus = 2.5e9", &sections);
         let points = modes_and_onsets(&case).unwrap().points;
-        points
-            .iter()
-            .flat_map(|point| point.modes.iter().map(|mode| mode.eigenvalue))
-            .collect()
+        points.iter().flat_map(|point| point.modes.iter().map(|mode| mode.eigenvalue)).collect()
     };
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("tabled-disc");
     fs::create_dir_all(&folder).unwrap();

@@ -30,16 +30,10 @@ pub fn draw_record(
     options: &DrawingOptions,
 ) -> Result<(), Failure> {
     let record: CycleRecord = read_record(folder.path())?;
-    let (waves, search) = (
-        "limit cycles are rotating waves, which",
-        "limit cycles are sought in",
-    );
+    let (waves, search) = ("limit cycles are rotating waves, which", "limit cycles are sought in");
     let specification = &case.require_annulus(waves, search)?.specification;
     let annulus = AnnulusMesh::generate(specification).map_err(Failure::usage)?;
-    let waves = record
-        .families
-        .iter()
-        .filter_map(|family| family.cycle.as_ref());
+    let waves = record.families.iter().filter_map(|family| family.cycle.as_ref());
     let mut fields = waves.flat_map(|wave| [&wave.displacement_field, &wave.velocity_field]);
     let dofs = 2 * annulus.mesh.node_count();
     refuse_misfit(folder.path(), fields.all(|field| field.len() == dofs))?;

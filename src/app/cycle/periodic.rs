@@ -28,9 +28,7 @@ fn keep(
     result: &PeriodicResult,
 ) -> Result<(), FolderError> {
     let summary = summary_of(report, result);
-    folder.write(&kept_name(result), |out| {
-        Ok(serde_json::to_writer_pretty(out, &summary)?)
-    })?;
+    folder.write(&kept_name(result), |out| Ok(serde_json::to_writer_pretty(out, &summary)?))?;
     Ok(())
 }
 
@@ -94,9 +92,9 @@ pub fn draw_record(
         _ => None,
     };
     let mesh = case.mesh().map_err(Failure::usage)?;
-    let whole = sector.as_ref().map_or(mesh.node_count(), |sector| {
-        sector.node_count() * sector.sector_count()
-    });
+    let whole = sector
+        .as_ref()
+        .map_or(mesh.node_count(), |sector| sector.node_count() * sector.sector_count());
     let dofs = case.body.dimension() * whole;
     let mut cycles = record.cycles.iter();
     let is_own = record.nodes.iter().all(|&node| (node as usize) < whole)
@@ -110,9 +108,7 @@ pub fn draw_record(
         record: &record,
         mesh: &mesh,
         solid: sector.as_ref(),
-        surfaces: contacts
-            .map(|own| (own.name.clone(), own.surface))
-            .collect(),
+        surfaces: contacts.map(|own| (own.name.clone(), own.surface)).collect(),
         materials: case.materials(),
     };
     draw(folder, &data, summary, options)?;

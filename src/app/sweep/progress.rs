@@ -17,10 +17,7 @@ impl SweepProgress {
     /// Progress over `points` points; with `quiet` only failures are told.
     pub fn new(quiet: bool, points: usize) -> Self {
         let template = "sweep [{bar:40}] {count} points  {elapsed_precise}{left}\n{wide_msg}";
-        Self {
-            bar: progress_in(quiet, points as u64, template),
-            in_flight: Mutex::default(),
-        }
+        Self { bar: progress_in(quiet, points as u64, template), in_flight: Mutex::default() }
     }
 
     /// A point that was finished already, or that another process runs.
@@ -43,8 +40,7 @@ impl SweepProgress {
         self.bar.inc(1);
         let (point, swept) = (record.point, swept_text(&record.swept));
         if let Some(error) = &record.error {
-            self.bar
-                .suspend(|| tracing::warn!("point {point} failed ({swept}): {error}"));
+            self.bar.suspend(|| tracing::warn!("point {point} failed ({swept}): {error}"));
         } else if self.bar.is_hidden() {
             tracing::info!("point {point} ({swept}): {wall_s:.1} s");
         }
@@ -62,10 +58,8 @@ impl SweepProgress {
             Err(poisoned) => poisoned.into_inner(),
         };
         edit(&mut in_flight);
-        let texts: Vec<String> = in_flight
-            .iter()
-            .map(|(point, swept)| format!("{point}: {swept}"))
-            .collect();
+        let texts: Vec<String> =
+            in_flight.iter().map(|(point, swept)| format!("{point}: {swept}")).collect();
         self.bar.set_message(texts.join("  |  "));
     }
 }

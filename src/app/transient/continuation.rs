@@ -27,11 +27,7 @@ pub fn reopen(session: &Session) -> Result<OutputFolder, Failure> {
         Ok(found) if found.command == ours.command && found.case_hash != ours.case_hash => found,
         _ => return session.reopen_folder(),
     };
-    let theirs = RawCase::parse(
-        &found.case_file,
-        found.case_text.as_bytes(),
-        &found.overrides,
-    )?;
+    let theirs = RawCase::parse(&found.case_file, found.case_text.as_bytes(), &found.overrides)?;
     let here = session.case.raw.without(&FREE);
     if let Some(difference) = here.difference(&theirs.without(&FREE)) {
         return Err(Failure::usage(format!(
@@ -54,10 +50,7 @@ pub fn find(session: &Session, folder: &OutputFolder) -> Result<Option<Checkpoin
     match read_checkpoint(folder.path(), &run_hash(session), &session.manifest.simd) {
         Ok(checkpoint) => Ok(Some(checkpoint)),
         Err(CheckpointError::Missing { path }) => {
-            tracing::warn!(
-                "{} does not exist: starting from the beginning",
-                path.display()
-            );
+            tracing::warn!("{} does not exist: starting from the beginning", path.display());
             Ok(None)
         }
         Err(error) => Err(Failure::usage(error)),

@@ -137,12 +137,7 @@ impl Case {
                 )
             }
         };
-        CeaCost {
-            friction_values,
-            modes,
-            memory_bytes: PROGRAM_BYTES + memory_bytes,
-            seconds,
-        }
+        CeaCost { friction_values, modes, memory_bytes: PROGRAM_BYTES + memory_bytes, seconds }
     }
 
     pub(super) fn cycle_cost(&self, cycle: &Cycle, size: &Size) -> CycleCost {

@@ -9,9 +9,7 @@ impl Case {
         let mesh = self.larger_count();
         let own = match command {
             "cea" => cost.cea.map(|cea| (cea.memory_bytes, mesh)),
-            "transient" => cost
-                .transient
-                .map(|run| (run.memory_bytes, self.record_key())),
+            "transient" => cost.transient.map(|run| (run.memory_bytes, self.record_key())),
             "cycle" => cost.cycle.map(|cycle| {
                 let phases = self.cycle.as_ref().and_then(|cycle| cycle.phases);
                 let key = match phases {
@@ -21,20 +19,16 @@ impl Case {
                 (cycle.memory_bytes, key)
             }),
             "frf" => cost.frf.map(|frf| (frf.memory_bytes, mesh)),
-            "sweep" => self
-                .sweep_cost()
-                .map(|sweep| (sweep.memory_bytes - cost.mesh_memory_bytes, mesh)),
-            "convergence" => self
-                .convergence_cost()
-                .map(|study| (study.memory_bytes, "convergence.factors")),
+            "sweep" => {
+                self.sweep_cost().map(|sweep| (sweep.memory_bytes - cost.mesh_memory_bytes, mesh))
+            }
+            "convergence" => {
+                self.convergence_cost().map(|study| (study.memory_bytes, "convergence.factors"))
+            }
             _ => None,
         };
         let (bytes, key) = own.unwrap_or((0.0, mesh));
-        let blamed = if bytes > cost.mesh_memory_bytes {
-            key
-        } else {
-            mesh
-        };
+        let blamed = if bytes > cost.mesh_memory_bytes { key } else { mesh };
         (cost.mesh_memory_bytes + bytes.max(0.0), blamed)
     }
 

@@ -33,10 +33,7 @@ impl Size {
                 let shaft = annulus.materials.shaft.map(|shaft| shaft.elastic);
                 of_disc.max(shaft_frequency(grid, shaft.as_ref()))
             }
-            Body::Revolution(Revolution {
-                specification,
-                material,
-            }) => {
+            Body::Revolution(Revolution { specification, material }) => {
                 let through = specification.axial_elements as f64 / specification.thickness;
                 grid_frequency(&specification.annulus, material, through)
             }
@@ -91,11 +88,8 @@ fn grid_frequency(grid: &AnnulusSpecification, material: &ElasticMaterial, throu
     let count = grid.radial_elements as f64;
     let width = grid.outer_radius - grid.inner_radius;
     let log = grid.radial_grading.ln();
-    let first = if log == 0.0 {
-        width / count
-    } else {
-        width * log.exp_m1() / (count * log).exp_m1()
-    };
+    let first =
+        if log == 0.0 { width / count } else { width * log.exp_m1() / (count * log).exp_m1() };
     let last = first * ((count - 1.0) * log).exp();
     let around = |radius: f64| TAU * radius / grid.circumferential_elements as f64;
     let inner = (1.0 / first).hypot(1.0 / around(grid.inner_radius + 0.5 * first));

@@ -18,9 +18,7 @@ impl Section<'_> {
             );
         }
         let words = items.iter();
-        words
-            .filter_map(|item| self.read_choice(key, item))
-            .collect()
+        words.filter_map(|item| self.read_choice(key, item)).collect()
     }
 
     /// Texts: one or a list; empty where it is not given.
@@ -39,13 +37,11 @@ impl Section<'_> {
     /// One of a few words; the default where the key is left out or wrong.
     pub fn choice<T: Choice>(&self, key: &str) -> T {
         let given = self.item(key);
-        given
-            .and_then(|item| self.read_choice(key, item))
-            .unwrap_or_else(|| {
-                let default = self.declared(key).default_text().trim_matches('"');
-                let found = T::WORDS.iter().find(|pair| pair.0 == default);
-                found.map_or(T::WORDS[0].1, |pair| pair.1)
-            })
+        given.and_then(|item| self.read_choice(key, item)).unwrap_or_else(|| {
+            let default = self.declared(key).default_text().trim_matches('"');
+            let found = T::WORDS.iter().find(|pair| pair.0 == default);
+            found.map_or(T::WORDS[0].1, |pair| pair.1)
+        })
     }
 
     /// The name of a numeric case key.

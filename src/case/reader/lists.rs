@@ -92,11 +92,7 @@ impl<'a> Section<'a> {
                 return None;
             };
             let values = items.iter();
-            return Some(
-                values
-                    .filter_map(|item| self.read_number(key, item, bound))
-                    .collect(),
-            );
+            return Some(values.filter_map(|item| self.read_number(key, item, bound)).collect());
         };
         if let RawValue::Table(table) = &item.value {
             return Some(self.range(key, table, item, bound));
@@ -107,11 +103,7 @@ impl<'a> Section<'a> {
             return Some(Vec::new());
         }
         let values = item.listed().iter();
-        Some(
-            values
-                .filter_map(|item| self.read_number(key, item, bound))
-                .collect(),
-        )
+        Some(values.filter_map(|item| self.read_number(key, item, bound)).collect())
     }
 
     /// A list of lists of numbers; `None` where the key is left out or a word.
@@ -122,9 +114,7 @@ impl<'a> Section<'a> {
         }
         let of_one = |item: &RawItem| -> Vec<f64> {
             let values = item.listed().iter();
-            values
-                .filter_map(|item| self.read_number(key, item, Bound::Finite))
-                .collect()
+            values.filter_map(|item| self.read_number(key, item, Bound::Finite)).collect()
         };
         Some(item.listed().iter().map(of_one).collect())
     }

@@ -13,20 +13,14 @@ pub(in crate::case) enum NodePlace {
     /// As the nearest to a point, m; on the top face of a body of revolution where no `z` is given.
     Point([f64; 2], Option<f64>),
     /// As the nearest to a radius, m, and an angle about the axis, rad.
-    Polar {
-        radius: f64,
-        angle: f64,
-        z: Option<f64>,
-    },
+    Polar { radius: f64, angle: f64, z: Option<f64> },
 }
 
 impl<'a> Section<'a> {
     /// A list of nodes, each with its place in the case.
     pub fn nodes(&self, key: &str) -> Vec<(NodePlace, Location)> {
         let items = self.item(key).map_or(&[][..], RawItem::listed).iter();
-        items
-            .filter_map(|item| Some((self.read_node(key, item)?, item.at.clone())))
-            .collect()
+        items.filter_map(|item| Some((self.read_node(key, item)?, item.at.clone()))).collect()
     }
 
     /// One node; none where it is not given or wrong.
@@ -46,11 +40,9 @@ impl<'a> Section<'a> {
         place.close();
         let found = match (x, y, radius, angle) {
             (Some(x), Some(y), None, None) => NodePlace::Point([x, y], z),
-            (None, None, Some(radius), Some(angle)) => NodePlace::Polar {
-                radius,
-                angle: angle.to_radians(),
-                z,
-            },
+            (None, None, Some(radius), Some(angle)) => {
+                NodePlace::Polar { radius, angle: angle.to_radians(), z }
+            }
             _ => {
                 let wanted = "must be { x, y } or { radius, angle_deg }, with z on solid bodies";
                 self.reject_at(item, key, wanted);

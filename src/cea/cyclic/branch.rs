@@ -11,11 +11,7 @@ use std::convert::Infallible;
 
 /// `theta` of the path that carries a wave of eigenvalue `lambda`.
 pub(super) fn path_theta(problem: &HarmonicProblem, is_backward: bool, lambda: c64) -> c64 {
-    let own = if problem.is_proportional() {
-        problem.rayleigh.kappa(lambda)
-    } else {
-        lambda
-    };
+    let own = if problem.is_proportional() { problem.rayleigh.kappa(lambda) } else { lambda };
     if is_backward { own.conj() } else { own }
 }
 
@@ -59,22 +55,14 @@ pub(super) fn direction_of(problem: &HarmonicProblem, waves: Waves, sliding_dire
 
 /// `lambda` (`Im >= 0`) and `d lambda / d theta` of a wave, from the path's `theta`.
 pub(super) fn eigenvalue_of(problem: &HarmonicProblem, waves: Waves, theta: c64) -> (c64, c64) {
-    let own = if waves == Waves::Backward {
-        theta.conj()
-    } else {
-        theta
-    };
+    let own = if waves == Waves::Backward { theta.conj() } else { theta };
     (problem.eigenvalue(own), problem.eigenvalue_slope(own))
 }
 
 /// A wave of a path at one of its points.
 fn point_of(problem: &HarmonicProblem, waves: Waves, pair: &Eigenpair) -> BranchPoint {
     let (eigenvalue, slope) = eigenvalue_of(problem, waves, pair.theta);
-    let rate = if waves == Waves::Backward {
-        pair.rate.conj()
-    } else {
-        pair.rate
-    };
+    let rate = if waves == Waves::Backward { pair.rate.conj() } else { pair.rate };
     BranchPoint {
         friction_coefficient: pair.parameter,
         eigenvalue,
@@ -93,24 +81,13 @@ fn branch_of(
         harmonic: problem.harmonic,
         branch: path.branch,
         direction: direction_of(problem, waves, sliding_direction),
-        points: path
-            .points
-            .iter()
-            .map(|p| point_of(problem, waves, p))
-            .collect(),
+        points: path.points.iter().map(|p| point_of(problem, waves, p)).collect(),
         intervals: Vec::new(),
     };
-    let mut solver = WaveSolver {
-        follower: Follower::new(problem),
-        waves,
-        problem,
-    };
+    let mut solver = WaveSolver { follower: Follower::new(problem), waves, problem };
     let Ok(found) = instabilities(&mut solver, &branch.points);
     let name = (branch.harmonic, branch.branch, branch.direction);
-    branch.intervals = found
-        .iter()
-        .map(|i| i.interval(name, |point| *point))
-        .collect();
+    branch.intervals = found.iter().map(|i| i.interval(name, |point| *point)).collect();
     branch
 }
 

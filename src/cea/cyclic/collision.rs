@@ -82,16 +82,8 @@ fn pair_near(
     // Sideways when they are a conjugate pair, along the axis when they are real.
     let difference = first.theta - second.theta;
     let is_pair = difference.im.abs() > difference.re.abs();
-    let is_ordered = if is_pair {
-        difference.im > 0.0
-    } else {
-        difference.re < 0.0
-    };
-    Some(if is_ordered {
-        [first, second]
-    } else {
-        [second, first]
-    })
+    let is_ordered = if is_pair { difference.im > 0.0 } else { difference.re < 0.0 };
+    Some(if is_ordered { [first, second] } else { [second, first] })
 }
 
 /// Eigenvalues of the projection on the two-dimensional space that inverse iteration at `shift` finds.
@@ -127,14 +119,8 @@ fn invariant_pair(
     let linear = k11 * m22 + m11 * k22 - k12 * m21 - m12 * k21;
     let constant = k11 * k22 - k12 * k21;
     let root = (linear * linear - 4.0 * quadratic * constant).sqrt();
-    let roots = [
-        (root - linear) / (2.0 * quadratic),
-        (-root - linear) / (2.0 * quadratic),
-    ];
-    roots
-        .iter()
-        .all(|r| r.re.is_finite() && r.im.is_finite())
-        .then(|| roots.map(|r| shift + r))
+    let roots = [(root - linear) / (2.0 * quadratic), (-root - linear) / (2.0 * quadratic)];
+    roots.iter().all(|r| r.re.is_finite() && r.im.is_finite()).then(|| roots.map(|r| shift + r))
 }
 
 fn orthonormalize(pair: &mut [Vec<c64>; 2]) {

@@ -43,9 +43,7 @@ pub(super) fn verify(
     let region = region(tangent, limit);
     let friction = checks.iter().copied().fold(0.0, f64::max);
     let is_followed = |n: &usize| followed.iter().any(|paths| paths.problem.harmonic == *n);
-    let others: Vec<usize> = (0..=tangent.largest_harmonic())
-        .filter(|n| !is_followed(n))
-        .collect();
+    let others: Vec<usize> = (0..=tangent.largest_harmonic()).filter(|n| !is_followed(n)).collect();
     let tangential = tangent.tangential_unknowns();
     let verdicts: Vec<(usize, bool, bool)> = others
         .into_par_iter()
@@ -55,9 +53,7 @@ pub(super) fn verify(
                 && definite::is_empty(&harmonic, &tangential, friction, region);
             let problem = HarmonicProblem::new(harmonic, tangent.is_standing(n));
             let is_empty = is_proven
-                || checks
-                    .iter()
-                    .all(|&mu| missed(&problem, None, limit, region, mu) == Some(0));
+                || checks.iter().all(|&mu| missed(&problem, None, limit, region, mu) == Some(0));
             (n, is_proven, is_empty)
         })
         .collect();
@@ -86,10 +82,7 @@ pub(super) fn verify(
 /// the edge of that rectangle.
 fn region(tangent: &SectorTangent, limit: f64) -> Region {
     let rayleigh = tangent.rayleigh();
-    let mut region = Region {
-        real: 0.0,
-        imaginary: 0.0,
-    };
+    let mut region = Region { real: 0.0, imaginary: 0.0 };
     for lambda in rectangle(0.0, limit, WIDEST_GROWTH * limit, 64) {
         let kappa = rayleigh.kappa(lambda);
         region.real = region.real.max(1.001 * kappa.re);
@@ -100,13 +93,8 @@ fn region(tangent: &SectorTangent, limit: f64) -> Region {
 
 /// Points on the edge of `|Re| <= half_width`, `low <= Im <= high`, counter-clockwise.
 fn rectangle(low: f64, high: f64, half_width: f64, count: usize) -> Vec<c64> {
-    let corners = [
-        (-half_width, low),
-        (half_width, low),
-        (half_width, high),
-        (-half_width, high),
-    ]
-    .map(|(re, im)| c64::new(re, im));
+    let corners = [(-half_width, low), (half_width, low), (half_width, high), (-half_width, high)]
+        .map(|(re, im)| c64::new(re, im));
     let per_side = count / 4;
     (0..4)
         .flat_map(|side| {
@@ -140,20 +128,10 @@ fn missed(
     };
     let edge = if problem.is_proportional() {
         // Turned by a right angle: the rectangle's "height" is Re(kappa).
-        let edge = rectangle(
-            -1e-3 * region.real,
-            region.real,
-            region.imaginary,
-            EDGE_POINTS,
-        );
+        let edge = rectangle(-1e-3 * region.real, region.real, region.imaginary, EDGE_POINTS);
         edge.into_iter().map(|p| c64::new(p.im, -p.re)).collect()
     } else {
-        rectangle(
-            SLOWEST * limit,
-            limit,
-            WIDEST_GROWTH * limit,
-            2 * EDGE_POINTS,
-        )
+        rectangle(SLOWEST * limit, limit, WIDEST_GROWTH * limit, 2 * EDGE_POINTS)
     };
     search.winding(&edge)
 }
@@ -163,9 +141,7 @@ fn known(paths: &HarmonicPaths, mu: f64) -> (Vec<c64>, Vec<c64>) {
     let problem = &paths.problem;
     let (mut at_rest, mut now) = (Vec::new(), Vec::new());
     for path in &paths.paths {
-        let rest = path
-            .rest
-            .expect("branches of the plane annulus start at rest");
+        let rest = path.rest.expect("branches of the plane annulus start at rest");
         let point = path.points.iter().find(|p| p.parameter == mu);
         let theta = point.map(|p| p.theta);
         if problem.is_proportional() {
@@ -201,17 +177,11 @@ impl Search<'_> {
         self.problem.assemble(&self.now, theta, &mut self.values);
         self.lu.factorize(&self.values);
         let mut phase = self.lu.determinant_argument();
-        self.problem
-            .assemble(&self.at_rest, theta, &mut self.values);
+        self.problem.assemble(&self.at_rest, theta, &mut self.values);
         self.lu.factorize(&self.values);
         phase -= self.lu.determinant_argument();
         phase -= self.known.iter().map(|k| (theta - k).arg()).sum::<f64>();
-        phase
-            + self
-                .known_at_rest
-                .iter()
-                .map(|k| (theta - k).arg())
-                .sum::<f64>()
+        phase + self.known_at_rest.iter().map(|k| (theta - k).arg()).sum::<f64>()
     }
 
     fn winding(&mut self, edge: &[c64]) -> Option<i64> {

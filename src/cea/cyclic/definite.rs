@@ -68,10 +68,7 @@ impl<'a> TestSpace<'a> {
         }
         let dimension = tangent.mass[0].dimension();
         let products = |psi: &[f64], matrices: &[BandedMatrix]| -> Vec<Vec<f64>> {
-            matrices
-                .iter()
-                .map(|matrix| multiply_left(psi, matrix))
-                .collect()
+            matrices.iter().map(|matrix| multiply_left(psi, matrix)).collect()
         };
         let (mut stiffness, mut mass) = (Vec::new(), Vec::new());
         for &row in tangential {
@@ -88,9 +85,7 @@ impl<'a> TestSpace<'a> {
         Some(Self {
             tangent,
             tangential,
-            others: (0..dimension)
-                .filter(|dof| !tangential.contains(dof))
-                .collect(),
+            others: (0..dimension).filter(|dof| !tangential.contains(dof)).collect(),
             stiffness,
             mass,
         })
@@ -106,11 +101,9 @@ impl<'a> TestSpace<'a> {
             return false;
         };
         [0.0, region.real].into_iter().all(|real| {
-            [-region.imaginary, region.imaginary]
-                .into_iter()
-                .all(|imaginary| {
-                    self.schur_is_definite(&factor, weights, c64::new(real, imaginary))
-                })
+            [-region.imaginary, region.imaginary].into_iter().all(|imaginary| {
+                self.schur_is_definite(&factor, weights, c64::new(real, imaginary))
+            })
         })
     }
 
@@ -173,11 +166,7 @@ impl<'a> TestSpace<'a> {
         let unit = units();
         let mut result = vec![ZERO; self.tangent.mass[0].dimension()];
         let terms = [
-            (
-                &self.tangent.stiffness,
-                &self.stiffness[index],
-                c64::new(1.0, 0.0),
-            ),
+            (&self.tangent.stiffness, &self.stiffness[index], c64::new(1.0, 0.0)),
             (&self.tangent.mass, &self.mass[index], -kappa),
         ];
         for (matrices, tested, factor) in terms {
@@ -200,10 +189,7 @@ impl<'a> TestSpace<'a> {
         let column = self.tangential[index];
         let unit = units();
         let mut result = vec![ZERO; self.tangent.mass[0].dimension()];
-        let terms = [
-            (&self.tangent.stiffness, c64::new(1.0, 0.0)),
-            (&self.tangent.mass, -kappa),
-        ];
+        let terms = [(&self.tangent.stiffness, c64::new(1.0, 0.0)), (&self.tangent.mass, -kappa)];
         for (matrices, factor) in terms {
             for (k, matrix) in matrices.iter().enumerate() {
                 let factor = factor * unit[k] * weights[k];
@@ -288,10 +274,7 @@ mod tests {
     #[test]
     fn friction_much_stronger_than_the_stiffness_does_not_spoil_the_proof() {
         // Hermitian parts alone would need |coupling| < 2 sqrt(4 * 5).
-        let region = Region {
-            real: 0.05,
-            imaginary: 0.02,
-        };
+        let region = Region { real: 0.05, imaginary: 0.02 };
         assert!(is_empty(&example(12.0), &[0], 1.0, region));
     }
 }

@@ -20,16 +20,8 @@ pub(super) struct StepControl {
 }
 
 impl StepControl {
-    pub const NORMAL: Self = Self {
-        least_overlap: 0.8,
-        largest_defect: 1e-4,
-        shortest: 1e-6,
-    };
-    pub const FINE: Self = Self {
-        least_overlap: 0.97,
-        largest_defect: 1e-7,
-        shortest: 1e-6,
-    };
+    pub const NORMAL: Self = Self { least_overlap: 0.8, largest_defect: 1e-4, shortest: 1e-6 };
+    pub const FINE: Self = Self { least_overlap: 0.97, largest_defect: 1e-7, shortest: 1e-6 };
 }
 
 /// Solves and follows eigenpairs of one harmonic.
@@ -49,12 +41,7 @@ const MOVED: f64 = 1e-9;
 
 impl<'a> Follower<'a> {
     pub fn new(problem: &'a HarmonicProblem) -> Self {
-        Self {
-            problem,
-            lu: problem.workspace(),
-            values: Vec::new(),
-            factorizations: 0,
-        }
+        Self { problem, lu: problem.workspace(), values: Vec::new(), factorizations: 0 }
     }
 
     /// Two-sided Rayleigh quotient iteration: the error is cubed each time. `None` where it does not

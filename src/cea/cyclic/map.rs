@@ -60,13 +60,8 @@ pub fn stability_map(
     largest_friction: f64,
 ) -> Vec<StabilityMapPoint> {
     let solve = |model: &CyclicModel, request: &SweepRequest<'_>| {
-        let found = sweep(
-            &model.specification,
-            &model.material,
-            &model.options,
-            &model.contact,
-            request,
-        );
+        let found =
+            sweep(&model.specification, &model.material, &model.options, &model.contact, request);
         found.map(|found| found.sweep.intervals)
     };
     map_of(models, limit, largest_friction, solve)
@@ -91,9 +86,8 @@ pub fn map_of<M: Sync>(
     largest_friction: f64,
     solve: impl Fn(&M, &SweepRequest<'_>) -> Result<Vec<UnstableInterval>, CeaError> + Sync,
 ) -> Vec<StabilityMapPoint> {
-    let frictions: Vec<f64> = (0..=FRICTION_STEPS)
-        .map(|i| largest_friction * i as f64 / FRICTION_STEPS as f64)
-        .collect();
+    let frictions: Vec<f64> =
+        (0..=FRICTION_STEPS).map(|i| largest_friction * i as f64 / FRICTION_STEPS as f64).collect();
     let request = SweepRequest {
         friction_coefficients: &frictions,
         limit,

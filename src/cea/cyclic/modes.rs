@@ -38,14 +38,7 @@ pub(super) fn point(
     for paths in followed {
         for path in &paths.paths {
             for &waves in waves_of(path.waves) {
-                modes.extend(mode(
-                    producer,
-                    &paths.problem,
-                    path,
-                    waves,
-                    friction,
-                    request,
-                ));
+                modes.extend(mode(producer, &paths.problem, path, waves, friction, request));
             }
         }
     }
@@ -55,15 +48,9 @@ pub(super) fn point(
         by_frequency.then_with(|| key(a).cmp(&key(b)))
     });
     if let ModeLimit::Lowest(count) = request.limit {
-        modes.truncate(keeping_ties(
-            modes.iter().map(|mode| mode.eigenvalue.im),
-            count,
-        ));
+        modes.truncate(keeping_ties(modes.iter().map(|mode| mode.eigenvalue.im), count));
     }
-    FrictionPoint {
-        friction_coefficient: friction,
-        modes,
-    }
+    FrictionPoint { friction_coefficient: friction, modes }
 }
 
 /// One wave of a path at one friction value, if it oscillates below the limit.
@@ -75,10 +62,7 @@ fn mode(
     friction: f64,
     request: &SweepRequest<'_>,
 ) -> Option<ComplexMode> {
-    let found = path
-        .points
-        .binary_search_by(|p| p.parameter.total_cmp(&friction))
-        .ok()?;
+    let found = path.points.binary_search_by(|p| p.parameter.total_cmp(&friction)).ok()?;
     let pair = &path.points[found];
     let (eigenvalue, _) = eigenvalue_of(problem, waves, pair.theta);
     if let ModeLimit::MaxFrequency(limit) = request.limit
@@ -124,16 +108,8 @@ pub(super) fn expand(
     let zero = c64::new(0.0, 0.0);
     let mut wave = vec![[zero; 2]; per_sector];
     for (&dof, value) in tangent.unknowns().iter().zip(x) {
-        let turned = if dof % 2 == 0 {
-            *value
-        } else {
-            value * c64::new(0.0, 1.0)
-        };
-        let value = if waves == Waves::Backward {
-            turned.conj()
-        } else {
-            turned
-        };
+        let turned = if dof % 2 == 0 { *value } else { value * c64::new(0.0, 1.0) };
+        let value = if waves == Waves::Backward { turned.conj() } else { turned };
         wave[sector.numbering[dof / 2]][dof % 2] = value;
     }
     // Of a pair the unknown is the distance between the two bodies.
@@ -144,15 +120,8 @@ pub(super) fn expand(
         }
     }
     let size = |u: &[c64; 2]| u[0].norm_sqr() + u[1].norm_sqr();
-    let peak = wave.iter().fold(
-        [zero; 2],
-        |best, u| if size(u) > size(&best) { *u } else { best },
-    );
-    let larger = if peak[0].norm() >= peak[1].norm() {
-        peak[0]
-    } else {
-        peak[1]
-    };
+    let peak = wave.iter().fold([zero; 2], |best, u| if size(u) > size(&best) { *u } else { best });
+    let larger = if peak[0].norm() >= peak[1].norm() { peak[0] } else { peak[1] };
     let scale = larger.conj() / (larger.norm() * size(&peak).sqrt());
     let mut half_steps = vec![0; per_sector];
     for (node, &place) in sector.numbering.iter().enumerate() {

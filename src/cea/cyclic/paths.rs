@@ -20,9 +20,7 @@ impl HarmonicPaths {
     /// Whether every path oscillates up to the largest friction coefficient.
     pub fn are_whole(&self) -> bool {
         let ends = self.paths.iter().filter_map(|path| path.points.last());
-        !ends
-            .into_iter()
-            .any(|end| self.problem.is_ending(end.theta))
+        !ends.into_iter().any(|end| self.problem.is_ending(end.theta))
     }
 }
 
@@ -59,11 +57,7 @@ pub(super) fn follow_pairs(
     let paths = follow_all(&mut follower, pairs, grid, kept, StepControl::NORMAL)
         .or_else(|_| follow_all(&mut follower, pairs, grid, kept, StepControl::FINE))?;
     let factorizations = follower.factorizations;
-    Ok(HarmonicPaths {
-        paths,
-        problem,
-        factorizations,
-    })
+    Ok(HarmonicPaths { paths, problem, factorizations })
 }
 
 fn follow_all(
@@ -74,10 +68,7 @@ fn follow_all(
     control: StepControl,
 ) -> Result<Vec<Path>, CeaError> {
     let problem = follower.problem;
-    let lost = |friction: f64| CeaError::LostHarmonic {
-        harmonic: problem.harmonic,
-        friction,
-    };
+    let lost = |friction: f64| CeaError::LostHarmonic { harmonic: problem.harmonic, friction };
     let at_rest = Rc::new(problem.at(0.0));
     let mut paths = Vec::new();
     for (branch, (kappa, shape)) in pairs.iter().enumerate() {
@@ -88,11 +79,7 @@ fn follow_all(
         // Most branches reach the grid value in one step and share its matrices.
         let shared = Rc::new(problem.at(friction));
         let mut matrices = |value: f64| {
-            if value == friction {
-                Rc::clone(&shared)
-            } else {
-                Rc::new(problem.at(value))
-            }
+            if value == friction { Rc::clone(&shared) } else { Rc::new(problem.at(value)) }
         };
         let reached: Vec<usize> = paths.iter().map(|path| path.points.len()).collect();
         for index in 0..paths.len() {
@@ -177,11 +164,7 @@ pub(super) fn start(
         points: vec![point],
     };
     if problem.is_proportional() {
-        let waves = if problem.is_standing {
-            Waves::Forward
-        } else {
-            Waves::Both
-        };
+        let waves = if problem.is_standing { Waves::Forward } else { Waves::Both };
         let point = follower.at_rest(at_rest, c64::new(kappa, 0.0), x);
         return Some(vec![path(waves, point)]);
     }

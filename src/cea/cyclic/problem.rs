@@ -176,11 +176,7 @@ impl HarmonicProblem {
         let root = (c * c - m * k * 4.0).sqrt();
         let candidates = [(root - c) / (m * 2.0), (-root - c) / (m * 2.0)];
         let distance = |candidate: c64| (candidate - theta).norm();
-        let nearest = if distance(candidates[0]) <= distance(candidates[1]) {
-            0
-        } else {
-            1
-        };
+        let nearest = if distance(candidates[0]) <= distance(candidates[1]) { 0 } else { 1 };
         let theta = candidates[nearest];
         (theta, m * theta * 2.0 + c)
     }
@@ -189,11 +185,7 @@ impl HarmonicProblem {
     pub fn rate_of(&self, at: &Matrices, theta: c64, x: &[c64], y: &[c64], slope: c64) -> c64 {
         let [a, b, _, _] = self.factors(theta);
         let one = c64::new(1.0, 0.0);
-        let terms = [
-            (a, &at.mass_rate),
-            (b, &at.damping_rate),
-            (one, &at.stiffness_rate),
-        ];
+        let terms = [(a, &at.mass_rate), (b, &at.damping_rate), (one, &at.stiffness_rate)];
         let change: c64 = terms
             .into_iter()
             .filter_map(|(factor, values)| values.as_ref().map(|v| (factor, v)))
@@ -218,10 +210,7 @@ impl HarmonicProblem {
         let force = self.apply(at, theta, x);
         let (lambda, factor) = if self.is_proportional() {
             let lambda = self.eigenvalue(theta);
-            (
-                lambda,
-                (1.0 + self.rayleigh.stiffness_coefficient * lambda).norm(),
-            )
+            (lambda, (1.0 + self.rayleigh.stiffness_coefficient * lambda).norm())
         } else {
             (theta, 1.0)
         };
@@ -256,17 +245,11 @@ impl HarmonicProblem {
             return at.norms[1];
         };
         let h = self.half_bandwidth;
-        let sums = damping
-            .chunks_exact(2 * h + 1)
-            .enumerate()
-            .map(|(row, band)| {
-                let (first, last) = (row.saturating_sub(h), (row + h + 1).min(self.dimension));
-                let entries = band[first + h - row..last + h - row].iter();
-                entries
-                    .zip(&x[first..last])
-                    .map(|(c, x)| c.norm() * x.norm())
-                    .sum::<f64>()
-            });
+        let sums = damping.chunks_exact(2 * h + 1).enumerate().map(|(row, band)| {
+            let (first, last) = (row.saturating_sub(h), (row + h + 1).min(self.dimension));
+            let entries = band[first + h - row..last + h - row].iter();
+            entries.zip(&x[first..last]).map(|(c, x)| c.norm() * x.norm()).sum::<f64>()
+        });
         sums.fold(0.0, f64::max) / largest(x)
     }
 
@@ -280,11 +263,7 @@ impl HarmonicProblem {
             })
         };
         let none = vec![ZERO; at.mass.len()];
-        [
-            full(&at.mass),
-            full(at.damping.as_deref().unwrap_or(&none)),
-            full(&at.stiffness),
-        ]
+        [full(&at.mass), full(at.damping.as_deref().unwrap_or(&none)), full(&at.stiffness)]
     }
 
     /// Kinetic energy of the contact edge's nodes over the whole, see [`crate::cea::ComplexMode`].
@@ -355,8 +334,7 @@ impl HarmonicProblem {
         if !self.is_proportional() {
             return c64::new(1.0, 0.0);
         }
-        self.rayleigh
-            .eigenvalue_slope(self.eigenvalue(theta), theta)
+        self.rayleigh.eigenvalue_slope(self.eigenvalue(theta), theta)
     }
 
     /// `factor A x` or `factor A^H x` of a band of values.
@@ -391,11 +369,7 @@ impl HarmonicProblem {
 
 /// `P(z)`.
 fn evaluate(polynomial: &FrictionPolynomial, z: c64) -> Vec<c64> {
-    let mut values: Vec<c64> = polynomial[0]
-        .values()
-        .iter()
-        .map(|v| c64::new(*v, 0.0))
-        .collect();
+    let mut values: Vec<c64> = polynomial[0].values().iter().map(|v| c64::new(*v, 0.0)).collect();
     let mut power = z;
     for coefficient in &polynomial[1..] {
         for (value, v) in values.iter_mut().zip(coefficient.values()) {

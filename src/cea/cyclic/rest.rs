@@ -90,9 +90,8 @@ impl Search<'_> {
     ) -> Option<(f64, Vec<f64>)> {
         let mut shift = 0.5 * (low + high);
         // Any vector with a part along every mode will do; this one is not symmetric in anything.
-        let mut x: Vec<f64> = (0..self.mass.dimension())
-            .map(|i| 1.0 + (1.7 * i as f64).sin())
-            .collect();
+        let mut x: Vec<f64> =
+            (0..self.mass.dimension()).map(|i| 1.0 + (1.7 * i as f64).sin()).collect();
         let earlier: Vec<Vec<f64>> = match is_pinned {
             true => self.found.iter().map(|(_, x)| x.clone()).collect(),
             false => Vec::new(),

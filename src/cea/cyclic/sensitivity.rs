@@ -137,18 +137,12 @@ pub(super) struct Wave {
 
 impl Wave {
     pub fn of(branch: &ModeBranch, sliding_direction: f64) -> Self {
-        Self {
-            is_backward: f64::from(branch.direction) * sliding_direction > 0.0,
-        }
+        Self { is_backward: f64::from(branch.direction) * sliding_direction > 0.0 }
     }
 
     /// What belongs to the branch of what belongs to the wave `+n`, and the other way round.
     pub fn own(self, value: c64) -> c64 {
-        if self.is_backward {
-            value.conj()
-        } else {
-            value
-        }
+        if self.is_backward { value.conj() } else { value }
     }
 }
 
@@ -166,10 +160,7 @@ fn of_branch(
     let wave = Wave::of(branch, tangent.base().sliding_direction);
     let theta = path_theta(&problem, wave.is_backward, guess);
     let found = Follower::new(&problem).find(&problem.at(friction), friction, theta);
-    let found = found.ok_or(CeaError::LostHarmonic {
-        harmonic: n,
-        friction,
-    })?;
+    let found = found.ok_or(CeaError::LostHarmonic { harmonic: n, friction })?;
     let own = wave.own(found.theta);
     let eigenvalue = problem.eigenvalue(own);
     let root = wave.own(eigenvalue);
@@ -179,11 +170,7 @@ fn of_branch(
         let dashpots = set.friction_dashpots.as_ref();
         let dashpots = dashpots.map_or(ZERO, |c| of(c));
         let damping = set.damping.as_ref().map_or(ZERO, |c| of(c));
-        [
-            of(&set.mass),
-            damping + dashpots * friction,
-            of(&set.stiffness),
-        ]
+        [of(&set.mass), damping + dashpots * friction, of(&set.stiffness)]
     };
     let rayleigh = tangent.rayleigh();
     let [m, mut c, k] = forms(&matrices);
@@ -199,13 +186,7 @@ fn of_branch(
     };
     let responses: Vec<Option<c64>> = rates.iter().map(respond).collect();
     let by_friction = problem.eigenvalue_slope(own) * wave.own(found.rate);
-    Ok(Sensitivity::new(
-        branch,
-        friction,
-        eigenvalue,
-        by_friction,
-        &responses,
-    ))
+    Ok(Sensitivity::new(branch, friction, eigenvalue, by_friction, &responses))
 }
 
 /// `y^H P(z) x`.
@@ -215,9 +196,7 @@ fn form(polynomial: &[BandedMatrix], z: c64, y: &[c64], x: &[c64]) -> c64 {
     for matrix in polynomial {
         for (row, left) in y.iter().enumerate() {
             let columns = matrix.columns(row);
-            let product: c64 = columns
-                .map(|column| x[column] * matrix.get(row, column))
-                .sum();
+            let product: c64 = columns.map(|column| x[column] * matrix.get(row, column)).sum();
             total += power * left.conj() * product;
         }
         power *= z;

@@ -126,11 +126,7 @@ pub fn onsets(
     let sector = SectorMesh::generate(specification)?;
     let tangent = SectorTangent::linearize(&sector, material, options, contact)?;
     let found = solve(&tangent, (request, &[]), &grid, MARGIN, Some(harmonics))?;
-    let unproven = Verdict {
-        proven: Vec::new(),
-        counted: Vec::new(),
-        missed: None,
-    };
+    let unproven = Verdict { proven: Vec::new(), counted: Vec::new(), missed: None };
     Ok(finish(tangent, found, unproven).sweep)
 }
 
@@ -183,9 +179,8 @@ fn solve(
         unknowns: &|_, x| x.to_vec(),
     };
     let frictions = request.friction_coefficients.iter();
-    let points: Vec<FrictionPoint> = frictions
-        .map(|&friction| point(&producer, &followed, friction, request))
-        .collect();
+    let points: Vec<FrictionPoint> =
+        frictions.map(|&friction| point(&producer, &followed, friction, request)).collect();
     let highest = points.iter().filter_map(|point| point.modes.last());
     let highest = highest.fold(0.0_f64, |top, mode| top.max(mode.eigenvalue.im));
     Ok(Found {
@@ -200,18 +195,10 @@ fn solve(
 }
 
 fn finish(tangent: SectorTangent, found: Found, verdict: Verdict) -> CyclicSweep {
-    let Found {
-        followed,
-        points,
-        limit,
-        margin,
-    } = found;
+    let Found { followed, points, limit, margin } = found;
     let coverage = Coverage {
         largest_harmonic: tangent.largest_harmonic(),
-        followed: followed
-            .iter()
-            .map(|paths| paths.problem.harmonic)
-            .collect(),
+        followed: followed.iter().map(|paths| paths.problem.harmonic).collect(),
         proven_empty: verdict.proven,
         counted_empty: verdict.counted,
         limit_hz: limit / TAU,
@@ -219,15 +206,10 @@ fn finish(tangent: SectorTangent, found: Found, verdict: Verdict) -> CyclicSweep
         factorizations: followed.iter().map(|paths| paths.factorizations).sum(),
     };
     let direction = tangent.base().sliding_direction;
-    let branches: Vec<Vec<ModeBranch>> = followed
-        .par_iter()
-        .map(|paths| branches_of(paths, direction))
-        .collect();
-    let branches: Vec<ModeBranch> = branches
-        .into_iter()
-        .flatten()
-        .filter(|branch| occurs_in(branch, &points))
-        .collect();
+    let branches: Vec<Vec<ModeBranch>> =
+        followed.par_iter().map(|paths| branches_of(paths, direction)).collect();
+    let branches: Vec<ModeBranch> =
+        branches.into_iter().flatten().filter(|branch| occurs_in(branch, &points)).collect();
     let mut intervals: Vec<_> = branches.iter().flat_map(|b| b.intervals.clone()).collect();
     intervals.sort_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction));
     CyclicSweep {
@@ -283,13 +265,9 @@ fn select_lowest(
         return Err(CeaError::TooManyModes { asked, total });
     }
     // A few low harmonics that have enough modes bound the limit from above.
-    let few: Vec<_> = (0..=tangent.largest_harmonic().min(7))
-        .map(|n| (n, tangent.harmonic_at_rest(n)))
-        .collect();
-    let enough = few
-        .iter()
-        .map(|(n, _)| waves(*n) * tangent.dimension())
-        .sum::<usize>();
+    let few: Vec<_> =
+        (0..=tangent.largest_harmonic().min(7)).map(|n| (n, tangent.harmonic_at_rest(n))).collect();
+    let enough = few.iter().map(|(n, _)| waves(*n) * tangent.dimension()).sum::<usize>();
     let enough = enough.min(asked);
     let mut bound = 1e6;
     let count = |bound: f64| -> usize {
@@ -308,9 +286,7 @@ fn select_lowest(
             .flat_map_iter(|&n| {
                 let [mass, stiffness] = tangent.harmonic_at_rest(n);
                 let pairs = rest::eigenpairs_below(&mass, &stiffness, bound);
-                pairs
-                    .into_iter()
-                    .flat_map(move |(kappa, _)| vec![kappa; waves(n)])
+                pairs.into_iter().flat_map(move |(kappa, _)| vec![kappa; waves(n)])
             })
             .collect();
         if found.len() >= asked {

@@ -180,11 +180,7 @@ impl<'a> BasisBuilder<'a> {
             } else if values[0] > 0.0 {
                 self.hold_frictionless();
             }
-            for mu in [
-                values[values.len() - 1],
-                values[0],
-                values[values.len() / 2],
-            ] {
+            for mu in [values[values.len() - 1], values[0], values[values.len() / 2]] {
                 self.improve_at(mu)?;
             }
             return Ok(());
@@ -211,10 +207,8 @@ impl<'a> BasisBuilder<'a> {
         let last = values.len() - 1;
         let angles = (0..CHEBYSHEV_POINTS).map(|i| (i as f64 + 0.5) / CHEBYSHEV_POINTS as f64);
         let positions = angles.map(|t| 0.5 - 0.5 * (t * std::f64::consts::PI).cos());
-        let mut picked: Vec<usize> = positions
-            .map(|t| (t * last as f64).round() as usize)
-            .chain([0, last])
-            .collect();
+        let mut picked: Vec<usize> =
+            positions.map(|t| (t * last as f64).round() as usize).chain([0, last]).collect();
         picked.sort_unstable();
         picked.dedup();
         let m = self.model.dimension();
@@ -242,9 +236,7 @@ impl<'a> BasisBuilder<'a> {
         let corrections = self.step(mu, |builder| {
             Ok::<_, LinalgError>(builder.corrections(builder.factors(), &modes, mu))
         })?;
-        let longest = column_norms(corrections.as_ref())
-            .into_iter()
-            .fold(0.0, f64::max);
+        let longest = column_norms(corrections.as_ref()).into_iter().fold(0.0, f64::max);
         let mut new = self.model.extend(corrections, VECTOR_TOLERANCE * longest);
         let has_added = new.ncols() > 0;
         let steps = STEPS_PER_DECADE * (longest / SHORTEST).log10();
@@ -317,10 +309,7 @@ impl<'a> BasisBuilder<'a> {
         let unknowns = self.tangent.stiffness.dimension();
         let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
         let factors = StiffnessFactors::general(self.tangent, &self.cache, mu)?;
-        let operator = ShiftInverted {
-            matrices: &matrices,
-            factors: &factors,
-        };
+        let operator = ShiftInverted { matrices: &matrices, factors: &factors };
         let settings = KrylovSchurSettings {
             wanted: Wanted::Largest(wanted),
             tolerance: 1e-11,
@@ -342,11 +331,8 @@ fn turn_to_real(vectors: &mut Mat<f64>) {
         let angle = 0.5 * (2.0 * pq).atan2(pp - qq);
         let length = (pp + qq).sqrt();
         let (cosine, sine) = (angle.cos() / length, angle.sin() / length);
-        let turned: Vec<[f64; 2]> = p
-            .iter()
-            .zip(q)
-            .map(|(p, q)| [cosine * p + sine * q, cosine * q - sine * p])
-            .collect();
+        let turned: Vec<[f64; 2]> =
+            p.iter().zip(q).map(|(p, q)| [cosine * p + sine * q, cosine * q - sine * p]).collect();
         for half in 0..2 {
             let target = column_mut(vectors, j + half).iter_mut();
             target.zip(&turned).for_each(|(v, t)| *v = t[half]);
@@ -361,10 +347,7 @@ fn spread(values: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = Vec::with_capacity(count);
     let mut denominator = 1;
     while order.len() < count {
-        for numerator in (1..=denominator)
-            .rev()
-            .filter(|n| denominator == 1 || n % 2 == 1)
-        {
+        for numerator in (1..=denominator).rev().filter(|n| denominator == 1 || n % 2 == 1) {
             let index = (count * numerator).div_ceil(denominator) - 1;
             if !order.contains(&index) {
                 order.push(index);
@@ -372,11 +355,7 @@ fn spread(values: &[f64]) -> Vec<f64> {
         }
         denominator *= 2;
         if denominator > 2 * count {
-            order.extend(
-                (0..count)
-                    .filter(|i| !order.contains(i))
-                    .collect::<Vec<_>>(),
-            );
+            order.extend((0..count).filter(|i| !order.contains(i)).collect::<Vec<_>>());
         }
     }
     order.into_iter().map(|i| values[i]).collect()

@@ -101,11 +101,7 @@ pub fn label_frictionless(
         .map(|i| {
             let harmonic = harmonics[i];
             let below = harmonics[..i].iter().filter(|&&n| n == harmonic).count();
-            let branch = if edge.is_paired(harmonic) {
-                below / 2
-            } else {
-                below
-            };
+            let branch = if edge.is_paired(harmonic) { below / 2 } else { below };
             BranchLabel { harmonic, branch }
         })
         .collect();
@@ -133,21 +129,11 @@ fn split_degenerate(
         if size > 1 {
             let cluster = &mut modes[first..first + size];
             let columns = ComplexColumns::of(cluster, model.dimension());
-            let gram = cluster_matrix(
-                cluster,
-                &columns,
-                lambda * 2.0,
-                [&at.mass, &at.damping],
-                None,
-            );
+            let gram =
+                cluster_matrix(cluster, &columns, lambda * 2.0, [&at.mass, &at.damping], None);
             let coefficients = [&rate.mass, &rate.damping];
-            let change = cluster_matrix(
-                cluster,
-                &columns,
-                lambda,
-                coefficients,
-                Some(&rate.stiffness),
-            );
+            let change =
+                cluster_matrix(cluster, &columns, lambda, coefficients, Some(&rate.stiffness));
             let gram = ComplexDenseLu::factorize(gram);
             let mut operator = change;
             let lost = rate.structural.iter().map(|h| (c64::new(0.0, 1.0), h));
@@ -200,9 +186,7 @@ fn rotate(
     gram: &ComplexDenseLu,
 ) -> Result<(), LinalgError> {
     let size = cluster.len();
-    let eigen = operator
-        .eigen()
-        .map_err(|_| LinalgError::DenseEigen { dimension: size })?;
+    let eigen = operator.eigen().map_err(|_| LinalgError::DenseEigen { dimension: size })?;
     let (values, vectors) = (eigen.S().column_vector(), eigen.U());
     let mut order: Vec<usize> = (0..size).collect();
     order.sort_by(|&i, &j| values[i].re.total_cmp(&values[j].re));
@@ -212,9 +196,7 @@ fn rotate(
     gram.solve_in_place(left.as_mut());
     ComplexDenseLu::factorize(vectors.clone()).solve_in_place(left.as_mut());
     let combine = |old: &[Vec<c64>], factor: &dyn Fn(usize) -> c64| -> Vec<c64> {
-        (0..old[0].len())
-            .map(|row| (0..size).map(|i| factor(i) * old[i][row]).sum())
-            .collect()
+        (0..old[0].len()).map(|row| (0..size).map(|i| factor(i) * old[i][row]).sum()).collect()
     };
     let rights: Vec<Vec<c64>> = cluster.iter().map(|m| m.right.clone()).collect();
     let lefts: Vec<Vec<c64>> = cluster.iter().map(|m| m.left.clone()).collect();
@@ -249,11 +231,7 @@ pub fn track(
     let mut branches: Vec<TrackedBranch> = labels
         .iter()
         .enumerate()
-        .map(|(i, &label)| TrackedBranch {
-            label,
-            modes: vec![Some(i)],
-            end: None,
-        })
+        .map(|(i, &label)| TrackedBranch { label, modes: vec![Some(i)], end: None })
         .collect();
     for k in 1..points.len() {
         let (before, after) = (&points[k - 1], &points[k]);
@@ -310,23 +288,12 @@ fn adopt_newcomers(
         }
         let check = &point.checks[i];
         let harmonic = edge.harmonic(&check.edge, check.peak);
-        let below = branches
-            .iter()
-            .filter(|b| b.label.harmonic == harmonic)
-            .count();
-        let branch = if edge.is_paired(harmonic) {
-            below / 2
-        } else {
-            below
-        };
+        let below = branches.iter().filter(|b| b.label.harmonic == harmonic).count();
+        let branch = if edge.is_paired(harmonic) { below / 2 } else { below };
         let mut modes = vec![None; k];
         modes.push(Some(i));
         let label = BranchLabel { harmonic, branch };
-        branches.push(TrackedBranch {
-            label,
-            modes,
-            end: None,
-        });
+        branches.push(TrackedBranch { label, modes, end: None });
     }
 }
 
@@ -353,17 +320,9 @@ fn match_modes(
     if !is_clear && depth < MAX_BISECTIONS {
         let modes = model.solve_between(middle, from.1.len().max(to.1.len()))?;
         let first = match_modes(from, (middle, &modes), needed, model, depth + 1)?;
-        let reached = first
-            .iter()
-            .take(needed)
-            .flatten()
-            .max()
-            .map_or(0, |&i| i + 1);
+        let reached = first.iter().take(needed).flatten().max().map_or(0, |&i| i + 1);
         let second = match_modes((middle, &modes), to, reached, model, depth + 1)?;
-        return Ok(first
-            .iter()
-            .map(|link| link.and_then(|i| second[i]))
-            .collect());
+        return Ok(first.iter().map(|link| link.and_then(|i| second[i])).collect());
     }
     if !is_clear {
         link_by_extrapolation(from, to, needed, &mut links);

@@ -51,14 +51,9 @@ impl<'a> ModeCounter<'a> {
     /// [`CeaError::Uncountable`] where stiffness depends on frequency: a table is no analytic function of `lambda`.
     pub fn new(tangent: &'a SlidingTangent) -> Result<Self, CeaError> {
         if let Some(part) = tangent.tabled.first() {
-            return Err(CeaError::Uncountable {
-                key: part.gain.table.key().to_owned(),
-            });
+            return Err(CeaError::Uncountable { key: part.gain.table.key().to_owned() });
         }
-        Ok(Self {
-            tangent,
-            analysis: DeterminantAnalysis::new(tangent.stiffness.pattern())?,
-        })
+        Ok(Self { tangent, analysis: DeterminantAnalysis::new(tangent.stiffness.pattern())? })
     }
 
     /// `ln det T(lambda; mu)`, up to multiples of `2 pi i`.
@@ -80,11 +75,8 @@ impl<'a> ModeCounter<'a> {
         region: &CountedRegion,
     ) -> Result<Winding, CeaError> {
         let problem = self.reduced(mu, known);
-        let mut edge = Edge {
-            problem: &problem,
-            scale: TAU * region.frequencies_hz[1],
-            determinants: 0,
-        };
+        let mut edge =
+            Edge { problem: &problem, scale: TAU * region.frequencies_hz[1], determinants: 0 };
         let [winding, moment] = edge.integrate(&corners(region))?.map(|sum| {
             // Of an integral over 2 pi i.
             c64::new(sum.im, -sum.re) / TAU
@@ -132,9 +124,7 @@ impl Reduced<'_> {
     fn ln_at(&self, lambda: c64) -> Result<c64, LinalgError> {
         let others = self.damping.iter().zip(&self.mass);
         let values = self.stiffness.iter().zip(others);
-        let values: Vec<c64> = values
-            .map(|(k, (c, m))| k + lambda * (lambda * *m + *c))
-            .collect();
+        let values: Vec<c64> = values.map(|(k, (c, m))| k + lambda * (lambda * *m + *c)).collect();
         let known = self.known.iter();
         let factors = known.map(|own| (lambda - own).ln() + (lambda - own.conj()).ln());
         let whole = self.analysis.ln_determinant(&values)?;
@@ -164,9 +154,8 @@ impl Edge<'_> {
     fn integrate(&mut self, corners: &[c64; 4]) -> Result<[c64; 2], CeaError> {
         let middles = [0, 1, 2, 3].map(|i| 0.5 * (corners[i] + corners[(i + 1) % 4]));
         let samples = self.samples(&[corners.as_slice(), &middles].concat())?;
-        let mut open: Vec<[Sample; 3]> = (0..4)
-            .map(|i| [samples[i], samples[4 + i], samples[(i + 1) % 4]])
-            .collect();
+        let mut open: Vec<[Sample; 3]> =
+            (0..4).map(|i| [samples[i], samples[4 + i], samples[(i + 1) % 4]]).collect();
         let (mut sums, mut pieces) = ([c64::new(0.0, 0.0); 2], open.len());
         while !open.is_empty() {
             let mut rough = Vec::new();
@@ -218,20 +207,14 @@ impl Edge<'_> {
             [at - half, at + half]
         });
         let sides: Vec<c64> = sides.collect();
-        let found: Result<Vec<c64>, LinalgError> = sides
-            .par_iter()
-            .map(|&lambda| self.problem.ln_at(lambda))
-            .collect();
+        let found: Result<Vec<c64>, LinalgError> =
+            sides.par_iter().map(|&lambda| self.problem.ln_at(lambda)).collect();
         let found = found?;
         let pairs = points.iter().zip(found.chunks(2));
         Ok(pairs
             .map(|(&at, ends)| {
                 let change = least(ends[1] - ends[0]);
-                Sample {
-                    at,
-                    ln: ends[0] + 0.5 * change,
-                    slope: change / self.step(at),
-                }
+                Sample { at, ln: ends[0] + 0.5 * change, slope: change / self.step(at) }
             })
             .collect())
     }
@@ -250,10 +233,7 @@ fn integral(piece: &[Sample; 3]) -> Option<[c64; 2]> {
     let [from, middle, to] = piece;
     let whole = to.at - from.at;
     let mut sums = [c64::new(0.0, 0.0); 2];
-    let halves = [
-        ([from, middle, to], [5.0, 8.0, -1.0]),
-        ([middle, to, from], [8.0, 5.0, -1.0]),
-    ];
+    let halves = [([from, middle, to], [5.0, 8.0, -1.0]), ([middle, to, from], [8.0, 5.0, -1.0])];
     for ([near, far, other], weights) in halves {
         let slopes = near.slope * weights[0] + far.slope * weights[1] + other.slope * weights[2];
         let predicted = whole * slopes / 24.0;

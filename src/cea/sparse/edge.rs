@@ -30,10 +30,8 @@ struct Waves {
 impl ContactEdge {
     /// The contact edge of `tangent`.
     pub fn of(tangent: &SlidingTangent) -> Self {
-        let mut components = vec![
-            tangent.contact_tangential.clone(),
-            tangent.contact_normal.clone(),
-        ];
+        let mut components =
+            vec![tangent.contact_tangential.clone(), tangent.contact_normal.clone()];
         if !tangent.contact_angles.is_empty() {
             // Pairs of nodes: normal and tangential in turn.
             let opposite = |component: usize| tangent.contact_opposite.iter().skip(component);
@@ -49,11 +47,7 @@ impl ContactEdge {
 
     /// Displacements of the edge nodes, component by component, from a vector over the unknowns.
     pub fn restrict(&self, value: impl Fn(usize) -> c64) -> Vec<c64> {
-        self.components
-            .iter()
-            .flatten()
-            .map(|&unknown| value(unknown))
-            .collect()
+        self.components.iter().flatten().map(|&unknown| value(unknown)).collect()
     }
 
     /// The harmonic of largest amplitude.
@@ -66,10 +60,7 @@ impl ContactEdge {
             return 0;
         }
         // Powers of e^{i theta}, one after the other: a sine and a cosine for each harmonic would cost more.
-        let turns = self
-            .angles
-            .iter()
-            .map(|angle| c64::new(angle.cos(), angle.sin()));
+        let turns = self.angles.iter().map(|angle| c64::new(angle.cos(), angle.sin()));
         let turns: Vec<c64> = turns.collect();
         let mut phases = vec![c64::new(1.0, 0.0); turns.len()];
         let mut best = (0, -1.0);
@@ -81,10 +72,7 @@ impl ContactEdge {
             if energy > best.1 {
                 best = (n, energy);
             }
-            phases
-                .iter_mut()
-                .zip(&turns)
-                .for_each(|(phase, turn)| *phase *= turn);
+            phases.iter_mut().zip(&turns).for_each(|(phase, turn)| *phase *= turn);
         }
         best.0
     }
@@ -95,9 +83,7 @@ impl ContactEdge {
             return 0;
         }
         let angles = self.angles.iter().map(|angle| harmonic as f64 * angle);
-        let phases: Vec<c64> = angles
-            .map(|angle| c64::new(angle.cos(), angle.sin()))
-            .collect();
+        let phases: Vec<c64> = angles.map(|angle| c64::new(angle.cos(), angle.sin())).collect();
         let waves = self.waves(edge, &phases);
         let sense = if waves.forward > STANDING * waves.backward {
             1.0
@@ -126,9 +112,6 @@ impl ContactEdge {
             forward += f.norm_sqr();
             backward += b.norm_sqr();
         }
-        Waves {
-            forward: forward.sqrt(),
-            backward: backward.sqrt(),
-        }
+        Waves { forward: forward.sqrt(), backward: backward.sqrt() }
     }
 }

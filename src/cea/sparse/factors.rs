@@ -159,9 +159,7 @@ fn friction_rows(stiffness: &MatrixPolynomial) -> Vec<usize> {
     let mut touched = vec![false; stiffness.dimension()];
     for values in &stiffness.coefficients()[1..] {
         let nonzeros = stiffness.pattern().row_indices().iter().zip(values);
-        nonzeros
-            .filter(|(_, v)| **v != 0.0)
-            .for_each(|(&row, _)| touched[row] = true);
+        nonzeros.filter(|(_, v)| **v != 0.0).for_each(|(&row, _)| touched[row] = true);
     }
     (0..touched.len()).filter(|&row| touched[row]).collect()
 }
@@ -195,11 +193,7 @@ impl FrictionlessBase {
                 target.copy_from(&terms.times(&compliance));
             }
         }
-        Self {
-            couplings,
-            ldl,
-            rows,
-        }
+        Self { couplings, ldl, rows }
     }
 }
 
@@ -212,11 +206,7 @@ struct FrictionRows {
 
 impl FrictionRows {
     fn new(stiffness: &MatrixPolynomial, rows: &[usize], values: &[f64]) -> Self {
-        let mut own = Self {
-            starts: vec![0],
-            columns: Vec::new(),
-            values: Vec::new(),
-        };
+        let mut own = Self { starts: vec![0], columns: Vec::new(), values: Vec::new() };
         for &row in rows {
             let nonzeros = stiffness.pattern().row(row);
             for (position, column) in nonzeros.filter(|(at, _)| values[*at] != 0.0) {
@@ -283,11 +273,7 @@ impl UpdatedFactors {
 
     fn unchecked(base: &Arc<FrictionlessBase>, stiffness: &MatrixPolynomial, mu: f64) -> Self {
         let (whole, frictionless) = (stiffness.evaluate(mu), stiffness.evaluate(0.0));
-        let change: Vec<f64> = whole
-            .iter()
-            .zip(&frictionless)
-            .map(|(a, b)| a - b)
-            .collect();
+        let change: Vec<f64> = whole.iter().zip(&frictionless).map(|(a, b)| a - b).collect();
         let mut small = Mat::identity(base.rows.len(), base.rows.len());
         let (mut power, weights) = (mu, stiffness.weights());
         for (coupling, place) in base.couplings.iter().zip(1..) {
@@ -348,11 +334,7 @@ impl UpdatedFactors {
         if backward_error <= BACKWARD_ERROR_BOUND && scale < 1e15 * trial.norm_max() {
             return Ok(());
         }
-        Err(LinalgError::Singular {
-            dimension,
-            backward_error,
-            bound: BACKWARD_ERROR_BOUND,
-        })
+        Err(LinalgError::Singular { dimension, backward_error, bound: BACKWARD_ERROR_BOUND })
     }
 }
 

@@ -10,16 +10,11 @@ pub fn string_on_belt(count: usize, coupling: f64, is_proportional: bool) -> Sli
     for i in 0..count - 1 {
         elastic.extend([(i, i + 1, -1.0), (i + 1, i, -1.0)]);
     }
-    let friction = (0..count / 2)
-        .map(|i| (2 * i + 1, 2 * i, coupling))
-        .collect();
+    let friction = (0..count / 2).map(|i| (2 * i + 1, 2 * i, coupling)).collect();
     let stiffness = MatrixPolynomial::from_triplets(count, &[elastic, friction]);
     let masses = (0..count).map(|i| (i, i, 1.0)).collect();
     let mass = MatrixPolynomial::on_pattern(stiffness.pattern(), &[masses]);
-    let damping = RayleighDamping {
-        mass_coefficient: 1e-3,
-        stiffness_coefficient: 1e-3,
-    };
+    let damping = RayleighDamping { mass_coefficient: 1e-3, stiffness_coefficient: 1e-3 };
     SlidingTangent {
         damping: MatrixPolynomial::combination(
             damping.mass_coefficient,

@@ -79,12 +79,7 @@ impl FrictionlessModes {
         let unknowns = tangent.stiffness.dimension();
         if let Some((vectors, frequencies)) = recalled(watch.recall(NAME), unknowns) {
             let factors = inertia.factors(&frequencies, None)?;
-            return Ok(Self {
-                vectors,
-                frequencies,
-                factors,
-                rigid: None,
-            });
+            return Ok(Self { vectors, frequencies, factors, rigid: None });
         }
         let found = Self::found_by(tangent, &inertia, limit)?;
         let mut columns = columns_of(&found.vectors);
@@ -126,10 +121,7 @@ impl FrictionlessModes {
         // An empty range still needs the lowest mode, for the message.
         let unknowns = tangent.stiffness.dimension();
         if wanted > unknowns {
-            return Err(CeaError::TooManyModes {
-                asked: wanted,
-                total: unknowns,
-            });
+            return Err(CeaError::TooManyModes { asked: wanted, total: unknowns });
         }
         let is_empty = wanted == 0;
         let wanted = (wanted.max(1) + beyond_wanted(tangent)).min(unknowns);
@@ -149,10 +141,7 @@ impl FrictionlessModes {
         if let ModeLimit::MaxFrequency(limit_hz) = limit
             && is_empty
         {
-            return Err(CeaError::NoModes {
-                limit_hz,
-                lowest_hz: frequencies[0] / TAU,
-            });
+            return Err(CeaError::NoModes { limit_hz, lowest_hz: frequencies[0] / TAU });
         }
         let kept = if request == unknowns {
             request
@@ -210,10 +199,7 @@ fn free_modes(
         let pairs = krylov_schur(&operator, None, &settings(request))?;
         let kappas: Vec<f64> = pairs.values.iter().map(|s| s.re.recip() - shift).collect();
         let highest = kappas.iter().fold(0.0_f64, |a, b| a.max(*b));
-        let rigid = kappas
-            .iter()
-            .filter(|kappa| **kappa <= RIGID * highest)
-            .count();
+        let rigid = kappas.iter().filter(|kappa| **kappa <= RIGID * highest).count();
         let elastic = kappas.len() - rigid;
         let wanted = match limit {
             ModeLimit::Lowest(count) => count,
@@ -231,10 +217,7 @@ fn free_modes(
         let kept_at_least = (wanted + beyond).min(elastic.saturating_sub(1));
         if let (0, ModeLimit::MaxFrequency(limit_hz)) = (wanted, limit) {
             let lowest_hz = frequencies[0] / TAU;
-            return Err(CeaError::NoModes {
-                limit_hz,
-                lowest_hz,
-            });
+            return Err(CeaError::NoModes { limit_hz, lowest_hz });
         }
         let kept = match request == unknowns {
             true => elastic,

@@ -52,9 +52,7 @@ impl<'a> Transposed<'a> {
         });
         let pattern = self.pattern;
         let values = self.values.each_ref().map(Vec::as_slice);
-        let mut products = pattern
-            .multiply_transpose_each(values, parts.as_ref())
-            .to_vec();
+        let mut products = pattern.multiply_transpose_each(values, parts.as_ref()).to_vec();
         if let Some(values) = &self.structural {
             products.extend(pattern.multiply_transpose_each([values], parts.as_ref()));
         }
@@ -75,12 +73,7 @@ impl<'a> Transposed<'a> {
     fn residuals(&self, pairs: &[&OpenPair]) -> Vec<Vec<c64>> {
         let own = pairs.iter().map(|pair| {
             let lambda = pair.eigenvalue;
-            let factors = [
-                lambda * lambda,
-                lambda,
-                c64::new(1.0, 0.0),
-                c64::new(0.0, 1.0),
-            ];
+            let factors = [lambda * lambda, lambda, c64::new(1.0, 0.0), c64::new(0.0, 1.0)];
             (pair.left.as_slice(), factors)
         });
         self.images(&own.collect::<Vec<_>>())
@@ -90,10 +83,7 @@ impl<'a> Transposed<'a> {
     fn slopes(&self, pairs: &[&OpenPair]) -> Vec<Vec<c64>> {
         let own = pairs.iter().map(|pair| {
             let [zero, one] = [0.0, 1.0].map(|v| c64::new(v, 0.0));
-            (
-                pair.left.as_slice(),
-                [pair.eigenvalue * 2.0, one, zero, zero],
-            )
+            (pair.left.as_slice(), [pair.eigenvalue * 2.0, one, zero, zero])
         });
         self.images(&own.collect::<Vec<_>>())
     }

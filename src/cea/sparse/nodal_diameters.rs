@@ -141,18 +141,12 @@ fn solve(
         match own {
             Ok(None) => {}
             Ok(sweep) => *part = sweep,
-            Err(CeaError::NoModes {
-                limit_hz,
-                lowest_hz,
-            }) => {
+            Err(CeaError::NoModes { limit_hz, lowest_hz }) => {
                 let least = match empty {
                     Some(CeaError::NoModes { lowest_hz, .. }) => lowest_hz,
                     _ => f64::INFINITY,
                 };
-                empty = Some(CeaError::NoModes {
-                    limit_hz,
-                    lowest_hz: lowest_hz.min(least),
-                });
+                empty = Some(CeaError::NoModes { limit_hz, lowest_hz: lowest_hz.min(least) });
             }
             Err(error) => return Err(error),
         }
@@ -237,17 +231,12 @@ fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
                 }
             }
         }
-        begins.extend(
-            first
-                .iter()
-                .map(|(&branch, &(mu, omega))| (mu, omega, part, branch)),
-        );
+        begins.extend(first.iter().map(|(&branch, &(mu, omega))| (mu, omega, part, branch)));
     }
     begins.sort_by(|a, b| (a.0.total_cmp(&b.0)).then(a.1.total_cmp(&b.1)));
     let ranks = begins.iter().enumerate();
-    let rank_of: BTreeMap<(usize, usize), usize> = ranks
-        .map(|(rank, &(_, _, part, branch))| ((part, branch), rank))
-        .collect();
+    let rank_of: BTreeMap<(usize, usize), usize> =
+        ranks.map(|(rank, &(_, _, part, branch))| ((part, branch), rank)).collect();
     for (part, sweep) in parts.iter_mut().enumerate() {
         let modes = sweep.points.iter_mut().flat_map(|point| &mut point.modes);
         modes.for_each(|mode| mode.branch = rank_of[&(part, mode.branch)]);
@@ -256,19 +245,14 @@ fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
     // All modes at each friction coefficient, as many as are wanted.
     let count = parts.first().map_or(0, |part| part.points.len());
     let points = (0..count).map(|k| {
-        let own = parts
-            .iter()
-            .flat_map(|part| part.points[k].modes.iter().cloned());
+        let own = parts.iter().flat_map(|part| part.points[k].modes.iter().cloned());
         let mut modes: Vec<ComplexMode> = own.collect();
         modes.sort_by(|a, b| a.eigenvalue.im.total_cmp(&b.eigenvalue.im));
         if let ModeLimit::Lowest(wanted) = limit {
             let frequencies = modes.iter().map(|mode| mode.eigenvalue.im);
             modes.truncate(keeping_ties(frequencies, wanted));
         }
-        FrictionPoint {
-            friction_coefficient: parts[0].points[k].friction_coefficient,
-            modes,
-        }
+        FrictionPoint { friction_coefficient: parts[0].points[k].friction_coefficient, modes }
     });
     let points: Vec<FrictionPoint> = points.collect();
     let counts = merged_counts(&parts, &points);
@@ -288,10 +272,7 @@ fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
             found.push((interval, crossing));
         }
     }
-    FrictionSweep {
-        counts,
-        ..FrictionSweep::joined(points, found, ended)
-    }
+    FrictionSweep { counts, ..FrictionSweep::joined(points, found, ended) }
 }
 
 /// One count of those of all numbers of diameters at each friction coefficient that all of them counted at, over the frequencies that

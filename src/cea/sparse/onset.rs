@@ -87,10 +87,8 @@ impl OnsetFinder<'_> {
         let in_range = places().filter(|(_, point)| point.friction_coefficient >= self.lowest);
         let states: Vec<Option<State>> = in_range
             .map(|(index, point)| {
-                index.map(|i| State {
-                    mu: point.friction_coefficient,
-                    mode: point.modes[i].clone(),
-                })
+                index
+                    .map(|i| State { mu: point.friction_coefficient, mode: point.modes[i].clone() })
             })
             .collect();
         let mut intervals = Vec::new();
@@ -105,9 +103,7 @@ impl OnsetFinder<'_> {
 
     fn report(&self, branch: &TrackedBranch, found: Instability<State>) -> FoundInterval {
         let State { mu, mode } = &found.onset;
-        let check = &self
-            .solver
-            .check(self.model, *mu, std::slice::from_ref(mode))[0];
+        let check = &self.solver.check(self.model, *mu, std::slice::from_ref(mode))[0];
         let label = branch.label;
         let direction = self.solver.edge.direction(&check.edge, label.harmonic);
         let name = (label.harmonic, label.branch, direction);
@@ -131,18 +127,12 @@ impl OnsetFinder<'_> {
                 true => Some(found.onset.clone()),
                 false => self.crossing_near(&found.onset),
             };
-            let end = found
-                .restabilized
-                .as_ref()
-                .map(|end| self.crossing_near(end));
+            let end = found.restabilized.as_ref().map(|end| self.crossing_near(end));
             let (Some(onset), false) = (onset, matches!(end, Some(None))) else {
                 return None;
             };
-            let instability = Instability {
-                onset,
-                restabilized: end.flatten(),
-                from_start: found.from_start,
-            };
+            let instability =
+                Instability { onset, restabilized: end.flatten(), from_start: found.from_start };
             intervals.push(self.report(branch, instability));
         }
         Some(intervals)
@@ -177,13 +167,9 @@ impl OnsetFinder<'_> {
         let mu = guess.friction_coefficient;
         let ends = [from, to];
         let nearer = usize::from((to.mu - mu).abs() < (mu - from.mu).abs());
-        let start = ReducedMode {
-            eigenvalue: guess.eigenvalue,
-            ..ends[nearer].mode.clone()
-        };
+        let start = ReducedMode { eigenvalue: guess.eigenvalue, ..ends[nearer].mode.clone() };
         let mode = self.model.mode_near(mu, &start)?;
-        self.are_same(mu, &mode, &[&from.mode, &to.mode])
-            .then_some(mode)
+        self.are_same(mu, &mode, &[&from.mode, &to.mode]).then_some(mode)
     }
 
     /// Whether `mode` at `mu` overlaps with each of `others`.
@@ -252,9 +238,7 @@ impl BranchSolver for OnsetFinder<'_> {
             let coarse = modes.swap_remove(best);
             // That was in the span of samples, if there are any: the whole basis knows better.
             let is_coarse = self.model.has_samples();
-            let fine = is_coarse
-                .then(|| self.model.mode_near(mu, &coarse))
-                .flatten();
+            let fine = is_coarse.then(|| self.model.mode_near(mu, &coarse)).flatten();
             let fine = fine.filter(|fine| self.are_same(mu, fine, &[&coarse]));
             let mode = fine.unwrap_or(coarse);
             State { mu, mode }

@@ -24,10 +24,7 @@ impl OpenResiduals {
     pub fn none(unknowns: usize, count: usize) -> Self {
         let mut columns = Mat::with_capacity(unknowns, count);
         columns.resize_with(unknowns, 0, |_, _| 0.0);
-        Self {
-            columns,
-            vectors: Vec::new(),
-        }
+        Self { columns, vectors: Vec::new() }
     }
 
     /// Adds the residuals of those packed vectors `x` whose residual force is not yet small against their inertia force.
@@ -50,8 +47,7 @@ impl OpenResiduals {
             let (first, own) = (self.columns.ncols(), entry.columns());
             let end = first + own.len();
             let energy = factor * products(x.as_ref(), momenta.as_ref(), own.clone());
-            self.columns
-                .resize_with(x.nrows(), end, |i, j| residuals[(i, own.start + j - first)]);
+            self.columns.resize_with(x.nrows(), end, |i, j| residuals[(i, own.start + j - first)]);
             self.vectors.push((first..end, energy));
         }
     }

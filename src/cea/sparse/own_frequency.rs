@@ -38,10 +38,7 @@ pub(super) fn solve(
         let (before, own) = found.split_at_mut(i);
         let is_known =
             |mode: &ReducedMode| before.iter().flatten().any(|other| is_same(mode, other));
-        if own[0]
-            .as_ref()
-            .is_some_and(|mode| mode.eigenvalue.im <= 0.0 || is_known(mode))
-        {
+        if own[0].as_ref().is_some_and(|mode| mode.eigenvalue.im <= 0.0 || is_known(mode)) {
             own[0] = None;
         }
     }

@@ -14,14 +14,9 @@ impl ComplexColumns {
     /// The right vectors of `modes`, continued by zeros to `dimension` entries.
     pub fn of(modes: &[ReducedMode], dimension: usize) -> Self {
         let part = |of: fn(&c64) -> f64| {
-            Mat::from_fn(dimension, modes.len(), |i, j| {
-                modes[j].right.get(i).map_or(0.0, of)
-            })
+            Mat::from_fn(dimension, modes.len(), |i, j| modes[j].right.get(i).map_or(0.0, of))
         };
-        Self {
-            real: part(|v| v.re),
-            imaginary: part(|v| v.im),
-        }
+        Self { real: part(|v| v.re), imaginary: part(|v| v.im) }
     }
 
     /// `P` times each column.
@@ -34,14 +29,8 @@ impl ComplexColumns {
 
     /// `y^T` times column `j`, no conjugation.
     pub fn dot(&self, y: &[c64], j: usize) -> c64 {
-        let (re, im) = (
-            column(self.real.as_ref(), j),
-            column(self.imaginary.as_ref(), j),
-        );
-        y.iter()
-            .zip(re.iter().zip(im))
-            .map(|(y, (&p, &q))| y * c64::new(p, q))
-            .sum()
+        let (re, im) = (column(self.real.as_ref(), j), column(self.imaginary.as_ref(), j));
+        y.iter().zip(re.iter().zip(im)).map(|(y, (&p, &q))| y * c64::new(p, q)).sum()
     }
 }
 
@@ -93,9 +82,7 @@ impl PackedModes {
         let mut places = Vec::new();
         for mode in modes {
             let s = mode.inverse_value;
-            let twin = entries
-                .iter()
-                .position(|e| s.im != 0.0 && e.inverse_value == s.conj());
+            let twin = entries.iter().position(|e| s.im != 0.0 && e.inverse_value == s.conj());
             if let Some(entry) = twin {
                 places.push((entry, true));
                 continue;
@@ -104,11 +91,7 @@ impl PackedModes {
             let length = vector.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt();
             places.push((entries.len(), false));
             let is_complex = vector.iter().any(|v| v.im != 0.0);
-            entries.push(PackedEntry {
-                inverse_value: s,
-                column: columns.len(),
-                is_complex,
-            });
+            entries.push(PackedEntry { inverse_value: s, column: columns.len(), is_complex });
             columns.push(vector.iter().map(|v| v.re / length).collect());
             if is_complex {
                 columns.push(vector.iter().map(|v| v.im / length).collect());
@@ -117,11 +100,7 @@ impl PackedModes {
         let coordinates = Mat::from_fn(dimension, columns.len(), |i, j| {
             columns[j].get(i).copied().unwrap_or(0.0)
         });
-        Self {
-            coordinates,
-            entries,
-            places,
-        }
+        Self { coordinates, entries, places }
     }
 
     /// All columns in groups of about `width`, so that vectors over the unknowns need memory for a group only.
@@ -137,10 +116,9 @@ impl PackedModes {
             }
             let group = groups.last_mut().expect("one was added");
             group.columns.end = entry.columns().end;
-            group.entries.push(PackedEntry {
-                column: entry.column - group.columns.start,
-                ..*entry
-            });
+            group
+                .entries
+                .push(PackedEntry { column: entry.column - group.columns.start, ..*entry });
             let modes = (0..self.places.len()).filter(|&mode| self.places[mode].0 == index);
             group.modes.extend(modes);
         }
@@ -197,9 +175,6 @@ impl PackedVector<'_> {
     /// Entry `i`.
     #[inline]
     pub fn at(&self, i: usize) -> c64 {
-        c64::new(
-            self.real[i],
-            self.imaginary.map_or(0.0, |q| self.sign * q[i]),
-        )
+        c64::new(self.real[i], self.imaginary.map_or(0.0, |q| self.sign * q[i]))
     }
 }

@@ -80,9 +80,7 @@ impl ModePair {
             let nonzeros = pattern.column(j);
             nonzeros.map(|(at, i)| self.left[i] * values[at]).sum()
         };
-        (0..pattern.dimension())
-            .map(|j| along(j) * self.right[j])
-            .sum()
+        (0..pattern.dimension()).map(|j| along(j) * self.right[j]).sum()
     }
 }
 
@@ -201,11 +199,7 @@ fn inverse_iterations(
 fn single(x: &Mat<c64>) -> Option<Vec<c64>> {
     let own: Vec<c64> = x.col(0).iter().copied().collect();
     let other = x.col(x.ncols() - 1);
-    let overlap: c64 = own
-        .iter()
-        .zip(other.iter())
-        .map(|(a, b)| a.conj() * b)
-        .sum();
+    let overlap: c64 = own.iter().zip(other.iter()).map(|(a, b)| a.conj() * b).sum();
     let rest = own.iter().zip(other.iter());
     let rest: f64 = rest.map(|(a, b)| (b - a * overlap).norm_sqr()).sum();
     // No number at all is no vector either.

@@ -62,9 +62,8 @@ impl SolvedPoint {
     /// Largest residuals of the wanted modes: relative to the matrices, and to the inertia force.
     pub fn worst(&self) -> (f64, f64) {
         let wanted = self.checks.iter().take(self.wanted);
-        wanted.fold((0.0, 0.0), |(r, f), check| {
-            (check.residual.max(r), check.force_residual.max(f))
-        })
+        wanted
+            .fold((0.0, 0.0), |(r, f), check| (check.residual.max(r), check.force_residual.max(f)))
     }
 
     /// Whether a wanted mode could still be improved: its residual force, relative to the inertia force, is above `goal`,
@@ -176,16 +175,12 @@ impl PointSolver<'_> {
             ModeLimit::Lowest(count) if self.combinations == Combinations::Counted => {
                 let all = keeping_ties(with_combinations.iter().copied(), count);
                 let highest = with_combinations[..all].last().copied().unwrap_or(0.0);
-                modes
-                    .iter()
-                    .take_while(|mode| mode.eigenvalue.im <= highest)
-                    .count()
+                modes.iter().take_while(|mode| mode.eigenvalue.im <= highest).count()
             }
             ModeLimit::Lowest(count) => keeping_ties(frequencies(&modes).into_iter(), count),
-            ModeLimit::MaxFrequency(hz) => modes
-                .iter()
-                .take_while(|m| m.eigenvalue.im < TAU * hz)
-                .count(),
+            ModeLimit::MaxFrequency(hz) => {
+                modes.iter().take_while(|m| m.eigenvalue.im < TAU * hz).count()
+            }
         };
         let range_end = match self.limit {
             ModeLimit::Lowest(_) => modes[..wanted].last().map_or(0.0, |m| m.eigenvalue.im),
@@ -298,9 +293,7 @@ impl PointSolver<'_> {
             edge += along(i, own);
             friction += along(i, momentum.at(i) - own);
         }
-        let whole: f64 = (0..pattern.dimension())
-            .map(|i| along(i, momentum.at(i)))
-            .sum();
+        let whole: f64 = (0..pattern.dimension()).map(|i| along(i, momentum.at(i))).sum();
         edge / (whole - friction)
     }
 
@@ -329,12 +322,7 @@ impl PointSolver<'_> {
                 let scale = normalize(&mut right);
                 let mut left = self.tangent.left_displacement(&pair.left, mu);
                 left.iter_mut().for_each(|v| *v *= scale);
-                ModeVectors {
-                    eigenvalue: mode.eigenvalue,
-                    rate: mode.derivative,
-                    right,
-                    left,
-                }
+                ModeVectors { eigenvalue: mode.eigenvalue, rate: mode.derivative, right, left }
             })
             .collect()
     }
@@ -370,13 +358,8 @@ fn length(vector: &[c64]) -> f64 {
 /// Scales a nodal vector so that its largest entry is 1; what it was divided by.
 pub fn normalize(shape: &mut [c64]) -> c64 {
     let zero = c64::new(0.0, 0.0);
-    let largest = shape.iter().fold(zero, |best, &v| {
-        if v.norm_sqr() > best.norm_sqr() {
-            v
-        } else {
-            best
-        }
-    });
+    let largest =
+        shape.iter().fold(zero, |best, &v| if v.norm_sqr() > best.norm_sqr() { v } else { best });
     if largest == zero {
         return c64::new(1.0, 0.0);
     }

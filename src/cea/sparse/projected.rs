@@ -39,11 +39,7 @@ impl ProjectedMatrices {
             damping,
             mass,
             structural: self.structural.as_ref().map(within),
-            tabled: self
-                .tabled
-                .iter()
-                .map(|(gain, k)| (gain.clone(), within(k)))
-                .collect(),
+            tabled: self.tabled.iter().map(|(gain, k)| (gain.clone(), within(k))).collect(),
         }
     }
 

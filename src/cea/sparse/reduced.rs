@@ -27,21 +27,13 @@ const MULTIPLE: f64 = 1e-7;
 /// Columns continued by zeros to `rows` entries.
 fn lengthened(columns: &Mat<f64>, rows: usize) -> Mat<f64> {
     let known = columns.nrows();
-    Mat::from_fn(rows, columns.ncols(), |i, j| {
-        if i < known { columns[(i, j)] } else { 0.0 }
-    })
+    Mat::from_fn(rows, columns.ncols(), |i, j| if i < known { columns[(i, j)] } else { 0.0 })
 }
 
 /// `columns` times complex coordinates; nothing of no coordinates.
 fn combined(columns: &Mat<f64>, coordinates: &[c64]) -> Vec<c64> {
-    let mut sum = vec![
-        c64::new(0.0, 0.0);
-        if coordinates.is_empty() {
-            0
-        } else {
-            columns.nrows()
-        }
-    ];
+    let mut sum =
+        vec![c64::new(0.0, 0.0); if coordinates.is_empty() { 0 } else { columns.nrows() }];
     for (j, factor) in coordinates.iter().enumerate() {
         for (s, v) in sum.iter_mut().zip(column(columns.as_ref(), j)) {
             *s += factor * *v;
@@ -103,12 +95,8 @@ impl ReducedModel {
             }
         });
         let tabled = tabled.collect();
-        let terms = [
-            terms(&tangent.stiffness, true),
-            damping,
-            terms(&tangent.mass, true),
-            structural,
-        ];
+        let terms =
+            [terms(&tangent.stiffness, true), damping, terms(&tangent.mass, true), structural];
         Self {
             linearization,
             basis: GrowingColumns::new(tangent.stiffness.dimension()),
@@ -194,13 +182,7 @@ impl ReducedModel {
         };
         let tabled = self.tabled.iter();
         let tabled = tabled.map(|part| (part.gain.clone(), evaluate(&part.projected)));
-        ProjectedMatrices {
-            stiffness,
-            damping,
-            mass,
-            structural,
-            tabled: tabled.collect(),
-        }
+        ProjectedMatrices { stiffness, damping, mass, structural, tabled: tabled.collect() }
     }
 
     /// The `count` modes of largest `|s|` that oscillate, by rising frequency; overdamped ones are left
@@ -265,9 +247,8 @@ impl ReducedModel {
         let single = modes.par_iter_mut().filter(|m| is_single(m.eigenvalue));
         single.for_each(|mode| {
             let lambda = mode.eigenvalue;
-            let slope = Mat::from_fn(m, m, |i, j| {
-                lambda * (2.0 * at.mass[(i, j)]) + at.damping[(i, j)]
-            });
+            let slope =
+                Mat::from_fn(m, m, |i, j| lambda * (2.0 * at.mass[(i, j)]) + at.damping[(i, j)]);
             let coarse = Mat::from_fn(m, 1, |i, _| mode.left.get(i).copied().unwrap_or_default());
             let mut left = slope.transpose() * &coarse;
             ComplexDenseLu::factorize(at.pencil(lambda)).solve_transpose_in_place(left.as_mut());
@@ -293,10 +274,7 @@ impl ReducedModel {
     /// Takes note that `vectors` are the modes at `mu`: the problem there is then solved in their span, and nearby in
     /// that of the nearest ones. Vectors at the same `mu` add to those held.
     pub fn hold_sample(&mut self, mu: f64, vectors: &Mat<f64>) {
-        self.hold_coordinates(
-            mu,
-            transpose_product(self.basis.columns(), vectors.as_ref()),
-        );
+        self.hold_coordinates(mu, transpose_product(self.basis.columns(), vectors.as_ref()));
     }
 
     /// Whether it holds the modes at some friction coefficients as such.

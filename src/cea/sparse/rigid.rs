@@ -21,15 +21,12 @@ impl RigidMotions {
                 let share = dot(column(momenta.as_ref(), i), column(motions.as_ref(), j));
                 let known = column(motions.as_ref(), i).to_vec();
                 let own = column_mut(&mut motions, j).iter_mut();
-                own.zip(known)
-                    .for_each(|(own, known)| *own -= share * known);
+                own.zip(known).for_each(|(own, known)| *own -= share * known);
             }
             let momentum = mass.pattern().multiply(&values, motions.get(.., j..j + 1));
             let momentum = column(momentum.as_ref(), 0).to_vec();
             let length = dot(column(motions.as_ref(), j), &momentum).sqrt();
-            column_mut(&mut motions, j)
-                .iter_mut()
-                .for_each(|v| *v /= length);
+            column_mut(&mut motions, j).iter_mut().for_each(|v| *v /= length);
             let target = column_mut(&mut momenta, j).iter_mut();
             target.zip(momentum).for_each(|(to, v)| *to = v / length);
         }
@@ -45,14 +42,10 @@ impl RigidMotions {
     pub fn remove_from(&self, columns: &mut Mat<f64>) {
         for j in 0..columns.ncols() {
             for i in 0..self.count() {
-                let share = dot(
-                    column(self.momenta.as_ref(), i),
-                    column(columns.as_ref(), j),
-                );
+                let share = dot(column(self.momenta.as_ref(), i), column(columns.as_ref(), j));
                 let own = column_mut(columns, j).iter_mut();
                 let known = column(self.motions.as_ref(), i);
-                own.zip(known)
-                    .for_each(|(own, known)| *own -= share * known);
+                own.zip(known).for_each(|(own, known)| *own -= share * known);
             }
         }
     }

@@ -122,9 +122,7 @@ impl<'a> StructureMatrices<'a> {
                 let own = self.pattern.row_range(row);
                 values.get(own).into_iter().flatten().map(|v| v.abs()).sum()
             };
-            (0..self.pattern.dimension())
-                .map(row_sum)
-                .fold(0.0, f64::max)
+            (0..self.pattern.dimension()).map(row_sum).fold(0.0, f64::max)
         };
         let [stiff, damped, inert] = [0, 1, 2].map(|i| norm(&self.values[i]));
         let damped = match self.linearization {
@@ -197,9 +195,7 @@ impl BlockOperator for ShiftInverted<'_> {
                 self.factors.solve_in_place(&mut image);
                 image
             }
-            Linearization::Companion {
-                frequency_scale: omega,
-            } => {
+            Linearization::Companion { frequency_scale: omega } => {
                 let (x, y) = z.split_at_row(self.matrices.pattern.dimension());
                 let mut top =
                     Scale(-omega) * product(damping, x) - Scale(omega * omega) * product(mass, y);
@@ -248,10 +244,8 @@ impl<'a> Companion<'a> {
         let scaled = |factor: f64, values: &[f64]| -> Vec<f64> {
             values.iter().map(|v| factor * v).collect()
         };
-        let values = [
-            scaled(-frequency_scale, damping),
-            scaled(-frequency_scale * frequency_scale, mass),
-        ];
+        let values =
+            [scaled(-frequency_scale, damping), scaled(-frequency_scale * frequency_scale, mass)];
         Self {
             pattern: matrices.pattern,
             factors,

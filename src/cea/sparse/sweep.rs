@@ -224,9 +224,7 @@ impl<'a> SparseSweep<'a> {
             self.solve_anew(&all)?;
         }
         let model = &self.builder.model;
-        self.points
-            .par_iter_mut()
-            .for_each(|point| point.refine_lefts(model));
+        self.points.par_iter_mut().for_each(|point| point.refine_lefts(model));
         self.labels = label_frictionless(
             &mut self.points[0],
             &self.builder.model,
@@ -407,13 +405,8 @@ mod tests {
         let modes = FrictionlessModes::compute(&tangent, ModeLimit::Lowest(6)).unwrap();
         let linearization = Linearization::of(&tangent, 1.0);
         let without_second = crate::linalg::dense::pick_columns(&modes.vectors, &[0, 2, 3, 4, 5]);
-        let mut builder = BasisBuilder::new(
-            &tangent,
-            linearization,
-            &without_second,
-            modes.factors,
-            &Unwatched,
-        );
+        let mut builder =
+            BasisBuilder::new(&tangent, linearization, &without_second, modes.factors, &Unwatched);
         let before = builder.model.solve(0.2, 5).unwrap();
         builder.search(0.2, 2).unwrap();
         let after = builder.model.solve(0.2, 5).unwrap();

@@ -23,13 +23,7 @@ impl Term {
         let support = (unknowns.len() < polynomial.dimension()).then_some(unknowns);
         let rows = support.as_ref().map_or(0, Vec::len);
         let sorted = matrix.pattern().by_rows(&matrix.coefficients()[0]);
-        Self {
-            matrix,
-            sorted,
-            support,
-            restricted: Mat::zeros(rows, 0),
-            is_symmetric,
-        }
+        Self { matrix, sorted, support, restricted: Mat::zeros(rows, 0), is_symmetric }
     }
 
     /// `V^T P V` with the rows and columns of `new` basis vectors added.
@@ -57,9 +51,7 @@ impl Term {
         grown.get_mut(..old, ..old).copy_from(known);
         grown.get_mut(..old, old..).copy_from(&above);
         grown.get_mut(old.., ..old).copy_from(&below);
-        grown
-            .get_mut(old.., old..)
-            .copy_from(&transpose_product(new, image.as_ref()));
+        grown.get_mut(old.., old..).copy_from(&transpose_product(new, image.as_ref()));
         grown
     }
 

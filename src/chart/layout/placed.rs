@@ -54,10 +54,7 @@ impl Placed<'_> {
             let letters = if has_letter { 2.0 * LETTER_WIDTH } else { 0.0 };
             let room = (self.part.1 - letters).max(LETTER_WIDTH);
             let lines = text::wrapped(line, (HEADING_SIZE, false), room);
-            lines
-                .into_iter()
-                .map(|line| (line, *colour))
-                .collect::<Vec<_>>()
+            lines.into_iter().map(|line| (line, *colour)).collect::<Vec<_>>()
         };
         self.panel.headings.iter().flat_map(wrapped).collect()
     }
@@ -103,8 +100,7 @@ impl Placed<'_> {
         if !self.legend.is_empty() {
             if self.legend.width() <= self.legend_room() {
                 let x = area.right() - self.legend.width() + 9.0;
-                self.legend
-                    .draw(svg, (x, baseline - 7.5), self.legend.width());
+                self.legend.draw(svg, (x, baseline - 7.5), self.legend.width());
             } else {
                 let height = self.legend.height(self.legend_width());
                 let place = (left, baseline + 1.5 - height);
@@ -122,9 +118,7 @@ impl Placed<'_> {
         };
         for (row, (line, colour)) in headings.iter().enumerate() {
             let y = last - (lines - 1 - row) as f64 * 1.25 * HEADING_SIZE;
-            let style = TextStyle::new(HEADING_SIZE)
-                .anchored(Anchor::Middle)
-                .coloured(colour);
+            let style = TextStyle::new(HEADING_SIZE).anchored(Anchor::Middle).coloured(colour);
             let middle = on_sheet(svg, area.x + 0.5 * area.width, line, HEADING_SIZE);
             svg.text(middle, y, line, &style);
         }

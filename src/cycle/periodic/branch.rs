@@ -199,11 +199,7 @@ impl BranchRequest<'_, '_> {
         }
         values.dedup();
         let scales = [most - least, found.image.amplitude];
-        let first = Point {
-            value: start,
-            steps,
-            found: found.clone(),
-        };
+        let first = Point { value: start, steps, found: found.clone() };
         // Down from it, up from it.
         let half = |name: &str, direction: f64| -> Result<Half, TransientError> {
             let leads_out = match direction > 0.0 {
@@ -236,10 +232,8 @@ impl BranchRequest<'_, '_> {
             .map(|(i, point)| (point, folds.contains(&i)))
             .collect();
         let at_own = kept.iter().filter(|(point, _)| point.value == self.kept);
-        let at_own = at_own.map(|(point, _)| KeptMotion {
-            found: point.found.clone(),
-            steps: point.steps,
-        });
+        let at_own =
+            at_own.map(|(point, _)| KeptMotion { found: point.found.clone(), steps: point.steps });
         Ok(PeriodicBranch {
             parameter: self.parameter,
             kept: at_own.collect(),
@@ -270,12 +264,7 @@ impl BranchRequest<'_, '_> {
                         multipliers.map_err(|error| error.to_string())
                     }
                 });
-                Ok(BranchMotion {
-                    value: point.value,
-                    motion,
-                    is_fold: *is_fold,
-                    stability,
-                })
+                Ok(BranchMotion { value: point.value, motion, is_fold: *is_fold, stability })
             });
             let motions = motions.collect::<Result<Vec<_>, TransientError>>()?;
             if self.with_stability && known.len() < motions.len() {

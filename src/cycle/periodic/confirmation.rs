@@ -40,11 +40,7 @@ impl MotionConfirmation {
         let within = |value: f64, wanted: f64, bound: f64| (value / wanted - 1.0).abs() <= bound;
         let mut statuses = self.status.iter().zip(motion.fractions);
         within(self.main_frequency_hz, motion.frequency_hz, frequency_bound)
-            && within(
-                self.external_power,
-                motion.powers.contact.external,
-                power_bound,
-            )
+            && within(self.external_power, motion.powers.contact.external, power_bound)
             && statuses.all(|(a, b)| (a - b).abs() <= status_bound)
     }
 
@@ -80,10 +76,7 @@ impl MotionConfirmation {
         }
         // What the first harmonic turns by from period to period is the difference of the frequencies.
         let (powers, _, counts) = map.run.take_sums();
-        let turned: f64 = turns
-            .windows(2)
-            .map(|pair| (pair[1] * pair[0].conj()).arg())
-            .sum();
+        let turned: f64 = turns.windows(2).map(|pair| (pair[1] * pair[0].conj()).arg()).sum();
         let share = turned / TAU / (turns.len() - 1).max(1) as f64;
         let steps = (periods - first) * map.steps();
         Self {
@@ -91,9 +84,7 @@ impl MotionConfirmation {
             main_frequency_hz: (1.0 + share) / state.period,
             status: counts.fractions(),
             external_power: powers.external / steps as f64,
-            e_folds: leading.map_or(0.0, |found| {
-                found.growth_rate * periods as f64 * state.period
-            }),
+            e_folds: leading.map_or(0.0, |found| found.growth_rate * periods as f64 * state.period),
         }
     }
 }

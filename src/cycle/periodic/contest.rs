@@ -52,10 +52,7 @@ impl<'m, 'a> ModeContest<'m, 'a> {
             let slip = slips.iter().map(|slip| slip.norm()).fold(0.0, f64::max);
             // The shape as it is, and a quarter of a period later.
             let turned: Vec<c64> = mode.shape.iter().map(|u| u * c64::new(0.0, 1.0)).collect();
-            let later = GrowingMode {
-                shape: &turned,
-                ..mode
-            };
+            let later = GrowingMode { shape: &turned, ..mode };
             let pattern = |mode: &GrowingMode<'_>| {
                 let mut own = difference(&mode.state(&map, 1.0).motion, &rest.motion);
                 own.iter_mut().for_each(|value| *value /= slip);
@@ -70,24 +67,15 @@ impl<'m, 'a> ModeContest<'m, 'a> {
         });
         let seeded: Vec<Seeded<'m>> = seeded.collect();
         let patterns: Vec<&Vec<f64>> = seeded.iter().flat_map(|own| &own.patterns).collect();
-        let gram = DMatrix::from_fn(patterns.len(), patterns.len(), |i, j| {
-            dot(patterns[i], patterns[j])
-        });
+        let gram =
+            DMatrix::from_fn(patterns.len(), patterns.len(), |i, j| dot(patterns[i], patterns[j]));
         let zeros = DMatrix::zeros(patterns.len(), patterns.len());
         let inverse = gram.pseudo_inverse(1e-12).unwrap_or(zeros);
         // One step of steady sliding tells which nodes are open.
         map.place(&rest);
         map.run.advance();
         let open = open_nodes(&map);
-        Self {
-            map,
-            modes: seeded,
-            request,
-            base: rest.motion,
-            inverse,
-            period,
-            open,
-        }
+        Self { map, modes: seeded, request, base: rest.motion, inverse, period, open }
     }
 
     /// The two that compete, by their numbers: of one mode, steady sliding (0) and that mode.
@@ -159,16 +147,12 @@ impl<'m, 'a> ModeContest<'m, 'a> {
             [one] => vec![ratio * one.sticking],
             modes => {
                 // The larger with a fixed share of what makes a node stick.
-                let speeds = modes
-                    .iter()
-                    .map(|own| own.sticking * own.mode.eigenvalue.norm());
+                let speeds = modes.iter().map(|own| own.sticking * own.mode.eigenvalue.norm());
                 let largest = SEED * speeds.fold(f64::INFINITY, f64::min);
                 let first = largest / ratio.max(1.0);
                 let velocities = [first, first * ratio];
                 let pairs = modes.iter().zip(velocities);
-                pairs
-                    .map(|(own, v)| v / own.mode.eigenvalue.norm())
-                    .collect()
+                pairs.map(|(own, v)| v / own.mode.eigenvalue.norm()).collect()
             }
         };
         let mut state = self.modes[0].mode.state(&self.map, 0.0);
@@ -205,7 +189,5 @@ impl<'m, 'a> ModeContest<'m, 'a> {
 
 fn open_nodes(map: &PeriodMap<'_>) -> usize {
     let status = map.run.contact().status.iter();
-    status
-        .filter(|status| **status == ContactStatus::Open)
-        .count()
+    status.filter(|status| **status == ContactStatus::Open).count()
 }

@@ -58,11 +58,7 @@ impl Goal {
     fn closure(&self, place: Place, scales: Place) -> f64 {
         match self {
             Self::Value(value) => place[0] - value / scales[0],
-            Self::Length {
-                from,
-                tangent,
-                length,
-            } => {
+            Self::Length { from, tangent, length } => {
                 let along = |i: usize| tangent[i] * (place[i] - from[i]);
                 along(0) + along(1) - length
             }
@@ -84,10 +80,7 @@ pub(super) struct Point {
 impl Point {
     /// Where it lies.
     pub fn place(&self, scales: Place) -> Place {
-        [
-            self.value / scales[0],
-            self.found.image.amplitude / scales[1],
-        ]
+        [self.value / scales[0], self.found.image.amplitude / scales[1]]
     }
 
     /// What it is found again from: those of its motion, and the value.
@@ -106,13 +99,8 @@ impl Point {
 impl Guess {
     /// The sum of several points, each times its weight; the weights make up one.
     fn combined<'p>(points: impl Iterator<Item = (&'p Point, f64)>) -> Self {
-        let mut guess = Self {
-            value: 0.0,
-            state: PeriodicState {
-                motion: Vec::new(),
-                period: 0.0,
-            },
-        };
+        let mut guess =
+            Self { value: 0.0, state: PeriodicState { motion: Vec::new(), period: 0.0 } };
         for (point, weight) in points {
             let own = &point.found.state;
             guess.state.motion.resize(own.motion.len(), 0.0);
@@ -127,16 +115,9 @@ impl Guess {
     pub fn through(points: &[&Point], at: &[f64], to: f64) -> Self {
         let weight = |i: usize| {
             let others = at.iter().enumerate().filter(|(j, _)| *j != i);
-            others
-                .map(|(_, other)| (to - other) / (at[i] - other))
-                .product::<f64>()
+            others.map(|(_, other)| (to - other) / (at[i] - other)).product::<f64>()
         };
-        Self::combined(
-            points
-                .iter()
-                .enumerate()
-                .map(|(i, point)| (*point, weight(i))),
-        )
+        Self::combined(points.iter().enumerate().map(|(i, point)| (*point, weight(i))))
     }
 }
 
@@ -171,13 +152,7 @@ struct Iterate {
 impl<'b, 'a> Corrector<'b, 'a> {
     /// One that knows nothing yet.
     pub fn new(map: PeriodMap<'a>, tune: Tune<'b, 'a>, scales: Place) -> Self {
-        Self {
-            secants: SecantSpace::along_branch(map.unknowns()),
-            map,
-            tune,
-            scales,
-            weight: 1.0,
-        }
+        Self { secants: SecantSpace::along_branch(map.unknowns()), map, tune, scales, weight: 1.0 }
     }
 
     /// Forgets what is known of the map.
@@ -198,11 +173,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
         };
         (self.tune)(&mut self.map, value)?;
         let found = Found::recalled(&mut self.map, found);
-        Ok(found.map(|found| Point {
-            value,
-            steps: self.map.steps(),
-            found,
-        }))
+        Ok(found.map(|found| Point { value, steps: self.map.steps(), found }))
     }
 
     /// A point's motion with its vibration about its mean so many times as large, at another value.
@@ -220,13 +191,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
         let mut motion = self.map.mean(&point.found.state);
         let vibration = difference(&point.found.state.motion, &motion);
         add(&mut motion, factor, &vibration);
-        Ok(Guess {
-            value,
-            state: PeriodicState {
-                motion,
-                period: point.found.state.period,
-            },
-        })
+        Ok(Guess { value, state: PeriodicState { motion, period: point.found.state.period } })
     }
 
     /// The point at a goal, from a guess; `near` is a point of the branch close by.
@@ -267,10 +232,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
         self.secants.aim(goal.weights().map(|by| self.weight * by));
         let first = self.map.periods();
         let mut last = Some(Iterate {
-            guess: Guess {
-                value: near.value,
-                state: near.found.state.clone(),
-            },
+            guess: Guess { value: near.value, state: near.found.state.clone() },
             place: near.place(self.scales),
             residual: near.found.image.residual.clone(),
         });
@@ -286,10 +248,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
             let image = self.map.image(&guess.state);
             let periods = self.map.periods() - first;
             let residual = self.judged(near, &image, periods)?;
-            let place = [
-                guess.value / self.scales[0],
-                image.amplitude / self.scales[1],
-            ];
+            let place = [guess.value / self.scales[0], image.amplitude / self.scales[1]];
             let closure = goal.closure(place, self.scales);
             let missed = residual.max(closure.abs() * TOLERANCE / CLOSED);
             if missed < 0.5 * improved.1 {
@@ -331,11 +290,8 @@ impl<'b, 'a> Corrector<'b, 'a> {
         let closure = self.weight * closure;
         let ((step, period, value), share) = loop {
             let (step, period, value) = self.secants.step(&image.residual, closure, &image.rate);
-            let lengths = [
-                norm(&step) / image.vibration,
-                period.abs() / guess.state.period,
-                value.abs(),
-            ];
+            let lengths =
+                [norm(&step) / image.vibration, period.abs() / guess.state.period, value.abs()];
             let shares = lengths.iter().zip(LONGEST);
             let share = shares.fold(1.0_f64, |share, (length, longest)| {
                 share.min(longest / length.max(f64::MIN_POSITIVE))

@@ -34,11 +34,7 @@ impl Follower<'_, '_, '_> {
                 let factor = 1.0 + amplitude / place[1];
                 let value = here.value - 0.1 * length * along.signum() * scales[0];
                 let guess = self.corrector.scaled(&here, factor, value)?;
-                let goal = Goal::Length {
-                    from: place,
-                    tangent: [0.0, -sense],
-                    length,
-                };
+                let goal = Goal::Length { from: place, tangent: [0.0, -sense], length };
                 self.corrector.forget();
                 let Ok(next) = self.corrector.correct(&here, guess, &goal) else {
                     continue;
@@ -145,11 +141,7 @@ impl Follower<'_, '_, '_> {
         let from = usize::from(amplitude > places[1]);
         let share = (amplitude - places[from]) / (places[from + 1] - places[from]);
         let guess = three[from].towards(&three[from + 1], share);
-        let goal = Goal::Length {
-            from: [0.0, 0.0],
-            tangent: [0.0, 1.0],
-            length: amplitude,
-        };
+        let goal = Goal::Length { from: [0.0, 0.0], tangent: [0.0, 1.0], length: amplitude };
         self.corrector.correct(&three[1], guess, &goal).ok()
     }
 }
@@ -160,11 +152,7 @@ fn extreme(places: &[Place], turn: usize) -> Option<f64> {
     let [a, b, c] = [places[0], places[1], places[2]];
     let [low, high] = [b[1] - a[1], c[1] - b[1]];
     let [left, right] = [(b[0] - a[0]) / low, (c[0] - b[0]) / high];
-    let longer = if low > high {
-        b[1] - 0.4 * low
-    } else {
-        b[1] + 0.4 * high
-    };
+    let longer = if low > high { b[1] - 0.4 * low } else { b[1] + 0.4 * high };
     if !longer.is_finite() || low.max(high) < 1e-7 {
         return None;
     }

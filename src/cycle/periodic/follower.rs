@@ -21,13 +21,8 @@ const POINTS: [usize; 2] = [6, 60];
 /// Points between two at which what is done is kept.
 const BLOCK: usize = 20;
 /// Ends by their codes.
-const ENDS: [BranchEnd; 5] = [
-    BranchEnd::Range,
-    BranchEnd::Birth,
-    BranchEnd::Lost,
-    BranchEnd::Steps,
-    BranchEnd::Separated,
-];
+const ENDS: [BranchEnd; 5] =
+    [BranchEnd::Range, BranchEnd::Birth, BranchEnd::Lost, BranchEnd::Steps, BranchEnd::Separated];
 
 /// One half of a branch, from its first point on.
 pub(super) struct Follower<'c, 'b, 'a> {
@@ -139,9 +134,7 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
         (self.length, self.largest) = (length, largest);
         self.folds = folds.iter().map(|&fold| fold as usize).collect();
         self.corrector.map.step_in(steps as usize);
-        Ok((end >= 0.0)
-            .then(|| ENDS.get(end as usize).copied())
-            .flatten())
+        Ok((end >= 0.0).then(|| ENDS.get(end as usize).copied()).flatten())
     }
 
     pub(super) fn here(&self) -> &Point {
@@ -196,11 +189,7 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
         if slope.abs() > ALONG && distance <= self.length {
             return (Some(Goal::Value(next)), distance);
         }
-        let goal = Goal::Length {
-            from: place,
-            tangent: self.tangent,
-            length: self.length,
-        };
+        let goal = Goal::Length { from: place, tangent: self.tangent, length: self.length };
         (Some(goal), self.length)
     }
 

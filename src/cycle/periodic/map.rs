@@ -104,9 +104,8 @@ impl<'a> PeriodMap<'a> {
         let run = CentralDifference::start_from(body, operator, &settings, &still, still.clone())?;
         let masses = operator.masses();
         let places = (0..operator.dof_count()).map(|dof| operator.position(dof));
-        let moving = places
-            .filter(|&place| masses[place] > 0.0)
-            .map(|place| (place, masses[place].sqrt()));
+        let moving =
+            places.filter(|&place| masses[place] > 0.0).map(|place| (place, masses[place].sqrt()));
         let longest = 0.95 * run.plan().limit;
         let mut map = Self {
             moving: moving.collect(),
@@ -182,9 +181,7 @@ impl<'a> PeriodMap<'a> {
         let dofs: Vec<usize> = dofs.collect();
         let part = |field: &[f64], weight: f64| -> Vec<f64> {
             let pairs = dofs.iter().zip(&self.moving);
-            pairs
-                .map(|(&dof, (_, root))| weight * root * field[dof])
-                .collect()
+            pairs.map(|(&dof, (_, root))| weight * root * field[dof]).collect()
         };
         let mut motion = part(displacement, self.frequency);
         motion.extend(part(velocity, 1.0));
@@ -267,8 +264,6 @@ impl<'a> PeriodMap<'a> {
     fn twice_kinetic_energy(&self) -> f64 {
         let velocity = &self.run.fields().velocity;
         let moving = self.moving.iter();
-        moving
-            .map(|&(place, root)| (root * velocity[place]).powi(2))
-            .sum()
+        moving.map(|&(place, root)| (root * velocity[place]).powi(2)).sum()
     }
 }

@@ -135,9 +135,7 @@ impl PeriodicMotion {
         let (samples, touches) = contact_displacements(map, &found.state);
         let (node, amplitude) = widest(&samples, &touches);
         let ahead = samples.iter().map(|sample| sample[node][1]).enumerate();
-        let first = ahead
-            .max_by(|a, b| a.1.total_cmp(&b.1))
-            .map_or(0, |most| most.0);
+        let first = ahead.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |most| most.0);
         let motion = Self {
             frequency_hz: 1.0 / found.state.period,
             steps: map.steps(),
@@ -203,10 +201,7 @@ impl PeriodicMotion {
 
     /// How many harmonics leave no more than `remainder` of the vibration.
     pub fn harmonics_within(&self, remainder: f64) -> usize {
-        let found = self
-            .harmonics
-            .iter()
-            .position(|own| own.remainder <= remainder);
+        let found = self.harmonics.iter().position(|own| own.remainder <= remainder);
         found.map_or(self.harmonics.len(), |place| place + 1)
     }
 
@@ -216,11 +211,7 @@ impl PeriodicMotion {
         let mut fractions = self.fractions.iter().zip(other.fractions);
         near(self.frequency_hz, other.frequency_hz, 1e-5)
             && near(self.amplitude, other.amplitude, 1e-3)
-            && near(
-                self.powers.contact.external,
-                other.powers.contact.external,
-                1e-3,
-            )
+            && near(self.powers.contact.external, other.powers.contact.external, 1e-3)
             && fractions.all(|(a, b)| (a - b).abs() < 1e-3)
     }
 }
@@ -295,17 +286,13 @@ fn contact_displacements(
 fn widest(samples: &[Vec<[f64; 2]>], touches: &[bool]) -> (usize, f64) {
     let range = |node: usize| {
         let along = samples.iter().map(|sample| sample[node][1]);
-        let [low, high] = along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], u| {
-            [low.min(u), high.max(u)]
-        });
+        let [low, high] = along
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], u| [low.min(u), high.max(u)]);
         0.5 * (high - low)
     };
     let nodes = (0..touches.len()).filter(|&node| touches[node]);
     let ranges = nodes.map(|node| (node, range(node)));
-    ranges.fold(
-        (0, 0.0),
-        |best, own| if own.1 > best.1 { own } else { best },
-    )
+    ranges.fold((0, 0.0), |best, own| if own.1 > best.1 { own } else { best })
 }
 
 /// The state so many steps later.
@@ -313,8 +300,5 @@ fn later(map: &mut PeriodMap<'_>, state: &PeriodicState, steps: usize) -> Period
     map.place(state);
     (0..steps).for_each(|_| map.run.advance());
     let motion = map.motion();
-    PeriodicState {
-        motion,
-        period: state.period,
-    }
+    PeriodicState { motion, period: state.period }
 }

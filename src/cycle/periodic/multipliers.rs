@@ -134,12 +134,7 @@ impl FloquetMultipliers {
                 let sums: Vec<f64> = sums.map(|(one, other)| 0.5 * (one + other)).collect();
                 let bend = norm(&sums) / listed[0].value.norm();
                 let periods = map.periods() - first;
-                return Ok(Self::assessed(
-                    &listed,
-                    shift,
-                    (state.period, bend),
-                    periods,
-                ));
+                return Ok(Self::assessed(&listed, shift, (state.period, bend), periods));
             }
         }
     }
@@ -162,11 +157,7 @@ impl FloquetMultipliers {
                 beat_hz: ritz.value.arg().abs() / (TAU * period),
             }
         };
-        Self {
-            multipliers: listed.iter().map(of).collect(),
-            shift,
-            periods,
-        }
+        Self { multipliers: listed.iter().map(of).collect(), shift, periods }
     }
 
     /// The multiplier of the fastest growth or slowest decay.
@@ -238,9 +229,8 @@ fn leading(
     along: &[f64],
 ) -> Result<(Option<c64>, Vec<Ritz>), PeriodicError> {
     let dimension = columns.len();
-    let matrix = Mat::from_fn(dimension, dimension, |i, j| {
-        columns[j].get(i).copied().unwrap_or(0.0)
-    });
+    let matrix =
+        Mat::from_fn(dimension, dimension, |i, j| columns[j].get(i).copied().unwrap_or(0.0));
     let eigen = real_eigen(matrix.as_ref(), false, 0)
         .map_err(|_| PeriodicError::Multipliers { dimension })?;
     let overflow = columns[dimension - 1][dimension];
@@ -325,10 +315,7 @@ mod tests {
             shift: Some(c64::new(0.999, 0.0)),
             periods: 17,
         };
-        let unknown = FloquetMultipliers {
-            shift: None,
-            ..known.clone()
-        };
+        let unknown = FloquetMultipliers { shift: None, ..known.clone() };
         for found in [Ok(known), Ok(unknown), Err("no multiplier".to_owned())] {
             assert_eq!(from_columns(&to_columns(&found)), found);
         }

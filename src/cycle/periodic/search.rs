@@ -65,16 +65,8 @@ impl Found {
             return None;
         }
         map.step_in(steps as usize);
-        let state = PeriodicState {
-            motion: motion.clone(),
-            period,
-        };
-        Some(Self {
-            image: map.image(&state),
-            state,
-            residual,
-            periods: periods as usize,
-        })
+        let state = PeriodicState { motion: motion.clone(), period };
+        Some(Self { image: map.image(&state), state, residual, periods: periods as usize })
     }
 }
 
@@ -91,15 +83,9 @@ pub fn find(map: &mut PeriodMap<'_>, start: PeriodicState) -> Result<Found, Peri
     let periods = map.periods() - first;
     match result {
         Ok(found) => Ok(Found { periods, ..found }),
-        Err(PeriodicError::NotConverged {
-            residual,
-            frequency_hz,
-            ..
-        }) => Err(PeriodicError::NotConverged {
-            periods,
-            residual,
-            frequency_hz,
-        }),
+        Err(PeriodicError::NotConverged { residual, frequency_hz, .. }) => {
+            Err(PeriodicError::NotConverged { periods, residual, frequency_hz })
+        }
         Err(error) => Err(error),
     }
 }
@@ -164,9 +150,7 @@ struct Search {
 
 impl Search {
     fn best_residual(&self) -> f64 {
-        self.best
-            .as_ref()
-            .map_or(f64::INFINITY, |best| best.residual)
+        self.best.as_ref().map_or(f64::INFINITY, |best| best.residual)
     }
 
     fn forget(&mut self) {
@@ -193,12 +177,8 @@ impl Search {
             self.improved = (self.spent, residual);
         }
         if residual < self.best_residual() {
-            self.best = Some(Found {
-                state: self.state.clone(),
-                image: image.clone(),
-                residual,
-                periods,
-            });
+            self.best =
+                Some(Found { state: self.state.clone(), image: image.clone(), residual, periods });
         }
         Ok(())
     }
@@ -231,10 +211,7 @@ impl Search {
             });
         }
         let (step, period, _) = self.secants.step(&image.residual, 0.0, &image.rate);
-        let lengths = [
-            norm(&step) / image.vibration,
-            period.abs() / self.state.period,
-        ];
+        let lengths = [norm(&step) / image.vibration, period.abs() / self.state.period];
         let shares = lengths.iter().zip(LONGEST);
         let share = shares.fold(1.0_f64, |share, (length, longest)| {
             share.min(longest / length.max(f64::MIN_POSITIVE))

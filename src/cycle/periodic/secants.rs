@@ -122,9 +122,8 @@ impl SecantSpace {
     pub fn step(&self, residual: &[f64], closure: f64, rate: &[f64]) -> (Vec<f64>, f64, f64) {
         let changes = || self.changes.iter().map(|(change, _)| change);
         let [by_value, by_amplitude] = self.closure;
-        let closures: Vec<f64> = changes()
-            .map(|own| by_value * own.place[0] + by_amplitude * own.place[1])
-            .collect();
+        let closures: Vec<f64> =
+            changes().map(|own| by_value * own.place[0] + by_amplitude * own.place[1]).collect();
         // Products of each difference with those after it; the change of the period, which takes what they do not hold, is last.
         let count = self.changes.len();
         let along: Vec<f64> = changes().map(|own| dot(&own.residual, rate)).collect();

@@ -113,11 +113,7 @@ impl FlatFace {
     pub fn power(&self, frequency: f64, velocity: &[c64]) -> f64 {
         let [density, speed] = AIR;
         let wave_number = frequency / speed;
-        let sources: Vec<c64> = velocity
-            .iter()
-            .zip(&self.areas)
-            .map(|(v, s)| v * s)
-            .collect();
+        let sources: Vec<c64> = velocity.iter().zip(&self.areas).map(|(v, s)| v * s).collect();
         let mut sum = 0.0;
         for (i, a) in sources.iter().enumerate() {
             let mut others = c64::new(0.0, 0.0);
@@ -152,9 +148,7 @@ impl Sound {
             let operator = map.run.operator();
             let rows = faces.iter().flat_map(|face| &face.normals);
             let placed = rows.map(|row| {
-                let row = row
-                    .iter()
-                    .map(|&(dof, along)| (operator.position(dof), along));
+                let row = row.iter().map(|&(dof, along)| (operator.position(dof), along));
                 row.collect()
             });
             placed.collect()
@@ -174,9 +168,7 @@ impl Sound {
             for (k, own) in amplitudes.iter_mut().enumerate() {
                 let turns = ((k + 1) * step) % steps;
                 let turn = c64::from_polar(2.0 / steps as f64, -TAU * turns as f64 / steps as f64);
-                own.iter_mut()
-                    .zip(&velocity)
-                    .for_each(|(sum, v)| *sum += turn * v);
+                own.iter_mut().zip(&velocity).for_each(|(sum, v)| *sum += turn * v);
             }
         }
         let powers = amplitudes.iter().enumerate().map(|(k, own)| {
@@ -189,10 +181,7 @@ impl Sound {
             });
             of_faces.sum()
         });
-        Self {
-            harmonics: powers.collect(),
-            area: faces.iter().map(FlatFace::area).sum(),
-        }
+        Self { harmonics: powers.collect(), area: faces.iter().map(FlatFace::area).sum() }
     }
 
     /// Power of all harmonics, W.
@@ -259,8 +248,7 @@ mod tests {
                 let r = radius * (ring as f64 + 0.5) / rings as f64;
                 let angle = TAU * (k as f64 + 0.5 * (ring % 2) as f64) / f64::from(count);
                 face.places.push([r * angle.cos(), r * angle.sin(), 0.0]);
-                face.areas
-                    .push(PI * radius * radius / f64::from(rings * rings));
+                face.areas.push(PI * radius * radius / f64::from(rings * rings));
                 face.normals.push(Vec::new());
             }
         }
@@ -272,10 +260,7 @@ mod tests {
             let found = face.power(frequency, &vec![velocity; face.areas.len()]);
             let resistance = 1.0 - bessel(2.0 * size) / size;
             let expected = 0.5 * density * speed * face.area() * 0.09 * resistance;
-            assert!(
-                (found / expected - 1.0).abs() < 5e-3,
-                "{size}: {found} {expected}"
-            );
+            assert!((found / expected - 1.0).abs() < 5e-3, "{size}: {found} {expected}");
         }
     }
 }

@@ -22,14 +22,10 @@ pub fn two_frequencies(map: &mut PeriodMap<'_>, start: &PeriodicState) -> Option
     let series = strongest_node(&samples)?;
     let size = series.iter().map(|value| value.norm_sqr()).sum::<f64>() / series.len() as f64;
     let lines = rotating_lines(&series, rate, SHARES[0] * size.sqrt());
-    let lines: Vec<RotatingLine> = lines
-        .into_iter()
-        .filter(|line| line.frequency_hz > 0.0)
-        .collect();
+    let lines: Vec<RotatingLine> =
+        lines.into_iter().filter(|line| line.frequency_hz > 0.0).collect();
     let strongest = |lines: &mut dyn Iterator<Item = &RotatingLine>| {
-        lines
-            .max_by(|a, b| a.amplitude.total_cmp(&b.amplitude))
-            .copied()
+        lines.max_by(|a, b| a.amplitude.total_cmp(&b.amplitude)).copied()
     };
     let first = strongest(&mut lines.iter())?;
     let width = rate / series.len() as f64;

@@ -45,9 +45,8 @@ impl TwoWaves {
         values.sort_by(f64::total_cmp);
         let half = |name: &str, is_up: bool| {
             let ahead = values.iter().copied();
-            let mut ahead: Vec<f64> = ahead
-                .filter(|&value| if is_up { value > start } else { value < start })
-                .collect();
+            let mut ahead: Vec<f64> =
+                ahead.filter(|&value| if is_up { value > start } else { value < start }).collect();
             if !is_up {
                 ahead.reverse();
             }
@@ -147,9 +146,7 @@ impl Half<'_> {
         (self.here, self.found) = (here, found);
         self.shrinking = (wave >= 0.0).then_some((wave as usize, from));
         self.birth = (!birth.is_nan()).then_some(birth);
-        (end >= 0.0)
-            .then(|| ENDS.get(end as usize).copied())
-            .flatten()
+        (end >= 0.0).then(|| ENDS.get(end as usize).copied()).flatten()
     }
 
     fn value(&self) -> f64 {
@@ -169,17 +166,11 @@ impl Half<'_> {
         while self.value() != value {
             interruption::check();
             let rest = value - self.value();
-            let next = if rest.abs() <= step.abs() {
-                value
-            } else {
-                self.value() + step
-            };
+            let next = if rest.abs() <= step.abs() { value } else { self.value() + step };
             let mut start = self.here.state.clone();
             self.parameter.set(&mut start.point, next);
             start.impose_law();
-            let found = self
-                .waves
-                .solved(&start, self.parameter, Closure::Value(next));
+            let found = self.waves.solved(&start, self.parameter, Closure::Value(next));
             let found = found.map(|state| self.waves.motion(state));
             let share =
                 |found: &TwoWaveMotion| found.amplitudes[weaker] / self.here.amplitudes[weaker];
@@ -209,12 +200,8 @@ impl Half<'_> {
         };
         let sense = (last - self.value()).signum();
         let before = std::mem::replace(&mut self.here, self.waves.motion(state));
-        let [from, to] = [&before, &self.here].map(|own| {
-            [
-                self.parameter.of(&own.state.point),
-                own.amplitudes[weaker].powi(2),
-            ]
-        });
+        let [from, to] = [&before, &self.here]
+            .map(|own| [self.parameter.of(&own.state.point), own.amplitudes[weaker].powi(2)]);
         // The square of the amplitude is linear in the parameter there.
         self.birth = Some(to[0] - to[1] * (to[0] - from[0]) / (to[1] - from[1]));
         if (self.value() - last) * sense > 0.0 {

@@ -40,11 +40,7 @@ impl Measured {
         let &[a, b, c, d, e, f] = numbers else {
             return None;
         };
-        Some(Self {
-            frequencies: [a, b],
-            amplitudes: [c, d],
-            origins: [e, f],
-        })
+        Some(Self { frequencies: [a, b], amplitudes: [c, d], origins: [e, f] })
     }
 }
 
@@ -81,9 +77,8 @@ impl History {
             for step in 0..every {
                 run.advance();
                 let law = run.contact();
-                for (sums, forces) in sums
-                    .iter_mut()
-                    .zip([&law.normal_force, &law.tangential_force])
+                for (sums, forces) in
+                    sums.iter_mut().zip([&law.normal_force, &law.tangential_force])
                 {
                     let pairs = sums.iter_mut().zip(forces);
                     pairs.for_each(|(sum, force)| *sum += force / every as f64);
@@ -182,9 +177,7 @@ impl History {
         }
         let mean = |sum: &[f64]| -> Vec<f64> {
             let pairs = sum.iter().zip(&counts);
-            pairs
-                .map(|(sum, count)| sum / f64::max(*count, 1.0))
-                .collect()
+            pairs.map(|(sum, count)| sum / f64::max(*count, 1.0)).collect()
         };
         let [normal, tangential] = [mean(&sums[0]), mean(&sums[1])];
         // Contact states as the mean forces have them.

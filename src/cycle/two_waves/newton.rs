@@ -53,10 +53,7 @@ impl TwoWaves {
             let above = (half * reach) % sectors;
             half * reach < sectors / 2 || above.min(sectors - above) >= CLEARANCE
         };
-        let half = (4..=side.unwrap_or(SIDE) / 2)
-            .rev()
-            .find(is_clear)
-            .unwrap_or(4);
+        let half = (4..=side.unwrap_or(SIDE) / 2).rev().find(is_clear).unwrap_or(4);
         let sides = [2 * half + 1; 2];
         let all = orders(sides).into_iter();
         let all = all.map(|[k_1, k_2]| k_1 * harmonics[0] + k_2 * harmonics[1]);
@@ -173,11 +170,7 @@ impl Iterate {
             }
         });
         let contact = contact.collect();
-        let mut iterate = Self {
-            state,
-            contact,
-            missed: 0.0,
-        };
+        let mut iterate = Self { state, contact, missed: 0.0 };
         let count = iterate.contact.len() as f64;
         iterate.missed = (sum / count).sqrt() / iterate.scale();
         iterate

@@ -109,9 +109,7 @@ impl MeshStepping<'_> {
         let start = history.state(&waves, &settled, point);
         let parameter = Parameter::FrictionCoefficient;
         let value = Closure::Value(point.contact.friction_coefficient);
-        let [a, b] = settled
-            .frequencies
-            .map(|omega| omega / std::f64::consts::TAU);
+        let [a, b] = settled.frequencies.map(|omega| omega / std::f64::consts::TAU);
         let state = waves.solved(&start, parameter, value);
         let motion = waves.motion(state.ok_or(NoTwoWaves::NotConverged(a, b))?);
         let shape = [
@@ -128,12 +126,7 @@ impl MeshStepping<'_> {
         let mut columns = numbers.map(Option::unwrap_or_default).to_vec();
         columns.extend(motion.state.columns());
         watch.keep("found", &columns);
-        Ok(TwoWaveSearch {
-            waves,
-            motion,
-            confirmation,
-            settled,
-        })
+        Ok(TwoWaveSearch { waves, motion, confirmation, settled })
     }
 
     /// What a transient from a cycle, seeded with a second wave, settles on.

@@ -75,9 +75,7 @@ impl ElementGeometry {
         let internal = self.internal_amplitudes(material, values);
         let gradients = self.displacement_gradients(points, values, internal.as_ref());
         let pairs = points.iter().zip(&gradients);
-        pairs
-            .map(|(point, gradient)| stress_of(material, gradient, self.position(point)))
-            .collect()
+        pairs.map(|(point, gradient)| stress_of(material, gradient, self.position(point))).collect()
     }
 
     /// Amplitudes of the incompatible modes that come with nodal values.
@@ -152,9 +150,7 @@ impl ElementGeometry {
         let law = material.elasticity_at(self.position(point));
         let components = self.components();
         let count = components.len();
-        DMatrix::from_fn(count, count, |row, column| {
-            law[components[row]][components[column]]
-        })
+        DMatrix::from_fn(count, count, |row, column| law[components[row]][components[column]])
     }
 }
 

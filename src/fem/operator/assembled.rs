@@ -119,15 +119,11 @@ impl AssembledOperator {
             places[node as usize] = 3 * k as u32;
         }
         let place = |dof: u32| places[dof as usize / 3] + dof % 3;
-        let mut rows = SolidRows {
-            starts: vec![0],
-            ..SolidRows::default()
-        };
+        let mut rows = SolidRows { starts: vec![0], ..SolidRows::default() };
         let mut placed_masses = Vec::with_capacity(3 * nodes + 8);
         for node in order.iter().map(|&node| node as usize) {
             let mut row = blocks[node].clone();
-            row.iter_mut()
-                .for_each(|block| block.0 = places[block.0 as usize]);
+            row.iter_mut().for_each(|block| block.0 = places[block.0 as usize]);
             row.sort_unstable_by_key(|block| block.0);
             rows.columns.extend(row.iter().map(|block| block.0));
             rows.blocks.extend(row.iter().map(|block| block.1));
@@ -137,10 +133,7 @@ impl AssembledOperator {
         placed_masses.resize((3 * nodes).next_multiple_of(8), 0.0);
         let followers = followers.into_iter().map(|(dof, shares)| {
             let shares = shares.into_iter();
-            (
-                place(dof),
-                shares.map(|(dof, share)| (place(dof), share)).collect(),
-            )
+            (place(dof), shares.map(|(dof, share)| (place(dof), share)).collect())
         });
         Ok(Self {
             followers: followers.collect(),
@@ -163,9 +156,7 @@ impl AssembledOperator {
 
     fn follow(&self, field: &mut [f64]) {
         for (place, shares) in &self.followers {
-            let values = shares
-                .iter()
-                .map(|&(other, share)| share * field[other as usize]);
+            let values = shares.iter().map(|&(other, share)| share * field[other as usize]);
             field[*place as usize] = values.sum();
         }
     }
@@ -245,12 +236,7 @@ impl StiffnessOperator for AssembledOperator {
 
     fn advance(&self, fields: &mut MotionFields, coefficients: &StepCoefficients) -> f64 {
         let dt = coefficients.time_step;
-        let MotionFields {
-            displacement: u,
-            velocity: v,
-            elastic: q,
-            elastic_rate: z,
-        } = fields;
+        let MotionFields { displacement: u, velocity: v, elastic: q, elastic_rate: z } = fields;
         if !self.is_divided() {
             let power = move_places(self.simd, &self.masses, [u, v], [q, z], coefficients);
             self.follow(u);
@@ -269,9 +255,7 @@ impl StiffnessOperator for AssembledOperator {
         self.follow(v);
         let used = 3 * self.places.len();
         let accelerations = q[..used].par_chunks_mut(piece);
-        let accelerations = accelerations
-            .zip(z[..used].par_chunks_mut(piece))
-            .enumerate();
+        let accelerations = accelerations.zip(z[..used].par_chunks_mut(piece)).enumerate();
         accelerations.for_each(|(k, (q, z))| {
             accumulate_solid(self.simd, &self.rows, k * PIECE, v, dt, [q, z]);
         });

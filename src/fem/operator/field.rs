@@ -20,11 +20,7 @@ impl AlignedVector {
         // Alignment is speed only: an allocator that cannot tell gives offset 0.
         let offset = storage.as_ptr().align_offset(LINE * size_of::<f64>());
         let start = if offset < LINE { offset } else { 0 };
-        Self {
-            storage,
-            start,
-            length,
-        }
+        Self { storage, start, length }
     }
 }
 

@@ -46,11 +46,7 @@ pub(super) struct RowLayout {
 
 impl RowLayout {
     pub(super) fn new(count: usize, rows: usize) -> Self {
-        Self {
-            count,
-            stride: (count + 2).next_multiple_of(LANES),
-            rows,
-        }
+        Self { count, stride: (count + 2).next_multiple_of(LANES), rows }
     }
 
     /// First value of component `component` of row `row`. One cache line and one row of zeros come before
@@ -87,11 +83,7 @@ fn move_nodes<const FUSED: bool>(
     coefficients: &StepCoefficients,
     sums: &mut [f64],
 ) {
-    let StepCoefficients {
-        time_step,
-        mass_coefficient,
-        stiffness_coefficient,
-    } = *coefficients;
+    let StepCoefficients { time_step, mass_coefficient, stiffness_coefficient } = *coefficients;
     let count = masses.len();
     let (displacement, velocity) = (&mut displacement[..count], &mut velocity[..count]);
     let (elastic, elastic_rate) = (&elastic[..count], &elastic_rate[..count]);
@@ -141,10 +133,7 @@ fn move_places<const FUSED: bool>(
 ) {
     move_range::<FUSED>(
         &masses[range.clone()],
-        [
-            &mut fields.displacement[range.clone()],
-            &mut fields.velocity[range.clone()],
-        ],
+        [&mut fields.displacement[range.clone()], &mut fields.velocity[range.clone()]],
         [&fields.elastic[range.clone()], &fields.elastic_rate[range]],
         coefficients,
         sums,

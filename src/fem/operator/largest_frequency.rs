@@ -71,9 +71,8 @@ fn start_vector(
     let mut vector = AlignedVector::zeros(operator.field_length());
     let mut state = 0x9E37_79B9_7F4A_7C15_u64;
     for dof in 0..operator.dof_count() {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         let place = operator.position(dof);
         if operator.masses()[place] > 0.0 && is_part(dof) {
             vector[place] = (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0;

@@ -122,9 +122,7 @@ pub trait StiffnessOperator: Send + Sync {
 
 /// A vector over all dofs from a field.
 pub fn gather(operator: &dyn StiffnessOperator, field: &[f64]) -> Vec<f64> {
-    (0..operator.dof_count())
-        .map(|dof| field[operator.position(dof)])
-        .collect()
+    (0..operator.dof_count()).map(|dof| field[operator.position(dof)]).collect()
 }
 
 /// A field from a vector over all dofs; padding is zero.

@@ -70,9 +70,7 @@ mod tests {
         assert!(place.iter().all(|&k| k <= count));
         let reach = neighbours.iter().enumerate().flat_map(|(i, beside)| {
             let place = &place;
-            beside
-                .iter()
-                .map(move |&j| place[i].abs_diff(place[j as usize]))
+            beside.iter().map(move |&j| place[i].abs_diff(place[j as usize]))
         });
         // A level of a diagonal front is at most two columns of the strip.
         assert!(reach.max().unwrap() <= 4 * width);

@@ -58,11 +58,7 @@ impl SimdLevel {
     /// [`SimdError::Unavailable`] if it has not.
     pub fn available(self) -> Result<Self, SimdError> {
         let best = Self::detect();
-        if self <= best {
-            Ok(self)
-        } else {
-            Err(SimdError::Unavailable { wanted: self, best })
-        }
+        if self <= best { Ok(self) } else { Err(SimdError::Unavailable { wanted: self, best }) }
     }
 
     /// Level of a name: `auto` (the best this processor has), `scalar`, `avx2`, `avx512`.

@@ -38,11 +38,8 @@ impl SolidStencil {
         if sector.is_quadratic() {
             return Err(OperatorError::NotBrick8);
         }
-        let layout = SheetLayout::new(
-            sector.sector_count(),
-            sector.node_count(),
-            sector.node_bandwidth(),
-        );
+        let layout =
+            SheetLayout::new(sector.sector_count(), sector.node_count(), sector.node_bandwidth());
         let node_masses = nodal_masses(sector, material)?;
         let elastic = solid::stiffness(sector, material);
         let blocks = sector_blocks(sector, &[&elastic, springs]);
@@ -91,10 +88,7 @@ fn nodal_masses(
         }
     }
     match masses.iter().position(|mass| !(*mass > 0.0)) {
-        Some(node) => Err(OperatorError::Massless {
-            node: node + 1,
-            mass: masses[node],
-        }),
+        Some(node) => Err(OperatorError::Massless { node: node + 1, mass: masses[node] }),
         None => Ok(masses),
     }
 }
@@ -184,13 +178,6 @@ impl StiffnessOperator for SolidStencil {
     }
 
     fn advance(&self, fields: &mut MotionFields, coefficients: &StepCoefficients) -> f64 {
-        solid_advance(
-            self.simd,
-            &self.layout,
-            &self.rows,
-            &self.masses,
-            fields,
-            coefficients,
-        )
+        solid_advance(self.simd, &self.layout, &self.rows, &self.masses, fields, coefficients)
     }
 }

@@ -53,10 +53,7 @@ impl SparseOperator {
         for (k, &node) in order.iter().enumerate() {
             places[node as usize] = 2 * k as u32;
         }
-        let mut rows = BlockRows {
-            starts: vec![0],
-            ..BlockRows::default()
-        };
+        let mut rows = BlockRows { starts: vec![0], ..BlockRows::default() };
         let mut masses = Vec::with_capacity(field_length);
         for node in order.iter().map(|&node| node as usize) {
             let mass = node_masses[node];
@@ -71,12 +68,7 @@ impl SparseOperator {
             masses.extend(&dof_masses[2 * node..2 * node + 2]);
         }
         masses.resize(field_length, 0.0);
-        Ok(Self {
-            rows,
-            masses,
-            places,
-            simd: simd.min(SimdLevel::detect()),
-        })
+        Ok(Self { rows, masses, places, simd: simd.min(SimdLevel::detect()) })
     }
 
     fn is_divided(&self) -> bool {
@@ -124,10 +116,7 @@ pub(super) fn free_masses(
     }
     for boundary in &mesh.boundaries {
         if boundary.condition == BoundaryCondition::Clamped {
-            boundary
-                .nodes
-                .iter()
-                .for_each(|&node| masses[node as usize] = 0.0);
+            boundary.nodes.iter().for_each(|&node| masses[node as usize] = 0.0);
         }
     }
     Ok(masses)
@@ -170,12 +159,7 @@ impl StiffnessOperator for SparseOperator {
 
     fn advance(&self, fields: &mut MotionFields, coefficients: &StepCoefficients) -> f64 {
         let dt = coefficients.time_step;
-        let MotionFields {
-            displacement: u,
-            velocity: v,
-            elastic: q,
-            elastic_rate: z,
-        } = fields;
+        let MotionFields { displacement: u, velocity: v, elastic: q, elastic_rate: z } = fields;
         if !self.is_divided() {
             let power =
                 block_rows::move_places(self.simd, &self.masses, [u, v], [q, z], coefficients);

@@ -24,17 +24,13 @@ fn layered(sector: &SolidSector, compute: impl FnMut(usize) -> DMatrix<f64>) -> 
     let places = sector.elements.iter().enumerate();
     SolidMatrix {
         matrices: (0..radial).map(compute).collect(),
-        places: places
-            .map(|(e, nodes)| (e % radial, nodes.clone()))
-            .collect(),
+        places: places.map(|(e, nodes)| (e % radial, nodes.clone())).collect(),
     }
 }
 
 /// Elastic stiffness `∫ B^T D B dV`, N/m: full integration for 20 nodes, incompatible modes for 8, which do not lock in bending.
 pub fn stiffness(sector: &SolidSector, material: &ElasticMaterial) -> SolidMatrix {
-    layered(sector, |e| {
-        geometry(sector, e).stiffness(material).stiffness
-    })
+    layered(sector, |e| geometry(sector, e).stiffness(material).stiffness)
 }
 
 /// Derivative of [`stiffness`] where the elasticity changes at the `rate` of another material's, N/m for each unit.
@@ -43,9 +39,7 @@ pub fn stiffness_rate(
     material: &ElasticMaterial,
     rate: &ElasticMaterial,
 ) -> SolidMatrix {
-    layered(sector, |e| {
-        geometry(sector, e).stiffness_rate(material, rate).stiffness
-    })
+    layered(sector, |e| geometry(sector, e).stiffness_rate(material, rate).stiffness)
 }
 
 /// Mass, kg: consistent `∫ rho N_I N_J dV`, or lumped by row sums (8 nodes) or the scaled diagonal (20 nodes; Hinton, Rock and

@@ -80,9 +80,7 @@ pub fn face_matrix(
                 }
             }
         }
-        result
-            .places
-            .push((result.matrices.len(), face.nodes.clone()));
+        result.places.push((result.matrices.len(), face.nodes.clone()));
         result.matrices.push(matrix);
     }
     result
@@ -122,10 +120,7 @@ pub fn face_matrix_rate(
             let radius = face.radius_at(sector, at);
             // Shape functions are parabolas along the element.
             let [before, after] = [-1.0, 1.0].map(|step| face_shapes(true, [x, at[1] + step]));
-            let slopes = before
-                .iter()
-                .zip(&after)
-                .map(|(a, b)| 0.5 * (b - a) * moved);
+            let slopes = before.iter().zip(&after).map(|(a, b)| 0.5 * (b - a) * moved);
             let slopes: Vec<f64> = slopes.collect();
             let grown = growth / half + 0.5 * (end(1.0) - end(-1.0)) * moved / radius;
             let weight = (term.weight)(face, radius, at[1]);
@@ -142,9 +137,7 @@ pub fn face_matrix_rate(
                 }
             }
         }
-        result
-            .places
-            .push((result.matrices.len(), face.nodes.clone()));
+        result.places.push((result.matrices.len(), face.nodes.clone()));
         result.matrices.push(matrix);
     }
     result
@@ -153,9 +146,7 @@ pub fn face_matrix_rate(
 /// Components in the nodes' frames of a unit vector along `component` at a point, times `values` of the nodes.
 fn along(values: &[f64], ahead: &[f64], component: usize) -> Vec<f64> {
     let nodes = values.iter().zip(ahead);
-    nodes
-        .flat_map(|(value, angle)| turned(component, *angle).map(|c| c * value))
-        .collect()
+    nodes.flat_map(|(value, angle)| turned(component, *angle).map(|c| c * value)).collect()
 }
 
 /// Forces of a unit traction along `component` over some elements of a face, the same in every sector, m2.

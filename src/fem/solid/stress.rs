@@ -48,9 +48,7 @@ pub fn geometric_stiffness_rate(
     let Some(rate) = rate else {
         return of_stress(sector, &[moved]);
     };
-    let changed = recoveries(sector, |geometry| {
-        geometry.stiffness_rate(material, rate).recovered
-    });
+    let changed = recoveries(sector, |geometry| geometry.stiffness_rate(material, rate).recovered);
     let added = amplitudes(sector, &changed, displacement);
     for (sum, added) in moved.internal.iter_mut().zip(added) {
         if let (Some(sum), Some(added)) = (sum, added) {
@@ -80,9 +78,7 @@ fn recoveries(
 
 /// Displacements of an element's nodes.
 fn local(nodes: &[(usize, usize)], displacement: &[f64]) -> DVector<f64> {
-    let values = nodes
-        .iter()
-        .flat_map(|(node, _)| [0, 1, 2].map(|c| displacement[3 * node + c]));
+    let values = nodes.iter().flat_map(|(node, _)| [0, 1, 2].map(|c| displacement[3 * node + c]));
     DVector::from_vec(values.collect())
 }
 
@@ -103,10 +99,8 @@ fn amplitudes(
 fn of_stress(sector: &SolidSector, parts: &[Strained<'_>]) -> SolidMatrix {
     let mut matrix = SolidMatrix::default();
     for (e, nodes) in sector.elements.iter().enumerate() {
-        let values: Vec<DVector<f64>> = parts
-            .iter()
-            .map(|part| local(nodes, part.displacement))
-            .collect();
+        let values: Vec<DVector<f64>> =
+            parts.iter().map(|part| local(nodes, part.displacement)).collect();
         let pairs = parts.iter().zip(&values);
         let stresses: Vec<StressPart<'_>> = pairs
             .map(|(part, values)| StressPart {

@@ -17,10 +17,7 @@ pub struct Lanes {
 
 impl Lanes {
     /// Zero in every system.
-    pub const ZERO: Self = Self {
-        re: [0.0; LANES],
-        im: [0.0; LANES],
-    };
+    pub const ZERO: Self = Self { re: [0.0; LANES], im: [0.0; LANES] };
 
     /// The number `value(lane)` in each system.
     pub fn from_fn(value: impl Fn(usize) -> c64) -> Self {
@@ -215,10 +212,7 @@ impl BandedBatch {
         }
         std::array::from_fn(|lane| {
             let growth = norms[lane] * solutions[lane];
-            Quality {
-                backward_error: residuals[lane] / growth,
-                growth,
-            }
+            Quality { backward_error: residuals[lane] / growth, growth }
         })
     }
 }
@@ -251,11 +245,7 @@ mod tests {
                     let is_inside = (0..n as isize).contains(&(row as isize + offset));
                     let value = c64::new(entry(seed + 2 * k), entry(seed + 2 * k + 1));
                     let unit = if offset == 0 { diagonal } else { 0.0 };
-                    if is_inside {
-                        value + unit
-                    } else {
-                        c64::new(0.0, 0.0)
-                    }
+                    if is_inside { value + unit } else { c64::new(0.0, 0.0) }
                 })
                 .collect()
         };

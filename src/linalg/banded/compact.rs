@@ -27,11 +27,7 @@ impl CompactRows {
             }
             starts.push(values.len());
         }
-        Self {
-            starts,
-            columns,
-            values,
-        }
+        Self { starts, columns, values }
     }
 
     /// `A x`.

@@ -28,9 +28,7 @@ impl BandedFactor {
         let mut upper = vec![0.0; n * width];
         for (i, row) in upper.chunks_exact_mut(width).enumerate() {
             let terms = a.row(i)[h..].iter().zip(&b.row(i)[h..]);
-            row.iter_mut()
-                .zip(terms)
-                .for_each(|(value, (a, b))| *value = a - shift * b);
+            row.iter_mut().zip(terms).for_each(|(value, (a, b))| *value = a - shift * b);
         }
         for k in 0..n {
             let (done, below) = upper.split_at_mut((k + 1) * width);
@@ -50,11 +48,7 @@ impl BandedFactor {
             }
             top[1..=last].iter_mut().for_each(|value| *value *= inverse);
         }
-        Self {
-            dimension: n,
-            half_bandwidth: h,
-            upper,
-        }
+        Self { dimension: n, half_bandwidth: h, upper }
     }
 
     fn pivots(&self) -> impl Iterator<Item = f64> + '_ {
@@ -111,10 +105,7 @@ mod tests {
             }
         }
         for shift in [0.0, 1.3, 4.0] {
-            let (one, other) = (
-                BandedFactor::new(&a, &b, shift),
-                BandedLdl::new(&a, &b, shift),
-            );
+            let (one, other) = (BandedFactor::new(&a, &b, shift), BandedLdl::new(&a, &b, shift));
             assert_eq!(one.negative_count(), other.negative_count());
             let right: Vec<f64> = (0..n).map(|i| (i as f64).cos()).collect();
             let (mut x, mut y) = (right.clone(), right);

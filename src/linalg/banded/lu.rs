@@ -37,17 +37,11 @@ impl BandedLu {
         let (n, h) = (self.dimension, self.half_bandwidth);
         let (width, stored) = (3 * h + 1, 2 * h + 1);
         let zero = c64::new(0.0, 0.0);
-        for (row, band) in self
-            .upper
-            .chunks_exact_mut(width)
-            .zip(values.chunks_exact(stored))
-        {
+        for (row, band) in self.upper.chunks_exact_mut(width).zip(values.chunks_exact(stored)) {
             row[..stored].copy_from_slice(band);
             row[stored..].fill(zero);
         }
-        let largest = values
-            .iter()
-            .fold(0.0_f64, |m, v| m.max(v.re.abs()).max(v.im.abs()));
+        let largest = values.iter().fold(0.0_f64, |m, v| m.max(v.re.abs()).max(v.im.abs()));
         for k in 0..n {
             let last = (k + h).min(n - 1);
             let size = |i: usize| {

@@ -46,11 +46,7 @@ pub struct BandedMatrix {
 impl BandedMatrix {
     /// The zero matrix with `half_bandwidth` off-diagonals on either side.
     pub fn zeros(dimension: usize, half_bandwidth: usize) -> Self {
-        Self {
-            dimension,
-            half_bandwidth,
-            values: vec![0.0; dimension * (2 * half_bandwidth + 1)],
-        }
+        Self { dimension, half_bandwidth, values: vec![0.0; dimension * (2 * half_bandwidth + 1)] }
     }
 
     /// Number of rows and of columns.
@@ -118,10 +114,7 @@ impl BandedMatrix {
     /// # Panics
     /// If the shapes differ.
     pub fn add_scaled(&mut self, factor: f64, other: &Self) {
-        assert_eq!(
-            (self.dimension, self.half_bandwidth),
-            (other.dimension, other.half_bandwidth)
-        );
+        assert_eq!((self.dimension, self.half_bandwidth), (other.dimension, other.half_bandwidth));
         for (sum, value) in self.values.iter_mut().zip(&other.values) {
             *sum += factor * value;
         }

@@ -67,11 +67,7 @@ impl BandedLdl {
                 row[k] = scaled;
             }
             // A zero pivot is one rounding error away from either sign.
-            self.diagonal[i] = if pivot == 0.0 {
-                f64::MIN_POSITIVE
-            } else {
-                pivot
-            };
+            self.diagonal[i] = if pivot == 0.0 { f64::MIN_POSITIVE } else { pivot };
         }
     }
 
@@ -165,11 +161,8 @@ impl BandedHermitian {
         for i in 0..self.dimension {
             let first = i.saturating_sub(h);
             let row = &self.lower[i * (h + 1)..(i + 1) * (h + 1)];
-            let known: c64 = row[first + h - i..h]
-                .iter()
-                .zip(&x[first..i])
-                .map(|(l, x)| l * x)
-                .sum();
+            let known: c64 =
+                row[first + h - i..h].iter().zip(&x[first..i]).map(|(l, x)| l * x).sum();
             x[i] = (x[i] - known) * (1.0 / row[h].re);
         }
         x

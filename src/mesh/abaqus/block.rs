@@ -28,8 +28,7 @@ impl Block<'_> {
 
     /// Whether a parameter has a value, in any case of letters.
     pub fn is(&self, name: &str, value: &str) -> bool {
-        self.parameter(name)
-            .is_some_and(|known| known.eq_ignore_ascii_case(value))
+        self.parameter(name).is_some_and(|known| known.eq_ignore_ascii_case(value))
     }
 
     /// The value of a parameter that must be there.

@@ -43,10 +43,7 @@ impl Reader<'_, '_> {
                     if block.is("OP", "NEW") {
                         held.clear();
                     }
-                    let own = block
-                        .parameter("TYPE")
-                        .unwrap_or("DISPLACEMENT")
-                        .to_uppercase();
+                    let own = block.parameter("TYPE").unwrap_or("DISPLACEMENT").to_uppercase();
                     if own != "DISPLACEMENT" || block.has("SUBMODEL") || block.has("BASE MOTION") {
                         self.leave_out(&format!("*BOUNDARY, TYPE={own}"), block.place, "");
                         continue;
@@ -74,11 +71,7 @@ impl Reader<'_, '_> {
         for (boundary, (pressure, place)) in pressures {
             let place = self.deck.name(place);
             let kind = FileConditionKind::Pressure(pressure);
-            self.model.conditions.push(FileCondition {
-                boundary,
-                kind,
-                place,
-            });
+            self.model.conditions.push(FileCondition { boundary, kind, place });
         }
         Ok(())
     }
@@ -105,17 +98,12 @@ impl Reader<'_, '_> {
         for &(place, line) in &block.data {
             let entry: Vec<&str> = fields(line).collect();
             let (target, what) = (entry[0], entry.get(1).copied().unwrap_or_default());
-            let word = WORDS
-                .iter()
-                .find(|(word, _)| word.eq_ignore_ascii_case(what));
+            let word = WORDS.iter().find(|(word, _)| word.eq_ignore_ascii_case(what));
             let axes = match word {
                 Some((_, axes)) => *axes,
                 None => {
                     let number = |i: usize| {
-                        entry
-                            .get(i)
-                            .filter(|f| !f.is_empty())
-                            .map(|f| f.parse::<usize>())
+                        entry.get(i).filter(|f| !f.is_empty()).map(|f| f.parse::<usize>())
                     };
                     let (Some(Ok(first)), last) = (number(1), number(2)) else {
                         let message = format!(
@@ -168,10 +156,7 @@ impl Reader<'_, '_> {
         }
         let nodes = self.node_entry(there, place, name)?.unwrap_or_default();
         let letters = ["_1", "_2", "_3"].into_iter().zip(axes);
-        let letters: String = letters
-            .filter(|(_, is_held)| *is_held)
-            .map(|l| l.0)
-            .collect();
+        let letters: String = letters.filter(|(_, is_held)| *is_held).map(|l| l.0).collect();
         let single = format!("{SINGLE_NODES}{letters}");
         self.add_node_set(0, &single, nodes, false);
         Ok((0, single.to_uppercase()))
@@ -180,12 +165,8 @@ impl Reader<'_, '_> {
     /// Conditions of the sets that are held; what has no meaning here is left out.
     fn take_held(&mut self, held: Held, transformed: &BTreeSet<u32>, referred: &BTreeSet<u32>) {
         let in_plane = self.collection.dimension() == 2;
-        let used: BTreeSet<u32> = self
-            .collection
-            .elements
-            .iter()
-            .flat_map(|e| e.nodes.iter().copied())
-            .collect();
+        let used: BTreeSet<u32> =
+            self.collection.elements.iter().flat_map(|e| e.nodes.iter().copied()).collect();
         for (key, (mut axes, place)) in held {
             let Some(set) = self.node_sets.get(&key).cloned() else {
                 continue;
@@ -194,12 +175,8 @@ impl Reader<'_, '_> {
                 axes[2] = false;
             }
             let keyword = format!("*BOUNDARY of {}", set.name);
-            let nodes: Vec<u32> = set
-                .items
-                .iter()
-                .copied()
-                .filter(|node| used.contains(node))
-                .collect();
+            let nodes: Vec<u32> =
+                set.items.iter().copied().filter(|node| used.contains(node)).collect();
             let is_whole = axes == [true, true, !in_plane];
             if !axes.contains(&true) {
                 self.leave_out(
@@ -228,11 +205,7 @@ impl Reader<'_, '_> {
                 self.collection.node_sets.insert(boundary.clone(), nodes);
                 let place = self.deck.name(place);
                 let kind = FileConditionKind::Fixed(axes);
-                self.model.conditions.push(FileCondition {
-                    boundary,
-                    kind,
-                    place,
-                });
+                self.model.conditions.push(FileCondition { boundary, kind, place });
             }
         }
     }
@@ -254,9 +227,7 @@ impl Reader<'_, '_> {
             }
             let is_surface = keyword == "DSLOAD" && kind == "P";
             let is_face = keyword == "DLOAD"
-                && kind
-                    .strip_prefix('P')
-                    .is_some_and(|n| n.parse::<usize>().is_ok());
+                && kind.strip_prefix('P').is_some_and(|n| n.parse::<usize>().is_ok());
             if !is_surface && !is_face {
                 let reason = "pressures on surfaces and faces are taken, other loads are not";
                 self.leave_out(&format!("*{keyword}, {kind}"), place, reason);
@@ -290,15 +261,10 @@ impl Reader<'_, '_> {
         let (there, name) = self.resolved(scope, set);
         let full = match self.element_sets.get(&self.key(scope, set)) {
             Some(known) => format!("{}_{side}", known.name),
-            None => format!(
-                "{}_{side}",
-                self.scopes[there].full_name(&format!("element_{name}"))
-            ),
+            None => format!("{}_{side}", self.scopes[there].full_name(&format!("element_{name}"))),
         };
-        let faces: Result<Vec<_>, _> = elements
-            .iter()
-            .map(|&e| self.side(e, side, place))
-            .collect();
+        let faces: Result<Vec<_>, _> =
+            elements.iter().map(|&e| self.side(e, side, place)).collect();
         self.collection.surfaces.insert(full.clone(), faces?);
         Ok(full)
     }
@@ -349,10 +315,7 @@ impl Reader<'_, '_> {
         for region in &regions {
             let motions = &mut self.model.motions;
             motions.retain(|motion| *motion.region != **region);
-            motions.push(FileMotion {
-                region: region.to_string(),
-                ..turning.clone()
-            });
+            motions.push(FileMotion { region: region.to_string(), ..turning.clone() });
         }
         !regions.is_empty()
     }
@@ -382,11 +345,7 @@ impl Reader<'_, '_> {
             place: self.deck.name(place),
         };
         if !self.turn_regions(&is_inside, &turning) {
-            self.leave_out(
-                "*DLOAD, CENTRIF",
-                place,
-                "its elements are not those of whole regions",
-            );
+            self.leave_out("*DLOAD, CENTRIF", place, "its elements are not those of whole regions");
         }
         Ok(())
     }

@@ -19,17 +19,11 @@ pub(super) fn element_type(name: &str) -> Option<ElementType> {
         "CPS" => (2, Some(false)),
         _ => return None,
     };
-    let mut kinds = ElementKind::ALL
-        .into_iter()
-        .filter(|kind| kind.dimension() == dimension);
+    let mut kinds = ElementKind::ALL.into_iter().filter(|kind| kind.dimension() == dimension);
     kinds.find_map(|kind| {
         let types = kind.formats().abaqus.iter();
         let mut own = types.filter(|(names, _)| names.contains(&&name[3..]));
-        own.next().map(|&(_, difference)| ElementType {
-            kind,
-            is_plane_strain,
-            difference,
-        })
+        own.next().map(|&(_, difference)| ElementType { kind, is_plane_strain, difference })
     })
 }
 

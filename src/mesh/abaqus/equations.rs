@@ -59,11 +59,7 @@ impl Reader<'_, '_> {
             self.collection.equations.clear();
             let first = blocks.iter().find(|(_, b)| b.keyword == "EQUATION");
             let place = first.map_or_else(|| self.deck.end(), |(_, block)| block.place);
-            self.leave_out(
-                "*EQUATION",
-                place,
-                "plane bodies have no equations of nodes",
-            );
+            self.leave_out("*EQUATION", place, "plane bodies have no equations of nodes");
         }
         Ok(referred)
     }
@@ -114,10 +110,7 @@ impl Reader<'_, '_> {
         let &[target, axis, factor] = term else {
             return Err(wrong());
         };
-        let axis = axis
-            .parse::<usize>()
-            .ok()
-            .filter(|axis| (1..=3).contains(axis));
+        let axis = axis.parse::<usize>().ok().filter(|axis| (1..=3).contains(axis));
         let (Some(axis), Some(factor)) = (axis, real(factor)) else {
             return Err(wrong());
         };

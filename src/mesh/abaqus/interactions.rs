@@ -25,25 +25,15 @@ impl Reader<'_, '_> {
         let interactions = self.interactions(blocks)?;
         for &(scope, block) in blocks.iter().filter(|(_, b)| b.keyword == "TIE") {
             let name = block.parameter("NAME").filter(|name| !name.is_empty());
-            if block
-                .parameter("ADJUST")
-                .is_some_and(|value| !value.eq_ignore_ascii_case("NO"))
-            {
+            if block.parameter("ADJUST").is_some_and(|value| !value.eq_ignore_ascii_case("NO")) {
                 let reason = "nodes stay where the file has them; a tie bridges a small gap";
                 self.leave_out("*TIE, ADJUST", block.place, reason);
             }
             for (place, [surface, counter]) in self.pairs(scope, block)? {
                 let wanted = name.map_or_else(|| surface.clone(), str::to_owned);
-                let name = unique(&wanted, |name| {
-                    self.model.ties.iter().any(|t| t.name == name)
-                });
+                let name = unique(&wanted, |name| self.model.ties.iter().any(|t| t.name == name));
                 let place = self.deck.name(place);
-                self.model.ties.push(FileTie {
-                    name,
-                    surface,
-                    counter,
-                    place,
-                });
+                self.model.ties.push(FileTie { name, surface, counter, place });
             }
         }
         self.read_pairs(blocks, &interactions)
@@ -72,11 +62,7 @@ impl Reader<'_, '_> {
                     continue;
                 }
                 let name = unique(&surface, |name| contacts.iter().any(|c| c.name == name));
-                let Interaction {
-                    friction,
-                    decay,
-                    normal_stiffness,
-                } = interaction;
+                let Interaction { friction, decay, normal_stiffness } = interaction;
                 self.model.contacts.push(FileContact {
                     name,
                     surface,
@@ -101,11 +87,8 @@ impl Reader<'_, '_> {
         for &(place, line) in &block.data {
             let names: Vec<&str> = fields(line).filter(|name| !name.is_empty()).collect();
             let &[first, second, ..] = names.as_slice() else {
-                let message = format!(
-                    "*{}: two surfaces expected, found {}",
-                    block.keyword,
-                    quoted(line)
-                );
+                let message =
+                    format!("*{}: two surfaces expected, found {}", block.keyword, quoted(line));
                 return Err(self.deck.error(place, message));
             };
             let found = [first, second].map(|name| self.surface_name(scope, name));
@@ -185,9 +168,7 @@ impl Reader<'_, '_> {
         mut interaction: Interaction,
     ) -> Result<Interaction, MeshFileError> {
         let numbers = block.first_numbers(self.deck)?;
-        let is_other = ["ROUGH", "USER", "ANISOTROPIC"]
-            .into_iter()
-            .any(|kind| block.has(kind));
+        let is_other = ["ROUGH", "USER", "ANISOTROPIC"].into_iter().any(|kind| block.has(kind));
         if is_other || block.data.len() > 1 {
             let reason =
                 "Coulomb's friction with one coefficient, or with EXPONENTIAL DECAY, is read";
@@ -217,10 +198,7 @@ impl Reader<'_, '_> {
         block: &Block<'_>,
         mut interaction: Interaction,
     ) -> Result<Interaction, MeshFileError> {
-        let kind = block
-            .parameter("PRESSURE-OVERCLOSURE")
-            .unwrap_or("HARD")
-            .to_uppercase();
+        let kind = block.parameter("PRESSURE-OVERCLOSURE").unwrap_or("HARD").to_uppercase();
         match kind.as_str() {
             "LINEAR" => {
                 interaction.normal_stiffness = block.first_numbers(self.deck)?.first().copied()

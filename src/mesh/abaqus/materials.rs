@@ -50,10 +50,7 @@ impl Reader<'_, '_> {
             let Some(definition) = definitions.get(&material.to_uppercase()) else {
                 return Err(self.unknown(block.place, "material", material));
             };
-            let axes = match block
-                .parameter("ORIENTATION")
-                .filter(|name| !name.is_empty())
-            {
+            let axes = match block.parameter("ORIENTATION").filter(|name| !name.is_empty()) {
                 None => MaterialAxes::Global,
                 Some(name) => match orientations.get(&self.key(scope, name)) {
                     Some(&axes) => axes,
@@ -109,10 +106,7 @@ impl Reader<'_, '_> {
                     beta: None,
                     structural: None,
                 };
-                if definitions
-                    .insert(name.to_uppercase(), definition)
-                    .is_some()
-                {
+                if definitions.insert(name.to_uppercase(), definition).is_some() {
                     let message = format!("material {name} is defined twice");
                     return Err(self.deck.error(block.place, message));
                 }
@@ -151,12 +145,9 @@ impl Reader<'_, '_> {
         for &(scope, block) in blocks.iter().filter(|(_, b)| b.keyword == "ORIENTATION") {
             let name = block.required(self.deck, "NAME")?;
             let wrong = |message: &str| {
-                self.deck
-                    .error(block.place, format!("*ORIENTATION {name}: {message}"))
+                self.deck.error(block.place, format!("*ORIENTATION {name}: {message}"))
             };
-            if block
-                .parameter("DEFINITION")
-                .is_some_and(|d| !d.eq_ignore_ascii_case("COORDINATES"))
+            if block.parameter("DEFINITION").is_some_and(|d| !d.eq_ignore_ascii_case("COORDINATES"))
             {
                 return Err(wrong("only DEFINITION=COORDINATES is supported"));
             }
@@ -166,10 +157,7 @@ impl Reader<'_, '_> {
                 return Err(wrong("six numbers expected: two points"));
             };
             let [p, q] = [Vector3::new(a, b, c), Vector3::new(d, e, f)];
-            let system = block
-                .parameter("SYSTEM")
-                .unwrap_or("RECTANGULAR")
-                .to_uppercase();
+            let system = block.parameter("SYSTEM").unwrap_or("RECTANGULAR").to_uppercase();
             let extra = match block.data.get(1) {
                 Some(&(_, line)) => fields(line).filter_map(crate::mesh::deck::real).collect(),
                 None => Vec::new(),
@@ -194,9 +182,7 @@ impl Reader<'_, '_> {
                     MaterialAxes::Cylindrical([p, q].map(|point| scope_of.place(point.into())))
                 }
                 _ => {
-                    return Err(wrong(
-                        "only rectangular and cylindrical systems are supported",
-                    ));
+                    return Err(wrong("only rectangular and cylindrical systems are supported"));
                 }
             };
             found.insert((scope, name.to_uppercase()), axes);
@@ -227,10 +213,7 @@ fn elastic(
     block: &Block<'_>,
     definition: &mut Definition,
 ) -> Result<bool, MeshFileError> {
-    let kind = block
-        .parameter("TYPE")
-        .unwrap_or("ISOTROPIC")
-        .to_uppercase();
+    let kind = block.parameter("TYPE").unwrap_or("ISOTROPIC").to_uppercase();
     let numbers = block.numbers(deck)?;
     let few = |count: usize| {
         let name = &definition.name;
@@ -242,13 +225,7 @@ fn elastic(
             let &[young_modulus, poisson_ratio, ..] = numbers.as_slice() else {
                 return Err(few(2));
             };
-            (
-                FileElasticity::Isotropic {
-                    young_modulus,
-                    poisson_ratio,
-                },
-                1,
-            )
+            (FileElasticity::Isotropic { young_modulus, poisson_ratio }, 1)
         }
         "ENGINEERING CONSTANTS" => {
             let &[e1, e2, e3, n12, n13, n23, g12, g13, g23, ..] = numbers.as_slice() else {

@@ -95,11 +95,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<GmshFile, MeshFileError> {
     let text = String::from_utf8_lossy(bytes);
     let deck = Deck::new(&text, "**");
     let all = blocks(&deck)?;
-    let Layout {
-        scopes,
-        blocks,
-        unused_parts,
-    } = layout(&deck, &all)?;
+    let Layout { scopes, blocks, unused_parts } = layout(&deck, &all)?;
     let mut reader = Reader {
         deck: &deck,
         scopes,
@@ -192,11 +188,7 @@ impl Reader<'_, '_> {
             return Ok(scope);
         };
         let is_meant = |scope: &Scope| scope.name.eq_ignore_ascii_case(name);
-        let found = self
-            .scopes
-            .iter()
-            .position(is_meant)
-            .filter(|&scope| scope > 0);
+        let found = self.scopes.iter().position(is_meant).filter(|&scope| scope > 0);
         found.ok_or_else(|| {
             let message = format!("*{}: no instance is called \"{name}\"", block.keyword);
             self.deck.error(block.place, message)
@@ -221,9 +213,7 @@ pub(super) fn included(line: &str) -> Option<(&str, bool)> {
         _ => return None,
     };
     let value = upper.find("INPUT")?;
-    let rest = line[value + "INPUT".len()..]
-        .trim_start()
-        .strip_prefix('=')?;
+    let rest = line[value + "INPUT".len()..].trim_start().strip_prefix('=')?;
     let name = rest.split(',').next()?.trim().trim_matches('"');
     (!name.is_empty()).then_some((name, stays))
 }

@@ -28,13 +28,8 @@ impl Reader<'_, '_> {
         let mut offset = 0;
         for scope in self.numbering() {
             let mut largest = 0;
-            for (_, block) in blocks
-                .iter()
-                .filter(|(s, b)| *s == scope && b.keyword == "NODE")
-            {
-                if block
-                    .parameter("SYSTEM")
-                    .is_some_and(|system| !system.eq_ignore_ascii_case("R"))
+            for (_, block) in blocks.iter().filter(|(s, b)| *s == scope && b.keyword == "NODE") {
+                if block.parameter("SYSTEM").is_some_and(|system| !system.eq_ignore_ascii_case("R"))
                 {
                     let message =
                         "*NODE, SYSTEM= other than R is not supported: write Cartesian coordinates";
@@ -100,25 +95,18 @@ impl Reader<'_, '_> {
 
     /// Reads all elements; of types that have no counterpart here the numbers alone.
     pub(super) fn read_elements(&mut self, blocks: &Placed<'_, '_>) -> Result<(), MeshFileError> {
-        let types = blocks
-            .iter()
-            .filter(|(_, block)| block.keyword == "ELEMENT");
+        let types = blocks.iter().filter(|(_, block)| block.keyword == "ELEMENT");
         let known =
             types.filter_map(|(_, block)| element_type(&block.parameter("TYPE")?.to_uppercase()));
         let dimension = known.map(|known| known.kind.dimension()).max();
         let mut offset = 0;
         for scope in self.numbering() {
             let mut largest = 0;
-            for (_, block) in blocks
-                .iter()
-                .filter(|(s, b)| *s == scope && b.keyword == "ELEMENT")
-            {
+            for (_, block) in blocks.iter().filter(|(s, b)| *s == scope && b.keyword == "ELEMENT") {
                 let name = block.required(self.deck, "TYPE")?.to_uppercase();
                 let known = element_type(&name);
                 if known.is_none()
-                    && ["C3D", "CPE", "CPS"]
-                        .iter()
-                        .any(|solid| name.starts_with(solid))
+                    && ["C3D", "CPE", "CPS"].iter().any(|solid| name.starts_with(solid))
                 {
                     let message = format!(
                         "elements of type {name} are not supported: {} (C3D4, C3D10, C3D8, C3D20, C3D6, C3D15, C3D5, \
@@ -180,11 +168,7 @@ impl Reader<'_, '_> {
             }
         }
         if let Some(is_strain) = known.is_plane_strain {
-            if self
-                .model
-                .is_plane_strain
-                .is_some_and(|other| other != is_strain)
-            {
+            if self.model.is_plane_strain.is_some_and(|other| other != is_strain) {
                 let message =
                     "elements of plane strain (CPE) and of plane stress (CPS) in one file";
                 return Err(self.deck.error(block.place, message));
@@ -234,10 +218,8 @@ impl Reader<'_, '_> {
             }
         }
         if let Some(label) = numbers.first() {
-            let message = format!(
-                "element {label} has too few nodes for {name}, which has {}",
-                count - 1
-            );
+            let message =
+                format!("element {label} has too few nodes for {name}, which has {}", count - 1);
             return Err(self.deck.error(start, message));
         }
         if let Some(name) = block.parameter("ELSET") {
@@ -286,10 +268,10 @@ impl Reader<'_, '_> {
         internal: bool,
     ) {
         let key = self.key(scope, name);
-        let set = self.node_sets.entry(key.clone()).or_insert_with(|| Set {
-            name: self.scopes[key.0].full_name(name),
-            ..Set::default()
-        });
+        let set = self
+            .node_sets
+            .entry(key.clone())
+            .or_insert_with(|| Set { name: self.scopes[key.0].full_name(name), ..Set::default() });
         set.items.extend(items);
         set.is_internal |= internal;
     }
@@ -302,10 +284,10 @@ impl Reader<'_, '_> {
         internal: bool,
     ) {
         let key = self.key(scope, name);
-        let set = self.element_sets.entry(key.clone()).or_insert_with(|| Set {
-            name: self.scopes[key.0].full_name(name),
-            ..Set::default()
-        });
+        let set = self
+            .element_sets
+            .entry(key.clone())
+            .or_insert_with(|| Set { name: self.scopes[key.0].full_name(name), ..Set::default() });
         set.items.extend(items);
         set.is_internal |= internal;
     }

@@ -52,11 +52,8 @@ pub(super) fn layout<'b, 'a>(
     deck: &Deck<'_>,
     blocks: &'b [Block<'a>],
 ) -> Result<Layout<'b, 'a>, MeshFileError> {
-    let mut layout = Layout {
-        scopes: vec![Scope::default()],
-        blocks: Vec::new(),
-        unused_parts: Vec::new(),
-    };
+    let mut layout =
+        Layout { scopes: vec![Scope::default()], blocks: Vec::new(), unused_parts: Vec::new() };
     let mut parts: Parts<'b, 'a> = BTreeMap::new();
     let mut part: Option<(String, Place)> = None;
     let mut instance: Option<usize> = None;
@@ -85,9 +82,7 @@ pub(super) fn layout<'b, 'a>(
                     let message = format!("more than {MOST_INSTANCES} instances");
                     return Err(deck.error(block.place, message));
                 }
-                layout
-                    .blocks
-                    .extend(own.iter().map(|&block| (scope, block)));
+                layout.blocks.extend(own.iter().map(|&block| (scope, block)));
                 layout.scopes.push(placed(deck, block)?);
                 instance = Some(scope);
             }
@@ -130,16 +125,11 @@ fn placed(deck: &Deck<'_>, block: &Block<'_>) -> Result<Scope, MeshFileError> {
         };
         rows.push(row);
     }
-    let translation = rows
-        .first()
-        .map_or(Vector3::zeros(), |t| Vector3::new(t[0], t[1], t[2]));
+    let translation = rows.first().map_or(Vector3::zeros(), |t| Vector3::new(t[0], t[1], t[2]));
     let rotation = match rows.get(1) {
         None => None,
         Some(r) => {
-            let (from, to) = (
-                Vector3::new(r[0], r[1], r[2]),
-                Vector3::new(r[3], r[4], r[5]),
-            );
+            let (from, to) = (Vector3::new(r[0], r[1], r[2]), Vector3::new(r[3], r[4], r[5]));
             let Some(axis) = Unit::try_new(to - from, 0.0) else {
                 let message = format!("*INSTANCE {name}: the axis of its rotation is a point");
                 return Err(deck.error(block.data[1].0, message));
@@ -147,9 +137,5 @@ fn placed(deck: &Deck<'_>, block: &Block<'_>) -> Result<Scope, MeshFileError> {
             Some((from, Rotation3::from_axis_angle(&axis, r[6].to_radians())))
         }
     };
-    Ok(Scope {
-        name,
-        rotation,
-        translation,
-    })
+    Ok(Scope { name, rotation, translation })
 }

@@ -148,18 +148,12 @@ impl Reader<'_, '_> {
             // No more work than there are items, whatever the numbers say.
             if (last - first) / step < known.len() {
                 let labels = (first..=last).step_by(step);
-                items.extend(
-                    labels
-                        .filter_map(|label| known.get(&(scope, label)))
-                        .copied(),
-                );
+                items.extend(labels.filter_map(|label| known.get(&(scope, label))).copied());
             } else {
                 let is_meant = |label: usize| {
                     (first..=last).contains(&label) && (label - first).is_multiple_of(step)
                 };
-                let own = known
-                    .iter()
-                    .filter(|((s, label), _)| *s == scope && is_meant(*label));
+                let own = known.iter().filter(|((s, label), _)| *s == scope && is_meant(*label));
                 let mut own: Vec<(usize, T)> =
                     own.map(|((_, label), &item)| (*label, item)).collect();
                 own.sort_unstable_by_key(|item| item.0);

@@ -10,10 +10,7 @@ use crate::mesh::gmsh::MeshFileError;
 impl Reader<'_, '_> {
     /// Reads all surfaces: faces of elements, and sets of nodes.
     pub(super) fn read_surfaces(&mut self, blocks: &Placed<'_, '_>) -> Result<(), MeshFileError> {
-        for &(scope, block) in blocks
-            .iter()
-            .filter(|(_, block)| block.keyword == "SURFACE")
-        {
+        for &(scope, block) in blocks.iter().filter(|(_, block)| block.keyword == "SURFACE") {
             let name = block.required(self.deck, "NAME")?.to_owned();
             let key = self.key(scope, &name);
             let full = self.scopes[key.0].full_name(&name);
@@ -32,19 +29,11 @@ impl Reader<'_, '_> {
                         self.leave_out(&keyword, block.place, reason);
                         continue;
                     }
-                    self.collection
-                        .surfaces
-                        .entry(full.clone())
-                        .or_default()
-                        .extend(faces);
+                    self.collection.surfaces.entry(full.clone()).or_default().extend(faces);
                 }
                 "NODE" => {
                     let nodes = self.surface_nodes(scope, block)?;
-                    self.collection
-                        .node_sets
-                        .entry(full.clone())
-                        .or_default()
-                        .extend(nodes);
+                    self.collection.node_sets.entry(full.clone()).or_default().extend(nodes);
                 }
                 _ => {
                     let keyword = format!("*SURFACE, NAME={name}, TYPE={kind}");
@@ -109,17 +98,15 @@ impl Reader<'_, '_> {
         let element = &self.collection.elements[element];
         let number = side.strip_prefix(['S', 'P']).and_then(|n| n.parse().ok());
         let corners = number.and_then(|number| face_corners(element.kind, number));
-        corners
-            .and_then(|corners| element.face_of(corners))
-            .ok_or_else(|| {
-                let message = format!(
-                    "element {} ({}) has no face {}",
-                    element.label,
-                    element.kind.name(),
-                    quoted(side)
-                );
-                self.deck.error(place, message)
-            })
+        corners.and_then(|corners| element.face_of(corners)).ok_or_else(|| {
+            let message = format!(
+                "element {} ({}) has no face {}",
+                element.label,
+                element.kind.name(),
+                quoted(side)
+            );
+            self.deck.error(place, message)
+        })
     }
 
     /// Keeps sets of nodes that the user named as boundaries, where no surface has their name.

@@ -56,10 +56,7 @@ pub(super) const TRI3: Formats = Formats {
 pub(super) const TRI6: Formats = Formats {
     vtk: 22,
     gmsh: listed(&[9]),
-    universal: Listing {
-        names: &[42, 52, 92],
-        order: &[0, 2, 4, 1, 3, 5],
-    },
+    universal: Listing { names: &[42, 52, 92], order: &[0, 2, 4, 1, 3, 5] },
     abaqus: &[(&["6"], ""), (&["6M", "6H", "6MH"], DISPLACEMENTS)],
     ..TRI3
 };
@@ -74,10 +71,7 @@ pub(super) const QUAD4: Formats = Formats {
 pub(super) const QUAD8: Formats = Formats {
     vtk: 23,
     gmsh: listed(&[16]),
-    universal: Listing {
-        names: &[45, 55, 95],
-        order: &[0, 2, 4, 6, 1, 3, 5, 7],
-    },
+    universal: Listing { names: &[45, 55, 95], order: &[0, 2, 4, 6, 1, 3, 5, 7] },
     abaqus: &[(&["8"], ""), (&["8R", "8H", "8RH"], FULL)],
     ..QUAD4
 };
@@ -91,18 +85,9 @@ pub(super) const TET4: Formats = Formats {
 };
 pub(super) const TET10: Formats = Formats {
     vtk: 24,
-    gmsh: Listing {
-        names: &[11],
-        order: &[0, 1, 2, 3, 4, 5, 6, 7, 9, 8],
-    },
-    universal: Listing {
-        names: &[118],
-        order: &[0, 2, 4, 9, 1, 3, 5, 6, 7, 8],
-    },
-    abaqus: &[
-        (&["10"], ""),
-        (&["10H", "10HS", "10M", "10MH", "10I", "10T"], DISPLACEMENTS),
-    ],
+    gmsh: Listing { names: &[11], order: &[0, 1, 2, 3, 4, 5, 6, 7, 9, 8] },
+    universal: Listing { names: &[118], order: &[0, 2, 4, 9, 1, 3, 5, 6, 7, 8] },
+    abaqus: &[(&["10"], ""), (&["10H", "10HS", "10M", "10MH", "10I", "10T"], DISPLACEMENTS)],
     ..TET4
 };
 pub(super) const HEX8: Formats = Formats {
@@ -124,49 +109,32 @@ pub(super) const HEX20: Formats = Formats {
     vtk: 25,
     gmsh: Listing {
         names: &[17],
-        order: &[
-            0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15,
-        ],
+        order: &[0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15],
     },
     universal: Listing {
         names: &[116],
-        order: &[
-            0, 2, 4, 6, 12, 14, 16, 18, 1, 3, 5, 7, 13, 15, 17, 19, 8, 9, 10, 11,
-        ],
+        order: &[0, 2, 4, 6, 12, 14, 16, 18, 1, 3, 5, 7, 13, 15, 17, 19, 8, 9, 10, 11],
     },
     nastran: Listing {
         names: &["CHEXA"],
-        order: &[
-            0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18, 19, 12, 13, 14, 15,
-        ],
+        order: &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18, 19, 12, 13, 14, 15],
     },
     abaqus: &[(&["20"], ""), (&["20H"], FULL)],
     ..HEX8
 };
-pub(super) const HEX20R: Formats = Formats {
-    abaqus: &[(&["20R"], ""), (&["20RH"], DISPLACEMENTS)],
-    ..HEX20
-};
+pub(super) const HEX20R: Formats =
+    Formats { abaqus: &[(&["20R"], ""), (&["20RH"], DISPLACEMENTS)], ..HEX20 };
 pub(super) const WEDGE6: Formats = Formats {
     vtk: 13,
     gmsh: listed(&[6]),
     universal: listed(&[112]),
     nastran: listed(&["CPENTA"]),
     abaqus: &[(&["6"], ""), (&["6R", "6H"], FULL)],
-    abaqus_faces: &[
-        &[0, 1, 2],
-        &[3, 5, 4],
-        &[0, 3, 4, 1],
-        &[1, 4, 5, 2],
-        &[2, 5, 3, 0],
-    ],
+    abaqus_faces: &[&[0, 1, 2], &[3, 5, 4], &[0, 3, 4, 1], &[1, 4, 5, 2], &[2, 5, 3, 0]],
 };
 pub(super) const WEDGE15: Formats = Formats {
     vtk: 26,
-    gmsh: Listing {
-        names: &[18],
-        order: &[0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11],
-    },
+    gmsh: Listing { names: &[18], order: &[0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11] },
     universal: Listing {
         names: &[113],
         order: &[0, 2, 4, 9, 11, 13, 1, 3, 5, 10, 12, 14, 6, 7, 8],
@@ -184,20 +152,11 @@ pub(super) const PYRAMID5: Formats = Formats {
     universal: listed(&[]),
     nastran: listed(&["CPYRAM", "CPYRA"]),
     abaqus: &[(&["5"], ""), (&["5H"], DISPLACEMENTS)],
-    abaqus_faces: &[
-        &[0, 1, 2, 3],
-        &[0, 4, 1],
-        &[1, 4, 2],
-        &[2, 4, 3],
-        &[3, 4, 0],
-    ],
+    abaqus_faces: &[&[0, 1, 2, 3], &[0, 4, 1], &[1, 4, 2], &[2, 4, 3], &[3, 4, 0]],
 };
 pub(super) const PYRAMID13: Formats = Formats {
     vtk: 27,
-    gmsh: Listing {
-        names: &[19],
-        order: &[0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12],
-    },
+    gmsh: Listing { names: &[19], order: &[0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12] },
     abaqus: &[(&["13"], ""), (&["13H"], DISPLACEMENTS)],
     ..PYRAMID5
 };

@@ -10,11 +10,8 @@ pub(super) const GAUSS: f64 = 0.577_350_269_189_625_8;
 pub(super) const TWO: [(f64, f64); 2] = [(-GAUSS, 1.0), (GAUSS, 1.0)];
 
 /// Three Gauss points.
-pub(super) const THREE: [(f64, f64); 3] = [
-    (-0.774_596_669_241_483_4, 5.0 / 9.0),
-    (0.0, 8.0 / 9.0),
-    (0.774_596_669_241_483_4, 5.0 / 9.0),
-];
+pub(super) const THREE: [(f64, f64); 3] =
+    [(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
 
 /// Gauss-Jacobi points of `∫ f(c) c^2 dc` over `0 <= c <= 1`, exact to degree 3: `c = 2/3 -+ sqrt(2/45)`.
 pub(super) const TWO_TO_APEX: [(f64, f64); 2] = [
@@ -60,11 +57,7 @@ pub(super) fn cube(points: &[(f64, f64)]) -> Vec<QuadraturePoint> {
 pub(super) fn wedge(triangle: &[QuadraturePoint], line: &[(f64, f64)]) -> Vec<QuadraturePoint> {
     let along = line.iter();
     along
-        .flat_map(|&(z, v)| {
-            triangle
-                .iter()
-                .map(move |&([x, y, _], w)| ([x, y, z], w * v))
-        })
+        .flat_map(|&(z, v)| triangle.iter().map(move |&([x, y, _], w)| ([x, y, z], w * v)))
         .collect()
 }
 
@@ -87,11 +80,7 @@ pub(super) fn places(rule: Vec<QuadraturePoint>) -> Vec<[f64; 3]> {
 /// Three points, exact for polynomials of degree 2.
 pub(super) fn triangle_three() -> Vec<QuadraturePoint> {
     const SIX: f64 = 1.0 / 6.0;
-    vec![
-        ([SIX, SIX, 0.0], SIX),
-        ([4.0 * SIX, SIX, 0.0], SIX),
-        ([SIX, 4.0 * SIX, 0.0], SIX),
-    ]
+    vec![([SIX, SIX, 0.0], SIX), ([4.0 * SIX, SIX, 0.0], SIX), ([SIX, 4.0 * SIX, 0.0], SIX)]
 }
 
 /// Two triples of points, each the orbit of one; exact for polynomials of degree 4 (Dunavant 1985).
@@ -131,14 +120,7 @@ pub(super) fn tetrahedron_fourteen() -> Vec<QuadraturePoint> {
     // Volume coordinates `a` twice and `1/2 - a` twice.
     let (a, weight) = (0.045_503_704_125_649_65, SIXTH * 0.042_546_020_777_081_47);
     let b = 0.5 - a;
-    let edges = [
-        [a, a, b],
-        [a, b, a],
-        [b, a, a],
-        [a, b, b],
-        [b, a, b],
-        [b, b, a],
-    ];
+    let edges = [[a, a, b], [a, b, a], [b, a, a], [a, b, b], [b, a, b], [b, b, a]];
     let edges = edges.map(|place| (place, weight));
     [&corners[..], &faces, &edges].concat()
 }

@@ -4,23 +4,15 @@
 pub type Shape = (f64, [f64; 3]);
 
 /// Corners of the square.
-pub(super) const SQUARE: [[f64; 3]; 4] = [
-    [-1.0, -1.0, 0.0],
-    [1.0, -1.0, 0.0],
-    [1.0, 1.0, 0.0],
-    [-1.0, 1.0, 0.0],
-];
+pub(super) const SQUARE: [[f64; 3]; 4] =
+    [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];
 
 /// Corners of the triangle.
 pub(super) const TRIANGLE: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 
 /// Corners of the tetrahedron.
-pub(super) const TETRAHEDRON: [[f64; 3]; 4] = [
-    [0.0, 0.0, 0.0],
-    [1.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0],
-    [0.0, 0.0, 1.0],
-];
+pub(super) const TETRAHEDRON: [[f64; 3]; 4] =
+    [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// Corners of the wedge.
 pub(super) const WEDGE: [[f64; 3]; 6] = [
@@ -33,13 +25,8 @@ pub(super) const WEDGE: [[f64; 3]; 6] = [
 ];
 
 /// Corners of the pyramid: its base, then its apex.
-pub(super) const PYRAMID: [[f64; 3]; 5] = [
-    [-1.0, -1.0, 0.0],
-    [1.0, -1.0, 0.0],
-    [1.0, 1.0, 0.0],
-    [-1.0, 1.0, 0.0],
-    [0.0, 0.0, 1.0],
-];
+pub(super) const PYRAMID: [[f64; 3]; 5] =
+    [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// Corners of the brick.
 pub(super) const BRICK: [[f64; 3]; 8] = [
@@ -83,11 +70,7 @@ pub(super) fn line(is_quadratic: bool, s: f64) -> Vec<Shape> {
 
 /// Area coordinates.
 pub(super) fn triangle(xi: f64, eta: f64) -> [Shape; 3] {
-    [
-        (1.0 - xi - eta, [-1.0, -1.0, 0.0]),
-        (xi, [1.0, 0.0, 0.0]),
-        (eta, [0.0, 1.0, 0.0]),
-    ]
+    [(1.0 - xi - eta, [-1.0, -1.0, 0.0]), (xi, [1.0, 0.0, 0.0]), (eta, [0.0, 1.0, 0.0])]
 }
 
 /// Volume coordinates.
@@ -140,12 +123,7 @@ pub(super) fn serendipity(xi: f64, eta: f64) -> Vec<Shape> {
         let (p, q) = (1.0 + a * xi, 1.0 - eta * eta);
         (0.5 * p * q, [0.5 * a * q, -eta * p, 0.0])
     };
-    let middle = [
-        along_xi(-1.0),
-        along_eta(1.0),
-        along_xi(1.0),
-        along_eta(-1.0),
-    ];
+    let middle = [along_xi(-1.0), along_eta(1.0), along_xi(1.0), along_eta(-1.0)];
     corner.chain(middle).collect()
 }
 
@@ -163,11 +141,7 @@ pub(super) fn brick(is_quadratic: bool, at: [f64; 3]) -> Vec<Shape> {
             sign => sign,
         });
         let product = factor[0] * factor[1] * factor[2];
-        let others = [
-            factor[1] * factor[2],
-            factor[0] * factor[2],
-            factor[0] * factor[1],
-        ];
+        let others = [factor[1] * factor[2], factor[0] * factor[2], factor[0] * factor[1]];
         let scaled = |scale: f64| {
             let slopes = std::array::from_fn(|k| scale * slope[k] * others[k]);
             (scale * product, slopes)
@@ -214,21 +188,11 @@ pub(super) fn quadratic_wedge([xi, eta, zeta]: [f64; 3]) -> Vec<Shape> {
         [[0, 1], [1, 2], [2, 0]].map(|[start, end]: [usize; 2]| {
             let ((p, dp), (q, dq)) = (area[start], area[end]);
             let slope = |axis: usize| 2.0 * along * (p * dq[axis] + q * dp[axis]);
-            (
-                2.0 * p * q * along,
-                [slope(0), slope(1), 2.0 * p * q * sign],
-            )
+            (2.0 * p * q * along, [slope(0), slope(1), 2.0 * p * q * sign])
         })
     };
     let between = area.map(|(l, d)| (l * bubble, [d[0] * bubble, d[1] * bubble, -2.0 * zeta * l]));
-    [
-        corners(-1.0),
-        corners(1.0),
-        sides(-1.0),
-        sides(1.0),
-        between,
-    ]
-    .concat()
+    [corners(-1.0), corners(1.0), sides(-1.0), sides(1.0), between].concat()
 }
 
 /// Smallest distance to the apex at which pyramids are evaluated: slopes at the apex are their limits along the axis.
@@ -244,11 +208,8 @@ pub(super) fn pyramid([xi, eta, zeta]: [f64; 3]) -> Vec<Shape> {
     let base = PYRAMID[..4].iter().map(|&[a, b, _]| {
         let (p, q) = (c + a * xi, c + b * eta);
         let value = p * q / (4.0 * c);
-        let slopes = [
-            0.25 * a * (q / c),
-            0.25 * b * (p / c),
-            0.25 * ((p / c) * (q / c) - (p + q) / c),
-        ];
+        let slopes =
+            [0.25 * a * (q / c), 0.25 * b * (p / c), 0.25 * ((p / c) * (q / c) - (p + q) / c)];
         (value, slopes)
     });
     base.chain([(zeta, [0.0, 0.0, 1.0])]).collect()
@@ -264,10 +225,7 @@ pub(super) fn quadratic_pyramid(at: [f64; 3]) -> Vec<Shape> {
     let linear = pyramid(at);
     // A linear function times a polynomial of value `f` and slopes `df`.
     let times = |(n, dn): Shape, f: f64, df: [f64; 3]| -> Shape {
-        (
-            n * f,
-            std::array::from_fn(|axis| dn[axis] * f + n * df[axis]),
-        )
+        (n * f, std::array::from_fn(|axis| dn[axis] * f + n * df[axis]))
     };
     let corner = |(node, &[a, b, _]): (usize, &[f64; 3])| {
         times(linear[node], a * xi + b * eta - 1.0, [a, b, 0.0])

@@ -80,28 +80,11 @@ const BRICK_EDGES: [[usize; 2]; 12] = [
     [2, 6],
     [3, 7],
 ];
-const WEDGE_EDGES: [[usize; 2]; 9] = [
-    [0, 1],
-    [1, 2],
-    [2, 0],
-    [3, 4],
-    [4, 5],
-    [5, 3],
-    [0, 3],
-    [1, 4],
-    [2, 5],
-];
+const WEDGE_EDGES: [[usize; 2]; 9] =
+    [[0, 1], [1, 2], [2, 0], [3, 4], [4, 5], [5, 3], [0, 3], [1, 4], [2, 5]];
 
-const PYRAMID_EDGES: [[usize; 2]; 8] = [
-    [0, 1],
-    [1, 2],
-    [2, 3],
-    [3, 0],
-    [0, 4],
-    [1, 4],
-    [2, 4],
-    [3, 4],
-];
+const PYRAMID_EDGES: [[usize; 2]; 8] =
+    [[0, 1], [1, 2], [2, 3], [3, 0], [0, 4], [1, 4], [2, 4], [3, 4]];
 
 const TRI3: Row = Row {
     formats: &formats::TRI3,
@@ -109,11 +92,7 @@ const TRI3: Row = Row {
     corners: &shapes::TRIANGLE,
     is_quadratic: false,
     edges: &TRIANGLE_EDGES,
-    faces: &[
-        (FaceKind::Line2, &[0, 1]),
-        (FaceKind::Line2, &[1, 2]),
-        (FaceKind::Line2, &[2, 0]),
-    ],
+    faces: &[(FaceKind::Line2, &[0, 1]), (FaceKind::Line2, &[1, 2]), (FaceKind::Line2, &[2, 0])],
     shapes: |[xi, eta, _]| shapes::triangle(xi, eta).to_vec(),
     quadrature: rule::triangle_three,
     stiffness_quadrature: None,
@@ -167,12 +146,7 @@ const QUAD8: Row = Row {
     shapes: |[xi, eta, _]| shapes::serendipity(xi, eta),
     quadrature: || rule::square(&rule::THREE),
     superconvergent: || {
-        vec![
-            [-GAUSS, -GAUSS, 0.0],
-            [GAUSS, -GAUSS, 0.0],
-            [GAUSS, GAUSS, 0.0],
-            [-GAUSS, GAUSS, 0.0],
-        ]
+        vec![[-GAUSS, -GAUSS, 0.0], [GAUSS, -GAUSS, 0.0], [GAUSS, GAUSS, 0.0], [-GAUSS, GAUSS, 0.0]]
     },
     as_face: Some(FaceKind::Quad8),
     name: "quad8",
@@ -291,9 +265,7 @@ const WEDGE15: Row = Row {
     quadrature: || rule::wedge(&rule::triangle_six(), &rule::THREE),
     superconvergent: || {
         let triangle = rule::triangle_three().into_iter();
-        triangle
-            .flat_map(|([xi, eta, _], _)| [-GAUSS, GAUSS].map(|zeta| [xi, eta, zeta]))
-            .collect()
+        triangle.flat_map(|([xi, eta, _], _)| [-GAUSS, GAUSS].map(|zeta| [xi, eta, zeta])).collect()
     },
     name: "wedge15",
     ..WEDGE6

@@ -58,10 +58,7 @@ fn quadrature_of_simplices_is_exact_to_its_degree() {
             let sum: f64 = points.iter().map(term).sum();
             let exact =
                 factorial(p) * factorial(q) * factorial(r) / factorial(p + q + r + dimension);
-            assert!(
-                (sum - exact).abs() < 1e-15,
-                "{dimension} {degree} {p} {q} {r}: {sum} {exact}"
-            );
+            assert!((sum - exact).abs() < 1e-15, "{dimension} {degree} {p} {q} {r}: {sum} {exact}");
         }
     }
 }
@@ -73,11 +70,7 @@ fn faces_point_outwards_and_close_around_every_element() {
         let places = kind.node_places();
         let count = kind.corner_count() as f64;
         let center: [f64; 3] = std::array::from_fn(|axis| {
-            places[..kind.corner_count()]
-                .iter()
-                .map(|p| p[axis])
-                .sum::<f64>()
-                / count
+            places[..kind.corner_count()].iter().map(|p| p[axis]).sum::<f64>() / count
         });
         let mut sum = [0.0; 3];
         for (face, nodes) in kind.faces() {
@@ -119,10 +112,7 @@ fn quadrature_of_pyramids_is_exact_to_its_degree() {
                 let beta = factorial(r) * factorial(p + q + 2) / factorial(p + q + r + 3);
                 let exact =
                     4.0 * beta * f64::from(u8::from(is_even)) / f64::from((p + 1) * (q + 1));
-                assert!(
-                    (sum - exact).abs() < 1e-15,
-                    "{kind:?} {p} {q} {r}: {sum} {exact}"
-                );
+                assert!((sum - exact).abs() < 1e-15, "{kind:?} {p} {q} {r}: {sum} {exact}");
             }
         }
     }

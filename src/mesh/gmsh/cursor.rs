@@ -15,13 +15,7 @@ pub(super) struct Cursor<'a> {
 
 impl<'a> Cursor<'a> {
     pub fn new(bytes: &'a [u8]) -> Self {
-        Self {
-            bytes,
-            at: 0,
-            line: 1,
-            is_binary: false,
-            is_swapped: false,
-        }
+        Self { bytes, at: 0, line: 1, is_binary: false, is_swapped: false }
     }
 
     /// An error here.
@@ -31,10 +25,7 @@ impl<'a> Cursor<'a> {
         } else {
             format!("line {}", self.line)
         };
-        MeshFileError::Syntax {
-            place,
-            message: message.into(),
-        }
+        MeshFileError::Syntax { place, message: message.into() }
     }
 
     /// Bytes that are left.
@@ -90,18 +81,14 @@ impl<'a> Cursor<'a> {
     /// Passes over a section that is not read.
     pub fn skip_section(&mut self, name: &str) -> Result<(), MeshFileError> {
         let end = format!("$End{name}");
-        let found = self.bytes[self.at..]
-            .windows(end.len())
-            .position(|window| window == end.as_bytes());
+        let found =
+            self.bytes[self.at..].windows(end.len()).position(|window| window == end.as_bytes());
         let Some(offset) = found else {
-            return Err(self.error(format!(
-                "section ${name} has no $End{name}: the file is truncated"
-            )));
+            return Err(
+                self.error(format!("section ${name} has no $End{name}: the file is truncated"))
+            );
         };
-        self.line += self.bytes[self.at..self.at + offset]
-            .iter()
-            .filter(|&&b| b == b'\n')
-            .count();
+        self.line += self.bytes[self.at..self.at + offset].iter().filter(|&&b| b == b'\n').count();
         self.at += offset;
         self.text_line();
         Ok(())
@@ -130,20 +117,15 @@ impl<'a> Cursor<'a> {
             self.at += 1;
         }
         let rest = &self.bytes[self.at..];
-        let length = rest
-            .iter()
-            .position(u8::is_ascii_whitespace)
-            .unwrap_or(rest.len());
-        let word = std::str::from_utf8(&rest[..length])
-            .ok()
-            .filter(|word| !word.is_empty());
+        let length = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
+        let word = std::str::from_utf8(&rest[..length]).ok().filter(|word| !word.is_empty());
         let Some(word) = word else {
             return Err(self.error(format!("{what} expected: the file is truncated or damaged")));
         };
         if word.starts_with('$') {
-            return Err(self.error(format!(
-                "{what} expected, found {word}: the section is too short"
-            )));
+            return Err(
+                self.error(format!("{what} expected, found {word}: the section is too short"))
+            );
         }
         self.at += length;
         Ok(word)
@@ -158,10 +140,7 @@ impl<'a> Cursor<'a> {
     }
 
     fn raw<const N: usize>(&mut self, what: &str) -> Result<[u8; N], MeshFileError> {
-        let found = self
-            .bytes
-            .get(self.at..self.at + N)
-            .and_then(|b| b.try_into().ok());
+        let found = self.bytes.get(self.at..self.at + N).and_then(|b| b.try_into().ok());
         let Some(mut bytes): Option<[u8; N]> = found else {
             return Err(self.error(format!("{what} expected: the file is truncated")));
         };
@@ -203,11 +182,8 @@ impl<'a> Cursor<'a> {
 
     /// A finite coordinate.
     pub fn number(&mut self, what: &str) -> Result<f64, MeshFileError> {
-        let value = if self.is_binary {
-            f64::from_le_bytes(self.raw(what)?)
-        } else {
-            self.parsed(what)?
-        };
+        let value =
+            if self.is_binary { f64::from_le_bytes(self.raw(what)?) } else { self.parsed(what)? };
         if !value.is_finite() {
             return Err(self.error(format!("{what} {value} is not finite")));
         }

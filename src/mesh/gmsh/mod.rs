@@ -188,10 +188,7 @@ fn foreign(bytes: &[u8]) -> String {
     } else if start.starts_with("solid") || start.starts_with("ISO-10303") {
         ("this is a geometry, not a mesh", GMSH)
     } else if start.contains("Point(") || start.contains("//") || start.contains("SetFactory") {
-        (
-            "this looks like a Gmsh geometry (.geo), not a mesh",
-            "run gmsh -2 on it",
-        )
+        ("this looks like a Gmsh geometry (.geo), not a mesh", "run gmsh -2 on it")
     } else {
         (
             "this is no Gmsh mesh, which begins with $MeshFormat, nor does its name end in .inp, .bdf or .unv",
@@ -267,9 +264,7 @@ impl Reader {
             let mut parts = line.splitn(3, char::is_whitespace);
             let mut number = || parts.next().and_then(|word| word.parse::<i64>().ok());
             let (dimension, tag) = (number(), number());
-            let name = parts
-                .next()
-                .map(|name| name.trim().trim_matches('"').to_owned());
+            let name = parts.next().map(|name| name.trim().trim_matches('"').to_owned());
             let (Some(dimension), Some(tag), Some(name)) = (dimension, tag, name) else {
                 return Err(
                     cursor.error("dimension, tag and \"name\" of a physical group expected")

@@ -58,12 +58,8 @@ impl Reader {
         let (_, node_count, _) = shape_of(cursor, kind, label)?;
         let nodes: Result<Vec<usize>, _> = (0..node_count).map(|_| node_number(cursor)).collect();
         // The first tag is the physical group, 0 for none; the second the entity.
-        let physical: Vec<i64> = tags
-            .first()
-            .copied()
-            .filter(|&tag| tag != 0)
-            .into_iter()
-            .collect();
+        let physical: Vec<i64> =
+            tags.first().copied().filter(|&tag| tag != 0).into_iter().collect();
         let entity = tags.get(1).copied().unwrap_or(0);
         self.element(cursor, kind, label, entity, &physical, &nodes?)
     }

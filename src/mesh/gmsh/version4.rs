@@ -9,10 +9,7 @@ const MOST_GROUPS: usize = 64;
 impl Reader {
     pub(super) fn entities(&mut self, cursor: &mut Cursor<'_>) -> Result<(), MeshFileError> {
         let mut counts = [0; 4];
-        for (count, what) in counts
-            .iter_mut()
-            .zip(["points", "curves", "surfaces", "volumes"])
-        {
+        for (count, what) in counts.iter_mut().zip(["points", "curves", "surfaces", "volumes"]) {
             *count = cursor.count(what, 8)?;
         }
         for (dimension, count) in counts.into_iter().enumerate() {
@@ -23,9 +20,9 @@ impl Reader {
                 }
                 let groups = cursor.count("physical tags", 2)?;
                 if groups > MOST_GROUPS {
-                    return Err(cursor.error(format!(
-                        "an entity in {groups} physical groups is not valid"
-                    )));
+                    return Err(
+                        cursor.error(format!("an entity in {groups} physical groups is not valid"))
+                    );
                 }
                 let groups: Result<Vec<i64>, _> =
                     (0..groups).map(|_| cursor.int("physical tag")).collect();
@@ -78,17 +75,12 @@ impl Reader {
             let entity = cursor.int("entity tag")?;
             let kind = cursor.int("element type")?;
             let count = cursor.count("elements of a block", 4)?;
-            let groups = self
-                .physical
-                .get(&(dimension, entity))
-                .cloned()
-                .unwrap_or_default();
+            let groups = self.physical.get(&(dimension, entity)).cloned().unwrap_or_default();
             for _ in 0..count {
                 let label = cursor.size("element number")?;
                 let (_, node_count, _) = shape_of(cursor, kind, label)?;
-                let nodes: Result<Vec<usize>, _> = (0..node_count)
-                    .map(|_| cursor.size("node number"))
-                    .collect();
+                let nodes: Result<Vec<usize>, _> =
+                    (0..node_count).map(|_| cursor.size("node number")).collect();
                 self.element(cursor, kind, label, entity, &groups, &nodes?)?;
             }
         }

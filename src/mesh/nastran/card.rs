@@ -54,11 +54,8 @@ impl<'a> Card<'a> {
         let value = self.optional_int(deck, field)?;
         let value = value.and_then(|value| usize::try_from(value).ok());
         value.filter(|&value| value > 0).ok_or_else(|| {
-            let message = format!(
-                "{}: a number above 0 expected in field {}",
-                self.name,
-                field + 2
-            );
+            let message =
+                format!("{}: a number above 0 expected in field {}", self.name, field + 2);
             deck.error(self.place, message)
         })
     }
@@ -97,9 +94,7 @@ fn short_real(field: &str) -> Option<f64> {
     }
     let sign = field.rfind(['+', '-']).filter(|&at| at > 0)?;
     let (digits, exponent) = field.split_at(sign);
-    digits
-        .ends_with(|c: char| c.is_ascii_digit() || c == '.')
-        .then_some(())?;
+    digits.ends_with(|c: char| c.is_ascii_digit() || c == '.').then_some(())?;
     real(&format!("{digits}e{exponent}"))
 }
 
@@ -116,11 +111,7 @@ fn line_of(line: &str) -> Line<'_> {
         let head = fields.next().unwrap_or_default();
         let is_large = head.ends_with('*') || head.starts_with('*');
         let count = if is_large { 4 } else { 8 };
-        return Line {
-            head,
-            fields: fields.take(count).collect(),
-            is_large,
-        };
+        return Line { head, fields: fields.take(count).collect(), is_large };
     }
     let column = |from: usize, to: usize| {
         let to = to.min(line.len());
@@ -132,19 +123,14 @@ fn line_of(line: &str) -> Line<'_> {
         true => (0..4).map(|i| column(8 + 16 * i, 24 + 16 * i)).collect(),
         false => (0..8).map(|i| column(8 + 8 * i, 16 + 8 * i)).collect(),
     };
-    Line {
-        head,
-        fields,
-        is_large,
-    }
+    Line { head, fields, is_large }
 }
 
 /// The cards of a file and its case control.
 pub(super) fn cards<'a>(deck: &Deck<'a>) -> Result<(Vec<Card<'a>>, Control), MeshFileError> {
     let is_bulk = |line: &str| {
         let line = line.trim_start();
-        line.get(..10)
-            .is_some_and(|start| start.eq_ignore_ascii_case("BEGIN BULK"))
+        line.get(..10).is_some_and(|start| start.eq_ignore_ascii_case("BEGIN BULK"))
     };
     let begin = deck.lines.iter().position(|(_, line)| is_bulk(line));
     let mut control = Control::default();
@@ -158,19 +144,14 @@ pub(super) fn cards<'a>(deck: &Deck<'a>) -> Result<(Vec<Card<'a>>, Control), Mes
         }
         let line = line.split('$').next().unwrap_or_default().trim_end();
         if line.contains('\t') {
-            return Err(deck.error(
-                place,
-                "a tab stop: replace tabs by blanks or write free fields",
-            ));
+            return Err(
+                deck.error(place, "a tab stop: replace tabs by blanks or write free fields")
+            );
         }
         if line.is_empty() {
             continue;
         }
-        let Line {
-            head,
-            mut fields,
-            is_large,
-        } = line_of(line);
+        let Line { head, mut fields, is_large } = line_of(line);
         if head.eq_ignore_ascii_case("ENDDATA") {
             break;
         }
@@ -188,11 +169,7 @@ pub(super) fn cards<'a>(deck: &Deck<'a>) -> Result<(Vec<Card<'a>>, Control), Mes
             let message = format!("the name of a card expected, found {}", quoted(head));
             return Err(deck.error(place, message));
         }
-        cards.push(Card {
-            name,
-            fields,
-            place,
-        });
+        cards.push(Card { name, fields, place });
     }
     Ok((cards, control))
 }

@@ -79,10 +79,7 @@ impl<'d, 'a> Coordinates<'d, 'a> {
                 _ => continue,
             };
             let starts: &[usize] = if rest.starts_with('1') { &[0, 4] } else { &[0] };
-            for &start in starts
-                .iter()
-                .filter(|&&start| !card.field(start).is_empty())
-            {
+            for &start in starts.iter().filter(|&&start| !card.field(start).is_empty()) {
                 let number = card.number(deck, start)?;
                 let definition = if rest.starts_with('1') {
                     let node = |i: usize| card.number(deck, start + 1 + i);
@@ -97,21 +94,13 @@ impl<'d, 'a> Coordinates<'d, 'a> {
                     }
                     Definition::Points(usize::try_from(reference).unwrap_or(0), points)
                 };
-                if definitions
-                    .insert(number, (kind, definition, card.place))
-                    .is_some()
-                {
+                if definitions.insert(number, (kind, definition, card.place)).is_some() {
                     let message = format!("coordinate system {number} is defined twice");
                     return Err(deck.error(card.place, message));
                 }
             }
         }
-        Ok(Self {
-            deck,
-            definitions,
-            grids: BTreeMap::new(),
-            known: BTreeMap::new(),
-        })
+        Ok(Self { deck, definitions, grids: BTreeMap::new(), known: BTreeMap::new() })
     }
 
     /// A point of a system in basic coordinates; system 0 is the basic one. `place` asks for it.
@@ -186,11 +175,7 @@ impl<'d, 'a> Coordinates<'d, 'a> {
             return Err(self.deck.error(defined, message));
         };
         open.remove(&number);
-        let system = System {
-            kind,
-            origin,
-            axes: Matrix3::from_columns(&[y.cross(&z), y, z]),
-        };
+        let system = System { kind, origin, axes: Matrix3::from_columns(&[y.cross(&z), y, z]) };
         self.known.insert(number, system);
         Ok(system)
     }

@@ -39,10 +39,8 @@ impl Reader<'_, '_> {
         let label = card.number(deck, 0)?;
         let property = card.optional_int(deck, 1)?.unwrap_or(label as i64);
         let fields = &card.fields[2..card.fields.len().max(2)];
-        let has_middles = fields
-            .iter()
-            .skip(linear.node_count())
-            .any(|field| !["", "0"].contains(field));
+        let has_middles =
+            fields.iter().skip(linear.node_count()).any(|field| !["", "0"].contains(field));
         let kind = if has_middles { quadratic } else { linear };
         let mut listed = Vec::with_capacity(kind.node_count());
         for place in 0..kind.node_count() {
@@ -57,16 +55,10 @@ impl Reader<'_, '_> {
             };
             listed.push(self.node(node, &format!("{} {label}", card.name), card.place)?);
         }
-        let beyond = fields
-            .iter()
-            .skip(kind.node_count())
-            .any(|field| !field.is_empty());
+        let beyond = fields.iter().skip(kind.node_count()).any(|field| !field.is_empty());
         if beyond {
-            let message = format!(
-                "{} {label} has more than {} nodes",
-                card.name,
-                kind.node_count()
-            );
+            let message =
+                format!("{} {label} has more than {} nodes", card.name, kind.node_count());
             return Err(deck.error(card.place, message));
         }
         let index = self.collection.elements.len();
@@ -123,11 +115,7 @@ impl Reader<'_, '_> {
         for (property, faces) in skins {
             let named = self.control.property_names.get(&property).cloned();
             let name = named.unwrap_or_else(|| format!("PSHELL_{property}"));
-            self.collection
-                .surfaces
-                .entry(name)
-                .or_default()
-                .extend(faces);
+            self.collection.surfaces.entry(name).or_default().extend(faces);
         }
         self.read_bsurfs()
     }
@@ -139,10 +127,7 @@ impl Reader<'_, '_> {
             let name = format!("BSURFS_{}", card.number(deck, 0)?);
             // Element and three of its nodes in turns, from the fifth field on.
             let entries = card.fields.get(4..).unwrap_or_default().chunks(4);
-            for (i, _) in entries
-                .enumerate()
-                .filter(|(_, entry)| !entry[0].is_empty())
-            {
+            for (i, _) in entries.enumerate().filter(|(_, entry)| !entry[0].is_empty()) {
                 let first = 4 + 4 * i;
                 let element = self.solid(card.number(deck, first)?, card)?;
                 let mut nodes = [0; 3];
@@ -155,11 +140,7 @@ impl Reader<'_, '_> {
                     let message = format!("{name}: its nodes are on no face of the element");
                     deck.error(card.place, message)
                 })?;
-                self.collection
-                    .surfaces
-                    .entry(name.clone())
-                    .or_default()
-                    .push(face);
+                self.collection.surfaces.entry(name.clone()).or_default().push(face);
             }
         }
         Ok(())

@@ -59,10 +59,7 @@ impl Reader<'_, '_> {
         }
         for card in self.cards_of("SPC") {
             let set = card.number(self.deck, 0)?;
-            for first in [1, 4]
-                .into_iter()
-                .filter(|&first| !card.field(first).is_empty())
-            {
+            for first in [1, 4].into_iter().filter(|&first| !card.field(first).is_empty()) {
                 if card.real(self.deck, first + 2)? != 0.0 {
                     let reason = "only displacements of zero are taken: these directions stay free";
                     self.leave_out("SPC with a displacement", card.place, reason);
@@ -71,9 +68,7 @@ impl Reader<'_, '_> {
                 let node = card.number(self.deck, first)?;
                 let node = self.node(node, "SPC", card.place)?;
                 let directions = self.directions(card, first + 1)?;
-                let entry = held
-                    .entry((set, directions))
-                    .or_insert((BTreeSet::new(), card.place));
+                let entry = held.entry((set, directions)).or_insert((BTreeSet::new(), card.place));
                 entry.0.insert(node);
             }
         }
@@ -88,11 +83,8 @@ impl Reader<'_, '_> {
         let text = card.field(field);
         let is_right = |c: char| ('0'..='6').contains(&c);
         if text.is_empty() || !text.chars().all(is_right) {
-            let message = format!(
-                "{}: directions 1 to 6 expected, found {}",
-                card.name,
-                quoted(text)
-            );
+            let message =
+                format!("{}: directions 1 to 6 expected, found {}", card.name, quoted(text));
             return Err(self.deck.error(card.place, message));
         }
         Ok(text.chars().filter(|c| ('1'..='3').contains(c)).collect())
@@ -101,15 +93,10 @@ impl Reader<'_, '_> {
     fn nodes_of_spc1(&self, card: &Card<'_>, held: &mut Held) -> Result<(), MeshFileError> {
         let set = card.number(self.deck, 0)?;
         let directions = self.directions(card, 1)?;
-        let (nodes, _) = held
-            .entry((set, directions))
-            .or_insert((BTreeSet::new(), card.place));
+        let (nodes, _) = held.entry((set, directions)).or_insert((BTreeSet::new(), card.place));
         if card.field(3).eq_ignore_ascii_case("THRU") {
             let (first, last) = (card.number(self.deck, 2)?, card.number(self.deck, 4)?);
-            let inside = self
-                .nodes
-                .iter()
-                .filter(|(label, _)| (first..=last).contains(label));
+            let inside = self.nodes.iter().filter(|(label, _)| (first..=last).contains(label));
             nodes.extend(inside.map(|(_, &node)| node));
             return Ok(());
         }
@@ -124,10 +111,7 @@ impl Reader<'_, '_> {
         let elements = self.collection.elements.iter();
         let used: BTreeSet<u32> = elements.flat_map(|e| e.nodes.iter().copied()).collect();
         for ((set, directions), (nodes, place)) in held {
-            let nodes: Vec<u32> = nodes
-                .into_iter()
-                .filter(|node| used.contains(node))
-                .collect();
+            let nodes: Vec<u32> = nodes.into_iter().filter(|node| used.contains(node)).collect();
             let name = format!("SPC_{set}_{directions}");
             let keyword = format!("SPC1/SPC of set {set}, directions {directions}");
             let reason = if directions.is_empty() {
@@ -166,12 +150,8 @@ impl Reader<'_, '_> {
             let element = self.solid(card.number(self.deck, 1)?, card)?;
             let pressure = card.real(self.deck, 2)?;
             let others = [3, 4, 5].map(|field| card.optional_real(self.deck, field));
-            let mut is_plain = card
-                .fields
-                .get(8..)
-                .unwrap_or_default()
-                .iter()
-                .all(|field| field.is_empty());
+            let mut is_plain =
+                card.fields.get(8..).unwrap_or_default().iter().all(|field| field.is_empty());
             for other in others {
                 is_plain &= other?.is_none_or(|other| other == pressure);
             }
@@ -235,10 +215,8 @@ impl Reader<'_, '_> {
             _ => None,
         };
         found.ok_or_else(|| {
-            let message = format!(
-                "PLOAD4: G1 and G3 (G4) name no face of element {}",
-                element.label
-            );
+            let message =
+                format!("PLOAD4: G1 and G3 (G4) name no face of element {}", element.label);
             self.deck.error(card.place, message)
         })
     }
@@ -265,9 +243,7 @@ fn sloping(element: &CollectedElement, ends: [u32; 2]) -> Option<SurfaceFace> {
 fn opposite(element: &CollectedElement, apex: u32) -> Option<SurfaceFace> {
     let corners = element.nodes[..4].iter().copied();
     let others: Vec<u32> = corners.filter(|&node| node != apex).collect();
-    (others.len() == 3)
-        .then(|| element.face_with(&others))
-        .flatten()
+    (others.len() == 3).then(|| element.face_with(&others)).flatten()
 }
 
 /// The triangular face of a wedge on which a corner lies.

@@ -66,10 +66,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<GmshFile, MeshFileError> {
     reader.read_nodes()?;
     reader.read_elements()?;
     if reader.collection.elements.is_empty() {
-        return Err(deck.error(
-            deck.end(),
-            "the file has no solid elements (CTETRA, CHEXA, CPENTA)",
-        ));
+        return Err(
+            deck.error(deck.end(), "the file has no solid elements (CTETRA, CHEXA, CPENTA)")
+        );
     }
     reader.read_properties()?;
     reader.read_skins()?;
@@ -123,36 +122,19 @@ impl<'d, 'a> Reader<'d, 'a> {
         for card in self.cards_of("GRID") {
             let label = card.number(deck, 0)?;
             let system = card.optional_int(deck, 1)?.or(system).unwrap_or(0);
-            let point = [
-                card.real(deck, 2)?,
-                card.real(deck, 3)?,
-                card.real(deck, 4)?,
-            ];
+            let point = [card.real(deck, 2)?, card.real(deck, 3)?, card.real(deck, 4)?];
             let system = usize::try_from(system).unwrap_or(0);
-            let known = self
-                .coordinates
-                .grids
-                .insert(label, (system, point, card.place));
+            let known = self.coordinates.grids.insert(label, (system, point, card.place));
             if known.is_some_and(|known| known.1 != point || known.0 != system) {
                 let message = format!("node {label} is given twice, at different places");
                 return Err(deck.error(card.place, message));
             }
-            let is_turned = card
-                .optional_int(deck, 5)?
-                .or(turned)
-                .is_some_and(|cd| cd != 0);
-            let held = card
-                .optional_int(deck, 6)?
-                .or(held)
-                .filter(|&held| held > 0);
+            let is_turned = card.optional_int(deck, 5)?.or(turned).is_some_and(|cd| cd != 0);
+            let held = card.optional_int(deck, 6)?.or(held).filter(|&held| held > 0);
             held_nodes.push((label, is_turned, held, card.place));
         }
-        let grids: Vec<_> = self
-            .coordinates
-            .grids
-            .iter()
-            .map(|(&label, &grid)| (label, grid))
-            .collect();
+        let grids: Vec<_> =
+            self.coordinates.grids.iter().map(|(&label, &grid)| (label, grid)).collect();
         for (label, (system, point, place)) in grids {
             let index = self.collection.points.len() as u32;
             let point = self.coordinates.point(system, point, place)?;

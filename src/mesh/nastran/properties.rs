@@ -15,10 +15,7 @@ impl Reader<'_, '_> {
             let number = card.number(deck, 1)?;
             let region = self.region(property);
             let elements = self.collection.elements.iter();
-            if !elements
-                .filter_map(|e| e.region.as_deref())
-                .any(|other| other == region)
-            {
+            if !elements.filter_map(|e| e.region.as_deref()).any(|other| other == region) {
                 continue;
             }
             let axes = match card.optional_int(deck, 2)?.unwrap_or(0) {
@@ -76,10 +73,7 @@ impl Reader<'_, '_> {
                 return Err(deck.error(card.place, message));
             }
         };
-        let elasticity = FileElasticity::Isotropic {
-            young_modulus,
-            poisson_ratio,
-        };
+        let elasticity = FileElasticity::Isotropic { young_modulus, poisson_ratio };
         self.material(card, region, elasticity, (4, 7))
     }
 
@@ -111,9 +105,7 @@ impl Reader<'_, '_> {
         }
         let [a, b, c] = [stiffness[0], stiffness[1], stiffness[2]];
         let normal = Matrix3::new(a[0], a[1], a[2], a[1], b[1], b[2], a[2], b[2], c[2]);
-        let compliance = normal
-            .try_inverse()
-            .ok_or_else(|| wrong("its stiffness is singular"))?;
+        let compliance = normal.try_inverse().ok_or_else(|| wrong("its stiffness is singular"))?;
         let young_moduli = [0, 1, 2].map(|i| 1.0 / compliance[(i, i)]);
         let elasticity = FileElasticity::Orthotropic {
             young_moduli,

@@ -4,16 +4,8 @@ use super::super::FaceKind;
 use super::{SolidContact, SolidFace, SolidSector};
 
 /// Parent coordinates of the nodes of a face element: across the sector, then along the face.
-const PLACES: [[isize; 2]; 8] = [
-    [-1, -1],
-    [1, -1],
-    [1, 1],
-    [-1, 1],
-    [0, -1],
-    [1, 0],
-    [0, 1],
-    [-1, 0],
-];
+const PLACES: [[isize; 2]; 8] =
+    [[-1, -1], [1, -1], [1, 1], [-1, 1], [0, -1], [1, 0], [0, 1], [-1, 0]];
 
 /// One element's part of a face, in sector 0.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,11 +18,7 @@ pub struct FaceElement {
 
 /// Gauss points `(place, weight)` of a face element: 2 x 2, or 3 x 3 for 8 nodes.
 pub fn face_quadrature(is_quadratic: bool) -> impl Iterator<Item = ([f64; 2], f64)> {
-    let kind = if is_quadratic {
-        FaceKind::Quad8
-    } else {
-        FaceKind::Quad4
-    };
+    let kind = if is_quadratic { FaceKind::Quad8 } else { FaceKind::Quad4 };
     let points = kind.quadrature().into_iter();
     points.map(|([x, y, _], weight)| ([x, y], weight))
 }
@@ -43,11 +31,7 @@ pub fn face_shapes(is_quadratic: bool, [x, y]: [f64; 2]) -> Vec<f64> {
         .map(|&[a, b]| {
             let (p, q) = (a as f64, b as f64);
             let factor = |sign: f64, at: f64| {
-                if sign == 0.0 {
-                    1.0 - at * at
-                } else {
-                    1.0 + sign * at
-                }
+                if sign == 0.0 { 1.0 - at * at } else { 1.0 + sign * at }
             };
             let product = factor(p, x) * factor(q, y);
             match (is_quadratic, a == 0 || b == 0) {
@@ -104,10 +88,7 @@ impl SolidSector {
                     };
                     (find(place, half), half)
                 };
-                FaceElement {
-                    face,
-                    nodes: places.iter().map(node).collect(),
-                }
+                FaceElement { face, nodes: places.iter().map(node).collect() }
             })
             .collect()
     }
@@ -116,11 +97,7 @@ impl SolidSector {
     pub fn contact_elements(&self) -> Vec<FaceElement> {
         let contact = self.specification.contact;
         let mut elements = self.face_elements(contact.face());
-        if let SolidContact::Ring {
-            inner_radius,
-            outer_radius,
-        } = contact
-        {
+        if let SolidContact::Ring { inner_radius, outer_radius } = contact {
             let slack = 1e-9 * self.specification.annulus.outer_radius;
             elements.retain(|element| {
                 let [from, to] = [0, 2].map(|corner| self.nodes[element.nodes[corner].0].radius);

@@ -39,18 +39,12 @@ impl SolidSector {
 
     /// The surfaces that a face on the outside belongs to.
     fn surfaces_of(&self, face: &BoundaryFace) -> impl Iterator<Item = &'static str> {
-        let nodes: Vec<usize> = face
-            .nodes
-            .iter()
-            .map(|&node| node as usize % self.node_count())
-            .collect();
+        let nodes: Vec<usize> =
+            face.nodes.iter().map(|&node| node as usize % self.node_count()).collect();
         let lies_on = |own: SolidFace| nodes.iter().all(|&node| self.is_on(node, own));
         let under_ring = match self.specification.contact {
             SolidContact::Inner => false,
-            SolidContact::Ring {
-                inner_radius,
-                outer_radius,
-            } => {
+            SolidContact::Ring { inner_radius, outer_radius } => {
                 let slack = 1e-9 * self.specification.annulus.outer_radius;
                 let within = inner_radius - slack..=outer_radius + slack;
                 let mut radii = nodes.iter().map(|&node| self.nodes[node].radius);
@@ -59,8 +53,6 @@ impl SolidSector {
         };
         let own = SolidFace::ALL.into_iter().filter(|own| lies_on(*own));
         let names: Vec<&'static str> = own.map(SolidFace::name).collect();
-        names
-            .into_iter()
-            .chain(under_ring.then(|| self.contact_surface()))
+        names.into_iter().chain(under_ring.then(|| self.contact_surface()))
     }
 }

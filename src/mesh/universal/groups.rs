@@ -33,11 +33,7 @@ impl Reader<'_, '_> {
                         .error(line.0, format!("entities of group {name} expected")));
                 }
             }
-            self.groups.push(Group {
-                name,
-                items,
-                place: head.0,
-            });
+            self.groups.push(Group { name, items, place: head.0 });
         }
         Ok(())
     }
@@ -61,11 +57,7 @@ impl Reader<'_, '_> {
             };
             match kind {
                 NODE => nodes.push(*self.nodes.get(&number).ok_or_else(|| missing("node"))?),
-                ELEMENT => match self
-                    .entities
-                    .get(&number)
-                    .ok_or_else(|| missing("element"))?
-                {
+                ELEMENT => match self.entities.get(&number).ok_or_else(|| missing("element"))? {
                     Entity::Element(place) => {
                         is_region = true;
                         if self.is_grouped.insert(*place) {
@@ -84,21 +76,12 @@ impl Reader<'_, '_> {
             let deck = self.deck;
             let keyword = format!("{lost} entities of group {}", group.name);
             let reason = "no nodes, solid elements or shells on the outside";
-            self.model
-                .leave_out(&keyword, || deck.name(group.place), reason);
+            self.model.leave_out(&keyword, || deck.name(group.place), reason);
         }
         if !faces.is_empty() {
-            self.collection
-                .surfaces
-                .entry(group.name.clone())
-                .or_default()
-                .extend(faces);
+            self.collection.surfaces.entry(group.name.clone()).or_default().extend(faces);
         } else if !is_region && !nodes.is_empty() {
-            self.collection
-                .node_sets
-                .entry(group.name.clone())
-                .or_default()
-                .extend(nodes);
+            self.collection.node_sets.entry(group.name.clone()).or_default().extend(nodes);
         }
         Ok(())
     }

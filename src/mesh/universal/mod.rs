@@ -106,22 +106,16 @@ impl<'a> Reader<'_, 'a> {
         let numbers = line.split_whitespace().map(|word| {
             let number = word.parse::<i64>().ok();
             // Colours and tags may be negative; they are not used.
-            number
-                .map(|n| usize::try_from(n).unwrap_or(0))
-                .ok_or_else(|| {
-                    let message = format!("whole numbers expected, found {}", quoted(word));
-                    self.deck.error(place, message)
-                })
+            number.map(|n| usize::try_from(n).unwrap_or(0)).ok_or_else(|| {
+                let message = format!("whole numbers expected, found {}", quoted(word));
+                self.deck.error(place, message)
+            })
         });
         numbers.collect()
     }
 
     fn must<T>(&self, value: Option<T>) -> Result<T, MeshFileError> {
-        let place = self
-            .deck
-            .lines
-            .get(self.at.saturating_sub(1))
-            .map_or(self.deck.end(), |l| l.0);
+        let place = self.deck.lines.get(self.at.saturating_sub(1)).map_or(self.deck.end(), |l| l.0);
         value.ok_or_else(|| self.deck.error(place, "the dataset is too short here"))
     }
 
@@ -131,10 +125,8 @@ impl<'a> Reader<'_, 'a> {
                 continue;
             }
             if line.trim() != "-1" {
-                let message = format!(
-                    "-1, which begins a dataset, expected, found {}",
-                    quoted(line)
-                );
+                let message =
+                    format!("-1, which begins a dataset, expected, found {}", quoted(line));
                 return Err(self.deck.error(place, message));
             }
             let Some((place, number)) = self.line() else {
@@ -150,8 +142,7 @@ impl<'a> Reader<'_, 'a> {
                 _ => {
                     let deck = self.deck;
                     let shown: String = number.chars().take(20).collect();
-                    self.model
-                        .leave_out(&format!("dataset {shown}"), || deck.name(place), "");
+                    self.model.leave_out(&format!("dataset {shown}"), || deck.name(place), "");
                     while self.inner()?.is_some() {}
                 }
             }
@@ -176,15 +167,11 @@ impl<'a> Reader<'_, 'a> {
 
     fn node(&mut self, place: Place, label: usize, point: &[f64]) -> Result<(), MeshFileError> {
         let Some(&point) = point.first_chunk::<3>() else {
-            return Err(self
-                .deck
-                .error(place, format!("node {label} needs three coordinates")));
+            return Err(self.deck.error(place, format!("node {label} needs three coordinates")));
         };
         let next = self.collection.points.len() as u32;
         if self.nodes.insert(label, next).is_some() {
-            return Err(self
-                .deck
-                .error(place, format!("node {label} is given twice")));
+            return Err(self.deck.error(place, format!("node {label} is given twice")));
         }
         self.collection.points.push(point);
         self.collection.labels.push(label);
@@ -304,15 +291,12 @@ impl<'a> Reader<'_, 'a> {
             None => {
                 let deck = self.deck;
                 let keyword = format!("elements of kind {descriptor}");
-                self.model
-                    .leave_out(&keyword, || deck.name(place), "no solid or plane elements");
+                self.model.leave_out(&keyword, || deck.name(place), "no solid or plane elements");
                 Entity::Skin(Vec::new())
             }
         };
         if self.entities.insert(label, entity).is_some() {
-            return Err(self
-                .deck
-                .error(place, format!("element {label} is given twice")));
+            return Err(self.deck.error(place, format!("element {label} is given twice")));
         }
         Ok(())
     }
@@ -321,9 +305,8 @@ impl<'a> Reader<'_, 'a> {
     fn shells_to_skins(&mut self) {
         let mut moved = HashMap::new();
         let mut kept = Vec::new();
-        for (place, element) in std::mem::take(&mut self.collection.elements)
-            .into_iter()
-            .enumerate()
+        for (place, element) in
+            std::mem::take(&mut self.collection.elements).into_iter().enumerate()
         {
             if element.kind.dimension() == 3 {
                 moved.insert(place, kept.len());

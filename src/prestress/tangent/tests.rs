@@ -4,12 +4,7 @@ use crate::fem::{ElasticMaterial, MassKind, PlaneFormulation, assemble_stiffness
 use crate::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
 
 fn turning(rotation_speed: f64) -> SlidingContact {
-    SlidingContact {
-        decay: None,
-        friction_coefficient: 0.3,
-        interference: 25e-6,
-        rotation_speed,
-    }
+    SlidingContact { decay: None, friction_coefficient: 0.3, interference: 25e-6, rotation_speed }
 }
 
 fn disc(element: ElementKind) -> (Mesh, ElasticMaterial) {
@@ -60,16 +55,10 @@ fn rigid_rotation_leaves_the_prestressed_edge_in_balance() {
         let free = DofMap::clamped(&mesh);
         for terms in &prestress {
             let force = terms.multiply(total, &rotation);
-            let scale = terms
-                .entries
-                .iter()
-                .fold(0.0_f64, |m, &(_, _, value)| m.max(value.abs()));
+            let scale = terms.entries.iter().fold(0.0_f64, |m, &(_, _, value)| m.max(value.abs()));
             for dof in &free.dofs {
                 // Each row sums a dozen terms of size `scale * radius`.
-                assert!(
-                    force[*dof].abs() < 1e-11 * scale * 0.0905,
-                    "{element:?} {dof}"
-                );
+                assert!(force[*dof].abs() < 1e-11 * scale * 0.0905, "{element:?} {dof}");
             }
         }
         let elastic_force = elastic.multiply(total, &rotation);
@@ -91,10 +80,7 @@ fn every_matrix_is_symmetric_without_friction() {
             &TangentOptions {
                 mass: MassKind::Consistent,
                 geometric_stiffness: true,
-                damping: RayleighDamping {
-                    mass_coefficient: 40.0,
-                    stiffness_coefficient: 4.5e-7,
-                },
+                damping: RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 4.5e-7 },
                 damping_model: DampingModel::WholeTangent,
                 contact: ContactStiffness {
                     normal_stiffness,

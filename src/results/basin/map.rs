@@ -65,9 +65,7 @@ pub fn basin_map(records: &[PointRecord]) -> Result<Figure, ChartError> {
         let colour = look(index).0;
         let middle = |b: &Boundary| Some((b.value, (b.low? * b.high?).sqrt()));
         panel = panel.layer(
-            Line::through(boundaries.iter().filter_map(middle))
-                .nth(index)
-                .name(name.clone()),
+            Line::through(boundaries.iter().filter_map(middle)).nth(index).name(name.clone()),
         );
         for b in boundaries {
             let ends = [b.low, b.high].map(|end| end.map(|end| (b.value, end)));
@@ -76,11 +74,7 @@ pub fn basin_map(records: &[PointRecord]) -> Result<Figure, ChartError> {
         let only = |marker: Marker, text: String, of: &dyn Fn(&Boundary) -> Option<f64>| {
             let points = boundaries.iter().filter_map(|b| Some((b.value, of(b)?)));
             let points = Points::new(points).marker(marker, 2.6, colour);
-            if index == 0 {
-                points.name(text)
-            } else {
-                points
-            }
+            if index == 0 { points.name(text) } else { points }
         };
         panel = panel
             .layer(only(

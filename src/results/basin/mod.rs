@@ -98,10 +98,7 @@ impl BasinSummary {
             harmonics,
             of_modes,
             winner: alone,
-            boundary: Bounds {
-                low: found.low,
-                high: found.high,
-            },
+            boundary: Bounds { low: found.low, high: found.high },
             transients: found.runs.len(),
             runs: found.runs.iter().map(RunSummary::from).collect(),
             manifest: manifest.clone(),
@@ -182,28 +179,18 @@ impl BasinSummary {
         }
         for run in &self.runs {
             if self.is_kick() {
-                let end = if run.is_settled {
-                    ""
-                } else {
-                    "  (not settled)"
-                };
+                let end = if run.is_settled { "" } else { "  (not settled)" };
                 let name = self.name(run.winner);
                 let _ = writeln!(out, "  kick {:<10.4} {name}{end}", run.seed_ratio);
                 continue;
             }
-            let ratio = run
-                .saturation_ratio
-                .map_or("-".to_owned(), |r| format!("{r:.4}"));
+            let ratio = run.saturation_ratio.map_or("-".to_owned(), |r| format!("{r:.4}"));
             let _ = writeln!(
                 out,
                 "  seeds 1 : {:<10.4} at saturation {ratio:>9}  {}{}",
                 run.seed_ratio,
                 self.name(run.winner),
-                if run.is_settled {
-                    ""
-                } else {
-                    "  (not settled)"
-                },
+                if run.is_settled { "" } else { "  (not settled)" },
             );
         }
         out

@@ -21,9 +21,7 @@ pub fn draw_basin(
         title: summary.title.clone(),
         sections: vec![
             ReportSection::results(vec![summary.answer()], results(summary)),
-            ReportSection::new("Search")
-                .with_tables([runs_table(summary)])
-                .with_figures(figures),
+            ReportSection::new("Search").with_tables([runs_table(summary)]).with_figures(figures),
         ],
         manifest: folder.manifest().clone(),
     };
@@ -39,10 +37,7 @@ fn results(summary: &BasinSummary) -> Vec<(String, String)> {
                 "rivals".to_owned(),
                 format!("{} and {}", summary.name(first), summary.name(second)),
             ),
-            false => (
-                "waves".to_owned(),
-                format!("n = {first} and n = {second} nodal diameters"),
-            ),
+            false => ("waves".to_owned(), format!("n = {first} and n = {second} nodal diameters")),
         },
         (
             format!("largest ratio at which {} wins", summary.name(first)),
@@ -76,15 +71,11 @@ fn search(summary: &BasinSummary) -> Result<Figure, ChartError> {
             true => format!("{} wins", shown(winner)),
             false => "not settled".to_owned(),
         };
-        Points::new(own.filter_map(place))
-            .marker(marker, 2.6, colour)
-            .name(name)
+        Points::new(own.filter_map(place)).marker(marker, 2.6, colour).name(name)
     };
     let bounds = [summary.boundary.low, summary.boundary.high];
     let bounds = bounds.into_iter().flatten().map(|ratio| {
-        Rule::vertical(ratio)
-            .stroke(Stroke::dashed(INK, 0.8))
-            .name("bounds of the boundary")
+        Rule::vertical(ratio).stroke(Stroke::dashed(INK, 0.8)).name("bounds of the boundary")
     });
     let names = [(0.0, shown(first)), (1.0, shown(second))];
     let ratio = summary.ratio().replace("n = ", "*n* = ");
@@ -115,8 +106,7 @@ fn runs_table(summary: &BasinSummary) -> ReportTable {
         vec![
             (number + 1).to_string(),
             significant(run.seed_ratio, 5),
-            run.saturation_ratio
-                .map_or(String::new(), |ratio| significant(ratio, 5)),
+            run.saturation_ratio.map_or(String::new(), |ratio| significant(ratio, 5)),
             match summary.of_modes {
                 true => summary.name(run.winner),
                 false => run.winner.to_string(),

@@ -75,10 +75,7 @@ impl AssemblyReport {
             Field::vectors("displacement_m", mesh, &self.displacement),
             Field::scalars("pressure_pa", around(|point| point.pressure)),
             Field::scalars("shear_pa", around(|point| point.shear)),
-            Field::scalars(
-                "closed_share",
-                around(|point| f64::from(u8::from(point.is_closed))),
-            ),
+            Field::scalars("closed_share", around(|point| f64::from(u8::from(point.is_closed)))),
         ];
         fields.extend(Field::solid_stresses(&self.stress, "xyz"));
         folder.write_bulk("prestress.vtu", |out| {
@@ -97,9 +94,7 @@ impl AssemblyReport {
     /// # Errors
     /// [`ChartError::Empty`] for a base state that is free of stress.
     pub(super) fn prestress(&self, mesh: &Mesh) -> Result<Figure, ChartError> {
-        self.traction(mesh, ("prestress", "contact pressure"), |point| {
-            point.pressure
-        })
+        self.traction(mesh, ("prestress", "contact pressure"), |point| point.pressure)
     }
 
     /// Friction on each contact surface.
@@ -119,9 +114,7 @@ impl AssemblyReport {
         value: fn(&AssemblyPoint) -> f64,
     ) -> Result<Figure, ChartError> {
         if self.is_free_of_stress() {
-            return Err(ChartError::empty(
-                "tractions of contacts that are free of stress",
-            ));
+            return Err(ChartError::empty("tractions of contacts that are free of stress"));
         }
         let tractions = self.around_nodes(mesh, value);
         let closed = self.around_nodes(mesh, |point| f64::from(u8::from(point.is_closed)));
@@ -138,12 +131,7 @@ impl AssemblyReport {
         let arrows = self.surfaces.iter().map(|(contact, _)| self.arrow(contact));
         let arrows: Vec<[[f64; 3]; 2]> = arrows.collect();
         let surfaces = (mesh, &self.surfaces[..]);
-        Ok(contact_surfaces(
-            (name, &caption),
-            surfaces,
-            (&values, &arrows),
-            &axis,
-        ))
+        Ok(contact_surfaces((name, &caption), surfaces, (&values, &arrows), &axis))
     }
 
     /// Ends of an arrow in the middle of a contact along the mean sliding of the other surface over it.

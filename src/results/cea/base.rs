@@ -127,9 +127,7 @@ pub fn write_base(
         };
         let place = |i: usize| mesh.plane_node(base.nodes[i] as usize);
         let columns: &[Column<'_, (usize, f64)>] = &[
-            ("node", &|(i, _)| {
-                mesh.node_label(base.nodes[*i] as usize).into()
-            }),
+            ("node", &|(i, _)| mesh.node_label(base.nodes[*i] as usize).into()),
             ("angle_degrees", &|(_, angle)| angle.to_degrees().into()),
             ("pressure_pa", &|(i, _)| base.pressures[*i].into()),
             ("shear_pa", &|(i, _)| base.shears[*i].into()),

@@ -17,19 +17,10 @@ pub(super) fn branches(sweep: &FrictionSweep) -> BTreeMap<Branch, Vec<(f64, &Com
         for mode in &point.modes {
             // Where a pair is degenerate its modes have no direction and stand at the start of both waves.
             let is_pair = mode.harmonic > 0 && mode.direction == 0;
-            let directions = if is_pair {
-                &[-1, 1][..]
-            } else {
-                &[mode.direction]
-            };
+            let directions = if is_pair { &[-1, 1][..] } else { &[mode.direction] };
             for direction in directions {
-                let points = out
-                    .entry((mode.harmonic, mode.branch, *direction))
-                    .or_default();
-                if points
-                    .last()
-                    .is_none_or(|last| last.0 != point.friction_coefficient)
-                {
+                let points = out.entry((mode.harmonic, mode.branch, *direction)).or_default();
+                if points.last().is_none_or(|last| last.0 != point.friction_coefficient) {
                     points.push((point.friction_coefficient, mode));
                 }
             }

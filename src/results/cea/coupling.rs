@@ -47,10 +47,7 @@ fn of_modes(report: &CeaReport<'_>, interval: &UnstableInterval) -> Option<Strin
     let is_here = |mode: &&ComplexMode| mode.branch == interval.branch;
     let is_behind = |point: &&FrictionPoint| {
         point.friction_coefficient >= interval.critical_friction
-            && point
-                .modes
-                .iter()
-                .any(|mode| is_here(&mode) && mode.is_unstable())
+            && point.modes.iter().any(|mode| is_here(&mode) && mode.is_unstable())
     };
     let point = report.sweep.points.iter().find(is_behind)?;
     let own = point.modes.iter().find(is_here)?;

@@ -56,9 +56,7 @@ impl Feed {
         folder.write("feed.csv", |out| {
             type Row<'a> = (&'a ModeName, &'a FeedPlace, f64);
             let columns: &[Column<'_, Row<'_>>] = &[
-                ("friction_coefficient", &|row| {
-                    row.0.friction_coefficient.into()
-                }),
+                ("friction_coefficient", &|row| row.0.friction_coefficient.into()),
                 ("mode", &|row| row.0.mode.into()),
                 ("frequency_hz", &|row| row.0.frequency_hz.into()),
                 ("contact", &|row| row.1.contact.as_str().into()),
@@ -82,10 +80,7 @@ impl Feed {
         let fields = self.modes.iter().map(|own| {
             let name = format!("mode_{}_growth_rate_per_s_m2", own.mode.mode);
             let mut values = self.around_nodes(count, own);
-            values
-                .iter_mut()
-                .filter(|v| v.is_nan())
-                .for_each(|v| *v = 0.0);
+            values.iter_mut().filter(|v| v.is_nan()).for_each(|v| *v = 0.0);
             Field::scalars(&name, values)
         });
         let fields: Vec<Field> = fields.collect();
@@ -149,9 +144,7 @@ impl Feed {
 
     fn lines(&self, report: &CeaReport<'_>, modes: &[&ModeFeed], caption: String) -> Figure {
         // Across the rings of a body of revolution; along an edge by angle about the cylinder, or along the plane.
-        let face = report
-            .solid
-            .map(|solid| solid.sector.specification.contact.face());
+        let face = report.solid.map(|solid| solid.sector.specification.contact.face());
         let along = |place: &FeedPlace| -> f64 {
             let [x, y, z] = place.position;
             match (face, &report.mesh.counterface) {
@@ -201,9 +194,7 @@ impl Feed {
             let numbers = values.iter().copied().filter(|value| value.is_finite());
             let largest = numbers.map(f64::abs).fold(f64::MIN_POSITIVE, f64::max);
             surfaces.iter().map(move |(contact, boundary)| {
-                let axis = Axis::new("feed", "1/(s cm²)")
-                    .times(1e-4)
-                    .between(-largest, largest);
+                let axis = Axis::new("feed", "1/(s cm²)").times(1e-4).between(-largest, largest);
                 let view = SolidView::of_boundary(mesh, *boundary);
                 let surface = view.surface(values.clone(), (&[], 0.0), axis, ColourMap::Diverging);
                 Panel::plane(surface.window(0.05))
@@ -215,9 +206,7 @@ impl Feed {
             })
         });
         let panels: Vec<Panel> = panels.collect();
-        Figure::new("feed", caption)
-            .columns(surfaces.len().clamp(1, 2))
-            .panels(panels)
+        Figure::new("feed", caption).columns(surfaces.len().clamp(1, 2)).panels(panels)
     }
 }
 

@@ -33,10 +33,8 @@ pub fn draw(
     dampings: &[NamedDamping],
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
-    let mut figures: Vec<Declaration<'_>> = vec![
-        Box::new(move || Ok(locus(report, dampings))),
-        Box::new(move || pairs(report)),
-    ];
+    let mut figures: Vec<Declaration<'_>> =
+        vec![Box::new(move || Ok(locus(report, dampings))), Box::new(move || pairs(report))];
     match report.assembly {
         None => figures.push(Box::new(move || Ok(prestress(report)))),
         Some(assembly) => {
@@ -83,10 +81,7 @@ fn pairs(report: &CeaReport<'_>) -> Result<Figure, ChartError> {
     type Quantity = fn(&ComplexMode) -> f64;
     let quantities: [(Axis, Quantity); 2] = [
         (Axis::kilohertz(), ComplexMode::frequency_hz),
-        (
-            Axis::new("damping *ζ*", "%").times(100.0),
-            ComplexMode::damping_factor,
-        ),
+        (Axis::new("damping *ζ*", "%").times(100.0), ComplexMode::damping_factor),
     ];
     let panels = pairs.iter().flat_map(|&(harmonic, branch)| {
         let caption = match report.has_harmonics {
@@ -116,11 +111,7 @@ fn pairs(report: &CeaReport<'_>) -> Result<Figure, ChartError> {
                 .layer(Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.6)))
                 .layer(line_of_all)
                 .layer(line(-1).solid(STABLE, 1.1).name("against the rotor ↻"))
-                .layer(
-                    line(1)
-                        .stroke(Stroke::dashed(INK, 0.9))
-                        .name("with the rotor ↺"),
-                )
+                .layer(line(1).stroke(Stroke::dashed(INK, 0.9)).name("with the rotor ↺"))
                 .layer(
                     Points::new(growing.map(|(mu, mode)| (*mu, quantity(mode))))
                         .marker(Marker::Disc, 1.5, UNSTABLE)
@@ -134,10 +125,8 @@ fn pairs(report: &CeaReport<'_>) -> Result<Figure, ChartError> {
         }
         false => "Frequency and damping factor over friction of the modes that turn unstable.",
     };
-    let figure = Figure::new("pairs", caption)
-        .columns(2)
-        .shared_x()
-        .panels(panels.collect::<Vec<_>>());
+    let figure =
+        Figure::new("pairs", caption).columns(2).shared_x().panels(panels.collect::<Vec<_>>());
     Ok(match report.contact_changes {
         [] => figure,
         _ => figure.note("curves end where contact nodes open or close"),
@@ -165,10 +154,7 @@ fn prestress(report: &CeaReport<'_>) -> Figure {
     };
     let around = |name: &str, values: &[f64], colour| {
         let axis = Axis::new(name, "Pa").prefixed().including(0.0).room(0.15);
-        let points: Vec<(f64, f64)> = places
-            .iter()
-            .map(|&(i, angle)| (angle, values[i]))
-            .collect();
+        let points: Vec<(f64, f64)> = places.iter().map(|&(i, angle)| (angle, values[i])).collect();
         Panel::new(place.clone(), axis)
             .height(86.0)
             .layer(Line::through(wrapped(points, is_closed)).solid(colour, 1.2))
@@ -197,11 +183,7 @@ fn wrapped(points: Vec<(f64, f64)>, is_closed: bool) -> Vec<(f64, f64)> {
 
 /// Modes of one friction value that carry shapes.
 fn shapes_at<'a>(report: &CeaReport<'a>, friction: f64) -> Vec<ModeShape<'a>> {
-    let points = report
-        .sweep
-        .points
-        .iter()
-        .filter(|p| p.friction_coefficient == friction);
+    let points = report.sweep.points.iter().filter(|p| p.friction_coefficient == friction);
     let numbered = points.flat_map(|point| point.modes.iter().enumerate());
     let with_shape = numbered.filter(|(_, mode)| mode.shape.is_some());
     with_shape
@@ -230,16 +212,8 @@ fn shapes(report: &CeaReport<'_>, friction: f64) -> Figure {
     );
     let body = Body::new(report, if columns < 6 { 24 } else { 12 });
     let panels = shapes.iter().map(|shape| {
-        let first = format!(
-            "{}: {} Hz",
-            shape.number,
-            signed(shape.mode.frequency_hz(), 0)
-        );
-        let lines = [
-            first,
-            format!("Re {} Hz", signed(shape.mode.real_hz(), 1)),
-            shape.harmonic(),
-        ];
+        let first = format!("{}: {} Hz", shape.number, signed(shape.mode.frequency_hz(), 0));
+        let lines = [first, format!("Re {} Hz", signed(shape.mode.real_hz(), 1)), shape.harmonic()];
         body.panel(shape, &lines)
     });
     let figure = multiples(
@@ -275,14 +249,8 @@ fn branch_points<'a>(
         (mode.harmonic, mode.branch) == (harmonic, branch)
             && [direction, 0].contains(&mode.direction)
     };
-    let frictions = report
-        .sweep
-        .points
-        .iter()
-        .map(|point| point.friction_coefficient);
-    frictions
-        .filter_map(|mu| shapes_at(report, mu).into_iter().find(is_own))
-        .collect()
+    let frictions = report.sweep.points.iter().map(|point| point.friction_coefficient);
+    frictions.filter_map(|mu| shapes_at(report, mu).into_iter().find(is_own)).collect()
 }
 
 /// One branch at every friction value that has shapes.
@@ -307,34 +275,20 @@ fn branch_shapes(report: &CeaReport<'_>, branch: Branch) -> Figure {
     let body = Body::new(report, 24);
     let panels = shapes.iter().map(|shape| {
         let mode = shape.mode;
-        let values = format!(
-            "{} Hz, Re {} Hz",
-            signed(mode.frequency_hz(), 0),
-            signed(mode.real_hz(), 1)
-        );
-        let lines = [
-            format!("*μ* = {}", signed(shape.friction, 3)),
-            values,
-            shape.harmonic(),
-        ];
+        let values =
+            format!("{} Hz, Re {} Hz", signed(mode.frequency_hz(), 0), signed(mode.real_hz(), 1));
+        let lines = [format!("*μ* = {}", signed(shape.friction, 3)), values, shape.harmonic()];
         body.panel(shape, &lines)
     });
     let columns = shapes.len().clamp(2, 5);
     let columns = if shapes.len() == 6 { 3 } else { columns };
-    multiples(
-        Figure::new(name, caption).columns(columns),
-        panels,
-        report.has_harmonics,
-    )
+    multiples(Figure::new(name, caption).columns(columns), panels, report.has_harmonics)
 }
 
 /// Small multiples of mode shapes with what their colours and arrows mean.
 fn multiples(figure: Figure, panels: impl Iterator<Item = Panel>, has_harmonics: bool) -> Figure {
     let amplitude = Axis::new("displacement amplitude |*u*| / max |*u*|", "–").between(0.0, 1.0);
-    let figure = figure
-        .unlettered()
-        .panels(panels)
-        .colour_foot(amplitude, ColourMap::Viridis);
+    let figure = figure.unlettered().panels(panels).colour_foot(amplitude, ColourMap::Viridis);
     match has_harmonics {
         true => figure
             .note("↺ travels with the rotor, ↻ against it")

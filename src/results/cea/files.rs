@@ -19,10 +19,7 @@ use std::io::{self, Write};
 pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, FolderError> {
     folder.write("eigenvalues.csv", |out| write_eigenvalues(out, report))?;
     folder.write("stability.csv", |out| {
-        let errors = report
-            .reading
-            .as_ref()
-            .map(|own| own.onset_errors.as_slice());
+        let errors = report.reading.as_ref().map(|own| own.onset_errors.as_slice());
         write_stability(
             out,
             &report.sweep.intervals,
@@ -109,17 +106,11 @@ pub fn write_stability(
             own.or(i.0.nodal_diameters).into()
         }),
         ("branch", &|i| i.0.branch.into()),
-        ("direction", &|i| {
-            has_harmonics.then_some(i.0.direction).into()
-        }),
+        ("direction", &|i| has_harmonics.then_some(i.0.direction).into()),
         ("critical_friction", &|i| i.0.critical_friction.into()),
         ("frequency_hz", &|i| i.0.frequency_hz.into()),
-        ("restabilized_friction", &|i| {
-            i.0.restabilized.map(|end| end.0).into()
-        }),
-        ("restabilized_frequency_hz", &|i| {
-            i.0.restabilized.map(|end| end.1).into()
-        }),
+        ("restabilized_friction", &|i| i.0.restabilized.map(|end| end.0).into()),
+        ("restabilized_frequency_hz", &|i| i.0.restabilized.map(|end| end.1).into()),
         ("unstable_from_start", &|i| i.0.unstable_from_start.into()),
         ("mesh_error", &|i| i.1.into()),
     ];
@@ -135,9 +126,8 @@ fn write_shapes(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), Fol
         let modes = point.modes.iter().enumerate();
         modes.map(move |(index, mode)| (point.friction_coefficient, index + 1, mode))
     });
-    let shaped: Vec<(f64, usize, &ComplexMode)> = numbered
-        .filter(|(_, _, mode)| mode.shape.is_some())
-        .collect();
+    let shaped: Vec<(f64, usize, &ComplexMode)> =
+        numbered.filter(|(_, _, mode)| mode.shape.is_some()).collect();
     if shaped.is_empty() {
         return Ok(());
     }
@@ -157,10 +147,7 @@ fn write_shapes(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), Fol
             folder.write_bulk(&name, |out| out.write_all(&bytes?))?;
             entries.push(PvdEntry {
                 time: entries.len() as f64 + 1.0,
-                group: format!(
-                    "mu {friction}, mode {number}, {:.1} Hz",
-                    mode.frequency_hz()
-                ),
+                group: format!("mu {friction}, mode {number}, {:.1} Hz", mode.frequency_hz()),
                 file: name,
             });
         }
@@ -175,9 +162,7 @@ fn encode_shape(
     friction_coefficient: f64,
     mode: &ComplexMode,
 ) -> io::Result<Vec<u8>> {
-    let mesh = mesh
-        .as_ref()
-        .map_err(|error| io::Error::from(error.kind()))?;
+    let mesh = mesh.as_ref().map_err(|error| io::Error::from(error.kind()))?;
     let fields = shape_fields(report, mode);
     let whole = [
         Field::number("frequency_hz", mode.frequency_hz()),
@@ -201,11 +186,7 @@ fn shape_fields(report: &CeaReport<'_>, mode: &ComplexMode) -> [Field; 3] {
         .collect();
     [
         Field::vectors("displacement_real", report.mesh, &part(|value| value.re)),
-        Field::vectors(
-            "displacement_imaginary",
-            report.mesh,
-            &part(|value| value.im),
-        ),
+        Field::vectors("displacement_imaginary", report.mesh, &part(|value| value.im)),
         Field::scalars("amplitude", amplitude),
     ]
 }

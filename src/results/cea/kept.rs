@@ -85,10 +85,8 @@ impl SweepWatch for KeptSteps<'_> {
     fn keep(&self, name: &str, columns: &[Vec<f64>]) {
         let path = Self::path(name);
         let written = self.folder.write_bulk(&path, |out| {
-            let step = Step {
-                program: env!("CARGO_PKG_VERSION").to_owned(),
-                columns: columns.to_vec(),
-            };
+            let step =
+                Step { program: env!("CARGO_PKG_VERSION").to_owned(), columns: columns.to_vec() };
             let payload = postcard::to_stdvec(&step).map_err(io::Error::other)?;
             framed::write(out, MAGIC, VERSION, &payload)
         });

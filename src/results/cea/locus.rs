@@ -80,16 +80,14 @@ pub(super) fn locus(report: &CeaReport<'_>, dampings: &[NamedDamping]) -> Figure
     let all_branches = branches(sweep);
     let curves = all_branches.iter().flat_map(|(branch, points)| {
         let turns = unstable.contains(branch) && points.len() > 2;
-        pieces(points, sweep, report.contact_changes)
-            .into_iter()
-            .map(move |piece| {
-                let line = Line::through(piece.iter().map(|(_, mode)| place(mode)));
-                let line = line.solid("#b5b5b5", 0.5).arrows(2 * usize::from(turns));
-                match turns {
-                    true => line.name("branch that turns unstable, *μ* rising along the arrow"),
-                    false => line,
-                }
-            })
+        pieces(points, sweep, report.contact_changes).into_iter().map(move |piece| {
+            let line = Line::through(piece.iter().map(|(_, mode)| place(mode)));
+            let line = line.solid("#b5b5b5", 0.5).arrows(2 * usize::from(turns));
+            match turns {
+                true => line.name("branch that turns unstable, *μ* rising along the arrow"),
+                false => line,
+            }
+        })
     });
     let mut labelled: Vec<Branch> = unstable.clone();
     labelled.sort_unstable();
@@ -115,11 +113,7 @@ pub(super) fn locus(report: &CeaReport<'_>, dampings: &[NamedDamping]) -> Figure
     .layer(Rule::vertical(0.0).stroke(Stroke::solid(INK, 0.6)))
     .layers(damping_curves(dampings, highest))
     .layers(curves.collect::<Vec<_>>())
-    .layer(
-        marked(&|_, mode| !mode.is_unstable())
-            .marker(Marker::Disc, 0.9, STABLE)
-            .name("stable"),
-    )
+    .layer(marked(&|_, mode| !mode.is_unstable()).marker(Marker::Disc, 0.9, STABLE).name("stable"))
     .layer(
         marked(&|_, mode| mode.is_unstable())
             .marker(Marker::Diamond, 1.15, UNSTABLE)
@@ -131,11 +125,7 @@ pub(super) fn locus(report: &CeaReport<'_>, dampings: &[NamedDamping]) -> Figure
             .name(format!("lowest friction, *μ* = {}", signed(first, 2))),
     )
     .layers(labels.collect::<Vec<_>>());
-    with_notes(
-        figure_of(report, plane, &numbers).steps(steps(report)),
-        report,
-        hidden,
-    )
+    with_notes(figure_of(report, plane, &numbers).steps(steps(report)), report, hidden)
 }
 
 /// The plane, and beside it the bars of instability where there are any.
@@ -154,42 +144,29 @@ fn figure_of(report: &CeaReport<'_>, plane: Panel, numbers: &BTreeMap<Branch, us
 }
 
 fn with_notes(figure: Figure, report: &CeaReport<'_>, hidden: usize) -> Figure {
-    let own = report
-        .own_point()
-        .map_or(f64::NAN, |point| point.friction_coefficient);
-    let mut figure = figure.note(format!(
-        "mode numbers: order of frequency at *μ* = {}",
-        signed(own, 2)
-    ));
+    let own = report.own_point().map_or(f64::NAN, |point| point.friction_coefficient);
+    let mut figure =
+        figure.note(format!("mode numbers: order of frequency at *μ* = {}", signed(own, 2)));
     if !report.contact_changes.is_empty() {
         figure = figure.note("curves end where contact nodes open or close");
     }
     match hidden {
         0 => figure,
         1 => figure.note("1 eigenvalue of a strongly damped mode lies further left"),
-        count => figure.note(format!(
-            "{count} eigenvalues of strongly damped modes lie further left"
-        )),
+        count => {
+            figure.note(format!("{count} eigenvalues of strongly damped modes lie further left"))
+        }
     }
 }
 
 /// A mode in words: its name, friction, stability.
 fn tip(report: &CeaReport<'_>, friction: f64, mode: &ComplexMode) -> String {
     let name = match report.has_harmonics {
-        true => format!(
-            "n = {}, branch {}, {}",
-            mode.harmonic,
-            mode.branch,
-            way(mode.direction)
-        ),
+        true => format!("n = {}, branch {}, {}", mode.harmonic, mode.branch, way(mode.direction)),
         false => format!("branch {}", mode.branch),
     };
     let rate = TAU * mode.real_hz();
-    let verb = if mode.is_unstable() {
-        "grows"
-    } else {
-        "decays"
-    };
+    let verb = if mode.is_unstable() { "grows" } else { "decays" };
     format!(
         "{name}, friction {}, {verb} at {} 1/s",
         significant(friction, 4),
@@ -209,12 +186,9 @@ fn way(direction: i8) -> String {
 fn steps(report: &CeaReport<'_>) -> Steps {
     let mark = |mode: &ComplexMode| {
         let branch = match report.has_harmonics {
-            true => format!(
-                "n = {}, branch {}, {}, ",
-                mode.harmonic,
-                mode.branch,
-                way(mode.direction)
-            ),
+            true => {
+                format!("n = {}, branch {}, {}, ", mode.harmonic, mode.branch, way(mode.direction))
+            }
             false => String::new(),
         };
         let (frequency, rate) = (mode.frequency_hz(), TAU * mode.real_hz());
@@ -228,15 +202,10 @@ fn steps(report: &CeaReport<'_>) -> Steps {
         }
     };
     let points = &report.sweep.points;
-    let marks = points
-        .iter()
-        .map(|point| point.modes.iter().map(mark).collect());
+    let marks = points.iter().map(|point| point.modes.iter().map(mark).collect());
     Steps {
         quantity: "friction coefficient".into(),
-        values: points
-            .iter()
-            .map(|point| point.friction_coefficient)
-            .collect(),
+        values: points.iter().map(|point| point.friction_coefficient).collect(),
         marks: marks.collect(),
     }
 }
@@ -246,31 +215,21 @@ fn stability_bars(report: &CeaReport<'_>, numbers: &BTreeMap<Branch, usize>) -> 
     let (low, high) = extremes(sweep.points.iter().map(|p| p.friction_coefficient));
     let rows = interval_rows(sweep);
     let names = rows.iter().enumerate().map(|(row, (branch, intervals))| {
-        let number = numbers
-            .get(branch)
-            .map_or(String::new(), |number| format!("{number}: "));
+        let number = numbers.get(branch).map_or(String::new(), |number| format!("{number}: "));
         let frequency = signed(intervals[0].frequency_hz * 1e-3, 2);
         let harmonic = match report.has_harmonics {
             true => format!(", *n* = {}", branch.0),
             false => String::new(),
         };
-        (
-            row as f64 + 0.5,
-            format!("{number}{frequency} kHz{harmonic}"),
-        )
+        (row as f64 + 0.5, format!("{number}{frequency} kHz{harmonic}"))
     });
-    let y = Axis::new("", "")
-        .between(0.0, rows.len().max(1) as f64)
-        .ticks(names.collect::<Vec<_>>());
+    let y =
+        Axis::new("", "").between(0.0, rows.len().max(1) as f64).ticks(names.collect::<Vec<_>>());
     let bars = rows.iter().enumerate().flat_map(|(row, (_, intervals))| {
         intervals.iter().map(move |interval| {
             let end = interval.restabilized.map_or(high, |(friction, _)| friction);
             let from = signed(interval.critical_friction, 3);
-            let label = if interval.unstable_from_start {
-                format!("≤ {from}")
-            } else {
-                from
-            };
+            let label = if interval.unstable_from_start { format!("≤ {from}") } else { from };
             (interval.critical_friction, end, row as f64 + 0.5, label)
         })
     });

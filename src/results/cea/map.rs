@@ -47,9 +47,7 @@ impl MapReport {
                 let direction = row.1.map(|i| i.direction);
                 direction.filter(|_| self.has_harmonics).into()
             }),
-            ("critical_friction", &|row| {
-                row.1.map(|i| i.critical_friction).into()
-            }),
+            ("critical_friction", &|row| row.1.map(|i| i.critical_friction).into()),
             ("frequency_hz", &|row| row.1.map(|i| i.frequency_hz).into()),
             ("restabilized_friction", &|row| {
                 row.1.and_then(|i| i.restabilized).map(|end| end.0).into()
@@ -74,10 +72,7 @@ impl MapReport {
         if self.points.len() < 2 {
             return Err(ChartError::empty("map"));
         }
-        let found = self
-            .points
-            .iter()
-            .filter_map(|point| point.outcome.as_ref().ok());
+        let found = self.points.iter().filter_map(|point| point.outcome.as_ref().ok());
         let intervals = found.flatten();
         let branches: BTreeSet<BranchName> = intervals.map(|i| self.name(i)).collect();
         let values: Vec<f64> = self.points.iter().map(|point| point.value).collect();
@@ -87,10 +82,7 @@ impl MapReport {
                 let own = intervals.find(|i| self.name(i) == branch);
                 own.map_or(f64::NAN, |i| i.critical_friction)
             });
-            CriticalBranch {
-                branch,
-                critical: critical.collect(),
-            }
+            CriticalBranch { branch, critical: critical.collect() }
         };
         let branches: Vec<CriticalBranch> = branches.into_iter().map(curve).collect();
         let figure = critical_friction(&self.key, &values, &branches, self.largest_friction);

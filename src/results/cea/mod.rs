@@ -97,9 +97,7 @@ impl CeaReport<'_> {
         let modes = self.own_point().into_iter().flat_map(|point| &point.modes);
         let of = |mode: &ComplexMode| (mode.harmonic, mode.branch, mode.direction);
         let numbered = modes.enumerate();
-        numbered
-            .map(|(index, mode)| (of(mode), index + 1))
-            .collect()
+        numbered.map(|(index, mode)| (of(mode), index + 1)).collect()
     }
 
     /// A branch as figures and tables name it: by harmonic, rank and sense of travel, or without symmetry by the number that
@@ -126,10 +124,10 @@ impl CeaReport<'_> {
 
     /// The friction values of the tables.
     pub fn tabulated(&self) -> impl Iterator<Item = &FrictionPoint> {
-        self.sweep.points.iter().filter(|point| {
-            self.friction_coefficients
-                .contains(&point.friction_coefficient)
-        })
+        self.sweep
+            .points
+            .iter()
+            .filter(|point| self.friction_coefficients.contains(&point.friction_coefficient))
     }
 
     /// Largest relative residual of any eigenpair, that of the quadratic problem.

@@ -47,11 +47,7 @@ fn own_modes(out: &mut String, report: &CeaReport<'_>) {
         "friction {}: {} modes, {unstable} unstable{}",
         point.friction_coefficient,
         point.modes.len(),
-        if is_short {
-            ""
-        } else {
-            " (listed; --verbose lists those of every friction value)"
-        },
+        if is_short { "" } else { " (listed; --verbose lists those of every friction value)" },
     );
     head(out, "", Names::of(report));
     for (index, mode) in point.modes.iter().enumerate() {
@@ -87,10 +83,9 @@ impl Names {
 /// The head of a table of modes; without symmetry they have neither harmonic nor sense of travel.
 fn head(out: &mut String, first: &str, names: Names) {
     let [names, units] = match names {
-        Names::Harmonics => [
-            format!("{:>3} {:>6}  {:<8} ", "n", "branch", "travels"),
-            " ".repeat(21),
-        ],
+        Names::Harmonics => {
+            [format!("{:>3} {:>6}  {:<8} ", "n", "branch", "travels"), " ".repeat(21)]
+        }
         Names::Diameters => [format!("{:>3} {:>6} ", "n", "branch"), " ".repeat(11)],
         Names::Ranks => [format!("{:>6} ", "branch"), " ".repeat(7)],
     };
@@ -99,11 +94,8 @@ fn head(out: &mut String, first: &str, names: Names) {
         "{first:>9}  {:>4}  {names}{:>12} {:>12} {:>11}",
         "mode", "frequency", "growth rate", "damping"
     );
-    let _ = writeln!(
-        out,
-        "{:>9}  {:>4}  {units}{:>12} {:>12} {:>11}",
-        "", "", "Hz", "1/s", "factor"
-    );
+    let _ =
+        writeln!(out, "{:>9}  {:>4}  {units}{:>12} {:>12} {:>11}", "", "", "Hz", "1/s", "factor");
 }
 
 fn mode_line(out: &mut String, first: &str, index: usize, mode: &ComplexMode, names: Names) {
@@ -170,10 +162,7 @@ fn critical_frictions(out: &mut String, report: &CeaReport<'_>) {
     if intervals.is_empty() {
         let first = report.friction_coefficients.first().copied().unwrap_or(0.0);
         let last = report.friction_coefficients.last().copied().unwrap_or(0.0);
-        let _ = writeln!(
-            out,
-            "\nno mode turns unstable for friction from {first} to {last}"
-        );
+        let _ = writeln!(out, "\nno mode turns unstable for friction from {first} to {last}");
         return;
     }
     let values = report.friction_coefficients.iter().copied();
@@ -184,12 +173,9 @@ fn critical_frictions(out: &mut String, report: &CeaReport<'_>) {
         let branch = branch_of(interval);
         let number = numbers.get(&branch).map_or("-".into(), usize::to_string);
         match names {
-            Names::Harmonics => format!(
-                "{:>3} {:>6}  {:<8}",
-                branch.0,
-                branch.1,
-                direction_name(branch.2)
-            ),
+            Names::Harmonics => {
+                format!("{:>3} {:>6}  {:<8}", branch.0, branch.1, direction_name(branch.2))
+            }
             Names::Diameters => {
                 let diameters = interval.nodal_diameters.unwrap_or(0);
                 format!("{number:>4} {diameters:>3} {:>6}", branch.1)
@@ -203,11 +189,7 @@ fn critical_frictions(out: &mut String, report: &CeaReport<'_>) {
         Names::Ranks => format!("{:>4} {:>6}", "mode", "branch"),
     };
     let _ = writeln!(out, "\ncritical friction");
-    let _ = writeln!(
-        out,
-        "{:>10}  {names} {:>12}  stable again at",
-        "unstable >", "frequency Hz"
-    );
+    let _ = writeln!(out, "{:>10}  {names} {:>12}  stable again at", "unstable >", "frequency Hz");
     for interval in intervals {
         let again = match interval.restabilized {
             Some((friction, frequency)) => format!("{friction:.6} ({frequency:.2} Hz)"),
@@ -250,20 +232,15 @@ fn mesh_errors(out: &mut String, report: &CeaReport<'_>) {
         worst.friction_coefficient,
     );
     if share(&worst) > COARSE {
-        let _ = writeln!(
-            out,
-            ": too coarse for more than an order of magnitude of it"
-        );
+        let _ = writeln!(out, ": too coarse for more than an order of magnitude of it");
         return;
     }
     let first = report.sweep.intervals.iter().zip(&reading.onset_errors);
     let mut first = first.filter_map(|(interval, error)| Some((interval, (*error)?)));
     let _ = match first.next() {
-        Some((interval, error)) => writeln!(
-            out,
-            ", critical friction {error:+.1e} of {:.6}",
-            interval.critical_friction
-        ),
+        Some((interval, error)) => {
+            writeln!(out, ", critical friction {error:+.1e} of {:.6}", interval.critical_friction)
+        }
         None => writeln!(out),
     };
 }
@@ -278,11 +255,7 @@ pub(super) fn friction_values(count: usize) -> String {
 
 fn totals(out: &mut String, report: &CeaReport<'_>) {
     let (fewest, most) = report.mode_counts();
-    let modes = if fewest == most {
-        most.to_string()
-    } else {
-        format!("{fewest} to {most}")
-    };
+    let modes = if fewest == most { most.to_string() } else { format!("{fewest} to {most}") };
     let _ = writeln!(
         out,
         "\n{modes} modes ({}) at {}, largest residual {:.1e}",

@@ -105,9 +105,7 @@ impl Reading {
     /// Those of the writer.
     pub fn write_contributions(&self, out: &mut dyn Write) -> io::Result<()> {
         let columns: &[Column<'_, &Contribution>] = &[
-            ("friction_coefficient", &|row| {
-                row.mode.friction_coefficient.into()
-            }),
+            ("friction_coefficient", &|row| row.mode.friction_coefficient.into()),
             ("mode", &|row| row.mode.mode.into()),
             ("frequency_hz", &|row| row.mode.frequency_hz.into()),
             ("harmonic", &|row| row.mode.harmonic.into()),
@@ -128,20 +126,14 @@ impl Reading {
     /// Those of the writer.
     pub fn write_couplings(&self, out: &mut dyn Write) -> io::Result<()> {
         let columns: &[Column<'_, &Coupling>] = &[
-            ("friction_coefficient", &|row| {
-                row.mode.friction_coefficient.into()
-            }),
+            ("friction_coefficient", &|row| row.mode.friction_coefficient.into()),
             ("mode", &|row| row.mode.mode.into()),
             ("frequency_hz", &|row| row.mode.frequency_hz.into()),
             ("harmonic", &|row| row.mode.harmonic.into()),
             ("growth_rate_per_s", &|row| row.growth_rate.into()),
-            ("reference_friction", &|row| {
-                row.reference.friction_coefficient.into()
-            }),
+            ("reference_friction", &|row| row.reference.friction_coefficient.into()),
             ("reference_mode", &|row| row.reference.mode.into()),
-            ("reference_frequency_hz", &|row| {
-                row.reference.frequency_hz.into()
-            }),
+            ("reference_frequency_hz", &|row| row.reference.frequency_hz.into()),
             ("reference_harmonic", &|row| row.reference.harmonic.into()),
             ("share", &|row| row.share.into()),
         ];
@@ -189,11 +181,7 @@ impl Reading {
         let budget: Vec<String> = budget
             .filter(|row| row.growth_rate.abs() >= LEAST_RATE * largest)
             .map(|row| {
-                let verb = if row.growth_rate > 0.0 {
-                    "feeds"
-                } else {
-                    "takes"
-                };
+                let verb = if row.growth_rate > 0.0 { "feeds" } else { "takes" };
                 let rate = fixed(row.growth_rate.abs(), 1);
                 format!("{} {verb} {rate} 1/s", row.name)
             })
@@ -256,10 +244,7 @@ pub(super) fn budget(report: &CeaReport<'_>, reading: &Reading) -> Result<Figure
         return Err(ChartError::empty("budget of growth over friction"));
     }
     let caption = "Growth rate of the fastest modes over friction, and what each part, support and contact adds to it.";
-    Ok(Figure::new("budget", caption)
-        .columns(2)
-        .shared_x()
-        .panels(panels))
+    Ok(Figure::new("budget", caption).columns(2).shared_x().panels(panels))
 }
 
 /// The growth rate of one branch, and its parts.
@@ -292,11 +277,7 @@ fn budget_panel(name: String, rows: &[&Contribution], frictions: &[f64]) -> Pane
 
 /// The branch of a mode.
 fn branch_of_mode(mode: &ModeName) -> Branch {
-    (
-        mode.harmonic.unwrap_or(0),
-        mode.branch,
-        mode.direction.unwrap_or(0),
-    )
+    (mode.harmonic.unwrap_or(0), mode.branch, mode.direction.unwrap_or(0))
 }
 
 impl Reading {

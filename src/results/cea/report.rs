@@ -25,11 +25,7 @@ pub fn html_report(
             "Complex eigenvalues ({}): {} modes at {}, {} unknowns, {} method; largest \
              relative residual {:.1e}.",
             report.selection,
-            if fewest == most {
-                most.to_string()
-            } else {
-                format!("{fewest} to {most}")
-            },
+            if fewest == most { most.to_string() } else { format!("{fewest} to {most}") },
             super::print::friction_values(report.friction_coefficients.len()),
             report.dofs,
             report.method,
@@ -53,11 +49,7 @@ pub fn html_report(
     ];
     sections.extend(decisive(report));
     sections.push(ReportSection::new("Eigenvalues").with_tables(eigenvalue_tables(report)));
-    Report {
-        title: report.title.to_owned(),
-        sections,
-        manifest: manifest.clone(),
-    }
+    Report { title: report.title.to_owned(), sections, manifest: manifest.clone() }
 }
 
 /// Unstable modes that the report puts into words, at most.
@@ -66,9 +58,7 @@ const READ_MODES: usize = 6;
 /// Which modes couple and which parameter decides, as far as that is known.
 fn decisive(report: &CeaReport<'_>) -> Option<ReportSection> {
     let own = report.base.friction_coefficient;
-    let read = report
-        .reading
-        .map(|reading| reading.sentences(own, READ_MODES));
+    let read = report.reading.map(|reading| reading.sentences(own, READ_MODES));
     let read = read.unwrap_or_default();
     // Waves of a pair are one mode without friction: that they couple is told apart.
     let mut paragraphs = match read.is_empty() || report.has_harmonics {
@@ -76,9 +66,7 @@ fn decisive(report: &CeaReport<'_>) -> Option<ReportSection> {
         false => Vec::new(),
     };
     paragraphs.extend(read);
-    let tables = report
-        .sensitivities
-        .map_or(Vec::new(), |all| all.tables(SENSITIVE_MODES));
+    let tables = report.sensitivities.map_or(Vec::new(), |all| all.tables(SENSITIVE_MODES));
     if !tables.is_empty() {
         paragraphs.push(
             "Sensitivities: a positive change of the growth rate brings a mode nearer to squeal or makes it grow faster, a \
@@ -96,9 +84,8 @@ fn decisive(report: &CeaReport<'_>) -> Option<ReportSection> {
 /// What decides: where stability ends, and what grows at the case's own friction.
 fn results(report: &CeaReport<'_>) -> Vec<(String, String)> {
     let intervals = &report.sweep.intervals;
-    let lowest = intervals
-        .iter()
-        .min_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction));
+    let lowest =
+        intervals.iter().min_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction));
     let onset = match lowest {
         Some(interval) if interval.unstable_from_start => {
             format!("below {}", interval.critical_friction)
@@ -112,18 +99,11 @@ fn results(report: &CeaReport<'_>) -> Vec<(String, String)> {
         ("its frequency".to_owned(), format!("{frequency} Hz"))
     }));
     let own = report.base.friction_coefficient;
-    let at_own = report
-        .sweep
-        .points
-        .iter()
-        .find(|point| point.friction_coefficient == own);
+    let at_own = report.sweep.points.iter().find(|point| point.friction_coefficient == own);
     if let Some(point) = at_own {
         let unstable = point.modes.iter().filter(|mode| mode.is_unstable());
         let name = format!("unstable modes at friction {own}");
-        rows.push((
-            name,
-            format!("{} of {}", unstable.clone().count(), point.modes.len()),
-        ));
+        rows.push((name, format!("{} of {}", unstable.clone().count(), point.modes.len())));
         let fastest = unstable.max_by(|a, b| a.real_hz().total_cmp(&b.real_hz()));
         rows.extend(fastest.map(|mode| {
             let text = format!(
@@ -169,9 +149,7 @@ fn critical_table(report: &CeaReport<'_>) -> ReportTable {
     });
     let own = report.base.friction_coefficient;
     let names: Vec<String> = match report.has_harmonics {
-        true => ["harmonic n", "branch", "travels"]
-            .map(String::from)
-            .to_vec(),
+        true => ["harmonic n", "branch", "travels"].map(String::from).to_vec(),
         false => vec![format!("mode at friction {own}"), "branch".to_owned()],
     };
     let values = ["critical friction", "frequency (Hz)", "stable again at"];
@@ -190,10 +168,7 @@ fn eigenvalue_tables(report: &CeaReport<'_>) -> Vec<ReportTable> {
     if chosen.is_empty() {
         chosen.extend(points.last());
     }
-    chosen
-        .into_iter()
-        .map(|point| eigenvalue_table(report, point))
-        .collect()
+    chosen.into_iter().map(|point| eigenvalue_table(report, point)).collect()
 }
 
 fn eigenvalue_table(report: &CeaReport<'_>, point: &FrictionPoint) -> ReportTable {
@@ -220,10 +195,7 @@ fn eigenvalue_table(report: &CeaReport<'_>, point: &FrictionPoint) -> ReportTabl
         false => &["branch", "stability"][..],
     });
     ReportTable::new(
-        format!(
-            "Eigenvalues at friction coefficient {}",
-            point.friction_coefficient
-        ),
+        format!("Eigenvalues at friction coefficient {}", point.friction_coefficient),
         columns,
         rows,
     )

@@ -112,18 +112,15 @@ impl SensitivityReport {
         let all: Vec<_> = branches.iter().map(derivatives).collect();
         let is_given = |i: &usize| *i < ALWAYS || all.iter().any(|row| row[*i].is_some());
         let columns: Vec<usize> = (0..NAMES.len()).filter(is_given).collect();
-        let rows = branches
-            .iter()
-            .zip(&all)
-            .map(|(branch, all)| SensitivityRow {
-                friction_coefficient: branch.friction_coefficient,
-                harmonic: branch.harmonic,
-                branch: branch.branch,
-                direction: branch.direction,
-                eigenvalue: branch.eigenvalue,
-                derivatives: columns.iter().map(|&i| all[i]).collect(),
-                onset: None,
-            });
+        let rows = branches.iter().zip(&all).map(|(branch, all)| SensitivityRow {
+            friction_coefficient: branch.friction_coefficient,
+            harmonic: branch.harmonic,
+            branch: branch.branch,
+            direction: branch.direction,
+            eigenvalue: branch.eigenvalue,
+            derivatives: columns.iter().map(|&i| all[i]).collect(),
+            onset: None,
+        });
         let value = |&i: &usize| match i {
             0 => f64::NAN,
             i => given[i - 1],
@@ -218,10 +215,7 @@ impl SensitivityReport {
     pub(super) fn tables(&self, most: usize) -> Vec<ReportTable> {
         let mut rows: Vec<&SensitivityRow> = self.rows.iter().collect();
         rows.sort_by(|a, b| b.eigenvalue.re.total_cmp(&a.eigenvalue.re));
-        rows.into_iter()
-            .take(most)
-            .map(|row| self.table(row))
-            .collect()
+        rows.into_iter().take(most).map(|row| self.table(row)).collect()
     }
 
     fn table(&self, own: &SensitivityRow) -> ReportTable {
@@ -261,10 +255,7 @@ impl SensitivityReport {
 
     /// What decides the growth of the mode that grows fastest, in words.
     pub fn print(&self) -> String {
-        let fastest = self
-            .rows
-            .iter()
-            .max_by(|a, b| a.eigenvalue.re.total_cmp(&b.eigenvalue.re));
+        let fastest = self.rows.iter().max_by(|a, b| a.eigenvalue.re.total_cmp(&b.eigenvalue.re));
         let Some(row) = fastest else {
             return String::new();
         };
@@ -272,11 +263,7 @@ impl SensitivityReport {
             "at friction {} mode {} {} at {:.1} 1/s; change of the growth rate when a parameter rises by 1 %:",
             row.friction_coefficient,
             self.name(row),
-            if row.eigenvalue.re > 0.0 {
-                "grows"
-            } else {
-                "decays"
-            },
+            if row.eigenvalue.re > 0.0 { "grows" } else { "decays" },
             row.eigenvalue.re.abs(),
         );
         for (index, (name, change)) in self.per_cent(row).into_iter().enumerate() {

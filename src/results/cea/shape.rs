@@ -31,11 +31,7 @@ pub(super) struct ModeShape<'a> {
 impl ModeShape<'_> {
     /// Colour of its headings.
     fn colour(&self) -> &'static str {
-        if self.mode.is_unstable() {
-            UNSTABLE
-        } else {
-            INK
-        }
+        if self.mode.is_unstable() { UNSTABLE } else { INK }
     }
 
     /// Harmonic, direction and stability in mark-up.
@@ -45,11 +41,7 @@ impl ModeShape<'_> {
             -1 => " ↻",
             _ => "",
         };
-        let unstable = if self.mode.is_unstable() {
-            " unstable"
-        } else {
-            ""
-        };
+        let unstable = if self.mode.is_unstable() { " unstable" } else { "" };
         if !self.has_harmonics {
             let diameters = self.mode.nodal_diameters;
             let diameters = diameters.map_or(String::new(), |n| format!("*n* = {n}"));
@@ -110,19 +102,10 @@ fn shape_panel(disc: &Disc<'_>, mesh: &Mesh, shape: &ModeShape<'_>, lines: &[Str
     let magnification = DEFLECTION * 0.5 * (high[0] - low[0]) / largest;
     let axis = Axis::new("", "").between(0.0, largest);
     let colour = shape.colour();
-    let stroke = Stroke {
-        dash: &[1.5, 1.2],
-        ..Stroke::solid(MUTED, 0.45)
-    };
+    let stroke = Stroke { dash: &[1.5, 1.2], ..Stroke::solid(MUTED, 0.45) };
     // What is free at its rim leaves the place that it has at rest.
-    let room = if mesh.is_cyclic {
-        0.02
-    } else {
-        0.04 + 2.0 * DEFLECTION
-    };
-    let panel = lines.iter().fold(disc.panel(room), |panel, line| {
-        panel.heading_in(colour, line)
-    });
+    let room = if mesh.is_cyclic { 0.02 } else { 0.04 + 2.0 * DEFLECTION };
+    let panel = lines.iter().fold(disc.panel(room), |panel, line| panel.heading_in(colour, line));
     panel
         .height(150.0)
         .layer(disc.deformed(amplitude, &real, magnification, axis))
@@ -139,10 +122,8 @@ fn assembly_panel(view: &SolidView<'_>, shape: &ModeShape<'_>, lines: &[String; 
         false => c64::ONE,
     };
     let real: Vec<f64> = values.iter().map(|u| (u * turn).re).collect();
-    let amplitude: Vec<f64> = real
-        .chunks_exact(3)
-        .map(|u| u.iter().map(|x| x * x).sum::<f64>().sqrt())
-        .collect();
+    let amplitude: Vec<f64> =
+        real.chunks_exact(3).map(|u| u.iter().map(|x| x * x).sum::<f64>().sqrt()).collect();
     let largest = amplitude.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
     let magnification = 0.5 * DEFLECTION * view.size() / largest;
     let axis = Axis::new("", "").between(0.0, largest);
@@ -150,9 +131,7 @@ fn assembly_panel(view: &SolidView<'_>, shape: &ModeShape<'_>, lines: &[String; 
     let colour = shape.colour();
     let panel = lines
         .iter()
-        .fold(Panel::plane(surface.window(0.04)), |panel, line| {
-            panel.heading_in(colour, line)
-        });
+        .fold(Panel::plane(surface.window(0.04)), |panel, line| panel.heading_in(colour, line));
     panel.height(130.0).layer(surface)
 }
 
@@ -194,25 +173,15 @@ fn moving_mesh(
             })
         };
         let frequency_hz = shape.mode.frequency_hz();
-        let name = format!(
-            "{}: {} Hz, {}",
-            shape.number,
-            signed(frequency_hz, 0),
-            shape.harmonic()
-        );
+        let name =
+            format!("{}: {} Hz, {}", shape.number, signed(frequency_hz, 0), shape.harmonic());
         MotionState {
             name: plain(name.trim_end_matches(", ")),
             frequency_hz,
-            kind: MotionKind::Harmonic {
-                real: part(|z| z.re),
-                imaginary: part(|z| z.im),
-            },
+            kind: MotionKind::Harmonic { real: part(|z| z.re), imaginary: part(|z| z.im) },
         }
     });
-    Motion {
-        states: states.collect(),
-        ..body.at_rest()
-    }
+    Motion { states: states.collect(), ..body.at_rest() }
 }
 
 /// Unit factor that turns a shape to the instant drawn.
@@ -239,9 +208,5 @@ fn crest_phase(mesh: &Mesh, shape: &[c64], harmonic: usize) -> c64 {
         })
     };
     let (forward, backward) = (wave(-1.0), wave(1.0));
-    unit(if forward.norm() >= backward.norm() {
-        forward
-    } else {
-        backward
-    })
+    unit(if forward.norm() >= backward.norm() { forward } else { backward })
 }

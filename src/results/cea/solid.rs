@@ -90,13 +90,7 @@ impl SolidReport {
         fields.extend(self.contact_fields());
         let whole = state.whole();
         folder.write_bulk("prestress.vtu", |out| {
-            write_vtu(
-                out,
-                &EncodedMesh::solid(&self.sector)?,
-                &whole,
-                &fields,
-                &[],
-            )
+            write_vtu(out, &EncodedMesh::solid(&self.sector)?, &whole, &fields, &[])
         })?;
         Ok(())
     }
@@ -137,29 +131,17 @@ impl SolidReport {
         };
         let places: Vec<f64> = self.sector.rings.iter().map(place).collect();
         let along = |quantity: &str, values: Vec<f64>, colour| {
-            let axis = Axis::new(quantity, "Pa")
-                .prefixed()
-                .including(0.0)
-                .room(0.15);
+            let axis = Axis::new(quantity, "Pa").prefixed().including(0.0).room(0.15);
             let points = places.iter().copied().zip(values);
             Panel::new(Axis::new(name, "mm").times(1e3), axis)
                 .height(100.0)
-                .layer(
-                    Line::through(points)
-                        .solid(colour, 1.2)
-                        .marked(Marker::Disc, 1.4),
-                )
+                .layer(Line::through(points).solid(colour, 1.2).marked(Marker::Disc, 1.4))
         };
         let displacement = self.base.displacement(self.friction_coefficient);
-        let shape: Vec<c64> = self
-            .repeated(&displacement)
-            .into_iter()
-            .map(|v| c64::new(v, 0.0))
-            .collect();
+        let shape: Vec<c64> =
+            self.repeated(&displacement).into_iter().map(|v| c64::new(v, 0.0)).collect();
         let largest = shape.chunks_exact(3).map(size).fold(0.0, f64::max);
-        let axis = Axis::new("displacement |*u*|", "m")
-            .prefixed()
-            .between(0.0, largest);
+        let axis = Axis::new("displacement |*u*|", "m").prefixed().between(0.0, largest);
         let state = Picture::new(&self.sector).panel(&shape, axis).height(190.0);
         Figure::new(
             "prestress",
@@ -189,11 +171,7 @@ impl<'a> Picture<'a> {
     pub fn new(sector: &'a SolidSector) -> Self {
         let mut picture = Self {
             sector,
-            shown: Arc::new(Mesh {
-                cells: Vec::new(),
-                outlines: Vec::new(),
-                lines: Vec::new(),
-            }),
+            shown: Arc::new(Mesh { cells: Vec::new(), outlines: Vec::new(), lines: Vec::new() }),
             points: Vec::new(),
         };
         let sectors = sector.sector_count();
@@ -235,25 +213,16 @@ impl<'a> Picture<'a> {
             }
         };
         let top: Vec<usize> = (0..=nr).map(|i| find([2 * i, 2 * nz])).collect();
-        let face: Vec<Vec<_>> = (0..sectors)
-            .map(|j| top.iter().map(|&node| (node, j, false)).collect())
-            .collect();
+        let face: Vec<Vec<_>> =
+            (0..sectors).map(|j| top.iter().map(|&node| (node, j, false)).collect()).collect();
         grid(&face, true);
         for side in [0, sectors / 2] {
             let section: Vec<Vec<_>> = (0..=nz)
-                .map(|j| {
-                    (0..=nr)
-                        .map(|i| (find([2 * i, 2 * j]), side, true))
-                        .collect()
-                })
+                .map(|j| (0..=nr).map(|i| (find([2 * i, 2 * j]), side, true)).collect())
                 .collect();
             grid(&section, false);
         }
-        picture.shown = Arc::new(Mesh {
-            cells,
-            outlines,
-            lines: Vec::new(),
-        });
+        picture.shown = Arc::new(Mesh { cells, outlines, lines: Vec::new() });
         picture
     }
 
@@ -267,14 +236,10 @@ impl<'a> Picture<'a> {
             [0, 1, 2].map(|c| shape.get(first + c).map_or(0.0, |v| v.re))
         };
         let amplitude = |u: &[f64; 3]| u.iter().map(|v| v * v).sum::<f64>().sqrt();
-        let moved: Vec<[f64; 3]> = self
-            .points
-            .iter()
-            .map(|&(node, j, _)| displacement(node, j))
-            .collect();
-        let largest = shape
-            .chunks_exact(3)
-            .map(|u| u.iter().map(|v| v.re * v.re).sum::<f64>().sqrt());
+        let moved: Vec<[f64; 3]> =
+            self.points.iter().map(|&(node, j, _)| displacement(node, j)).collect();
+        let largest =
+            shape.chunks_exact(3).map(|u| u.iter().map(|v| v.re * v.re).sum::<f64>().sqrt());
         let largest = largest.fold(f64::MIN_POSITIVE, f64::max);
         let factor = DEFLECTION * outer / largest;
         let place = |&(node, j, is_section): &(usize, usize, bool), u: [f64; 3]| {
@@ -283,22 +248,12 @@ impl<'a> Picture<'a> {
             let radial = radius + factor * u[0];
             match is_section {
                 true => [cos.signum() * radial, base + height + factor * u[2]],
-                false => [
-                    cos * radial - sin * factor * u[1],
-                    sin * radial + cos * factor * u[1],
-                ],
+                false => [cos * radial - sin * factor * u[1], sin * radial + cos * factor * u[1]],
             }
         };
-        let at_rest: Vec<[f64; 2]> = self
-            .points
-            .iter()
-            .map(|point| place(point, [0.0; 3]))
-            .collect();
-        let places = self
-            .points
-            .iter()
-            .zip(&moved)
-            .map(|(point, u)| place(point, *u));
+        let at_rest: Vec<[f64; 2]> =
+            self.points.iter().map(|point| place(point, [0.0; 3])).collect();
+        let places = self.points.iter().zip(&moved).map(|(point, u)| place(point, *u));
         let values = moved.iter().map(amplitude).collect();
         let field = ColourField::new(
             self.shown.clone(),

@@ -53,21 +53,16 @@ pub fn speeds_of_bodies<'a>(
         return Err(ChartError::empty("velocity of the bodies"));
     }
     let columns = panels.len().clamp(1, 3);
-    Ok(Figure::new("velocity", caption)
-        .columns(columns)
-        .panels(panels))
+    Ok(Figure::new("velocity", caption).columns(columns).panels(panels))
 }
 
 /// Speed of the nodes of the top face of a body of revolution, m/s, in the order of the plane section: outwards first.
 pub fn speeds_on_top(sector: &SolidSector, velocity: &[f64]) -> Vec<f64> {
-    let mut top: Vec<usize> = (0..sector.node_count())
-        .filter(|&k| sector.is_on(k, SolidFace::Top))
-        .collect();
+    let mut top: Vec<usize> =
+        (0..sector.node_count()).filter(|&k| sector.is_on(k, SolidFace::Top)).collect();
     top.sort_by_key(|&k| sector.nodes[k].place[0]);
     let sheets = velocity.chunks_exact(3 * sector.node_count());
     let speed =
         |sheet: &[f64], k: usize| sheet[3 * k].hypot(sheet[3 * k + 1]).hypot(sheet[3 * k + 2]);
-    sheets
-        .flat_map(|sheet| top.iter().map(move |&k| speed(sheet, k)))
-        .collect()
+    sheets.flat_map(|sheet| top.iter().map(move |&k| speed(sheet, k))).collect()
 }

@@ -34,18 +34,12 @@ pub fn status_map(
     (from, to): (f64, f64),
 ) -> Option<(Heat, Option<f64>)> {
     let count = times.len().min(codes.len() / nodes.max(1));
-    let first = times[..count]
-        .partition_point(|&t| t < from)
-        .saturating_sub(1);
+    let first = times[..count].partition_point(|&t| t < from).saturating_sub(1);
     let last = (times[..count].partition_point(|&t| t <= to) + 1).min(count);
     if nodes == 0 || last < first + 2 {
         return None;
     }
-    let stride = strobe_stride(
-        nodes,
-        &codes[..count * nodes],
-        (last - first).div_ceil(FINEST),
-    );
+    let stride = strobe_stride(nodes, &codes[..count * nodes], (last - first).div_ceil(FINEST));
     let columns = (last - first).div_ceil(stride);
     let hop = (times[count - 1] - times[0]) / (count - 1) as f64;
     let start = times[first] - 0.5 * hop;
@@ -54,12 +48,8 @@ pub fn status_map(
     let palette = Palette::of_colours(&[OPEN, STICK, SLIP]);
     let status =
         |column: usize, node: usize| codes[(first + column * stride) * nodes + node].min(2);
-    let heat = Heat::of_states(
-        ((start, end), columns),
-        ((-half, TAU - half), nodes),
-        palette,
-        status,
-    );
+    let heat =
+        Heat::of_states(((start, end), columns), ((-half, TAU - half), nodes), palette, status);
     let heat = heat.names(status_keys());
     Some((heat, (stride > 1).then_some(hop * stride as f64)))
 }
@@ -76,9 +66,7 @@ fn strobe_stride(nodes: usize, codes: &[u8], finest: usize) -> usize {
     let probes = (start..count - coarsest).step_by(((count - start) / 64).max(1));
     let row = |sample: usize| &codes[sample * nodes..(sample + 1) * nodes];
     let agreement = |lag: usize| -> usize {
-        let pairs = probes
-            .clone()
-            .map(|sample| row(sample).iter().zip(row(sample + lag)));
+        let pairs = probes.clone().map(|sample| row(sample).iter().zip(row(sample + lag)));
         pairs.map(|pair| pair.filter(|(a, b)| a == b).count()).sum()
     };
     // Nodes by which the pattern has moved after `lag` samples: the shortest way of those that fit best.
@@ -88,9 +76,7 @@ fn strobe_stride(nodes: usize, codes: &[u8], finest: usize) -> usize {
             let at = |node: usize| (node as isize + shift).rem_euclid(nodes as isize) as usize;
             let own = (start..count.saturating_sub(lag)).step_by(((count - start) / 8).max(1));
             let pairs = own.map(|sample| (row(sample), row(sample + lag)));
-            pairs
-                .map(|(a, b)| (0..nodes).filter(|&node| a[node] == b[at(node)]).count())
-                .sum()
+            pairs.map(|(a, b)| (0..nodes).filter(|&node| a[node] == b[at(node)]).count()).sum()
         };
         (-reach..=reach)
             .max_by_key(|&shift| (fit(shift), std::cmp::Reverse(shift.abs())))
@@ -111,9 +97,7 @@ fn strobe_stride(nodes: usize, codes: &[u8], finest: usize) -> usize {
 pub fn place_axis(is_round: bool) -> Axis {
     match is_round {
         true => Axis::angle(),
-        false => Axis::new("position along the contact", "%")
-            .times(100.0 / TAU)
-            .between(0.0, TAU),
+        false => Axis::new("position along the contact", "%").times(100.0 / TAU).between(0.0, TAU),
     }
 }
 
@@ -168,21 +152,14 @@ pub fn open_contact_figure(
             .legend()
             .layer(status_ground(status, |i| (i as f64 - 0.5) * step).unnamed())
     };
-    let traction = Axis::new("traction", "Pa")
-        .prefixed()
-        .including(0.0)
-        .room(0.08);
+    let traction = Axis::new("traction", "Pa").prefixed().including(0.0).room(0.08);
     Figure::new(name, caption)
         .shared_x()
         .panel(
             panel(traction)
                 .caption(instant)
                 .layer(along(pressure).solid(INK, 1.1).name("pressure *p*"))
-                .layer(
-                    along(shear)
-                        .solid(SERIES[1], 1.1)
-                        .name("friction traction *τ*"),
-                ),
+                .layer(along(shear).solid(SERIES[1], 1.1).name("friction traction *τ*")),
         )
         .panel(
             panel(Axis::new("velocity", "m/s").including(0.0))
@@ -206,18 +183,12 @@ pub fn contact_figure(
     let step = TAU / status.len().max(1) as f64;
     let closed = |values: &[f64]| -> Vec<(f64, f64)> {
         let around = values.iter().chain(values.first()).enumerate();
-        around
-            .map(|(i, &value)| (first_angle + i as f64 * step, value))
-            .collect()
+        around.map(|(i, &value)| (first_angle + i as f64 * step, value)).collect()
     };
     let all_around: Vec<ContactStatus> = status.iter().chain(status.first()).copied().collect();
     let ground = || status_ground(&all_around, |i| first_angle + (i as f64 - 0.5) * step);
     let over_angle = |y: Axis| {
-        Panel::new(Axis::angle(), y)
-            .plain()
-            .height(78.0)
-            .legend()
-            .layer(ground().unnamed())
+        Panel::new(Axis::angle(), y).plain().height(78.0).legend().layer(ground().unnamed())
     };
     let angles = [0, 90, 180, 270].map(|degrees: i32| {
         let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
@@ -231,32 +202,19 @@ pub fn contact_figure(
         .layer(status_ring(1.06, first_angle, status))
         .layers(angles)
         .layer(Label::new((0.0, 0.0), "↺").style(centred(13.0)))
-        .layer(
-            Label::new((0.0, 0.0), "rotor")
-                .style(centred(6.75))
-                .moved(0.0, 11.0),
-        );
+        .layer(Label::new((0.0, 0.0), "rotor").style(centred(6.75)).moved(0.0, 11.0));
     Figure::new(name, caption)
         .weighted(&[1.0, 1.7])
         .shared_x()
         .panel(circle)
         .panel(
-            over_angle(
-                Axis::new("traction", "Pa")
-                    .prefixed()
-                    .including(0.0)
-                    .room(0.08),
-            )
-            .layer(
-                Line::through(closed(pressure))
-                    .solid(INK, 1.1)
-                    .name("pressure *p*"),
-            )
-            .layer(
-                Line::through(closed(shear))
-                    .solid(SERIES[1], 1.1)
-                    .name("friction traction *τ*"),
-            ),
+            over_angle(Axis::new("traction", "Pa").prefixed().including(0.0).room(0.08))
+                .layer(Line::through(closed(pressure)).solid(INK, 1.1).name("pressure *p*"))
+                .layer(
+                    Line::through(closed(shear))
+                        .solid(SERIES[1], 1.1)
+                        .name("friction traction *τ*"),
+                ),
         )
         .panel(
             over_angle(Axis::new("velocity", "m/s").including(0.0))
@@ -310,32 +268,21 @@ pub fn field_figure(
     // Beside an edge that is no whole hole there is no place for a ring.
     let has_status = disc.mesh().has_round_contact() && frames.iter().any(|f| !f.2.is_empty());
     let panels = frames.into_iter().map(|(heading, values, status)| {
-        let panel = disc
-            .panel(0.01)
-            .heading(heading)
-            .layer(disc.field(values, axis.clone(), map));
+        let panel = disc.panel(0.01).heading(heading).layer(disc.field(values, axis.clone(), map));
         let ring =
             (has_status && !status.is_empty()).then(|| status_ring(radius, first_angle, &status));
         panel.layers(ring).colour_bar(Side::Below)
     });
     let figure = Figure::new(name, caption).columns(columns).panels(panels);
     let figure = if is_single { figure.narrow() } else { figure };
-    Ok(if has_status {
-        figure.note("ring inside the hole: contact status")
-    } else {
-        figure
-    })
+    Ok(if has_status { figure.note("ring inside the hole: contact status") } else { figure })
 }
 
 /// A closed or open curve coloured by the status of the samples it starts from; slip, over which a node runs back and forth,
 /// is wide.
 pub fn status_curves(points: &[(f64, f64)], status: &[ContactStatus]) -> Vec<Line> {
     let mut lines = Vec::new();
-    for wanted in [
-        ContactStatus::Slip,
-        ContactStatus::Stick,
-        ContactStatus::Open,
-    ] {
+    for wanted in [ContactStatus::Slip, ContactStatus::Stick, ContactStatus::Open] {
         let mut pieces: Vec<(f64, f64)> = Vec::new();
         let mut start = 0;
         for run in status.chunk_by(|a, b| a == b) {
@@ -347,17 +294,9 @@ pub fn status_curves(points: &[(f64, f64)], status: &[ContactStatus]) -> Vec<Lin
             }
             start += run.len();
         }
-        let width = if wanted == ContactStatus::Slip {
-            1.8
-        } else {
-            0.8
-        };
+        let width = if wanted == ContactStatus::Slip { 1.8 } else { 0.8 };
         let name = status_name(wanted);
-        lines.push(
-            Line::through(pieces)
-                .solid(line_colour(wanted), width)
-                .name(name),
-        );
+        lines.push(Line::through(pieces).solid(line_colour(wanted), width).name(name));
     }
     lines
 }

@@ -50,9 +50,7 @@ pub fn signal_panel(
 ) -> Panel {
     // "km/s²" is no unit anyone uses: accelerations stay in m/s² and let the axis take the power.
     let y = Axis::new(symbol, unit).including(0.0).room(0.06);
-    Panel::new(time, y)
-        .height(78.0)
-        .layer(Line::new(times, signal).solid(SERIES[0], width).whole())
+    Panel::new(time, y).height(78.0).layer(Line::new(times, signal).solid(SERIES[0], width).whole())
 }
 
 /// Lines at the starts of stages, and their names in the middle of each along the top of a panel.
@@ -60,9 +58,7 @@ pub fn with_stages(panel: Panel, stages: &[Stage], (start, end): (f64, f64), top
     let ends = stages.iter().skip(1).map(|next| next.start).chain([end]);
     let names = stages.iter().zip(ends).map(|(stage, end)| {
         let middle = 0.5 * (stage.start.max(start) + end);
-        Label::new((middle, top), stage.name)
-            .style(centred(7.5).bold())
-            .moved(0.0, 9.0)
+        Label::new((middle, top), stage.name).style(centred(7.5).bold()).moved(0.0, 9.0)
     });
     let starts = stages.iter().filter(|stage| stage.start > start);
     panel
@@ -87,9 +83,8 @@ pub fn spectrogram_panels(
         let window = (2 * column + 1) * windows / (2 * columns);
         &map.magnitudes[window * lines..(window + 1) * lines]
     };
-    let maxima: Vec<f64> = (0..columns)
-        .map(|column| extremes(row(column).iter().copied()).1)
-        .collect();
+    let maxima: Vec<f64> =
+        (0..columns).map(|column| extremes(row(column).iter().copied()).1).collect();
     let loudest = extremes(map.magnitudes.iter().copied()).1.max(1e-300);
     let relative = |column: usize, line: usize| match maxima[column] > SILENCE * loudest {
         true => row(column)[line] / maxima[column],
@@ -99,20 +94,12 @@ pub fn spectrogram_panels(
         |column: usize, line: usize| 20.0 * (row(column)[line] / loudest).max(1e-30).log10();
     let hop = (map.times[windows - 1] - map.times[0]) / (windows - 1) as f64;
     let spacing = map.frequencies_hz[1] - map.frequencies_hz[0];
-    let x = (
-        start + map.times[0] - 0.5 * hop,
-        start + map.times[windows - 1] + 0.5 * hop,
-    );
-    let y = (
-        map.frequencies_hz[0] - 0.5 * spacing,
-        map.frequencies_hz[lines - 1] + 0.5 * spacing,
-    );
+    let x = (start + map.times[0] - 0.5 * hop, start + map.times[windows - 1] + 0.5 * hop);
+    let y = (map.frequencies_hz[0] - 0.5 * spacing, map.frequencies_hz[lines - 1] + 0.5 * spacing);
     let panel = |caption: &str, heat: Heat| {
         let rules = modes.iter().map(|mode| {
             let text = format!("{:.2} kHz, {}", mode.frequency_hz * 1e-3, mode.label);
-            Rule::horizontal(mode.frequency_hz)
-                .stroke(Stroke::dashed("#7fd3ff", 0.6))
-                .at_rim(text)
+            Rule::horizontal(mode.frequency_hz).stroke(Stroke::dashed("#7fd3ff", 0.6)).at_rim(text)
         });
         // Half a window at either end has no spectrum.
         let ground = Shapes::bands(vec![(f64::MIN, f64::MAX, GRID)]);
@@ -125,14 +112,8 @@ pub fn spectrogram_panels(
             .layers(rules)
             .colour_bar(Side::Right)
     };
-    let amplitude = (
-        Axis::new("amplitude / max", "–").between(0.0, 1.0),
-        ColourMap::Inferno,
-    );
-    let level = (
-        Axis::new("level", "dB").between(-DEPTH, 0.0),
-        ColourMap::Inferno,
-    );
+    let amplitude = (Axis::new("amplitude / max", "–").between(0.0, 1.0), ColourMap::Inferno);
+    let level = (Axis::new("level", "dB").between(-DEPTH, 0.0), ColourMap::Inferno);
     vec![
         panel(
             "spectrogram, each window relative to its own maximum",
@@ -161,26 +142,16 @@ pub fn spectrum_panel(
             .at_rim(name)
             .name("mode of the eigenvalue analysis")
     });
-    let lines = spectra
-        .iter()
-        .enumerate()
-        .rev()
-        .map(|(index, (name, frequencies, amplitudes))| {
-            let line = Line::new(frequencies, amplitudes).name(*name);
-            line.solid(SERIES[index], if index == 0 { 0.8 } else { 0.5 })
-        });
+    let lines = spectra.iter().enumerate().rev().map(|(index, (name, frequencies, amplitudes))| {
+        let line = Line::new(frequencies, amplitudes).name(*name);
+        line.solid(SERIES[index], if index == 0 { 0.8 } else { 0.5 })
+    });
     let panel = Panel::new(
         Axis::kilohertz().between(0.0, highest_hz),
         Axis::new("amplitude", unit).room(0.05).decades(6.0),
     );
-    let peaks = spectra
-        .first()
-        .map(|first| multiples(first.1, first.2, highest_hz, main_hz));
-    panel
-        .height(150.0)
-        .layers(rules)
-        .layers(lines)
-        .layers(peaks.unwrap_or_default())
+    let peaks = spectra.first().map(|first| multiples(first.1, first.2, highest_hz, main_hz));
+    panel.height(150.0).layers(rules).layers(lines).layers(peaks.unwrap_or_default())
 }
 
 /// Labels at a main frequency and at its whole multiples, where they stand out of what lies around them: at the tops of the
@@ -191,9 +162,7 @@ fn multiples(
     highest_hz: f64,
     main_hz: Option<f64>,
 ) -> Vec<Label> {
-    let count = frequencies
-        .partition_point(|&f| f <= highest_hz)
-        .min(amplitudes.len());
+    let count = frequencies.partition_point(|&f| f <= highest_hz).min(amplitudes.len());
     let (frequencies, amplitudes) = (&frequencies[..count], &amplitudes[..count]);
     let largest = |from: usize, to: usize| {
         let range = from.min(count)..to.min(count);
@@ -257,9 +226,7 @@ mod tests {
         let series: [(&str, &[f64], &[f64]); 1] =
             [("signal", &spectrum.frequencies_hz, &spectrum.amplitudes)];
         let panel = spectrum_panel(&series, "", (3e4, main_hz), &[]);
-        let svg = Figure::new("spectrum", "Spectrum.")
-            .panel(panel)
-            .to_svg(None);
+        let svg = Figure::new("spectrum", "Spectrum.").panel(panel).to_svg(None);
         let svg = svg.unwrap();
         let after = svg.split(" = ").nth(1).unwrap();
         after.split(' ').next().unwrap().parse().unwrap()
@@ -275,9 +242,8 @@ mod tests {
         assert!((named(&tone, rate, None) - 9.433).abs() < 0.002);
         assert_eq!(named(&tone, rate, Some(main)), 9.433);
         // The second harmonic is the strongest line; the main frequency is known all the same.
-        let both: Vec<f64> = (0..1000)
-            .map(|i| wave(time(i), main) + 3.0 * wave(time(i), 2.0 * main))
-            .collect();
+        let both: Vec<f64> =
+            (0..1000).map(|i| wave(time(i), main) + 3.0 * wave(time(i), 2.0 * main)).collect();
         assert_eq!(named(&both, rate, Some(main)), 9.433);
     }
 }

@@ -37,9 +37,7 @@ pub fn critical_friction(
             0 => "",
             ..0 => " ↻",
         };
-        let line = Line::new(values, &branch.critical)
-            .nth(index)
-            .marked(look(index).1, 1.8);
+        let line = Line::new(values, &branch.critical).nth(index).marked(look(index).1, 1.8);
         let harmonic = n.map_or(String::new(), |n| format!("*n* = {n}, "));
         line.name(format!("{harmonic}branch {number}{way}"))
     });

@@ -28,16 +28,9 @@ impl<'a> Disc<'a> {
         let shown = chart::Mesh {
             cells: cells.collect(),
             outlines: outlines(mesh),
-            lines: if rays > 0 && mesh.is_cyclic {
-                lattice(mesh, rays)
-            } else {
-                Vec::new()
-            },
+            lines: if rays > 0 && mesh.is_cyclic { lattice(mesh, rays) } else { Vec::new() },
         };
-        Self {
-            mesh,
-            shown: Arc::new(shown),
-        }
+        Self { mesh, shown: Arc::new(shown) }
     }
 
     /// A panel without axes for fields on the undeformed body, with a little room.
@@ -47,13 +40,7 @@ impl<'a> Disc<'a> {
 
     /// Values at the nodes, on the undeformed body.
     pub fn field(&self, values: Vec<f64>, axis: Axis, map: ColourMap) -> Field {
-        Field::new(
-            self.shown.clone(),
-            self.mesh.plane_nodes(),
-            values,
-            axis,
-            map,
-        )
+        Field::new(self.shown.clone(), self.mesh.plane_nodes(), values, axis, map)
     }
 
     /// Values on the body deformed by a displacement (in nodal frames, two values a node, m) times `magnification`.
@@ -65,34 +52,22 @@ impl<'a> Disc<'a> {
         axis: Axis,
     ) -> Field {
         let frames = self.mesh.nodes.iter().zip(self.mesh.frame_angles());
-        let places = frames
-            .zip(displacement.chunks_exact(2))
-            .map(|((&[x, y, _], &angle), u)| {
-                let (sin, cos) = angle.sin_cos();
-                [
-                    x + magnification * (cos * u[0] - sin * u[1]),
-                    y + magnification * (sin * u[0] + cos * u[1]),
-                ]
-            });
-        Field::new(
-            self.shown.clone(),
-            places.collect(),
-            values,
-            axis,
-            ColourMap::Viridis,
-        )
-        .coarse()
+        let places = frames.zip(displacement.chunks_exact(2)).map(|((&[x, y, _], &angle), u)| {
+            let (sin, cos) = angle.sin_cos();
+            [
+                x + magnification * (cos * u[0] - sin * u[1]),
+                y + magnification * (sin * u[0] + cos * u[1]),
+            ]
+        });
+        Field::new(self.shown.clone(), places.collect(), values, axis, ColourMap::Viridis).coarse()
     }
 
     /// The contact edge, undeformed.
     pub fn contact_edge(&self) -> Vec<(f64, f64)> {
         let edge = self.mesh.contact_edge();
         let again = edge.nodes.first().filter(|_| edge.is_closed);
-        let places = edge
-            .nodes
-            .iter()
-            .chain(again)
-            .map(|&node| self.mesh.plane_node(node as usize));
+        let places =
+            edge.nodes.iter().chain(again).map(|&node| self.mesh.plane_node(node as usize));
         places.map(|[x, y]| (x, y)).collect()
     }
 
@@ -104,14 +79,9 @@ impl<'a> Disc<'a> {
     /// Smallest distance of the contact edge from the origin, m, and the angle of its first node.
     pub fn contact_place(&self) -> (f64, f64) {
         let edge = &self.mesh.contact_edge().nodes;
-        let radius = self
-            .contact_edge()
-            .iter()
-            .map(|p| p.0.hypot(p.1))
-            .fold(f64::INFINITY, f64::min);
-        let first = edge
-            .first()
-            .and_then(|&node| self.mesh.frame_angles().get(node as usize));
+        let radius =
+            self.contact_edge().iter().map(|p| p.0.hypot(p.1)).fold(f64::INFINITY, f64::min);
+        let first = edge.first().and_then(|&node| self.mesh.frame_angles().get(node as usize));
         (radius, first.copied().unwrap_or(0.0))
     }
 }
@@ -119,11 +89,7 @@ impl<'a> Disc<'a> {
 /// The boundaries of the annulus; on any other body its rim, edge by edge: its curves may be in pieces.
 fn outlines(mesh: &Mesh) -> Vec<Vec<u32>> {
     if mesh.is_cyclic {
-        return mesh
-            .boundaries
-            .iter()
-            .map(|edge| edge.nodes.clone())
-            .collect();
+        return mesh.boundaries.iter().map(|edge| edge.nodes.clone()).collect();
     }
     let edges = mesh.outline_edges().into_iter();
     edges
@@ -133,11 +99,7 @@ fn outlines(mesh: &Mesh) -> Vec<Vec<u32>> {
 
 /// Every few rays and circles of nodes, found by their equal angle and radius.
 fn lattice(mesh: &Mesh, wanted: usize) -> Vec<Vec<u32>> {
-    let size = mesh
-        .nodes
-        .iter()
-        .map(|[x, y, _]| x.hypot(*y))
-        .fold(f64::MIN_POSITIVE, f64::max);
+    let size = mesh.nodes.iter().map(|[x, y, _]| x.hypot(*y)).fold(f64::MIN_POSITIVE, f64::max);
     let mut rays: BTreeMap<i64, Vec<u32>> = BTreeMap::new();
     let mut circles: BTreeMap<i64, Vec<u32>> = BTreeMap::new();
     for (node, &[x, y, _]) in mesh.nodes.iter().enumerate() {

@@ -55,13 +55,7 @@ impl<'a> MovingBody<'a> {
         let mut corners: Vec<u32> = rings.iter().flatten().copied().collect();
         corners.sort_unstable();
         corners.dedup();
-        Self {
-            mesh,
-            corners,
-            rings,
-            faces,
-            lines,
-        }
+        Self { mesh, corners, rings, faces, lines }
     }
 
     /// Most motions that a page should carry, one at least.
@@ -97,10 +91,7 @@ impl<'a> MovingBody<'a> {
     ) -> MotionKind {
         MotionKind::Parts {
             part_of: self.faces.iter().map(|face| part_of(face) as u32).collect(),
-            parts: parts
-                .iter()
-                .map(|(colour, name)| (*colour, plain(name)))
-                .collect(),
+            parts: parts.iter().map(|(colour, name)| (*colour, plain(name))).collect(),
         }
     }
 
@@ -125,9 +116,7 @@ impl<'a> MovingBody<'a> {
             *sum = [sum[0] + u[0], sum[1] + u[1], sum[2] + 1.0];
         }
         self.cartesian(|node| {
-            let mean = sums
-                .get(&radius(node))
-                .map_or([0.0; 2], |s| [s[0] / s[2], s[1] / s[2]]);
+            let mean = sums.get(&radius(node)).map_or([0.0; 2], |s| [s[0] / s[2], s[1] / s[2]]);
             let value = |k: usize| displacement.get(2 * node + k).copied().unwrap_or(0.0);
             [value(0) - mean[0], value(1) - mean[1], 0.0]
         })
@@ -136,10 +125,6 @@ impl<'a> MovingBody<'a> {
 
 fn corners_of(mesh: &Mesh, element: usize) -> Vec<u32> {
     let ring = mesh.element_outline(element);
-    let step = if mesh.element_kind(element).is_quadratic() {
-        2
-    } else {
-        1
-    };
+    let step = if mesh.element_kind(element).is_quadratic() { 2 } else { 1 };
     ring.into_iter().step_by(step).collect()
 }

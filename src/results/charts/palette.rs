@@ -106,19 +106,11 @@ pub fn status_ring(radius: f64, first_angle: f64, status: &[ContactStatus]) -> S
     named(Shapes::polygons(pieces), status, |s| s.2)
 }
 
-type Entry = (
-    ContactStatus,
-    &'static str,
-    &'static str,
-    &'static str,
-    &'static str,
-);
+type Entry = (ContactStatus, &'static str, &'static str, &'static str, &'static str);
 
 fn named(shapes: Shapes, status: &[ContactStatus], colour: fn(&Entry) -> &'static str) -> Shapes {
     let present = STATUSES.iter().filter(|entry| status.contains(&entry.0));
-    present.fold(shapes, |shapes, entry| {
-        shapes.name(Key::patch(colour(entry), 1.0), entry.1)
-    })
+    present.fold(shapes, |shapes, entry| shapes.name(Key::patch(colour(entry), 1.0), entry.1))
 }
 
 /// Small centred text over data.

@@ -61,12 +61,7 @@ impl<'a> SolidView<'a> {
             triangles: faces.iter().flat_map(triangles).collect(),
             edges: edges(mesh, &faces, false),
         };
-        Self {
-            mesh,
-            faces,
-            shown: Arc::new(shown),
-            axes: [right, towards.cross(&right), towards],
-        }
+        Self { mesh, faces, shown: Arc::new(shown), axes: [right, towards.cross(&right), towards] }
     }
 
     /// Values at the nodes (NaN: none) on the bodies displaced by `displacement` (nodal frames, three values a node, m) times
@@ -138,20 +133,10 @@ fn triangles(face: &BoundaryFace) -> Vec<[u32; 3]> {
         3 => &[[0, 1, 2]],
         4 => &[[0, 1, 2], [0, 2, 3]],
         6 => &[[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]],
-        8 => &[
-            [0, 4, 7],
-            [4, 1, 5],
-            [5, 2, 6],
-            [6, 3, 7],
-            [4, 5, 6],
-            [4, 6, 7],
-        ],
+        8 => &[[0, 4, 7], [4, 1, 5], [5, 2, 6], [6, 3, 7], [4, 5, 6], [4, 6, 7]],
         _ => &[],
     };
-    parts
-        .iter()
-        .map(|part| part.map(|node| face.nodes[node]))
-        .collect()
+    parts.iter().map(|part| part.map(|node| face.nodes[node])).collect()
 }
 
 /// Edges drawn, in steps between their nodes.
@@ -170,10 +155,7 @@ fn edge_paths(mesh: &Mesh, faces: &[BoundaryFace], all: bool) -> Vec<Vec<u32>> {
     for face in faces {
         let corners = face.kind.corner_count();
         let [a, b, c] = [0, 1, 2].map(|k| Vector3::from(mesh.nodes[face.nodes[k] as usize]));
-        let normal = (b - a)
-            .cross(&(c - a))
-            .try_normalize(0.0)
-            .unwrap_or_default();
+        let normal = (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_default();
         let side = (normal, mesh.region(face.element as usize));
         for edge in 0..corners {
             let (p, q) = (face.nodes[edge], face.nodes[(edge + 1) % corners]);

@@ -21,19 +21,12 @@ pub fn overlaid(
 ) -> Result<Vec<NamedFigure>, ChartError> {
     let pages: Vec<(&str, Vec<ReadFigure>)> = runs
         .iter()
-        .map(|run| {
-            (
-                run.name.as_str(),
-                run.page.as_deref().map(read_figures).unwrap_or_default(),
-            )
-        })
+        .map(|run| (run.name.as_str(), run.page.as_deref().map(read_figures).unwrap_or_default()))
         .collect();
     let mut names: Vec<&str> = Vec::new();
     for figure in pages.iter().flat_map(|page| &page.1) {
-        let count = pages
-            .iter()
-            .filter(|page| page.1.iter().any(|own| own.name == figure.name))
-            .count();
+        let count =
+            pages.iter().filter(|page| page.1.iter().any(|own| own.name == figure.name)).count();
         if count > 1 && !names.contains(&figure.name.as_str()) {
             names.push(&figure.name);
         }
@@ -61,10 +54,7 @@ fn figure_of(name: &str, pages: &[(&str, Vec<ReadFigure>)]) -> Option<Figure> {
         .enumerate()
         .filter_map(|(at, panel)| {
             let same = own.iter().filter_map(|(run, title, figure)| {
-                let other = figure
-                    .panels
-                    .get(at)
-                    .filter(|other| is_alike(other, panel))?;
+                let other = figure.panels.get(at).filter(|other| is_alike(other, panel))?;
                 Some((*run, *title, other))
             });
             let same: Vec<_> = same.collect();
@@ -85,16 +75,12 @@ fn is_alike(one: &PanelData, other: &PanelData) -> bool {
 fn panel_of(panel: &PanelData, runs: &[(usize, &str, &PanelData)]) -> Panel {
     let axis = |k: usize| {
         let ends = runs.iter().map(|(_, _, own)| own.axes[k].ends);
-        let ends = ends
-            .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
-            .unwrap_or([0.0, 1.0]);
+        let ends = ends.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).unwrap_or([0.0, 1.0]);
         let scale = match panel.axes[k].is_logarithmic {
             true => Scale::Logarithmic,
             false => Scale::Linear,
         };
-        Axis::new(&literal(&panel.axes[k].title), "")
-            .scaled(scale)
-            .between(ends[0], ends[1])
+        Axis::new(&literal(&panel.axes[k].title), "").scaled(scale).between(ends[0], ends[1])
     };
     let mut out = Panel::new(axis(0), axis(1)).height(150.0).legend();
     if !panel.caption.is_empty() {
@@ -116,10 +102,7 @@ fn panel_of(panel: &PanelData, runs: &[(usize, &str, &PanelData)]) -> Panel {
         let colour = look(*run).0;
         // Of many curves those with a name stand for all.
         let is_crowded = own.series.len() > MOST_CURVES;
-        let curves = own
-            .series
-            .iter()
-            .filter(|series| !is_crowded || !series.name.is_empty());
+        let curves = own.series.iter().filter(|series| !is_crowded || !series.name.is_empty());
         let mut anchor = None;
         for series in curves {
             let places = || series.xs.iter().copied().zip(series.ys.iter().copied());
@@ -132,19 +115,12 @@ fn panel_of(panel: &PanelData, runs: &[(usize, &str, &PanelData)]) -> Panel {
             out = match series.kind {
                 SeriesKind::Line | SeriesKind::Dashed => {
                     let dash = line_dash(series.kind, number(&lines).unwrap_or(0));
-                    let stroke = Stroke {
-                        dash,
-                        ..Stroke::solid(colour, 0.8)
-                    };
+                    let stroke = Stroke { dash, ..Stroke::solid(colour, 0.8) };
                     out.layer(Line::through(places()).stroke(stroke).label(label))
                 }
                 SeriesKind::Points | SeriesKind::Field => {
                     let marker = point_marker(number(&points).unwrap_or(0));
-                    out.layer(
-                        Points::new(places())
-                            .marker(marker, 1.4, colour)
-                            .label(label),
-                    )
+                    out.layer(Points::new(places()).marker(marker, 1.4, colour).label(label))
                 }
             };
         }
@@ -166,12 +142,7 @@ fn line_dash(kind: SeriesKind, number: usize) -> &'static [f64] {
 
 /// Marker of the `number`-th named set of points of a run: the first is hollow, so that others stand out of it.
 fn point_marker(number: usize) -> Marker {
-    [
-        Marker::Circle,
-        Marker::Diamond,
-        Marker::Triangle,
-        Marker::Square,
-    ][number % 4]
+    [Marker::Circle, Marker::Diamond, Marker::Triangle, Marker::Square][number % 4]
 }
 
 /// Legend entries of the series, in ink: what dashes and markers mean in every run.
@@ -189,10 +160,7 @@ fn series_keys(runs: &[(usize, &str, &PanelData)], lines: &[&str], points: &[&st
             Some(_) => keyed,
             None => {
                 let number = lines.iter().position(|known| known == name).unwrap_or(0);
-                keyed.keyed(Stroke {
-                    dash: line_dash(own.kind, number),
-                    ..Stroke::solid(INK, 0.8)
-                })
+                keyed.keyed(Stroke { dash: line_dash(own.kind, number), ..Stroke::solid(INK, 0.8) })
             }
         };
         Some(keyed.name(literal(name)))

@@ -47,23 +47,11 @@ pub struct ComparisonSummary {
 }
 
 /// Keys that say what an entry of a list is of.
-const NAMES: [&str; 7] = [
-    "friction_coefficient",
-    "harmonic",
-    "branch",
-    "direction",
-    "onset",
-    "key",
-    "name",
-];
+const NAMES: [&str; 7] =
+    ["friction_coefficient", "harmonic", "branch", "direction", "onset", "key", "name"];
 
 /// Numbers that tell runs apart but decide nothing.
-const COSTS: [&str; 4] = [
-    "wall_s",
-    "core_s",
-    "element_steps_per_s",
-    "points_per_core_hour",
-];
+const COSTS: [&str; 4] = ["wall_s", "core_s", "element_steps_per_s", "points_per_core_hour"];
 
 /// What a person asks of two runs first.
 const FIRST: [&str; 11] = [
@@ -132,10 +120,7 @@ pub fn shared(runs: &[ComparedRun]) -> Vec<SharedQuantity> {
     for (path, _) in first {
         let values: Option<Vec<f64>> = numbers.iter().map(|run| of(path, run)).collect();
         if let Some(values) = values.filter(|_| out.iter().all(|known| known.path != *path)) {
-            out.push(SharedQuantity {
-                path: path.clone(),
-                values,
-            });
+            out.push(SharedQuantity { path: path.clone(), values });
         }
     }
     out
@@ -185,15 +170,8 @@ pub fn write_comparison(
         for shared in quantities {
             let texts = [shared.path.clone(), quantity(&shared.path).unit.to_owned()];
             let numbers = shared.values.iter().copied().chain(shared.differences());
-            let relative = shared
-                .relative()
-                .map(|v| v.map_or_else(String::new, format_number));
-            table.row(
-                texts
-                    .into_iter()
-                    .chain(numbers.map(format_number))
-                    .chain(relative),
-            )?;
+            let relative = shared.relative().map(|v| v.map_or_else(String::new, format_number));
+            table.row(texts.into_iter().chain(numbers.map(format_number)).chain(relative))?;
         }
         table.finish()
     })?;
@@ -204,23 +182,13 @@ pub fn write_comparison(
 fn table_of(runs: &[ComparedRun], caption: String, quantities: &[&SharedQuantity]) -> ReportTable {
     let mut columns = vec!["quantity".to_owned(), "unit".to_owned()];
     columns.extend(runs.iter().map(|run| run.name.clone()));
-    columns.extend(
-        runs[1..]
-            .iter()
-            .map(|run| format!("{} less {}", run.name, runs[0].name)),
-    );
-    columns.extend(
-        runs[1..]
-            .iter()
-            .map(|run| format!("{} off by (%)", run.name)),
-    );
+    columns.extend(runs[1..].iter().map(|run| format!("{} less {}", run.name, runs[0].name)));
+    columns.extend(runs[1..].iter().map(|run| format!("{} off by (%)", run.name)));
     let rows = quantities.iter().map(|shared| {
         let mut row = vec![shared.path.clone(), quantity(&shared.path).unit.to_owned()];
         row.extend(shared.values.iter().map(|&value| significant(value, 7)));
         row.extend(shared.differences().map(|value| significant(value, 4)));
-        let relative = shared
-            .relative()
-            .map(|value| value.map(|v| significant(100.0 * v, 4)));
+        let relative = shared.relative().map(|value| value.map(|v| significant(100.0 * v, 4)));
         row.extend(relative.map(Option::unwrap_or_default));
         row
     });
@@ -256,19 +224,11 @@ pub fn print(runs: &[ComparedRun], quantities: &[SharedQuantity]) -> String {
     let shown = &differing[..differing.len().min(MOST_PRINTED)];
     let table = table_of(runs, String::new(), shown);
     let rows: Vec<&Vec<String>> = std::iter::once(&table.columns).chain(&table.rows).collect();
-    let width = |at: usize| {
-        rows.iter()
-            .map(|row| row[at].chars().count())
-            .max()
-            .unwrap_or(0)
-    };
+    let width = |at: usize| rows.iter().map(|row| row[at].chars().count()).max().unwrap_or(0);
     let widths: Vec<usize> = (0..table.columns.len()).map(width).collect();
     let mut out = String::new();
     for row in rows {
-        let cells = row
-            .iter()
-            .zip(&widths)
-            .map(|(text, &width)| format!("{text:>width$}"));
+        let cells = row.iter().zip(&widths).map(|(text, &width)| format!("{text:>width$}"));
         out.push_str(cells.collect::<Vec<_>>().join("  ").trim_end());
         out.push('\n');
     }
@@ -279,10 +239,7 @@ pub fn print(runs: &[ComparedRun], quantities: &[SharedQuantity]) -> String {
         0 => String::new(),
         more => format!("; {more} more are in compare.csv"),
     };
-    out.push_str(&format!(
-        "{} of {total} shared numbers differ{beyond}\n",
-        differing.len()
-    ));
+    out.push_str(&format!("{} of {total} shared numbers differ{beyond}\n", differing.len()));
     out
 }
 
@@ -310,19 +267,12 @@ pub fn html_report(
         .partition(|shared| !shared.is_equal());
     let counts = vec![
         ("runs".to_owned(), runs.len().to_string()),
-        (
-            "shared numbers that differ".to_owned(),
-            differing.len().to_string(),
-        ),
+        ("shared numbers that differ".to_owned(), differing.len().to_string()),
         ("that are equal".to_owned(), equal.len().to_string()),
     ];
     let without = runs.iter().filter(|run| run.page.is_none());
-    let without = without.map(|run| {
-        format!(
-            "{} has no report.html: frictionsim plot draws it.",
-            run.name
-        )
-    });
+    let without =
+        without.map(|run| format!("{} has no report.html: frictionsim plot draws it.", run.name));
     let made = runs.iter().map(|run| {
         let manifest = &run.manifest;
         let overrides = match manifest.overrides.is_empty() {
@@ -340,14 +290,7 @@ pub fn html_report(
     });
     let made = ReportTable::new(
         "Inputs",
-        [
-            "run",
-            "command",
-            "case",
-            "overrides",
-            "version",
-            "SHA-256 of the case",
-        ],
+        ["run", "command", "case", "overrides", "version", "SHA-256 of the case"],
         made,
     );
     let first = table_of(runs, "Key results".into(), &first_of(quantities));
@@ -376,12 +319,7 @@ mod tests {
     use serde_json::json;
 
     fn run(name: &str, summary: Value) -> ComparedRun {
-        ComparedRun {
-            name: name.into(),
-            manifest: Manifest::new("cea"),
-            summary,
-            page: None,
-        }
+        ComparedRun { name: name.into(), manifest: Manifest::new("cea"), summary, page: None }
     }
 
     #[test]

@@ -102,10 +102,7 @@ pub fn estimate(sizes: &[f64], values: &[f64]) -> Verdict {
     }
     let order = 0.5 * (low + high);
     let slope = fine / (r2.powf(order) - r3.powf(order));
-    Verdict::Converging {
-        order,
-        limit: f3 - slope * r3.powf(order),
-    }
+    Verdict::Converging { order, limit: f3 - slope * r3.powf(order) }
 }
 
 #[cfg(test)]

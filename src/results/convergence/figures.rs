@@ -19,11 +19,8 @@ pub fn draw(
     let mut sections: Vec<ReportSection> = report.series.iter().map(section).collect();
     let figures = draw_all(vec![Box::new(|| Ok(convergence(report)))], options)?;
     sections.insert(0, ReportSection::new("Convergence").with_figures(figures));
-    let html = Report {
-        title: report.title.clone(),
-        sections,
-        manifest: folder.manifest().clone(),
-    };
+    let html =
+        Report { title: report.title.clone(), sections, manifest: folder.manifest().clone() };
     write_report(folder, &html, options)
 }
 
@@ -44,10 +41,7 @@ fn section(series: &Series) -> ReportSection {
 /// For each series the change of every quantity from level to level, relative to its size, over the resolution; and the orders
 /// that the three finest levels show.
 fn convergence(report: &ConvergenceReport) -> Figure {
-    let panels = report
-        .series
-        .iter()
-        .flat_map(|series| [changes(series), orders(series)]);
+    let panels = report.series.iter().flat_map(|series| [changes(series), orders(series)]);
     Figure::new(
         "convergence",
         "Relative change of every quantity from each level to the next (left), and observed orders of convergence from the three \
@@ -66,39 +60,25 @@ fn changes(series: &Series) -> Panel {
     };
     let lines = series.quantities.iter().filter_map(|quantity| {
         let largest = quantity.values.iter().map(|v| v.abs()).fold(0.0, f64::max);
-        let index = groups
-            .iter()
-            .position(|group| *group == group_of(quantity))?;
+        let index = groups.iter().position(|group| *group == group_of(quantity))?;
         let pairs = series.sizes.iter().zip(quantity.values.windows(2));
         let changes = pairs.map(|(&size, pair)| (size, (pair[1] - pair[0]).abs() / largest));
         let line = Line::through(changes.filter(|(_, change)| *change > 0.0));
-        Some(
-            line.solid(look(index).0, 0.6)
-                .marked(look(index).1, 1.2)
-                .name(groups[index]),
-        )
+        Some(line.solid(look(index).0, 0.6).marked(look(index).1, 1.2).name(groups[index]))
     });
-    Panel::new(
-        size.prefixed().logarithmic(),
-        Axis::new("relative change", "–").decades(10.0),
-    )
-    .height(130.0)
-    .caption(heading(series))
-    .legend()
-    .layers(lines.collect::<Vec<_>>())
+    Panel::new(size.prefixed().logarithmic(), Axis::new("relative change", "–").decades(10.0))
+        .height(130.0)
+        .caption(heading(series))
+        .legend()
+        .layers(lines.collect::<Vec<_>>())
 }
 
 fn orders(series: &Series) -> Panel {
     let groups = groups(series);
     let count = groups.len();
     let row = |index: usize| (count - index) as f64 - 0.5;
-    let names = groups
-        .iter()
-        .enumerate()
-        .map(|(index, group)| (row(index), (*group).to_owned()));
-    let y = Axis::new("", "")
-        .between(0.0, count.max(1) as f64)
-        .ticks(names.collect::<Vec<_>>());
+    let names = groups.iter().enumerate().map(|(index, group)| (row(index), (*group).to_owned()));
+    let y = Axis::new("", "").between(0.0, count.max(1) as f64).ticks(names.collect::<Vec<_>>());
     let points = groups.iter().enumerate().map(|(index, group)| {
         let own: Vec<f64> = series
             .quantities
@@ -108,24 +88,16 @@ fn orders(series: &Series) -> Panel {
             .collect();
         // Side by side within the row, in the order of the list.
         let place = |k: usize| row(index) + 0.6 * (0.5 - (k as f64 + 0.5) / own.len() as f64);
-        let points: Vec<(f64, f64)> = own
-            .iter()
-            .enumerate()
-            .map(|(k, &order)| (order, place(k)))
-            .collect();
+        let points: Vec<(f64, f64)> =
+            own.iter().enumerate().map(|(k, &order)| (order, place(k))).collect();
         Points::new(points).marker(look(index).1, 1.6, look(index).0)
     });
     let rules =
         [1.0, 2.0, 3.0, 4.0].map(|order| Rule::vertical(order).stroke(Stroke::dotted(MUTED, 0.6)));
-    Panel::new(
-        Axis::new("observed order", "–")
-            .including(0.0)
-            .including(2.5),
-        y,
-    )
-    .height(130.0)
-    .layers(rules)
-    .layers(points.collect::<Vec<_>>())
+    Panel::new(Axis::new("observed order", "–").including(0.0).including(2.5), y)
+        .height(130.0)
+        .layers(rules)
+        .layers(points.collect::<Vec<_>>())
 }
 
 /// What quantities have in common: the same property of several modes, else the same unit.
@@ -157,12 +129,7 @@ fn table(series: &Series) -> ReportTable {
         let mut row = vec![quantity.name.clone(), quantity.unit.clone()];
         row.extend(quantity.values.iter().map(|value| significant(*value)));
         row.push(optional(quantity.verdict.limit()));
-        row.push(
-            quantity
-                .verdict
-                .order()
-                .map_or_else(String::new, |p| format!("{p:.2}")),
-        );
+        row.push(quantity.verdict.order().map_or_else(String::new, |p| format!("{p:.2}")));
         row.push(significant(quantity.spread()));
         row.push(quantity.verdict.name().to_owned());
         row

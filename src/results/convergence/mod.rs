@@ -74,13 +74,7 @@ impl Quantity {
         } else {
             Verdict::NotConverging
         };
-        Self {
-            name,
-            unit: String::new(),
-            values,
-            verdict,
-            is_minor: false,
-        }
+        Self { name, unit: String::new(), values, verdict, is_minor: false }
     }
 
     /// Estimated error of each level, the value less the limit; NaN without a limit.
@@ -135,10 +129,7 @@ impl Record for ConvergenceReport {
         let is_whole = |series: &Series| {
             let count = series.levels.len();
             let falls = series.sizes.windows(2).all(|pair| pair[0] > pair[1]);
-            let is_positive = series
-                .sizes
-                .iter()
-                .all(|&size| size > 0.0 && size.is_finite());
+            let is_positive = series.sizes.iter().all(|&size| size > 0.0 && size.is_finite());
             let mut quantities = series.quantities.iter();
             let lengths = [series.sizes.len(), series.wall_s.len()];
             falls
@@ -155,11 +146,7 @@ impl ConvergenceReport {
     fn timeless(&self) -> Self {
         let mut series = self.series.clone();
         series.iter_mut().for_each(|own| own.wall_s.fill(0.0));
-        Self {
-            title: self.title.clone(),
-            series,
-            wall_s: 0.0,
-        }
+        Self { title: self.title.clone(), series, wall_s: 0.0 }
     }
 }
 
@@ -271,28 +258,16 @@ fn write_table(out: &mut dyn Write, report: &ConvergenceReport) -> io::Result<()
     type Row<'a> = (&'a Series, &'a Quantity, usize);
     let columns: &[Column<'_, Row<'_>>] = &[
         ("analysis", &|(series, ..)| (&series.analysis).into()),
-        ("refinement", &|(series, ..)| {
-            series.refinement.name().into()
-        }),
+        ("refinement", &|(series, ..)| series.refinement.name().into()),
         ("quantity", &|(_, quantity, _)| (&quantity.name).into()),
         ("unit", &|(_, quantity, _)| (&quantity.unit).into()),
-        ("level", &|(series, _, level)| {
-            (&series.levels[*level]).into()
-        }),
+        ("level", &|(series, _, level)| (&series.levels[*level]).into()),
         ("size", &|(series, _, level)| series.sizes[*level].into()),
-        ("value", &|(_, quantity, level)| {
-            quantity.values[*level].into()
-        }),
-        ("error", &|(_, quantity, level)| {
-            quantity.errors()[*level].into()
-        }),
-        ("extrapolated", &|(_, quantity, _)| {
-            quantity.verdict.limit().into()
-        }),
+        ("value", &|(_, quantity, level)| quantity.values[*level].into()),
+        ("error", &|(_, quantity, level)| quantity.errors()[*level].into()),
+        ("extrapolated", &|(_, quantity, _)| quantity.verdict.limit().into()),
         ("order", &|(_, quantity, _)| quantity.verdict.order().into()),
-        ("verdict", &|(_, quantity, _)| {
-            quantity.verdict.name().into()
-        }),
+        ("verdict", &|(_, quantity, _)| quantity.verdict.name().into()),
     ];
     let all = report.series.iter();
     let each = all.flat_map(|series| series.quantities.iter().map(move |of| (series, of)));

@@ -31,11 +31,7 @@ fn write_series(out: &mut String, series: &Series, is_whole: bool) {
     for level in &series.levels {
         let _ = write!(out, " {level:>12}");
     }
-    let _ = writeln!(
-        out,
-        " {:>12} {:>6} {:>10}",
-        "extrapolated", "order", "error"
-    );
+    let _ = writeln!(out, " {:>12} {:>6} {:>10}", "extrapolated", "order", "error");
     for quantity in shown {
         write_quantity(out, quantity, width);
     }
@@ -100,11 +96,7 @@ pub(super) fn significant(value: f64) -> String {
     if !value.is_finite() {
         return "-".to_owned();
     }
-    let digits = if value == 0.0 {
-        0
-    } else {
-        value.abs().log10().floor() as i32
-    };
+    let digits = if value == 0.0 { 0 } else { value.abs().log10().floor() as i32 };
     match digits {
         -4..=9 => format!("{value:.*}", (6 - digits).clamp(0, 7) as usize),
         _ => format!("{value:.4e}"),

@@ -52,10 +52,7 @@ impl ConfirmationSummary {
     pub fn of(report: &CycleReport<'_>, result: &CycleResult) -> Option<Self> {
         let Some((cycle, found)) = confirmed(result) else {
             let error = result.confirmation.as_ref()?.as_ref().err()?;
-            return Some(Self::Failed {
-                agrees: false,
-                error: error.clone(),
-            });
+            return Some(Self::Failed { agrees: false, error: error.clone() });
         };
         let [stick, slip, open] = found.status.map(present);
         Some(Self::Ran {
@@ -64,9 +61,7 @@ impl ConfirmationSummary {
             main_frequency_hz: found.main_frequency_hz,
             main_harmonic: found.main_harmonic,
             status: StatusFractions { stick, slip, open },
-            power_w: ExternalPower {
-                external: present(found.external_power * report.thickness),
-            },
+            power_w: ExternalPower { external: present(found.external_power * report.thickness) },
         })
     }
 }
@@ -76,9 +71,7 @@ pub fn confirmation_text(report: &CycleReport<'_>, result: &CycleResult) -> Opti
     let family = result.family;
     let Some((cycle, found)) = confirmed(result) else {
         let error = result.confirmation.as_ref()?.as_ref().err()?;
-        return Some(format!(
-            "{family}: no transient can start on the cycle: {error}"
-        ));
+        return Some(format!("{family}: no transient can start on the cycle: {error}"));
     };
     let [stick, slip, open] = found.status;
     let verdict = match (found.agrees(cycle), leaves(result)) {

@@ -27,10 +27,7 @@ pub fn write_fields(folder: &OutputFolder, report: &CycleReport<'_>) -> Result<(
         let stem = format!("cycle-{}", result.family.tag());
         let frames = write_frames(folder, report, &stem, &group, &result.frames)?;
         if let Some(first) = frames.first() {
-            waves.push(PvdEntry {
-                time: (place + 1) as f64,
-                ..first.clone()
-            });
+            waves.push(PvdEntry { time: (place + 1) as f64, ..first.clone() });
         }
     }
     for own in &report.two_waves {
@@ -70,11 +67,7 @@ fn write_frames(
             let whole = [Field::number("time_s", frame.time)];
             write_vtu(out, &EncodedMesh::new(report.mesh)?, &whole, &fields, &[])
         })?;
-        entries.push(PvdEntry {
-            time: frame.time,
-            group: group.to_owned(),
-            file: name,
-        });
+        entries.push(PvdEntry { time: frame.time, group: group.to_owned(), file: name });
     }
     if entries.len() > 1 {
         folder.write(&format!("{stem}.pvd"), |out| write_pvd(out, &entries))?;

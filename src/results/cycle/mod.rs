@@ -148,9 +148,8 @@ pub fn write(folder: &OutputFolder, report: &CycleReport<'_>) -> Result<Value, F
         }
         if let Some(branch) = &result.branch {
             let name = format!("branch-{}.csv", result.family.tag());
-            folder.write(&name, |out| {
-                write_branch(out, branch, &result.branch_stability, report)
-            })?;
+            folder
+                .write(&name, |out| write_branch(out, branch, &result.branch_stability, report))?;
         }
         if result.stability.is_some() {
             let name = format!("stability-{}.csv", result.family.tag());
@@ -170,9 +169,7 @@ pub fn write(folder: &OutputFolder, report: &CycleReport<'_>) -> Result<Value, F
 pub fn write_phases(out: &mut dyn Write, cycle: &LimitCycle) -> io::Result<()> {
     let columns: &[Column<'_, &PhasePoint>] = &[
         ("phase_rad", &|point| point.phase.into()),
-        ("time_s", &|point| {
-            (point.phase / cycle.state.frequency).into()
-        }),
+        ("time_s", &|point| (point.phase / cycle.state.frequency).into()),
         ("status", &|point| point.status.name().into()),
         ("pressure_pa", &|point| point.pressure.into()),
         ("shear_pa", &|point| point.shear.into()),
@@ -209,15 +206,11 @@ pub fn write_branch(
         ("external_w", &|row| row.1.external.into()),
         ("stick_w", &|row| row.1.stick.into()),
         ("slide_w", &|row| row.1.slide.into()),
-        ("contact_dissipated_w", &|row| {
-            row.1.contact_dissipated.into()
-        }),
+        ("contact_dissipated_w", &|row| row.1.contact_dissipated.into()),
         ("material_damping_w", &|row| row.1.material_damping.into()),
         ("normal_contact_w", &|row| row.1.normal_contact.into()),
         ("amplitude_m", &|row| amplitude(row.0).into()),
-        ("balance_residual", &|row| {
-            row.0.powers.balance_residual().into()
-        }),
+        ("balance_residual", &|row| row.0.powers.balance_residual().into()),
         ("growth_rate_per_s", &|row| row.2.into()),
     ];
     let rows = branch.cycles.iter().enumerate().map(|(i, cycle)| {

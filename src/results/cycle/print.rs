@@ -20,17 +20,10 @@ pub fn print(report: &CycleReport<'_>) -> String {
         let _ = writeln!(out, "{text}");
         return out;
     }
-    let mut phases: Vec<String> = report
-        .results
-        .iter()
-        .map(|result| result.phases.to_string())
-        .collect();
+    let mut phases: Vec<String> =
+        report.results.iter().map(|result| result.phases.to_string()).collect();
     phases.dedup();
-    let _ = writeln!(
-        out,
-        "limit cycles as rotating waves, {} phases\n",
-        phases.join(", ")
-    );
+    let _ = writeln!(out, "limit cycles as rotating waves, {} phases\n", phases.join(", "));
     let _ = writeln!(out, "{:>3} {:>10} {}", "n", "friction >", printed_heading());
     for result in &report.results {
         result_line(&mut out, report, result);
@@ -71,12 +64,7 @@ fn result_line(out: &mut String, report: &CycleReport<'_>, result: &CycleResult)
     let _ = match &result.cycle {
         Ok(cycle) => {
             let powers = cycle.powers.scaled(report.thickness);
-            let powers = [
-                powers.external,
-                powers.stick,
-                powers.slide,
-                powers.contact_dissipated,
-            ];
+            let powers = [powers.external, powers.stick, powers.slide, powers.contact_dissipated];
             let frequency = cycle.frequency_hz();
             let line = printed_cycle(frequency, cycle.fractions, powers, report.extent);
             writeln!(out, "{line}")
@@ -93,9 +81,8 @@ fn branch_line(out: &mut String, family: Family, branch: &CycleBranch) {
         })
     };
     let folds = branch.folds.iter();
-    let folds: Vec<String> = folds
-        .map(|&fold| significant(branch.parameter.in_key_units(fold), 5))
-        .collect();
+    let folds: Vec<String> =
+        folds.map(|&fold| significant(branch.parameter.in_key_units(fold), 5)).collect();
     let folds = match folds.as_slice() {
         [] => "no fold".to_owned(),
         [one] => format!("a fold at {one}"),

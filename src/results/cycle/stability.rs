@@ -42,9 +42,7 @@ pub fn write_stability(out: &mut dyn Write, result: &CycleResult) -> io::Result<
         _ => findings.push((0.0, &result.stability)),
     }
     let rows = findings.into_iter().flat_map(|(at, finding)| {
-        let exponents = known(finding)
-            .into_iter()
-            .flat_map(|found| &found.exponents);
+        let exponents = known(finding).into_iter().flat_map(|found| &found.exponents);
         exponents.map(move |exponent| (at, exponent))
     });
     write_rows(out, columns, rows)
@@ -98,9 +96,7 @@ impl StabilitySummary {
         let stability = match finding.as_ref()? {
             Ok(stability) => stability,
             Err(error) => {
-                return Some(Self::Failed {
-                    error: error.clone(),
-                });
+                return Some(Self::Failed { error: error.clone() });
             }
         };
         let leading = stability.leading().map(|leading| ExponentSummary {
@@ -139,11 +135,7 @@ pub fn print_stability(out: &mut String, result: &CycleResult) {
                     },
                     diameters(leading.harmonic),
                     leading.frequency_hz,
-                    if leading.exponent.re > 0.0 {
-                        "grows"
-                    } else {
-                        "decays"
-                    },
+                    if leading.exponent.re > 0.0 { "grows" } else { "decays" },
                     leading.exponent.re.abs(),
                     leading.uncertainty,
                 ),
@@ -151,14 +143,12 @@ pub fn print_stability(out: &mut String, result: &CycleResult) {
             };
         }
     }
-    let key = result
-        .branch
-        .as_ref()
-        .map_or("", |branch| branch.parameter.key());
+    let key = result.branch.as_ref().map_or("", |branch| branch.parameter.key());
     for change in &result.stability_changes {
-        let value = result.branch.as_ref().map_or(f64::NAN, |branch| {
-            branch.parameter.in_key_units(change.value)
-        });
+        let value = result
+            .branch
+            .as_ref()
+            .map_or(f64::NAN, |branch| branch.parameter.in_key_units(change.value));
         let _ = writeln!(
             out,
             "{family}: stability changes at {key} = {value:.1} ({} at {:.0} Hz: {})",

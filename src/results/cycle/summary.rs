@@ -208,10 +208,7 @@ fn family(report: &CycleReport<'_>, result: &CycleResult) -> FamilySummary {
         error: reason(false),
         confirmation: ConfirmationSummary::of(report, result),
         stability: StabilitySummary::of(&result.stability),
-        branch: result
-            .branch
-            .as_ref()
-            .map(|branch| branch_of(report, result, branch)),
+        branch: result.branch.as_ref().map(|branch| branch_of(report, result, branch)),
     }
 }
 
@@ -254,11 +251,7 @@ fn branch_of(
     BranchSummary {
         key: branch.parameter.key().to_owned(),
         cycles: branch.cycles.len(),
-        folds: branch
-            .folds
-            .iter()
-            .map(|&fold| in_key_units(fold))
-            .collect(),
+        folds: branch.folds.iter().map(|&fold| in_key_units(fold)).collect(),
         ends: branch.ends.map(|end| end.describe().to_owned()),
         saturation_speed_rpm: saturation.map(|speed| speed * 60.0 / TAU),
         factorizations: branch.factorizations,

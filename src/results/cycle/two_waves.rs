@@ -72,9 +72,7 @@ impl TwoWaveSummary {
         let branch = found.and_then(|found| found.branch.as_ref());
         let births = branch.map_or(Vec::new(), |branch| {
             let births = branch.births.iter();
-            births
-                .map(|&value| branch.parameter.in_key_units(value))
-                .collect()
+            births.map(|&value| branch.parameter.in_key_units(value)).collect()
         });
         Self {
             harmonics: result.harmonics,
@@ -118,9 +116,7 @@ pub fn write_two_waves(folder: &OutputFolder, report: &CycleReport<'_>) -> Resul
             parameter.map_or(0.0, |own| own.in_key_units(own.of(&motion.state.point)))
         };
         let columns: &[Column<'_, &TwoWaveMotion>] = &[
-            (parameter.map_or("point", |own| own.key()), &|m| {
-                value(m).into()
-            }),
+            (parameter.map_or("point", |own| own.key()), &|m| value(m).into()),
             ("frequency_1_hz", &|m| m.frequencies_hz()[0].into()),
             ("frequency_2_hz", &|m| m.frequencies_hz()[1].into()),
             ("amplitude_1_m", &|m| m.amplitudes[0].into()),
@@ -128,9 +124,7 @@ pub fn write_two_waves(folder: &OutputFolder, report: &CycleReport<'_>) -> Resul
             ("stick", &|m| m.fractions[0].into()),
             ("slip", &|m| m.fractions[1].into()),
             ("open", &|m| m.fractions[2].into()),
-            ("external_w", &|m| {
-                (m.powers.external * report.thickness).into()
-            }),
+            ("external_w", &|m| (m.powers.external * report.thickness).into()),
             ("balance_residual", &|m| m.powers.balance_residual().into()),
         ];
         let rows: Vec<&TwoWaveMotion> = match &found.branch {

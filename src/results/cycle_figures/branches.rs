@@ -36,19 +36,13 @@ pub fn draw_branches(
     let curves: Vec<Curve<'_>> = families
         .iter()
         .filter_map(|(suffix, family)| {
-            Some(Curve {
-                suffix,
-                family,
-                branch: family.branch.as_ref()?,
-            })
+            Some(Curve { suffix, family, branch: family.branch.as_ref()? })
         })
         .filter(|curve| curve.branch.values.len() > 1)
         .collect();
     let curves = &curves[..];
-    let figures: Vec<Declaration<'_>> = vec![
-        Box::new(|| frequencies(curves, two_waves)),
-        Box::new(|| shares(curves)),
-    ];
+    let figures: Vec<Declaration<'_>> =
+        vec![Box::new(|| frequencies(curves, two_waves)), Box::new(|| shares(curves))];
     draw_all(figures, options)
 }
 
@@ -69,9 +63,7 @@ impl Curve<'_> {
 /// Logarithmic over more than a decade.
 fn axis_of(curves: &[Curve<'_>]) -> (Axis, Scale) {
     let key = curves.first().map_or("", |curve| &curve.branch.key);
-    let values = curves
-        .iter()
-        .flat_map(|curve| curve.branch.values.iter().copied());
+    let values = curves.iter().flat_map(|curve| curve.branch.values.iter().copied());
     let scale = Scale::for_values(values, 10.0);
     (parameter_axis(key).scaled(scale), scale)
 }
@@ -98,10 +90,7 @@ fn frequencies(curves: &[Curve<'_>], two_waves: &[TwoWaveRecord]) -> Result<Figu
         amplitude.including(0.0)
     };
     let onsets = curves.iter().filter_map(|curve| {
-        let [critical, frequency] = *curve
-            .family
-            .onsets
-            .get(curve.family.onset.checked_sub(1)?)?;
+        let [critical, frequency] = *curve.family.onsets.get(curve.family.onset.checked_sub(1)?)?;
         let text = format!(
             "{:.2} kHz, *n* = {} at *μ* = {critical:.3}",
             frequency * 1e-3,
@@ -112,20 +101,14 @@ fn frequencies(curves: &[Curve<'_>], two_waves: &[TwoWaveRecord]) -> Result<Figu
     let mut onsets: Vec<(f64, String)> = onsets.collect();
     onsets.dedup();
     let rules = onsets.into_iter().map(|(frequency, text)| {
-        let rule = Rule::horizontal(frequency)
-            .stretching()
-            .stroke(Stroke::dotted(MUTED, 0.8));
-        rule.at_rim(text)
-            .name("onset of the instability, linear theory")
+        let rule = Rule::horizontal(frequency).stretching().stroke(Stroke::dotted(MUTED, 0.8));
+        rule.at_rim(text).name("onset of the instability, linear theory")
     });
     let quantities: [(Panel, Column, usize); 2] = [
         (
-            Panel::new(
-                x.clone(),
-                Axis::new("main frequency *f*", "kHz").times(1e-3),
-            )
-            .height(150.0)
-            .layers(rules),
+            Panel::new(x.clone(), Axis::new("main frequency *f*", "kHz").times(1e-3))
+                .height(150.0)
+                .layers(rules),
             |b| &b.frequency_hz,
             1,
         ),
@@ -143,37 +126,28 @@ fn frequencies(curves: &[Curve<'_>], two_waves: &[TwoWaveRecord]) -> Result<Figu
             })
         });
         let panel = panel.layers(together.collect::<Vec<_>>());
-        curves
-            .iter()
-            .enumerate()
-            .fold(panel, |panel, (index, curve)| {
-                let (branch, colour) = (curve.branch, SERIES[index % SERIES.len()]);
-                let ys = quantity(branch);
-                let cycle = curve.family.cycle.as_ref();
-                let marked = cycle.map(|wave| {
-                    (
-                        branch.own_value,
-                        [wave.frequency_hz, wave.amplitude][own - 1],
-                    )
-                });
-                let folds =
-                    Points::new(branch.fold_points(ys)).marker(Marker::Diamond, 1.9, colour);
-                panel
-                    .layers(branch.lines(ys, colour))
-                    .layer(named_curve(curve, ys, colour))
-                    .layer(folds.name("fold"))
-                    .layers(marked.map(|own| {
-                        Points::new([own])
-                            .marker(Marker::Circle, 2.2, colour)
-                            .name("the case's own cycle")
-                    }))
-            })
+        curves.iter().enumerate().fold(panel, |panel, (index, curve)| {
+            let (branch, colour) = (curve.branch, SERIES[index % SERIES.len()]);
+            let ys = quantity(branch);
+            let cycle = curve.family.cycle.as_ref();
+            let marked =
+                cycle.map(|wave| (branch.own_value, [wave.frequency_hz, wave.amplitude][own - 1]));
+            let folds = Points::new(branch.fold_points(ys)).marker(Marker::Diamond, 1.9, colour);
+            panel
+                .layers(branch.lines(ys, colour))
+                .layer(named_curve(curve, ys, colour))
+                .layer(folds.name("fold"))
+                .layers(marked.map(|own| {
+                    Points::new([own])
+                        .marker(Marker::Circle, 2.2, colour)
+                        .name("the case's own cycle")
+                }))
+        })
     });
     let caption = "Main frequency (a) and amplitude (b) of the limit cycles along their branches; dotted: where linear theory has \
                    them begin; diamonds: folds.";
-    let figure = Figure::new("branch-frequencies", caption)
-        .shared_x()
-        .panels(panels.collect::<Vec<_>>());
+    let figure =
+        Figure::new("branch-frequencies", caption).shared_x().panels(panels.collect::<Vec<_>>());
     Ok(with_strokes(figure, curves))
 }
 
@@ -193,32 +167,18 @@ fn shares(curves: &[Curve<'_>]) -> Result<Figure, ChartError> {
                  series: &[Vec<f64>],
                  named: &[(&'static str, &'static str)]| {
         let folds = curve.branch.fold_places();
-        let folds = folds
-            .0
-            .iter()
-            .chain(&folds.1)
-            .map(|place| Rule::vertical(place.value));
+        let folds = folds.0.iter().chain(&folds.1).map(|place| Rule::vertical(place.value));
         let panel = Panel::new(x.clone(), y).height(104.0);
         let panel = panel.layers(
             folds
                 .map(|rule| rule.stroke(Stroke::dotted(MUTED, 0.7)).name("fold"))
                 .collect::<Vec<_>>(),
         );
-        series
-            .iter()
-            .zip(named)
-            .fold(panel, |panel, (values, &(name, colour))| {
-                let points = curve
-                    .branch
-                    .values
-                    .iter()
-                    .copied()
-                    .zip(values.iter().copied());
-                let named = Line::through(points).solid(colour, 0.4).name(name);
-                panel
-                    .layer(named)
-                    .layers(curve.branch.lines(values, colour))
-            })
+        series.iter().zip(named).fold(panel, |panel, (values, &(name, colour))| {
+            let points = curve.branch.values.iter().copied().zip(values.iter().copied());
+            let named = Line::through(points).solid(colour, 0.4).name(name);
+            panel.layer(named).layers(curve.branch.lines(values, colour))
+        })
     };
     let mut figure = Figure::new(
         "branch-shares",
@@ -242,9 +202,7 @@ fn shares(curves: &[Curve<'_>]) -> Result<Figure, ChartError> {
         let power = |curve: &Curve<'_>| {
             panel(
                 curve,
-                percent("share of external power")
-                    .including(0.0)
-                    .including(1.0),
+                percent("share of external power").including(0.0).including(1.0),
                 &curve.branch.shares,
                 &POWERS,
             )

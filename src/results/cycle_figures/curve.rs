@@ -28,20 +28,13 @@ impl BranchRecord {
     /// folds between two values are narrower than the spacing of the cycles, and are marked on the curve that goes on.
     pub(super) fn fold_places(&self) -> (Vec<Place>, Vec<Place>) {
         let (mut left, mut turns) = (self.folds.clone(), Vec::new());
-        for (before, pair) in self
-            .values
-            .windows(2)
-            .enumerate()
-            .filter(|(_, pair)| pair[0] == pair[1])
+        for (before, pair) in
+            self.values.windows(2).enumerate().filter(|(_, pair)| pair[0] == pair[1])
         {
             let distance = |i: &usize| (left[*i] - pair[0]).abs();
             let nearest = (0..left.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
             if let Some(nearest) = nearest {
-                turns.push(Place {
-                    value: left.remove(nearest),
-                    before,
-                    weight: 0.5,
-                });
+                turns.push(Place { value: left.remove(nearest), before, weight: 0.5 });
             }
         }
         let narrow = left.into_iter().filter_map(|value| {
@@ -50,11 +43,7 @@ impl BranchRecord {
             let before = self.values.windows(2).position(holds)?;
             let weight =
                 (value - self.values[before]) / (self.values[before + 1] - self.values[before]);
-            Some(Place {
-                value,
-                before,
-                weight,
-            })
+            Some(Place { value, before, weight })
         });
         let narrow = narrow.collect();
         (turns, narrow)
@@ -69,19 +58,8 @@ impl BranchRecord {
             let change = turn.copied().or_else(|| self.change(before));
             let next = (before + 1).min(self.values.len() - 1);
             let (own, after) = (self.stability(before), self.stability(next));
-            let piece = if own == after || change.is_some() {
-                own
-            } else {
-                None
-            };
-            places.push((
-                Place {
-                    value: self.values[before],
-                    before,
-                    weight: 0.0,
-                },
-                piece,
-            ));
+            let piece = if own == after || change.is_some() { own } else { None };
+            places.push((Place { value: self.values[before], before, weight: 0.0 }, piece));
             places.extend(change.map(|place| (place, after)));
         }
         places
@@ -94,25 +72,12 @@ impl BranchRecord {
         if a == b {
             return None;
         }
-        let rate = |cycle: usize| {
-            self.growth_rate
-                .get(cycle)
-                .copied()
-                .flatten()
-                .unwrap_or(f64::NAN)
-        };
+        let rate =
+            |cycle: usize| self.growth_rate.get(cycle).copied().flatten().unwrap_or(f64::NAN);
         let (from, to) = (rate(before), rate(before + 1));
-        let weight = if from * to < 0.0 {
-            from / (from - to)
-        } else {
-            0.5
-        };
+        let weight = if from * to < 0.0 { from / (from - to) } else { 0.5 };
         let value = self.values[before] + weight * (self.values[before + 1] - self.values[before]);
-        Some(Place {
-            value,
-            before,
-            weight,
-        })
+        Some(Place { value, before, weight })
     }
 
     /// One quantity along the branch: stable pieces strong, unstable ones dashed, others plain.
@@ -126,9 +91,7 @@ impl BranchRecord {
             while end + 1 < places.len() && places[end].1 == stability {
                 end += 1;
             }
-            let piece = places[start..=end]
-                .iter()
-                .map(|(place, _)| (place.value, place.of(ys)));
+            let piece = places[start..=end].iter().map(|(place, _)| (place.value, place.of(ys)));
             lines.push(Line::through(piece).stroke(stroke(stability, colour)));
             start = end;
         }
@@ -137,11 +100,7 @@ impl BranchRecord {
 
     pub(super) fn fold_points(&self, ys: &[f64]) -> Vec<(f64, f64)> {
         let (turns, narrow) = self.fold_places();
-        turns
-            .iter()
-            .chain(&narrow)
-            .map(|place| (place.value, place.of(ys)))
-            .collect()
+        turns.iter().chain(&narrow).map(|place| (place.value, place.of(ys))).collect()
     }
 }
 
@@ -180,13 +139,8 @@ mod tests {
     #[test]
     fn stability_changes_where_the_growth_rate_vanishes() {
         let stable = [Some(true), Some(true), Some(false)];
-        let found = branch(
-            &[1.0, 2.0, 3.0],
-            &stable,
-            &[Some(-5.0), Some(-1.0), Some(3.0)],
-            &[],
-        )
-        .places();
+        let found =
+            branch(&[1.0, 2.0, 3.0], &stable, &[Some(-5.0), Some(-1.0), Some(3.0)], &[]).places();
         assert_eq!(found[2].0.value, 2.25);
         let pieces: Vec<_> = found.iter().map(|(_, stability)| *stability).collect();
         assert_eq!(pieces, [Some(true), Some(true), Some(false), Some(false)]);

@@ -88,20 +88,12 @@ impl CycleFigures<'_> {
             "Limit cycle of {n} nodal diameters at one instant: status around the circle (a), tractions (b), velocity (c); the \
              pattern turns against the rotor at 1/{n} of the frequency."
         );
-        let names = (
-            format!("contact-{}", family.tag()),
-            caption,
-            format!("{}, wave ↻", heading(n, wave)),
-        );
+        let names =
+            (format!("contact-{}", family.tag()), caption, format!("{}, wave ↻", heading(n, wave)));
         let tractions = [&around(&wave.pressure)[..], &around(&wave.shear)];
         let velocity = around(&wave.velocity[1]);
         let velocity = ContactVelocity::Absolute(&velocity, self.peripheral_speed());
-        contact_figure(
-            (names, "cylinder *Ωa*"),
-            (0.0, &status),
-            tractions,
-            velocity,
-        )
+        contact_figure((names, "cylinder *Ωa*"), (0.0, &status), tractions, velocity)
     }
 
     /// What a contact node goes through in two periods, on a ground coloured by its status.
@@ -111,9 +103,7 @@ impl CycleFigures<'_> {
         let samples = PERIODS * count + 1;
         let all = |values: &[f64]| -> Vec<(f64, f64)> {
             let values = values.iter().copied().cycle().take(samples).enumerate();
-            values
-                .map(|(i, value)| (i as f64 * interval, value))
-                .collect()
+            values.map(|(i, value)| (i as f64 * interval, value)).collect()
         };
         let status: Vec<ContactStatus> =
             wave.statuses().into_iter().cycle().take(samples).collect();
@@ -171,11 +161,7 @@ impl CycleFigures<'_> {
                 over_time(Axis::new("traction", "Pa").prefixed(), 90.0, "tractions")
                     .layer(limit(1.0))
                     .layer(limit(-1.0))
-                    .layer(
-                        Line::through(all(&wave.pressure))
-                            .solid(INK, 1.1)
-                            .name("pressure *p*"),
-                    )
+                    .layer(Line::through(all(&wave.pressure)).solid(INK, 1.1).name("pressure *p*"))
                     .layer(
                         Line::through(all(&wave.shear))
                             .solid(SERIES[1], 1.1)
@@ -192,22 +178,17 @@ impl CycleFigures<'_> {
         let loop_of = |caption: &str, x: (&str, &[f64]), y: (&str, &str, &[f64])| {
             let points = || x.1.iter().copied().zip(y.2.iter().copied());
             let closed: Vec<(f64, f64)> = points().chain(points().next()).collect();
-            Panel::new(
-                Axis::new(x.0, "m").prefixed(),
-                Axis::new(y.0, y.1).prefixed(),
-            )
-            .height(128.0)
-            .caption(caption)
-            .layers(status_curves(&closed, &status))
-            .layer(Line::through(closed).solid(INK, 0.0).arrows(3))
+            Panel::new(Axis::new(x.0, "m").prefixed(), Axis::new(y.0, y.1).prefixed())
+                .height(128.0)
+                .caption(caption)
+                .layers(status_curves(&closed, &status))
+                .layer(Line::through(closed).solid(INK, 0.0).arrows(3))
         };
         let caption = format!(
             "Phase plots, tangential (a) and radial (b), and path (c) of a contact node in the limit cycle of {} nodal diameters.",
             family.harmonic
         );
-        let cylinder = Rule::horizontal(self.peripheral_speed())
-            .stretching()
-            .name("cylinder *Ωa*");
+        let cylinder = Rule::horizontal(self.peripheral_speed()).stretching().name("cylinder *Ωa*");
         Figure::new(format!("orbit-{}", family.tag()), caption)
             .columns(3)
             .panel(
@@ -243,51 +224,31 @@ impl CycleFigures<'_> {
     fn motion(&self) -> Motion {
         let body = MovingBody::new(self.mesh);
         let sense = -self.contact.rotation_speed.signum();
-        let states = self
-            .cycles()
-            .take(FIELD_LIMIT)
-            .map(|(family, wave)| MotionState {
-                name: plain(&heading(family.harmonic, wave)),
-                frequency_hz: wave.frequency_hz,
-                kind: MotionKind::Turning {
-                    displacement: body.wave(&wave.displacement_field),
-                    turn: sense * TAU / family.harmonic as f64,
-                    status: self.around(family.harmonic, wave),
-                },
-            });
-        Motion {
-            states: states.collect(),
-            ..body.at_rest()
-        }
+        let states = self.cycles().take(FIELD_LIMIT).map(|(family, wave)| MotionState {
+            name: plain(&heading(family.harmonic, wave)),
+            frequency_hz: wave.frequency_hz,
+            kind: MotionKind::Turning {
+                displacement: body.wave(&wave.displacement_field),
+                turn: sense * TAU / family.harmonic as f64,
+                status: self.around(family.harmonic, wave),
+            },
+        });
+        Motion { states: states.collect(), ..body.at_rest() }
     }
 
     fn velocity(&self) -> Result<Figure, ChartError> {
-        let frames = self
-            .cycles()
-            .take(FIELD_LIMIT)
-            .map(|(family, wave)| -> FieldFrame {
-                let n = family.harmonic;
-                let codes = self.around(n, wave);
-                let status = codes.into_iter().map(status_of_code).collect();
-                let speeds = wave
-                    .velocity_field
-                    .chunks_exact(2)
-                    .map(|v| v[0].hypot(v[1]));
-                (heading(n, wave), speeds.collect(), status)
-            });
-        let caption = (
-            "velocity",
-            "Velocity modulus and contact status of the waves at one instant.",
-        );
+        let frames = self.cycles().take(FIELD_LIMIT).map(|(family, wave)| -> FieldFrame {
+            let n = family.harmonic;
+            let codes = self.around(n, wave);
+            let status = codes.into_iter().map(status_of_code).collect();
+            let speeds = wave.velocity_field.chunks_exact(2).map(|v| v[0].hypot(v[1]));
+            (heading(n, wave), speeds.collect(), status)
+        });
+        let caption =
+            ("velocity", "Velocity modulus and contact status of the waves at one instant.");
         let axis = Axis::new("velocity |*v*|", "m/s");
-        field_figure(
-            caption,
-            &Disc::new(self.mesh),
-            &axis,
-            ColourMap::Viridis,
-            frames.collect(),
-        )
-        .map(|figure| figure.motion(self.motion()))
+        field_figure(caption, &Disc::new(self.mesh), &axis, ColourMap::Viridis, frames.collect())
+            .map(|figure| figure.motion(self.motion()))
     }
 
     fn shear_stress(&self) -> Result<Figure, ChartError> {

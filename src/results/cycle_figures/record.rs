@@ -144,9 +144,7 @@ impl CycleRecord {
     pub fn of(report: &CycleReport<'_>) -> Self {
         Self {
             families: report.results.iter().map(FamilyRecord::of).collect(),
-            two_waves: (report.two_waves.iter())
-                .filter_map(TwoWaveRecord::of)
-                .collect(),
+            two_waves: (report.two_waves.iter()).filter_map(TwoWaveRecord::of).collect(),
         }
     }
 }
@@ -154,10 +152,7 @@ impl CycleRecord {
 impl FamilyRecord {
     /// Which limit cycles.
     pub fn family(&self) -> Family {
-        Family {
-            harmonic: self.harmonic,
-            onset: self.onset,
-        }
+        Family { harmonic: self.harmonic, onset: self.onset }
     }
 
     /// What the figures show of the cycles of one harmonic.
@@ -263,11 +258,7 @@ impl BranchRecord {
                     leading.map(|leading| leading.exponent.re)
                 })
                 .collect(),
-            folds: branch
-                .folds
-                .iter()
-                .map(|&fold| branch.parameter.in_key_units(fold))
-                .collect(),
+            folds: branch.folds.iter().map(|&fold| branch.parameter.in_key_units(fold)).collect(),
         }
     }
 }

@@ -78,29 +78,18 @@ fn absence(cycle: &Value) -> String {
 
 fn branch_text(cycle: &Value) -> Option<String> {
     let branch = cycle.get("branch")?;
-    let text = |pointer: &str| {
-        branch
-            .pointer(pointer)
-            .and_then(Value::as_str)
-            .unwrap_or("?")
-    };
+    let text = |pointer: &str| branch.pointer(pointer).and_then(Value::as_str).unwrap_or("?");
     let folds = entries(branch, "folds").iter();
     let folds: Vec<f64> = folds.filter_map(Value::as_f64).collect();
     // Any parameter, of any size.
     let text_of = |value: f64| {
-        format!("{value:.6e}")
-            .parse::<f64>()
-            .map_or_else(|_| String::new(), |v| format!("{v:?}"))
+        format!("{value:.6e}").parse::<f64>().map_or_else(|_| String::new(), |v| format!("{v:?}"))
     };
     let (low, high) = extremes(folds.iter().copied());
     let folds = match folds.len() {
         0 => "no fold".to_owned(),
         1 => format!("a fold at {}", text_of(low)),
-        count => format!(
-            "{count} folds between {} and {}",
-            text_of(low),
-            text_of(high)
-        ),
+        count => format!("{count} folds between {} and {}", text_of(low), text_of(high)),
     };
     let saturation = match branch["saturation_speed_rpm"].as_f64() {
         Some(speed) => format!("; no point sticks above {speed:.1} rpm"),

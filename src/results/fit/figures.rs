@@ -11,19 +11,15 @@ pub fn fit(summary: &FitSummary) -> Figure {
         let own: Vec<(f64, f64)> = own.map(|mode| (mode.frequency_hz, mode.real_hz)).collect();
         Points::new(own)
     };
-    let heard = summary
-        .residuals
-        .iter()
-        .filter(|line| line.real_hz.is_none());
+    let heard = summary.residuals.iter().filter(|line| line.real_hz.is_none());
     let rules = heard.map(|line| {
         Rule::vertical(line.frequency_hz)
             .stroke(Stroke::dashed(INK, 0.8))
             .name("measured frequency")
     });
     let complex = summary.residuals.iter();
-    let complex: Vec<(f64, f64)> = complex
-        .filter_map(|line| Some((line.frequency_hz, line.real_hz?)))
-        .collect();
+    let complex: Vec<(f64, f64)> =
+        complex.filter_map(|line| Some((line.frequency_hz, line.real_hz?))).collect();
     let highest = summary.residuals.iter().map(|line| line.frequency_hz);
     let highest = 1.1 * highest.fold(0.0_f64, f64::max);
     let lowest = summary.residuals.iter().map(|line| line.frequency_hz);
@@ -33,52 +29,39 @@ pub fn fit(summary: &FitSummary) -> Figure {
         .height(160.0)
         .layer(Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.6)))
         .layers(rules.collect::<Vec<_>>())
-        .layer(
-            Points::new(complex)
-                .marker(Marker::Square, 2.6, INK)
-                .name("measured"),
-        )
+        .layer(Points::new(complex).marker(Marker::Square, 2.6, INK).name("measured"))
         .layer(
             points(&summary.modes_of_case, true)
                 .marker(Marker::Triangle, 1.7, MUTED)
                 .name("case as written, unstable"),
         )
         .layer(
-            points(&summary.modes, false)
-                .marker(Marker::Disc, 1.5, STABLE)
-                .name("fitted, stable"),
+            points(&summary.modes, false).marker(Marker::Disc, 1.5, STABLE).name("fitted, stable"),
         )
         .layer(
             points(&summary.modes, true)
                 .marker(Marker::Disc, 2.0, UNSTABLE)
                 .name("fitted, unstable"),
         );
-    let frequencies = summary
-        .residuals
-        .iter()
-        .map(|line| (line.frequency_hz, line.difference_percent));
+    let frequencies =
+        summary.residuals.iter().map(|line| (line.frequency_hz, line.difference_percent));
     let reals = summary.residuals.iter().filter_map(|line| {
-        Some((
-            line.frequency_hz,
-            100.0 * line.real_difference_hz? / line.frequency_hz,
-        ))
+        Some((line.frequency_hz, 100.0 * line.real_difference_hz? / line.frequency_hz))
     });
-    let differences = Panel::new(
-        frequency(),
-        Axis::new("model – measured", "% of *f*").symmetric(),
-    )
-    .height(80.0)
-    .layer(Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.6)))
-    .layer(
-        Points::new(frequencies.collect::<Vec<_>>())
-            .marker(Marker::Disc, 1.8, STABLE)
-            .name("difference of frequency"),
-    )
-    .layer(
-        Points::new(reals.collect::<Vec<_>>())
-            .marker(Marker::Diamond, 1.6, UNSTABLE)
-            .name("difference of real part"),
-    );
+    let differences =
+        Panel::new(frequency(), Axis::new("model – measured", "% of *f*").symmetric())
+            .height(80.0)
+            .layer(Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.6)))
+            .layer(
+                Points::new(frequencies.collect::<Vec<_>>())
+                    .marker(Marker::Disc, 1.8, STABLE)
+                    .name("difference of frequency"),
+            )
+            .layer(
+                Points::new(reals.collect::<Vec<_>>())
+                    .marker(Marker::Diamond, 1.6, UNSTABLE)
+                    .name("difference of real part"),
+            );
     let measured = match summary.residuals.iter().any(|line| line.real_hz.is_some()) {
         true => "measured eigenvalues",
         false => "measured frequencies",

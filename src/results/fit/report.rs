@@ -82,8 +82,7 @@ fn lines(summary: &FitSummary) -> ReportTable {
     let rows = summary.residuals.iter().map(|line| {
         vec![
             format!("{:.1}", line.frequency_hz),
-            line.real_hz
-                .map_or(String::new(), |real| format!("{real:.1}")),
+            line.real_hz.map_or(String::new(), |real| format!("{real:.1}")),
             format!("{:.1}", line.mode.frequency_hz),
             format!("{:.1}", line.mode.real_hz),
             format!("{:+.3}", line.difference_percent),

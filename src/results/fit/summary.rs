@@ -153,9 +153,7 @@ impl FitSummary {
             }
         }
         let head = format!("# fitted to {}\n", self.measurement);
-        let blocks = sections
-            .iter()
-            .map(|(name, lines)| format!("[{name}]\n{lines}"));
+        let blocks = sections.iter().map(|(name, lines)| format!("[{name}]\n{lines}"));
         head + &blocks.collect::<Vec<_>>().join("\n")
     }
 
@@ -163,32 +161,22 @@ impl FitSummary {
     pub fn text(&self) -> String {
         let mut out = format!("{}\n", self.title);
         for (key, fitted) in &self.parameters {
-            let unit = if fitted.unit.is_empty() {
-                String::new()
-            } else {
-                format!(" {}", fitted.unit)
-            };
+            let unit =
+                if fitted.unit.is_empty() { String::new() } else { format!(" {}", fitted.unit) };
             let interval = match (fitted.low, fitted.high) {
                 (Some(low), Some(high)) => {
                     format!("95 % {} to {}", significant(low), significant(high))
                 }
                 _ => "no interval".to_owned(),
             };
-            let _ = writeln!(
-                out,
-                "  {key} = {}{unit}  ({interval})",
-                significant(fitted.value)
-            );
+            let _ = writeln!(out, "  {key} = {}{unit}  ({interval})", significant(fitted.value));
         }
         for (a, row) in &self.correlations {
             for (b, value) in row.iter().filter(|(b, _)| a < *b) {
                 let _ = writeln!(out, "  correlation of {a} and {b}: {value:+.3}");
             }
         }
-        let _ = writeln!(
-            out,
-            "\n  measured             model                differ  mode"
-        );
+        let _ = writeln!(out, "\n  measured             model                differ  mode");
         for line in &self.residuals {
             let real = |value: Option<f64>| value.map_or(String::new(), |v| format!("({v:+.1})"));
             let measured = format!("{:.1} {}", line.frequency_hz, real(line.real_hz));
@@ -198,8 +186,7 @@ impl FitSummary {
                 out,
                 "  {measured:<20} {model:<18} {percent:>+7.3} %  {}{}",
                 line.mode.name(),
-                line.mac
-                    .map_or(String::new(), |mac| format!("  MAC {mac:.3}")),
+                line.mac.map_or(String::new(), |mac| format!("  MAC {mac:.3}")),
             );
         }
         let _ = writeln!(

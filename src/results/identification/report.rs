@@ -53,20 +53,11 @@ fn html_report(summary: &IdentificationSummary) -> Report {
 fn coefficient_table(summary: &IdentificationSummary) -> ReportTable {
     let half = summary.half_power;
     let estimators = [
-        (
-            "fit of the response",
-            Some([summary.mass_coefficient, summary.stiffness_coefficient]),
-        ),
-        (
-            "half-power alone",
-            half.map(|h| [h.mass_coefficient, h.stiffness_coefficient]),
-        ),
+        ("fit of the response", Some([summary.mass_coefficient, summary.stiffness_coefficient])),
+        ("half-power alone", half.map(|h| [h.mass_coefficient, h.stiffness_coefficient])),
     ];
     let rows = estimators.iter().map(|(name, coefficients)| {
-        let numbers = coefficients
-            .iter()
-            .flatten()
-            .flat_map(|e| [e.value, e.low, e.high]);
+        let numbers = coefficients.iter().flatten().flat_map(|e| [e.value, e.low, e.high]);
         let mut row = vec![(*name).to_owned()];
         row.extend(numbers.map(|value| format!("{value:.4e}")));
         row.resize(7, String::new());
@@ -74,15 +65,7 @@ fn coefficient_table(summary: &IdentificationSummary) -> ReportTable {
     });
     ReportTable::new(
         "Rayleigh coefficients with their 95 % intervals",
-        [
-            "estimator",
-            "alpha_R (1/s)",
-            "from",
-            "to",
-            "beta_R (s)",
-            "from",
-            "to",
-        ],
+        ["estimator", "alpha_R (1/s)", "from", "to", "beta_R (s)", "from", "to"],
         rows,
     )
 }

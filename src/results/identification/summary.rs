@@ -192,10 +192,8 @@ impl IdentificationSummary {
             };
             let [from, to] = response.range_hz;
             let (source, quantity, lines) = (&self.source, &response.quantity, response.lines);
-            let _ = writeln!(
-                text,
-                "{source}:{name} {quantity}, {lines} lines from {from} to {to} Hz"
-            );
+            let _ =
+                writeln!(text, "{source}:{name} {quantity}, {lines} lines from {from} to {to} Hz");
         }
         text
     }
@@ -220,27 +218,16 @@ impl IdentificationSummary {
             );
         }
         for frequency_hz in &self.unmatched_peaks_hz {
-            let _ = writeln!(
-                text,
-                "      {frequency_hz:>12.2}  peak without a mode in the fit"
-            );
+            let _ = writeln!(text, "      {frequency_hz:>12.2}  peak without a mode in the fit");
         }
         let line = |name: &str, alpha: Estimate, beta: Estimate| {
             let ([a, al, ah], [b, bl, bh]) = (rounded(alpha), rounded(beta));
             format!("{name:<12} alpha_R = {a} 1/s [{al}, {ah}]   beta_R = {b} s [{bl}, {bh}]\n")
         };
-        text.push_str(&line(
-            "fit",
-            self.mass_coefficient,
-            self.stiffness_coefficient,
-        ));
+        text.push_str(&line("fit", self.mass_coefficient, self.stiffness_coefficient));
         match &self.half_power {
             Some(r) => {
-                text.push_str(&line(
-                    "half-power",
-                    r.mass_coefficient,
-                    r.stiffness_coefficient,
-                ));
+                text.push_str(&line("half-power", r.mass_coefficient, r.stiffness_coefficient));
             }
             None => text.push_str("half-power   fewer than three modes without doubt\n"),
         }
@@ -283,9 +270,9 @@ fn flag(mode: &IdentifiedMode) -> Option<String> {
     let note = mode.half_power.and_then(|b| b.note);
     match (mode.fitted.overlaps_hz, note) {
         (Some(other), _) => Some(format!("close: overlaps the mode at {other:.1} Hz")),
-        (None, Some(ResonanceNote::Overlaps(other))) => Some(format!(
-            "close: half-power band reaches that at {other:.1} Hz"
-        )),
+        (None, Some(ResonanceNote::Overlaps(other))) => {
+            Some(format!("close: half-power band reaches that at {other:.1} Hz"))
+        }
         (None, Some(ResonanceNote::TooCoarse(lines))) => {
             Some(format!("coarse: {lines} lines in the half-power band"))
         }

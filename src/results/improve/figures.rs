@@ -41,11 +41,7 @@ pub fn draw(
     let targets = order.into_iter().take(MOST).map(declare);
     let declarations = targets.chain([of_front]).collect();
     let figures = draw_all(declarations, options)?;
-    write_report(
-        folder,
-        &report(summary, figures, folder.manifest()),
-        options,
-    )
+    write_report(folder, &report(summary, figures, folder.manifest()), options)
 }
 
 /// The derivatives of one growth rate over the body, a panel for each kind of modification.
@@ -65,38 +61,20 @@ fn target_figure(
         |what: &str, size: f64, unit: &str| format!("{what}, {} {unit}", significant(size, 3));
     let (removal, damping) = (nodal(mesh, &own.removal), nodal(mesh, &own.damping));
     let panels = [
-        (
-            "mass",
-            text("mass", sizes.mass_kg, &unit("kg")),
-            sizes.mass_kg,
-            &own.mass,
-        ),
+        ("mass", text("mass", sizes.mass_kg, &unit("kg")), sizes.mass_kg, &own.mass),
         (
             "spring",
-            text(
-                "spring to the ground",
-                sizes.stiffness_n_per_m,
-                &unit("N/m"),
-            ),
+            text("spring to the ground", sizes.stiffness_n_per_m, &unit("N/m")),
             sizes.stiffness_n_per_m,
             &own.spring,
         ),
         (
             "dashpot",
-            text(
-                "dashpot to the ground",
-                sizes.damping_n_s_per_m,
-                &unit("N s/m"),
-            ),
+            text("dashpot to the ground", sizes.damping_n_s_per_m, &unit("N s/m")),
             sizes.damping_n_s_per_m,
             &own.dashpot,
         ),
-        (
-            "removal",
-            text("removal within", radius, "m"),
-            patch,
-            &removal,
-        ),
+        ("removal", text("removal within", radius, "m"), patch, &removal),
         (
             "damping",
             text("damping layer within", radius, "m"),
@@ -113,9 +91,8 @@ fn target_figure(
             _ => solid_panel(mesh, values, axis),
         };
         let candidates = summary.candidates.iter().filter(|own| own.kind == kind);
-        let places: Vec<(f64, f64)> = candidates
-            .map(|own| (own.position_m[0], own.position_m[1]))
-            .collect();
+        let places: Vec<(f64, f64)> =
+            candidates.map(|own| (own.position_m[0], own.position_m[1])).collect();
         let panel = panel.caption(caption).height(150.0).colour_bar(Side::Right);
         match mesh.dimension {
             2 if !places.is_empty() => {
@@ -135,8 +112,7 @@ fn target_figure(
 
 fn plane_panel(mesh: &Mesh, values: &[f64], axis: Axis) -> Panel {
     let disc = Disc::new(mesh);
-    disc.panel(0.03)
-        .layer(disc.field(values.to_vec(), axis, ColourMap::Diverging))
+    disc.panel(0.03).layer(disc.field(values.to_vec(), axis, ColourMap::Diverging))
 }
 
 fn solid_panel(mesh: &Mesh, values: &[f64], axis: Axis) -> Panel {
@@ -154,7 +130,5 @@ fn nodal(mesh: &Mesh, values: &[f64]) -> Vec<f64> {
             sums[node as usize][1] += 1.0;
         }
     }
-    sums.into_iter()
-        .map(|[sum, count]: [f64; 2]| sum / count.max(1.0))
-        .collect()
+    sums.into_iter().map(|[sum, count]: [f64; 2]| sum / count.max(1.0)).collect()
 }

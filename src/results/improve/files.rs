@@ -36,24 +36,12 @@ pub fn write(
             ("direction_y", &|own| along(own, 1).into()),
             ("direction_z", &|own| along(own, 2).into()),
             ("added_mass_kg", &|own| own.added_mass_kg.into()),
-            ("first_order_growth_rate_per_s", &|own| {
-                own.first_order_growth_rate_per_s.into()
-            }),
-            ("predicted_growth_rate_per_s", &|own| {
-                of(Some(own.predicted), growth)
-            }),
-            ("predicted_critical_friction", &|own| {
-                of(Some(own.predicted), critical)
-            }),
-            ("confirmed_growth_rate_per_s", &|own| {
-                of(own.confirmed, growth)
-            }),
-            ("confirmed_critical_friction", &|own| {
-                of(own.confirmed, critical)
-            }),
-            ("confirmed_unstable_beside", &|own| {
-                of(own.confirmed, beside)
-            }),
+            ("first_order_growth_rate_per_s", &|own| own.first_order_growth_rate_per_s.into()),
+            ("predicted_growth_rate_per_s", &|own| of(Some(own.predicted), growth)),
+            ("predicted_critical_friction", &|own| of(Some(own.predicted), critical)),
+            ("confirmed_growth_rate_per_s", &|own| of(own.confirmed, growth)),
+            ("confirmed_critical_friction", &|own| of(own.confirmed, critical)),
+            ("confirmed_unstable_beside", &|own| of(own.confirmed, beside)),
             ("verdict", &|own| own.verdict.clone().into()),
             ("keys", &|own| own.keys.join("; ").into()),
         ];
@@ -70,9 +58,7 @@ pub fn write(
     if let Some(best) = best {
         folder.write("improved.toml", |out| {
             writeln!(out, "# {}", best.place())?;
-            best.keys
-                .iter()
-                .try_for_each(|key| writeln!(out, "{}", key.replacen('=', " = ", 1)))
+            best.keys.iter().try_for_each(|key| writeln!(out, "{}", key.replacen('=', " = ", 1)))
         })?;
     }
     Ok(())

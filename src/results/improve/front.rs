@@ -39,18 +39,10 @@ pub(super) fn write_front(out: &mut dyn Write, front: &[FrontPoint]) -> io::Resu
         ("x_m", &|own| own.candidate.position_m[0].into()),
         ("y_m", &|own| own.candidate.position_m[1].into()),
         ("z_m", &|own| own.candidate.position_m[2].into()),
-        ("predicted_growth_rate_per_s", &|own| {
-            growth(Some(own.candidate.predicted)).into()
-        }),
-        ("predicted_critical_friction", &|own| {
-            onset(Some(own.candidate.predicted)).into()
-        }),
-        ("confirmed_growth_rate_per_s", &|own| {
-            growth(own.candidate.confirmed).into()
-        }),
-        ("confirmed_critical_friction", &|own| {
-            onset(own.candidate.confirmed).into()
-        }),
+        ("predicted_growth_rate_per_s", &|own| growth(Some(own.candidate.predicted)).into()),
+        ("predicted_critical_friction", &|own| onset(Some(own.candidate.predicted)).into()),
+        ("confirmed_growth_rate_per_s", &|own| growth(own.candidate.confirmed).into()),
+        ("confirmed_critical_friction", &|own| onset(own.candidate.confirmed).into()),
         ("on_front", &|own| own.on_front.into()),
         ("verdict", &|own| own.candidate.verdict.clone().into()),
         ("keys", &|own| own.candidate.keys.join("; ").into()),
@@ -82,10 +74,7 @@ pub(super) fn text(summary: &ImproveSummary) -> String {
             own.candidate.kind,
             own.candidate.place(),
             onset(&own.candidate.predicted),
-            own.candidate
-                .confirmed
-                .as_ref()
-                .map_or("-".to_owned(), onset),
+            own.candidate.confirmed.as_ref().map_or("-".to_owned(), onset),
             mark(own),
         );
     }
@@ -103,10 +92,7 @@ pub(super) fn table_of_front(summary: &ImproveSummary) -> ReportTable {
             own.candidate.kind.clone(),
             own.candidate.place(),
             onset(&own.candidate.predicted),
-            own.candidate
-                .confirmed
-                .as_ref()
-                .map_or(String::new(), onset),
+            own.candidate.confirmed.as_ref().map_or(String::new(), onset),
             mark(own),
         ]
     };
@@ -159,9 +145,7 @@ pub(super) fn front_figure(summary: &ImproveSummary) -> Result<Figure, ChartErro
     let steps = steps(summary, start);
     let y = Axis::new("critical friction *μ*_{c}", "–").including(start);
     let mut panel = Panel::new(
-        Axis::new("mass added or taken away", &summary.extent.unit("g"))
-            .times(1e3)
-            .including(0.0),
+        Axis::new("mass added or taken away", &summary.extent.unit("g")).times(1e3).including(0.0),
         y,
     )
     .height(170.0)
@@ -171,19 +155,10 @@ pub(super) fn front_figure(summary: &ImproveSummary) -> Result<Figure, ChartErro
             .stretching()
             .name("friction of the case: points on it are silenced"),
     )
-    .layer(
-        Rule::horizontal(start)
-            .stroke(Stroke::dashed(INK, 0.8))
-            .name("as it is"),
-    )
-    .layer(
-        Line::through(steps)
-            .solid(STABLE, 1.4)
-            .name("front of those that hold"),
-    );
-    for (index, (kind, marker)) in [("mass", Marker::Disc), ("removal", Marker::Square)]
-        .into_iter()
-        .enumerate()
+    .layer(Rule::horizontal(start).stroke(Stroke::dashed(INK, 0.8)).name("as it is"))
+    .layer(Line::through(steps).solid(STABLE, 1.4).name("front of those that hold"));
+    for (index, (kind, marker)) in
+        [("mass", Marker::Disc), ("removal", Marker::Square)].into_iter().enumerate()
     {
         panel = panel.layers(points(summary, kind, (marker, look(index + 4).0)));
     }
@@ -211,9 +186,7 @@ fn steps(summary: &ImproveSummary, start: f64) -> Vec<(f64, f64)> {
             continue;
         };
         steps.push((weight(own), height));
-        height = state
-            .critical_friction
-            .unwrap_or(summary.friction_coefficient);
+        height = state.critical_friction.unwrap_or(summary.friction_coefficient);
         steps.push((weight(own), height));
     }
     steps.push((heaviest, height));
@@ -233,11 +206,8 @@ fn points(
         all.filter(move |own| own.candidate.kind == kind)
     };
     let predicted = own().map(|own| (weight(own), onset(&own.candidate.predicted)));
-    let mut layers = vec![
-        Points::new(predicted)
-            .marker(marker, 1.5, colour)
-            .name(format!("{kind}, predicted")),
-    ];
+    let mut layers =
+        vec![Points::new(predicted).marker(marker, 1.5, colour).name(format!("{kind}, predicted"))];
     for (holds, colour, name) in [
         (true, STABLE, format!("{kind}, run again")),
         (false, UNSTABLE, format!("{kind}, run again and struck off")),

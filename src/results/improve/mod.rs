@@ -142,9 +142,7 @@ impl Candidate {
     /// Where it is, in words.
     pub fn place(&self) -> String {
         // No minus sign before a zero.
-        let [x, y, z] = self
-            .position_m
-            .map(|value| (1e5 * value).round() / 1e2 + 0.0);
+        let [x, y, z] = self.position_m.map(|value| (1e5 * value).round() / 1e2 + 0.0);
         let depth = match z == 0.0 {
             true => String::new(),
             false => format!(", {z:.2}"),
@@ -168,20 +166,13 @@ impl ImproveSummary {
         let friction = self.friction_coefficient;
         let base = critical(self.base.critical_friction, friction);
         let best = self.candidates.iter().find(|own| own.verdict == "silenced");
-        let best = best.or_else(|| {
-            self.candidates
-                .iter()
-                .find(|own| own.verdict == "confirmed")
-        });
+        let best = best.or_else(|| self.candidates.iter().find(|own| own.verdict == "confirmed"));
         match (best, self.candidates.first()) {
             (Some(own), _) => format!(
                 "{} ({}): critical friction {base} -> {}, run again and {}",
                 own.kind,
                 own.place(),
-                critical(
-                    own.confirmed.and_then(|state| state.critical_friction),
-                    friction
-                ),
+                critical(own.confirmed.and_then(|state| state.critical_friction), friction),
                 own.verdict,
             ),
             (None, Some(own)) if own.confirmed.is_none() => format!(

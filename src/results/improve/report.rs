@@ -13,9 +13,7 @@ pub(super) fn report(
     manifest: &Manifest,
 ) -> Report {
     let (of_front, figures) = figures.into_iter().partition(|figure| figure.name == FRONT);
-    let paragraphs = vec![summary.answer()]
-        .into_iter()
-        .chain(summary.notes.iter().cloned());
+    let paragraphs = vec![summary.answer()].into_iter().chain(summary.notes.iter().cloned());
     Report {
         title: summary.title.clone(),
         sections: [
@@ -54,11 +52,7 @@ fn numbers(summary: &ImproveSummary) -> Vec<(String, String)> {
         ("critical friction as it is".to_owned(), onset),
     ];
     rows.extend(summary.modes.iter().map(|mode| {
-        let name = format!(
-            "mode {}, {} Hz",
-            mode.mode,
-            significant(mode.frequency_hz, 6)
-        );
+        let name = format!("mode {}, {} Hz", mode.mode, significant(mode.frequency_hz, 6));
         text(&name, mode.growth_rate_per_s, "1/s")
     }));
     let unit = |unit: &str| summary.extent.unit(unit);
@@ -77,10 +71,9 @@ fn table(summary: &ImproveSummary) -> ReportTable {
     let friction = summary.friction_coefficient;
     let growth = |value: Option<f64>| value.map_or(String::new(), |v| significant(v, 4));
     let both = |state: Option<&State>| match state {
-        Some(state) => [
-            growth(state.growth_rate_per_s),
-            critical(state.critical_friction, friction),
-        ],
+        Some(state) => {
+            [growth(state.growth_rate_per_s), critical(state.critical_friction, friction)]
+        }
         None => [String::new(), String::new()],
     };
     let row = |own: &Candidate| {

@@ -107,9 +107,7 @@ impl MacSummary {
         );
         for pair in &self.pairs {
             let (shape, mode) = self.pair(pair);
-            let measured = shape
-                .frequency_hz
-                .map_or("-".to_owned(), |hz| format!("{hz:.2}"));
+            let measured = shape.frequency_hz.map_or("-".to_owned(), |hz| format!("{hz:.2}"));
             let _ = writeln!(
                 out,
                 "{:>10} {measured:>12} {:>6} {:>12.2} {:>9.2} {:>7.4}",
@@ -147,13 +145,9 @@ pub fn write_mac(folder: &OutputFolder, summary: &MacSummary) -> Result<(), Fold
     };
     let columns: &[Column<'_, (usize, usize)>] = &[
         ("shape", &|at| summary.shapes[at.0].name.clone().into()),
-        ("measured_frequency_hz", &|at| {
-            summary.shapes[at.0].frequency_hz.into()
-        }),
+        ("measured_frequency_hz", &|at| summary.shapes[at.0].frequency_hz.into()),
         ("mode", &|at| summary.modes[at.1].mode.into()),
-        ("frequency_hz", &|at| {
-            summary.modes[at.1].frequency_hz.into()
-        }),
+        ("frequency_hz", &|at| summary.modes[at.1].frequency_hz.into()),
         ("real_hz", &|at| summary.modes[at.1].real_hz.into()),
         ("harmonic", &|at| summary.modes[at.1].harmonic.into()),
         ("mac", &|at| summary.mac[at.0][at.1].into()),

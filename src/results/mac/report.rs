@@ -21,10 +21,7 @@ pub fn draw_mac(
     let results = vec![
         ("shapes".to_owned(), summary.shapes.len().to_string()),
         ("modes".to_owned(), summary.modes.len().to_string()),
-        (
-            "friction coefficient".to_owned(),
-            summary.friction_coefficient.to_string(),
-        ),
+        ("friction coefficient".to_owned(), summary.friction_coefficient.to_string()),
     ];
     let report = Report {
         title: summary.title.clone(),
@@ -43,12 +40,10 @@ fn matrix(summary: &MacSummary) -> Result<Figure, ChartError> {
     let (shapes, modes) = (summary.shapes.len(), summary.modes.len());
     let span = |count: usize| ((0.5, count as f64 + 0.5), count);
     let axis = Axis::new("modal assurance criterion", "").between(0.0, 1.0);
-    let heat = Heat::of_values(
-        span(modes),
-        span(shapes),
-        (axis, ColourMap::Viridis),
-        |mode, shape| summary.mac[shape][mode],
-    );
+    let heat =
+        Heat::of_values(span(modes), span(shapes), (axis, ColourMap::Viridis), |mode, shape| {
+            summary.mac[shape][mode]
+        });
     let pairs = summary.pairs.iter();
     let places = pairs.map(|pair: &MacPair| (pair.mode as f64, pair.shape as f64));
     let between = |count: usize| (0.5, count as f64 + 0.5);
@@ -73,9 +68,7 @@ fn pairs_table(summary: &MacSummary) -> ReportTable {
         let (shape, mode) = summary.pair(pair);
         vec![
             shape.name.clone(),
-            shape
-                .frequency_hz
-                .map_or(String::new(), |hz| significant(hz, 6)),
+            shape.frequency_hz.map_or(String::new(), |hz| significant(hz, 6)),
             mode.mode.to_string(),
             significant(mode.frequency_hz, 6),
             significant(mode.real_hz, 4),

@@ -259,14 +259,8 @@ pub fn write_matrices(
     summary: &MatricesSummary,
 ) -> Result<(), FolderError> {
     for own in &system.matrices {
-        let comment = format!(
-            "{}, {}",
-            own.role.meaning(),
-            own.role.unit(system.dimension)
-        );
-        folder.write_bulk(&format!("{}.mtx", own.name), |out| {
-            own.matrix.write(&comment, out)
-        })?;
+        let comment = format!("{}, {}", own.role.meaning(), own.role.unit(system.dimension));
+        folder.write_bulk(&format!("{}.mtx", own.name), |out| own.matrix.write(&comment, out))?;
         folder.write_bulk(&format!("{}.npz", own.name), |out| {
             out.write_all(&compressed_rows(&own.matrix)?)
         })?;
@@ -289,28 +283,12 @@ pub fn write_matrices(
 /// Writes node, direction and place of every unknown.
 fn write_unknowns(folder: &OutputFolder, system: &ExportedSystem) -> Result<(), FolderError> {
     folder.write(UNKNOWNS, |out| {
-        let columns = [
-            "unknown",
-            "node",
-            "kind",
-            "direction_x",
-            "direction_y",
-            "direction_z",
-        ];
+        let columns = ["unknown", "node", "kind", "direction_x", "direction_y", "direction_z"];
         let mut table = Table::new(out, &[&columns[..], &["x_m", "y_m", "z_m"]].concat())?;
         for (k, own) in system.unknowns.iter().enumerate() {
-            let kind = if own.is_distance {
-                "distance"
-            } else {
-                "displacement"
-            };
+            let kind = if own.is_distance { "distance" } else { "displacement" };
             let mut row = vec![k.to_string(), own.node.to_string(), kind.to_owned()];
-            row.extend(
-                own.direction
-                    .iter()
-                    .chain(&own.place)
-                    .map(|v| format_number(*v)),
-            );
+            row.extend(own.direction.iter().chain(&own.place).map(|v| format_number(*v)));
             table.row(row)?;
         }
         table.finish()
@@ -322,23 +300,8 @@ fn write_unknowns(folder: &OutputFolder, system: &ExportedSystem) -> Result<(), 
 fn write_contact(folder: &OutputFolder, system: &ExportedSystem) -> Result<(), FolderError> {
     folder.write(CONTACT, |out| {
         let columns: &[&str] = match system.dimension {
-            3 => &[
-                "point",
-                "contact",
-                "status",
-                "area_m2",
-                "normal_force_n",
-                "x_m",
-                "y_m",
-                "z_m",
-            ],
-            _ => &[
-                "point",
-                "node",
-                "status",
-                "length_m",
-                "normal_force_n_per_m",
-            ],
+            3 => &["point", "contact", "status", "area_m2", "normal_force_n", "x_m", "y_m", "z_m"],
+            _ => &["point", "node", "status", "length_m", "normal_force_n_per_m"],
         };
         let mut table = Table::new(out, columns)?;
         for (k, own) in system.contact.iter().enumerate() {
@@ -365,11 +328,7 @@ fn compressed_rows(matrix: &MarketMatrix) -> io::Result<Vec<u8>> {
     archive.array("indices", &[columns.len()], whole(columns))?;
     archive.array("indptr", &[pointers.len()], whole(pointers))?;
     archive.word("format", "csr")?;
-    archive.array(
-        "shape",
-        &[2],
-        [matrix.rows as i64, matrix.columns as i64].into_iter(),
-    )?;
+    archive.array("shape", &[2], [matrix.rows as i64, matrix.columns as i64].into_iter())?;
     archive.array("data", &[values.len()], values.into_iter())?;
     archive.finish()
 }

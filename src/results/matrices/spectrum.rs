@@ -54,10 +54,7 @@ pub struct FreeSpectrumSummary {
 
 impl Summary for FreeSpectrumSummary {
     fn headline(&self) -> Vec<Entry> {
-        vec![
-            Entry::new("modes", self.modes),
-            Entry::new("unstable", self.unstable),
-        ]
+        vec![Entry::new("modes", self.modes), Entry::new("unstable", self.unstable)]
     }
 }
 
@@ -85,12 +82,8 @@ impl FreeSpectrum {
             let mut table = Table::new(out, &columns)?;
             for (k, mode) in self.modes.iter().enumerate() {
                 let lambda = mode.eigenvalue;
-                let numbers = [
-                    lambda.re / TAU,
-                    lambda.im / TAU,
-                    -lambda.re / lambda.norm(),
-                    lambda.re,
-                ];
+                let numbers =
+                    [lambda.re / TAU, lambda.im / TAU, -lambda.re / lambda.norm(), lambda.re];
                 // No friction coefficient, no harmonic, no direction, no contact.
                 let mut row = vec![String::new(), (k + 1).to_string()];
                 row.extend(numbers.map(format_number));
@@ -113,11 +106,7 @@ impl FreeSpectrum {
                 modes: self.modes.len(),
                 unstable: self.unstable(),
                 overdamped: self.overdamped,
-                max_residual: self
-                    .modes
-                    .iter()
-                    .map(|mode| mode.residual)
-                    .fold(0.0, f64::max),
+                max_residual: self.modes.iter().map(|mode| mode.residual).fold(0.0, f64::max),
                 manifest: folder.manifest().clone(),
             },
         )

@@ -145,9 +145,8 @@ fn condition_name(condition: BoundaryCondition) -> &'static str {
 }
 
 /// Colours of the elements of the regions, which take them in turns.
-const REGION_COLOURS: [&str; 6] = [
-    "#7d7d7d", "#b07d2b", "#4f8f5f", "#7a5c99", "#3f7fa8", "#a85858",
-];
+const REGION_COLOURS: [&str; 6] =
+    ["#7d7d7d", "#b07d2b", "#4f8f5f", "#7a5c99", "#3f7fa8", "#a85858"];
 
 /// Caption of the picture of a case.
 fn caption(title: &str) -> String {
@@ -168,8 +167,7 @@ pub fn write_mesh(
 ) -> Result<(), FolderError> {
     let ids = (0..mesh.node_count()).map(|node| mesh.node_label(node) as i64);
     let mut edge = vec![0; mesh.node_count()];
-    mesh.held_dofs()
-        .for_each(|dof| edge[dof / mesh.dimension] = 2);
+    mesh.held_dofs().for_each(|dof| edge[dof / mesh.dimension] = 2);
     contact.into_iter().for_each(|node| edge[node as usize] = 1);
     let fields = [
         Field::integers("node_id", ids.collect()),

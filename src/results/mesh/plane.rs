@@ -23,11 +23,7 @@ pub fn print(summary: &MeshSummary<MeshStatistics>) -> String {
         let quantity = quantity(&entry.path);
         format!("{} {}", quantity.cell(&entry.value), quantity.caption)
     });
-    let mut out = format!(
-        "{}\n{}\n",
-        counts.collect::<Vec<_>>().join(", "),
-        mesh.shape.text()
-    );
+    let mut out = format!("{}\n{}\n", counts.collect::<Vec<_>>().join(", "), mesh.shape.text());
     if let (Some(elements), Some(nodes)) =
         (mesh.elements_per_wavelength, mesh.contact_nodes_per_wave)
     {
@@ -154,11 +150,7 @@ impl MeshStatistics {
         self.size.nodes = sectors * sector.node_count();
         self.size.elements = sectors * sector.elements.len();
         self.size.dofs = 3 * self.size.nodes;
-        self.size.contact_nodes = sector
-            .rings
-            .iter()
-            .map(|ring| sectors * ring.nodes.len())
-            .sum();
+        self.size.contact_nodes = sector.rings.iter().map(|ring| sectors * ring.nodes.len()).sum();
         self.axial_elements = Some(sector.specification.axial_elements);
         self.nodes_per_sector = Some(sector.node_count());
         if sector.specification.contact != SolidContact::Inner {
@@ -173,11 +165,7 @@ impl MeshStatistics {
         let mut regions: Vec<RegionStatistics> = mesh
             .regions
             .iter()
-            .map(|name| RegionStatistics {
-                name: name.clone(),
-                elements: 0,
-                area_m2: 0.0,
-            })
+            .map(|name| RegionStatistics { name: name.clone(), elements: 0, area_m2: 0.0 })
             .collect();
         for element in 0..mesh.element_count() {
             let region = &mut regions[mesh.region(element)];
@@ -187,9 +175,7 @@ impl MeshStatistics {
         let area: f64 = regions.iter().map(|region| region.area_m2).sum();
         let exact = |annulus: &AnnulusMesh| {
             let spec = &annulus.specification;
-            let bore = spec
-                .shaft
-                .map_or(spec.inner_radius, |shaft| shaft.inner_radius);
+            let bore = spec.shaft.map_or(spec.inner_radius, |shaft| shaft.inner_radius);
             std::f64::consts::PI * (spec.outer_radius.powi(2) - bore.powi(2))
         };
         let contact = mesh.contact_edge();
@@ -247,9 +233,8 @@ pub fn write_revolution(folder: &OutputFolder, sector: &SolidSector) -> Result<(
         // 1 contact, 2 held, 0 elsewhere.
         Field::integers("edge", edge),
     ];
-    folder.write("mesh.vtu", |out| {
-        write_vtu(out, &EncodedMesh::solid(sector)?, &[], &fields, &[])
-    })?;
+    folder
+        .write("mesh.vtu", |out| write_vtu(out, &EncodedMesh::solid(sector)?, &[], &fields, &[]))?;
     Ok(())
 }
 
@@ -268,10 +253,7 @@ pub fn draw_mesh(
     let row = |key: &str, value: Option<f64>| Some(number(key, value?));
     let further = [
         row("area_m2", Some(statistics.area_m2)),
-        row(
-            "elements_per_wavelength",
-            statistics.elements_per_wavelength,
-        ),
+        row("elements_per_wavelength", statistics.elements_per_wavelength),
         row("contact_nodes_per_wave", statistics.contact_nodes_per_wave),
     ];
     let mut numbers = numbers(&statistics.size, &statistics.shape);
@@ -286,11 +268,7 @@ fn region_table(mesh: &MeshStatistics) -> ReportTable {
         let area = format!("{:.6e}", region.area_m2);
         vec![region.name.clone(), region.elements.to_string(), area]
     };
-    ReportTable::new(
-        "Regions",
-        ["region", "elements", "area (m2)"],
-        mesh.regions.iter().map(row),
-    )
+    ReportTable::new("Regions", ["region", "elements", "area (m2)"], mesh.regions.iter().map(row))
 }
 
 fn boundary_table(mesh: &MeshStatistics) -> ReportTable {

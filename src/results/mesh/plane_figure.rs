@@ -18,12 +18,9 @@ pub(super) fn figure(mesh: &Mesh, title: &str, probes: &[usize]) -> Figure {
     let place = |node: u32| (mesh.nodes[node as usize][0], mesh.nodes[node as usize][1]);
     let [low, high] = Window::window(&mesh.plane_nodes(), 0.1);
     let size = high[0] - low[0];
-    let known = probes
-        .iter()
-        .filter(|&&probe| (1..=mesh.node_count()).contains(&probe));
-    let known: Vec<(usize, (f64, f64))> = known
-        .map(|&probe| (probe, place(probe as u32 - 1)))
-        .collect();
+    let known = probes.iter().filter(|&&probe| (1..=mesh.node_count()).contains(&probe));
+    let known: Vec<(usize, (f64, f64))> =
+        known.map(|&probe| (probe, place(probe as u32 - 1))).collect();
     let labels = known.iter().map(|(probe, at)| {
         Label::new(*at, mesh.node_label(probe - 1).to_string()).moved(4.0, -4.0)
     });
@@ -98,9 +95,8 @@ fn edge(mesh: &Mesh, (b, boundary): (usize, &Boundary), longest: f64) -> Option<
     let mut points: Vec<(f64, f64)> = Vec::new();
     for &node in boundary.nodes.iter().chain(again) {
         let [x, y] = mesh.plane_node(node as usize);
-        let is_far = points
-            .last()
-            .is_some_and(|last| (x - last.0).hypot(y - last.1) > 2.0 * longest);
+        let is_far =
+            points.last().is_some_and(|last| (x - last.0).hypot(y - last.1) > 2.0 * longest);
         points.extend(is_far.then_some(GAP));
         points.push((x, y));
     }
@@ -117,8 +113,5 @@ fn normals(mesh: &Mesh, length: f64) -> Line {
         let (sin, cos) = angle.sin_cos();
         [(x, y), (x + length * cos, y + length * sin), GAP]
     });
-    Line::through(arrows)
-        .solid(INK, 0.6)
-        .arrows(1)
-        .name("outward normal of the contact edge")
+    Line::through(arrows).solid(INK, 0.6).arrows(1).name("outward normal of the contact edge")
 }

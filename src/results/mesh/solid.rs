@@ -82,16 +82,12 @@ impl SolidMeshStatistics {
             *by_kind.entry(name.to_owned()).or_default() += 1;
             counts[mesh.region(element)] += 1;
         }
-        let regions = mesh
-            .regions
-            .iter()
-            .enumerate()
-            .map(|(r, name)| SolidRegion {
-                name: name.clone(),
-                elements: counts[r],
-                volume_m3: volumes[r],
-                mass_kg: densities[r] * volumes[r],
-            });
+        let regions = mesh.regions.iter().enumerate().map(|(r, name)| SolidRegion {
+            name: name.clone(),
+            elements: counts[r],
+            volume_m3: volumes[r],
+            mass_kg: densities[r] * volumes[r],
+        });
         let regions: Vec<SolidRegion> = regions.collect();
         let contact_nodes: BTreeSet<u32> = roles
             .iter()
@@ -103,10 +99,7 @@ impl SolidMeshStatistics {
         };
         let worst = mesh.element_nodes(quality.worst_element);
         let centre = [0, 1, 2].map(|axis| {
-            let sum: f64 = worst
-                .iter()
-                .map(|&node| mesh.nodes[node as usize][axis])
-                .sum();
+            let sum: f64 = worst.iter().map(|&node| mesh.nodes[node as usize][axis]).sum();
             sum / worst.len() as f64
         });
         Self {
@@ -127,20 +120,16 @@ impl SolidMeshStatistics {
 
 /// The named boundaries of a mesh; `roles` of those that slide or are glued.
 fn boundaries_of(mesh: &Mesh, roles: &BTreeMap<usize, &'static str>) -> Vec<SolidBoundary> {
-    let boundaries = mesh
-        .boundaries
-        .iter()
-        .enumerate()
-        .map(|(b, boundary)| SolidBoundary {
-            name: boundary.name.clone(),
-            nodes: boundary.nodes.len(),
-            faces: boundary.faces.len(),
-            area_m2: mesh.face_area(&boundary.faces),
-            condition: match roles.get(&b) {
-                Some(role) => (*role).to_owned(),
-                None => condition_name(boundary.condition).to_owned(),
-            },
-        });
+    let boundaries = mesh.boundaries.iter().enumerate().map(|(b, boundary)| SolidBoundary {
+        name: boundary.name.clone(),
+        nodes: boundary.nodes.len(),
+        faces: boundary.faces.len(),
+        area_m2: mesh.face_area(&boundary.faces),
+        condition: match roles.get(&b) {
+            Some(role) => (*role).to_owned(),
+            None => condition_name(boundary.condition).to_owned(),
+        },
+    });
     boundaries.collect()
 }
 
@@ -149,9 +138,7 @@ pub fn print_solids(summary: &MeshSummary<SolidMeshStatistics>) -> String {
     let mesh = &summary.mesh;
     let size = &mesh.size;
     let kinds = mesh.elements_by_kind.iter();
-    let kinds: Vec<String> = kinds
-        .map(|(kind, count)| format!("{count} {kind}"))
-        .collect();
+    let kinds: Vec<String> = kinds.map(|(kind, count)| format!("{count} {kind}")).collect();
     let plural = if mesh.bodies == 1 { "y" } else { "ies" };
     let mut out = format!(
         "{} nodes, {} elements ({}), {} unknowns, {} contact nodes, {} separate bod{plural}\n",

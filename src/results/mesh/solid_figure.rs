@@ -71,22 +71,14 @@ fn figure(mesh: &Mesh, title: &str, roles: &BTreeMap<usize, &'static str>) -> Fi
         panel(surface, format!("boundaries, {from}"))
     });
     let body = MovingBody::with_elements(mesh);
-    let colours = [
-        ("regions", body.parts(region, &regions)),
-        ("boundaries", body.parts(condition, &legend)),
-    ];
-    let states = colours.map(|(name, kind)| MotionState {
-        name: name.to_owned(),
-        frequency_hz: 0.0,
-        kind,
-    });
+    let colours =
+        [("regions", body.parts(region, &regions)), ("boundaries", body.parts(condition, &legend))];
+    let states =
+        colours.map(|(name, kind)| MotionState { name: name.to_owned(), frequency_hz: 0.0, kind });
     Figure::new("mesh", super::caption(title))
         .columns(2)
         .panels(by_region.chain(by_condition))
-        .motion(Motion {
-            states: states.to_vec(),
-            ..body.at_rest()
-        })
+        .motion(Motion { states: states.to_vec(), ..body.at_rest() })
 }
 
 fn panel(surface: Surface, caption: String) -> Panel {

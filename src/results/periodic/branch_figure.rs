@@ -58,19 +58,14 @@ impl CurveRecord {
     fn fold_points(&self, ys: &[f64]) -> Points {
         let places = self.folds.iter().map(|&place| place as usize);
         let points: Vec<(f64, f64)> = places.map(|i| (self.values[i], ys[i])).collect();
-        Points::new(points)
-            .marker(Marker::Diamond, 2.4, SERIES[1])
-            .name("fold")
+        Points::new(points).marker(Marker::Diamond, 2.4, SERIES[1]).name("fold")
     }
 }
 
 /// The cycles along the parameter of the case: frequency, amplitude, status, power; stable ones solid, unstable ones dashed,
 /// with folds, the onset, and the case's own cycle.
 pub(super) fn branch_figure(motion: &MotionRecord) -> Result<Figure, ChartError> {
-    let curve = motion
-        .branch
-        .as_ref()
-        .filter(|curve| curve.values.len() > 1);
+    let curve = motion.branch.as_ref().filter(|curve| curve.values.len() > 1);
     let curve = curve.ok_or_else(|| ChartError::empty("cycles along a parameter"))?;
     let panel = |y: Axis, height: f64| {
         let onsets = curve.onsets.iter().map(|&onset| {
@@ -140,11 +135,7 @@ fn coexistence(curve: &CurveRecord) -> String {
     let text = |value: f64| crate::results::quantity::significant(value, 4);
     let both = curve.coexistence.iter();
     let both = both.map(|&[from, to]| {
-        format!(
-            " Stable sliding and a limit cycle coexist from {} to {}.",
-            text(from),
-            text(to)
-        )
+        format!(" Stable sliding and a limit cycle coexist from {} to {}.", text(from), text(to))
     });
     both.collect()
 }

@@ -82,9 +82,9 @@ impl PeriodicFigures<'_> {
     /// Where the shown contact nodes are.
     fn places(&self) -> Axis {
         match self.is_assembly() {
-            true => Axis::new("contact nodes in their order", "%")
-                .times(100.0 / TAU)
-                .between(0.0, TAU),
+            true => {
+                Axis::new("contact nodes in their order", "%").times(100.0 / TAU).between(0.0, TAU)
+            }
             false => place_axis(self.mesh.has_round_contact()),
         }
     }
@@ -93,22 +93,14 @@ impl PeriodicFigures<'_> {
     fn status(&self, motion: &MotionRecord) -> Result<Figure, ChartError> {
         let ends = (motion.times[0], motion.times[motion.times.len() - 1]);
         let codes = self.shown(&motion.status);
-        let map = status_map(
-            &motion.times,
-            codes.len() / motion.times.len(),
-            &codes,
-            ends,
-        );
+        let map = status_map(&motion.times, codes.len() / motion.times.len(), &codes, ends);
         let (map, _) = map.ok_or_else(|| ChartError::empty("statuses over a period"))?;
         let caption = format!(
             "Contact status of every contact node over one period of the limit cycle of {}.",
             motion.hertz()
         );
-        let panel = Panel::new(Axis::time(), self.places())
-            .plain()
-            .height(120.0)
-            .layer(map)
-            .legend();
+        let panel =
+            Panel::new(Axis::time(), self.places()).plain().height(120.0).layer(map).legend();
         Ok(Figure::new(format!("status-{}", motion.tag()), caption).panel(panel))
     }
 
@@ -169,19 +161,14 @@ impl PeriodicFigures<'_> {
             repeated.panel(metres(name), 62.0, caption).layer(line)
         };
         let line = |values: &[f64], colour, name: &str| {
-            Line::through(repeated.curve(values))
-                .solid(colour, 1.1)
-                .name(name)
+            Line::through(repeated.curve(values)).solid(colour, 1.1).name(name)
         };
         let [u_n, u_t] = &motion.displacement;
         let [v_n, v_t] = &motion.velocity;
 
         // What a node that sticks moves with, and the limits of friction, where they are numbers.
-        let counterface = (self.mesh.opposite.is_none()).then(|| {
-            Rule::horizontal(motion.counterface_speed)
-                .stretching()
-                .name("counterface")
-        });
+        let counterface = (self.mesh.opposite.is_none())
+            .then(|| Rule::horizontal(motion.counterface_speed).stretching().name("counterface"));
         let limit = |sign: f64| {
             let friction = sign * motion.friction_coefficient.unwrap_or(f64::NAN);
             let limit: Vec<f64> = motion.pressure.iter().map(|p| friction * p).collect();
@@ -198,11 +185,7 @@ impl PeriodicFigures<'_> {
         let traction = Axis::new("traction", "Pa").prefixed();
         Figure::new(format!("history-{}", motion.tag()), caption)
             .shared_x()
-            .panel(displacement(
-                "*u*_{t}",
-                u_t,
-                "displacement along the contact",
-            ))
+            .panel(displacement("*u*_{t}", u_t, "displacement along the contact"))
             .panel(displacement("*u*_{n}", u_n, "normal displacement"))
             .panel(
                 repeated
@@ -244,11 +227,7 @@ impl PeriodicFigures<'_> {
         let normal = ("displacement *u*_{n}", &u_n[..]);
         Figure::new(format!("orbit-{}", motion.tag()), caption)
             .columns(3)
-            .panel(loop_of(
-                "along the contact",
-                along,
-                ("velocity *v*_{t}", "m/s", v_t),
-            ))
+            .panel(loop_of("along the contact", along, ("velocity *v*_{t}", "m/s", v_t)))
             .panel(loop_of("normal", normal, ("velocity *v*_{n}", "m/s", v_n)))
             .panel(loop_of("path", along, (normal.0, "m", normal.1)))
     }
@@ -280,10 +259,8 @@ impl PeriodicFigures<'_> {
                 }
             }
         });
-        let caption = (
-            "velocity",
-            "Velocity modulus and contact status of the limit cycles at one instant.",
-        );
+        let caption =
+            ("velocity", "Velocity modulus and contact status of the limit cycles at one instant.");
         let axis = Axis::new("velocity |*v*|", "m/s");
         let disc = Disc::new(self.mesh);
         field_figure(caption, &disc, &axis, ColourMap::Viridis, frames.collect())
@@ -353,9 +330,11 @@ fn harmonics(motion: &MotionRecord) -> Figure {
     };
     let [normal, along] = &motion.harmonics;
     let amplitude = Axis::new("amplitude", "m").logarithmic();
-    let panel = Panel::new(Axis::kilohertz(), amplitude)
-        .height(110.0)
-        .layer(line(along, SERIES[0], "along the contact"));
+    let panel = Panel::new(Axis::kilohertz(), amplitude).height(110.0).layer(line(
+        along,
+        SERIES[0],
+        "along the contact",
+    ));
     // Rigid contact that stays closed leaves round-off along the normal.
     let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
     let panel = match largest(normal) > ROUND_OFF * largest(along) {
@@ -366,9 +345,5 @@ fn harmonics(motion: &MotionRecord) -> Figure {
 }
 
 pub(super) fn heading(motion: &MotionRecord) -> String {
-    format!(
-        "mode {}, {:.2} kHz",
-        motion.mode,
-        motion.frequency_hz * 1e-3
-    )
+    format!("mode {}, {:.2} kHz", motion.mode, motion.frequency_hz * 1e-3)
 }

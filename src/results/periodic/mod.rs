@@ -140,10 +140,8 @@ impl PeriodicReport<'_> {
     pub fn position(&self, node: u32) -> [f64; 3] {
         match self.solid {
             Some(sector) => {
-                let (own, turn) = (
-                    node as usize % sector.node_count(),
-                    node as usize / sector.node_count(),
-                );
+                let (own, turn) =
+                    (node as usize % sector.node_count(), node as usize / sector.node_count());
                 let (sine, cosine) = sector.angle(own, turn).sin_cos();
                 let place = &sector.nodes[own];
                 [place.radius * cosine, place.radius * sine, place.height]

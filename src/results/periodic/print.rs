@@ -63,12 +63,7 @@ fn result_line(out: &mut String, report: &PeriodicReport<'_>, result: &PeriodicR
     };
     let motion = &found.motion;
     let powers = motion.powers.scaled(report.thickness).contact;
-    let powers = [
-        powers.external,
-        powers.stick,
-        powers.slide,
-        powers.contact_dissipated,
-    ];
+    let powers = [powers.external, powers.stick, powers.slide, powers.contact_dissipated];
     let (frequency, fractions) = (motion.frequency_hz, motion.fractions);
     let line = printed_cycle(frequency, fractions, powers, report.extent);
     let _ = writeln!(out, "{line}");
@@ -146,10 +141,7 @@ fn branch_text(branch: &PeriodicBranch) -> String {
     };
     let onsets = match branch.onsets.is_empty() {
         true => String::new(),
-        false => format!(
-            "; steady sliding loses its stability at {}",
-            list(branch.onsets.clone())
-        ),
+        false => format!("; steady sliding loses its stability at {}", list(branch.onsets.clone())),
     };
     let both = branch.coexistence().into_iter();
     let both = both.map(|[from, to]| {
@@ -187,11 +179,7 @@ fn stability_text(found: &FloquetMultipliers) -> String {
         Some(leading) => format!(
             "{verdict}; the leading perturbation, {:.0} Hz from a harmonic, {} at {:.0} +- {:.0} 1/s{}",
             leading.beat_hz,
-            if leading.growth_rate > 0.0 {
-                "grows"
-            } else {
-                "decays"
-            },
+            if leading.growth_rate > 0.0 { "grows" } else { "decays" },
             leading.growth_rate.abs(),
             leading.uncertainty,
             leads_to(leading),
@@ -202,10 +190,7 @@ fn stability_text(found: &FloquetMultipliers) -> String {
 
 /// Whether a transient is expected to leave the cycle.
 fn leaves(found: &FoundCycle) -> bool {
-    let known = found
-        .stability
-        .as_ref()
-        .and_then(|found| found.as_ref().ok());
+    let known = found.stability.as_ref().and_then(|found| found.as_ref().ok());
     known.is_some_and(|found| found.verdict() == Verdict::Unstable)
 }
 

@@ -94,10 +94,7 @@ impl Record for PeriodicRecord {
 
     fn inconsistency(&self) -> Option<&'static str> {
         let is_whole = self.angles.len() == self.nodes.len()
-            && self
-                .cycles
-                .iter()
-                .all(|own| own.nodes() == self.nodes.len() && own.is_whole());
+            && self.cycles.iter().all(|own| own.nodes() == self.nodes.len() && own.is_whole());
         (!is_whole).then_some("its instants, nodes and harmonics do not fit together")
     }
 }
@@ -136,11 +133,7 @@ impl CurveRecord {
             stable: branch.motions.iter().map(BranchMotion::is_stable).collect(),
             folds: folds.map(|(i, _)| i as u64).collect(),
             onsets: branch.onsets.iter().map(|&at| in_units(at)).collect(),
-            coexistence: branch
-                .coexistence()
-                .into_iter()
-                .map(|ends| ends.map(in_units))
-                .collect(),
+            coexistence: branch.coexistence().into_iter().map(|ends| ends.map(in_units)).collect(),
         }
     }
 
@@ -187,10 +180,7 @@ impl MotionRecord {
             harmonics: [0, 1].map(|c| told.iter().map(|own| own.amplitude[c]).collect()),
             displacement_field,
             velocity_field,
-            branch: found
-                .branch
-                .as_ref()
-                .map(|branch| CurveRecord::of(branch, motion, report)),
+            branch: found.branch.as_ref().map(|branch| CurveRecord::of(branch, motion, report)),
         }
     }
 
@@ -203,9 +193,7 @@ impl MotionRecord {
         let mut edges = self.edge.iter();
         count > 0
             && self.node < nodes
-            && count
-                .checked_mul(nodes)
-                .is_some_and(|cells| cells <= MOST_CELLS)
+            && count.checked_mul(nodes).is_some_and(|cells| cells <= MOST_CELLS)
             && self.status.len() == count * nodes
             && columns.into_iter().all(|column| column.len() == count)
             && edges.all(|edge| edge.len() == nodes)

@@ -249,10 +249,7 @@ impl Summary for PeriodicSummary {
 
 /// The summary of a search.
 pub fn summary(report: &PeriodicReport<'_>, manifest: &Manifest) -> PeriodicSummary {
-    let cycles = report
-        .results
-        .iter()
-        .map(|result| summary_of(report, result));
+    let cycles = report.results.iter().map(|result| summary_of(report, result));
     PeriodicSummary {
         command: "cycle".to_owned(),
         title: report.title.to_owned(),
@@ -337,9 +334,7 @@ fn confirmed(
         agrees: run.agrees(motion),
         main_frequency_hz: present(run.main_frequency_hz),
         status: StatusFractions { stick, slip, open },
-        power_w: ExternalPower {
-            external: present(run.external_power * report.thickness),
-        },
+        power_w: ExternalPower { external: present(run.external_power * report.thickness) },
     }
 }
 
@@ -347,9 +342,7 @@ fn stability(found: &Result<FloquetMultipliers, String>) -> PeriodicStability {
     let multipliers = match found {
         Ok(multipliers) => multipliers,
         Err(error) => {
-            return PeriodicStability::Failed {
-                error: error.clone(),
-            };
+            return PeriodicStability::Failed { error: error.clone() };
         }
     };
     let verdict = multipliers.verdict();

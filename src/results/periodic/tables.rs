@@ -25,21 +25,15 @@ pub fn write(
     found: &FoundCycle,
 ) -> Result<(), FolderError> {
     let motion = &found.motion;
-    folder.write(&format!("cycle-{tag}.csv"), |out| {
-        write_history(out, motion)
-    })?;
-    folder.write(&format!("contact-{tag}.csv"), |out| {
-        write_contact(out, report, motion)
-    })?;
+    folder.write(&format!("cycle-{tag}.csv"), |out| write_history(out, motion))?;
+    folder.write(&format!("contact-{tag}.csv"), |out| write_contact(out, report, motion))?;
     let archive = |out: &mut dyn Write| out.write_all(&encode_contact(&report.interface, motion)?);
     folder.write_bulk(&format!("contact-{tag}.npz"), archive)?;
     folder.write(&format!("harmonics-{tag}.csv"), |out| {
         write_harmonics(out, motion, found.harmonic_count)
     })?;
     if let Some(Ok(multipliers)) = &found.stability {
-        folder.write(&format!("stability-{tag}.csv"), |out| {
-            write_multipliers(out, multipliers)
-        })?;
+        folder.write(&format!("stability-{tag}.csv"), |out| write_multipliers(out, multipliers))?;
     }
     if let Some(branch) = &found.branch {
         folder.write(&format!("branch-{tag}.csv"), |out| {
@@ -54,9 +48,7 @@ fn write_branch(out: &mut dyn Write, branch: &PeriodicBranch, thickness: f64) ->
     type Row<'a> = (&'a BranchMotion, PeriodicPowers);
     let parameter = branch.parameter;
     let columns: &[Column<'_, Row<'_>>] = &[
-        (parameter.key(), &|row| {
-            parameter.in_key_units(row.0.value).into()
-        }),
+        (parameter.key(), &|row| parameter.in_key_units(row.0.value).into()),
         ("main_frequency_hz", &|row| row.0.motion.frequency_hz.into()),
         ("stick", &|row| row.0.motion.fractions[0].into()),
         ("slip", &|row| row.0.motion.fractions[1].into()),
@@ -64,25 +56,15 @@ fn write_branch(out: &mut dyn Write, branch: &PeriodicBranch, thickness: f64) ->
         ("external_w", &|row| row.1.contact.external.into()),
         ("stick_w", &|row| row.1.contact.stick.into()),
         ("slide_w", &|row| row.1.contact.slide.into()),
-        ("contact_dissipated_w", &|row| {
-            row.1.contact.contact_dissipated.into()
-        }),
+        ("contact_dissipated_w", &|row| row.1.contact.contact_dissipated.into()),
         ("material_damping_w", &|row| row.1.material_damping.into()),
         ("normal_contact_w", &|row| row.1.contact.normal.into()),
         ("amplitude_m", &|row| row.0.motion.amplitude.into()),
-        ("velocity_level_db", &|row| {
-            row.0.motion.velocity_level().into()
-        }),
+        ("velocity_level_db", &|row| row.0.motion.velocity_level().into()),
         ("balance_residual", &|row| row.1.balance_residual().into()),
-        ("growth_rate_per_s", &|row| {
-            row.0.growth_rate().unwrap_or(f64::NAN).into()
-        }),
+        ("growth_rate_per_s", &|row| row.0.growth_rate().unwrap_or(f64::NAN).into()),
         ("stability", &|row| {
-            let known = row
-                .0
-                .stability
-                .as_ref()
-                .and_then(|found| found.as_ref().ok());
+            let known = row.0.stability.as_ref().and_then(|found| found.as_ref().ok());
             known.map_or("", |found| found.verdict().word()).into()
         }),
         ("residual", &|row| row.0.motion.residual.into()),
@@ -98,9 +80,7 @@ fn write_branch(out: &mut dyn Write, branch: &PeriodicBranch, thickness: f64) ->
 fn write_history(out: &mut dyn Write, motion: &PeriodicMotion) -> io::Result<()> {
     let node = motion.node;
     let columns: &[Column<'_, &ContactInstant>] = &[
-        ("phase_rad", &|at| {
-            (TAU * at.time * motion.frequency_hz).into()
-        }),
+        ("phase_rad", &|at| (TAU * at.time * motion.frequency_hz).into()),
         ("time_s", &|at| at.time.into()),
         ("status", &|at| at.status[node].name().into()),
         ("pressure_pa", &|at| at.pressure[node].into()),
@@ -141,12 +121,8 @@ fn write_contact(
         ("open", &|&i| motion.shares[i][2].into()),
         ("mean_pressure_pa", &|&i| mean(&|at| at.pressure[i]).into()),
         ("mean_shear_pa", &|&i| mean(&|at| at.shear[i]).into()),
-        ("amplitude_n_m", &|&i| {
-            half_range(&|at| at.displacement[i][0]).into()
-        }),
-        ("amplitude_t_m", &|&i| {
-            half_range(&|at| at.displacement[i][1]).into()
-        }),
+        ("amplitude_n_m", &|&i| half_range(&|at| at.displacement[i][0]).into()),
+        ("amplitude_t_m", &|&i| half_range(&|at| at.displacement[i][1]).into()),
     ];
     let is_written = |column: &&Column<'_, usize>| report.is_solid() || column.0 != "z_m";
     let columns: Vec<_> = columns.iter().filter(is_written).copied().collect();
@@ -185,19 +161,13 @@ fn encode_contact(interface: &ContactInterface, motion: &PeriodicMotion) -> io::
 fn write_harmonics(out: &mut dyn Write, motion: &PeriodicMotion, count: usize) -> io::Result<()> {
     let columns: &[Column<'_, (usize, &MotionHarmonic)>] = &[
         ("harmonic", &|row| row.0.into()),
-        ("frequency_hz", &|row| {
-            (row.0 as f64 * motion.frequency_hz).into()
-        }),
+        ("frequency_hz", &|row| (row.0 as f64 * motion.frequency_hz).into()),
         ("amplitude_n_m", &|row| row.1.amplitude[0].into()),
         ("amplitude_t_m", &|row| row.1.amplitude[1].into()),
         ("remainder", &|row| row.1.remainder.into()),
     ];
     let numbered = motion.harmonics.iter().take(count).enumerate();
-    write_rows(
-        out,
-        columns,
-        numbered.map(|(k, harmonic)| (k + 1, harmonic)),
-    )
+    write_rows(out, columns, numbered.map(|(k, harmonic)| (k + 1, harmonic)))
 }
 
 /// The leading multipliers, one row each.

@@ -80,27 +80,19 @@ fn progression(values: &[f64]) -> Option<(f64, f64)> {
     let (&first, &last) = (values.first()?, values.last()?);
     let step = (last - first) / values.len().checked_sub(1).filter(|&n| n > 1)? as f64;
     let is_near = |(i, v): (usize, &f64)| (first + i as f64 * step - v).abs() <= 1e-6 * step;
-    values
-        .iter()
-        .enumerate()
-        .all(is_near)
-        .then_some((first, step))
+    values.iter().enumerate().all(is_near).then_some((first, step))
 }
 
 /// All first bytes, all second bytes, and so on: neighbours are alike, which compresses well.
 fn planes<const N: usize>(values: &[[u8; N]]) -> Vec<u8> {
-    (0..N)
-        .flat_map(|plane| values.iter().map(move |value| value[plane]))
-        .collect()
+    (0..N).flat_map(|plane| values.iter().map(move |value| value[plane])).collect()
 }
 
 /// The arrays again, from what [`Numbers::finish`] gave; nothing where they do not fit together.
 pub fn read(entries: &[Value], block: &str) -> Option<Vec<Vec<f64>>> {
     let deflated = BASE64_STANDARD.decode(block).ok()?;
     let mut bytes = Vec::new();
-    DeflateDecoder::new(deflated.as_slice())
-        .read_to_end(&mut bytes)
-        .ok()?;
+    DeflateDecoder::new(deflated.as_slice()).read_to_end(&mut bytes).ok()?;
     let mut start = 0_usize;
     let mut array = |entry: &Value| {
         let (kind, count) = (entry[0].as_str()?, entry[1].as_u64()? as usize);
@@ -113,9 +105,8 @@ pub fn read(entries: &[Value], block: &str) -> Option<Vec<Vec<f64>>> {
         let planes = bytes.get(start..start.checked_add(count.checked_mul(width)?)?)?;
         start += planes.len();
         let word = |i: usize| {
-            (0..width).fold(0, |word, plane| {
-                word | u32::from(planes[plane * count + i]) << (8 * plane)
-            })
+            (0..width)
+                .fold(0, |word, plane| word | u32::from(planes[plane * count + i]) << (8 * plane))
         };
         let [first, second] = [2, 3].map(|at| entry[at].as_f64().unwrap_or(f64::NAN));
         let value = |i: usize| match kind {
@@ -154,10 +145,7 @@ mod tests {
         let back = read(entries.as_array().unwrap(), &block).unwrap();
         let near = |own: &[f64], other: &[f64], tolerance: f64| {
             own.len() == other.len()
-                && own
-                    .iter()
-                    .zip(other)
-                    .all(|(a, b)| (a - b).abs() <= tolerance)
+                && own.iter().zip(other).all(|(a, b)| (a - b).abs() <= tolerance)
         };
         assert!(near(&back[0], &times, 1e-17));
         // Single precision.

@@ -58,12 +58,7 @@ impl Report {
     /// What it is made from: in a word, and the names of file, hash and options in the manifest.
     fn source(&self) -> [&'static str; 4] {
         match (self.has_case(), self.manifest.command.as_str()) {
-            (true, _) => [
-                "case",
-                "case file",
-                "SHA-256 of the effective case",
-                "overrides",
-            ],
+            (true, _) => ["case", "case file", "SHA-256 of the effective case", "overrides"],
             (false, "compare") => ["run", "compared with", "SHA-256 of names and cases", "runs"],
             (false, _) => ["table", "table", "SHA-256 of table and options", "options"],
         }
@@ -73,11 +68,7 @@ impl Report {
         out.push_str("<nav aria-label=\"Contents\">\n<ul>\n");
         for (index, section) in self.sections.iter().enumerate() {
             let heading = escape(&section.heading);
-            let _ = writeln!(
-                out,
-                "<li><a href=\"#section-{}\">{heading}</a></li>",
-                index + 1
-            );
+            let _ = writeln!(out, "<li><a href=\"#section-{}\">{heading}</a></li>", index + 1);
         }
         if self.has_case() {
             out.push_str("<li><a href=\"#case\">Case</a></li>\n");
@@ -139,11 +130,7 @@ fn write_section(out: &mut String, index: usize, section: &ReportSection, figure
         out,
         "<section id=\"section-{}\"{}>\n<h2>{}</h2>\n",
         index + 1,
-        if section.is_box() {
-            " class=\"results\""
-        } else {
-            ""
-        },
+        if section.is_box() { " class=\"results\"" } else { "" },
         escape(&section.heading)
     );
     if let (true, Some(numbers)) = (section.is_box(), section.tables.first()) {
@@ -178,12 +165,7 @@ fn write_numbers(out: &mut String, table: &ReportTable) {
     out.push_str("<dl>\n");
     for row in &table.rows {
         let [name, value] = [0, 1].map(|at| row.get(at).map_or("", String::as_str));
-        let _ = writeln!(
-            out,
-            "<div><dt>{}</dt><dd>{}</dd></div>",
-            escape(name),
-            escape(value)
-        );
+        let _ = writeln!(out, "<div><dt>{}</dt><dd>{}</dd></div>", escape(name), escape(value));
     }
     out.push_str("</dl>\n");
 }
@@ -206,16 +188,11 @@ fn write_table(out: &mut String, table: &ReportTable) {
     let is_number = |column: usize| {
         !table.rows.is_empty()
             && table.rows.iter().all(|row| {
-                row.get(column)
-                    .is_none_or(|cell| cell.is_empty() || cell.parse::<f64>().is_ok())
+                row.get(column).is_none_or(|cell| cell.is_empty() || cell.parse::<f64>().is_ok())
             })
     };
     let class = |column: usize| {
-        if is_number(column) {
-            " class=\"number\""
-        } else {
-            ""
-        }
+        if is_number(column) { " class=\"number\"" } else { "" }
     };
     let _ = write!(
         out,
@@ -223,12 +200,7 @@ fn write_table(out: &mut String, table: &ReportTable) {
         escape(&table.caption)
     );
     for (column, name) in table.columns.iter().enumerate() {
-        let _ = write!(
-            out,
-            "<th scope=\"col\"{}>{}</th>",
-            class(column),
-            escape(name)
-        );
+        let _ = write!(out, "<th scope=\"col\"{}>{}</th>", class(column), escape(name));
     }
     out.push_str("</tr></thead>\n<tbody>\n");
     for row in &table.rows {

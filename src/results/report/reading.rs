@@ -59,11 +59,7 @@ fn figures_of(html: &str) -> Option<Vec<ReadFigure>> {
         Some(PanelData {
             caption: text(&panel["caption"])?,
             axes: [axis(&panel["x"])?, axis(&panel["y"])?],
-            series: panel["series"]
-                .as_array()?
-                .iter()
-                .filter_map(series)
-                .collect(),
+            series: panel["series"].as_array()?.iter().filter_map(series).collect(),
             rules: Vec::new(),
             labels: Vec::new(),
         })
@@ -71,10 +67,7 @@ fn figures_of(html: &str) -> Option<Vec<ReadFigure>> {
     let figures = data["figures"].as_array()?.iter().map(|figure| {
         let panels: Option<Vec<PanelData>> =
             figure["panels"].as_array()?.iter().map(panel).collect();
-        Some(ReadFigure {
-            name: text(&figure["name"])?,
-            panels: panels?,
-        })
+        Some(ReadFigure { name: text(&figure["name"])?, panels: panels? })
     });
     figures.collect()
 }

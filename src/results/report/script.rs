@@ -11,11 +11,8 @@ use std::fmt::Write;
 /// Charts with axes and zoom, under the MIT licence.
 const LIBRARY: &str = include_str!("vendor/uPlot.iife.min.js");
 const LIBRARY_STYLE: &str = include_str!("vendor/uPlot.min.css");
-const SCRIPTS: [&str; 3] = [
-    include_str!("report.js"),
-    include_str!("solid.js"),
-    include_str!("motion.js"),
-];
+const SCRIPTS: [&str; 3] =
+    [include_str!("report.js"), include_str!("solid.js"), include_str!("motion.js")];
 
 /// Columns that a curve over rising abscissae is thinned to, at most four points in each.
 const COLUMNS: usize = 400;
@@ -30,9 +27,7 @@ const LONGEST_HEARD: usize = 1 << 16;
 /// Writes the numbers of the figures and the scripts.
 pub fn write<'a>(out: &mut String, figures: impl Iterator<Item = &'a NamedFigure>) {
     let mut numbers = Numbers::default();
-    let figures: Vec<Value> = figures
-        .map(|figure| of_figure(figure, &mut numbers))
-        .collect();
+    let figures: Vec<Value> = figures.map(|figure| of_figure(figure, &mut numbers)).collect();
     let (arrays, block) = numbers.finish();
     let data = json!({ "arrays": arrays, "figures": figures });
     // No text of a user ends the element.
@@ -65,14 +60,11 @@ fn of_panel(panel: &PanelData, numbers: &mut Numbers) -> Value {
     let series: Vec<Value> = series.collect();
     let [x, y] = &panel.axes;
     let rules = panel.rules.iter().filter(|rule| rule.value.is_finite());
-    let rules: Vec<Value> = rules
-        .map(|rule| json!([rule.is_horizontal, rule.value]))
-        .collect();
+    let rules: Vec<Value> = rules.map(|rule| json!([rule.is_horizontal, rule.value])).collect();
     let labels = panel.labels.iter();
     let labels = labels.filter(|label| (label.place.0 + label.place.1).is_finite());
-    let labels: Vec<Value> = labels
-        .map(|label| json!([label.place.0, label.place.1, label.text]))
-        .collect();
+    let labels: Vec<Value> =
+        labels.map(|label| json!([label.place.0, label.place.1, label.text])).collect();
     json!({
         "caption": panel.caption,
         "x": axis(x),
@@ -143,21 +135,15 @@ fn thinned(series: &Series) -> ((Vec<f64>, Vec<f64>), bool) {
 
 fn of_steps(steps: &Steps) -> Value {
     let of = |mark: &Mark| json!([mark.place.0, mark.place.1, mark.name, mark.is_listed]);
-    let marks: Vec<Vec<Value>> = steps
-        .marks
-        .iter()
-        .map(|marks| marks.iter().map(of).collect())
-        .collect();
+    let marks: Vec<Vec<Value>> =
+        steps.marks.iter().map(|marks| marks.iter().map(of).collect()).collect();
     json!({ "quantity": steps.quantity, "values": steps.values, "marks": marks })
 }
 
 fn of_motion(motion: &Motion, numbers: &mut Numbers) -> Value {
     let flat = |places: &[[f64; 3]]| -> Vec<f64> {
         let places = places.iter();
-        places
-            .flat_map(|place| &place[..motion.dimension])
-            .copied()
-            .collect()
+        places.flat_map(|place| &place[..motion.dimension]).copied().collect()
     };
     let sizes = motion.cells.iter().map(|cell| cell.len() as u32);
     let sizes = numbers.indices(sizes);
@@ -174,16 +160,10 @@ fn of_motion(motion: &Motion, numbers: &mut Numbers) -> Value {
                 out["real"] = numbers.parts(&real, largest).into();
                 out["imaginary"] = numbers.parts(&imaginary, largest).into();
             }
-            MotionKind::Turning {
-                displacement,
-                turn,
-                status,
-            } => {
+            MotionKind::Turning { displacement, turn, status } => {
                 out["displacement"] = numbers.levels(&flat(displacement)).into();
                 out["turn"] = (*turn).into();
-                out["status"] = numbers
-                    .indices(status.iter().map(|&code| u32::from(code)))
-                    .into();
+                out["status"] = numbers.indices(status.iter().map(|&code| u32::from(code))).into();
             }
             MotionKind::Parts { part_of, parts } => {
                 out["partOf"] = numbers.indices(part_of.iter().copied()).into();

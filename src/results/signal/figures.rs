@@ -35,10 +35,7 @@ impl Record for SignalRecord {
 
     fn inconsistency(&self) -> Option<&'static str> {
         let is_whole = |channel: &ChannelRecord| {
-            let rises = channel
-                .frequencies_hz
-                .windows(2)
-                .all(|pair| pair[0] < pair[1]);
+            let rises = channel.frequencies_hz.windows(2).all(|pair| pair[0] < pair[1]);
             let (from, to) = channel.interval_s;
             rises && from <= to && channel.frequencies_hz.len() == channel.amplitudes.len()
         };
@@ -90,14 +87,10 @@ pub fn draw(
     for (index, channel) in record.channels.iter().enumerate() {
         let found = summary.channels.get(index);
         let main_hz = found.and_then(|channel| channel.main_frequency_hz);
-        figures.push(Box::new(move || {
-            Ok(spectrum(record, channel, index + 1, main_hz))
-        }));
+        figures.push(Box::new(move || Ok(spectrum(record, channel, index + 1, main_hz))));
     }
     let figures = draw_all(figures, options)?;
-    let mut left_out = left_out
-        .lock()
-        .map_or(Vec::new(), |reasons| reasons.clone());
+    let mut left_out = left_out.lock().map_or(Vec::new(), |reasons| reasons.clone());
     left_out.sort();
     Ok((figures, left_out))
 }
@@ -119,17 +112,12 @@ fn course(
     };
     let (spectrograms, reason) = match spectrogram(&channel.samples, record.sampling_rate, &window)
     {
-        Ok(map) => (
-            spectrogram_panels(&axis, &map, record.start, highest(record), &modes(record)),
-            None,
-        ),
-        Err(error) => (
-            Vec::new(),
-            Some(format!(
-                "no spectrogram of {}: {error}; try --window",
-                channel.name
-            )),
-        ),
+        Ok(map) => {
+            (spectrogram_panels(&axis, &map, record.start, highest(record), &modes(record)), None)
+        }
+        Err(error) => {
+            (Vec::new(), Some(format!("no spectrogram of {}: {error}; try --window", channel.name)))
+        }
     };
     let signal = signal_panel(axis, &times, &channel.samples, ("signal", ""), 0.45);
     let figure = Figure::new(

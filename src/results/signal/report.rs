@@ -25,16 +25,11 @@ pub fn draw_report(
 }
 
 fn html_report(summary: &SignalSummary) -> Report {
-    let mut paragraphs = vec![format!(
-        "{} samples at {} Hz.",
-        summary.samples, summary.sampling_rate_hz
-    )];
+    let mut paragraphs =
+        vec![format!("{} samples at {} Hz.", summary.samples, summary.sampling_rate_hz)];
     paragraphs.extend(summary.notes.iter().cloned());
     for channel in &summary.channels {
-        let texts = [
-            Some(channel.growth_text()),
-            channel.mode_text(summary.friction_coefficient),
-        ];
+        let texts = [Some(channel.growth_text()), channel.mode_text(summary.friction_coefficient)];
         let texts = texts.into_iter().flatten();
         paragraphs.extend(texts.map(|text| format!("{}: {text}.", channel.name)));
     }

@@ -138,10 +138,7 @@ impl NearestMode {
         let distance = |mode: &ModeSummary| (mode.frequency_hz / frequency_hz - 1.0).abs();
         let candidates = modes.iter().filter(|mode| kind(mode));
         let mode = candidates.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-        Some(Self {
-            mode: mode.clone(),
-            distance: distance(mode),
-        })
+        Some(Self { mode: mode.clone(), distance: distance(mode) })
     }
 
     /// The mode if it is within the tolerance.
@@ -176,9 +173,7 @@ impl ModeSummary {
 
     /// Number and harmonic, as figures name it.
     pub fn label(&self) -> String {
-        let harmonic = self
-            .harmonic
-            .map_or(String::new(), |n| format!(", *n* = {n}"));
+        let harmonic = self.harmonic.map_or(String::new(), |n| format!(", *n* = {n}"));
         format!("mode {}{harmonic}", self.mode)
     }
 
@@ -187,8 +182,7 @@ impl ModeSummary {
         format!(
             "mode {} ({}branch {}, {:.1} Hz{})",
             self.mode,
-            self.harmonic
-                .map_or(String::new(), |n| format!("n = {n}, ")),
+            self.harmonic.map_or(String::new(), |n| format!("n = {n}, ")),
             self.branch,
             self.frequency_hz,
             if self.unstable { ", unstable" } else { "" }
@@ -209,10 +203,9 @@ impl ChannelSummary {
         let peaks = lines.iter().map(|line| PeakSummary {
             frequency_hz: line.frequency_hz,
             amplitude: line.amplitude,
-            superharmonic: line.superharmonic_of.map(|(p, order)| Superharmonic {
-                of_peak: p + 1,
-                order,
-            }),
+            superharmonic: line
+                .superharmonic_of
+                .map(|(p, order)| Superharmonic { of_peak: p + 1, order }),
             nearest_mode: None,
         });
         let no_growth = stage.as_ref().err().map(ToString::to_string);
@@ -253,10 +246,7 @@ impl ChannelSummary {
         self.nearest_unstable_mode = NearestMode::of(modes, frequency_hz, |mode| mode.unstable);
         self.mode = match growing {
             Some(frequency_hz) => mode_beside(modes, frequency_hz),
-            None => self
-                .nearest_unstable_mode
-                .clone()
-                .and_then(NearestMode::within),
+            None => self.nearest_unstable_mode.clone().and_then(NearestMode::within),
         };
     }
 

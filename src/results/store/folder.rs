@@ -234,10 +234,7 @@ impl OutputFolder {
     /// Makes the files of this run, and no others, those of the folder that it is written in.
     fn seal(&self) -> Result<(), FolderError> {
         let written = self.written();
-        let stale = self
-            .earlier
-            .keys()
-            .filter(|name| !written.contains_key(*name));
+        let stale = self.earlier.keys().filter(|name| !written.contains_key(*name));
         self.remove(stale);
         self.write_manifest(&written)?;
         let journal = self.path.join(JOURNAL);
@@ -299,9 +296,7 @@ pub(crate) fn remove_files<'a>(folder: &Path, names: impl Iterator<Item = &'a St
 
 /// Whether a listed name stays below the folder, whatever an edited manifest says.
 fn is_inside(name: &str) -> bool {
-    Path::new(name)
-        .components()
-        .all(|part| matches!(part, std::path::Component::Normal(_)))
+    Path::new(name).components().all(|part| matches!(part, std::path::Component::Normal(_)))
 }
 
 fn lock(path: &Path) -> Result<File, FolderError> {
@@ -314,9 +309,7 @@ fn lock(path: &Path) -> Result<File, FolderError> {
         .map_err(|e| FolderError::io("open", &lock_path, e))?;
     match file.try_lock() {
         Ok(()) => Ok(file),
-        Err(TryLockError::WouldBlock) => Err(FolderError::Busy {
-            path: path.to_owned(),
-        }),
+        Err(TryLockError::WouldBlock) => Err(FolderError::Busy { path: path.to_owned() }),
         // A file system without locks: go on as if there were no other process.
         Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => Ok(file),
         Err(TryLockError::Error(error)) => Err(FolderError::io("lock", &lock_path, error)),
@@ -396,10 +389,7 @@ pub(crate) fn check_owner(
         described.push_str(" --set ");
         described.push_str(text);
     }
-    Err(FolderError::OtherCase {
-        path: path.to_owned(),
-        found: described,
-    })
+    Err(FolderError::OtherCase { path: path.to_owned(), found: described })
 }
 
 pub(crate) fn refuse_foreign(path: &Path) -> Result<(), FolderError> {
@@ -418,10 +408,7 @@ pub(crate) fn refuse_foreign(path: &Path) -> Result<(), FolderError> {
         .collect();
     names.sort();
     match names.into_iter().next() {
-        Some(found) => Err(FolderError::Foreign {
-            path: path.to_owned(),
-            found,
-        }),
+        Some(found) => Err(FolderError::Foreign { path: path.to_owned(), found }),
         None => Ok(()),
     }
 }

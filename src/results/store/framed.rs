@@ -45,10 +45,7 @@ pub fn read(bytes: &[u8], magic: [u8; 8], version: u32) -> Result<&[u8], Defect>
     }
     let length = u64::from_le_bytes(std::array::from_fn(|i| rest[8 + i]));
     if length != payload.len() as u64 {
-        return Err(Defect::Damage(format!(
-            "{} bytes where {length} were written",
-            payload.len()
-        )));
+        return Err(Defect::Damage(format!("{} bytes where {length} were written", payload.len())));
     }
     if crc32fast::hash(payload) != checksum {
         return Err(damage("its checksum does not fit its contents"));
@@ -58,10 +55,7 @@ pub fn read(bytes: &[u8], magic: [u8; 8], version: u32) -> Result<&[u8], Defect>
 
 /// The checksum of a JSON object: that of its shortest text, so that other blanks and line ends do not matter.
 fn checksum(object: &Value) -> io::Result<String> {
-    Ok(format!(
-        "{:08x}",
-        crc32fast::hash(&serde_json::to_vec(object)?)
-    ))
+    Ok(format!("{:08x}", crc32fast::hash(&serde_json::to_vec(object)?)))
 }
 
 /// Writes a JSON object with its checksum.

@@ -57,10 +57,7 @@ pub fn refuse_misfit(folder: &Path, fits: bool) -> Result<(), FolderError> {
 /// system.
 pub fn read_record<T: Record>(folder: &Path) -> Result<T, FolderError> {
     let path = folder.join(RECORD);
-    let unusable = |reason: String| FolderError::NotResults {
-        path: folder.to_owned(),
-        reason,
-    };
+    let unusable = |reason: String| FolderError::NotResults { path: folder.to_owned(), reason };
     let bytes = match fs::read(&path) {
         Ok(bytes) => bytes,
         Err(error) if error.kind() == io::ErrorKind::NotFound => {

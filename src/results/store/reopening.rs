@@ -53,9 +53,7 @@ impl Contents {
         Self {
             manifest: manifest.clone(),
             files: files.keys().cloned().collect(),
-            checksums: known
-                .map(|(name, sum)| (name.clone(), format!("{sum:08x}")))
-                .collect(),
+            checksums: known.map(|(name, sum)| (name.clone(), format!("{sum:08x}"))).collect(),
             is_sealed: true,
         }
     }
@@ -104,10 +102,7 @@ fn contents_of(bytes: &[u8]) -> Result<Contents, Defect> {
     }
     let contents: Result<Contents, _> = serde_json::from_value(object);
     let contents = contents.map_err(|error| Defect::Damage(error.to_string()))?;
-    Ok(Contents {
-        is_sealed,
-        ..contents
-    })
+    Ok(Contents { is_sealed, ..contents })
 }
 
 fn lacks(path: &Path, reason: String) -> FolderError {

@@ -53,10 +53,7 @@ pub(crate) fn write_whole(
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     let mut temporary = builder.tempfile_in(parent)?;
-    let summing = Summing {
-        out: temporary.as_file_mut(),
-        checksum: crc32fast::Hasher::new(),
-    };
+    let summing = Summing { out: temporary.as_file_mut(), checksum: crc32fast::Hasher::new() };
     let mut out = BufWriter::with_capacity(1 << 16, summing);
     fill(&mut out)?;
     let summing = out.into_inner().map_err(io::IntoInnerError::into_error)?;

@@ -46,17 +46,14 @@ pub fn share(
     let lock_path = path.join(LOCK);
     let file = open_lock(&lock_path)?;
     let refusal = |error| match error {
-        TryLockError::WouldBlock => FolderError::Busy {
-            path: path.to_owned(),
-        },
+        TryLockError::WouldBlock => FolderError::Busy { path: path.to_owned() },
         TryLockError::Error(error) => FolderError::io("lock", &lock_path, error),
     };
     match file.try_lock() {
         Ok(()) => {
             enter(Company::None)?;
             // Not every system turns one kind of lock into the other.
-            file.unlock()
-                .map_err(|error| refusal(TryLockError::Error(error)))?;
+            file.unlock().map_err(|error| refusal(TryLockError::Error(error)))?;
             file.try_lock_shared().map_err(refusal)?;
         }
         Err(TryLockError::WouldBlock) => {

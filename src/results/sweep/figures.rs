@@ -33,12 +33,7 @@ pub fn draw(
     drawing: &SweepDrawing,
 ) -> Result<(), DrawingError> {
     let frictions = (report.friction_coefficient, drawing.highest_friction);
-    let figures = draw_sweep(
-        report.records,
-        frictions,
-        &drawing.references,
-        &drawing.options,
-    )?;
+    let figures = draw_sweep(report.records, frictions, &drawing.references, &drawing.options)?;
     for file in figure_files(&figures, &drawing.options)? {
         folder.write(&file.name, |out| out.write_all(&file.bytes))?;
     }
@@ -65,23 +60,14 @@ pub fn draw(
 fn results(report: &SweepReport<'_>) -> Vec<(String, String)> {
     let finished = format!("{} of {}", report.records.len(), report.count);
     let failed = report.failed().count().to_string();
-    let mut out = vec![
-        ("points".to_owned(), finished),
-        ("failed".to_owned(), failed),
-    ];
+    let mut out = vec![("points".to_owned(), finished), ("failed".to_owned(), failed)];
     let rows = rows(report);
     for column in 1..rows[0].len() {
-        let numbers = rows[1..]
-            .iter()
-            .filter_map(|row| row[column].parse::<f64>().ok());
+        let numbers = rows[1..].iter().filter_map(|row| row[column].parse::<f64>().ok());
         let numbers: Vec<f64> = numbers.collect();
         if let (false, (low, high)) = (numbers.is_empty(), extremes(numbers.iter().copied())) {
             let [low, high] = [low, high].map(|value| significant(value, 6));
-            let range = if low == high {
-                low
-            } else {
-                format!("{low} to {high}")
-            };
+            let range = if low == high { low } else { format!("{low} to {high}") };
             out.push((rows[0][column].clone(), range));
         }
     }
@@ -91,9 +77,5 @@ fn results(report: &SweepReport<'_>) -> Vec<(String, String)> {
 /// What a person wants first of every point; `points.csv` has all.
 fn points_table(report: &SweepReport<'_>) -> ReportTable {
     let mut rows = rows(report);
-    ReportTable::new(
-        "Finished points (every quantity: points.csv)",
-        rows.remove(0),
-        rows,
-    )
+    ReportTable::new("Finished points (every quantity: points.csv)", rows.remove(0), rows)
 }

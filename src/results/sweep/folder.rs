@@ -165,10 +165,7 @@ impl SweepFolder {
     /// # Errors
     /// As [`Self::find`].
     pub fn find_of(path: &Path, command: &str) -> Result<(Self, Manifest), FolderError> {
-        let not_a_sweep = |reason: String| FolderError::NotASweep {
-            path: path.to_owned(),
-            reason,
-        };
+        let not_a_sweep = |reason: String| FolderError::NotASweep { path: path.to_owned(), reason };
         if !path.join(MANIFEST).is_file() {
             return Err(not_a_sweep(format!("it has no {MANIFEST}")));
         }
@@ -292,11 +289,7 @@ impl SweepFolder {
         }
         match found {
             0 => Ok(()),
-            _ => Err(FolderError::Started {
-                path: self.path.clone(),
-                found,
-                asked: points.len(),
-            }),
+            _ => Err(FolderError::Started { path: self.path.clone(), found, asked: points.len() }),
         }
     }
 }
@@ -310,10 +303,7 @@ fn over_all() -> impl Iterator<Item = String> {
     let figures = FIGURES.iter().flat_map(|name| {
         ["svg", "png", "pdf"].map(|extension| format!("figures/{name}.{extension}"))
     });
-    OVER_ALL
-        .iter()
-        .map(|name| (*name).to_owned())
-        .chain(figures)
+    OVER_ALL.iter().map(|name| (*name).to_owned()).chain(figures)
 }
 
 fn clock_name(point: usize) -> String {

@@ -102,10 +102,8 @@ impl LongTable {
         records: &[PointRecord],
     ) -> io::Result<()> {
         let swept = keys.iter().map(String::as_str);
-        let header: Vec<&str> = swept
-            .chain(self.columns.iter().copied())
-            .chain(["point"])
-            .collect();
+        let header: Vec<&str> =
+            swept.chain(self.columns.iter().copied()).chain(["point"]).collect();
         let mut table = Table::new(out, &header)?;
         let of = |object: &Map<String, Value>, name: &str| {
             object.get(name).map_or_else(String::new, cell)
@@ -134,10 +132,7 @@ fn cycles_of_branches(summary: &Value) -> Vec<Map<String, Value>> {
         let Some(Value::Object(branch)) = family.get("branch") else {
             continue;
         };
-        let count = branch
-            .get("values")
-            .and_then(Value::as_array)
-            .map_or(0, Vec::len);
+        let count = branch.get("values").and_then(Value::as_array).map_or(0, Vec::len);
         for i in 0..count {
             let at = |name: &str| branch.get(name).and_then(|list| list.get(i)).cloned();
             let status = |k: usize| branch.get("status").and_then(|s| s.get(k)?.get(i)).cloned();
@@ -154,9 +149,7 @@ fn cycles_of_branches(summary: &Value) -> Vec<Map<String, Value>> {
                 ("stable", at("stable")),
                 ("growth_rate_per_s", at("growth_rate")),
             ];
-            let known = cells
-                .into_iter()
-                .filter_map(|(name, v)| Some((name.to_owned(), v?)));
+            let known = cells.into_iter().filter_map(|(name, v)| Some((name.to_owned(), v?)));
             rows.push(known.collect());
         }
     }
@@ -184,9 +177,7 @@ mod tests {
     fn written(file: &str, records: &[PointRecord]) -> String {
         let table = LONG_TABLES.iter().find(|table| table.file == file).unwrap();
         let mut out = Vec::new();
-        table
-            .write(&mut out, &["geometry.inner_radius".into()], records)
-            .unwrap();
+        table.write(&mut out, &["geometry.inner_radius".into()], records).unwrap();
         String::from_utf8(out).unwrap()
     }
 
@@ -198,10 +189,7 @@ mod tests {
         };
         let first = json!({ "critical_frictions": [onset(1, 1, 0.12), onset(2, 0, 0.14)] });
         let second = json!({ "critical_frictions": [onset(2, 0, 0.11)] });
-        let records = [
-            record(1, 0.02, "cea", first),
-            record(2, 0.03, "cea", second),
-        ];
+        let records = [record(1, 0.02, "cea", first), record(2, 0.03, "cea", second)];
         assert_eq!(
             written("stability.csv", &records),
             "geometry.inner_radius,harmonic,branch,direction,critical_friction,frequency_hz,\

@@ -17,12 +17,8 @@ const FILLED: f64 = 0.8;
 /// Ground of every second place.
 const GROUND: &str = "#f4f4f4";
 /// Colour and radius of the marks, the slowest growth first.
-const CLASSES: [(&str, f64); 4] = [
-    ("#fdbb84", 1.6),
-    ("#fc8d59", 2.3),
-    ("#d7301f", 3.1),
-    ("#7f0000", 4.0),
-];
+const CLASSES: [(&str, f64); 4] =
+    [("#fdbb84", 1.6), ("#fc8d59", 2.3), ("#d7301f", 3.1), ("#7f0000", 4.0)];
 
 /// What varies over the conditions: the labels of its values, and which of them each condition has.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,9 +53,7 @@ pub(in crate::results) fn operating_matrix(records: &[PointRecord]) -> Result<Fi
     let conditions = &matrix.conditions;
     let modes = || conditions.iter().flat_map(|own| &own.unstable);
     if conditions.len() < 2 || modes().next().is_none() {
-        return Err(ChartError::empty(
-            "unstable modes over operating conditions",
-        ));
+        return Err(ChartError::empty("unstable modes over operating conditions"));
     }
     let layout = Layout::of(conditions);
     let largest = modes().map(|mode| mode.growth_rate_per_s);
@@ -113,12 +107,7 @@ impl Layout {
             let longest = (0..all.len()).rev().max_by_key(|&at| all[at].labels.len());
             abscissa = longest.map(|at| all.remove(at));
         }
-        Self {
-            abscissa: abscissa.or_else(|| within.take()),
-            columns,
-            within,
-            rest: all,
-        }
+        Self { abscissa: abscissa.or_else(|| within.take()), columns, within, rest: all }
     }
 
     fn panel_count(&self) -> usize {
@@ -151,17 +140,13 @@ impl Layout {
     ) -> Panel {
         let labels = self.abscissa.as_ref().map_or(1, |own| own.labels.len());
         let ticks = self.abscissa.iter().flat_map(|own| own.labels.iter());
-        let ticks = ticks
-            .enumerate()
-            .map(|(at, label)| (at as f64, label.clone()));
+        let ticks = ticks.enumerate().map(|(at, label)| (at as f64, label.clone()));
         let along = self.abscissa.as_ref();
         let (name, unit) = along.map_or(("", ""), |own| (own.name.as_str(), own.unit.as_str()));
         let x = Axis::new(name, unit)
             .between(-0.5, labels as f64 - 0.5)
             .ticks(ticks.collect::<Vec<_>>());
-        let bands = (1..labels)
-            .step_by(2)
-            .map(|at| (at as f64 - 0.5, at as f64 + 0.5, GROUND));
+        let bands = (1..labels).step_by(2).map(|at| (at as f64 - 0.5, at as f64 + 0.5, GROUND));
         let foot = low + 0.025 * (high - low);
         let solved = own.iter().map(|(at, _)| (self.x(*at), foot));
         let mut drawn = Panel::new(x, Axis::kilohertz().between(low, high))
@@ -208,9 +193,7 @@ impl Layout {
             panel /= own.labels.len();
             lines.push(match own.role {
                 Role::Direction => label.clone(),
-                _ => format!("{} = {label} {}", own.name, own.unit)
-                    .trim_end()
-                    .to_owned(),
+                _ => format!("{} = {label} {}", own.name, own.unit).trim_end().to_owned(),
             });
         }
         lines.reverse();
@@ -220,9 +203,7 @@ impl Layout {
     /// What lies side by side at each place.
     fn friction_note(&self) -> Option<String> {
         let labels = self.within.as_ref()?.labels.join(", ");
-        Some(format!(
-            "At each place, from left to right: friction {labels}."
-        ))
+        Some(format!("At each place, from left to right: friction {labels}."))
     }
 
     fn caption(&self) -> String {
@@ -279,14 +260,8 @@ fn class_name(bounds: &[f64], class: usize) -> String {
 /// signs as direction and speed, and friction.
 fn dimensions(conditions: &[Condition<'_>]) -> Vec<Dimension> {
     let mut found: Vec<Dimension> = Vec::new();
-    let keys = conditions
-        .first()
-        .into_iter()
-        .flat_map(|own| own.swept.keys());
-    let frictions: Vec<f64> = conditions
-        .iter()
-        .map(|own| own.friction_coefficient)
-        .collect();
+    let keys = conditions.first().into_iter().flat_map(|own| own.swept.keys());
+    let frictions: Vec<f64> = conditions.iter().map(|own| own.friction_coefficient).collect();
     for key in keys {
         let values: Vec<&Value> = conditions.iter().map(|own| &own.swept[key]).collect();
         let numbers: Option<Vec<f64>> = values.iter().map(|value| value.as_f64()).collect();
@@ -321,9 +296,7 @@ fn of_numbers(key: &str, numbers: &[f64], found: &mut Vec<Dimension>) {
         let name = (parameter_name(key), String::new());
         add(found, Role::Direction, name, ways.collect());
     }
-    let sizes = numbers
-        .iter()
-        .map(|v| if is_both_ways { v.abs() } else { *v });
+    let sizes = numbers.iter().map(|v| if is_both_ways { v.abs() } else { *v });
     let sizes: Vec<f64> = sizes.collect();
     let (factor, unit) = shared_unit(key, low.abs().max(high.abs()));
     let role = match key.ends_with("pressure") {
@@ -340,10 +313,7 @@ fn ordered(numbers: &[f64], label: impl Fn(f64) -> String) -> Vec<(usize, String
     distinct.sort_by(f64::total_cmp);
     distinct.dedup();
     let rank = |value: f64| distinct.partition_point(|other| *other < value);
-    numbers
-        .iter()
-        .map(|&value| (rank(value), label(value)))
-        .collect()
+    numbers.iter().map(|&value| (rank(value), label(value))).collect()
 }
 
 /// Rank and label of each text, by where it appears first.
@@ -378,13 +348,7 @@ fn add(
         known.name = joined(&known.name, &name);
         return;
     }
-    found.push(Dimension {
-        role,
-        name,
-        unit,
-        labels,
-        at,
-    });
+    found.push(Dimension { role, name, unit, labels, at });
 }
 
 /// The name of two keys that go together: the quantity once, then the names of both parts.

@@ -48,11 +48,7 @@ impl PointClock {
         for (analysis, summary) in summaries {
             take(summary, analysis, &mut taken);
         }
-        Self {
-            wall_s,
-            core_s,
-            summaries: taken,
-        }
+        Self { wall_s, core_s, summaries: taken }
     }
 }
 

@@ -20,12 +20,8 @@ const FIRST_COLUMNS: [(&str, NumberOf); 18] = [
     ("status.stick", |s| s.own.status.stick),
     ("status.slip", |s| s.own.status.slip),
     ("status.open", |s| s.own.status.open),
-    ("critical_friction", |s| {
-        s.critical_frictions.first()?.critical_friction
-    }),
-    ("harmonic", |s| {
-        s.critical_frictions.first()?.harmonic.map(|n| n as f64)
-    }),
+    ("critical_friction", |s| s.critical_frictions.first()?.critical_friction),
+    ("harmonic", |s| s.critical_frictions.first()?.harmonic.map(|n| n as f64)),
     ("harmonic", |s| s.cycles.first()?.harmonic.map(|n| n as f64)),
     ("main_frequency_hz", |s| s.cycles.first()?.main_frequency_hz),
     ("status.stick", |s| s.cycles.first()?.status.stick),
@@ -73,9 +69,7 @@ impl SweepReport<'_> {
     /// Numbers of the points that are not finished, ascending.
     pub fn missing(&self) -> Vec<usize> {
         let mut finished = self.records.iter().map(|record| record.point).peekable();
-        (1..=self.count)
-            .filter(|point| finished.next_if_eq(point).is_none())
-            .collect()
+        (1..=self.count).filter(|point| finished.next_if_eq(point).is_none()).collect()
     }
 
     /// Failed points.
@@ -208,11 +202,7 @@ impl SweepSummary {
             command: manifest.command.clone(),
             title: report.title.to_owned(),
             swept: report.keys.to_vec(),
-            analyses: report
-                .analyses
-                .iter()
-                .map(|&name| name.to_owned())
-                .collect(),
+            analyses: report.analyses.iter().map(|&name| name.to_owned()).collect(),
             points: report.count,
             finished: report.records.len(),
             ran: report.ran,

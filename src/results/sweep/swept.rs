@@ -8,9 +8,7 @@ pub(super) fn printed(value: &Value) -> String {
     match value.as_f64() {
         Some(number) => {
             let rounded: f64 = format!("{number:.4e}").parse().unwrap_or(number);
-            cell(&Value::from(rounded))
-                .trim_end_matches(".0")
-                .to_owned()
+            cell(&Value::from(rounded)).trim_end_matches(".0").to_owned()
         }
         None => cell(value),
     }

@@ -43,10 +43,8 @@ pub fn write_points(
     records: &[PointRecord],
 ) -> io::Result<()> {
     let mut longest = BTreeMap::new();
-    let rows: Vec<Vec<(String, String)>> = records
-        .iter()
-        .map(|record| scalars(record, &mut longest))
-        .collect();
+    let rows: Vec<Vec<(String, String)>> =
+        records.iter().map(|record| scalars(record, &mut longest)).collect();
     let mut columns = Columns::default();
     for row in &rows {
         columns.add(row);
@@ -59,12 +57,8 @@ pub fn write_points(
     let is_kept = |name: &String| !too_long.iter().any(|list| name.starts_with(list.as_str()));
     let names: Vec<String> = columns.0.into_iter().filter(is_kept).collect();
 
-    let header: Vec<&str> = keys
-        .iter()
-        .chain(&names)
-        .map(String::as_str)
-        .chain(["point", "error"])
-        .collect();
+    let header: Vec<&str> =
+        keys.iter().chain(&names).map(String::as_str).chain(["point", "error"]).collect();
     let mut table = Table::new(out, &header)?;
     for (record, row) in records.iter().zip(&rows) {
         let cells: BTreeMap<&str, &str> = row.iter().map(|(n, v)| (n.as_str(), &v[..])).collect();
@@ -72,15 +66,10 @@ pub fn write_points(
             let value = record.swept.get(key);
             value.map_or_else(String::new, cell)
         });
-        let scalars = names
-            .iter()
-            .map(|name| cells.get(name.as_str()).copied().unwrap_or("").to_owned());
+        let scalars =
+            names.iter().map(|name| cells.get(name.as_str()).copied().unwrap_or("").to_owned());
         let error = record.error.clone().unwrap_or_default();
-        table.row(
-            swept
-                .chain(scalars)
-                .chain([record.point.to_string(), error]),
-        )?;
+        table.row(swept.chain(scalars).chain([record.point.to_string(), error]))?;
     }
     table.finish()
 }
@@ -246,14 +235,8 @@ mod tests {
             let at = rows[0].iter().position(|known| *known == name).unwrap();
             [rows[1][at], rows[2][at]]
         };
-        assert_eq!(
-            column("onsets.n1_b0_against.critical_friction"),
-            ["0.2", "0.15"]
-        );
-        assert_eq!(
-            column("onsets.n1_b1_against.critical_friction"),
-            ["0.1", ""]
-        );
+        assert_eq!(column("onsets.n1_b0_against.critical_friction"), ["0.2", "0.15"]);
+        assert_eq!(column("onsets.n1_b1_against.critical_friction"), ["0.1", ""]);
     }
 
     #[test]

@@ -26,10 +26,7 @@ pub fn shear_stress_beside(runs: &[RunEnd<'_>]) -> Figure {
         let values = stress.iter().map(|node| node.shear).collect();
         let axis = Axis::new("shear stress *τ*_{rθ}", "MPa").times(1e-6);
         let disc = Disc::new(run.mesh);
-        let [mass, stiffness] = [
-            run.damping.mass_coefficient,
-            run.damping.stiffness_coefficient,
-        ];
+        let [mass, stiffness] = [run.damping.mass_coefficient, run.damping.stiffness_coefficient];
         let damping = [significant(mass, 3), significant(stiffness, 3)];
         disc.panel(0.01)
             .heading(format!("*α*_{{R}} = {} 1/s", damping[0]))
@@ -41,10 +38,7 @@ pub fn shear_stress_beside(runs: &[RunEnd<'_>]) -> Figure {
             .layer(disc.field(values, axis, ColourMap::Diverging))
             .colour_bar(Side::Below)
     });
-    Figure::new(
-        "shear-stress-beside",
-        "Shear stress at the last snapshot of several runs.",
-    )
-    .columns(runs.len().clamp(2, 4))
-    .panels(panels)
+    Figure::new("shear-stress-beside", "Shear stress at the last snapshot of several runs.")
+        .columns(runs.len().clamp(2, 4))
+        .panels(panels)
 }

@@ -107,12 +107,7 @@ pub fn write_checkpoint(
     state: &TransientState,
     record: Option<&Recorder>,
 ) -> Result<(), FolderError> {
-    let contents = Borrowed {
-        case_hash,
-        simd: &folder.manifest().simd,
-        state,
-        record,
-    };
+    let contents = Borrowed { case_hash, simd: &folder.manifest().simd, state, record };
     folder.write(CHECKPOINT, |out| {
         let payload = postcard::to_stdvec(&contents).map_err(io::Error::other)?;
         framed::write(out, MAGIC, VERSION, &payload)
@@ -138,19 +133,12 @@ pub fn read_checkpoint(
         Err(source) => return Err(CheckpointError::Io { path, source }),
     };
     let checkpoint = decode(&bytes).map_err(|defect| match defect {
-        Defect::Version(found) => CheckpointError::Version {
-            path: path.clone(),
-            found,
-        },
-        Defect::Damage(reason) => CheckpointError::Damaged {
-            path: path.clone(),
-            reason,
-        },
+        Defect::Version(found) => CheckpointError::Version { path: path.clone(), found },
+        Defect::Damage(reason) => CheckpointError::Damaged { path: path.clone(), reason },
     })?;
-    for (what, found, expected) in [
-        ("case hash", &checkpoint.case_hash, case_hash),
-        ("SIMD level", &checkpoint.simd, simd),
-    ] {
+    for (what, found, expected) in
+        [("case hash", &checkpoint.case_hash, case_hash), ("SIMD level", &checkpoint.simd, simd)]
+    {
         if found != expected {
             return Err(CheckpointError::Foreign {
                 path,
@@ -168,9 +156,9 @@ fn decode(bytes: &[u8]) -> Result<Checkpoint, Defect> {
     let checkpoint: Checkpoint =
         postcard::from_bytes(payload).map_err(|error| Defect::Damage(error.to_string()))?;
     match &checkpoint.record {
-        Some(record) if !record.is_consistent() => Err(Defect::Damage(
-            "its samples, probes and frames do not fit together".to_owned(),
-        )),
+        Some(record) if !record.is_consistent() => {
+            Err(Defect::Damage("its samples, probes and frames do not fit together".to_owned()))
+        }
         _ => Ok(checkpoint),
     }
 }

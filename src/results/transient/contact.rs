@@ -19,11 +19,7 @@ pub fn encode_contact(record: &Recorder) -> io::Result<Vec<u8>> {
     let frames = &record.frames;
     let shape = [frames.len(), record.contact_angles.len()];
     archive.array("time_s", &shape[..1], frames.iter().map(|f| f.time))?;
-    archive.array(
-        "angle_rad",
-        &shape[1..],
-        record.contact_angles.iter().copied(),
-    )?;
+    archive.array("angle_rad", &shape[1..], record.contact_angles.iter().copied())?;
     let status = frames.iter().flat_map(|f| f.status.iter().copied());
     archive.array("status", &shape, status)?;
     let pressure = frames.iter().flat_map(|f| f.pressure.iter().copied());

@@ -50,12 +50,7 @@ pub(super) fn energy(run: &RunFigures<'_>) -> Figure {
         .clamp(1.0, (times.len() / 5).max(1) as f64) as usize;
     let course = |name: &'static str, colour: &'static str, of: &dyn Fn(&SampleRow) -> f64| {
         let values: Vec<f64> = rows.iter().map(|row| thickness * of(row)).collect();
-        Course {
-            mean: moving_average(&values, window),
-            values,
-            colour,
-            name,
-        }
+        Course { mean: moving_average(&values, window), values, colour, name }
     };
     let external = course("external", EXTERNAL_POWER, &|row| row.powers.external);
     let stick = course("sticking", STICK_POWER, &|row| row.powers.stick);
@@ -63,62 +58,45 @@ pub(super) fn energy(run: &RunFigures<'_>) -> Figure {
     let contact = course("dissipated at the contact", CONTACT_DISSIPATION, &|row| {
         row.powers.contact_dissipated
     });
-    let material = course("material damping", MATERIAL_DISSIPATION, &|row| {
-        row.material_damping
-    });
-    let normal = course("normal contact forces", NORMAL_POWER, &|row| {
-        row.powers.normal
-    });
+    let material = course("material damping", MATERIAL_DISSIPATION, &|row| row.material_damping);
+    let normal = course("normal contact forces", NORMAL_POWER, &|row| row.powers.normal);
     let received = course("received at the contact", STICK_POWER, &|row| {
         row.powers.stick + row.powers.slide + row.powers.normal - row.powers.damping
     });
-    let total = course("total", INK, &|row| {
-        row.kinetic_energy + row.strain_energy + row.contact_energy
-    });
+    let total =
+        course("total", INK, &|row| row.kinetic_energy + row.strain_energy + row.contact_energy);
     let strain = course("strain", SERIES[2], &|row| row.strain_energy);
     let kinetic = course("kinetic", SERIES[1], &|row| row.kinetic_energy);
     let probes = run.record.probes.len();
-    let inside = (0..probes)
-        .find(|&probe| !run.is_on_contact(probe))
-        .or((probes > 0).then_some(0));
+    let inside = (0..probes).find(|&probe| !run.is_on_contact(probe)).or((probes > 0).then_some(0));
     let acceleration = inside.map(|probe| {
         let panel =
             Panel::new(run_axis(&times), Axis::new("*a*_{θ}", "m/s²").symmetric()).height(50.0);
         let caption = format!("tangential acceleration, node {}", run.probe_label(probe));
-        panel.caption(caption).layer(
-            Line::new(&times, &run.acceleration(probe))
-                .solid(SERIES[0], 0.45)
-                .whole(),
-        )
+        panel
+            .caption(caption)
+            .layer(Line::new(&times, &run.acceleration(probe)).solid(SERIES[0], 0.45).whole())
     });
-    let dissipated: Vec<f64> = contact
-        .mean
-        .iter()
-        .zip(&material.mean)
-        .map(|(a, b)| a + b)
-        .collect();
-    let sum = Panel::new(
-        run_axis(&times),
-        power_axis(&[&external, &contact, &material], run.extent).0,
-    )
-    .height(72.0)
-    .caption("external power and what is dissipated")
-    .legend()
-    .layer(
-        Fill::from(0.0, &times, &contact.mean, CONTACT_DISSIPATION)
-            .opacity(0.45)
-            .name(contact.name),
-    )
-    .layer(
-        Fill::between(&times, &contact.mean, &dissipated, MATERIAL_DISSIPATION)
-            .opacity(0.45)
-            .name(material.name),
-    )
-    .layer(
-        Line::new(&times, &external.mean)
-            .solid(EXTERNAL_POWER, 1.1)
-            .name(external.name),
-    );
+    let dissipated: Vec<f64> =
+        contact.mean.iter().zip(&material.mean).map(|(a, b)| a + b).collect();
+    let sum =
+        Panel::new(run_axis(&times), power_axis(&[&external, &contact, &material], run.extent).0)
+            .height(72.0)
+            .caption("external power and what is dissipated")
+            .legend()
+            .layer(
+                Fill::from(0.0, &times, &contact.mean, CONTACT_DISSIPATION)
+                    .opacity(0.45)
+                    .name(contact.name),
+            )
+            .layer(
+                Fill::between(&times, &contact.mean, &dissipated, MATERIAL_DISSIPATION)
+                    .opacity(0.45)
+                    .name(material.name),
+            )
+            .layer(
+                Line::new(&times, &external.mean).solid(EXTERNAL_POWER, 1.1).name(external.name),
+            );
     let balance = powers(
         (&times, run.extent),
         "power balance of the body",
@@ -133,19 +111,13 @@ pub(super) fn energy(run: &RunFigures<'_>) -> Figure {
     let stored = [&total, &strain, &kinetic].into_iter().fold(
         Panel::new(
             run_axis(&times),
-            Axis::new("energy", &run.extent.unit("J"))
-                .prefixed()
-                .including(0.0),
+            Axis::new("energy", &run.extent.unit("J")).prefixed().including(0.0),
         )
         .height(56.0)
         .caption("stored energy")
         .legend(),
         |panel, course| {
-            panel.layer(
-                Line::new(&times, &course.mean)
-                    .solid(course.colour, 1.0)
-                    .name(course.name),
-            )
+            panel.layer(Line::new(&times, &course.mean).solid(course.colour, 1.0).name(course.name))
         },
     );
     Figure::new(
@@ -167,24 +139,19 @@ pub(super) fn energy(run: &RunFigures<'_>) -> Figure {
 /// Fractions of contact nodes as stacked areas, stick below, then slip, then open.
 fn status(rows: &[SampleRow], times: &[f64]) -> Panel {
     let fraction = |which: usize| -> Vec<f64> {
-        rows.iter()
-            .map(|row| row.counts.fractions()[which])
-            .collect()
+        rows.iter().map(|row| row.counts.fractions()[which]).collect()
     };
     let (stick, slip, open) = (fraction(0), fraction(1), fraction(2));
     let slip: Vec<f64> = stick.iter().zip(&slip).map(|(a, b)| a + b).collect();
     let all: Vec<f64> = slip.iter().zip(&open).map(|(a, b)| a + b).collect();
-    Panel::new(
-        run_axis(times),
-        Axis::new("nodes", "%").times(100.0).between(0.0, 1.0),
-    )
-    .plain()
-    .height(50.0)
-    .caption("contact status")
-    .legend()
-    .layer(Fill::from(0.0, times, &stick, STICK).name("stick"))
-    .layer(Fill::between(times, &stick, &slip, SLIP).name("slip"))
-    .layer(Fill::between(times, &slip, &all, OPEN).name("open"))
+    Panel::new(run_axis(times), Axis::new("nodes", "%").times(100.0).between(0.0, 1.0))
+        .plain()
+        .height(50.0)
+        .caption("contact status")
+        .legend()
+        .layer(Fill::from(0.0, times, &stick, STICK).name("stick"))
+        .layer(Fill::between(times, &stick, &slip, SLIP).name("slip"))
+        .layer(Fill::between(times, &slip, &all, OPEN).name("open"))
 }
 
 /// An axis that holds several powers, but for their shortest peaks, and zero: the impact of the expansion lasts a few
@@ -196,21 +163,15 @@ fn power_axis(courses: &[&Course], extent: Extent) -> (Axis, f64) {
         mean.retain(|value| value.is_finite());
         mean.sort_by(f64::total_cmp);
         let skipped = mean.len() / 40;
-        if let (Some(least), Some(most)) = (
-            mean.get(skipped),
-            mean.get(mean.len().saturating_sub(1 + skipped)),
-        ) {
+        if let (Some(least), Some(most)) =
+            (mean.get(skipped), mean.get(mean.len().saturating_sub(1 + skipped)))
+        {
             (low, high) = (low.min(*least), high.max(*most));
         }
     }
     let room = 0.2 * (high - low);
     let low = if low < -1e-3 * high { low - room } else { 0.0 };
-    (
-        Axis::new("power", &extent.unit("W"))
-            .prefixed()
-            .between(low, high + room),
-        high + room,
-    )
+    (Axis::new("power", &extent.unit("W")).prefixed().between(low, high + room), high + room)
 }
 
 /// Running means over the bands of their samples, with a word on a peak that the axis cuts off.
@@ -221,35 +182,22 @@ fn powers(
     courses: &[&Course],
 ) -> Panel {
     let (axis, top) = power_axis(courses, extent);
-    let panel = Panel::new(run_axis(times), axis)
-        .height(height)
-        .caption(caption)
-        .legend();
+    let panel = Panel::new(run_axis(times), axis).height(height).caption(caption).legend();
     let panel = courses.iter().fold(panel, |panel, course| {
         panel.layer(Fill::range_of(times, &course.values, course.colour).opacity(0.22))
     });
     let panel = courses.iter().fold(
         panel.layer(Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.5))),
         |panel, course| {
-            panel.layer(
-                Line::new(times, &course.mean)
-                    .solid(course.colour, 1.1)
-                    .name(course.name),
-            )
+            panel.layer(Line::new(times, &course.mean).solid(course.colour, 1.1).name(course.name))
         },
     );
-    let values = courses
-        .iter()
-        .flat_map(|course| course.values.iter().copied().zip(times));
-    let peak = values
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .filter(|peak| peak.0 > top);
+    let values = courses.iter().flat_map(|course| course.values.iter().copied().zip(times));
+    let peak = values.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|peak| peak.0 > top);
     panel.layers(peak.map(|(peak, &time)| {
         let (factor, unit) = prefixed(peak, &extent.unit("W"));
-        let label = format!(
-            "▲ largest sample {} {unit}, beyond the axis",
-            significant(peak * factor, 3)
-        );
+        let label =
+            format!("▲ largest sample {} {unit}, beyond the axis", significant(peak * factor, 3));
         Label::new((time, top), label)
             .moved(3.0, 8.0)
             .style(TextStyle::new(6.25).coloured(MUTED).with_halo())
@@ -257,22 +205,13 @@ fn powers(
 }
 
 fn residual(rows: &[SampleRow], times: &[f64]) -> Panel {
-    let size: Vec<f64> = rows
-        .iter()
-        .map(|row| row.balance_residual.abs().max(1e-18))
-        .collect();
+    let size: Vec<f64> = rows.iter().map(|row| row.balance_residual.abs().max(1e-18)).collect();
     let largest = extremes(size.iter().copied()).1;
-    let caption = format!(
-        "residual of the energy balance, at most {}",
-        significant(largest, 2)
-    );
-    Panel::new(
-        run_axis(times),
-        Axis::new("residual", "–").decades(6.0).room(0.1),
-    )
-    .height(44.0)
-    .caption(caption)
-    .layer(Line::new(times, &size).solid(INK, 0.5))
+    let caption = format!("residual of the energy balance, at most {}", significant(largest, 2));
+    Panel::new(run_axis(times), Axis::new("residual", "–").decades(6.0).room(0.1))
+        .height(44.0)
+        .caption(caption)
+        .layer(Line::new(times, &size).solid(INK, 0.5))
 }
 
 #[cfg(test)]

@@ -60,10 +60,8 @@ impl RunFigures<'_> {
                     speeds.map(|v| v[0].hypot(v[1])).collect()
                 }
             };
-            let values = speeds
-                .into_iter()
-                .map(|speed| if speed > rest { speed } else { 0.0 })
-                .collect();
+            let values =
+                speeds.into_iter().map(|speed| if speed > rest { speed } else { 0.0 }).collect();
             // A ring of statuses shows one edge.
             let status = match self.solid {
                 Some(_) => Vec::new(),
@@ -71,18 +69,9 @@ impl RunFigures<'_> {
             };
             (heading(snapshot), values, status)
         });
-        let caption = (
-            "velocity",
-            "Velocity modulus and contact status at the snapshot times.",
-        );
+        let caption = ("velocity", "Velocity modulus and contact status at the snapshot times.");
         let axis = Axis::new("velocity |*v*|", "m/s");
-        field_figure(
-            caption,
-            &Disc::new(self.mesh),
-            &axis,
-            ColourMap::Viridis,
-            frames.collect(),
-        )
+        field_figure(caption, &Disc::new(self.mesh), &axis, ColourMap::Viridis, frames.collect())
     }
 
     fn shear_stress(&self) -> Result<Figure, ChartError> {
@@ -101,11 +90,7 @@ impl RunFigures<'_> {
         if let Some(sector) = self.solid {
             return super::solid::contact_nodes(sector).contains(&(node - 1));
         }
-        self.mesh
-            .contact_edge()
-            .nodes
-            .iter()
-            .any(|other| other + 1 == node)
+        self.mesh.contact_edge().nodes.iter().any(|other| other + 1 == node)
     }
 
     /// Phase plot of an internal node, and path of a contact node coloured by status over the last fifth.
@@ -122,17 +107,12 @@ impl RunFigures<'_> {
             return Err(ChartError::empty("probes inside and on the contact edge"));
         };
         let pair = |probe: usize, x: usize, y: usize| -> Vec<(f64, f64)> {
-            self.record.probe_rows[probe]
-                .iter()
-                .map(|row| (row[x], row[y]))
-                .collect()
+            self.record.probe_rows[probe].iter().map(|row| (row[x], row[y])).collect()
         };
         let (phase, path) = (pair(inside, 1, 3), pair(edge, 1, 0));
         let start = path.len() - path.len().div_ceil(5);
         let approach = |points: &[(f64, f64)]| {
-            Line::through(points[..start].iter().copied())
-                .solid("#d0d0d0", 0.3)
-                .name("before")
+            Line::through(points[..start].iter().copied()).solid("#d0d0d0", 0.3).name("before")
         };
         let status = self.traced_status(edge, start);
         let metres = |name: &str| Axis::new(name, "m").prefixed();
@@ -143,25 +123,20 @@ impl RunFigures<'_> {
         .height(172.0)
         .caption(format!("node {}, tangential", self.probe_label(inside)))
         .layer(approach(&phase))
-        .layer(
-            Line::through(phase[start..].iter().copied())
-                .solid(SERIES[1], 0.8)
-                .name(match self.analysis.settling.state {
-                    EndState::LimitCycle => "limit cycle",
-                    EndState::TwoFrequency(_) => "two frequencies",
-                    _ => "last fifth of the run",
-                }),
-        );
+        .layer(Line::through(phase[start..].iter().copied()).solid(SERIES[1], 0.8).name(
+            match self.analysis.settling.state {
+                EndState::LimitCycle => "limit cycle",
+                EndState::TwoFrequency(_) => "two frequencies",
+                _ => "last fifth of the run",
+            },
+        ));
         let path_panel = Panel::new(metres("tangential *u*_{θ}"), metres("radial *u*_{r}"))
             .height(172.0)
             .caption(format!("contact node {}", self.probe_label(edge)))
             .layer(approach(&path))
             .layers(status_curves(&path[start..], &status));
         let caption = "Phase plot of an internal node (a) and path of a contact node (b), whose last fifth is coloured by contact status.";
-        Ok(Figure::new("trajectories", caption)
-            .columns(2)
-            .panel(phase_panel)
-            .panel(path_panel))
+        Ok(Figure::new("trajectories", caption).columns(2).panel(phase_panel).panel(path_panel))
     }
 
     /// Status of a contact node from a sample on, from its motion: off the cylinder it is open, with the cylinder's velocity it
@@ -221,18 +196,13 @@ impl RunFigures<'_> {
             places.map(|i| f64::from(values[i])).collect()
         };
         let velocity = self.contact_velocity(snapshot);
-        let velocity: Vec<f64> = (0..velocity.len())
-            .filter(&one)
-            .map(|i| velocity[i])
-            .collect();
+        let velocity: Vec<f64> = (0..velocity.len()).filter(&one).map(|i| velocity[i]).collect();
         let velocity = match self.mesh.opposite {
             Some(_) => ContactVelocity::Slip(&velocity),
             None => ContactVelocity::Absolute(&velocity, self.peripheral_speed),
         };
-        let codes: Vec<u8> = (0..frame.status.len())
-            .filter(&one)
-            .map(|i| frame.status[i])
-            .collect();
+        let codes: Vec<u8> =
+            (0..frame.status.len()).filter(&one).map(|i| frame.status[i]).collect();
         let tractions = [&wide(&frame.pressure)[..], &wide(frame.shear())];
         let instant = format!("*t* = {:.3} ms", snapshot.time * 1e3);
         if !self.mesh.has_round_contact() {
@@ -251,12 +221,7 @@ impl RunFigures<'_> {
             Some(sector) if sector.specification.contact.face() != SolidFace::Inner => "ring",
             _ => "cylinder *Ωa*",
         };
-        Ok(contact_figure(
-            (names, counterface),
-            (first, &statuses(&codes)),
-            tractions,
-            velocity,
-        ))
+        Ok(contact_figure((names, counterface), (first, &statuses(&codes)), tractions, velocity))
     }
 
     /// Tangential velocity of each contact node, m/s: before another body that of what it meets less its own, the slip.
@@ -276,9 +241,7 @@ impl RunFigures<'_> {
                 return velocity;
             }
             let met = shares.iter();
-            let met: f64 = met
-                .map(|share| share.tangential * snapshot.velocity[share.dof])
-                .sum();
+            let met: f64 = met.map(|share| share.tangential * snapshot.velocity[share.dof]).sum();
             self.peripheral_speed + met - velocity
         };
         own.map(slip).collect()

@@ -40,9 +40,7 @@ pub fn write(
     if report.has_harmonics {
         folder.write("harmonics.csv", |out| write_harmonics(out, report.record))?;
     }
-    folder.write("contact.npz", |out| {
-        out.write_all(&encode_contact(report.record)?)
-    })?;
+    folder.write("contact.npz", |out| out.write_all(&encode_contact(report.record)?))?;
     write_snapshots(folder, report)?;
     write_record(folder, report.record)?;
     let summary = summary(report, folder.manifest());
@@ -71,23 +69,10 @@ fn write_probe(
     samples: &[SampleRow],
     probe: &ProbeRows<'_>,
 ) -> io::Result<()> {
-    let ProbeRows {
-        rows,
-        axial,
-        raw,
-        turn,
-        is_cartesian,
-    } = *probe;
+    let ProbeRows { rows, axial, raw, turn, is_cartesian } = *probe;
     let mut columns = vec!["time_s"];
     columns.extend(match is_cartesian {
-        true => [
-            "u_x_m",
-            "u_y_m",
-            "v_x_m_per_s",
-            "v_y_m_per_s",
-            "a_x_m_per_s2",
-            "a_y_m_per_s2",
-        ],
+        true => ["u_x_m", "u_y_m", "v_x_m_per_s", "v_y_m_per_s", "a_x_m_per_s2", "a_y_m_per_s2"],
         false => [
             "u_r_m",
             "u_theta_m",
@@ -120,12 +105,8 @@ fn write_probe(
         let axial = axial.filter(|_| raw.is_some()).map(|row| row[3]);
         let numbers = mean.chain(step.into_iter().flatten()).chain(axial);
         let cartesian = turn.map(|(sin, cos)| {
-            let along = |k: usize| {
-                [
-                    cos * row[k] - sin * row[k + 1],
-                    sin * row[k] + cos * row[k + 1],
-                ]
-            };
+            let along =
+                |k: usize| [cos * row[k] - sin * row[k + 1], sin * row[k] + cos * row[k + 1]];
             [0, 2, 4].map(along)
         });
         let numbers = numbers.chain(cartesian.into_iter().flatten().flatten());
@@ -187,9 +168,8 @@ fn write_contact(out: &mut dyn Write, rows: &[SampleRow]) -> io::Result<()> {
 /// ones those that matter.
 fn write_harmonics(out: &mut dyn Write, record: &Recorder) -> io::Result<()> {
     let harmonics = record.significant_harmonics();
-    let parts = harmonics
-        .iter()
-        .flat_map(|n| [format!("n{n}_real_m"), format!("n{n}_imaginary_m")]);
+    let parts =
+        harmonics.iter().flat_map(|n| [format!("n{n}_real_m"), format!("n{n}_imaginary_m")]);
     let columns: Vec<String> = std::iter::once("time_s".to_owned()).chain(parts).collect();
     let names: Vec<&str> = columns.iter().map(String::as_str).collect();
     let mut table = Table::new(out, &names)?;
@@ -234,11 +214,7 @@ fn write_snapshots(folder: &OutputFolder, report: &TransientReport<'_>) -> Resul
                 None => Ok(()),
             }
         })?;
-        entries.push(PvdEntry {
-            time: snapshot.time,
-            group: String::new(),
-            file: name,
-        });
+        entries.push(PvdEntry { time: snapshot.time, group: String::new(), file: name });
     }
     folder.write("snapshots.pvd", |out| write_pvd(out, &entries))?;
     Ok(())
@@ -266,11 +242,7 @@ fn snapshot_fields(report: &TransientReport<'_>, snapshot: &Snapshot) -> Vec<Fie
         ];
         let stress = solid_stress(mesh, report.material, &snapshot.displacement);
         fields.extend(Field::solid_stresses(&stress, "xyz"));
-        fields.extend(contact_fields(
-            &report.contact_nodes,
-            mesh.node_count(),
-            snapshot,
-        ));
+        fields.extend(contact_fields(&report.contact_nodes, mesh.node_count(), snapshot));
         return fields;
     }
     let mut fields = vec![

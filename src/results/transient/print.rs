@@ -24,15 +24,8 @@ pub fn print(summary: &TransientSummary, state: EndState) -> String {
         summary.operator,
         fixed(1e-6 * summary.element_steps_per_s, 1),
     );
-    let _ = writeln!(
-        out,
-        "largest energy balance residual {:.1e}",
-        summary.max_balance_residual
-    );
-    summary
-        .growth
-        .iter()
-        .for_each(|stage| growth(&mut out, stage));
+    let _ = writeln!(out, "largest energy balance residual {:.1e}", summary.max_balance_residual);
+    summary.growth.iter().for_each(|stage| growth(&mut out, stage));
     for (vibration, reason) in &summary.no_growth {
         let of = match vibration.strip_prefix('n') {
             Some(harmonic) => format!(" of harmonic {harmonic}"),
@@ -87,15 +80,10 @@ pub fn print(summary: &TransientSummary, state: EndState) -> String {
         if let Some(place) = probe.place {
             let [[x, y], [p, q]] =
                 [place.asked_m, place.at_m].map(|at| at.map(|c| fixed(1e3 * c, 3)));
-            let _ = writeln!(
-                out,
-                "  probe at ({x}, {y}) mm: node {node} at ({p}, {q}) mm"
-            );
+            let _ = writeln!(out, "  probe at ({x}, {y}) mm: node {node} at ({p}, {q}) mm");
         }
     }
-    let periods = summary
-        .main_frequency_hz
-        .map(|f| f * summary.contact_interval_s);
+    let periods = summary.main_frequency_hz.map(|f| f * summary.contact_interval_s);
     if periods.is_some_and(|periods| periods > COARSE_FRAMES) {
         let _ = writeln!(
             out,
@@ -182,11 +170,7 @@ fn powers(out: &mut String, powers: &MeanPowers, extent: Extent) {
         optional(powers.normal_contact, 2),
     );
     if let Some(power) = powers.contact_damping {
-        let _ = writeln!(
-            out,
-            "  dissipated in dashpots of the contact {} {unit}",
-            fixed(power, 2)
-        );
+        let _ = writeln!(out, "  dissipated in dashpots of the contact {} {unit}", fixed(power, 2));
     }
     if let Some(note) = extent.note() {
         let _ = writeln!(out, "  {note}");

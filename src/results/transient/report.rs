@@ -71,16 +71,11 @@ fn capitalized(sentence: &str) -> String {
 }
 
 fn course(summary: &TransientSummary) -> String {
-    let end = if summary.finished {
-        "complete"
-    } else {
-        "stopped before its end"
-    };
+    let end = if summary.finished { "complete" } else { "stopped before its end" };
     let first = match summary.first_nonlinearity_s {
-        Some(time) => format!(
-            "the first contact node sticks or opens at {} ms",
-            fixed(1e3 * time, 3)
-        ),
+        Some(time) => {
+            format!("the first contact node sticks or opens at {} ms", fixed(1e3 * time, 3))
+        }
         None => "there is no linear stage that ends in stick or separation".into(),
     };
     format!(
@@ -144,9 +139,7 @@ fn motion_table(summary: &TransientSummary) -> ReportTable {
             ("tangential", Some(&motion.tangential)),
             ("axial", motion.axial.as_ref()),
         ];
-        let known = directions
-            .into_iter()
-            .filter_map(|(name, motion)| Some((name, motion?)));
+        let known = directions.into_iter().filter_map(|(name, motion)| Some((name, motion?)));
         known.map(|(direction, motion)| {
             vec![
                 node.clone(),
@@ -158,12 +151,7 @@ fn motion_table(summary: &TransientSummary) -> ReportTable {
     });
     ReportTable::new(
         "Accelerations over the last fifth of the run",
-        [
-            "node",
-            "direction",
-            "root mean square (m/s²)",
-            "peak (m/s²)",
-        ],
+        ["node", "direction", "root mean square (m/s²)", "peak (m/s²)"],
         rows,
     )
 }
@@ -179,15 +167,9 @@ fn growth_table(
     };
     let fitted = summary.growth.iter().map(|growth| {
         vec![
-            growth
-                .harmonic
-                .map_or("strongest".into(), |n| n.to_string()),
+            growth.harmonic.map_or("strongest".into(), |n| n.to_string()),
             fixed(growth.rate_per_s, 2),
-            format!(
-                "{} to {}",
-                fixed(growth.rate_low_per_s, 2),
-                fixed(growth.rate_high_per_s, 2)
-            ),
+            format!("{} to {}", fixed(growth.rate_low_per_s, 2), fixed(growth.rate_high_per_s, 2)),
             match growth.harmonic {
                 Some(harmonic) => own(harmonic),
                 None => growing_mode.map_or(String::new(), |(_, rate)| fixed(rate, 2)),
@@ -198,13 +180,7 @@ fn growth_table(
     let others = summary.no_growth.iter().map(|(vibration, reason)| {
         let harmonic = vibration.strip_prefix('n').unwrap_or(vibration);
         let own = harmonic.parse().map_or(String::new(), own);
-        vec![
-            harmonic.to_owned(),
-            "none".into(),
-            reason.clone(),
-            own,
-            String::new(),
-        ]
+        vec![harmonic.to_owned(), "none".into(), reason.clone(), own, String::new()]
     });
     ReportTable::new(
         "Growth in the linear stage",

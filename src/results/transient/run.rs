@@ -44,16 +44,8 @@ impl RunFigures<'_> {
     /// What the components of a probe are along, the first, the second and the third.
     pub(super) fn directions(&self) -> [&'static str; 3] {
         match self.is_assembly() {
-            true => [
-                "acceleration along x",
-                "acceleration along y",
-                "acceleration along z",
-            ],
-            false => [
-                "radial acceleration",
-                "tangential acceleration",
-                "axial acceleration",
-            ],
+            true => ["acceleration along x", "acceleration along y", "acceleration along z"],
+            false => ["radial acceleration", "tangential acceleration", "axial acceleration"],
         }
     }
 
@@ -92,9 +84,7 @@ impl RunFigures<'_> {
             let signal = self.component(probe, component);
             signal.iter().map(|a| a * a).sum()
         };
-        (0..3)
-            .max_by(|&a, &b| size(a).total_cmp(&size(b)))
-            .unwrap_or(1)
+        (0..3).max_by(|&a, &b| size(a).total_cmp(&size(b))).unwrap_or(1)
     }
 
     /// Acceleration of a probe along one of its directions.
@@ -119,10 +109,7 @@ impl RunFigures<'_> {
         let growth = self.analysis.growth.first()?;
         let frequency = growth.stage.as_ref().ok()?.frequency_hz.value.abs();
         let distance = |mode: &&(f64, f64)| (mode.0 / frequency - 1.0).abs();
-        let nearest = self
-            .mode_rates
-            .iter()
-            .min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        let nearest = self.mode_rates.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
         (distance(&nearest) < 0.03).then_some(*nearest)
     }
 
@@ -132,10 +119,6 @@ impl RunFigures<'_> {
         let modes = self.references.iter().map(|mode| mode.frequency_hz);
         let wanted = modes.fold(3.4 * main, |top, f| top.max(1.1 * f));
         let nyquist = 0.5 / self.interval().max(1e-12);
-        if wanted > 0.0 {
-            wanted.min(nyquist)
-        } else {
-            nyquist.min(35e3)
-        }
+        if wanted > 0.0 { wanted.min(nyquist) } else { nyquist.min(35e3) }
     }
 }

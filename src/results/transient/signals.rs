@@ -33,20 +33,12 @@ fn meaning(stages: &[Stage]) -> String {
 impl RunFigures<'_> {
     /// Acceleration, spectrograms and contact status on one time axis, with the end of the run enlarged at the right.
     pub(super) fn overview(&self, probe: usize) -> Figure {
-        let (node, times, signal) = (
-            self.probe_label(probe),
-            self.times(),
-            self.acceleration(probe),
-        );
+        let (node, times, signal) =
+            (self.probe_label(probe), self.times(), self.acceleration(probe));
         let (start, end) = extremes([times.first(), times.last()].into_iter().flatten().copied());
-        let periods = self
-            .analysis
-            .last_fifth
-            .main_frequency_hz
-            .map(|frequency| 4.0 / frequency);
-        let enlarged = periods
-            .filter(|length| *length < end - start)
-            .map(|length| (end - length, end));
+        let periods = self.analysis.last_fifth.main_frequency_hz.map(|frequency| 4.0 / frequency);
+        let enlarged =
+            periods.filter(|length| *length < end - start).map(|length| (end - length, end));
         let axis = run_axis(&times);
         let top = self.highest_frequency();
         let component = self.shown_component(probe);
@@ -69,10 +61,8 @@ impl RunFigures<'_> {
             signal_panel(axis, &times[first..], &signal[first..], unit, 0.9)
                 .caption("end of the run")
         });
-        let options = SpectrogramOptions {
-            max_frequency_hz: 1.05 * top,
-            ..SpectrogramOptions::default()
-        };
+        let options =
+            SpectrogramOptions { max_frequency_hz: 1.05 * top, ..SpectrogramOptions::default() };
         // A run shorter than a window has no spectrogram, and needs none.
         let map = spectrogram(&signal, 1.0 / self.interval().max(1e-12), &options).ok();
         let spectrograms = map.map_or(Vec::new(), |map| {
@@ -116,9 +106,8 @@ impl RunFigures<'_> {
         }
         let frames = &self.record.frames;
         let times: Vec<f64> = frames.iter().map(|frame| frame.time).collect();
-        let places: Vec<usize> = (0..self.record.contact_angles.len())
-            .filter(self.shown_places())
-            .collect();
+        let places: Vec<usize> =
+            (0..self.record.contact_angles.len()).filter(self.shown_places()).collect();
         let codes: Vec<u8> = frames
             .iter()
             .flat_map(|frame| places.iter().map(|&place| frame.status[place]))
@@ -147,25 +136,18 @@ impl RunFigures<'_> {
             let end = &signal[signal.len() - signal.len().div_ceil(5)..];
             let found =
                 amplitude_spectrum(end, 1.0 / self.interval().max(1e-12), Window::Hann, 2).ok();
-            found.map_or((Vec::new(), Vec::new()), |found| {
-                (found.frequencies_hz, found.amplitudes)
-            })
+            found.map_or((Vec::new(), Vec::new()), |found| (found.frequencies_hz, found.amplitudes))
         };
         let [tangential, radial] = [5, 4].map(|column| spectrum_of(self.column(probe, column)));
         let [first, second, third] = self.directions();
         let axial = self.record.axial_rows.get(probe);
         let axial = axial.map(|rows| spectrum_of(rows.iter().map(|row| row[2]).collect()));
-        let mut spectra: Vec<(&str, &[f64], &[f64])> = vec![
-            (second, &tangential.0, &tangential.1),
-            (first, &radial.0, &radial.1),
-        ];
+        let mut spectra: Vec<(&str, &[f64], &[f64])> =
+            vec![(second, &tangential.0, &tangential.1), (first, &radial.0, &radial.1)];
         spectra.extend(axial.iter().map(|(f, a)| (third, &f[..], &a[..])));
         let caption =
             format!("Spectra of the accelerations of node {node} over the last fifth of the run.");
-        let frequencies = (
-            self.highest_frequency(),
-            self.analysis.last_fifth.main_frequency_hz,
-        );
+        let frequencies = (self.highest_frequency(), self.analysis.last_fifth.main_frequency_hz);
         let panel = spectrum_panel(&spectra, "m/s²", frequencies, &self.references);
         Figure::new(format!("spectrum-{node}"), caption)
             .panel(panel.caption(format!("accelerations of node {node}")))
@@ -192,17 +174,14 @@ impl RunFigures<'_> {
             }
         }
         let sizes: Vec<f64> = squares.into_iter().map(f64::sqrt).collect();
-        let edge = Line::new(&times, &sizes)
-            .solid(SERIES[0], 0.8)
-            .name("contact edge");
+        let edge = Line::new(&times, &sizes).solid(SERIES[0], 0.8).name("contact edge");
         // What the start leaves behind has died out by a third of the stage.
         let window = (0.35 * stage, 0.95 * stage);
         let rate = self.growing_mode().and_then(|(frequency, rate)| {
             let inside = times.iter().zip(&sizes);
             let inside = inside.filter(|(t, a)| (window.0..=window.1).contains(*t) && **a > 0.0);
-            let (sum, count) = inside.fold((0.0, 0.0), |(sum, count), (t, a)| {
-                (sum + a.ln() - rate * t, count + 1.0)
-            });
+            let (sum, count) = inside
+                .fold((0.0, 0.0), |(sum, count), (t, a)| (sum + a.ln() - rate * t, count + 1.0));
             let at = |t: f64| (t, (sum / count + rate * t).exp());
             let name = format!(
                 "rate of the eigenvalue analysis, {} kHz: {} s^{{−1}}",
@@ -221,9 +200,8 @@ impl RunFigures<'_> {
                 .beside("first stick or separation")
         });
         let end = linear_end.map_or(last, |end| last.min(start + SHOWN_STAGES * (end - start)));
-        let amplitude = Axis::new("vibration of the contact edge", "m")
-            .decades(GROWTH_DECADES)
-            .room(0.02);
+        let amplitude =
+            Axis::new("vibration of the contact edge", "m").decades(GROWTH_DECADES).room(0.02);
         let panel = Panel::new(Axis::time().between(start, end), amplitude)
             .height(190.0)
             .layer(edge)
@@ -241,15 +219,10 @@ impl RunFigures<'_> {
         let (rows, times) = (&self.record.rows, self.times());
         let amplitude = |n: usize| -> Vec<f64> {
             let parts = (0..rows.len()).map(|sample| self.record.amplitude(sample, n));
-            parts
-                .map(|parts| parts.map_or(f64::NAN, |[a, b]| a.hypot(b)))
-                .collect()
+            parts.map(|parts| parts.map_or(f64::NAN, |[a, b]| a.hypot(b))).collect()
         };
-        let amplitudes: BTreeMap<usize, Vec<f64>> = self
-            .record
-            .followed_harmonics()
-            .map(|n| (n, amplitude(n)))
-            .collect();
+        let amplitudes: BTreeMap<usize, Vec<f64>> =
+            self.record.followed_harmonics().map(|n| (n, amplitude(n))).collect();
         let largest = extremes(amplitudes.values().flatten().copied()).1;
         let (start, last) = extremes([times.first(), times.last()].into_iter().flatten().copied());
         let linear_end = self.analysis.first_nonlinearity;
@@ -261,13 +234,8 @@ impl RunFigures<'_> {
         };
         let shown = amplitudes.iter().filter(|(n, _)| is_shown(**n));
         let lines = shown.map(|(&n, own)| {
-            let stroke = Stroke {
-                dash: look(n).2,
-                ..Stroke::solid(look(n).0, 0.8)
-            };
-            Line::new(&times, own)
-                .stroke(stroke)
-                .name(format!("*n* = {n}"))
+            let stroke = Stroke { dash: look(n).2, ..Stroke::solid(look(n).0, 0.8) };
+            Line::new(&times, own).stroke(stroke).name(format!("*n* = {n}"))
         });
         // What the start leaves behind has died out by a third of the stage.
         let stage = linear_end.unwrap_or(last);
@@ -278,9 +246,8 @@ impl RunFigures<'_> {
                 .iter()
                 .zip(&amplitudes[&n])
                 .filter(|(t, a)| (window.0..=window.1).contains(*t) && **a > 0.0);
-            let (sum, count) = inside.fold((0.0, 0.0), |(sum, count), (t, a)| {
-                (sum + a.ln() - rate * t, count + 1.0)
-            });
+            let (sum, count) = inside
+                .fold((0.0, 0.0), |(sum, count), (t, a)| (sum + a.ln() - rate * t, count + 1.0));
             let at = |t: f64| (t, (sum / count + rate * t).exp());
             let name = format!(
                 "rate of the eigenvalue analysis, *n* = {n}: {} s^{{−1}}",
@@ -292,9 +259,7 @@ impl RunFigures<'_> {
                     .name(name)
             })
         });
-        let amplitude = Axis::new("amplitude of *u*_{θ}", "m")
-            .decades(GROWTH_DECADES)
-            .room(0.02);
+        let amplitude = Axis::new("amplitude of *u*_{θ}", "m").decades(GROWTH_DECADES).room(0.02);
         let nonlinear = linear_end.map(|time| {
             Rule::vertical(time)
                 .stroke(Stroke::dotted(MUTED, 0.7))
@@ -311,10 +276,7 @@ impl RunFigures<'_> {
         )
         .panel(panel);
         match end < last {
-            true => figure.note(format!(
-                "the run goes on to {} ms",
-                significant(last * 1e3, 3)
-            )),
+            true => figure.note(format!("the run goes on to {} ms", significant(last * 1e3, 3))),
             false => figure,
         }
     }

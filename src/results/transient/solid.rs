@@ -6,7 +6,5 @@ use crate::mesh::SolidSector;
 pub(super) fn contact_nodes(sector: &SolidSector) -> Vec<u32> {
     let rings = || sector.rings.iter().flat_map(|ring| &ring.nodes);
     let sectors = 0..sector.sector_count();
-    sectors
-        .flat_map(|s| rings().map(move |node| (s * sector.node_count() + node) as u32))
-        .collect()
+    sectors.flat_map(|s| rings().map(move |node| (s * sector.node_count() + node) as u32)).collect()
 }

@@ -22,9 +22,7 @@ pub(super) fn stages(record: &Recorder, analysis: &TransientAnalysis) -> Vec<Sta
         return Vec::new();
     };
     let linear_end = analysis.first_nonlinearity.unwrap_or(last.time);
-    let window = rows
-        .partition_point(|row| row.time < rows[0].time + 5e-4)
-        .max(2);
+    let window = rows.partition_point(|row| row.time < rows[0].time + 5e-4).max(2);
     let linear = rows.partition_point(|row| row.time < linear_end);
     // The last half millisecond of the linear stage in which harmonic zero still moves more than the wave.
     let overtaken = (0..linear / window).rfind(|&block| {
@@ -34,9 +32,7 @@ pub(super) fn stages(record: &Recorder, analysis: &TransientAnalysis) -> Vec<Sta
         wave < 0.5 * (high - low)
     });
     let after = |index: Option<usize>| {
-        index
-            .and_then(|i| rows.get(i + 1))
-            .map_or(rows[0].time, |row| row.time)
+        index.and_then(|i| rows.get(i + 1)).map_or(rows[0].time, |row| row.time)
     };
     let growth = after(overtaken.map(|block| (block + 1) * window - 1));
     let settled = rows
@@ -59,7 +55,5 @@ pub(super) fn stages(record: &Recorder, analysis: &TransientAnalysis) -> Vec<Sta
         ("D", cycle, last.time),
     ];
     let present = spans.into_iter().filter(|(_, start, end)| end > start);
-    present
-        .map(|(name, start, _)| Stage { name, start })
-        .collect()
+    present.map(|(name, start, _)| Stage { name, start }).collect()
 }

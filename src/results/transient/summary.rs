@@ -346,11 +346,7 @@ impl MotionSummary {
 
 impl From<Drift> for DriftSummary {
     fn from(drift: Drift) -> Self {
-        Self {
-            amplitude: drift.amplitude,
-            frequency: drift.frequency,
-            status: drift.status,
-        }
+        Self { amplitude: drift.amplitude, frequency: drift.frequency, status: drift.status }
     }
 }
 

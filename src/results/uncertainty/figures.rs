@@ -11,19 +11,13 @@ pub fn uncertainty(summary: &UncertaintySummary) -> Figure {
     let largest = shown_friction(summary);
     let friction = || Axis::friction().between(0.0, largest);
     let share = |name: &str| Axis::new(name, "–").between(0.0, 1.0);
-    let families = summary
-        .families
-        .iter()
-        .take(5)
-        .enumerate()
-        .map(|(index, family)| {
-            let quantiles = family.critical_friction_percentiles.iter().enumerate();
-            let points =
-                quantiles.filter_map(|(k, value)| Some(((*value)?, 0.01 * (k + 1) as f64)));
-            Line::through(points.collect::<Vec<_>>())
-                .stroke(Stroke::dashed(look(index + 1).0, 0.9))
-                .name(family.name().replace("n =", "*n* ="))
-        });
+    let families = summary.families.iter().take(5).enumerate().map(|(index, family)| {
+        let quantiles = family.critical_friction_percentiles.iter().enumerate();
+        let points = quantiles.filter_map(|(k, value)| Some(((*value)?, 0.01 * (k + 1) as f64)));
+        Line::through(points.collect::<Vec<_>>())
+            .stroke(Stroke::dashed(look(index + 1).0, 0.9))
+            .name(family.name().replace("n =", "*n* ="))
+    });
     let own = || {
         Rule::vertical(summary.friction_coefficient)
             .stroke(Stroke::dashed(INK, 0.8))
@@ -39,17 +33,9 @@ pub fn uncertainty(summary: &UncertaintySummary) -> Figure {
         .legend();
     let probability = Panel::new(friction(), share("probability of squeal"))
         .height(150.0)
-        .layer(
-            Fill::between(&at, &low, &high, SERIES[0])
-                .opacity(0.25)
-                .name("95 % interval"),
-        )
+        .layer(Fill::between(&at, &low, &high, SERIES[0]).opacity(0.25).name("95 % interval"))
         .layer(own())
-        .layer(
-            Line::new(&at, &value)
-                .solid(SERIES[0], 1.2)
-                .name("some mode unstable"),
-        )
+        .layer(Line::new(&at, &value).solid(SERIES[0], 1.2).name("some mode unstable"))
         .legend();
     Figure::new(
         "uncertainty",
@@ -94,10 +80,7 @@ pub fn indices(summary: &UncertaintySummary) -> Figure {
             Some(Line::through([(low, at), (high, at)]).solid(INK, 0.7))
         })
     });
-    let names = rows
-        .iter()
-        .enumerate()
-        .map(|(k, (key, _))| (place(k), parameter_name(key)));
+    let names = rows.iter().enumerate().map(|(k, (key, _))| (place(k), parameter_name(key)));
     let largest = rows
         .iter()
         .map(|row| {
@@ -106,9 +89,8 @@ pub fn indices(summary: &UncertaintySummary) -> Figure {
             ends.fold(row.1.total.max(row.1.first), f64::max)
         })
         .fold(1.0, f64::max);
-    let y = Axis::new("", "")
-        .between(-0.6, rows.len() as f64 - 0.4)
-        .ticks(names.collect::<Vec<_>>());
+    let y =
+        Axis::new("", "").between(-0.6, rows.len() as f64 - 0.4).ticks(names.collect::<Vec<_>>());
     let panel = Panel::new(Axis::new("Sobol index", "–").between(0.0, largest), y)
         .height(34.0 * rows.len() as f64 + 12.0)
         .layer(Bars::new(total.collect(), SERIES[5]))
@@ -133,26 +115,12 @@ pub fn robust(summary: &RobustSummary) -> Figure {
             Axis::new("probability of squeal", "–").between(0.0, 1.0),
         )
         .height(130.0)
-        .layer(
-            Fill::between(&at, &low, &high, SERIES[0])
-                .opacity(0.25)
-                .name("95 % interval"),
-        )
-        .layer(
-            Line::new(&at, &value)
-                .solid(SERIES[0], 1.2)
-                .marked(Marker::Disc, 1.5),
-        )
-        .layer(
-            Rule::horizontal(summary.bound)
-                .stroke(Stroke::dashed(INK, 0.8))
-                .name("bound"),
-        );
+        .layer(Fill::between(&at, &low, &high, SERIES[0]).opacity(0.25).name("95 % interval"))
+        .layer(Line::new(&at, &value).solid(SERIES[0], 1.2).marked(Marker::Disc, 1.5))
+        .layer(Rule::horizontal(summary.bound).stroke(Stroke::dashed(INK, 0.8)).name("bound"));
         let panel = match curve.own {
             Some(own) => panel.layer(
-                Rule::vertical(own)
-                    .stroke(Stroke::dotted(INK, 0.8))
-                    .name("case as written"),
+                Rule::vertical(own).stroke(Stroke::dotted(INK, 0.8)).name("case as written"),
             ),
             None => panel,
         };

@@ -61,10 +61,7 @@ pub struct Sample {
 impl Sample {
     /// The lowest onset up to a friction coefficient.
     pub fn lowest(&self, most: f64) -> Option<&Onset> {
-        let within = self
-            .onsets
-            .iter()
-            .filter(|onset| onset.critical_friction <= most);
+        let within = self.onsets.iter().filter(|onset| onset.critical_friction <= most);
         within.min_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction))
     }
 

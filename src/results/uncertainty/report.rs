@@ -45,9 +45,7 @@ pub fn write_samples(
                 Some(_) => String::new(),
             });
             row.push(text(&|onset| format_number(onset.critical_friction)));
-            row.push(text(&|onset| {
-                onset.harmonic.map_or(String::new(), |n| n.to_string())
-            }));
+            row.push(text(&|onset| onset.harmonic.map_or(String::new(), |n| n.to_string())));
             row.push(text(&|onset| onset.branch.to_string()));
             row.push(text(&|onset| onset.direction.to_string()));
             row.push(text(&|onset| format_number(onset.frequency_hz)));
@@ -107,19 +105,13 @@ fn results(summary: &UncertaintySummary) -> Vec<(String, String)> {
         |value: Option<f64>| value.map_or("beyond the range".to_owned(), |v| format!("{v:.4}"));
     let rows = [
         (
-            format!(
-                "probability of squeal at friction {}",
-                summary.friction_coefficient
-            ),
+            format!("probability of squeal at friction {}", summary.friction_coefficient),
             format!("{:.4} (95 % {:.4} to {:.4})", p.value, p.low, p.high),
         ),
         ("lowest critical friction, median".into(), text(c.median)),
         ("5 % of the samples below".into(), text(c.p05)),
         ("5 % of the samples above".into(), text(c.p95)),
-        (
-            "samples".into(),
-            (summary.samples - summary.failed).to_string(),
-        ),
+        ("samples".into(), (summary.samples - summary.failed).to_string()),
     ];
     let decisive = summary.decisive.iter();
     let decisive = decisive.map(|key| ("decisive parameter".to_owned(), key.clone()));
@@ -145,9 +137,8 @@ fn designs(summary: &UncertaintySummary) -> ReportTable {
     let robust = summary.robust.iter();
     let rows = robust.flat_map(|robust| robust.curves.iter().map(|curve| (robust.bound, curve)));
     let row = |(_, curve): (f64, &DesignCurve)| {
-        let reached = curve
-            .reaches_bound_at
-            .map_or("not reached".to_owned(), |value| significant(value, 4));
+        let reached =
+            curve.reaches_bound_at.map_or("not reached".to_owned(), |value| significant(value, 4));
         let change = curve.change_percent;
         let change = change.map_or(String::new(), |change| format!("{change:+.1}"));
         vec![curve.key.clone(), reached, change]

@@ -159,9 +159,7 @@ impl FamilySummary {
             0 => "",
             ..0 => " ↻",
         };
-        let harmonic = self
-            .harmonic
-            .map_or(String::new(), |n| format!("n = {n}, "));
+        let harmonic = self.harmonic.map_or(String::new(), |n| format!("n = {n}, "));
         format!("{harmonic}branch {}{way}", self.branch)
     }
 }
@@ -253,10 +251,7 @@ impl UncertaintySummary {
 impl Summary for UncertaintySummary {
     fn headline(&self) -> Vec<Entry> {
         vec![
-            Entry::new(
-                "probability_unstable.value",
-                self.probability_unstable.value,
-            ),
+            Entry::new("probability_unstable.value", self.probability_unstable.value),
             Entry::new("critical_friction.median", self.critical_friction.median),
         ]
     }

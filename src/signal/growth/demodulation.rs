@@ -145,10 +145,6 @@ fn slope(t: &[f64], y: &[f64], correlated: f64) -> (Estimate, f64) {
     let spread: f64 = t.iter().map(|t| (t - mean) * (t - mean)).sum();
     let degrees = (n / correlated - 2.0).max(1.0);
     let error = deviation * (n / (degrees * spread)).sqrt() * student_95(degrees);
-    let estimate = Estimate {
-        value,
-        low: value - error,
-        high: value + error,
-    };
+    let estimate = Estimate { value, low: value - error, high: value + error };
     (estimate, deviation)
 }

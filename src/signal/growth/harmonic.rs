@@ -39,10 +39,7 @@ pub fn harmonic_growth(
         return Err(below(largest));
     };
     let part = centred(&late[first..=last]);
-    let too_short = |periods| NoGrowth::TooShort {
-        periods,
-        needed: PERIODS,
-    };
+    let too_short = |periods| NoGrowth::TooShort { periods, needed: PERIODS };
     if part.len() < FEWEST {
         return Err(too_short(0.0));
     }
@@ -53,19 +50,13 @@ pub fn harmonic_growth(
     }
     let signal = around(&part, sampling_rate, cycles_per_sample);
     // The mean may be above the floor where the vibration is not.
-    let weakest = signal
-        .log_amplitude
-        .iter()
-        .copied()
-        .fold(f64::MAX, f64::min);
+    let weakest = signal.log_amplitude.iter().copied().fold(f64::MAX, f64::min);
     if weakest.exp() <= floor {
         return Err(below(weakest.exp()));
     }
     let mut stage = signal.fit(0, signal.times.len())?;
     if !(stage.deviation <= LARGEST_DEVIATION) {
-        return Err(NoGrowth::NotExponential {
-            frequency_hz: stage.frequency_hz.value.abs(),
-        });
+        return Err(NoGrowth::NotExponential { frequency_hz: stage.frequency_hz.value.abs() });
     }
     let begin = (series.len() / 3 + first) as f64 / sampling_rate;
     (stage.start, stage.end) = (stage.start + begin, stage.end + begin);
@@ -93,13 +84,7 @@ fn around(series: &[c64], sampling_rate: f64, cycles_per_sample: f64) -> Demodul
     let length = (series.len() / 4).max(FEWEST / 2);
     let taper: Vec<f64> = (0..length).map(|k| hann(k, length)).collect();
     let frequency_hz = cycles_per_sample * sampling_rate;
-    demodulate(
-        series,
-        sampling_rate,
-        frequency_hz,
-        &taper,
-        (length / 8).max(1),
-    )
+    demodulate(series, sampling_rate, frequency_hz, &taper, (length / 8).max(1))
 }
 
 fn centred(series: &[c64]) -> Vec<c64> {
@@ -117,17 +102,11 @@ fn strongest_line(series: &[c64]) -> (f64, f64) {
     let count = series.len();
     let windowed = series.iter().enumerate();
     let mut spectrum: Vec<c64> = windowed.map(|(k, v)| v * hann(k, count)).collect();
-    FftPlanner::new()
-        .plan_fft_forward(count)
-        .process(&mut spectrum);
+    FftPlanner::new().plan_fft_forward(count).process(&mut spectrum);
     let lines = LOWEST_LINE..count + 1 - LOWEST_LINE;
     let best = lines.max_by(|&a, &b| spectrum[a].norm_sqr().total_cmp(&spectrum[b].norm_sqr()));
     let best = best.unwrap_or(0);
-    let signed = if best > count / 2 {
-        best as f64 - count as f64
-    } else {
-        best as f64
-    };
+    let signed = if best > count / 2 { best as f64 - count as f64 } else { best as f64 };
     let amplitude = 2.0 * spectrum[best].norm() / count as f64;
     (signed / count as f64, amplitude)
 }
@@ -166,10 +145,7 @@ mod tests {
     fn round_off_a_short_stage_and_a_beat_have_no_growth_rate() {
         // 1e-19 m beside a twist of 9 um: the residue of a wave that has died out.
         let dead = harmonic_growth(&wave(25_000, 3.5, 1e-19), RATE, 9e-6);
-        assert!(
-            matches!(dead, Err(NoGrowth::BelowRoundOff { .. })),
-            "{dead:?}"
-        );
+        assert!(matches!(dead, Err(NoGrowth::BelowRoundOff { .. })), "{dead:?}");
         // 1 ms holds ten periods, of which the last two thirds count.
         let short = harmonic_growth(&wave(500, 952.0, 1e-9), RATE, 9e-6);
         assert!(matches!(short, Err(NoGrowth::TooShort { .. })), "{short:?}");
@@ -180,10 +156,7 @@ mod tests {
             })
             .collect();
         let beat = harmonic_growth(&beat, RATE, 9e-6);
-        assert!(
-            matches!(beat, Err(NoGrowth::NotExponential { .. })),
-            "{beat:?}"
-        );
+        assert!(matches!(beat, Err(NoGrowth::NotExponential { .. })), "{beat:?}");
         assert!(harmonic_growth(&[], RATE, 0.0).is_err());
         let still = vec![c64::new(0.0, 0.0); 1000];
         assert!(harmonic_growth(&still, RATE, 0.0).is_err());

@@ -106,11 +106,7 @@ impl Lines {
             .zip(weights)
             .map(|(x, w)| c64::new(0.0, *x).powi(quantity.derivatives()) * *w)
             .collect();
-        Self {
-            x,
-            factor,
-            reference_hz,
-        }
+        Self { x, factor, reference_hz }
     }
 
     /// Scaled frequency and scaled damping `(u, 2 zeta u)`.
@@ -230,11 +226,7 @@ impl Lines {
             gr += g.re * r.re + g.im * r.im;
             hr += x * (g.re * r.im - g.im * r.re);
         }
-        if gg > 0.0 {
-            gr * gr / gg + hr * hr / hh
-        } else {
-            0.0
-        }
+        if gg > 0.0 { gr * gr / gg + hr * hr / hh } else { 0.0 }
     }
 }
 

@@ -83,10 +83,7 @@ pub fn fit_modes(
 ) -> Result<ModalFit, SignalError> {
     let (begin, end) = range(responses);
     let Some(lowest) = starts.iter().map(|p| p.frequency_hz).reduce(f64::min) else {
-        return Err(SignalError::NoResonance {
-            low_hz: begin,
-            high_hz: end,
-        });
+        return Err(SignalError::NoResonance { low_hz: begin, high_hz: end });
     };
     let parts: Vec<FrequencyResponse> = responses
         .iter()
@@ -111,10 +108,8 @@ pub fn fit_modes(
     for _ in 0..2 {
         let values = problem.values(&fitted.model);
         let residuals = problem.residuals(&values);
-        let moduli: Vec<Vec<f64>> = values
-            .iter()
-            .map(|values| values.iter().map(|v| v.norm()).collect())
-            .collect();
+        let moduli: Vec<Vec<f64>> =
+            values.iter().map(|values| values.iter().map(|v| v.norm()).collect()).collect();
         noise = (parts.iter().zip(&residuals).zip(&moduli))
             .map(|((part, residuals), moduli)| {
                 let pairs = residuals.iter().zip(part.variance_factors());
@@ -135,9 +130,7 @@ fn range(responses: &[FrequencyResponse]) -> (f64, f64) {
         let f = r.frequencies_hz();
         (f[0], f[f.len() - 1])
     });
-    ends.fold((f64::INFINITY, 0.0), |(low, high), (first, last)| {
-        (first.min(low), last.max(high))
-    })
+    ends.fold((f64::INFINITY, 0.0), |(low, high), (first, last)| (first.min(low), last.max(high)))
 }
 
 /// Adds remainder terms and poles while the residual asks for them.
@@ -147,11 +140,8 @@ fn extended(
     starts: usize,
     parts: &[FrequencyResponse],
 ) -> Result<Fitted, SignalError> {
-    let most_poles = if parts.iter().all(|part| part.has_phase()) {
-        2 * starts + 4
-    } else {
-        starts
-    };
+    let most_poles =
+        if parts.iter().all(|part| part.has_phase()) { 2 * starts + 4 } else { starts };
     let (count, responses) = (problem.data_count(), problem.response_count());
     for _ in 0..(starts + 8) {
         let poles = best.model.poles.clone();
@@ -196,9 +186,7 @@ fn extended(
 
 /// Whether all poles could be modes, none twice the same.
 fn are_modes(poles: &[Pole]) -> bool {
-    let plausible = poles
-        .iter()
-        .all(|p| p.damping_factor > 1e-6 && p.damping_factor < 0.89);
+    let plausible = poles.iter().all(|p| p.damping_factor > 1e-6 && p.damping_factor < 0.89);
     let distinct = poles.iter().enumerate().all(|(i, p)| {
         poles[..i].iter().all(|q| {
             let apart = (p.frequency_hz - q.frequency_hz).abs()
@@ -223,10 +211,7 @@ fn candidate(problem: &Problem, fitted: &Fitted, (begin, end): (f64, f64)) -> Op
         let step = 1.0 + (2.0 * damping_factor).max(0.002);
         let mut frequency_hz = 0.97 * begin;
         while frequency_hz < 1.1 * end {
-            let pole = Pole {
-                frequency_hz,
-                damping_factor,
-            };
+            let pole = Pole { frequency_hz, damping_factor };
             let gain = problem.projection(&residuals, pole, REACH);
             if gain > best_gain {
                 best_gain = gain;
@@ -277,11 +262,7 @@ fn summarised(
     starts: usize,
     parts: &[FrequencyResponse],
 ) -> ModalFit {
-    let Fitted {
-        model,
-        chi_square,
-        inverse_normal,
-    } = fitted;
+    let Fitted { model, chi_square, inverse_normal } = fitted;
     // The variance that the residuals show, in units of the assumed one.
     let residuals = problem.weighted_residuals(&model);
     let unknowns = inverse_normal.nrows() as f64;
@@ -295,22 +276,14 @@ fn summarised(
             (begin..=end).contains(&p.frequency_hz) && p.damping_factor < MOST_DAMPED
         })
         .collect();
-    inside.sort_by(|i, j| {
-        model.poles[*i]
-            .frequency_hz
-            .total_cmp(&model.poles[*j].frequency_hz)
-    });
+    inside.sort_by(|i, j| model.poles[*i].frequency_hz.total_cmp(&model.poles[*j].frequency_hz));
     // Unknowns are logarithms: their errors are relative.
     let estimate = |value: f64, relative_error: f64| Estimate {
         value,
         low: value * (1.0 - NORMAL_95 * relative_error),
         high: value * (1.0 + NORMAL_95 * relative_error),
     };
-    let error = |column: usize| {
-        (variance * inverse_normal[(column, column)])
-            .max(0.0)
-            .sqrt()
-    };
+    let error = |column: usize| (variance * inverse_normal[(column, column)]).max(0.0).sqrt();
     let modes = inside
         .iter()
         .map(|&k| {

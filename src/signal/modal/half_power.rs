@@ -54,16 +54,9 @@ pub fn half_power(response: &FrequencyResponse) -> Result<Vec<HalfPowerBand>, Si
     let mobility = response.converted(ResponseQuantity::Mobility)?;
     let f = mobility.frequencies_hz();
     let offset = response.values().len() - f.len();
-    let tops = resonances(
-        &mobility,
-        &response.magnitudes()[offset..],
-        &noise_of(response),
-    );
+    let tops = resonances(&mobility, &response.magnitudes()[offset..], &noise_of(response));
     if tops.is_empty() {
-        return Err(SignalError::NoResonance {
-            low_hz: f[0],
-            high_hz: f[f.len() - 1],
-        });
+        return Err(SignalError::NoResonance { low_hz: f[0], high_hz: f[f.len() - 1] });
     }
     let y = mobility.magnitudes();
     let mut bands: Vec<HalfPowerBand> = tops
@@ -71,14 +64,8 @@ pub fn half_power(response: &FrequencyResponse) -> Result<Vec<HalfPowerBand>, Si
         .enumerate()
         .map(|(k, &top)| {
             // The band must end before the valley towards the next resonance.
-            let left = if k > 0 {
-                valley(&y, tops[k - 1], top)
-            } else {
-                0
-            };
-            let right = tops
-                .get(k + 1)
-                .map_or(y.len() - 1, |next| valley(&y, top, *next));
+            let left = if k > 0 { valley(&y, tops[k - 1], top) } else { 0 };
+            let right = tops.get(k + 1).map_or(y.len() - 1, |next| valley(&y, top, *next));
             let mut band = measure(&f[left..=right], &y[left..=right], top - left);
             band.magnitude = response.values()[top + offset].norm();
             band
@@ -126,11 +113,7 @@ fn prominence(y: &[f64], top: usize) -> f64 {
     let left = descent(&mut (0..top).rev());
     let right = descent(&mut (top + 1..y.len()));
     let pass = left.max(right);
-    if pass > 0.0 {
-        (y[top] / pass).ln()
-    } else {
-        f64::INFINITY
-    }
+    if pass > 0.0 { (y[top] / pass).ln() } else { f64::INFINITY }
 }
 
 /// Top and half-power points around one maximum.
@@ -273,9 +256,7 @@ mod tests {
 
     fn single(zeta: f64, f0: f64, quantity: ResponseQuantity, step: f64) -> FrequencyResponse {
         let w0 = TAU * f0;
-        let f: Vec<f64> = (1..(2.0 * f0 / step) as usize)
-            .map(|i| i as f64 * step)
-            .collect();
+        let f: Vec<f64> = (1..(2.0 * f0 / step) as usize).map(|i| i as f64 * step).collect();
         let h = f
             .iter()
             .map(|f| {
@@ -298,10 +279,7 @@ mod tests {
                 assert_eq!(bands.len(), 1);
                 let found = bands[0].damping_factor.unwrap();
                 // The parabolas through the flanks: 0.3 %, growing with the band's asymmetry.
-                assert!(
-                    (found / zeta - 1.0).abs() < 3e-3 + 0.1 * zeta,
-                    "{zeta} {found}"
-                );
+                assert!((found / zeta - 1.0).abs() < 3e-3 + 0.1 * zeta, "{zeta} {found}");
                 assert!((bands[0].frequency_hz / 2000.0 - 1.0).abs() < 0.2 * zeta);
             }
         }
@@ -310,10 +288,7 @@ mod tests {
     #[test]
     fn coarse_lines_are_reported_instead_of_a_damping_factor() {
         let bands = half_power(&single(0.004, 2000.0, ResponseQuantity::Accelerance, 7.0)).unwrap();
-        assert!(matches!(
-            bands[0].note,
-            Some(ResonanceNote::TooCoarse(1..=4))
-        ));
+        assert!(matches!(bands[0].note, Some(ResonanceNote::TooCoarse(1..=4))));
         assert_eq!(bands[0].damping_factor, None);
     }
 }

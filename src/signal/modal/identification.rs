@@ -60,10 +60,8 @@ pub fn identify(
     options: &IdentificationOptions,
 ) -> Result<Identification, SignalError> {
     let (low, high) = options.range_hz.unwrap_or((0.0, f64::INFINITY));
-    let cut: Vec<FrequencyResponse> = responses
-        .iter()
-        .map(|response| response.within(low, high))
-        .collect::<Result<_, _>>()?;
+    let cut: Vec<FrequencyResponse> =
+        responses.iter().map(|response| response.within(low, high)).collect::<Result<_, _>>()?;
     let bands = peaks(&cut)?;
     let resolution_hz = cut.iter().map(|r| r.resolution_hz()).fold(0.0, f64::max);
     refuse_coarse(resolution_hz, &bands)?;
@@ -92,9 +90,8 @@ pub fn identify(
             damping_factor: modes[k].fitted.damping_factor.value,
         })
         .collect();
-    let covariance = Mat::from_fn(used.len(), used.len(), |i, j| {
-        fit.damping_covariance[(used[i], used[j])]
-    });
+    let covariance =
+        Mat::from_fn(used.len(), used.len(), |i, j| fit.damping_covariance[(used[i], used[j])]);
     Ok(Identification {
         rayleigh: fit_rayleigh(&samples, Some(&covariance))?,
         half_power_rayleigh: half_power_rayleigh(&modes),
@@ -111,10 +108,7 @@ fn peaks(responses: &[FrequencyResponse]) -> Result<Vec<HalfPowerBand>, SignalEr
         responses.iter().map(half_power).collect();
     if found.iter().all(Result::is_err) {
         let first = found.into_iter().find_map(Result::err);
-        return Err(first.unwrap_or(SignalError::NoResonance {
-            low_hz: 0.0,
-            high_hz: 0.0,
-        }));
+        return Err(first.unwrap_or(SignalError::NoResonance { low_hz: 0.0, high_hz: 0.0 }));
     }
     let mut kept: Vec<HalfPowerBand> = Vec::new();
     for bands in found.into_iter().flatten() {
@@ -145,10 +139,7 @@ fn half_power_rayleigh(modes: &[IdentifiedMode]) -> Option<RayleighFit> {
         .filter_map(|m| m.half_power)
         .filter(|b| b.note.is_none())
         .filter_map(|b| {
-            Some(DampingSample {
-                frequency_hz: b.frequency_hz,
-                damping_factor: b.damping_factor?,
-            })
+            Some(DampingSample { frequency_hz: b.frequency_hz, damping_factor: b.damping_factor? })
         })
         .collect();
     fit_rayleigh(&samples, None).ok()
@@ -169,16 +160,10 @@ fn refuse_coarse(resolution_hz: f64, bands: &[HalfPowerBand]) -> Result<(), Sign
 
 /// First poles for the fit: half-power widths, or the typical damping where there is none.
 fn starts(bands: &[HalfPowerBand]) -> Vec<Pole> {
-    let width = |b: &HalfPowerBand| {
-        b.band_hz
-            .map(|(low, high)| 0.5 * (high - low) / b.frequency_hz)
-    };
+    let width =
+        |b: &HalfPowerBand| b.band_hz.map(|(low, high)| 0.5 * (high - low) / b.frequency_hz);
     let known: Vec<f64> = bands.iter().filter_map(width).collect();
-    let typical = if known.is_empty() {
-        0.01
-    } else {
-        crate::signal::statistics::median(&known)
-    };
+    let typical = if known.is_empty() { 0.01 } else { crate::signal::statistics::median(&known) };
     bands
         .iter()
         .map(|b| Pole {

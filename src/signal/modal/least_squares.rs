@@ -52,16 +52,9 @@ impl<'a> Problem<'a> {
                 .collect();
             let f = response.frequencies_hz();
             let lines = Lines::new(f, &weights, response.quantity(), reference_hz);
-            Weighted {
-                response,
-                weights,
-                lines,
-            }
+            Weighted { response, weights, lines }
         });
-        Self {
-            parts: parts.collect(),
-            reference_hz,
-        }
+        Self { parts: parts.collect(), reference_hz }
     }
 
     /// Number of responses.
@@ -82,17 +75,13 @@ impl<'a> Problem<'a> {
     /// within `reach` bandwidths.
     pub(super) fn projection(&self, residuals: &[Vec<c64>], pole: Pole, reach: f64) -> f64 {
         let pairs = self.parts.iter().zip(residuals);
-        pairs
-            .map(|(part, residual)| part.lines.projection(residual, pole, reach))
-            .sum()
+        pairs.map(|(part, residual)| part.lines.projection(residual, pole, reach)).sum()
     }
 
     /// Model values on every line of every response.
     pub(super) fn values(&self, model: &ModalModel) -> Vec<Vec<c64>> {
         let pairs = self.parts.iter().zip(&model.shares);
-        pairs
-            .map(|(part, share)| part.values(&model.poles, share))
-            .collect()
+        pairs.map(|(part, share)| part.values(&model.poles, share)).collect()
     }
 
     /// Residuals of the lines of each response, data less model, not weighted.
@@ -147,11 +136,7 @@ impl<'a> Problem<'a> {
                 _ => break,
             }
         }
-        Ok(Fitted {
-            model,
-            chi_square,
-            inverse_normal: inverse(&equations.0)?,
-        })
+        Ok(Fitted { model, chi_square, inverse_normal: inverse(&equations.0)? })
     }
 
     fn chi_square(&self, model: &ModalModel) -> f64 {
@@ -252,16 +237,11 @@ impl Weighted<'_> {
         }
         // Each pole alone has the height of the data at its frequency.
         let quantity = self.response.quantity();
-        let mut share = ModalShare {
-            quantity,
-            numerators: Vec::new(),
-            remainder: vec![0.0; remainder],
-        };
+        let mut share =
+            ModalShare { quantity, numerators: Vec::new(), remainder: vec![0.0; remainder] };
         let (f, data) = (self.response.frequencies_hz(), self.response.values());
         for pole in poles {
-            let nearest = f
-                .partition_point(|f| *f < pole.frequency_hz)
-                .min(f.len() - 1);
+            let nearest = f.partition_point(|f| *f < pole.frequency_hz).min(f.len() - 1);
             let alone = ModalModel {
                 poles: vec![*pole],
                 shares: vec![ModalShare {
@@ -279,13 +259,7 @@ impl Weighted<'_> {
             let values = self.values(poles, &share);
             let pairs = values.iter().zip(data);
             let lent: Vec<c64> = pairs
-                .map(|(m, d)| {
-                    if m.norm() > 0.0 {
-                        m * (d.re / m.norm())
-                    } else {
-                        *d
-                    }
-                })
+                .map(|(m, d)| if m.norm() > 0.0 { m * (d.re / m.norm()) } else { *d })
                 .collect();
             share = self.projected(poles, remainder, &lent)?;
         }
@@ -323,8 +297,7 @@ impl Weighted<'_> {
         let count = self.weights.len();
         let mut matrix = Mat::<f64>::zeros(2 * count, columns + 1);
         self.lines.fill_pole_derivatives(poles, share, &mut matrix);
-        self.lines
-            .fill_linear(poles, remainder, 2 * poles.len(), &mut matrix);
+        self.lines.fill_linear(poles, remainder, 2 * poles.len(), &mut matrix);
         let values = self.values(poles, share);
         if !self.response.has_phase() {
             turn_to(&values, &mut matrix);

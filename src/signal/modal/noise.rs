@@ -44,10 +44,7 @@ impl NoiseModel {
         let tiny = (1e-13 * top).powi(2).max(f64::MIN_POSITIVE);
         let scale = top * top;
         if squares.is_empty() || scale == 0.0 {
-            return Self {
-                additive: tiny.sqrt(),
-                relative: 0.0,
-            };
+            return Self { additive: tiny.sqrt(), relative: 0.0 };
         }
         let q: Vec<f64> = squares.iter().map(|s| s / components).collect();
         let h: Vec<f64> = moduli.iter().map(|m| m * m / scale).collect();
@@ -68,18 +65,12 @@ impl NoiseModel {
                 sqh += w * h * q;
             }
             let determinant = s1 * shh - sh * sh;
-            let (mut nx, mut ny) = (
-                (sq * shh - sqh * sh) / determinant,
-                (s1 * sqh - sh * sq) / determinant,
-            );
+            let (mut nx, mut ny) =
+                ((sq * shh - sqh * sh) / determinant, (s1 * sqh - sh * sq) / determinant);
             let regular = determinant > 1e-12 * s1 * shh;
             if !regular || nx < 0.0 || ny < 0.0 {
                 // On the boundary: the better of the two one-parameter fits.
-                (nx, ny) = if regular && nx < 0.0 {
-                    (0.0, sqh / shh)
-                } else {
-                    (sq / s1, 0.0)
-                };
+                (nx, ny) = if regular && nx < 0.0 { (0.0, sqh / shh) } else { (sq / s1, 0.0) };
             }
             let (old_x, old_y) = (x, y);
             (x, y) = (nx.max(tiny), ny.max(0.0));
@@ -87,9 +78,6 @@ impl NoiseModel {
                 break;
             }
         }
-        Self {
-            additive: x.sqrt(),
-            relative: (y / scale).sqrt(),
-        }
+        Self { additive: x.sqrt(), relative: (y / scale).sqrt() }
     }
 }

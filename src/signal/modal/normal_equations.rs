@@ -28,9 +28,7 @@ pub(super) fn gram(matrix: &Mat<f64>) -> (DMatrix<f64>, DVector<f64>) {
 
 /// Column scales that give the normal matrix a unit diagonal.
 fn scales(normal: &DMatrix<f64>) -> DVector<f64> {
-    normal
-        .diagonal()
-        .map(|d| if d > 0.0 { 1.0 / d.sqrt() } else { 1.0 })
+    normal.diagonal().map(|d| if d > 0.0 { 1.0 / d.sqrt() } else { 1.0 })
 }
 
 /// Cholesky factor of the equilibrated matrix with `damping` on its diagonal, raised until it exists.
@@ -73,7 +71,5 @@ pub(super) fn inverse(normal: &DMatrix<f64>) -> Result<DMatrix<f64>, SignalError
     let scale = scales(normal);
     let inner = factor(normal, &scale, 0.0)?.inverse();
     let n = normal.nrows();
-    Ok(DMatrix::from_fn(n, n, |i, j| {
-        inner[(i, j)] * scale[i] * scale[j]
-    }))
+    Ok(DMatrix::from_fn(n, n, |i, j| inner[(i, j)] * scale[i] * scale[j]))
 }

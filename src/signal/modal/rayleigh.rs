@@ -69,14 +69,9 @@ pub fn fit_rayleigh(
         if k == 0 { 0.5 / x } else { 0.5 * x }
     });
     let zeta = DVector::from_iterator(m, samples.iter().map(|s| s.damping_factor));
-    let singular = SignalError::Fit {
-        reason: "the covariance of the damping factors is singular",
-    };
+    let singular = SignalError::Fit { reason: "the covariance of the damping factors is singular" };
     let weight = match covariance {
-        Some(c) => DMatrix::from_fn(m, m, |i, j| c[(i, j)])
-            .cholesky()
-            .ok_or(singular)?
-            .inverse(),
+        Some(c) => DMatrix::from_fn(m, m, |i, j| c[(i, j)]).cholesky().ok_or(singular)?.inverse(),
         None => DMatrix::from_diagonal(&zeta.map(|z| 1.0 / (z * z).max(f64::MIN_POSITIVE))),
     };
     let normal = design.transpose() * &weight * &design;
@@ -94,17 +89,9 @@ pub fn fit_rayleigh(
     let misfit = &zeta - &design * &x;
     let degrees = m as f64 - 2.0;
     let chi_square = (misfit.transpose() * &weight * &misfit)[(0, 0)];
-    let scatter = if m > 2 {
-        (chi_square / degrees).sqrt()
-    } else {
-        0.0
-    };
+    let scatter = if m > 2 { (chi_square / degrees).sqrt() } else { 0.0 };
     let known = if covariance.is_some() { NORMAL_95 } else { 0.0 };
-    let factor = known.max(if m > 2 {
-        student_95(degrees) * scatter
-    } else {
-        0.0
-    });
+    let factor = known.max(if m > 2 { student_95(degrees) * scatter } else { 0.0 });
     let estimate = |k: usize, unit: f64| {
         let error = factor * spread[(k, k)].max(0.0).sqrt();
         Estimate {
@@ -116,11 +103,7 @@ pub fn fit_rayleigh(
     Ok(RayleighFit {
         mass_coefficient: estimate(0, reference),
         stiffness_coefficient: estimate(1, 1.0 / reference),
-        reduced_chi_square: if covariance.is_some() {
-            scatter * scatter
-        } else {
-            1.0
-        },
+        reduced_chi_square: if covariance.is_some() { scatter * scatter } else { 1.0 },
     })
 }
 
@@ -140,11 +123,8 @@ mod tests {
 
     #[test]
     fn exact_damping_factors_return_the_coefficients_of_the_paper() {
-        let fit = fit_rayleigh(
-            &curve(40.0, 4.5e-7, &[1200.0, 3000.0, 5600.0, 9000.0]),
-            None,
-        )
-        .unwrap();
+        let fit =
+            fit_rayleigh(&curve(40.0, 4.5e-7, &[1200.0, 3000.0, 5600.0, 9000.0]), None).unwrap();
         assert!((fit.mass_coefficient.value / 40.0 - 1.0).abs() < 1e-12);
         assert!((fit.stiffness_coefficient.value / 4.5e-7 - 1.0).abs() < 1e-12);
         assert!(fit.mass_coefficient.high - fit.mass_coefficient.low < 1e-9);
@@ -163,10 +143,7 @@ mod tests {
     #[test]
     fn two_modes_need_a_known_uncertainty() {
         let samples = curve(40.0, 4.5e-7, &[2000.0, 8000.0]);
-        assert!(matches!(
-            fit_rayleigh(&samples, None),
-            Err(SignalError::TooFewModes { count: 2 })
-        ));
+        assert!(matches!(fit_rayleigh(&samples, None), Err(SignalError::TooFewModes { count: 2 })));
         let covariance = Mat::from_fn(2, 2, |i, j| if i == j { 1e-10 } else { 0.0 });
         let fit = fit_rayleigh(&samples, Some(&covariance)).unwrap();
         assert!(fit.mass_coefficient.low < 40.0 && 40.0 < fit.mass_coefficient.high);

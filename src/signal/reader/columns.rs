@@ -54,11 +54,7 @@ pub(super) fn part(name: &str) -> Part {
     } else if has(&["re"]) || begins(&["real", "réel", "reel"]) {
         Part::Real
     } else if has(&["arg", "deg", "°"]) || begins(&["phase", "angle", "phi", "winkel"]) {
-        if has(&["rad", "radian", "radians"]) {
-            Part::Radians
-        } else {
-            Part::Degrees
-        }
+        if has(&["rad", "radian", "radians"]) { Part::Radians } else { Part::Degrees }
     } else if has(&[
         "abs",
         "h",
@@ -96,33 +92,22 @@ pub(super) fn layouts(
     source: &str,
     notes: &mut Vec<String>,
 ) -> Result<Vec<(String, Layout)>, ReadError> {
-    let whole: Vec<usize> = (0..table.columns.len())
-        .filter(|k| table.columns[*k].imaginary.is_some())
-        .collect();
+    let whole: Vec<usize> =
+        (0..table.columns.len()).filter(|k| table.columns[*k].imaginary.is_some()).collect();
     if table.names.is_empty() && whole.is_empty() {
-        return Ok(vec![(
-            "response".to_string(),
-            unnamed_layout(table, source)?,
-        )]);
+        return Ok(vec![("response".to_string(), unnamed_layout(table, source)?)]);
     }
     let columns = |wanted: Part| -> Vec<usize> {
         let named = (0..table.names.len()).filter(|k| *k != frequency);
         named.filter(|k| part(&table.names[*k]) == wanted).collect()
     };
     let missing = |wanted, remedy| {
-        let problem = ReadProblem::MissingColumn {
-            wanted,
-            columns: table.described(),
-            remedy,
-        };
+        let problem = ReadProblem::MissingColumn { wanted, columns: table.described(), remedy };
         Err(ReadError::whole(source, problem))
     };
     let (real, imaginary) = (columns(Part::Real), columns(Part::Imaginary));
     if whole.is_empty() && real.len() > imaginary.len() {
-        return missing(
-            "imaginary part",
-            "name it `imaginary`, or give magnitude and phase",
-        );
+        return missing("imaginary part", "name it `imaginary`, or give magnitude and phase");
     }
     if whole.is_empty() && real.len() < imaginary.len() {
         return missing("real part", "name it `real`, or give magnitude and phase");
@@ -132,9 +117,7 @@ pub(super) fn layouts(
         whole.iter().map(|k| (*k, Layout::Whole(*k))).collect()
     } else if !real.is_empty() {
         let pairs = real.iter().zip(&imaginary);
-        pairs
-            .map(|(re, im)| (*re, Layout::Complex(*re, *im)))
-            .collect()
+        pairs.map(|(re, im)| (*re, Layout::Complex(*re, *im))).collect()
     } else {
         polar(table, &columns)
     };
@@ -151,11 +134,7 @@ pub(super) fn layouts(
 fn polar(table: &Table, columns: &dyn Fn(Part) -> Vec<usize>) -> Vec<(usize, Layout)> {
     let decibel = columns(Part::Decibel);
     let is_level = !decibel.is_empty();
-    let magnitudes = if is_level {
-        decibel
-    } else {
-        columns(Part::Magnitude)
-    };
+    let magnitudes = if is_level { decibel } else { columns(Part::Magnitude) };
     let degrees = columns(Part::Degrees).into_iter();
     let degrees = degrees.map(|k| (k, std::f64::consts::PI / 180.0));
     let radians = columns(Part::Radians).into_iter().map(|k| (k, 1.0));
@@ -232,11 +211,9 @@ fn unnamed_layout(table: &Table, source: &str) -> Result<Layout, ReadError> {
     let size = |k: usize| most(k).max(-least(k));
     let changes_sign = |k: usize| least(k) < 0.0 && most(k) > 0.0;
     match table.columns.len() {
-        2 if least(1) >= 0.0 => Ok(Layout::Polar {
-            magnitude: 1,
-            level_reference: None,
-            phase: None,
-        }),
+        2 if least(1) >= 0.0 => {
+            Ok(Layout::Polar { magnitude: 1, level_reference: None, phase: None })
+        }
         // Decibels beside degrees are of another size than two parts of one number.
         3 if changes_sign(1)
             && changes_sign(2)
@@ -255,10 +232,7 @@ fn unnamed_layout(table: &Table, source: &str) -> Result<Layout, ReadError> {
             Err(ReadError::whole(source, problem))
         }
         count => {
-            let problem = ReadProblem::Unnamed {
-                count,
-                example: "f,re,im",
-            };
+            let problem = ReadProblem::Unnamed { count, example: "f,re,im" };
             Err(table.error(source, 0, 0, problem))
         }
     }

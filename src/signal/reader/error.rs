@@ -32,12 +32,7 @@ impl std::error::Error for ReadError {}
 
 impl ReadError {
     pub(super) fn whole(source_name: &str, problem: ReadProblem) -> Self {
-        Self {
-            source_name: source_name.to_string(),
-            line: None,
-            column: None,
-            problem,
-        }
+        Self { source_name: source_name.to_string(), line: None, column: None, problem }
     }
 
     pub(super) fn at(source_name: &str, line: usize, column: usize, problem: ReadProblem) -> Self {

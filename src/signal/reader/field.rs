@@ -33,19 +33,12 @@ pub(super) fn number(field: &str) -> Option<f64> {
     }
     let plain = field.replace(['\u{2212}', '\u{2013}'], "-");
     let lower = plain.to_ascii_lowercase();
-    if matches!(
-        lower.as_str(),
-        "1.#ind" | "-1.#ind" | "1.#qnan" | "#n/a" | "na" | "n/a"
-    ) {
+    if matches!(lower.as_str(), "1.#ind" | "-1.#ind" | "1.#qnan" | "#n/a" | "na" | "n/a") {
         return Some(f64::NAN);
     }
     // Fortran writes exponents with d.
     let is_number = lower.contains(|c: char| c.is_ascii_digit());
-    let mut text = if is_number {
-        lower.replace('d', "e")
-    } else {
-        lower
-    };
+    let mut text = if is_number { lower.replace('d', "e") } else { lower };
     if text.matches(',').count() == 1 && !text.contains('.') {
         text = text.replace(',', ".");
     }
@@ -115,11 +108,7 @@ fn date(text: &str) -> Option<i64> {
         return None;
     }
     // Years that begin in March have the leap day at their end.
-    let (y, m) = if month > 2 {
-        (year, month - 3)
-    } else {
-        (year - 1, month + 9)
-    };
+    let (y, m) = if month > 2 { (year, month - 3) } else { (year - 1, month + 9) };
     Some(365 * y + y / 4 - y / 100 + y / 400 + (153 * m + 2) / 5 + day)
 }
 

@@ -4,12 +4,8 @@ use super::error::ReadError;
 use super::named_columns::{Wanted, missing};
 use super::table::read_table;
 
-const COLUMNS: [Wanted; 4] = [
-    ("x", &["x", "x_m"]),
-    ("y", &["y", "y_m"]),
-    ("z", &["z", "z_m"]),
-    ("gap", &["gap"]),
-];
+const COLUMNS: [Wanted; 4] =
+    [("x", &["x", "x_m"]), ("y", &["y", "y_m"]), ("z", &["z", "z_m"]), ("gap", &["gap"])];
 const HEADER: &str = "name them in the first line: x, y, z, gap, all in m";
 /// Units that the numbers must not be in.
 const OTHER_UNITS: [&str; 7] = ["mm", "cm", "um", "nm", "inch", "micron", "microns"];

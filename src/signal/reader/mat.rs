@@ -56,10 +56,7 @@ pub(super) fn read_table(
     };
     let is_big = bytes.get(126..128) == Some(b"MI");
     let mut content = Content::default();
-    let mut elements = Elements {
-        rest: bytes.get(128..).unwrap_or_default(),
-        is_big,
-    };
+    let mut elements = Elements { rest: bytes.get(128..).unwrap_or_default(), is_big };
     let too_large = format!(
         "it holds more than {} million numbers, the limit; save only the channels that are needed",
         MOST_VALUES / 1_000_000
@@ -68,18 +65,14 @@ pub(super) fn read_table(
     while let Some((kind, data)) = elements.next() {
         if kind == COMPRESSED {
             let mut plain = Vec::new();
-            let limited = ZlibDecoder::new(data)
-                .take(MOST_BYTES - inflated + 1)
-                .read_to_end(&mut plain);
+            let limited =
+                ZlibDecoder::new(data).take(MOST_BYTES - inflated + 1).read_to_end(&mut plain);
             limited.map_err(|_| damaged("a compressed variable is damaged; save it again"))?;
             inflated += plain.len() as u64;
             if inflated > MOST_BYTES {
                 return Err(damaged(&too_large));
             }
-            let mut inner = Elements {
-                rest: &plain,
-                is_big,
-            };
+            let mut inner = Elements { rest: &plain, is_big };
             if let Some((MATRIX, data)) = inner.next() {
                 content.matrix(data, is_big, "", 0);
             }
@@ -96,16 +89,9 @@ pub(super) fn read_table(
     }
     if columns.len() != table.columns.len() {
         let (given, found) = (columns.len(), table.columns.len());
-        return Err(ReadError::whole(
-            source,
-            ReadProblem::ColumnCount { given, found },
-        ));
+        return Err(ReadError::whole(source, ReadProblem::ColumnCount { given, found }));
     }
-    Ok(Table::of_columns(
-        columns.to_vec(),
-        table.columns,
-        table.remarks,
-    ))
+    Ok(Table::of_columns(columns.to_vec(), table.columns, table.remarks))
 }
 
 /// Elements one after the other: type and data.
@@ -118,11 +104,7 @@ impl<'a> Elements<'a> {
     fn next(&mut self) -> Option<(u32, &'a [u8])> {
         let word = |at: usize| -> Option<u32> {
             let bytes: [u8; 4] = self.rest.get(at..at + 4)?.try_into().ok()?;
-            Some(if self.is_big {
-                u32::from_be_bytes(bytes)
-            } else {
-                u32::from_le_bytes(bytes)
-            })
+            Some(if self.is_big { u32::from_be_bytes(bytes) } else { u32::from_le_bytes(bytes) })
         };
         let first = word(0)?;
         // Up to four bytes stand within the tag.
@@ -177,9 +159,7 @@ fn bytes_of(kind: u32) -> Option<usize> {
 fn numbers(kind: u32, data: &[u8], is_big: bool) -> Option<Vec<f64>> {
     /// Numbers of `N` bytes.
     fn of<const N: usize>(data: &[u8], is_big: bool, number: fn([u8; N]) -> f64) -> Vec<f64> {
-        let arrays = data
-            .chunks_exact(N)
-            .filter_map(|c| <[u8; N]>::try_from(c).ok());
+        let arrays = data.chunks_exact(N).filter_map(|c| <[u8; N]>::try_from(c).ok());
         let little = arrays.map(|mut bytes| {
             if is_big {
                 bytes.reverse();
@@ -231,11 +211,7 @@ impl Content {
                 let length = *parts.few_numbers()?.first()? as usize;
                 let (_, names) = parts.next()?;
                 let field = |bytes: &[u8]| -> String {
-                    bytes
-                        .iter()
-                        .take_while(|b| **b != 0)
-                        .map(|b| char::from(*b))
-                        .collect()
+                    bytes.iter().take_while(|b| **b != 0).map(|b| char::from(*b)).collect()
                 };
                 let names: Vec<String> = names.chunks(length.max(1)).map(field).collect();
                 for field in names.iter().cycle() {
@@ -247,16 +223,11 @@ impl Content {
             }
             4 => {
                 let text = parts.text()?;
-                self.remarks
-                    .push_str(&format!("{name}: {text}\n").to_lowercase());
+                self.remarks.push_str(&format!("{name}: {text}\n").to_lowercase());
             }
             6..=15 => {
                 let real = self.numbers(&mut parts)?;
-                let imaginary = if is_complex {
-                    Some(self.numbers(&mut parts)?)
-                } else {
-                    None
-                };
+                let imaginary = if is_complex { Some(self.numbers(&mut parts)?) } else { None };
                 self.array(name, &sizes, real, imaginary);
             }
             _ => {}
@@ -279,10 +250,8 @@ impl Content {
         let rows = sizes.first().map_or(0, |rows| *rows as usize);
         if let [value] = real[..] {
             let last = name.rsplit('.').next().unwrap_or_default().to_lowercase();
-            let is_step = matches!(
-                last.as_str(),
-                "dt" | "ts" | "delta_t" | "increment" | "tinterval"
-            );
+            let is_step =
+                matches!(last.as_str(), "dt" | "ts" | "delta_t" | "increment" | "tinterval");
             let line = if is_step && value > 0.0 {
                 format!("fs: {}\n", 1.0 / value)
             } else {
@@ -292,16 +261,9 @@ impl Content {
         } else if real.len() >= FEWEST
             && rows > 0
             && real.len().is_multiple_of(rows)
-            && imaginary
-                .as_ref()
-                .is_none_or(|parts| parts.len() == real.len())
+            && imaginary.as_ref().is_none_or(|parts| parts.len() == real.len())
         {
-            self.arrays.push(Array {
-                name,
-                rows,
-                real,
-                imaginary,
-            });
+            self.arrays.push(Array { name, rows, real, imaginary });
         }
     }
 
@@ -329,11 +291,7 @@ impl Content {
             for k in 0..width {
                 // A matrix stands column by column; a lying one is turned.
                 let at = |i: usize| {
-                    if array.rows == count {
-                        k * count + i
-                    } else {
-                        i * width + k
-                    }
+                    if array.rows == count { k * count + i } else { i * width + k }
                 };
                 let part = |values: &[f64]| (0..count).map(|i| values[at(i)]).collect::<Vec<f64>>();
                 columns.push(Column {
@@ -344,12 +302,8 @@ impl Content {
                 titles.push(format!("{} {}", array.name, k + 1));
             }
         }
-        let finite = |c: &Column| {
-            c.real
-                .iter()
-                .chain(c.imaginary.iter().flatten())
-                .all(|v| v.is_finite())
-        };
+        let finite =
+            |c: &Column| c.real.iter().chain(c.imaginary.iter().flatten()).all(|v| v.is_finite());
         if !columns.iter().all(finite) {
             return Err("it holds NaN or infinite values; remove them before saving");
         }

@@ -58,10 +58,7 @@ impl Format {
         let dash = begin.map_or(&[][..], |at| &bytes[at..]);
         if begins(b"RIFF") && bytes.get(8..12) == Some(b"WAVE") {
             Format::Wave
-        } else if bytes
-            .get(126..128)
-            .is_some_and(|mark| mark == b"IM" || mark == b"MI")
-        {
+        } else if bytes.get(126..128).is_some_and(|mark| mark == b"IM" || mark == b"MI") {
             Format::Matlab
         } else if begins(b"\x89HDF") || (begins(b"MATLAB 7.3") && bytes.len() > 512) {
             Format::Foreign("an HDF5 file (MATLAB writes it as version 7.3)")

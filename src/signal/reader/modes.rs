@@ -68,12 +68,7 @@ pub fn read_modes(bytes: &[u8], source: &str) -> Result<Vec<MeasuredMode>, ReadE
     let modes: Result<Vec<MeasuredMode>, ReadError> = rows
         .map(|(line, text)| {
             let cells: Vec<&str> = fields(text, separator).collect();
-            let row = Row {
-                source,
-                line,
-                text,
-                cells,
-            };
+            let row = Row { source, line, text, cells };
             row.mode(&places)
         })
         .collect();
@@ -83,10 +78,7 @@ pub fn read_modes(bytes: &[u8], source: &str) -> Result<Vec<MeasuredMode>, ReadE
     }
     if modes.len() > MOST_MODES {
         let count = modes.len();
-        return Err(ReadError::whole(
-            source,
-            ReadProblem::TooManyModes { count },
-        ));
+        return Err(ReadError::whole(source, ReadProblem::TooManyModes { count }));
     }
     Ok(modes)
 }
@@ -129,15 +121,11 @@ impl Row<'_> {
             cell => number(cell),
         };
         match value {
-            None => refuse(ReadProblem::NotANumber {
-                field: shortened(cell),
-                name,
-            }),
+            None => refuse(ReadProblem::NotANumber { field: shortened(cell), name }),
             Some(value) if value.is_nan() => Ok(None),
-            Some(value) if !admits(value) => refuse(ReadProblem::Impossible {
-                field: shortened(cell),
-                name,
-            }),
+            Some(value) if !admits(value) => {
+                refuse(ReadProblem::Impossible { field: shortened(cell), name })
+            }
             Some(value) => Ok(Some(value)),
         }
     }
@@ -209,9 +197,7 @@ mod tests {
             ("# nothing\n", ["modes.csv", "empty"]),
             ("f,n\n,1\n", ["modes.csv:2", "`frequency_hz`"]),
         ] {
-            let error = read_modes(text.as_bytes(), "modes.csv")
-                .unwrap_err()
-                .to_string();
+            let error = read_modes(text.as_bytes(), "modes.csv").unwrap_err().to_string();
             assert!(parts.iter().all(|part| error.contains(part)), "{error}");
         }
     }

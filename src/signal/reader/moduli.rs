@@ -46,12 +46,7 @@ pub fn read_moduli(bytes: &[u8], source: &str) -> Result<Vec<ModulusRow>, ReadEr
     let rows = (0..table.rows()).map(|row| {
         let [frequency_hz, young_modulus, loss_factor] =
             places.map(|place| table.columns[place].real[row]);
-        ModulusRow {
-            line: table.line(row),
-            frequency_hz,
-            young_modulus,
-            loss_factor,
-        }
+        ModulusRow { line: table.line(row), frequency_hz, young_modulus, loss_factor }
     });
     Ok(rows.collect())
 }
@@ -64,14 +59,10 @@ mod tests {
     fn columns_are_found_by_name_in_any_order_and_by_place_without_names() {
         let named = b"loss_factor;frequency_hz;young_modulus\n0,1;10;2e6\n0,2;100;3e6\n";
         let plain = b"# rubber\n10 2e6 0.1\n100 3e6 0.2\n";
-        let (a, b) = (
-            read_moduli(named, "a.csv").unwrap(),
-            read_moduli(plain, "b.csv").unwrap(),
-        );
+        let (a, b) = (read_moduli(named, "a.csv").unwrap(), read_moduli(plain, "b.csv").unwrap());
         let numbers = |rows: &[ModulusRow]| -> Vec<[f64; 3]> {
             let rows = rows.iter();
-            rows.map(|r| [r.frequency_hz, r.young_modulus, r.loss_factor])
-                .collect()
+            rows.map(|r| [r.frequency_hz, r.young_modulus, r.loss_factor]).collect()
         };
         assert_eq!(numbers(&a), [[10.0, 2e6, 0.1], [100.0, 3e6, 0.2]]);
         assert_eq!(numbers(&a), numbers(&b));
@@ -81,15 +72,10 @@ mod tests {
     #[test]
     fn another_unit_and_a_missing_column_are_refused() {
         for (text, expected) in [
-            (
-                "frequency_hz,young_modulus_mpa,loss_factor\n1,2,0.1\n",
-                "Hz and Pa",
-            ),
+            ("frequency_hz,young_modulus_mpa,loss_factor\n1,2,0.1\n", "Hz and Pa"),
             ("frequency_hz,young_modulus\n1,2\n", "loss_factor"),
         ] {
-            let error = read_moduli(text.as_bytes(), "t.csv")
-                .unwrap_err()
-                .to_string();
+            let error = read_moduli(text.as_bytes(), "t.csv").unwrap_err().to_string();
             assert!(error.contains(expected), "{error}");
         }
     }

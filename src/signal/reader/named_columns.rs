@@ -21,12 +21,7 @@ impl Table {
         if self.names.is_empty() {
             return match self.columns.len() == N {
                 true => Ok(places),
-                false => Err(missing(
-                    self,
-                    source,
-                    "as many columns as there are names",
-                    header,
-                )),
+                false => Err(missing(self, source, "as many columns as there are names", header)),
             };
         }
         for (place, (wanted, begins)) in places.iter_mut().zip(wanted) {
@@ -51,10 +46,6 @@ pub(super) fn missing(
     wanted: &'static str,
     remedy: &'static str,
 ) -> ReadError {
-    let problem = ReadProblem::MissingColumn {
-        wanted,
-        columns: table.described(),
-        remedy,
-    };
+    let problem = ReadProblem::MissingColumn { wanted, columns: table.described(), remedy };
     ReadError::whole(source, problem)
 }

@@ -54,11 +54,7 @@ pub fn read_response(
         Format::Foreign(found) => {
             return Err(ReadError::whole(source, ReadProblem::Format { found }));
         }
-        Format::Text => from_table(
-            &read_table(bytes, source, &options.columns)?,
-            source,
-            options,
-        )?,
+        Format::Text => from_table(&read_table(bytes, source, &options.columns)?, source, options)?,
     };
     file.select(&options.channels, source)?;
     file.conjugate_where_needed();
@@ -106,11 +102,7 @@ fn from_table(
     let (frequency, factor, states_unit) = frequency_column(table, source)?;
     let layouts = layouts(table, frequency, source, &mut notes)?;
     let quantity = quantity(table, options.quantity, &mut notes);
-    let gravity = if names_standard_gravity(table) {
-        9.806_65
-    } else {
-        1.0
-    };
+    let gravity = if names_standard_gravity(table) { 9.806_65 } else { 1.0 };
     // One order of the rows for all responses.
     let values: Vec<Vec<c64>> = layouts
         .iter()
@@ -119,9 +111,8 @@ fn from_table(
     let rows = ordered(table, frequency, factor, &values, source, &mut notes)?;
     let frequencies: Vec<f64> = rows.iter().map(|row| row.0).collect();
     doubt_unit(&frequencies, states_unit, &mut notes);
-    let coherences: Vec<usize> = (0..table.names.len())
-        .filter(|k| part(&table.names[*k]) == Part::Coherence)
-        .collect();
+    let coherences: Vec<usize> =
+        (0..table.names.len()).filter(|k| part(&table.names[*k]) == Part::Coherence).collect();
     if !coherences.is_empty() {
         notes.push(
             "lines whose coherence is below the median count less in the fit, by (1 - c) / c"
@@ -183,21 +174,13 @@ fn values(table: &Table, layout: Layout, source: &str) -> Result<Vec<c64>, ReadE
     match layout {
         Layout::Whole(k) => {
             let imaginary = table.columns[k].imaginary.iter().flatten();
-            Ok(real(k)
-                .iter()
-                .zip(imaginary)
-                .map(|(re, im)| c64::new(*re, *im))
-                .collect())
+            Ok(real(k).iter().zip(imaginary).map(|(re, im)| c64::new(*re, *im)).collect())
         }
         Layout::Complex(re, im) => {
             let pairs = real(re).iter().zip(real(im));
             Ok(pairs.map(|(re, im)| c64::new(*re, *im)).collect())
         }
-        Layout::Polar {
-            magnitude,
-            level_reference,
-            phase,
-        } => (0..table.rows())
+        Layout::Polar { magnitude, level_reference, phase } => (0..table.rows())
             .map(|i| {
                 let value = real(magnitude)[i];
                 let modulus = match level_reference {
@@ -253,9 +236,7 @@ fn ordered(
         }
     }
     if dropped > 0 {
-        notes.push(format!(
-            "{dropped} repeated row(s) with equal values dropped"
-        ));
+        notes.push(format!("{dropped} repeated row(s) with equal values dropped"));
     }
     Ok(kept)
 }
@@ -290,10 +271,8 @@ fn quantity(
 /// Receptance, mobility or accelerance, from names, units and remarks.
 fn stated_quantity(table: &Table) -> Option<ResponseQuantity> {
     let text = format!("{}\n{}", table.names.join(" "), table.remarks);
-    let compact: String = text
-        .chars()
-        .filter(|c| !matches!(c, ' ' | '(' | ')' | '*' | '·' | '[' | ']'))
-        .collect();
+    let compact: String =
+        text.chars().filter(|c| !matches!(c, ' ' | '(' | ')' | '*' | '·' | '[' | ']')).collect();
     let has = |list: &[&str]| list.iter().any(|w| compact.contains(w));
     if has(&[
         "accelerance",
@@ -306,23 +285,9 @@ fn stated_quantity(table: &Table) -> Option<ResponseQuantity> {
         "m_per_s2_per_n",
     ]) {
         Some(ResponseQuantity::Accelerance)
-    } else if has(&[
-        "mobility",
-        "mobilité",
-        "m/s/n",
-        "m/ns",
-        "m_per_s_per_n",
-        "admittance",
-    ]) {
+    } else if has(&["mobility", "mobilité", "m/s/n", "m/ns", "m_per_s_per_n", "admittance"]) {
         Some(ResponseQuantity::Mobility)
-    } else if has(&[
-        "receptance",
-        "réceptance",
-        "compliance",
-        "m/n",
-        "m_per_n",
-        "flexibility",
-    ]) {
+    } else if has(&["receptance", "réceptance", "compliance", "m/n", "m_per_n", "flexibility"]) {
         Some(ResponseQuantity::Receptance)
     } else {
         None

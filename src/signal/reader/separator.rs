@@ -64,7 +64,5 @@ pub(super) fn character(line: &str, field: &str) -> usize {
 /// Fields that are numbers, and all of them.
 pub(super) fn numeric_fields(line: &str, separator: Separator) -> (usize, usize) {
     let values = fields(line, separator).map(|f| parse(f).is_some());
-    values.fold((0, 0), |(numeric, all), is| {
-        (numeric + usize::from(is), all + 1)
-    })
+    values.fold((0, 0), |(numeric, all), is| (numeric + usize::from(is), all + 1))
 }

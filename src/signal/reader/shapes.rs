@@ -69,10 +69,7 @@ impl Columns {
         let parts = |name: &str| {
             let with = |ends: [&str; 2]| ends.map(|end| format!("{name}{end}"));
             let [re, real] = with(["_re", "_real"]);
-            [
-                place(&[name.to_owned(), re, real]),
-                place(&with(["_im", "_imag"])),
-            ]
+            [place(&[name.to_owned(), re, real]), place(&with(["_im", "_imag"]))]
         };
         let columns = Self {
             places: PLACES.map(|known| one(&known)),
@@ -114,12 +111,7 @@ fn table(bytes: &[u8], source: &str) -> Result<Vec<MeasuredShape>, ReadError> {
     let mut known: BTreeMap<String, usize> = BTreeMap::new();
     for (line, text) in rows {
         let cells: Vec<&str> = fields(text, separator).collect();
-        let row = Row {
-            source,
-            line,
-            text,
-            cells,
-        };
+        let row = Row { source, line, text, cells };
         let name = row.text_of(columns.mode).unwrap_or("1").to_owned();
         let count = shapes.len();
         let place = *known.entry(name.clone()).or_insert(count);
@@ -164,10 +156,7 @@ impl Row<'_> {
     }
 
     fn missing(&self, name: &str) -> ReadError {
-        let problem = ReadProblem::NotANumber {
-            field: String::new(),
-            name: format!("`{name}`"),
-        };
+        let problem = ReadProblem::NotANumber { field: String::new(), name: format!("`{name}`") };
         ReadError::at(self.source, self.line, 1, problem)
     }
 
@@ -235,32 +224,24 @@ fn universal(bytes: &[u8], source: &str) -> Result<Vec<MeasuredShape>, ReadError
         }
         at = first + length + 1;
     }
-    let shapes = found
-        .into_iter()
-        .enumerate()
-        .map(|(k, (name, frequency_hz, rows))| {
-            let (mut points, mut motion) = (Vec::new(), Vec::new());
-            for (node, values) in rows {
-                let Some(point) = nodes.get(&node) else {
-                    let problem = ReadProblem::Damaged {
-                        format: "universal file",
-                        reason: format!(
-                            "shape {} moves node {node}, which no dataset 15 or 2411 places",
-                            k + 1
-                        ),
-                    };
-                    return Err(ReadError::whole(source, problem));
+    let shapes = found.into_iter().enumerate().map(|(k, (name, frequency_hz, rows))| {
+        let (mut points, mut motion) = (Vec::new(), Vec::new());
+        for (node, values) in rows {
+            let Some(point) = nodes.get(&node) else {
+                let problem = ReadProblem::Damaged {
+                    format: "universal file",
+                    reason: format!(
+                        "shape {} moves node {node}, which no dataset 15 or 2411 places",
+                        k + 1
+                    ),
                 };
-                points.push(*point);
-                motion.push(values);
-            }
-            Ok(MeasuredShape {
-                name,
-                frequency_hz,
-                points,
-                motion,
-            })
-        });
+                return Err(ReadError::whole(source, problem));
+            };
+            points.push(*point);
+            motion.push(values);
+        }
+        Ok(MeasuredShape { name, frequency_hz, points, motion })
+    });
     shapes.collect()
 }
 
@@ -321,9 +302,7 @@ fn shape_of<'r>(body: &[&str]) -> Result<Shape, (usize, &'r str)> {
     // Frequency of a real mode, eigenvalue of a complex one.
     let frequency = match analysis {
         2 => values.first().copied(),
-        3 | 7 => values
-            .get(1)
-            .map(|omega| omega.abs() / std::f64::consts::TAU),
+        3 | 7 => values.get(1).map(|omega| omega.abs() / std::f64::consts::TAU),
         _ => None,
     };
     let count = each * if is_complex { 2 } else { 1 };
@@ -348,10 +327,7 @@ fn shape_of<'r>(body: &[&str]) -> Result<Shape, (usize, &'r str)> {
             true => c64::new(own[2 * axis], own[2 * axis + 1]),
             false => c64::new(own[axis], 0.0),
         };
-        rows.push((
-            label as u64,
-            [0, 1, 2].map(|axis| (axis < each).then(|| value(axis))),
-        ));
+        rows.push((label as u64, [0, 1, 2].map(|axis| (axis < each).then(|| value(axis)))));
     }
     Ok((format!("{mode}"), frequency.filter(|f| *f > 0.0), rows))
 }

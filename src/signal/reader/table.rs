@@ -148,24 +148,17 @@ fn post26_listing(
         let (numeric, all) = numeric_fields(line.1, Separator::Blanks);
         numeric == all && all > 1
     };
-    let data: Vec<Line> = content
-        .iter()
-        .filter(|line| is_data(line))
-        .copied()
-        .collect();
+    let data: Vec<Line> = content.iter().filter(|line| is_data(line)).copied().collect();
     let Some(first) = data.first() else {
         return Err(ReadError::whole(source, ReadProblem::NoNumbers));
     };
     let count = first.1.split_whitespace().count();
     let head = content.iter().take_while(|line| line.0 < first.0);
-    let words: Vec<String> = head
-        .flat_map(|(_, line)| line.split_whitespace())
-        .map(str::to_lowercase)
-        .collect();
+    let words: Vec<String> =
+        head.flat_map(|(_, line)| line.split_whitespace()).map(str::to_lowercase).collect();
     let is_time = words.iter().any(|w| w == "time");
-    let named = words
-        .iter()
-        .filter(|w| matches!(w.as_str(), "real" | "imaginary" | "amplitude" | "phase"));
+    let named =
+        words.iter().filter(|w| matches!(w.as_str(), "real" | "imaginary" | "amplitude" | "phase"));
     let mut titles = vec![if is_time { "time" } else { "freq" }.to_string()];
     titles.extend(named.cloned());
     let variables = words.iter().filter(|w| w.contains('_'));
@@ -186,12 +179,8 @@ fn post26_listing(
 
 /// Index of the first line all of whose fields are numbers under some separator, time stamps not alone.
 fn first_data_line(content: &[Line]) -> Option<usize> {
-    const ALL: [Separator; 4] = [
-        Separator::Semicolon,
-        Separator::Tab,
-        Separator::Comma,
-        Separator::Blanks,
-    ];
+    const ALL: [Separator; 4] =
+        [Separator::Semicolon, Separator::Tab, Separator::Comma, Separator::Blanks];
     content.iter().position(|(_, line)| {
         ALL.iter().any(|separator| {
             let mut values = fields(line, *separator).map(parse);
@@ -232,20 +221,12 @@ fn numbers(
         Some(title) => format!("`{}`", shortened(title)),
         None => (k + 1).to_string(),
     };
-    let column = |_| Column {
-        real: Vec::with_capacity(data.len()),
-        ..Column::default()
-    };
+    let column = |_| Column { real: Vec::with_capacity(data.len()), ..Column::default() };
     let mut columns: Vec<Column> = (0..expected).map(column).collect();
     let mut first_day = None;
     for (line, text) in data {
         let fail = |field: &str, problem| {
-            Err(ReadError::at(
-                source,
-                *line,
-                character(text, field),
-                problem,
-            ))
+            Err(ReadError::at(source, *line, character(text, field), problem))
         };
         let mut found = 0;
         for (k, field) in fields(text, separator).enumerate() {
@@ -265,10 +246,7 @@ fn numbers(
             };
             if !column.push(value, &mut first_day) {
                 let (field_text, name) = (shortened(field), name(k));
-                let problem = ReadProblem::NotFinite {
-                    field: field_text,
-                    name,
-                };
+                let problem = ReadProblem::NotFinite { field: field_text, name };
                 return fail(field, problem);
             }
         }
@@ -306,14 +284,9 @@ fn refuse_decimal_comma_separators(
     found: usize,
     source: &str,
 ) -> Result<(), ReadError> {
-    let named = head
-        .last()
-        .map_or(0, |(_, header)| fields(header, separator).count());
+    let named = head.last().map_or(0, |(_, header)| fields(header, separator).count());
     if separator == Separator::Comma && named > 1 && found > named {
-        let problem = ReadProblem::AmbiguousComma {
-            found,
-            expected: named,
-        };
+        let problem = ReadProblem::AmbiguousComma { found, expected: named };
         return Err(ReadError::at(source, first.0, 1, problem));
     }
     Ok(())
@@ -329,10 +302,7 @@ fn titles(
 ) -> Result<Vec<String>, ReadError> {
     if !given.is_empty() {
         if given.len() != count {
-            let problem = ReadProblem::ColumnCount {
-                given: given.len(),
-                found: count,
-            };
+            let problem = ReadProblem::ColumnCount { given: given.len(), found: count };
             return Err(ReadError::whole(source, problem));
         }
         return Ok(given.to_vec());
@@ -344,12 +314,8 @@ fn titles(
             .map(|s| fields(line, *s).map(str::to_string).collect::<Vec<_>>())
             .find(|fields| fields.len() == count)
     };
-    let rows: Vec<Vec<String>> = above
-        .iter()
-        .rev()
-        .take(2)
-        .map_while(|(_, line)| split(line))
-        .collect();
+    let rows: Vec<Vec<String>> =
+        above.iter().rev().take(2).map_while(|(_, line)| split(line)).collect();
     let are_units = |row: &Vec<String>| row.iter().all(|f| super::units::is_unit(f));
     Ok(match (rows.first(), rows.get(1)) {
         (Some(units), Some(names)) if are_units(units) => names

@@ -31,11 +31,7 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
         }
         let (line, after) = match rest.find(['\n', '\r']) {
             Some(end) => {
-                let skip = if rest[end..].starts_with("\r\n") {
-                    2
-                } else {
-                    1
-                };
+                let skip = if rest[end..].starts_with("\r\n") { 2 } else { 1 };
                 (&rest[..end], &rest[end + skip..])
             }
             None => (rest, ""),
@@ -49,9 +45,7 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
 /// The text of a comment line without its mark; `None` for other lines.
 pub(super) fn comment(line: &str) -> Option<&str> {
     let trimmed = line.trim_start();
-    ["#", "%", "//", "!", "*"]
-        .iter()
-        .find_map(|mark| trimmed.strip_prefix(mark))
+    ["#", "%", "//", "!", "*"].iter().find_map(|mark| trimmed.strip_prefix(mark))
 }
 
 /// A field for a message, shortened to what fits.
@@ -67,10 +61,7 @@ pub(super) fn shortened(field: &str) -> String {
 pub(super) fn first_of<T: AsRef<str>>(names: impl IntoIterator<Item = T>) -> String {
     const MOST: usize = 10;
     let mut rest = names.into_iter();
-    let shown = rest
-        .by_ref()
-        .take(MOST)
-        .map(|name| shortened(name.as_ref()));
+    let shown = rest.by_ref().take(MOST).map(|name| shortened(name.as_ref()));
     let shown: Vec<String> = shown.collect();
     match rest.count() {
         0 => shown.join(", "),

@@ -41,33 +41,23 @@ pub fn read_signal(
     options: &SignalOptions,
 ) -> Result<SignalFile, ReadError> {
     let whole = |problem| ReadError::whole(source, problem);
-    if let Some(value) = options
-        .rate
-        .filter(|rate| !(*rate > 0.0 && rate.is_finite()))
-    {
+    if let Some(value) = options.rate.filter(|rate| !(*rate > 0.0 && rate.is_finite())) {
         return Err(whole(ReadProblem::Rate { value }));
     }
     let mut file = match Format::of(bytes) {
         Format::Universal => uff::read_signals(bytes, source)?,
         Format::Wave => wav::read_wav(bytes, source)?,
-        Format::Matlab => from_table(
-            &mat::read_table(bytes, source, &options.columns)?,
-            source,
-            options,
-        )?,
+        Format::Matlab => {
+            from_table(&mat::read_table(bytes, source, &options.columns)?, source, options)?
+        }
         Format::Foreign(found) => return Err(whole(ReadProblem::Format { found })),
-        Format::Text => from_table(
-            &read_table(bytes, source, &options.columns)?,
-            source,
-            options,
-        )?,
+        Format::Text => from_table(&read_table(bytes, source, &options.columns)?, source, options)?,
     };
     // A file that states its rate is overruled aloud.
     if let Some(rate) = options.rate.filter(|rate| *rate != file.sampling_rate) {
         let stated = file.sampling_rate;
-        file.notes.push(format!(
-            "the file states {stated} Hz; {rate} Hz, from the option, is used"
-        ));
+        file.notes
+            .push(format!("the file states {stated} Hz; {rate} Hz, from the option, is used"));
         file.sampling_rate = rate;
     }
     if !options.channels.is_empty() {
@@ -138,19 +128,10 @@ fn from_table(
             remedy: "only times were found; export the samples too",
         }));
     }
-    if table
-        .columns
-        .iter()
-        .any(|column| column.imaginary.is_some())
-    {
+    if table.columns.iter().any(|column| column.imaginary.is_some()) {
         notes.push("complex numbers: the real part is used".to_string());
     }
-    Ok(SignalFile {
-        sampling_rate: rate,
-        start,
-        channels,
-        notes,
-    })
+    Ok(SignalFile { sampling_rate: rate, start, channels, notes })
 }
 
 /// The time column and its factor to seconds.
@@ -173,27 +154,17 @@ fn time_column(table: &Table) -> Option<(usize, f64)> {
 
 /// The step of a regular time column, s.
 fn regular_step(table: &Table, column: usize, factor: f64, source: &str) -> Result<f64, ReadError> {
-    let t: Vec<f64> = table.columns[column]
-        .real
-        .iter()
-        .map(|t| t * factor)
-        .collect();
+    let t: Vec<f64> = table.columns[column].real.iter().map(|t| t * factor).collect();
     let step = (t[t.len() - 1] - t[0]) / (t.len() - 1) as f64;
     // Times that stand still now and then, and never go back, are rounded.
     let falls = t.windows(2).any(|w| w[1] < w[0]);
     let stands = t.windows(2).any(|w| w[1] == w[0]);
     if stands && !falls && step > 0.0 {
-        let problem = ReadProblem::RoundedTime {
-            step: rounding(&t),
-            rate: 1.0 / step,
-        };
+        let problem = ReadProblem::RoundedTime { step: rounding(&t), rate: 1.0 / step };
         return Err(ReadError::whole(source, problem));
     }
     if let Some(i) = (1..t.len()).find(|&i| t[i] <= t[i - 1]) {
-        let problem = ReadProblem::TimeOrder {
-            value: t[i],
-            previous: t[i - 1],
-        };
+        let problem = ReadProblem::TimeOrder { value: t[i], previous: t[i - 1] };
         return Err(table.error(source, i, column, problem));
     }
     let off = |i: usize| (t[i] - t[0] - i as f64 * step).abs() > JITTER * step;
@@ -205,10 +176,7 @@ fn regular_step(table: &Table, column: usize, factor: f64, source: &str) -> Resu
             .find(|&i| (t[i] - t[i - 1] - usual).abs() > 0.5 * usual)
             .or_else(|| (1..t.len()).find(|&i| off(i)))
             .unwrap_or(1);
-        let problem = ReadProblem::TimeGap {
-            value: t[i],
-            step: usual,
-        };
+        let problem = ReadProblem::TimeGap { value: t[i], step: usual };
         return Err(table.error(source, i, column, problem));
     }
     Ok(step)
@@ -232,11 +200,7 @@ fn agreed_rate(
     source: &str,
     notes: &mut Vec<String>,
 ) -> Result<f64, ReadError> {
-    let t: Vec<f64> = table.columns[column]
-        .real
-        .iter()
-        .map(|t| t * factor)
-        .collect();
+    let t: Vec<f64> = table.columns[column].real.iter().map(|t| t * factor).collect();
     let found = (t.len() - 1) as f64 / (t[t.len() - 1] - t[0]);
     let rounded = rounding(&t);
     let fits = t
@@ -248,10 +212,7 @@ fn agreed_rate(
         return Ok(option);
     }
     if (option / found - 1.0).abs() > 1e-2 || !found.is_finite() {
-        let problem = ReadProblem::RateContradiction {
-            column: found,
-            option,
-        };
+        let problem = ReadProblem::RateContradiction { column: found, option };
         return Err(ReadError::whole(source, problem));
     }
     // Within 1 % the column knows better, if it is regular.

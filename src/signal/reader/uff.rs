@@ -62,12 +62,7 @@ impl Lines<'_> {
         let end = rest.iter().position(|b| *b == b'\n');
         self.at += end.map_or(rest.len(), |end| end + 1);
         let line = &rest[..end.unwrap_or(rest.len())];
-        Some(
-            line.iter()
-                .map(|b| char::from(*b))
-                .filter(|c| *c != '\r')
-                .collect(),
-        )
+        Some(line.iter().map(|b| char::from(*b)).filter(|c| *c != '\r').collect())
     }
 }
 
@@ -95,9 +90,7 @@ fn functions(bytes: &[u8], source: &str) -> Result<Vec<Function>, ReadError> {
                 let word = |k: usize| words.get(k).and_then(|w| w.parse::<usize>().ok());
                 let is_big = word(1) == Some(2);
                 if word(2).is_some_and(|form| form != 2) {
-                    return Err(damaged(
-                        "numbers that are not IEEE 754; export them as such",
-                    ));
+                    return Err(damaged("numbers that are not IEEE 754; export them as such"));
                 }
                 let length = word(4).ok_or_else(|| damaged("its length is not stated"))?;
                 found.push(function(&mut lines, Some((length, is_big))).map_err(damaged)?);
@@ -122,12 +115,7 @@ fn function(lines: &mut Lines, binary: Option<(usize, bool)>) -> Result<Function
     };
     let part = |record: usize, from: usize, to: usize| -> String {
         let line = &records[record - 1];
-        line.chars()
-            .skip(from)
-            .take(to - from)
-            .collect::<String>()
-            .trim()
-            .to_string()
+        line.chars().skip(from).take(to - from).collect::<String>().trim().to_string()
     };
     // Records 7 to 9: form and count of the numbers, abscissa, ordinate.
     let (form, count) = (word(7, 0) as u32, word(7, 1));
@@ -152,11 +140,7 @@ fn function(lines: &mut Lines, binary: Option<(usize, bool)>) -> Result<Function
         c64::new(row[at], if is_complex { row[at + 1] } else { 0.0 })
     };
     let abscissa = |(i, row): (usize, &&[f64])| {
-        if is_even {
-            first + i as f64 * step
-        } else {
-            row[0]
-        }
+        if is_even { first + i as f64 * step } else { row[0] }
     };
     // Record 6: where it was measured and driven, by name, node and direction.
     let place = |from: usize| {
@@ -220,10 +204,7 @@ fn binary_numbers(
     is_complex: bool,
     is_even: bool,
 ) -> Result<Vec<f64>, &'static str> {
-    let end = lines
-        .at
-        .checked_add(length)
-        .filter(|end| *end <= lines.bytes.len());
+    let end = lines.at.checked_add(length).filter(|end| *end <= lines.bytes.len());
     let end = end.ok_or("the file ends within its numbers")?;
     let mut rest = &lines.bytes[lines.at..end];
     lines.at = end;
@@ -257,10 +238,7 @@ pub(super) fn read_responses(
     let all = functions(bytes, source)?;
     let mut notes = Vec::new();
     let mut responses = Vec::new();
-    for f in all
-        .iter()
-        .filter(|f| f.kind == FREQUENCY_RESPONSE || (f.kind == 0 && f.is_complex))
-    {
+    for f in all.iter().filter(|f| f.kind == FREQUENCY_RESPONSE || (f.kind == 0 && f.is_complex)) {
         let stated = match f.ordinate {
             8 => Some(ResponseQuantity::Receptance),
             11 => Some(ResponseQuantity::Mobility),
@@ -295,17 +273,10 @@ pub(super) fn read_responses(
             let values: Vec<f64> = coherence.values.iter().map(|z| z.re).collect();
             response = response.with_coherence(&values);
         }
-        responses.push(NamedResponse {
-            name: f.name.clone(),
-            response,
-        });
+        responses.push(NamedResponse { name: f.name.clone(), response });
     }
     if responses.is_empty() {
-        return Err(without(
-            source,
-            "frequency response (function type 4)",
-            &all,
-        ));
+        return Err(without(source, "frequency response (function type 4)", &all));
     }
     Ok(ResponseFile { responses, notes })
 }
@@ -333,9 +304,7 @@ pub(super) fn read_signals(bytes: &[u8], source: &str) -> Result<SignalFile, Rea
     let mut notes = Vec::new();
     if !others.is_empty() {
         let names = first_of(others.iter().map(|f| &f.name));
-        notes.push(format!(
-            "left out, for another length or rate than the first: {names}"
-        ));
+        notes.push(format!("left out, for another length or rate than the first: {names}"));
     }
     for f in &fit {
         if let Some(i) = f.values.iter().position(|z| !z.re.is_finite()) {

@@ -20,13 +20,7 @@ pub fn write_response(named: &NamedResponse) -> String {
     let is_even = numbered.all(|(k, f_k)| (f_k - f[0] - k as f64 * step).abs() <= 1e-6 * step);
     let axis = if is_even { [f[0], step] } else { [0.0; 2] };
     let form = [6, values.len(), usize::from(is_even)];
-    let mut out = header(
-        &named.name,
-        FREQUENCY_RESPONSE,
-        form,
-        axis,
-        [18, ordinate, 13],
-    );
+    let mut out = header(&named.name, FREQUENCY_RESPONSE, form, axis, [18, ordinate, 13]);
     let number = |z: &c64| fortran(z.re, 20, 12) + &fortran(z.im, 20, 12);
     if is_even {
         for two in values.chunks(2) {
@@ -46,13 +40,7 @@ pub fn write_signal(file: &SignalFile) -> String {
     let mut out = String::new();
     for channel in &file.channels {
         let axis = [file.start, 1.0 / file.sampling_rate];
-        out += &header(
-            &channel.name,
-            TIME,
-            [4, channel.samples.len(), 1],
-            axis,
-            [TIME_AXIS, 0, 0],
-        );
+        out += &header(&channel.name, TIME, [4, channel.samples.len(), 1], axis, [TIME_AXIS, 0, 0]);
         for four in channel.samples.chunks(4) {
             let row: String = four.iter().map(|v| fortran(*v, 20, 12)).collect();
             out += &row;
@@ -78,11 +66,7 @@ fn header(
     let numbers = [first, step, 0.0].map(|v| fortran(v, 13, 5)).concat();
     let _ = writeln!(out, "{form:>10}{count:>10}{even:>10}{numbers}");
     for kind in [axis, ordinate, divided_by, 0] {
-        let _ = writeln!(
-            out,
-            "{kind:>10}{:>5}{:>5}{:>5} {:<20} {:<20}",
-            0, 0, 0, "NONE", "NONE"
-        );
+        let _ = writeln!(out, "{kind:>10}{:>5}{:>5}{:>5} {:<20} {:<20}", 0, 0, 0, "NONE", "NONE");
     }
     out
 }
@@ -93,8 +77,5 @@ fn fortran(value: f64, width: usize, decimals: usize) -> String {
     let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
     let exponent: i32 = exponent.parse().unwrap_or(0);
     let sign = if exponent < 0 { '-' } else { '+' };
-    format!(
-        "{:>width$}",
-        format!("{mantissa}E{sign}{:02}", exponent.abs())
-    )
+    format!("{:>width$}", format!("{mantissa}E{sign}{:02}", exponent.abs()))
 }

@@ -27,10 +27,7 @@ pub(super) fn is_unit(field: &str) -> bool {
 pub(super) fn seconds(name: &str) -> Option<f64> {
     let words = words(name);
     let is_time = words.iter().any(|w| {
-        matches!(
-            *w,
-            "time" | "t" | "zeit" | "temps" | "tempo" | "seconds" | "times" | "timestamp"
-        )
+        matches!(*w, "time" | "t" | "zeit" | "temps" | "tempo" | "seconds" | "times" | "timestamp")
     });
     if !is_time {
         return None;
@@ -53,11 +50,9 @@ pub(super) fn hertz(name: &str) -> Option<(f64, bool)> {
     let angular = has(&["omega", "rad/s", "ω"]) || name.contains("rad_per_s");
     let is_frequency = angular
         || has(&["f", "hz", "khz"])
-        || words.iter().any(|w| {
-            ["freq", "fréq", "fräq", "frec"]
-                .iter()
-                .any(|begin| w.starts_with(begin))
-        });
+        || words
+            .iter()
+            .any(|w| ["freq", "fréq", "fräq", "frec"].iter().any(|begin| w.starts_with(begin)));
     let factor = if angular {
         1.0 / std::f64::consts::TAU
     } else if has(&["khz"]) {
@@ -90,11 +85,7 @@ pub(super) fn level_reference(name: &str) -> f64 {
         Some('m') if unit.starts_with("mm") => 1e-3,
         _ => 1.0,
     };
-    if value > 0.0 && value.is_finite() {
-        value * prefix
-    } else {
-        1.0
-    }
+    if value > 0.0 && value.is_finite() { value * prefix } else { 1.0 }
 }
 
 /// A sampling rate stated in remarks, as `sampling rate: 51200 Hz` or `fs = 1e5`, Hz.
@@ -121,11 +112,7 @@ pub(super) fn sampling_rate(remarks: &str) -> Option<f64> {
             .find(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | 'e' | '+')))
             .unwrap_or(rest.len());
         let value: f64 = rest[..end].parse().ok()?;
-        let factor = if rest[end..].trim_start().starts_with("khz") {
-            1e3
-        } else {
-            1.0
-        };
+        let factor = if rest[end..].trim_start().starts_with("khz") { 1e3 } else { 1.0 };
         (value > 0.0).then_some(value * factor)
     })
 }

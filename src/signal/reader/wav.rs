@@ -17,36 +17,28 @@ pub(super) fn read_wav(bytes: &[u8], source: &str) -> Result<SignalFile, ReadErr
         let format = "WAV";
         ReadError::whole(source, ReadProblem::Damaged { format, reason })
     };
-    let mut reader = WavReader::new(Cursor::new(bytes)).map_err(|error| {
-        damaged(format!(
-            "{error}; PCM and floating-point files are supported"
-        ))
-    })?;
+    let mut reader = WavReader::new(Cursor::new(bytes))
+        .map_err(|error| damaged(format!("{error}; PCM and floating-point files are supported")))?;
     let spec = reader.spec();
     if spec.channels == 0 || spec.sample_rate == 0 || spec.bits_per_sample == 0 {
         return Err(damaged("no channels, or a sampling rate of 0".into()));
     }
     // What comes before a damaged sample is whole.
     let values: Vec<f64> = match spec.sample_format {
-        SampleFormat::Float => reader
-            .samples::<f32>()
-            .map_while(|v| v.ok().map(f64::from))
-            .collect(),
+        SampleFormat::Float => {
+            reader.samples::<f32>().map_while(|v| v.ok().map(f64::from)).collect()
+        }
         SampleFormat::Int => {
             let scale = 1.0 / 2f64.powi(i32::from(spec.bits_per_sample) - 1);
             let samples = reader.samples::<i32>();
-            samples
-                .map_while(|v| v.ok().map(|v| scale * f64::from(v)))
-                .collect()
+            samples.map_while(|v| v.ok().map(|v| scale * f64::from(v))).collect()
         }
     };
     let count = usize::from(spec.channels);
     let rows = values.len() / count;
     let mut notes = Vec::new();
     if rows * count < reader.len() as usize {
-        notes.push(format!(
-            "the file ends early: {rows} samples of each channel are read"
-        ));
+        notes.push(format!("the file ends early: {rows} samples of each channel are read"));
     }
     if let Some(position) = values.iter().position(|v| !v.is_finite()) {
         let error = SignalError::NotFinite {
@@ -92,17 +84,10 @@ pub fn write_wav(file: &SignalFile, slower: u32) -> Result<Vec<u8>, SignalError>
     if !(1.0..f64::from(u32::MAX)).contains(&rate) || file.channels.len() > usize::from(u16::MAX) {
         return Err(refused(rate));
     }
-    let centred: Vec<Vec<f64>> = file
-        .channels
-        .iter()
-        .map(|c| crate::signal::spectrum::centred(&c.samples))
-        .collect();
+    let centred: Vec<Vec<f64>> =
+        file.channels.iter().map(|c| crate::signal::spectrum::centred(&c.samples)).collect();
     let largest = centred.iter().flatten().fold(0.0f64, |m, v| m.max(v.abs()));
-    let gain = if largest > 0.0 {
-        PEAK * f64::from(i16::MAX) / largest
-    } else {
-        0.0
-    };
+    let gain = if largest > 0.0 { PEAK * f64::from(i16::MAX) / largest } else { 0.0 };
     let spec = WavSpec {
         channels: centred.len() as u16,
         sample_rate: rate as u32,
@@ -141,16 +126,11 @@ mod tests {
                 .to_vec(),
             notes: Vec::new(),
         };
-        assert_eq!(
-            (slowdown(5e5), slowdown(51_200.0), slowdown(192_000.0)),
-            (10, 1, 2)
-        );
+        assert_eq!((slowdown(5e5), slowdown(51_200.0), slowdown(192_000.0)), (10, 1, 2));
         let read = read_wav(&write_wav(&file, 10).unwrap(), "x").unwrap();
         assert_eq!((read.sampling_rate, read.channels.len()), (5e4, 2));
         let mean = (0..1000).map(tone).sum::<f64>() / 1000.0;
-        let top = (0..1000)
-            .map(|k| (tone(k) - mean).abs())
-            .fold(0.0, f64::max);
+        let top = (0..1000).map(|k| (tone(k) - mean).abs()).fold(0.0, f64::max);
         for k in 0..1000 {
             let want = 0.25 * PEAK * (tone(k) - mean) / top;
             // Half a unit of 16 bits, and the asymmetry of full scale.

@@ -153,10 +153,7 @@ fn solve_levels(
         .collect();
     // The first level that failed speaks, whichever thread was first.
     let mut solved = solved.into_iter().rev();
-    studies
-        .iter()
-        .map(|study| solved.by_ref().take(study.cases.len()).collect())
-        .collect()
+    studies.iter().map(|study| solved.by_ref().take(study.cases.len()).collect()).collect()
 }
 
 fn summarized(summary: &Value) -> Result<Outcome, StudyError> {
@@ -184,9 +181,7 @@ fn series(case: &Case, study: &Levels, outcomes: Vec<Timed>) -> Result<Vec<Serie
             Outcome::Summary(summary) => summaries.push(*summary),
         }
     }
-    let steps = summaries
-        .iter()
-        .filter_map(|s: &PointSummary| s.time_step_s);
+    let steps = summaries.iter().filter_map(|s: &PointSummary| s.time_step_s);
     let steps: Vec<f64> = steps.collect();
     let (sizes, levels): (Vec<f64>, Vec<String>) = match study.refinement {
         Refinement::Mesh => study.cases.iter().map(mesh_level).unzip(),

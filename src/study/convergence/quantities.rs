@@ -71,10 +71,8 @@ pub fn of_sweeps(
         })
         .collect();
     let mut quantities = Vec::new();
-    let parts: [(&str, PartOf); 2] = [
-        ("frequency", ComplexMode::frequency_hz),
-        ("real part", ComplexMode::real_hz),
-    ];
+    let parts: [(&str, PartOf); 2] =
+        [("frequency", ComplexMode::frequency_hz), ("real part", ComplexMode::real_hz)];
     for (part, value) in parts {
         for levels in &everywhere {
             let name = format!("{part}, {}", name_of(key_of(levels[0]), case.has_sectors()));
@@ -86,10 +84,7 @@ pub fn of_sweeps(
         }
     }
     quantities.extend(onsets(sizes, sweeps, case.has_sectors()));
-    let mut notes = vec![format!(
-        "{} modes at friction coefficient {friction}",
-        everywhere.len()
-    )];
+    let mut notes = vec![format!("{} modes at friction coefficient {friction}", everywhere.len())];
     let most = modes.iter().map(|level| level.len()).max().unwrap_or(0);
     if most > everywhere.len() {
         notes.push(format!(
@@ -115,9 +110,7 @@ fn name_by_rank(sweeps: &mut [FrictionSweep], friction: f64) {
         let mut points = sweep.points.iter();
         let point = points.find(|point| point.friction_coefficient == friction);
         let modes = point.map_or(&[][..], |point| &point.modes).iter();
-        modes
-            .map(|mode| (mode.shape.clone().unwrap_or_default(), mode.branch))
-            .collect()
+        modes.map(|mode| (mode.shape.clone().unwrap_or_default(), mode.branch)).collect()
     };
     let mut finer: Option<Shapes> = None;
     for sweep in sweeps.iter_mut().rev() {
@@ -238,12 +231,8 @@ pub fn of_limit_cycles(sizes: &[f64], cycles: &[Vibration]) -> Vec<Quantity> {
 
 /// The limit cycles of each family that some search looked for, level by level; an empty one where one did not.
 pub fn by_family(summaries: &[PointSummary]) -> Vec<(Family, Vec<Vibration>)> {
-    let family = |cycle: &Vibration| {
-        Some(Family {
-            harmonic: cycle.harmonic?,
-            onset: cycle.onset?,
-        })
-    };
+    let family =
+        |cycle: &Vibration| Some(Family { harmonic: cycle.harmonic?, onset: cycle.onset? });
     let all = summaries.iter().flat_map(|summary| &summary.cycles);
     let mut families: Vec<Family> = all.filter_map(family).collect();
     families.sort_unstable();

@@ -55,11 +55,8 @@ pub fn changes(
     let pairs: Vec<&[&SteppedCycle]> = known.windows(2).filter(differ).collect();
     let found = pairs.par_iter().map(|pair| {
         let [first, second] = [pair[0], pair[1]];
-        let (stable, unstable) = if first.stability.is_stable() {
-            (first, second)
-        } else {
-            (second, first)
-        };
+        let (stable, unstable) =
+            if first.stability.is_stable() { (first, second) } else { (second, first) };
         stepping.stability_change(parameter, stable, unstable).ok()
     });
     found.collect::<Vec<_>>().into_iter().flatten().collect()

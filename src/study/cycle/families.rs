@@ -73,10 +73,7 @@ pub fn critical_value(case: &Case, parameter: Parameter, values: &[f64]) -> Opti
     let friction = point.contact.friction_coefficient;
     if parameter == Parameter::FrictionCoefficient {
         let onset = next_onset(case, friction)?;
-        return Some(CriticalValue {
-            parameter,
-            value: onset.friction_coefficient,
-        });
+        return Some(CriticalValue { parameter, value: onset.friction_coefficient });
     }
     if parameter.is_of_contact() {
         return None;
@@ -90,9 +87,7 @@ pub fn critical_value(case: &Case, parameter: Parameter, values: &[f64]) -> Opti
         Some(friction - lowest.unwrap_or(LARGEST_FRICTION))
     };
     let growing = candidates(values, here);
-    let growing = growing
-        .into_iter()
-        .find(|&value| growth(value).is_some_and(|own| own > 0.0))?;
+    let growing = growing.into_iter().find(|&value| growth(value).is_some_and(|own| own > 0.0))?;
     critical(parameter, growth, [here, growing])
 }
 
@@ -142,10 +137,7 @@ pub fn solvers(case: &Case, cycle: &Cycle, onsets: &[Onset]) -> Result<Vec<Sough
             own.truncate(1);
         }
         for (rank, onset) in own.iter().enumerate() {
-            let family = Family {
-                harmonic,
-                onset: rank + 1,
-            };
+            let family = Family { harmonic, onset: rank + 1 };
             match CycleSolver::born_at(&model, family, onset, cycle.phases) {
                 Ok(solver) => solvers.push(Ok(solver)),
                 Err(error @ CycleError::Undamped { .. }) => solvers.push(Err((family, error))),

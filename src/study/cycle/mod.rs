@@ -160,10 +160,8 @@ impl<'a> CycleStudy<'a> {
 
     /// Why a family whose onset is known has no cycle.
     fn absence(&self, solver: &CycleSolver, error: &CycleError) -> Absence {
-        let (friction, onset) = (
-            self.point.contact.friction_coefficient,
-            solver.onset().friction_coefficient,
-        );
+        let (friction, onset) =
+            (self.point.contact.friction_coefficient, solver.onset().friction_coefficient);
         let is_stable = friction < onset;
         Absence {
             reason: match is_stable {
@@ -237,9 +235,7 @@ impl<'a> CycleStudy<'a> {
                     let periods = self.choices.confirmation_periods;
                     let known = known(&result.stability);
                     result.confirmation = (periods > 0).then(|| {
-                        stepping
-                            .confirm(cycle, known, periods)
-                            .map_err(|e| e.to_string())
+                        stepping.confirm(cycle, known, periods).map_err(|e| e.to_string())
                     });
                     if let (Some(branch), StabilityChoice::Branch) = (&branch, stability) {
                         let settled = along(&stepping, &branch.cycles);
@@ -274,10 +270,7 @@ pub fn limit_cycle(case: &Case, family: Family) -> Result<(CycleSolver, LimitCyc
 
 /// Where a case stands among the limit cycles of its disc.
 pub fn operating_point(case: &Case) -> OperatingPoint {
-    OperatingPoint {
-        contact: case.contact.sliding,
-        damping: case.damping.rayleigh,
-    }
+    OperatingPoint { contact: case.contact.sliding, damping: case.damping.rayleigh }
 }
 
 /// Stability of a cycle; its powers and fractions become those of the transient.
@@ -290,10 +283,5 @@ fn settle(stepping: &MeshStepping<'_>, cycle: &mut LimitCycle) -> Result<CycleSt
 /// The whole field, given for a time, at `count` times over one period (s).
 fn frames(field: impl Fn(f64) -> [Vec<f64>; 2], period: f64, count: usize) -> Vec<CycleFrame> {
     let times = (0..count).map(|i| period * i as f64 / count as f64);
-    times
-        .map(|time| CycleFrame {
-            time,
-            fields: field(time),
-        })
-        .collect()
+    times.map(|time| CycleFrame { time, fields: field(time) }).collect()
 }

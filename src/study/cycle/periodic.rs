@@ -244,11 +244,8 @@ impl<'a> PeriodicStudy<'a> {
             base: &self.steady.base,
         };
         // From the growing mode to the motion that repeats itself, and along the parameter.
-        let watch = PartWatch {
-            whole: watch,
-            prefix: format!("mode{}-", place + 1),
-            is_heard: false,
-        };
+        let watch =
+            PartWatch { whole: watch, prefix: format!("mode{}-", place + 1), is_heard: false };
         let mut found = match watch.recall("cycle") {
             Some(columns) => Found::recalled(&mut map, &columns),
             None => None,
@@ -339,11 +336,7 @@ impl<'a> PeriodicStudy<'a> {
             extent: extent_of(self.case),
             friction_coefficient: self.case.contact.sliding.friction_coefficient,
             modes: self.steady.modes.len(),
-            highest_hz: self
-                .steady
-                .modes
-                .last()
-                .map_or(0.0, ComplexMode::frequency_hz),
+            highest_hz: self.steady.modes.last().map_or(0.0, ComplexMode::frequency_hz),
             least_stable: self.least_stable,
             critical: self.critical,
             results,

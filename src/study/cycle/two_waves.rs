@@ -47,9 +47,7 @@ impl CycleStudy<'_> {
         let onset = self.onsets_of(harmonics[1]).into_iter().next();
         let direction = onset.map_or(-1, |onset| isize::from(onset.direction));
         let second = -direction * harmonics[1] as isize;
-        let stepping = solver
-            .stepping(self.simd)
-            .map_err(|error| error.to_string());
+        let stepping = solver.stepping(self.simd).map_err(|error| error.to_string());
         let search = |stepping: &MeshStepping<'_>| {
             let found = stepping.two_waves(cycle, second, None, watch);
             let found = found.map_err(|error| error.to_string())?;
@@ -59,10 +57,7 @@ impl CycleStudy<'_> {
                 branch.map(|(parameter, values)| waves.follow(motion, *parameter, values, watch));
             // Over one period of the first wave; the second has moved on by then.
             let specification = &self.annulus.specification;
-            let shape = [
-                specification.radial_elements + 1,
-                specification.circumferential_elements,
-            ];
+            let shape = [specification.radial_elements + 1, specification.circumferential_elements];
             let frames = frames(
                 |time| waves.field(motion, time, shape),
                 1.0 / motion.frequencies_hz()[0],
@@ -77,21 +72,14 @@ impl CycleStudy<'_> {
                 branch,
             })
         };
-        TwoWaveResult {
-            harmonics,
-            outcome: stepping.and_then(|stepping| search(&stepping)),
-        }
+        TwoWaveResult { harmonics, outcome: stepping.and_then(|stepping| search(&stepping)) }
     }
 }
 
 /// The cycle of a family that loses its stability to a wave of another harmonic, at the case's own operating point or first along
 /// the branch, and that harmonic.
 fn loses_to_another(result: &CycleResult) -> Option<(&LimitCycle, usize)> {
-    let own = result
-        .cycle
-        .as_ref()
-        .ok()
-        .map(|cycle| (cycle, &result.stability));
+    let own = result.cycle.as_ref().ok().map(|cycle| (cycle, &result.stability));
     let branch = result.branch.iter().flat_map(|branch| &branch.cycles);
     let along = branch.zip(&result.branch_stability);
     own.into_iter().chain(along).find_map(|(cycle, finding)| {

@@ -106,11 +106,7 @@ impl AssemblyModel {
         let (assembly, state) = (self.assembly(), self.base());
         let forces = state.normal_forces(friction);
         let all = assembly.contacts().iter().flat_map(|(contact, surface)| {
-            let points = surface
-                .points
-                .iter()
-                .zip(&surface.sites)
-                .zip(&surface.shares);
+            let points = surface.points.iter().zip(&surface.sites).zip(&surface.shares);
             points.map(move |((point, site), shares)| (contact, point, site, shares))
         });
         let points = all.enumerate().map(|(i, (contact, point, site, shares))| {
@@ -130,9 +126,7 @@ impl AssemblyModel {
         let displacement = state.displacement(friction);
         AssemblyReport {
             stress: solid_stress(&self.body.mesh, &self.body.materials, &displacement),
-            surfaces: contacts
-                .map(|own| (own.name.clone(), own.surface))
-                .collect(),
+            surfaces: contacts.map(|own| (own.name.clone(), own.surface)).collect(),
             points: points.collect(),
             displacement,
         }
@@ -149,15 +143,11 @@ fn start_of(body: &AssemblyBody) -> &'static [f64] {
 pub fn base_state(case: &Case, report: &AssemblyReport) -> BaseState {
     let range = |value: fn(&AssemblyPoint) -> f64| {
         let values = report.points.iter().map(value);
-        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| {
-            [low.min(v), high.max(v)]
-        })
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
     };
     let closed = report.points.iter().filter(|point| point.is_closed).count();
     let powers = report.points.iter();
-    let power: f64 = powers
-        .map(|point| point.shear * point.area * point.speed)
-        .sum();
+    let power: f64 = powers.map(|point| point.shear * point.area * point.speed).sum();
     let speed = case.contact.sliding.rotation_speed;
     let per_speed = if speed == 0.0 { 0.0 } else { power / speed };
     let is_straight = case.body.slides_straight();

@@ -43,20 +43,13 @@ pub fn watched_map(
     let points = values.collect::<Result<Vec<_>, StudyError>>()?;
     let done = AtomicUsize::new(0);
     let limit = mode_limit(cea);
-    let points = cyclic::map_of(
-        &points,
-        limit,
-        largest_friction,
-        |(number, point, solver), request| {
+    let points =
+        cyclic::map_of(&points, limit, largest_friction, |(number, point, solver), request| {
             let mass = point.cea.as_ref().map_or(cea.mass, |own| own.mass);
             let options = tangent_options(point, mass);
             let frictions = request.friction_coefficients;
             let model = Model::with_solver(point, solver.clone(), options, frictions)?;
-            let own = PartWatch {
-                whole: watch,
-                prefix: format!("map-{number}-"),
-                is_heard: false,
-            };
+            let own = PartWatch { whole: watch, prefix: format!("map-{number}-"), is_heard: false };
             let found = model.spectrum(point, request, false, &own)?;
             watch.reached(SweepProgress {
                 stage: SweepStage::MapPoints,
@@ -64,8 +57,7 @@ pub fn watched_map(
                 total: map.values.len(),
             });
             Ok(found.sweep.intervals)
-        },
-    );
+        });
     Ok(MapReport {
         key: map.key.clone(),
         unit: find_key(&map.key).map_or("", |key| key.unit).to_owned(),

@@ -87,10 +87,7 @@ pub fn no_cyclic_losses(case: &Case, what: &str) -> CaseErrors {
 
 /// Refuses a counterface at rest: a contact that sticks has no modes of sliding.
 fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
-    let has_contact = case
-        .body
-        .assembly()
-        .is_none_or(|body| !body.contacts.is_empty());
+    let has_contact = case.body.assembly().is_none_or(|body| !body.contacts.is_empty());
     // Bodies that touch nothing have modes whether they turn or not.
     if case.contact.sliding.rotation_speed != 0.0 || !has_contact {
         return Ok(());
@@ -216,22 +213,19 @@ impl Model {
         let sliding = &case.contact.sliding;
         Ok(match solver {
             Solver::Sectors(annulus) => Self::Sectors(Box::new(annulus), options),
-            Solver::SolidSectors(Revolution {
-                specification,
-                material,
-            }) => Self::SolidSectors(Box::new(SolidModel {
-                specification,
-                material,
-                options,
-                contact: *sliding,
-            })),
+            Solver::SolidSectors(Revolution { specification, material }) => {
+                Self::SolidSectors(Box::new(SolidModel {
+                    specification,
+                    material,
+                    options,
+                    contact: *sliding,
+                }))
+            }
             Solver::WholeMesh => Self::Whole(Box::new(WholeMesh::solve(case, options, frictions)?)),
             Solver::Assembly => {
                 let body = case.body.assembly();
                 let body = body.expect("the solver of an assembly is given to one alone");
-                Self::Assembly(Box::new(AssemblyModel::solve(
-                    case, body, options, frictions,
-                )?))
+                Self::Assembly(Box::new(AssemblyModel::solve(case, body, options, frictions)?))
             }
         })
     }

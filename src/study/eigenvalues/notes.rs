@@ -20,24 +20,14 @@ pub(super) fn count_notes(cea: &Cea, sweep: &FrictionSweep, is_by_harmonics: boo
 }
 
 fn count_note(count: &ModeCount) -> String {
-    let ModeCount {
-        friction_coefficient: friction,
-        region,
-        known,
-        recovered,
-        ..
-    } = count;
+    let ModeCount { friction_coefficient: friction, region, known, recovered, .. } = count;
     let ([low, high], [left, right]) = (region.frequencies_hz, region.growth_rates);
     let searched = match recovered {
         0 => String::new(),
         _ => format!(" ({recovered} of them found by a search that the count gave rise to)"),
     };
     let near = count.near.map_or_else(String::new, |near| {
-        format!(
-            " near {:.0} Hz, growth rate {:.0} 1/s",
-            near.im / TAU,
-            near.re
-        )
+        format!(" near {:.0} Hz, growth rate {:.0} 1/s", near.im / TAU, near.re)
     });
     let counted = count.counted().unwrap_or_default();
     let what = format!("counted {counted} modes below {high:.1} Hz at friction {friction}");
@@ -99,21 +89,17 @@ pub(super) fn uncertainty_note(case: &Case, sweep: &FrictionSweep) -> Option<Str
     if worst < DOUBTFUL {
         return None;
     }
-    let penalty = case
-        .contact
-        .stiffness
-        .normal_stiffness
-        .map_or_else(String::new, |stiffness| {
-            let size = stiffness * case.body.contact_length() / case.material.young_modulus;
-            let length = match &case.body {
-                Body::Imported(_) | Body::Assembly(_) => "the size of the contact",
-                Body::Annulus(_) | Body::Revolution(_) => "geometry.inner_radius",
-            };
-            format!(
-                "contact.normal_stiffness times {length} is {size:.1e} times \
+    let penalty = case.contact.stiffness.normal_stiffness.map_or_else(String::new, |stiffness| {
+        let size = stiffness * case.body.contact_length() / case.material.young_modulus;
+        let length = match &case.body {
+            Body::Imported(_) | Body::Assembly(_) => "the size of the contact",
+            Body::Annulus(_) | Body::Revolution(_) => "geometry.inner_radius",
+        };
+        format!(
+            "contact.normal_stiffness times {length} is {size:.1e} times \
              material.young_modulus (from 1e6 on leave it out: rigid contact); "
-            )
-        });
+        )
+    });
     Some(format!(
         "rounding of the matrices alone leaves eigenvalues uncertain by up to {worst:.0e} (relative): {penalty}\
          material.poisson_ratio is {}, contact.friction_coefficient {}, and where branches meet no digit is safe",
@@ -124,16 +110,9 @@ pub(super) fn uncertainty_note(case: &Case, sweep: &FrictionSweep) -> Option<Str
 /// What damping near the critical one hides.
 pub(super) fn damping_note(case: &Case, sweep: &FrictionSweep) -> Option<String> {
     let modes = || sweep.points.iter().flat_map(|point| &point.modes);
-    let largest = modes()
-        .map(|mode| mode.damping_factor())
-        .fold(0.0, f64::max);
-    let size = modes()
-        .map(|mode| mode.eigenvalue.norm())
-        .fold(0.0, f64::max);
-    let at_limit = case
-        .damping
-        .rayleigh
-        .damping_factor(size.max(f64::MIN_POSITIVE));
+    let largest = modes().map(|mode| mode.damping_factor()).fold(0.0, f64::max);
+    let size = modes().map(|mode| mode.eigenvalue.norm()).fold(0.0, f64::max);
+    let at_limit = case.damping.rayleigh.damping_factor(size.max(f64::MIN_POSITIVE));
     if largest.max(at_limit) <= 0.5 {
         return None;
     }
@@ -170,9 +149,9 @@ pub(super) fn ended_notes(sweep: &FrictionSweep) -> Vec<String> {
         let (frequency, friction) = (mode.frequency_hz, mode.friction_coefficient);
         match mode.lost_before {
             None => damped.push(format!("{frequency:.0} Hz from friction {friction} on")),
-            Some(next) => lost.push(format!(
-                "{frequency:.0} Hz between friction {friction} and {next}"
-            )),
+            Some(next) => {
+                lost.push(format!("{frequency:.0} Hz between friction {friction} and {next}"))
+            }
         }
     }
     let number = |count: usize, one: &str, many: &str| match count {
@@ -253,10 +232,7 @@ pub(super) fn coverage_note(model: &Model, coverage: &Coverage) -> String {
         Model::SolidSectors(_) => format!(
             "harmonics {} hold modes at rest (by inertia counts, up to {} of {}) and were followed from {:.0} Hz downwards",
             ranges(&coverage.followed),
-            coverage
-                .counted_empty
-                .last()
-                .unwrap_or(&coverage.largest_harmonic),
+            coverage.counted_empty.last().unwrap_or(&coverage.largest_harmonic),
             coverage.largest_harmonic,
             coverage.margin_hz,
         ),
@@ -273,10 +249,7 @@ fn proof_note(coverage: &Coverage) -> String {
     );
     for (harmonics, why) in [
         (&coverage.proven_empty, "are proven to hold none"),
-        (
-            &coverage.counted_empty,
-            "hold none by count at quarters of the friction range",
-        ),
+        (&coverage.counted_empty, "hold none by count at quarters of the friction range"),
     ] {
         if !harmonics.is_empty() {
             note += &format!("; {} {why}", ranges(harmonics));
@@ -295,11 +268,7 @@ fn ranges(numbers: &[usize]) -> String {
         }
     }
     let texts = groups.iter().map(|&(first, last)| {
-        if first == last {
-            first.to_string()
-        } else {
-            format!("{first}-{last}")
-        }
+        if first == last { first.to_string() } else { format!("{first}-{last}") }
     });
     texts.collect::<Vec<_>>().join(", ")
 }

@@ -88,10 +88,7 @@ pub fn body_sensitivities(
     let mut places = vec![Place::new(None, modes.iter().map(|mode| mode.eigenvalue))];
     for onset in onsets.iter().flatten() {
         let eigenvalue = c64::new(0.0, TAU * onset.frequency_hz);
-        places.push(Place::new(
-            Some(onset.critical_friction),
-            [eigenvalue].into_iter(),
-        ));
+        places.push(Place::new(Some(onset.critical_friction), [eigenvalue].into_iter()));
     }
     let base = Linearized::of(case, cea, &places, None)?;
     for k in 0..places.len() {
@@ -127,18 +124,14 @@ pub fn body_sensitivities(
             branch: mode.branch,
             direction: mode.direction,
             eigenvalue: mode.eigenvalue,
-            derivatives: std::iter::once(Some(pair.derivative))
-                .chain(by_keys)
-                .collect(),
+            derivatives: std::iter::once(Some(pair.derivative)).chain(by_keys).collect(),
             onset,
         });
     }
     let names = parameters.iter().map(|(key, _)| short_name(key));
     Ok(BodySensitivities {
         report: SensitivityReport {
-            parameters: std::iter::once("friction_coefficient".to_owned())
-                .chain(names)
-                .collect(),
+            parameters: std::iter::once("friction_coefficient".to_owned()).chain(names).collect(),
             values: std::iter::once(f64::NAN)
                 .chain(parameters.iter().map(|(_, value)| *value))
                 .collect(),
@@ -152,11 +145,7 @@ pub fn body_sensitivities(
 
 impl Place {
     fn new(onset: Option<f64>, targets: impl Iterator<Item = c64>) -> Self {
-        Self {
-            onset,
-            targets: targets.collect(),
-            pairs: Vec::new(),
-        }
+        Self { onset, targets: targets.collect(), pairs: Vec::new() }
     }
 }
 
@@ -184,11 +173,7 @@ impl Linearized {
         };
         let states = 0..model.state_count();
         let tangents: Result<_, CeaError> = states.map(|k| model.tangent(case, k)).collect();
-        Ok(Self {
-            tangents: tangents?,
-            model,
-            frictions,
-        })
+        Ok(Self { tangents: tangents?, model, frictions })
     }
 
     /// The tangent at a place.
@@ -235,9 +220,7 @@ fn count_up_to(sweep: &FrictionSweep, targets: &[c64]) -> usize {
     let highest = targets.iter().map(|t| t.norm()).fold(0.0, f64::max);
     let points = sweep.points.iter().map(|point| {
         let modes = point.modes.iter();
-        modes
-            .filter(|mode| mode.eigenvalue.norm() <= MARGIN * highest)
-            .count()
+        modes.filter(|mode| mode.eigenvalue.norm() <= MARGIN * highest).count()
     });
     points.max().unwrap_or(0).max(targets.len()) + 2
 }
@@ -323,9 +306,7 @@ fn responses(
         return modes.map(|(_, pair)| response(pair, &changes)).collect();
     }
     // Where stiffness depends on frequency the matrices are others for each mode.
-    modes
-        .map(|(target, pair)| response(pair, &changes_at(*target)))
-        .collect()
+    modes.map(|(target, pair)| response(pair, &changes_at(*target))).collect()
 }
 
 /// `d mu_c / d p` of the mode of a place by every parameter.
@@ -341,9 +322,7 @@ fn onset_rates(
     };
     Some(OnsetRates {
         critical_friction: pair.friction_coefficient,
-        derivatives: std::iter::once(None)
-            .chain(columns.iter().map(rate))
-            .collect(),
+        derivatives: std::iter::once(None).chain(columns.iter().map(rate)).collect(),
     })
 }
 
@@ -366,8 +345,6 @@ fn multiple_modes(places: &[Place], friction: f64) -> Vec<String> {
 /// Keys of the sections that every case has, without the section.
 fn short_name(key: &str) -> String {
     let sections = ["material.", "damping.", "contact."];
-    let short = sections
-        .iter()
-        .find_map(|section| key.strip_prefix(section));
+    let short = sections.iter().find_map(|section| key.strip_prefix(section));
     short.unwrap_or(key).to_owned()
 }

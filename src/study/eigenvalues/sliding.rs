@@ -107,11 +107,7 @@ impl SlidingModel {
         let traction = base.friction.drag * friction;
         let torque = case.thickness * base.torque(friction);
         let shear = [traction * smallest, traction * largest];
-        let open = base
-            .is_pressed
-            .iter()
-            .filter(|is_pressed| !**is_pressed)
-            .count();
+        let open = base.is_pressed.iter().filter(|is_pressed| !**is_pressed).count();
         let is_straight = case.body.slides_straight();
         BaseState {
             friction_coefficient: friction,
@@ -139,10 +135,7 @@ impl SlidingModel {
         BaseField {
             nodes: base.interface.nodes.clone(),
             angles: base.interface.angles.clone(),
-            shears: pressures
-                .iter()
-                .map(|pressure| traction * pressure)
-                .collect(),
+            shears: pressures.iter().map(|pressure| traction * pressure).collect(),
             pressures,
             is_pressed: (!case.has_sectors()).then(|| base.is_pressed.clone()),
             stress: nodal_stress(&self.mesh, case.materials(), &displacement),

@@ -29,22 +29,12 @@ impl SolidBody {
         let elastic = solid::stiffness(&sector, &case.material);
         let law = case.contact.stiffness.base_law();
         let base = SolidSliding::solve_with(&sector, &elastic, &case.contact.sliding, law)?;
-        let plane = AnnulusSpecification {
-            outer: BoundaryCondition::Clamped,
-            ..specification.annulus
-        };
+        let plane =
+            AnnulusSpecification { outer: BoundaryCondition::Clamped, ..specification.annulus };
         let friction_coefficient = case.contact.sliding.friction_coefficient;
         let displacement = base.displacement(friction_coefficient);
         let stress = revolved_stress(&sector, &case.material, &displacement);
-        Ok(Self {
-            report: SolidReport {
-                sector,
-                stress,
-                base,
-                friction_coefficient,
-            },
-            plane,
-        })
+        Ok(Self { report: SolidReport { sector, stress, base, friction_coefficient }, plane })
     }
 
     /// What the report says of the base state.

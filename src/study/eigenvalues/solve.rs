@@ -81,11 +81,8 @@ fn solve_with(
         false => (None, None),
     };
 
-    let mut notes: Vec<String> = found
-        .coverage
-        .iter()
-        .map(|c| coverage_note(&model.model, c))
-        .collect();
+    let mut notes: Vec<String> =
+        found.coverage.iter().map(|c| coverage_note(&model.model, c)).collect();
     notes.extend(count_notes(cea, &found.sweep, found.coverage.is_some()));
     notes.extend(instead);
     notes.extend(found.notes);
@@ -118,11 +115,7 @@ fn solve_with(
     Ok(Solution {
         reading,
         dofs: found.dofs,
-        method: if found.is_by_diameters {
-            "cyclic"
-        } else {
-            method
-        },
+        method: if found.is_by_diameters { "cyclic" } else { method },
         sensitivities: match of_body {
             Some(of_body) => Some(of_body),
             None => sensitivities.map(|branches| sensitivity_report(case, branches)),
@@ -189,10 +182,7 @@ fn whole_mesh_instead(
     model: &SlidingModel,
     error: &CeaError,
 ) -> Result<Option<Model>, CeaError> {
-    let is_lost = matches!(
-        error,
-        CeaError::LostHarmonic { .. } | CeaError::Unproven { .. }
-    );
+    let is_lost = matches!(error, CeaError::LostHarmonic { .. } | CeaError::Unproven { .. });
     match &model.model {
         Model::Sectors(_, options) if is_lost && cea.method == CeaMethod::Auto => {
             let frictions = cea.solved_friction_coefficients();
@@ -208,21 +198,14 @@ fn sensitivity_report(case: &Case, branches: Vec<Sensitivity>) -> SensitivityRep
     let annulus = case.body.annulus();
     let shaft = annulus.and_then(|annulus| annulus.materials.shaft);
     let of_shaft = shaft.map_or([0.0; 3], |RegionMaterial { elastic, .. }| {
-        [
-            elastic.young_modulus,
-            elastic.poisson_ratio,
-            elastic.density,
-        ]
+        [elastic.young_modulus, elastic.poisson_ratio, elastic.density]
     });
     let own = shaft.and_then(|shaft| shaft.damping).unwrap_or_default();
     let of_law = match case.contact.stiffness.law {
-        Some(NormalLaw::Cubic {
-            cubic_stiffness, ..
-        }) => [cubic_stiffness, 0.0, 0.0],
-        Some(NormalLaw::Exponential {
-            reference_pressure,
-            height,
-        }) => [0.0, reference_pressure, height],
+        Some(NormalLaw::Cubic { cubic_stiffness, .. }) => [cubic_stiffness, 0.0, 0.0],
+        Some(NormalLaw::Exponential { reference_pressure, height }) => {
+            [0.0, reference_pressure, height]
+        }
         None => [0.0; 3],
     };
     SensitivityReport::of_harmonics(

@@ -72,10 +72,7 @@ pub fn modes_with_shapes_below(
     };
     let found = model.spectrum(case, &request, with_rates, &Unwatched)?;
     let point = found.sweep.points.into_iter().next();
-    Ok((
-        point.map_or_else(Vec::new, |point| point.modes),
-        found.sensitivities.unwrap_or_default(),
-    ))
+    Ok((point.map_or_else(Vec::new, |point| point.modes), found.sensitivities.unwrap_or_default()))
 }
 
 /// The modes of a case at its own friction coefficient, by frequency; no shapes. With all the symmetry that the body has.
@@ -123,10 +120,7 @@ pub fn unstable_intervals(
     harmonics: Option<&[usize]>,
 ) -> Result<OnsetSearch, StudyError> {
     let own = case.require_cea()?;
-    let cea = Cea {
-        modes: own.modes,
-        ..analysis(case, frictions, f64::INFINITY)
-    };
+    let cea = Cea { modes: own.modes, ..analysis(case, frictions, f64::INFINITY) };
     let solver = Solver::of(case, cea.method)?;
     let mut frictions = frictions.to_vec();
     if solver == Solver::WholeMesh {

@@ -42,12 +42,7 @@ impl WholeMesh {
         let frictions = [frictions, &[sliding.friction_coefficient]].concat();
         let range =
             SlidingRange::solve_with(&mesh, &stiffness, sliding, options.contact.law, &frictions)?;
-        Ok(Self {
-            symmetry: used_symmetry(case, &mesh),
-            mesh,
-            range,
-            options,
-        })
+        Ok(Self { symmetry: used_symmetry(case, &mesh), mesh, range, options })
     }
 
     /// The state at the case's own friction coefficient.
@@ -88,8 +83,7 @@ impl WholeMesh {
 /// The symmetry of a mesh that the eigenvalue analysis of a case uses: none where the whole mesh is asked for.
 pub(super) fn used_symmetry(case: &Case, mesh: &Mesh) -> Option<CyclicSymmetry> {
     let is_whole = |cea: &Cea| cea.method == CeaMethod::Sparse;
-    mesh.symmetry
-        .filter(|_| !case.cea.as_ref().is_some_and(is_whole))
+    mesh.symmetry.filter(|_| !case.cea.as_ref().is_some_and(is_whole))
 }
 
 /// Solves base states at friction coefficients.
@@ -227,10 +221,7 @@ impl<S> States<'_, S> {
                         0 => format!("state-{k}-"),
                         round => format!("round-{round}-state-{k}-"),
                     };
-                    let own = SweepRequest {
-                        friction_coefficients: &values,
-                        ..*request
-                    };
+                    let own = SweepRequest { friction_coefficients: &values, ..*request };
                     let sweep = self.part(state, &own, (progress, name), common)?;
                     let key = (pressed.to_vec(), values, sweep.clone());
                     common.solved.push(key);
@@ -252,11 +243,7 @@ impl<S> States<'_, S> {
     ) -> Result<FrictionSweep, CeaError> {
         let tangent = (self.tangent)(state)?;
         common.dofs = common.dofs.max(tangent.unknowns.len());
-        let watch = PartWatch {
-            whole: progress,
-            prefix: name,
-            is_heard: true,
-        };
+        let watch = PartWatch { whole: progress, prefix: name, is_heard: true };
         let waves = self
             .symmetry
             .as_ref()

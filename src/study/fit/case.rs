@@ -18,11 +18,7 @@ const MARGIN: f64 = 1.15;
 
 /// Modes are computed up to this frequency.
 fn limit_hz(lines: &[MeasuredMode]) -> f64 {
-    MARGIN
-        * lines
-            .iter()
-            .map(|line| line.frequency_hz)
-            .fold(0.0, f64::max)
+    MARGIN * lines.iter().map(|line| line.frequency_hz).fold(0.0, f64::max)
 }
 
 /// Fits the parameters of a case to measured modes.
@@ -114,10 +110,7 @@ pub fn refuse_too_few(case: &Case, lines: &[MeasuredMode]) -> Result<(), StudyEr
         }
         .into());
     }
-    let data = lines
-        .iter()
-        .map(|line| 1 + usize::from(line.real_hz.is_some()))
-        .sum();
+    let data = lines.iter().map(|line| 1 + usize::from(line.real_hz.is_some())).sum();
     let parameters = wanted.parameters.len();
     if data >= parameters {
         return Ok(());
@@ -139,10 +132,7 @@ fn bounded(parameter: &FitParameter) -> BoundedParameter {
 
 /// The values that the case itself gives the parameters, where it gives them all.
 fn own_values(case: &Case, wanted: &Fit) -> Option<Vec<f64>> {
-    let own = wanted
-        .parameters
-        .iter()
-        .map(|parameter| case.number(&parameter.parameter.key));
+    let own = wanted.parameters.iter().map(|parameter| case.number(&parameter.parameter.key));
     own.collect()
 }
 
@@ -154,10 +144,7 @@ fn modes(
     limit_hz: f64,
     with_rates: bool,
 ) -> Result<Vec<ModelMode>, String> {
-    let parameters = wanted
-        .parameters
-        .iter()
-        .map(|parameter| &parameter.parameter);
+    let parameters = wanted.parameters.iter().map(|parameter| &parameter.parameter);
     let case = case.with_parameters(parameters.clone().zip(values.iter().copied()))?;
     if with_rates && free_part(&case).is_some() {
         let values = parameters.zip(values.iter().copied());

@@ -61,24 +61,13 @@ pub struct Fitted {
 pub fn fit(problem: &FitProblem<'_>) -> Result<Fitted, FitError> {
     let (data, count) = (problem.data_count(), problem.parameters.len());
     if data < count {
-        return Err(FitError::TooFewData {
-            parameters: count,
-            data,
-        });
+        return Err(FitError::TooFewData { parameters: count, data });
     }
-    let mut squares = Squares {
-        problem,
-        weights: weights(problem),
-    };
+    let mut squares = Squares { problem, weights: weights(problem) };
     let points = starting_points(problem);
-    let failed = |reason| FitError::NoModel {
-        points: points.len(),
-        reason,
-    };
-    let looked: Vec<Result<Trial, String>> = points
-        .par_iter()
-        .map(|places| squares.trial(places, false))
-        .collect();
+    let failed = |reason| FitError::NoModel { points: points.len(), reason };
+    let looked: Vec<Result<Trial, String>> =
+        points.par_iter().map(|places| squares.trial(places, false)).collect();
     let (mut starts, mut reason) = (Vec::new(), String::new());
     for trial in looked {
         match trial {
@@ -88,10 +77,8 @@ pub fn fit(problem: &FitProblem<'_>) -> Result<Fitted, FitError> {
     }
     starts.sort_by(|a, b| a.chi_square.total_cmp(&b.chi_square));
     starts.truncate(DESCENTS);
-    let found: Vec<Result<Trial, String>> = starts
-        .into_par_iter()
-        .map(|start| squares.descend(start))
-        .collect();
+    let found: Vec<Result<Trial, String>> =
+        starts.into_par_iter().map(|start| squares.descend(start)).collect();
     let (mut minima, mut searched) = (Vec::new(), 0);
     for trial in found {
         searched += 1;
@@ -125,9 +112,7 @@ fn starting_points(problem: &FitProblem<'_>) -> Vec<Vec<f64>> {
     let count = problem.parameters.len();
     let own = problem.own.iter().map(|values| {
         let pairs = problem.parameters.iter().zip(values);
-        pairs
-            .map(|(parameter, value)| parameter.place(*value))
-            .collect::<Vec<f64>>()
+        pairs.map(|(parameter, value)| parameter.place(*value)).collect::<Vec<f64>>()
     });
     let inside = |places: &Vec<f64>| places.iter().all(|p| (0.0..=1.0).contains(p));
     let mut points: Vec<Vec<f64>> = own.filter(inside).collect();
@@ -144,9 +129,7 @@ fn starting_points(problem: &FitProblem<'_>) -> Vec<Vec<f64>> {
 /// Equal shares of the frequency, or the standard deviations given; a line without one takes the largest relative one.
 fn weights(problem: &FitProblem<'_>) -> Vec<Weights> {
     let lines = problem.lines;
-    let relative = lines
-        .iter()
-        .filter_map(|line| Some(line.sigma_hz? / line.frequency_hz));
+    let relative = lines.iter().filter_map(|line| Some(line.sigma_hz? / line.frequency_hz));
     let largest = relative.fold(0.0_f64, f64::max);
     let fallback = if largest > 0.0 { largest } else { 1.0 };
     let of = |(line, shape): (&MeasuredMode, &Option<usize>)| {
@@ -201,9 +184,8 @@ fn degrees_left(
     best: &Trial,
     counts: [usize; 2],
 ) -> Result<[f64; 2], String> {
-    let free: Vec<usize> = (0..best.places.len())
-        .filter(|&k| best.places[k] > 0.0 && best.places[k] < 1.0)
-        .collect();
+    let free: Vec<usize> =
+        (0..best.places.len()).filter(|&k| best.places[k] > 0.0 && best.places[k] < 1.0).collect();
     let jacobian = squares.jacobian(best)?.select_columns(&free);
     let Some(inverse) = (jacobian.transpose() * &jacobian).try_inverse() else {
         return Ok(counts.map(|count| count as f64));
@@ -219,10 +201,7 @@ fn degrees_left(
 }
 
 fn distance(a: &[f64], b: &[f64]) -> f64 {
-    a.iter()
-        .zip(b)
-        .map(|(a, b)| (a - b).abs())
-        .fold(0.0, f64::max)
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
 /// Minima whose sum of squares lies within the joint 95 % region of the best one, each once.
@@ -235,18 +214,13 @@ fn other_minima(problem: &FitProblem<'_>, minima: &[Trial]) -> Vec<Vec<f64>> {
     let limit = minima[0].chi_square * (1.0 + count / degrees * student_95(degrees).powi(2));
     let mut kept = vec![&minima[0]];
     for trial in minima.iter().filter(|trial| trial.chi_square <= limit) {
-        if kept
-            .iter()
-            .all(|known| distance(&known.places, &trial.places) > DISTINCT)
-        {
+        if kept.iter().all(|known| distance(&known.places, &trial.places) > DISTINCT) {
             kept.push(trial);
         }
     }
     let values = |trial: &&Trial| {
         let pairs = problem.parameters.iter().zip(&trial.places);
-        pairs
-            .map(|(parameter, place)| parameter.value(*place))
-            .collect()
+        pairs.map(|(parameter, place)| parameter.value(*place)).collect()
     };
     kept[1..].iter().map(values).collect()
 }
@@ -264,13 +238,10 @@ fn refuse_unmatched(problem: &FitProblem<'_>, best: &Trial) -> Result<(), FitErr
         if mode.filter(fits).is_some() {
             continue;
         }
-        let mut wanted = line
-            .harmonic
-            .map_or(String::new(), |n| format!(", n = {n}"));
+        let mut wanted = line.harmonic.map_or(String::new(), |n| format!(", n = {n}"));
         wanted += if line.is_unstable { ", unstable" } else { "" };
-        let nearest = mode.map_or("none is left".to_owned(), |mode| {
-            format!("{} comes nearest", described(mode))
-        });
+        let nearest = mode
+            .map_or("none is left".to_owned(), |mode| format!("{} comes nearest", described(mode)));
         return Err(FitError::Unmatched {
             line: line.line,
             frequency_hz: line.frequency_hz,
@@ -282,14 +253,8 @@ fn refuse_unmatched(problem: &FitProblem<'_>, best: &Trial) -> Result<(), FitErr
 }
 
 fn described(mode: &ModelMode) -> String {
-    let harmonic = mode
-        .harmonic
-        .map_or(String::new(), |n| format!("n = {n}, "));
-    format!(
-        "{harmonic}{:.0} Hz, growth {:+.1} Hz",
-        mode.frequency_hz(),
-        mode.real_hz()
-    )
+    let harmonic = mode.harmonic.map_or(String::new(), |n| format!("n = {n}, "));
+    format!("{harmonic}{:.0} Hz, growth {:+.1} Hz", mode.frequency_hz(), mode.real_hz())
 }
 
 fn line_fits(problem: &FitProblem<'_>, best: &Trial) -> Vec<LineFit> {

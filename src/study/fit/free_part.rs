@@ -70,10 +70,7 @@ pub(super) fn rates<'p>(
     let matrices = |case: &Case| -> Option<[Triplets; 2]> {
         let body = case.body.assembly()?;
         let (mesh, materials) = (&body.mesh, &body.materials);
-        Some([
-            assemble_mass(mesh, materials, cea.mass),
-            assemble_stiffness(mesh, materials),
-        ])
+        Some([assemble_mass(mesh, materials, cea.mass), assemble_stiffness(mesh, materials)])
     };
     let own = matrices(case);
     let by_parameter = parameters.map(|(parameter, value)| {

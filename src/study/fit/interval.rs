@@ -42,9 +42,8 @@ pub fn estimates(
         1.0 => Some(Side::To),
         _ => None,
     };
-    let free: Vec<usize> = (0..parameters.len())
-        .filter(|&k| side(best.places[k]).is_none())
-        .collect();
+    let free: Vec<usize> =
+        (0..parameters.len()).filter(|&k| side(best.places[k]).is_none()).collect();
     let jacobian = squares.jacobian(best)?.select_columns(&free);
     if let Some(direction) = blind_direction(&jacobian, parameters, &free, best) {
         return Ok(Err(FitError::Blind { direction }));
@@ -109,22 +108,12 @@ fn blind_direction(
         .map(|(i, &k)| {
             let parameter = &parameters[k];
             let place = best.places[k];
-            (
-                k,
-                direction[i] * parameter.slope(place) / parameter.value(place),
-            )
+            (k, direction[i] * parameter.slope(place) / parameter.value(place))
         })
         .collect();
-    let largest = relative
-        .iter()
-        .fold(0.0_f64, |m, (_, change)| m.max(change.abs()));
-    let sign = relative
-        .iter()
-        .find(|(_, c)| c.abs() == largest)
-        .map_or(1.0, |(_, c)| c.signum());
-    let named = relative
-        .iter()
-        .filter(|(_, change)| change.abs() > 0.02 * largest);
+    let largest = relative.iter().fold(0.0_f64, |m, (_, change)| m.max(change.abs()));
+    let sign = relative.iter().find(|(_, c)| c.abs() == largest).map_or(1.0, |(_, c)| c.signum());
+    let named = relative.iter().filter(|(_, change)| change.abs() > 0.02 * largest);
     let named = named
         .map(|(k, change)| format!("{} {:+.2} %", parameters[*k].name, sign * change / largest));
     Some(named.collect::<Vec<_>>().join(", "))

@@ -35,20 +35,13 @@ pub(super) struct Squares<'a> {
 impl Squares<'_> {
     fn values(&self, places: &[f64]) -> Vec<f64> {
         let pairs = self.problem.parameters.iter().zip(places);
-        pairs
-            .map(|(parameter, place)| parameter.value(*place))
-            .collect()
+        pairs.map(|(parameter, place)| parameter.value(*place)).collect()
     }
 
     pub fn trial(&self, places: &[f64], with_rates: bool) -> Result<Trial, String> {
         let modes = (self.problem.model)(&self.values(places), with_rates)?;
         let (matched, chi_square) = assign(self.problem.lines, &self.weights, &modes);
-        Ok(Trial {
-            places: places.to_vec(),
-            modes,
-            matched,
-            chi_square,
-        })
+        Ok(Trial { places: places.to_vec(), modes, matched, chi_square })
     }
 
     /// Weighted differences, frequency, real part and shape of each line; 0 where there is nothing to compare.
@@ -74,12 +67,8 @@ impl Squares<'_> {
             let is_known = |mode: &ModelMode| matches!(mode.rates.get(column), Some(Some(_)));
             // What a parameter does to shapes is known from differences alone.
             let has_shapes = self.weights.iter().any(|weights| weights.shape.is_some());
-            let given = !has_shapes
-                && trial
-                    .matched
-                    .iter()
-                    .flatten()
-                    .all(|&m| is_known(&trial.modes[m]));
+            let given =
+                !has_shapes && trial.matched.iter().flatten().all(|&m| is_known(&trial.modes[m]));
             let around = match given {
                 true => None,
                 false => Some(self.around(trial, column)?),
@@ -90,10 +79,7 @@ impl Squares<'_> {
                 };
                 let weights = self.weights[row];
                 let sides = around.as_ref().and_then(|(low, high, width)| {
-                    Some((
-                        [same(mode, &weights, low)?, same(mode, &weights, high)?],
-                        *width,
-                    ))
+                    Some(([same(mode, &weights, low)?, same(mode, &weights, high)?], *width))
                 });
                 let rate = match (&around, sides) {
                     (None, _) => mode.rates[column].map(|rate| rate * slope),
@@ -189,9 +175,7 @@ fn same<'m>(mode: &ModelMode, weights: &Weights, modes: &'m [ModelMode]) -> Opti
         away + strange
     };
     let nearest = |a: &&ModelMode, b: &&ModelMode| distance(a).total_cmp(&distance(b));
-    let named = modes
-        .iter()
-        .filter(|other| mode.harmonic.is_some() && other.name() == mode.name());
+    let named = modes.iter().filter(|other| mode.harmonic.is_some() && other.name() == mode.name());
     let found = named.min_by(nearest);
     found.or_else(|| modes.iter().min_by(nearest))
 }

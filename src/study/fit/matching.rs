@@ -49,14 +49,8 @@ pub(super) fn assign(
         })
         .collect();
     let columns = least_cost(&costs);
-    let total = columns
-        .iter()
-        .zip(&costs)
-        .map(|(&column, row)| row[column])
-        .sum();
-    let matched = columns
-        .into_iter()
-        .map(|column| (column < modes.len()).then_some(column));
+    let total = columns.iter().zip(&costs).map(|(&column, row)| row[column]).sum();
+    let matched = columns.into_iter().map(|column| (column < modes.len()).then_some(column));
     (matched.collect(), total)
 }
 
@@ -142,9 +136,7 @@ mod tests {
     fn the_assignment_is_the_cheapest_of_all_permutations() {
         let mut state = 7u64;
         let mut draw = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1);
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
             (state >> 40) as f64
         };
         for _ in 0..50 {

@@ -129,10 +129,7 @@ pub struct FitProblem<'a> {
 impl FitError {
     /// Whether the table is to blame rather than the run.
     pub fn is_usage(&self) -> bool {
-        matches!(
-            self,
-            Self::TooManyLines { .. } | Self::Frequency { .. } | Self::Shape { .. }
-        )
+        matches!(self, Self::TooManyLines { .. } | Self::Frequency { .. } | Self::Shape { .. })
     }
 }
 

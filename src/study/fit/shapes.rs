@@ -55,10 +55,7 @@ impl MeasuredShapes<'_> {
             Some(lost) => {
                 let shape = &self.shapes[lost];
                 let frequency = shape.frequency_hz.unwrap_or(f64::NAN);
-                Err(refuse(
-                    shape,
-                    format!("no line near {frequency} Hz is without one"),
-                ))
+                Err(refuse(shape, format!("no line near {frequency} Hz is without one")))
             }
         }
     }
@@ -85,10 +82,8 @@ impl MeasuredShapes<'_> {
     ) -> Result<Vec<Vec<f64>>, StudyError> {
         let mesh = case.mesh().map_err(crate::cea::CeaError::from)?;
         let placed = placed(case, &mesh, self.shapes, self.scale)?;
-        let values: Vec<&[c64]> = modes
-            .iter()
-            .map(|mode| mode.shape.as_deref().unwrap_or_default())
-            .collect();
+        let values: Vec<&[c64]> =
+            modes.iter().map(|mode| mode.shape.as_deref().unwrap_or_default()).collect();
         let matrix = criteria(&mesh, &values, self.shapes, &placed);
         let of = |mode: usize| matrix.iter().map(|row| row[mode]).collect();
         Ok((0..modes.len()).map(of).collect())

@@ -14,10 +14,7 @@ const BESIDE: f64 = 0.05;
 pub fn of(case: &Case, wanted: &Fit, fitted: &Fitted, before: &[ComplexMode]) -> FitSummary {
     let keys: Vec<&String> = wanted.parameters.iter().map(|p| &p.parameter.key).collect();
     let by_key = |values: &[f64]| -> BTreeMap<String, f64> {
-        keys.iter()
-            .map(|key| (*key).clone())
-            .zip(values.iter().copied())
-            .collect()
+        keys.iter().map(|key| (*key).clone()).zip(values.iter().copied()).collect()
     };
     let parameters = wanted.parameters.iter().zip(&fitted.parameters);
     let residuals: Vec<LineSummary> = fitted.lines.iter().map(line).collect();
@@ -42,11 +39,7 @@ pub fn of(case: &Case, wanted: &Fit, fitted: &Fitted, before: &[ComplexMode]) ->
         frequency_scatter: fitted.scatter[0],
         real_scatter: fitted.scatter[1],
         other_minima: fitted.others.iter().map(|values| by_key(values)).collect(),
-        search: SearchSummary {
-            starts,
-            searches,
-            arrived,
-        },
+        search: SearchSummary { starts, searches, arrived },
         modes: fitted.modes.iter().map(model_mode).collect(),
         modes_of_case: before
             .iter()
@@ -118,10 +111,7 @@ fn notes(case: &Case, wanted: &Fit, fitted: &Fitted) -> Vec<String> {
                 estimate.value
             ));
         }
-        if estimate
-            .interval
-            .is_some_and(|[low, high]| low <= from && high >= to)
-        {
+        if estimate.interval.is_some_and(|[low, high]| low <= from && high >= to) {
             notes.push(format!(
                 "the data do not determine {key}: its 95 % interval holds all values between its bounds"
             ));
@@ -151,13 +141,9 @@ fn notes(case: &Case, wanted: &Fit, fitted: &Fitted) -> Vec<String> {
                 let measured = line.measured.frequency_hz;
                 (mode.frequency_hz - measured).abs() <= BESIDE * measured
             };
-            let beside = fitted
-                .lines
-                .iter()
-                .find(is_beside)
-                .map_or(String::new(), |line| {
-                    format!(", beside the line at {:.0} Hz", line.measured.frequency_hz)
-                });
+            let beside = fitted.lines.iter().find(is_beside).map_or(String::new(), |line| {
+                format!(", beside the line at {:.0} Hz", line.measured.frequency_hz)
+            });
             format!(
                 "unstable but not measured: {} at {:.0} Hz, growth {:+.1} Hz{beside}",
                 mode.name(),

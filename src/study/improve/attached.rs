@@ -64,10 +64,8 @@ impl<'a> NearModes<'a> {
         let frequencies = || modes.iter().map(|mode| mode.eigenvalue().im);
         let lowest = frequencies().fold(f64::INFINITY, f64::min);
         let below = base.modes.iter().any(|mode| mode.eigenvalue().im < lowest);
-        let range = [
-            if below { lowest / REACH } else { 0.0 },
-            REACH * frequencies().fold(0.0, f64::max),
-        ];
+        let range =
+            [if below { lowest / REACH } else { 0.0 }, REACH * frequencies().fold(0.0, f64::max)];
         Self { base, modes, range }
     }
 
@@ -85,9 +83,7 @@ impl<'a> NearModes<'a> {
         dynamic: &[(f64, ComplexSparseLu)],
     ) -> Attached {
         let unknown_of = &self.base.tangent.unknowns.unknown_of;
-        let free: Vec<usize> = (0..dofs.len())
-            .filter(|&i| unknown_of[dofs[i]].is_some())
-            .collect();
+        let free: Vec<usize> = (0..dofs.len()).filter(|&i| unknown_of[dofs[i]].is_some()).collect();
         let rows: Vec<usize> = free.iter().filter_map(|&i| unknown_of[dofs[i]]).collect();
         let [right, left] = self.space(&rows, dynamic);
 
@@ -99,12 +95,7 @@ impl<'a> NearModes<'a> {
             DMatrix::from_fn(form.nrows(), form.ncols(), |i, j| form[(i, j)])
         };
         let all = [&tangent.mass, &tangent.damping, &tangent.stiffness];
-        let matrices = all.map(|p| {
-            p.coefficients()
-                .iter()
-                .map(|values| project(values))
-                .collect()
-        });
+        let matrices = all.map(|p| p.coefficients().iter().map(|values| project(values)).collect());
         let at = |basis: &Mat<f64>| {
             DMatrix::from_fn(rows.len(), basis.ncols(), |i, j| basis[(rows[i], j)])
         };
@@ -113,12 +104,7 @@ impl<'a> NearModes<'a> {
             let own = own.select_rows(&free).select_columns(&free);
             left.transpose() * own * &right
         });
-        Attached {
-            matrices,
-            weights: tangent.stiffness.weights(),
-            added,
-            range: self.range,
-        }
+        Attached { matrices, weights: tangent.stiffness.weights(), added, range: self.range }
     }
 
     /// Right and left bases: modes and residual responses, real and imaginary parts, as many on either side.
@@ -137,9 +123,7 @@ impl<'a> NearModes<'a> {
         for (_, factors) in dynamic {
             let mut responses = [0, 1].map(|_| Mat::<c64>::zeros(count, rows.len()));
             for (j, &row) in rows.iter().enumerate() {
-                responses
-                    .iter_mut()
-                    .for_each(|own| own[(row, j)] = c64::ONE);
+                responses.iter_mut().for_each(|own| own[(row, j)] = c64::ONE);
             }
             factors.solve_in_place(responses[0].as_mut());
             factors.solve_transpose_in_place(responses[1].as_mut());
@@ -189,11 +173,7 @@ impl Attached {
             let sum = powers.map(|(power, own)| own * self.weights.at(power, mu));
             let sum = sum.reduce(|a, b| a + b);
             let sum = sum.unwrap_or_else(|| &self.added[kind] * 0.0);
-            if is_bare {
-                sum
-            } else {
-                sum + &self.added[kind]
-            }
+            if is_bare { sum } else { sum + &self.added[kind] }
         };
         let [mass, damping, stiffness] = [0, 1, 2].map(at);
         let n = mass.nrows();

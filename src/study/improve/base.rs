@@ -143,10 +143,8 @@ impl<'a> Base<'a> {
         let (model, sweep) = spectrum_of(case, cea)?;
         let point = sweep.points.iter();
         let own = point.filter(|point| point.friction_coefficient == friction);
-        let targets: Vec<c64> = own
-            .flat_map(|point| &point.modes)
-            .map(|mode| mode.eigenvalue)
-            .collect();
+        let targets: Vec<c64> =
+            own.flat_map(|point| &point.modes).map(|mode| mode.eigenvalue).collect();
         let outlook = window.outlook(targets.iter().copied());
         if outlook.unstable == 0 {
             return Err(nothing_grows(case, outlook, window).into());
@@ -211,9 +209,7 @@ pub(super) fn target_modes(base: &Base<'_>) -> Vec<TargetMode> {
     let targets = base.targets();
     let number = |mode: &PairedMode| {
         let listed = base.listed.iter();
-        1 + listed
-            .filter(|other| other.im < mode.eigenvalue().im)
-            .count()
+        1 + listed.filter(|other| other.im < mode.eigenvalue().im).count()
     };
     targets
         .into_iter()

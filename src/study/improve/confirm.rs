@@ -51,16 +51,11 @@ pub(super) fn keys_of(search: &Search<'_>, trial: &Trial) -> Vec<String> {
             let middle = base.mesh.element_middle(*element);
             // A hair more, so that elements at just that distance are in it.
             let radius = budget.patch_radius * (1.0 + 1e-9);
-            let mut keys = vec![
-                key("center", list(&middle[..d])),
-                key("radius", format!("{radius:?}")),
-            ];
+            let mut keys =
+                vec![key("center", list(&middle[..d])), key("radius", format!("{radius:?}"))];
             keys.push(match trial.kind {
                 ModificationKind::Removal => key("remove", "true".to_owned()),
-                _ => key(
-                    "stiffness_coefficient",
-                    format!("{:?}", budget.patch_damping),
-                ),
+                _ => key("stiffness_coefficient", format!("{:?}", budget.patch_damping)),
             });
             keys
         }
@@ -96,9 +91,7 @@ pub(super) fn tangent_of(base: &Base<'_>, keys: &[String]) -> Result<SlidingTang
 /// Runs the case with some keys.
 pub(super) fn run_again(base: &Base<'_>, keys: &[String]) -> Result<State, String> {
     let case = changed(base, keys)?;
-    let cea = case
-        .require_cea()
-        .map_err(|errors| errors.messages().join("; "))?;
+    let cea = case.require_cea().map_err(|errors| errors.messages().join("; "))?;
     let (_, sweep) = spectrum_of(&case, cea).map_err(|error| one_line(&error))?;
     let point = sweep.points.iter();
     let own = point.filter(|point| point.friction_coefficient == base.friction);

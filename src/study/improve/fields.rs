@@ -34,10 +34,7 @@ impl Derivatives {
     /// Of each target of a base.
     pub fn of_targets(base: &Base<'_>) -> Vec<Self> {
         let targets = base.targets();
-        targets
-            .into_iter()
-            .map(|mode| Self::of(base, mode))
-            .collect()
+        targets.into_iter().map(|mode| Self::of(base, mode)).collect()
     }
 
     fn of(base: &Base<'_>, mode: &PairedMode) -> Self {
@@ -105,9 +102,7 @@ fn product(base: &Base<'_>, mode: &PairedMode, node: usize) -> Product {
 pub(super) fn element_dofs(base: &Base<'_>, element: usize) -> Vec<usize> {
     let d = base.mesh.dimension;
     let nodes = base.mesh.element_nodes(element).iter();
-    nodes
-        .flat_map(|&node| (0..d).map(move |axis| d * node as usize + axis))
-        .collect()
+    nodes.flat_map(|&node| (0..d).map(move |axis| d * node as usize + axis)).collect()
 }
 
 /// `w^T P x` over some dofs.
@@ -135,10 +130,8 @@ pub(super) fn element_terms(base: &Base<'_>, element: usize) -> [DMatrix<f64>; 3
     let own = materials.own_damping(region).unwrap_or(common);
     let (alpha, beta) = (own.mass_coefficient, own.stiffness_coefficient);
     let mut damping = &mass * alpha + &stiffness * beta;
-    if let Some(displacement) = base
-        .displacement
-        .as_ref()
-        .filter(|_| base.options.geometric_stiffness)
+    if let Some(displacement) =
+        base.displacement.as_ref().filter(|_| base.options.geometric_stiffness)
     {
         let elastic = materials.of(region);
         let geometric = geometric_stiffness(&base.mesh, element, elastic, displacement);

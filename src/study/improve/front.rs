@@ -64,10 +64,8 @@ pub(super) fn front(
             break;
         }
         left -= open.len();
-        let again: Vec<(usize, Result<State, String>)> = open
-            .par_iter()
-            .map(|&at| (at, run_again(base, &tried[at].keys)))
-            .collect();
+        let again: Vec<(usize, Result<State, String>)> =
+            open.par_iter().map(|&at| (at, run_again(base, &tried[at].keys))).collect();
         for (at, outcome) in again {
             tried[at].verdict = match &outcome {
                 Ok(found) => verdict(&before, found),
@@ -81,10 +79,7 @@ pub(super) fn front(
     Ok(points
         .map(|(at, own)| FrontPoint {
             on_front: confirmed.contains(&at),
-            candidate: Candidate {
-                rank: at + 1,
-                ..own
-            },
+            candidate: Candidate { rank: at + 1, ..own },
         })
         .collect())
 }
@@ -94,11 +89,7 @@ fn sized<'a>(search: &Search<'a>, share: f64) -> Result<Search<'a>, StudyError> 
     let mut budget = search.budget;
     budget.mass *= share;
     budget.patch_radius *= share.powf(1.0 / search.base.mesh.dimension as f64);
-    Ok(Search {
-        places: Places::of(search.base, budget.patch_radius)?,
-        budget,
-        ..*search
-    })
+    Ok(Search { places: Places::of(search.base, budget.patch_radius)?, budget, ..*search })
 }
 
 /// Places of the candidates, by rising mass, that get farther than every lighter one and than the case as it is; nothing is

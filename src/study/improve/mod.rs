@@ -178,10 +178,8 @@ fn predictions(
     if kind == ModificationKind::Removal {
         trials = shortlist(search, modal, trials, SHORTLISTED * count)?;
     }
-    let changes: Vec<Result<(Change, Trial), String>> = trials
-        .into_par_iter()
-        .map(|trial| Ok((change(search, modal, &trial)?, trial)))
-        .collect();
+    let changes: Vec<Result<(Change, Trial), String>> =
+        trials.into_par_iter().map(|trial| Ok((change(search, modal, &trial)?, trial))).collect();
     for reason in changes.iter().filter_map(|own| own.as_ref().err()) {
         notes.push(format!("{}: {reason}", kind.word()));
     }
@@ -193,11 +191,7 @@ fn predictions(
     let mut order: Vec<usize> = (0..changes.len()).collect();
     let growth = |i: usize| outlooks[i].worst.map_or(f64::NEG_INFINITY, |mode| mode.re);
     order.sort_by(|&a, &b| growth(a).total_cmp(&growth(b)));
-    let before = search
-        .base
-        .outlook
-        .worst
-        .map_or(f64::INFINITY, |mode| mode.re);
+    let before = search.base.outlook.worst.map_or(f64::INFINITY, |mode| mode.re);
     order.retain(|&i| growth(i) < before);
     order.truncate(count);
 
@@ -206,10 +200,7 @@ fn predictions(
         .map(|&i| {
             let onset = modal.corrected_onset(&changes[i].0, search.base.onset)?;
             let onset = onset.filter(|mu| *mu < search.base.friction);
-            Ok(Predicted {
-                trial: changes[i].1.clone(),
-                state: state(outlooks[i], onset),
-            })
+            Ok(Predicted { trial: changes[i].1.clone(), state: state(outlooks[i], onset) })
         })
         .collect();
     Ok(predicted.map_err(CeaError::from)?)
@@ -272,10 +263,7 @@ fn shortlist(
         let (dofs, own) = patch_matrices(search.base, elements, trial.kind, 0.0);
         let [m, c, k] = own.map(|matrix| -matrix);
         let outlook = modal.outlook(Some(&modal.local(&dofs, [&m, &c, &k])))?;
-        Ok((
-            outlook.worst.map_or(f64::NEG_INFINITY, |mode| mode.re),
-            trial,
-        ))
+        Ok((outlook.worst.map_or(f64::NEG_INFINITY, |mode| mode.re), trial))
     };
     let ranked: Result<Vec<(f64, Trial)>, _> = trials.into_par_iter().map(growth).collect();
     let mut ranked = ranked.map_err(CeaError::from)?;
@@ -320,10 +308,7 @@ fn patch_matrices(
                 [mass * 0.0, &elastic * beta, elastic * 0.0]
             }
         };
-        let places: Vec<usize> = dofs
-            .iter()
-            .map(|dof| own.partition_point(|o| o < dof))
-            .collect();
+        let places: Vec<usize> = dofs.iter().map(|dof| own.partition_point(|o| o < dof)).collect();
         for (sum, term) in sums.iter_mut().zip(terms) {
             for (j, &column) in places.iter().enumerate() {
                 for (i, &row) in places.iter().enumerate() {

@@ -76,9 +76,8 @@ impl<'a> ModalModel<'a> {
         let all = [&tangent.mass, &tangent.damping, &tangent.stiffness];
         let powers = all.map(|p| p.coefficients().len());
         let highest = powers.into_iter().max().unwrap_or(1);
-        model.friction = (1..highest)
-            .map(|power| model.projected(all.map(|p| coefficient(p, power))))
-            .collect();
+        model.friction =
+            (1..highest).map(|power| model.projected(all.map(|p| coefficient(p, power)))).collect();
         Ok(model)
     }
 
@@ -99,11 +98,7 @@ impl<'a> ModalModel<'a> {
         let modes = &self.base.modes;
         let of = |dof: usize, j: usize, is_left: bool| {
             let mode = &modes[j % modes.len()];
-            let value = if is_left {
-                mode.left[dof]
-            } else {
-                mode.right[dof]
-            };
+            let value = if is_left { mode.left[dof] } else { mode.right[dof] };
             if j < modes.len() { value.re } else { value.im }
         };
         let part = |is_left: bool| {
@@ -112,14 +107,9 @@ impl<'a> ModalModel<'a> {
         let (right, left) = (part(false), part(true));
         let projected = changes.map(|change| {
             let form = left.transpose() * (change * &right);
-            paired(&Mat::from_fn(form.nrows(), form.ncols(), |i, j| {
-                form[(i, j)]
-            }))
+            paired(&Mat::from_fn(form.nrows(), form.ncols(), |i, j| form[(i, j)]))
         });
-        Change {
-            projected: vec![projected],
-            attached: None,
-        }
+        Change { projected: vec![projected], attached: None }
     }
 
     /// As [`Self::local`], with what modes beyond the listed ones give way at these dofs, none of which touches a contact.
@@ -181,9 +171,7 @@ impl<'a> ModalModel<'a> {
     /// Places of the dofs that are unknowns.
     fn free(&self, dofs: &[usize]) -> Vec<usize> {
         let unknown_of = &self.base.tangent.unknowns.unknown_of;
-        (0..dofs.len())
-            .filter(|&i| unknown_of[dofs[i]].is_some())
-            .collect()
+        (0..dofs.len()).filter(|&i| unknown_of[dofs[i]].is_some()).collect()
     }
 
     /// The change that `D (1 + R D)^-1` of some dofs comes to about the targets.
@@ -280,10 +268,7 @@ impl<'a> ModalModel<'a> {
             let [m, c, k] = &differences;
             self.projected([m, c, k].map(|values| Some((&**patterns[0], values.as_slice()))))
         });
-        Some(Change {
-            projected: by_power.collect(),
-            attached: None,
-        })
+        Some(Change { projected: by_power.collect(), attached: None })
     }
 
     /// Eigenvalues with `Im > 0` at a friction coefficient.
@@ -322,9 +307,8 @@ impl<'a> ModalModel<'a> {
             let [own, base] = [mu, self.base.friction].map(|mu| weights.at(place + 1, mu));
             add(own - base, matrices);
         }
-        for (power, matrices) in change
-            .iter()
-            .flat_map(|change| change.projected.iter().enumerate())
+        for (power, matrices) in
+            change.iter().flat_map(|change| change.projected.iter().enumerate())
         {
             add(weights.at(power, mu), matrices);
         }

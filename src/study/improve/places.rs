@@ -57,9 +57,7 @@ impl Places {
             let beside = along[from..].iter();
             let beside = beside.take_while(|&&other| middles[other][0] <= middles[e][0] + radius);
             let away = |other: usize| -> f64 {
-                (0..3)
-                    .map(|k| (middles[e][k] - middles[other][k]).powi(2))
-                    .sum()
+                (0..3).map(|k| (middles[e][k] - middles[other][k]).powi(2)).sum()
             };
             let near = beside.filter(|&&other| away(other) <= radius * radius);
             let mut near: Vec<u32> = near.map(|&other| other as u32).collect();
@@ -92,9 +90,7 @@ fn contact_nodes(base: &Base<'_>) -> BTreeSet<u32> {
             let contacts =
                 contacts.flat_map(|own| std::iter::once(own.surface).chain(own.counter.surface()));
             let ties = assembly.ties.iter();
-            contacts
-                .chain(ties.flat_map(|own| [own.surface, own.counter]))
-                .collect()
+            contacts.chain(ties.flat_map(|own| [own.surface, own.counter])).collect()
         }
         _ => std::iter::once(mesh.contact).chain(mesh.opposite).collect(),
     };
@@ -104,13 +100,7 @@ fn contact_nodes(base: &Base<'_>) -> BTreeSet<u32> {
 
 /// Whether the contact curve of a plane body is a hole of one body with a rigid cylinder in it, and not its only curve.
 fn has_hole(base: &Base<'_>, mesh: &Mesh) -> bool {
-    let is_inside = matches!(
-        mesh.counterface,
-        Counterface::Cylinder {
-            is_inside: true,
-            ..
-        }
-    );
+    let is_inside = matches!(mesh.counterface, Counterface::Cylinder { is_inside: true, .. });
     let is_alone = mesh.opposite.is_none() && mesh.boundaries.len() > 1;
     mesh.dimension == 2 && is_inside && is_alone && base.case.body.assembly().is_none()
 }

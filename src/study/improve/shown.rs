@@ -21,9 +21,7 @@ pub(super) fn added_mass(search: &Search<'_>, trial: &Trial) -> f64 {
     match (&trial.target, trial.kind) {
         (_, ModificationKind::Mass) => search.budget.mass,
         (Target::Patch(_, elements), ModificationKind::Removal) => {
-            let masses = elements
-                .iter()
-                .map(|&e| element_size(search, e as usize)[0]);
+            let masses = elements.iter().map(|&e| element_size(search, e as usize)[0]);
             -search.budget.thickness * masses.sum::<f64>()
         }
         _ => 0.0,
@@ -52,18 +50,8 @@ pub(super) fn fields(search: &Search<'_>) -> Vec<TargetFields> {
             mass: nodes().map(|n| own.by_mass(n, alpha).re / extent).collect(),
             spring: nodes().map(|n| least(own.by_spring(n))).collect(),
             dashpot: nodes().map(|n| least(own.by_dashpot(n))).collect(),
-            removal: own
-                .removal
-                .iter()
-                .zip(&sizes)
-                .map(|(d, v)| d.re / v)
-                .collect(),
-            damping: own
-                .damping
-                .iter()
-                .zip(&sizes)
-                .map(|(d, v)| d.re / v)
-                .collect(),
+            removal: own.removal.iter().zip(&sizes).map(|(d, v)| d.re / v).collect(),
+            damping: own.damping.iter().zip(&sizes).map(|(d, v)| d.re / v).collect(),
         }
     };
     search.derivatives.iter().zip(modes).map(of).collect()

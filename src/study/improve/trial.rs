@@ -117,11 +117,7 @@ impl Search<'_> {
                     (Some([along.x, along.y, along.z]), self.growth(&change))
                 }
             };
-            Trial {
-                kind,
-                target: Target::Node(node, direction),
-                first_order: Some(first_order),
-            }
+            Trial { kind, target: Target::Node(node, direction), first_order: Some(first_order) }
         };
         self.places.nodes.par_iter().map(trial).collect()
     }

@@ -232,10 +232,7 @@ impl<'a> TransientStudy<'a> {
     /// # Errors
     /// As [`Self::preflight`], without those of steady sliding.
     pub fn preflight_from_rest(&self) -> Result<StepPlan, StudyError> {
-        let settings = TransientSettings {
-            initial: InitialState::Rest,
-            ..self.settings.clone()
-        };
+        let settings = TransientSettings { initial: InitialState::Rest, ..self.settings.clone() };
         let operator = self.operator()?;
         let started = CentralDifference::start(self.body(), operator.as_ref(), &settings);
         let fresh = started.map_err(|error| self.error(error))?;
@@ -265,9 +262,7 @@ impl<'a> TransientStudy<'a> {
             friction_coefficient: case.contact.sliding.friction_coefficient,
             initial: settings.initial.name(),
             perturbation: &settings.perturbation,
-            places: places
-                .map(|place| (place.node, [place.asked[0], place.asked[1]]))
-                .collect(),
+            places: places.map(|place| (place.node, [place.asked[0], place.asked[1]])).collect(),
             operator,
             plan,
             record,

@@ -97,19 +97,13 @@ impl TransientStudy<'_> {
         let stiffness: f64 = match mesh.dimension {
             3 => {
                 let volumes = mesh.region_measures().into_iter().enumerate();
-                volumes
-                    .map(|(region, volume)| volume * materials.of(region).young_modulus)
-                    .sum()
+                volumes.map(|(region, volume)| volume * materials.of(region).young_modulus).sum()
             }
             _ => (0..mesh.element_count())
                 .map(|e| mesh.element_area(e) * materials.of(mesh.region(e)).young_modulus)
                 .sum(),
         };
-        let depth = self
-            .stepped
-            .sector
-            .as_ref()
-            .map_or(1.0, |_| self.case.thickness);
+        let depth = self.stepped.sector.as_ref().map_or(1.0, |_| self.case.thickness);
         let energies = record.rows.iter().map(|row| row.strain_energy);
         let energy = energies.fold(0.0, f64::max);
         let strain = (2.0 * energy / (stiffness * depth)).sqrt();
@@ -147,12 +141,9 @@ impl TransientStudy<'_> {
 fn coarse_step(record: &Recorder, analysis: &TransientAnalysis, time_step: f64) -> Option<String> {
     let frequency = analysis.last_fifth.main_frequency_hz?;
     let start = record.rows.len() - record.rows.len().div_ceil(5);
-    let shares = record.rows[start..]
-        .iter()
-        .map(|row| row.counts.fractions()[0]);
-    let [low, high] = shares.fold([1.0_f64, 0.0_f64], |[low, high], share| {
-        [low.min(share), high.max(share)]
-    });
+    let shares = record.rows[start..].iter().map(|row| row.counts.fractions()[0]);
+    let [low, high] =
+        shares.fold([1.0_f64, 0.0_f64], |[low, high], share| [low.min(share), high.max(share)]);
     let error = (high - low) * frequency * time_step;
     (error > STEP_ERROR).then(|| {
         format!(

@@ -18,20 +18,10 @@ pub fn body<'a>(
     sector: Option<&'a SolidSector>,
 ) -> TransientBody<'a> {
     let (damping, contact) = (point.damping, point.contact);
-    let stiffness = case
-        .contact
-        .stiffness
-        .damped_by(contact_damping(case, point));
+    let stiffness = case.contact.stiffness.damped_by(contact_damping(case, point));
     if let Some(sector) = sector {
         let material = &case.material;
-        return SolidTransientModel {
-            sector,
-            material,
-            damping,
-            contact,
-            stiffness,
-        }
-        .into();
+        return SolidTransientModel { sector, material, damping, contact, stiffness }.into();
     }
     TransientModel {
         mesh,

@@ -48,12 +48,7 @@ impl<'a> SteppedMesh<'a> {
                 Arc::clone(&body.mesh)
             }
         };
-        Ok(Self {
-            mesh,
-            sector,
-            assembly,
-            annulus,
-        })
+        Ok(Self { mesh, sector, assembly, annulus })
     }
 
     /// The body of the case with its contact.

@@ -17,10 +17,7 @@ impl<'a> SamplePlan<'a> {
     /// The plan of a case.
     pub fn new(uncertainty: &'a Uncertainty) -> Self {
         let dimensions = 2 * uncertainty.parameters.len();
-        Self {
-            sequence: ScrambledSobol::new(dimensions, uncertainty.seed),
-            uncertainty,
-        }
+        Self { sequence: ScrambledSobol::new(dimensions, uncertainty.seed), uncertainty }
     }
 
     /// Values of sample `index` (from 0).

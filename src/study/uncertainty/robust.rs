@@ -33,9 +33,7 @@ impl FromStr for Design {
             _ => return Err(hint.to_owned()),
         };
         let (from, to) = (from.ok_or(hint)?, to.ok_or(hint)?);
-        let count = count
-            .filter(|count| (2..=1000).contains(count))
-            .ok_or(hint)?;
+        let count = count.filter(|count| (2..=1000).contains(count)).ok_or(hint)?;
         if from >= to {
             return Err(format!("{hint}; FROM must be less than TO"));
         }
@@ -85,9 +83,7 @@ pub fn curves(
             key: design.key.clone(),
             own,
             reaches_bound_at: reached,
-            change_percent: reached
-                .zip(own)
-                .map(|(value, own)| 100.0 * (value / own - 1.0)),
+            change_percent: reached.zip(own).map(|(value, own)| 100.0 * (value / own - 1.0)),
             has_effect,
             points,
         })
@@ -96,12 +92,7 @@ pub fn curves(
     let change = |curve: &DesignCurve| curve.change_percent.map_or(f64::INFINITY, f64::abs);
     let cheapest = curves.iter().filter(|curve| change(curve).is_finite());
     let cheapest = cheapest.min_by(|a, b| change(a).total_cmp(&change(b)));
-    Ok(RobustSummary {
-        bound,
-        samples,
-        cheapest: cheapest.map(|curve| curve.key.clone()),
-        curves,
-    })
+    Ok(RobustSummary { bound, samples, cheapest: cheapest.map(|curve| curve.key.clone()), curves })
 }
 
 /// Relative difference of critical frictions and frequencies that is round-off.
@@ -148,11 +139,7 @@ fn probability(
 
 /// The value nearest to the case's own at which the probability is no higher than the bound, by linear interpolation.
 fn reaches(points: &[[f64; 4]], own: Option<f64>, bound: f64) -> Option<f64> {
-    let mut found: Vec<f64> = points
-        .iter()
-        .filter(|p| p[1] <= bound)
-        .map(|p| p[0])
-        .collect();
+    let mut found: Vec<f64> = points.iter().filter(|p| p[1] <= bound).map(|p| p[0]).collect();
     for pair in points.windows(2) {
         let ([x, p, ..], [y, q, ..]) = (pair[0], pair[1]);
         if (p <= bound) != (q <= bound) {
@@ -160,9 +147,7 @@ fn reaches(points: &[[f64; 4]], own: Option<f64>, bound: f64) -> Option<f64> {
         }
     }
     let distance = |value: f64| own.map_or(0.0, |own| (value - own).abs());
-    found
-        .into_iter()
-        .min_by(|a, b| distance(*a).total_cmp(&distance(*b)))
+    found.into_iter().min_by(|a, b| distance(*a).total_cmp(&distance(*b)))
 }
 
 #[cfg(test)]

@@ -25,11 +25,7 @@ pub struct Sampler<'a> {
 pub fn largest_friction(case: &Case) -> f64 {
     let range = case.cea.iter().flat_map(|cea| &cea.friction_coefficients);
     let largest = range.fold(0.0_f64, |largest, mu| largest.max(*mu));
-    if largest > 0.0 {
-        largest
-    } else {
-        case.contact.sliding.friction_coefficient
-    }
+    if largest > 0.0 { largest } else { case.contact.sliding.friction_coefficient }
 }
 
 impl<'a> Sampler<'a> {
@@ -40,11 +36,7 @@ impl<'a> Sampler<'a> {
     /// have, a contact at rest.
     pub fn new(case: &'a Case) -> Result<Self, StudyError> {
         let uncertainty = case.require_uncertainty()?;
-        let sampler = Self {
-            case,
-            uncertainty,
-            plan: SamplePlan::new(uncertainty),
-        };
+        let sampler = Self { case, uncertainty, plan: SamplePlan::new(uncertainty) };
         Solver::of(case, case.require_cea()?.method)?;
         Ok(sampler)
     }
@@ -52,9 +44,7 @@ impl<'a> Sampler<'a> {
     /// Keys of the uncertain parameters.
     pub fn keys(&self) -> Vec<String> {
         let parameters = self.uncertainty.parameters.iter();
-        parameters
-            .map(|parameter| parameter.parameter.key.clone())
-            .collect()
+        parameters.map(|parameter| parameter.parameter.key.clone()).collect()
     }
 
     /// The case of a point, after further overrides.
@@ -81,11 +71,7 @@ impl<'a> Sampler<'a> {
             harmonic: case.has_sectors().then_some(interval.harmonic),
             branch: interval.branch,
             // Which way a wave turns is for harmonics.
-            direction: if case.has_sectors() {
-                interval.direction
-            } else {
-                0
-            },
+            direction: if case.has_sectors() { interval.direction } else { 0 },
             critical_friction: interval.critical_friction,
             restabilized: interval.restabilized.map(|end| end.0),
             frequency_hz: interval.frequency_hz,
@@ -159,17 +145,10 @@ impl<'a> Sampler<'a> {
             let lowest = within.fold(f64::INFINITY, f64::min);
             Ok::<_, String>((lowest <= most).then_some(lowest))
         };
-        samples
-            .par_iter_mut()
-            .filter(|sample| sample.error.is_none())
-            .for_each(|sample| {
-                let points = self.plan.mixed(sample.number - 1);
-                // A sample whose points cannot all be solved is none that the indices rest on.
-                sample.mixed = points
-                    .iter()
-                    .map(lowest)
-                    .collect::<Result<_, _>>()
-                    .unwrap_or_default();
-            });
+        samples.par_iter_mut().filter(|sample| sample.error.is_none()).for_each(|sample| {
+            let points = self.plan.mixed(sample.number - 1);
+            // A sample whose points cannot all be solved is none that the indices rest on.
+            sample.mixed = points.iter().map(lowest).collect::<Result<_, _>>().unwrap_or_default();
+        });
     }
 }

@@ -68,9 +68,8 @@ pub fn indices_with_intervals(a: &[f64], b: &[f64], mixed: &[Vec<f64>]) -> Vec<I
     // A fixed sequence of numbers: the same samples have the same intervals.
     let mut state = 0x9e37_79b9_7f4a_7c15_u64;
     let mut draw = || {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         ((state >> 33) as usize) % count.max(1)
     };
     let resampled: Vec<Vec<[f64; 2]>> = (0..RESAMPLES)
@@ -102,16 +101,10 @@ pub fn summarize(case: &Case, samples: &[Sample]) -> UncertaintySummary {
     let parameters = case.uncertainty.iter().flat_map(|u| &u.parameters);
     let keys: Vec<String> = parameters.map(|p| p.parameter.key.clone()).collect();
     let largest_friction = largest_friction(case);
-    let solved: Vec<&Sample> = samples
-        .iter()
-        .filter(|sample| sample.error.is_none())
-        .collect();
+    let solved: Vec<&Sample> = samples.iter().filter(|sample| sample.error.is_none()).collect();
     let count = solved.len();
     let hits = |friction: &dyn Fn(&Sample) -> f64| {
-        solved
-            .iter()
-            .filter(|sample| sample.is_unstable(friction(sample)))
-            .count()
+        solved.iter().filter(|sample| sample.is_unstable(friction(sample))).count()
     };
     let over = (0..FRICTIONS).map(|k| {
         let friction = largest_friction * k as f64 / (FRICTIONS - 1) as f64;
@@ -154,10 +147,8 @@ pub fn summarize(case: &Case, samples: &[Sample]) -> UncertaintySummary {
 
 /// The indices of the lowest critical friction, which is the end of the range where there is none.
 fn sobol_of(keys: &[String], solved: &[&Sample], most: f64) -> (BTreeMap<String, Index>, usize) {
-    let used: Vec<&&Sample> = solved
-        .iter()
-        .filter(|sample| sample.mixed.len() == keys.len() + 1)
-        .collect();
+    let used: Vec<&&Sample> =
+        solved.iter().filter(|sample| sample.mixed.len() == keys.len() + 1).collect();
     if used.is_empty() {
         return (BTreeMap::new(), 0);
     }
@@ -174,21 +165,14 @@ fn sobol_of(keys: &[String], solved: &[&Sample], most: f64) -> (BTreeMap<String,
 fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
     let last = sorted.len().checked_sub(1)?;
     let place = share * last as f64;
-    let (low, high) = (
-        sorted[place.floor() as usize],
-        sorted[place.ceil() as usize],
-    );
+    let (low, high) = (sorted[place.floor() as usize], sorted[place.ceil() as usize]);
     let value = low + (high - low) * place.fract();
     let value = if low == high { low } else { value };
     value.is_finite().then_some(value)
 }
 
 fn critical_friction(solved: &[&Sample], most: f64) -> CriticalFriction {
-    let of = |sample: &&Sample| {
-        sample
-            .lowest(most)
-            .map_or(f64::INFINITY, |o| o.critical_friction)
-    };
+    let of = |sample: &&Sample| sample.lowest(most).map_or(f64::INFINITY, |o| o.critical_friction);
     let all: Vec<f64> = solved.iter().map(of).collect();
     let mean = |values: &[f64]| {
         let finite: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
@@ -196,11 +180,7 @@ fn critical_friction(solved: &[&Sample], most: f64) -> CriticalFriction {
     };
     let parts: Vec<f64> = match all.len() / PARTS {
         0 => Vec::new(),
-        size => all
-            .chunks_exact(size)
-            .take(PARTS)
-            .filter_map(mean)
-            .collect(),
+        size => all.chunks_exact(size).take(PARTS).filter_map(mean).collect(),
     };
     let middle = mean(&all);
     let half = middle.filter(|_| parts.len() == PARTS).map(|middle| {
@@ -253,20 +233,13 @@ fn families(solved: &[&Sample], most: f64) -> Vec<FamilySummary> {
                         && onset.holds(friction)
                 })
             };
-            let hits = solved
-                .iter()
-                .filter(|s| own(s, s.friction_coefficient))
-                .count();
+            let hits = solved.iter().filter(|s| own(s, s.friction_coefficient)).count();
             let first = |sample: &&Sample| {
                 let mut onsets = sample.onsets.iter().filter(|onset| {
                     (onset.harmonic, onset.branch, onset.direction) == (harmonic, branch, direction)
                 });
-                let first = onsets
-                    .next()
-                    .filter(|onset| onset.critical_friction <= most);
-                first.map_or((f64::INFINITY, f64::NAN), |o| {
-                    (o.critical_friction, o.frequency_hz)
-                })
+                let first = onsets.next().filter(|onset| onset.critical_friction <= most);
+                first.map_or((f64::INFINITY, f64::NAN), |o| (o.critical_friction, o.frequency_hz))
             };
             let firsts: Vec<(f64, f64)> = solved.iter().map(first).collect();
             let mut sorted: Vec<f64> = firsts.iter().map(|f| f.0).collect();
@@ -294,10 +267,7 @@ fn families(solved: &[&Sample], most: f64) -> Vec<FamilySummary> {
         let by_range = b.probability_in_range.total_cmp(&a.probability_in_range);
         let by_name =
             || (a.harmonic, a.branch, a.direction).cmp(&(b.harmonic, b.branch, b.direction));
-        b.probability
-            .total_cmp(&a.probability)
-            .then(by_range)
-            .then_with(by_name)
+        b.probability.total_cmp(&a.probability).then(by_range).then_with(by_name)
     });
     found
 }
@@ -335,19 +305,12 @@ mod tests {
                 }
             }
             for (found, exact) in indices_with_intervals(&a, &b, &mixed).iter().zip(exact) {
-                assert!(
-                    (found.first - exact[0]).abs() < 0.01,
-                    "{seed} {found:?} {exact:?}"
-                );
-                assert!(
-                    (found.total - exact[1]).abs() < 0.01,
-                    "{seed} {found:?} {exact:?}"
-                );
+                assert!((found.first - exact[0]).abs() < 0.01, "{seed} {found:?} {exact:?}");
+                assert!((found.total - exact[1]).abs() < 0.01, "{seed} {found:?} {exact:?}");
                 // Points of a Sobol sequence scatter less than the random ones that resampling stands for.
-                for (interval, exact) in [
-                    (found.first_interval, exact[0]),
-                    (found.total_interval, exact[1]),
-                ] {
+                for (interval, exact) in
+                    [(found.first_interval, exact[0]), (found.total_interval, exact[1])]
+                {
                     let [low, high] = interval.expect("an interval");
                     assert!(low <= exact && exact <= high, "{seed} {found:?} {exact}");
                     assert!(high - low < 0.15, "{seed} {found:?}");

@@ -11,15 +11,9 @@ impl CentralDifference<'_> {
     /// Refuses energies that no honest run has.
     pub(super) fn check(&self, energy: f64, residual: f64) -> Result<(), TransientError> {
         let (symptom, cause) = if !energy.is_finite() || !residual.is_finite() {
-            (
-                "the energy is not a number any more".to_owned(),
-                Breakdown::Overflow,
-            )
+            ("the energy is not a number any more".to_owned(), Breakdown::Overflow)
         } else if energy < -1e-9 * self.largest_energy {
-            (
-                format!("the energy is negative, {energy:.3e} J/m"),
-                Breakdown::StepTooLong,
-            )
+            (format!("the energy is negative, {energy:.3e} J/m"), Breakdown::StepTooLong)
         } else if residual > RESIDUAL_LIMIT {
             (
                 format!("the energy balance is off by a fraction of {residual:.1e}"),
@@ -36,9 +30,8 @@ impl CentralDifference<'_> {
         let speed = |node: usize| {
             let component =
                 |c: usize| self.fields.velocity[self.operator.position(count * node + c)];
-            let speed = (2..count).fold(component(0).hypot(component(1)), |size, c| {
-                size.hypot(component(c))
-            });
+            let speed = (2..count)
+                .fold(component(0).hypot(component(1)), |size, c| size.hypot(component(c)));
             if speed.is_finite() { speed } else { f64::MAX }
         };
         let (mut node, mut largest) = (0, speed(0));

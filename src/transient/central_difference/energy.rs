@@ -10,10 +10,8 @@ impl CentralDifference<'_> {
         let velocity = self.fields.velocity.iter().zip(masses);
         let kinetic: f64 = velocity.map(|(v, m)| m * v * v).sum();
         let forces = self.fields.elastic.iter().zip(masses);
-        let strain: f64 = forces
-            .zip(self.displacement_before.iter())
-            .map(|((q, m), u)| m * q * u)
-            .sum();
+        let strain: f64 =
+            forces.zip(self.displacement_before.iter()).map(|((q, m), u)| m * q * u).sum();
         [0.5 * kinetic, 0.5 * strain + self.relaxation.energy()]
     }
 
@@ -48,8 +46,7 @@ impl CentralDifference<'_> {
         for (v, added) in fields.velocity.iter_mut().zip(kick.iter()) {
             *v += added;
         }
-        self.operator
-            .multiply(&mut fields.velocity, &mut fields.elastic_rate);
+        self.operator.multiply(&mut fields.velocity, &mut fields.elastic_rate);
         if self.next_step > 0 {
             self.relaxation.rewind(&self.fields, self.plan.time_step);
         }

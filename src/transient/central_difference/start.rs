@@ -56,10 +56,7 @@ impl<'a> CentralDifference<'a> {
         }
         let mut run = Self::new(body, operator, plan, settings)?;
         if let Some(kick) = run.kick.take_if(|kick| kick.step == 0) {
-            velocity
-                .iter_mut()
-                .zip(kick.velocity)
-                .for_each(|(v, p)| *v += p);
+            velocity.iter_mut().zip(kick.velocity).for_each(|(v, p)| *v += p);
         }
         run.fields.displacement = scatter(operator, displacement);
         run.fields.velocity = scatter(operator, &velocity);
@@ -84,12 +81,7 @@ impl<'a> CentralDifference<'a> {
         let body = body.into();
         let plan = body.plan(operator, settings)?;
         let expected = operator.dof_count();
-        for vector in [
-            &state.displacement,
-            &state.velocity,
-            &state.elastic,
-            &state.elastic_rate,
-        ] {
+        for vector in [&state.displacement, &state.velocity, &state.elastic, &state.elastic_rate] {
             let found = vector.len();
             if found != expected {
                 return Err(TransientError::ForeignState { found, expected });
@@ -126,10 +118,8 @@ impl<'a> CentralDifference<'a> {
         self.next_step = 0;
         place(&mut self.fields);
         let fields = &mut self.fields;
-        self.operator
-            .multiply(&mut fields.displacement, &mut fields.elastic);
-        self.operator
-            .multiply(&mut fields.velocity, &mut fields.elastic_rate);
+        self.operator.multiply(&mut fields.displacement, &mut fields.elastic);
+        self.operator.multiply(&mut fields.velocity, &mut fields.elastic_rate);
         self.take_sums();
         self.initial_energy = self.energy_before_step();
         self.largest_energy = self.initial_energy;

@@ -44,14 +44,9 @@ impl LagrangeContact {
         let face = sector.specification.contact.face();
         let places = |component: usize| -> Vec<usize> {
             let nodes = interface.nodes.iter();
-            nodes
-                .map(|&node| operator.position(3 * node as usize + component))
-                .collect()
+            nodes.map(|&node| operator.position(3 * node as usize + component)).collect()
         };
-        let (normal, across) = (
-            places(face.normal_component()),
-            places(face.across_component()),
-        );
+        let (normal, across) = (places(face.normal_component()), places(face.across_component()));
         let (count, areas) = (interface.len(), &interface.tributary_lengths);
         let local = |node: &u32| *node as usize % sector.node_count();
         let force = |node: &u32| {
@@ -131,10 +126,7 @@ impl LagrangeContact {
             return;
         };
         let dt = coefficients.time_step;
-        let (alpha, beta) = (
-            coefficients.mass_coefficient,
-            coefficients.stiffness_coefficient,
-        );
+        let (alpha, beta) = (coefficients.mass_coefficient, coefficients.stiffness_coefficient);
         let expansion = self.interference * shares[2];
         self.ambiguous = 0;
         for i in 0..self.normal.len() {
@@ -199,10 +191,7 @@ impl LagrangeContact {
     ) -> (ContactPowers, StatusCounts) {
         let dt = coefficients.time_step;
         let mut powers = ContactPowers::default();
-        let mut counts = StatusCounts {
-            ambiguous: self.ambiguous,
-            ..StatusCounts::default()
-        };
+        let mut counts = StatusCounts { ambiguous: self.ambiguous, ..StatusCounts::default() };
         let Some(face) = &self.face else {
             return (powers, counts);
         };

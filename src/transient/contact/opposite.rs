@@ -186,10 +186,8 @@ fn mobility(
                 }
             }
         }
-        let mut row: Vec<Response> = blocks
-            .into_iter()
-            .map(|(node, mobility)| Response { node, mobility })
-            .collect();
+        let mut row: Vec<Response> =
+            blocks.into_iter().map(|(node, mobility)| Response { node, mobility }).collect();
         row.sort_by_key(|response| response.node != i);
         row
     };

@@ -188,10 +188,7 @@ impl LagrangeContact {
             interference: 0.0,
             compliance: None,
             dashpots: Vec::new(),
-            law: CoulombFriction {
-                friction_coefficient,
-                decay: None,
-            },
+            law: CoulombFriction { friction_coefficient, decay: None },
             surface_speed: 0.0,
             normal_force: vec![0.0; count],
             tangential_force: vec![0.0; count],
@@ -282,11 +279,7 @@ impl LagrangeContact {
                     _ => ContactStatus::Open,
                 };
             }
-            [
-                self.normal_force[i],
-                self.tangential_force[i],
-                contact.across[i],
-            ] = sums;
+            [self.normal_force[i], self.tangential_force[i], contact.across[i]] = sums;
             self.status[i] = status;
         }
     }

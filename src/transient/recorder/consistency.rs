@@ -58,9 +58,7 @@ impl Recorder {
         let frames = frames.chain(self.snapshots.iter().map(|snapshot| &snapshot.contact));
         self.contact_angles.len() == contact_nodes
             && self.probes.iter().all(|&probe| probe * components <= dofs)
-            && frames
-                .into_iter()
-                .all(|frame| frame.shear_across().len() == across)
+            && frames.into_iter().all(|frame| frame.shear_across().len() == across)
             && snapshots.all(|snapshot| snapshot.displacement.len() == dofs)
     }
 }

@@ -16,8 +16,7 @@ impl Observer for Recorder {
     fn observe(&mut self, sample: &Sample<'_>) -> ControlFlow<()> {
         let amplitudes = self.harmonics(sample);
         let higher = amplitudes[HARMONIC_COUNT..].iter();
-        self.higher_amplitudes
-            .extend(higher.map(|parts| parts.map(|part| part as f32)));
+        self.higher_amplitudes.extend(higher.map(|parts| parts.map(|part| part as f32)));
         self.rows.push(SampleRow {
             time: sample.time,
             kinetic_energy: sample.kinetic_energy,
@@ -72,19 +71,13 @@ impl Recorder {
     fn frame(&self, sample: &Sample<'_>) -> ContactFrame {
         let traction = |forces: &[f64]| {
             let pairs = forces.iter().zip(&self.tributary_lengths);
-            pairs
-                .map(|(force, length)| (force / length) as f32)
-                .collect::<Vec<f32>>()
+            pairs.map(|(force, length)| (force / length) as f32).collect::<Vec<f32>>()
         };
         ContactFrame {
             time: sample.time,
             status: sample.status().iter().map(|&status| status as u8).collect(),
             pressure: traction(sample.normal_force()),
-            shears: [
-                traction(sample.tangential_force()),
-                traction(sample.across_force()),
-            ]
-            .concat(),
+            shears: [traction(sample.tangential_force()), traction(sample.across_force())].concat(),
         }
     }
 
@@ -109,10 +102,7 @@ impl Recorder {
             let ([v_r, v_t], [a_r, a_t]) = (velocity, acceleration);
             rows.push([u_r, u_t, v_r, v_t, a_r, a_t]);
             if let Some(rows) = self.axial_rows.get_mut(place) {
-                let (v, step) = (
-                    sample.velocity_at(first + 2),
-                    sample.acceleration_at(first + 2),
-                );
+                let (v, step) = (sample.velocity_at(first + 2), sample.acceleration_at(first + 2));
                 let mean = rows
                     .last()
                     .map_or(step, |last: &[f64; 4]| (v - last[1]) / self.sample_interval);

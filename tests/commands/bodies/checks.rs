@@ -98,24 +98,17 @@ fn agree(a: &[[f64; 2]], b: &[[f64; 2]], tolerance: f64) -> Cell {
     let limit = highest(a).min(highest(b)) * (1.0 - 1e-6);
     let below = |modes: &[[f64; 2]]| modes.iter().filter(|mode| mode[0] < limit).count();
     if below(a) == 0 || below(a) != below(b) {
-        return Cell::Wrong(format!(
-            "{} modes beside {}: {a:?}, {b:?}",
-            below(a),
-            below(b)
-        ));
+        return Cell::Wrong(format!("{} modes beside {}: {a:?}, {b:?}", below(a), below(b)));
     }
     let distance = |p: &[f64; 2], q: &[f64; 2]| {
         (std::f64::consts::TAU * (p[0] - q[0])).hypot(p[1] - q[1]) / (std::f64::consts::TAU * p[0])
     };
-    let worst = a.iter().filter(|mode| mode[0] < limit).map(|mode| {
-        b.iter()
-            .map(|other| distance(mode, other))
-            .fold(f64::INFINITY, f64::min)
-    });
+    let worst = a
+        .iter()
+        .filter(|mode| mode[0] < limit)
+        .map(|mode| b.iter().map(|other| distance(mode, other)).fold(f64::INFINITY, f64::min));
     let worst = worst.fold(0.0, f64::max);
-    verdict(worst <= tolerance, || {
-        format!("spectra differ by {worst:e}")
-    })
+    verdict(worst <= tolerance, || format!("spectra differ by {worst:e}"))
 }
 
 /// The lowest onset of a summary of `cea`.
@@ -132,19 +125,13 @@ fn check(bench: &Bench, _: Option<&Bench>) -> Cell {
 
 fn mesh(bench: &Bench, twin: Option<&Bench>) -> Cell {
     let (own, _) = done!(bench.run("mesh", &[], &[]));
-    let area = own["mesh"]["area_m2"]
-        .as_f64()
-        .or(own["mesh"]["volume_m3"].as_f64());
+    let area = own["mesh"]["area_m2"].as_f64().or(own["mesh"]["volume_m3"].as_f64());
     let Some(twin) = twin else {
-        return verdict(area.is_some_and(|area| area > 0.0), || {
-            format!("{}", own["mesh"])
-        });
+        return verdict(area.is_some_and(|area| area > 0.0), || format!("{}", own["mesh"]));
     };
     let (other, _) = needed!(twin.run("mesh", &[], &[]));
     let (area, other) = (area.unwrap(), other["mesh"]["area_m2"].as_f64().unwrap());
-    verdict(is_close(area, other, 1e-12), || {
-        format!("area {area} and {other}")
-    })
+    verdict(is_close(area, other, 1e-12), || format!("area {area} and {other}"))
 }
 
 /// Against the other description of the body, else against a full solution's residual.
@@ -181,17 +168,11 @@ fn map(bench: &Bench, _: Option<&Bench>) -> Cell {
     let key = "damping.stiffness_coefficient";
     let map = format!("cea.map={{key=\"{key}\",values=[3e-7,4.5e-7]}}");
     let (_, folder) = done!(bench.run("cea", &[&map], &[]));
-    let (values, onsets) = (
-        column(&folder, "map.csv", key),
-        column(&folder, "map.csv", "critical_friction"),
-    );
+    let (values, onsets) =
+        (column(&folder, "map.csv", key), column(&folder, "map.csv", "critical_friction"));
     for value in [3e-7, 4.5e-7] {
         let (summary, _) = needed!(bench.run("cea", &[&format!("{key}={value:?}")], &[]));
-        let own = values
-            .iter()
-            .zip(&onsets)
-            .filter(|(v, _)| **v == value)
-            .map(|(_, onset)| *onset);
+        let own = values.iter().zip(&onsets).filter(|(v, _)| **v == value).map(|(_, onset)| *onset);
         let own = own.filter(|onset| onset.is_finite()).min_by(f64::total_cmp);
         let single = lowest_onset(&summary);
         let same = match (own, single) {
@@ -199,9 +180,7 @@ fn map(bench: &Bench, _: Option<&Bench>) -> Cell {
             (own, single) => own == single,
         };
         if !same {
-            return Cell::Wrong(format!(
-                "onset {own:?} in the map, {single:?} alone, at {value}"
-            ));
+            return Cell::Wrong(format!("onset {own:?} in the map, {single:?} alone, at {value}"));
         }
     }
     Cell::Right
@@ -222,13 +201,8 @@ fn sensitivities(bench: &Bench, _: Option<&Bench>) -> Cell {
     let names = headers(&folder, "sensitivities.csv");
     let slopes_by = |key: &str| {
         let of_key = |kind: &str| {
-            let both = [
-                format!("{kind}_per_{key}"),
-                format!("{kind}_per_material.{key}"),
-            ];
-            both.into_iter()
-                .find(|name| names.contains(name))
-                .map(|name| of(&name))
+            let both = [format!("{kind}_per_{key}"), format!("{kind}_per_material.{key}")];
+            both.into_iter().find(|name| names.contains(name)).map(|name| of(&name))
         };
         Some([of_key("frequency_hz")?, of_key("growth_rate")?])
     };
@@ -254,10 +228,7 @@ fn sensitivities(bench: &Bench, _: Option<&Bench>) -> Cell {
     let own = spectrum(&folder);
     let is_alone = |i: &usize| {
         let place = [frequencies[*i], growths[*i]];
-        own.iter()
-            .filter(|mode| distance(mode, place) < 1.0)
-            .count()
-            == 1
+        own.iter().filter(|mode| distance(mode, place) < 1.0).count() == 1
     };
     let alone: Vec<usize> = (0..frequencies.len()).filter(is_alone).take(4).collect();
     if alone.is_empty() {
@@ -265,10 +236,7 @@ fn sensitivities(bench: &Bench, _: Option<&Bench>) -> Cell {
     }
     for i in alone {
         let at = |share: f64| {
-            [
-                frequencies[i] + share * step * slopes[0][i],
-                growths[i] + share * step * slopes[1][i],
-            ]
+            [frequencies[i] + share * step * slopes[0][i], growths[i] + share * step * slopes[1][i]]
         };
         let change = 2.0 * step * slopes[0][i];
         let difference = nearest(&high, at(1.0)) - nearest(&low, at(-1.0));
@@ -293,9 +261,7 @@ fn transient(bench: &Bench, operator: &str) -> Cell {
     let (_, other) = needed!(bench.run("transient", &[], &[]));
     let strain = |folder: &Path| *column(folder, "energy.csv", "strain_j").last().unwrap();
     let (own, other) = (strain(&folder), strain(&other));
-    verdict(is_close(own, other, 1e-8), || {
-        format!("strain energy {own} and {other}")
-    })
+    verdict(is_close(own, other, 1e-8), || format!("strain energy {own} and {other}"))
 }
 
 fn transient_cyclic(bench: &Bench, _: Option<&Bench>) -> Cell {
@@ -325,8 +291,7 @@ fn magnitudes(folder: &Path) -> Vec<f64> {
     let mut reader = csv::Reader::from_path(folder.join("frf.csv")).unwrap();
     let rows = reader.records().map(|row| row.unwrap());
     let value = |text: &str| text.parse::<f64>().unwrap();
-    rows.map(|row| value(&row[1]).hypot(value(&row[2])))
-        .collect()
+    rows.map(|row| value(&row[1]).hypot(value(&row[2]))).collect()
 }
 
 /// Force and response change places without a change (Maxwell and Betti).
@@ -388,9 +353,7 @@ fn cycle(bench: &Bench, _: Option<&Bench>) -> Cell {
         let growth = column(&folder, "eigenvalues.csv", "growth_rate_per_s");
         return verdict(growth.iter().all(|rate| *rate <= 0.0), || text.clone());
     }
-    let closes = own["balance_residual"]
-        .as_f64()
-        .is_some_and(|left| left < 1e-5);
+    let closes = own["balance_residual"].as_f64().is_some_and(|left| left < 1e-5);
     let stays = own["confirmation"]["agrees"] == true || own["stability"]["is_stable"] != true;
     verdict(closes && stays, || text.clone())
 }
@@ -459,10 +422,7 @@ fn sweep(bench: &Bench, _: Option<&Bench>) -> Cell {
     let (alone, _) = needed!(bench.run("cea", &[], &[]));
     let modes = column(&folder, "points.csv", "modes");
     let residual = column(&folder, "points.csv", "largest_residual");
-    let own = [
-        alone["modes"].as_f64().unwrap(),
-        alone["largest_residual"].as_f64().unwrap(),
-    ];
+    let own = [alone["modes"].as_f64().unwrap(), alone["largest_residual"].as_f64().unwrap()];
     verdict(modes[1] == own[0] && residual[1] == own[1], || {
         format!("{modes:?} {residual:?} {own:?}")
     })
@@ -472,20 +432,14 @@ fn sweep(bench: &Bench, _: Option<&Bench>) -> Cell {
 fn fit(bench: &Bench, _: Option<&Bench>) -> Cell {
     let (_, folder) = needed!(bench.run("cea", &[], &[]));
     let modes = spectrum(&folder);
-    let lines: Vec<String> = modes
-        .iter()
-        .take(3)
-        .map(|mode| format!("{:?}\n", mode[0]))
-        .collect();
+    let lines: Vec<String> = modes.iter().take(3).map(|mode| format!("{:?}\n", mode[0])).collect();
     let lines = bench.write("lines.csv", &format!("frequency_hz\n{}", lines.concat()));
     let overrides = [
         "fit.parameters={\"material.young_modulus\"=[2.3e9,2.7e9]}",
         "material.young_modulus=2.45e9",
     ];
     let (summary, _) = done!(bench.run("fit", &overrides, &[&lines]));
-    let value = summary["parameters"]["material.young_modulus"]["value"]
-        .as_f64()
-        .unwrap();
+    let value = summary["parameters"]["material.young_modulus"]["value"].as_f64().unwrap();
     verdict(is_close(value, 2.5e9, 1e-4), || format!("modulus {value}"))
 }
 
@@ -497,18 +451,13 @@ fn uncertainty(bench: &Bench, _: Option<&Bench>) -> Cell {
     ];
     let (summary, _) = done!(bench.run("uncertainty", &overrides, &[]));
     let (alone, _) = needed!(bench.run("cea", &[], &[]));
-    let (own, single) = (
-        summary["critical_friction"]["median"].as_f64(),
-        lowest_onset(&alone),
-    );
+    let (own, single) = (summary["critical_friction"]["median"].as_f64(), lowest_onset(&alone));
     let none = summary["critical_friction"]["without_onset"].as_f64();
     match single {
         Some(single) => verdict(own.is_some_and(|own| is_close(own, single, 1e-5)), || {
             format!("{own:?} in the samples, {single} alone")
         }),
-        None => verdict(none == Some(1.0), || {
-            format!("{own:?} in the samples, none alone")
-        }),
+        None => verdict(none == Some(1.0), || format!("{own:?} in the samples, none alone")),
     }
 }
 
@@ -528,10 +477,11 @@ fn convergence(bench: &Bench, _: Option<&Bench>) -> Cell {
 fn plot(bench: &Bench, _: Option<&Bench>) -> Cell {
     let (_, folder) = needed!(bench.run("cea", &["cea.friction_coefficients=[0.0,0.3]"], &[]));
     match bench.redraw(&folder) {
-        Ok(()) => verdict(
-            folder.join("locus.svg").exists() || folder.join("figures").exists(),
-            || "no figure is drawn".to_owned(),
-        ),
+        Ok(()) => {
+            verdict(folder.join("locus.svg").exists() || folder.join("figures").exists(), || {
+                "no figure is drawn".to_owned()
+            })
+        }
         Err(reason) => Cell::Refused(reason),
     }
 }
@@ -544,8 +494,7 @@ fn compare(bench: &Bench, _: Option<&Bench>) -> Cell {
     };
     let (summary, _) = done!(bench.run_on("compare", &[&a, &b], &[]));
     let quantities = summary["quantities"].as_array().unwrap().iter();
-    let same = quantities
-        .filter(|q| q["path"] != "wall_s")
-        .all(|q| q["values"][0] == q["values"][1]);
+    let same =
+        quantities.filter(|q| q["path"] != "wall_s").all(|q| q["values"][0] == q["values"][1]);
     verdict(same, || format!("{summary}"))
 }

@@ -74,10 +74,7 @@ pub fn msh(grids: &[Grid<'_>]) -> String {
 
 impl Grid<'_> {
     fn place(&self, step: usize, layer: usize) -> [f64; 2] {
-        let (x, y) = (
-            step as f64 / self.along as f64,
-            layer as f64 / self.across as f64,
-        );
+        let (x, y) = (step as f64 / self.along as f64, layer as f64 / self.across as f64);
         match self.shape {
             Shape::Ring { inner, outer } => {
                 let radius = inner + (outer - inner) * y;
@@ -97,10 +94,8 @@ fn written(nodes: &[[f64; 2]], elements: &[Element]) -> String {
             groups.push(group);
         }
     }
-    let mut text = format!(
-        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{}\n",
-        groups.len()
-    );
+    let mut text =
+        format!("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{}\n", groups.len());
     for (i, (dimension, name)) in groups.iter().enumerate() {
         writeln!(text, "{dimension} {} \"{name}\"", i + 1).unwrap();
     }
@@ -111,10 +106,7 @@ fn written(nodes: &[[f64; 2]], elements: &[Element]) -> String {
     writeln!(text, "$EndNodes\n$Elements\n{}", elements.len()).unwrap();
     for (i, (kind, name, corners)) in elements.iter().enumerate() {
         let dimension = if *kind == 1 { 1 } else { 2 };
-        let tag = 1 + groups
-            .iter()
-            .position(|g| *g == (dimension, name.as_str()))
-            .unwrap();
+        let tag = 1 + groups.iter().position(|g| *g == (dimension, name.as_str())).unwrap();
         let corners: Vec<String> = corners.iter().map(|node| (node + 1).to_string()).collect();
         writeln!(text, "{} {kind} 2 {tag} {tag} {}", i + 1, corners.join(" ")).unwrap();
     }

@@ -14,10 +14,7 @@ pub struct Kind {
 
 const AROUND: usize = 32;
 const ACROSS: usize = 6;
-const RING: Shape = Shape::Ring {
-    inner: 0.0205,
-    outer: 0.0905,
-};
+const RING: Shape = Shape::Ring { inner: 0.0205, outer: 0.0905 };
 const POLYCARBONATE: &str = "young_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0\n";
 /// Stiffer around than outwards; axes about the disc's own.
 const LINING: &str = "young_moduli = [2e9, 5e9, 1.5e9]\npoisson_ratios = [0.2, 0.3, 0.25]\n\
@@ -66,10 +63,7 @@ fn ring<'a>(region_of_layer: &'a dyn Fn(usize) -> &'a str) -> Grid<'a> {
 /// Disc and shaft in one file, the shaft of `around` elements.
 fn two_bodies(around: usize) -> String {
     let shaft = Grid {
-        shape: Shape::Ring {
-            inner: 0.006,
-            outer: 0.0205,
-        },
+        shape: Shape::Ring { inner: 0.006, outer: 0.0205 },
         along: around,
         across: 2,
         region_of_layer: &|_| "shaft",
@@ -107,18 +101,8 @@ fn solids() -> (String, String) {
 
 /// All kinds, in the order of the table.
 pub fn kinds() -> Vec<Kind> {
-    let kind = |name, case| Kind {
-        name,
-        case,
-        mesh: None,
-        twin: None,
-    };
-    let of_file = |name, case, mesh| Kind {
-        name,
-        case,
-        mesh: Some(mesh),
-        twin: None,
-    };
+    let kind = |name, case| Kind { name, case, mesh: None, twin: None };
+    let of_file = |name, case, mesh| Kind { name, case, mesh: Some(mesh), twin: None };
     let shaft = format!("[materials.shaft]\n{STEEL}");
     let journal = "boundary = \"inner\"\ncounterface = \"body\"\ncounter_boundary = \"journal\"\n";
     let bore = format!("{shaft}[boundaries.bore]\ncondition = \"clamped\"\n");
@@ -154,23 +138,13 @@ pub fn kinds() -> Vec<Kind> {
         kind("annulus, falling friction", annulus("", falling, "")),
         kind("annulus and shaft", {
             let text = annulus("shaft_inner_radius = 0.006", "", &shaft);
-            text.replace(
-                "radial_elements = 6",
-                "radial_elements = 6\nshaft_radial_elements = 2",
-            )
+            text.replace("radial_elements = 6", "radial_elements = 6\nshaft_radial_elements = 2")
         }),
         Kind {
             twin: Some("annulus"),
-            ..of_file(
-                "annulus from a file",
-                imported("", ""),
-                msh(&[ring(&|_| "disc")]),
-            )
+            ..of_file("annulus from a file", imported("", ""), msh(&[ring(&|_| "disc")]))
         },
-        kind(
-            "orthotropic annulus",
-            annulus("", "", "").replace(POLYCARBONATE, LINING),
-        ),
+        kind("orthotropic annulus", annulus("", "", "").replace(POLYCARBONATE, LINING)),
         Kind {
             twin: Some("orthotropic annulus"),
             ..of_file(
@@ -182,10 +156,7 @@ pub fn kinds() -> Vec<Kind> {
         of_file(
             "triangles from a file",
             imported("", ""),
-            msh(&[Grid {
-                triangles: true,
-                ..ring(&|_| "disc")
-            }]),
+            msh(&[Grid { triangles: true, ..ring(&|_| "disc") }]),
         ),
         of_file(
             "two materials",
@@ -201,10 +172,7 @@ pub fn kinds() -> Vec<Kind> {
             "block, contact opens in part",
             block,
             msh(&[Grid {
-                shape: Shape::Block {
-                    width: 0.04,
-                    height: 0.06,
-                },
+                shape: Shape::Block { width: 0.04, height: 0.06 },
                 along: 10,
                 across: 10,
                 region_of_layer: &|_| "block",
@@ -214,17 +182,9 @@ pub fn kinds() -> Vec<Kind> {
         ),
         Kind {
             twin: Some("annulus and shaft"),
-            ..of_file(
-                "two bodies, matching",
-                imported(journal, &bore),
-                two_bodies(AROUND),
-            )
+            ..of_file("two bodies, matching", imported(journal, &bore), two_bodies(AROUND))
         },
-        of_file(
-            "two bodies, not matching",
-            imported(journal, &bore),
-            two_bodies(24),
-        ),
+        of_file("two bodies, not matching", imported(journal, &bore), two_bodies(24)),
         kind("body of revolution, contact on the edge", solid("", "")),
         kind(
             "body of revolution, contact on a face",

@@ -23,18 +23,12 @@ const POOL: &[(&str, &[&str])] = &[
     ("cea.modes", &["1", "40", "100000"]),
     ("cea.method", &["cyclic", "sparse"]),
     ("cea.mass", &["consistent"]),
-    (
-        "transient.time_step",
-        &["auto", "1e-8", "2e-6", "1e-5", "1e-3"],
-    ),
+    ("transient.time_step", &["auto", "1e-8", "2e-6", "1e-5", "1e-3"]),
     ("transient.duration", &["1e-7", "1e-5", "1e-4"]),
     ("transient.expansion_time", &["0", "2e-5", "1"]),
     ("transient.initial", &["steady-sliding"]),
     ("transient.operator", &["sparse", "cyclic"]),
-    (
-        "transient.perturbation.harmonics",
-        &["[0]", "[2, 12]", "[13]"],
-    ),
+    ("transient.perturbation.harmonics", &["[0]", "[2, 12]", "[13]"]),
     ("output.probes", &["[1, 120]", "[121]", "[100000]"]),
     ("output.sample_interval", &["1e-9", "1e-5", "1e-3"]),
     ("output.snapshots", &["[0]", "[1e-5, 2e-5]", "[1]"]),
@@ -74,10 +68,7 @@ fn is_refused<T>(outcome: Result<T, StudyError>) -> bool {
 #[test]
 fn check_refuses_what_a_run_refuses_and_nothing_else() {
     let simd = frictionsim::app::SimdChoice::Auto.resolve().unwrap();
-    let manifest = Manifest {
-        simd: simd.to_string(),
-        ..Manifest::new("transient")
-    };
+    let manifest = Manifest { simd: simd.to_string(), ..Manifest::new("transient") };
     let mut counts = [0, 0];
     for seed in 1..=160 {
         let overrides = overrides(seed);

@@ -10,10 +10,7 @@ const SPEED: &str = "contact.decay_speed=0.2";
 fn both_keys_make_a_falling_law_and_a_ratio_of_one_a_constant_one() {
     assert_eq!(
         valid(DISC, &[RATIO, SPEED]).contact.sliding.decay,
-        Some(FrictionDecay {
-            static_ratio: 1.4,
-            decay_speed: 0.2,
-        })
+        Some(FrictionDecay { static_ratio: 1.4, decay_speed: 0.2 })
     );
     let constant = ["contact.static_friction_ratio=1.0", SPEED];
     assert_eq!(valid(DISC, &constant).contact, valid(DISC, &[]).contact);
@@ -26,28 +23,13 @@ fn a_law_that_rises_stands_still_or_is_half_given_is_refused_with_the_key() {
             vec!["contact.static_friction_ratio=0.9", SPEED],
             ["contact.static_friction_ratio = 0.9", "must be 1 or more"],
         ),
-        (
-            vec![RATIO, "contact.decay_speed=0.0"],
-            ["contact.decay_speed = 0 ", "must be positive"],
-        ),
+        (vec![RATIO, "contact.decay_speed=0.0"], ["contact.decay_speed = 0 ", "must be positive"]),
         (
             vec![RATIO, "contact.decay_speed=-0.2"],
             ["contact.decay_speed = -0.2", "must be positive"],
         ),
-        (
-            vec![RATIO],
-            [
-                "contact.static_friction_ratio = 1.4 needs",
-                "decay_speed = 0.2",
-            ],
-        ),
-        (
-            vec![SPEED],
-            [
-                "without contact.static_friction_ratio",
-                "static_friction_ratio = 1.4",
-            ],
-        ),
+        (vec![RATIO], ["contact.static_friction_ratio = 1.4 needs", "decay_speed = 0.2"]),
+        (vec![SPEED], ["without contact.static_friction_ratio", "static_friction_ratio = 1.4"]),
     ] {
         let report = report(DISC, &overrides);
         assert_reports(&report, &parts);
@@ -66,16 +48,9 @@ fn what_needs_constant_friction_says_so() {
     assert!(cycles.require_cycle().is_ok() && !cycles.has_rotating_waves());
     // Modes compete instead of waves.
     let basin = valid(BASIN, &[RATIO, SPEED]).require_basin().unwrap_err();
-    assert_reports(
-        &basin.to_string(),
-        &["basin.harmonics is not used", "basin.modes"],
-    );
-    let start = [
-        RATIO,
-        SPEED,
-        "transient.initial=\"limit-cycle\"",
-        "transient.limit_cycle_harmonic=2",
-    ];
+    assert_reports(&basin.to_string(), &["basin.harmonics is not used", "basin.modes"]);
+    let start =
+        [RATIO, SPEED, "transient.initial=\"limit-cycle\"", "transient.limit_cycle_harmonic=2"];
     assert_reports(&parse(RUN, &start).unwrap_err().to_string(), &parts);
 }
 

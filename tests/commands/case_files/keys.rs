@@ -102,9 +102,8 @@ fn a_template_with_every_key_holds_no_key_that_is_unknown() {
     assert!(parse(&template, &[]).is_ok(), "{}", report(&template, &[]));
     let is_comment = |line: &str| line.starts_with("# ") && !line.ends_with('.');
     let lines = template.lines();
-    let all: Vec<&str> = lines
-        .map(|line| if is_comment(line) { &line[2..] } else { line })
-        .collect();
+    let all: Vec<&str> =
+        lines.map(|line| if is_comment(line) { &line[2..] } else { line }).collect();
     let all = all.join("\n");
     if let Err(errors) = parse(&all, &[]) {
         for error in &errors.diagnostics {
@@ -131,10 +130,7 @@ fn names_of_other_programs_lead_to_the_key() {
         ("dt", "transient", "`time_step`"),
     ] {
         let text = format!("{section}.{given}=1");
-        assert_reports(
-            &report(RUN, &[&text]),
-            &[&format!("did you mean {expected}?")],
-        );
+        assert_reports(&report(RUN, &[&text]), &[&format!("did you mean {expected}?")]);
     }
     for (given, expected) in [
         ("inertance", "\"accelerance\""),
@@ -142,10 +138,7 @@ fn names_of_other_programs_lead_to_the_key() {
         ("Mobility", "\"mobility\""),
     ] {
         let text = format!("frf.quantity={given}");
-        assert_reports(
-            &report(&whole(), &[&text]),
-            &[&format!("did you mean {expected}?")],
-        );
+        assert_reports(&report(&whole(), &[&text]), &[&format!("did you mean {expected}?")]);
     }
 }
 
@@ -169,10 +162,7 @@ fn numbers_with_a_comma_and_files_that_are_no_text_are_named() {
 fn a_key_taken_away_makes_room_for_another() {
     let gone = unset("cea.max_frequency_hz");
     let case = valid(DISC, &[&gone, "cea.modes=10"]);
-    assert_eq!(
-        case.require_cea().unwrap().modes,
-        frictionsim::case::ModeSelection::Lowest(10)
-    );
+    assert_eq!(case.require_cea().unwrap().modes, frictionsim::case::ModeSelection::Lowest(10));
     assert!(valid(RUN, &[&unset("transient")]).transient.is_none());
     // A known key that is not there may go; an unknown one may not.
     valid(DISC, &[&unset("transient.duration")]);
@@ -190,8 +180,7 @@ fn a_key_taken_away_makes_room_for_another() {
 fn a_title_says_what_overrides_its_case() {
     let case = valid(RUN, &["contact.rotation_speed_rpm=2000"]);
     assert!(
-        case.title
-            .ends_with("nodal diameters  [with contact.rotation_speed_rpm = 2000]"),
+        case.title.ends_with("nodal diameters  [with contact.rotation_speed_rpm = 2000]"),
         "{}",
         case.title
     );
@@ -220,10 +209,7 @@ fn a_single_value_stands_for_a_list_of_one() {
 #[test]
 fn a_branch_follows_what_a_limit_cycle_depends_on() {
     for (text, part) in [
-        (
-            "cycle.continuation.key=\"mesh.radial_elements\"",
-            "cannot be followed over",
-        ),
+        ("cycle.continuation.key=\"mesh.radial_elements\"", "cannot be followed over"),
         ("cycle.continuation.from=-10", "cannot be negative"),
         ("cycle.continuation.to=10", "equals from"),
     ] {
@@ -236,9 +222,6 @@ fn a_cylinder_at_rest_has_no_limit_cycle() {
     for speed in ["0", "-610"] {
         let text = format!("contact.rotation_speed_rpm={speed}");
         let errors = valid(&whole(), &[&text]).require_cycle().unwrap_err();
-        assert_reports(
-            &errors.to_string(),
-            &["contact.rotation_speed_rpm", speed, "--set:1:"],
-        );
+        assert_reports(&errors.to_string(), &["contact.rotation_speed_rpm", speed, "--set:1:"]);
     }
 }

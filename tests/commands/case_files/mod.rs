@@ -39,10 +39,8 @@ fn report(text: &str, overrides: &[&str]) -> String {
 fn disc_with(key: &str, line: &str) -> String {
     let is_key = |text: &str| text.split('=').next().map(str::trim) == Some(key);
     assert_eq!(DISC.lines().filter(|text| is_key(text)).count(), 1, "{key}");
-    let lines: Vec<&str> = DISC
-        .lines()
-        .map(|text| if is_key(text) { line } else { text })
-        .collect();
+    let lines: Vec<&str> =
+        DISC.lines().map(|text| if is_key(text) { line } else { text }).collect();
     lines.join("\n")
 }
 
@@ -114,21 +112,13 @@ fn a_point_keeps_its_hash_when_the_study_grows() {
 
 #[test]
 fn zipped_keys_run_side_by_side_and_need_equal_lengths() {
-    let zipped = valid(
-        STUDY,
-        &[
-            "sweep.combine=zip",
-            "sweep.\"contact.rotation_speed_rpm\"=[70, 300, 610]",
-        ],
-    );
+    let zipped =
+        valid(STUDY, &["sweep.combine=zip", "sweep.\"contact.rotation_speed_rpm\"=[70, 300, 610]"]);
     let sweep = zipped.require_sweep().unwrap();
     assert_eq!(sweep.point_count(), 3);
     assert_eq!(
         sweep.overrides(1),
-        [
-            "contact.friction_coefficient=0.3",
-            "contact.rotation_speed_rpm=300"
-        ]
+        ["contact.friction_coefficient=0.3", "contact.rotation_speed_rpm=300"]
     );
     let report = report(STUDY, &["sweep.combine=zip"]);
     assert_reports(&report, &["has 24 values", "has 3", "equally many"]);
@@ -137,10 +127,7 @@ fn zipped_keys_run_side_by_side_and_need_equal_lengths() {
 #[test]
 fn a_bad_swept_value_is_found_before_the_sweep() {
     let report = report(STUDY, &["sweep.\"mesh.radial_elements\"=[10, 0]"]);
-    assert_reports(
-        &report,
-        &["swept value mesh.radial_elements=0", "1 or more"],
-    );
+    assert_reports(&report, &["swept value mesh.radial_elements=0", "1 or more"]);
 }
 
 #[test]
@@ -151,10 +138,7 @@ fn an_unknown_swept_key_is_an_error_with_a_suggestion() {
 
 #[test]
 fn swept_keys_may_be_written_with_or_without_quotes() {
-    let plain = STUDY.replace(
-        "\"contact.friction_coefficient\"",
-        "contact.friction_coefficient",
-    );
+    let plain = STUDY.replace("\"contact.friction_coefficient\"", "contact.friction_coefficient");
     let keys = |text: &str| valid(text, &[]).sweep.unwrap().keys.len();
     assert_eq!(keys(&plain), keys(STUDY));
 }
@@ -201,14 +185,8 @@ fn the_word_rigid_takes_the_contact_stiffness_away() {
 fn a_bad_override_names_itself() {
     for (text, parts) in [
         ("contact.friction_coefficient", ["no `=`", "KEY=VALUE"]),
-        (
-            "contact.friction_coefficient=0,4",
-            ["\"0,4\"", "must be a number"],
-        ),
-        (
-            "contact.friction=0.4",
-            ["unknown key", "did you mean `friction_coefficient`?"],
-        ),
+        ("contact.friction_coefficient=0,4", ["\"0,4\"", "must be a number"]),
+        ("contact.friction=0.4", ["unknown key", "did you mean `friction_coefficient`?"]),
         ("a b=1", ["is not a key", "dotted key"]),
         ("cea.shapes_at=[0.3", ["not TOML", "KEY=VALUE"]),
         ("mesh.element.x=1", ["mesh.element", "must be one of"]),
@@ -252,10 +230,7 @@ fn every_bad_value_of_the_model_names_key_bound_and_place() {
         (
             "poisson_ratio",
             "poisson_ratio = 0.5",
-            [
-                "material.poisson_ratio = 0.5",
-                "strictly between -1 and 0.5",
-            ],
+            ["material.poisson_ratio = 0.5", "strictly between -1 and 0.5"],
         ),
         (
             "outer_radius",
@@ -272,11 +247,7 @@ fn every_bad_value_of_the_model_names_key_bound_and_place() {
             "circumferential_elements = 2.5",
             ["must be an integer", "number of elements"],
         ),
-        (
-            "density",
-            "density = -1228",
-            ["material.density = -1228", "must be positive"],
-        ),
+        ("density", "density = -1228", ["material.density = -1228", "must be positive"]),
         (
             "friction_coefficient",
             "friction_coefficient = -0.1",
@@ -287,11 +258,7 @@ fn every_bad_value_of_the_model_names_key_bound_and_place() {
             "young_modulus = nan",
             ["material.young_modulus = nan", "must be positive"],
         ),
-        (
-            "density",
-            "density = 1e999",
-            ["material.density = inf", "finite"],
-        ),
+        ("density", "density = 1e999", ["material.density = inf", "finite"]),
         (
             "interference",
             "interference = \"25 um\"",
@@ -302,26 +269,10 @@ fn every_bad_value_of_the_model_names_key_bound_and_place() {
             "max_frequency_hz = 0",
             ["cea.max_frequency_hz = 0", "must be positive"],
         ),
-        (
-            "method",
-            "method = \"cyclc\"",
-            ["must be one of", "did you mean \"cyclic\"?"],
-        ),
-        (
-            "shapes_at",
-            "shapes_at = [0.3, 0.3]",
-            ["has 0.3 twice", "every value once"],
-        ),
-        (
-            "friction_coefficients",
-            "friction_coefficients = []",
-            ["is empty", "at least one"],
-        ),
-        (
-            "radial_grading",
-            "radial_grading = 1e9",
-            ["largest element", "nearer to 1"],
-        ),
+        ("method", "method = \"cyclc\"", ["must be one of", "did you mean \"cyclic\"?"]),
+        ("shapes_at", "shapes_at = [0.3, 0.3]", ["has 0.3 twice", "every value once"]),
+        ("friction_coefficients", "friction_coefficients = []", ["is empty", "at least one"]),
+        ("radial_grading", "radial_grading = 1e9", ["largest element", "nearer to 1"]),
         (
             "circumferential_elements",
             "circumferential_elements = 4294967295",
@@ -332,16 +283,8 @@ fn every_bad_value_of_the_model_names_key_bound_and_place() {
             "circumferential_elements = 9223372036854775807",
             ["must be 4294967295 or less", "number of elements"],
         ),
-        (
-            "formulation",
-            "formulation = 1979-05-27",
-            ["material.formulation", "must be one of"],
-        ),
-        (
-            "geometric_stiffness",
-            "geometric_stiffness = 1",
-            ["must be true or false", "prestress"],
-        ),
+        ("formulation", "formulation = 1979-05-27", ["material.formulation", "must be one of"]),
+        ("geometric_stiffness", "geometric_stiffness = 1", ["must be true or false", "prestress"]),
         (
             "normal_stiffness",
             "normal_damping = 5.0",
@@ -365,12 +308,7 @@ fn all_errors_of_a_case_are_reported_at_once() {
     assert_eq!(errors.diagnostics.len(), 5, "{errors}");
     assert_reports(
         &errors.to_string(),
-        &[
-            "did you mean `damping`?",
-            "material.colour",
-            "must be above",
-            "--set:1:",
-        ],
+        &["did you mean `damping`?", "material.colour", "must be above", "--set:1:"],
     );
 }
 
@@ -396,9 +334,7 @@ fn syntax_errors_have_a_place() {
     let report = report(&disc_with("density", "density = = 3"), &[]);
     assert_reports(&report, &["case.toml:", "density = = 3", "^"]);
     let bytes = [b"title = \"".as_slice(), &[0xff, 0xfe], b"\""].concat();
-    let errors = Case::parse("case.toml", &bytes, &[])
-        .unwrap_err()
-        .to_string();
+    let errors = Case::parse("case.toml", &bytes, &[]).unwrap_err().to_string();
     assert_reports(&errors, &["UTF-8", "case.toml:1:"]);
 }
 
@@ -411,39 +347,18 @@ fn windows_line_ends_and_a_byte_order_mark_are_read() {
 #[test]
 fn impossible_transients_are_refused_with_the_bound() {
     for (text, parts) in [
-        (
-            "output.probes=[1, 6481]",
-            ["probe 6481 does not exist", "nodes 1 to 6480"],
-        ),
+        ("output.probes=[1, 6481]", ["probe 6481 does not exist", "nodes 1 to 6480"]),
         ("output.probes=[0]", ["output.probes = 0", "1 or more"]),
-        (
-            "transient.duration=0",
-            ["transient.duration = 0", "must be positive"],
-        ),
-        (
-            "transient.time_step=1",
-            ["above transient.duration", "at most 0.05"],
-        ),
-        (
-            "transient.perturbation.harmonics=[91]",
-            ["highest, 90", "mesh.circumferential_elements"],
-        ),
-        (
-            "transient.perturbation.harmonics=[2, 2]",
-            ["listed twice", "harmonics"],
-        ),
-        (
-            "transient.initial=resting",
-            ["must be one of", "did you mean \"rest\"?"],
-        ),
+        ("transient.duration=0", ["transient.duration = 0", "must be positive"]),
+        ("transient.time_step=1", ["above transient.duration", "at most 0.05"]),
+        ("transient.perturbation.harmonics=[91]", ["highest, 90", "mesh.circumferential_elements"]),
+        ("transient.perturbation.harmonics=[2, 2]", ["listed twice", "harmonics"]),
+        ("transient.initial=resting", ["must be one of", "did you mean \"rest\"?"]),
     ] {
         assert_reports(&report(RUN, &[text]), &parts);
     }
     let both = ["transient.time_step=1e-7", "output.sample_interval=1e-8"];
-    assert_reports(
-        &report(RUN, &both),
-        &["output.sample_interval = 1e-8", "at least 1e-7"],
-    );
+    assert_reports(&report(RUN, &both), &["output.sample_interval = 1e-8", "at least 1e-7"]);
 }
 
 #[test]
@@ -480,15 +395,9 @@ fn maps_and_cycles_take_numeric_keys_only() {
     let case = valid(DISC, &[&map("contact.normal_stiffness")]);
     assert_eq!(case.cea.unwrap().map.unwrap().values, [1e12, 1e13]);
     for (key, part) in [
-        (
-            "contact.friction_coefficient",
-            "already the first parameter",
-        ),
+        ("contact.friction_coefficient", "already the first parameter"),
         ("mesh.element", "not a numeric case key"),
-        (
-            "contact.normal_stifness",
-            "did you mean \"contact.normal_stiffness\"?",
-        ),
+        ("contact.normal_stifness", "did you mean \"contact.normal_stiffness\"?"),
     ] {
         assert_reports(&report(DISC, &[&map(key)]), &[part]);
     }
@@ -500,10 +409,7 @@ fn maps_and_cycles_take_numeric_keys_only() {
 
 #[test]
 fn shapes_are_solved_for_beside_the_values_of_the_tables() {
-    let overrides = [
-        "cea.friction_coefficients=[0.5, 0.1]",
-        "cea.shapes_at=[0.3, 0.5]",
-    ];
+    let overrides = ["cea.friction_coefficients=[0.5, 0.1]", "cea.shapes_at=[0.3, 0.5]"];
     let cea = valid(DISC, &overrides).cea.unwrap();
     assert_eq!(cea.friction_coefficients, [0.1, 0.5]);
     assert_eq!(cea.solved_friction_coefficients(), [0.1, 0.3, 0.5]);
@@ -582,21 +488,12 @@ fn a_start_on_a_limit_cycle_names_a_harmonic_that_the_mesh_carries() {
     let start = "transient.initial=\"limit-cycle\"";
     let case = valid(RUN, &[start, "transient.limit_cycle_harmonic=2"]);
     let initial = case.require_transient().unwrap().initial;
-    assert_eq!(
-        initial,
-        InitialState::LimitCycle {
-            harmonic: 2,
-            onset: 1
-        }
-    );
+    assert_eq!(initial, InitialState::LimitCycle { harmonic: 2, onset: 1 });
     let second = "transient.limit_cycle_onset=2";
     let case = valid(RUN, &[start, "transient.limit_cycle_harmonic=1", second]);
     assert_eq!(
         case.require_transient().unwrap().initial,
-        InitialState::LimitCycle {
-            harmonic: 1,
-            onset: 2
-        }
+        InitialState::LimitCycle { harmonic: 1, onset: 2 }
     );
     assert_reports(&report(RUN, &[second]), &["transient.limit_cycle_onset"]);
     assert_reports(&report(RUN, &[start]), &["transient.limit_cycle_harmonic"]);
@@ -616,10 +513,7 @@ fn stability_along_a_branch_needs_a_branch() {
     const CYCLES: &str = include_str!("../../../cases/limit-cycle.toml");
     let case = valid(CYCLES, &["cycle.stability=\"branch\"", "cycle.phases=151"]);
     let cycle = case.require_cycle().unwrap();
-    assert_eq!(
-        (cycle.stability, cycle.phases),
-        (StabilityChoice::Branch, Some(151))
-    );
+    assert_eq!((cycle.stability, cycle.phases), (StabilityChoice::Branch, Some(151)));
     assert_reports(
         &report(RUN, &["cycle.stability=\"branch\""]),
         &["cycle.stability", "[cycle.continuation]"],
@@ -631,8 +525,5 @@ fn stability_along_a_branch_needs_a_branch() {
     for periods in [0, 20] {
         valid(CYCLES, &[&format!("cycle.confirmation_periods={periods}")]);
     }
-    assert_reports(
-        &report(CYCLES, &["cycle.phases=3"]),
-        &["cycle.phases", "31 or more"],
-    );
+    assert_reports(&report(CYCLES, &["cycle.phases=3"]), &["cycle.phases", "31 or more"]);
 }

@@ -5,37 +5,19 @@ use super::{DISC, RUN, STUDY, assert_reports, report, valid};
 #[test]
 fn slips_of_units_are_said() {
     for (overrides, parts) in [
-        (
-            vec!["contact.interference=25"],
-            ["of geometry.inner_radius", "25e-6"],
-        ),
+        (vec!["contact.interference=25"], ["of geometry.inner_radius", "25e-6"]),
         (vec!["contact.interference=9e-4"], ["0.04", ""]),
-        (
-            vec!["contact.friction_coefficient=30"],
-            ["above 2", "ratio"],
-        ),
-        (
-            vec!["cea.shapes_at=[0.3, 3]"],
-            ["cea.shapes_at = 3", "above 2"],
-        ),
+        (vec!["contact.friction_coefficient=30"], ["above 2", "ratio"]),
+        (vec!["cea.shapes_at=[0.3, 3]"], ["cea.shapes_at = 3", "above 2"]),
         (
             vec!["geometry.inner_radius=20.5", "geometry.outer_radius=90.5"],
             ["geometry.inner_radius = 20.5", "millimetres"],
         ),
         (vec!["material.young_modulus=2500"], ["waves of", "not MPa"]),
         (vec!["material.density=1.228"], ["waves of", "g/cm3"]),
-        (
-            vec!["material.poisson_ratio=0.495"],
-            ["incompressible", "time step"],
-        ),
-        (
-            vec!["contact.normal_stiffness=1e21"],
-            ["contact.normal_stiffness", "rigid"],
-        ),
-        (
-            vec!["damping.stiffness_coefficient=1e-3"],
-            ["damping factor", "do not vibrate"],
-        ),
+        (vec!["material.poisson_ratio=0.495"], ["incompressible", "time step"]),
+        (vec!["contact.normal_stiffness=1e21"], ["contact.normal_stiffness", "rigid"]),
+        (vec!["damping.stiffness_coefficient=1e-3"], ["damping factor", "do not vibrate"]),
     ] {
         let case = valid(DISC, &overrides);
         let all: Vec<String> = case.warnings.iter().map(ToString::to_string).collect();
@@ -51,10 +33,7 @@ fn slips_of_units_are_said() {
 #[test]
 fn a_pressure_near_the_modulus_is_said() {
     // A thin ring between its two edges: a strain of 0.2 over its width.
-    let case = valid(
-        DISC,
-        &["geometry.outer_radius=0.0225", "contact.interference=4e-4"],
-    );
+    let case = valid(DISC, &["geometry.outer_radius=0.0225", "contact.interference=4e-4"]);
     let warning = case.warnings[0].to_string();
     assert_reports(&warning, &["contact pressure", "strains are not small"]);
 }
@@ -87,17 +66,8 @@ fn keys_that_an_analysis_ignores_are_said() {
     let compliant = valid(RUN, &["contact.normal_stiffness=7e12"]);
     assert!(compliant.ignored_by("transient").is_empty());
     let sliding = valid(RUN, &["transient.initial=\"steady-sliding\""]);
-    assert_reports(
-        &sliding.warnings[0].to_string(),
-        &["transient.expansion_time is not used"],
-    );
-    let rigid = valid(
-        RUN,
-        &[
-            "contact.normal_stiffness=rigid",
-            "damping.include_contact=true",
-        ],
-    );
+    assert_reports(&sliding.warnings[0].to_string(), &["transient.expansion_time is not used"]);
+    let rigid = valid(RUN, &["contact.normal_stiffness=rigid", "damping.include_contact=true"]);
     assert!(rigid.ignored_by("transient").is_empty());
 }
 
@@ -106,15 +76,9 @@ fn slips_of_thickness_and_of_seeds_are_said_by_their_own_key() {
     let thick = valid(RUN, &["geometry.thickness=9"]);
     assert_reports(
         &thick.warnings[0].to_string(),
-        &[
-            "geometry.thickness = 9 m is outside the plausible range",
-            "to 1 m",
-        ],
+        &["geometry.thickness = 9 m is outside the plausible range", "to 1 m"],
     );
-    let seeds = [
-        "transient.perturbation.harmonics=[2]",
-        "transient.perturbation.velocity=1000",
-    ];
+    let seeds = ["transient.perturbation.harmonics=[2]", "transient.perturbation.velocity=1000"];
     let fast = valid(RUN, &seeds);
     assert_reports(
         &fast.warnings[0].to_string(),
@@ -142,17 +106,11 @@ fn numbers_beyond_reason_are_refused() {
             vec!["cea.friction_coefficients=[0.1, 1e18]"],
             ["cea.friction_coefficients = 1e18", "at most 1000"],
         ),
-        (
-            vec!["material.young_modulus=1e18"],
-            ["as no material has them", "Pa and kg/m3"],
-        ),
+        (vec!["material.young_modulus=1e18"], ["as no material has them", "Pa and kg/m3"]),
     ] {
         assert_reports(&report(DISC, &overrides), &parts);
     }
-    let seeds = [
-        "transient.perturbation.harmonics=[2]",
-        "transient.perturbation.velocity=1e100",
-    ];
+    let seeds = ["transient.perturbation.harmonics=[2]", "transient.perturbation.velocity=1e100"];
     assert_reports(&report(RUN, &seeds), &["faster than waves in the material"]);
 }
 
@@ -162,13 +120,7 @@ fn a_log_normal_deviation_in_the_unit_of_the_key_is_refused() {
     let distributions = "[uncertainty.distributions]\n\"contact.normal_stiffness\" = ";
     let of = |scatter: &str| format!("{DISC}\n{distributions}{{ log_normal = {scatter} }}\n");
     let text = report(&of("[7.4e12, 7.4e11]"), &[]);
-    assert_reports(
-        &text,
-        &[
-            "standard deviation of the natural logarithm",
-            "[median, 0.1]",
-        ],
-    );
+    assert_reports(&text, &["standard deviation of the natural logarithm", "[median, 0.1]"]);
     assert!(valid(&of("[7.4e12, 0.3]"), &[]).uncertainty.is_some());
 }
 
@@ -180,8 +132,5 @@ fn an_annulus_under_a_pressure_is_refused_for_the_pressure_alone() {
     ];
     let text = report(DISC, &pressed);
     assert!(text.contains("nothing holds the disc"), "{text}");
-    assert!(
-        !text.contains("contact.interference = 0.0 must be positive"),
-        "{text}"
-    );
+    assert!(!text.contains("contact.interference = 0.0 must be positive"), "{text}");
 }

@@ -37,11 +37,7 @@ fn no_override_is_costly() {
         let overrides: Vec<&str> = overrides.iter().map(String::as_str).collect();
         let seconds = seconds_to_read(STUDY, &overrides);
         // Milliseconds where nobody else is at work.
-        assert!(
-            seconds < Duration::from_secs(4),
-            "{seconds:?}: {:.80}",
-            overrides[0]
-        );
+        assert!(seconds < Duration::from_secs(4), "{seconds:?}: {:.80}", overrides[0]);
     }
 }
 
@@ -60,24 +56,11 @@ fn a_study_too_large_names_the_key_that_makes_it_so() {
 fn memory_is_refused_at_the_key_that_asks_for_it() {
     const CYCLES: &str = include_str!("../../../cases/limit-cycle.toml");
     for (text, overrides, command, key) in [
+        (RUN, vec!["output.sample_interval=1e-12"], "transient", "output.sample_interval"),
+        (RUN, vec!["transient.duration=1e4"], "transient", "transient.duration"),
         (
             RUN,
-            vec!["output.sample_interval=1e-12"],
-            "transient",
-            "output.sample_interval",
-        ),
-        (
-            RUN,
-            vec!["transient.duration=1e4"],
-            "transient",
-            "transient.duration",
-        ),
-        (
-            RUN,
-            vec![
-                "mesh.circumferential_elements=100000",
-                "mesh.radial_elements=10000",
-            ],
+            vec!["mesh.circumferential_elements=100000", "mesh.radial_elements=10000"],
             "transient",
             "mesh.circumferential_elements",
         ),
@@ -124,9 +107,5 @@ fn the_cost_of_studies_counts_every_run() {
     // Twice as fine a mesh has four times the elements and twice the steps.
     let transients =
         one.transient.unwrap().seconds * (1.0 + 1.5f64.powi(3) + 8.0 + 1.0 + 2.0 + 4.0);
-    assert!(
-        all.seconds > 0.95 * transients,
-        "{} {transients}",
-        all.seconds
-    );
+    assert!(all.seconds > 0.95 * transients, "{} {transients}", all.seconds);
 }

@@ -51,24 +51,12 @@ fn field(mesh: &Mesh) -> BaseField {
     assert!(!angles.is_sorted() && angles.iter().any(|angle| *angle < -0.9 * PI));
     BaseField {
         is_pressed: Some(vec![true; nodes.len()]),
-        pressures: angles
-            .iter()
-            .map(|angle| 1e6 * (2.0 + angle.cos()))
-            .collect(),
-        shears: angles
-            .iter()
-            .map(|angle| 3e5 * (2.0 + angle.cos()))
-            .collect(),
+        pressures: angles.iter().map(|angle| 1e6 * (2.0 + angle.cos())).collect(),
+        shears: angles.iter().map(|angle| 3e5 * (2.0 + angle.cos())).collect(),
         nodes,
         angles,
         displacement: vec![0.0; 2 * mesh.node_count()],
-        stress: vec![
-            NodalStress {
-                radial: -1e6,
-                ..NodalStress::default()
-            };
-            mesh.node_count()
-        ],
+        stress: vec![NodalStress { radial: -1e6, ..NodalStress::default() }; mesh.node_count()],
     }
 }
 
@@ -116,23 +104,11 @@ fn drawn(report: &CeaReport<'_>, width_mm: Option<f64>) -> TempDir {
     let out = tempfile::tempdir().unwrap();
     let path = out.path().join("out");
     let folder = OutputFolder::open(&path, &Manifest::new("cea"), Replace::Anything).unwrap();
-    let one = RayleighDamping {
-        mass_coefficient: 40.0,
-        stiffness_coefficient: 4.5e-7,
-    };
-    let other = RayleighDamping {
-        mass_coefficient: 10.0,
-        ..one
-    };
-    let dampings = [
-        ("damping of disc".to_owned(), one),
-        ("damping of pad".to_owned(), other),
-    ];
-    let options = DrawingOptions {
-        width_mm,
-        formats: vec![Format::Svg],
-        ..DrawingOptions::default()
-    };
+    let one = RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 4.5e-7 };
+    let other = RayleighDamping { mass_coefficient: 10.0, ..one };
+    let dampings = [("damping of disc".to_owned(), one), ("damping of pad".to_owned(), other)];
+    let options =
+        DrawingOptions { width_mm, formats: vec![Format::Svg], ..DrawingOptions::default() };
     draw(&folder, report, &dampings, &options).unwrap();
     folder.finish().unwrap();
     out
@@ -152,19 +128,12 @@ fn modes_of_a_body_without_symmetry_have_numbers_and_no_harmonic() {
         for name in ["locus", "pairs", "prestress"] {
             let svg = read(&folder, &format!("figures/{name}.svg"));
             let words = texts(&svg);
-            assert!(
-                !words.iter().any(|word| word.contains("n =")),
-                "{name}: {words:?}"
-            );
+            assert!(!words.iter().any(|word| word.contains("n =")), "{name}: {words:?}");
             check_texts(name, &svg);
         }
         let pairs = texts(&read(&folder, "figures/pairs.svg"));
         assert!(pairs.iter().any(|word| word == "mode 4"), "{pairs:?}");
-        assert!(
-            pairs
-                .iter()
-                .any(|word| word.contains("contact nodes open or close"))
-        );
+        assert!(pairs.iter().any(|word| word.contains("contact nodes open or close")));
         let locus = texts(&read(&folder, "figures/locus.svg"));
         for name in ["damping of disc", "damping of pad"] {
             assert!(locus.iter().any(|word| word == name), "{locus:?}");
@@ -172,10 +141,7 @@ fn modes_of_a_body_without_symmetry_have_numbers_and_no_harmonic() {
         assert!(!read(&folder, "report.html").contains("harmonic n"));
     }
     let text = print(&report, false);
-    assert!(
-        text.contains("mode branch") && !text.contains("travels"),
-        "{text}"
-    );
+    assert!(text.contains("mode branch") && !text.contains("travels"), "{text}");
 }
 
 #[test]
@@ -191,9 +157,7 @@ fn contact_around_an_imported_hole_is_drawn_and_listed_over_rising_angles() {
     assert!(data.contains("Figure"));
     // One curve from end to end of its frame: its abscissae rise, and it never crosses the panel backwards.
     let svg = read(&folder, "figures/prestress.svg");
-    let curve = svg
-        .split("<path d=\"")
-        .find(|path| path.contains("stroke=\"#0072b2\""));
+    let curve = svg.split("<path d=\"").find(|path| path.contains("stroke=\"#0072b2\""));
     let curve = curve.unwrap().split('"').next().unwrap();
     // Steps behind the first point are relative; a sign or a second point begins the next number.
     let mut numbers: Vec<String> = vec![String::new()];
@@ -206,35 +170,21 @@ fn contact_around_an_imported_hole_is_drawn_and_listed_over_rising_angles() {
             _ => numbers.push(String::new()),
         }
     }
-    let numbers: Vec<f64> = numbers
-        .iter()
-        .filter_map(|text| text.parse().ok())
-        .collect();
+    let numbers: Vec<f64> = numbers.iter().filter_map(|text| text.parse().ok()).collect();
     let steps: Vec<f64> = numbers[2..].iter().step_by(2).copied().collect();
-    assert!(
-        steps.len() > 30 && steps.iter().all(|step| *step > 0.0),
-        "{curve}"
-    );
+    assert!(steps.len() > 30 && steps.iter().all(|step| *step > 0.0), "{curve}");
     let path = folder.path().join("base");
     let out = OutputFolder::open(&path, &Manifest::new("cea"), Replace::Anything).unwrap();
     write_base(&out, &mesh, (&report.base, &field)).unwrap();
     let table = std::fs::read_to_string(path.join("prestress.csv")).unwrap();
-    let angles = table
-        .lines()
-        .skip(1)
-        .map(|line| line.split(',').nth(1).unwrap());
+    let angles = table.lines().skip(1).map(|line| line.split(',').nth(1).unwrap());
     let angles: Vec<f64> = angles.map(|angle| angle.parse().unwrap()).collect();
     assert!(angles.is_sorted() && angles.len() == 40, "{angles:?}");
     let fields =
         String::from_utf8_lossy(&std::fs::read(path.join("prestress.vtu")).unwrap()).into_owned();
-    for name in [
-        "status",
-        "pressure_pa",
-        "shear_pa",
-        "stress_xx_pa",
-        "friction_coefficient",
-        "power_w",
-    ] {
+    for name in
+        ["status", "pressure_pa", "shear_pa", "stress_xx_pa", "friction_coefficient", "power_w"]
+    {
         assert!(fields.contains(&format!("Name=\"{name}\"")), "{name}");
     }
 }
@@ -245,18 +195,11 @@ fn torque_and_power_of_a_body_without_a_thickness_are_for_each_metre() {
     let field = field(&mesh);
     let of = |extent| report(&mesh, &sweep, &field, extent);
     let metre = print(&of(Extent::MetreOfThickness), false);
-    for text in [
-        "2014.0000 N m/m",
-        "9600.0 W/m",
-        "for each metre of thickness",
-    ] {
+    for text in ["2014.0000 N m/m", "9600.0 W/m", "for each metre of thickness"] {
         assert!(metre.contains(text), "{metre}");
     }
     let html = read(&drawn(&of(Extent::MetreOfThickness), None), "report.html");
     assert!(html.contains("2014.000 N m/m") && html.contains("9600.0 W/m"));
     let whole = print(&of(Extent::WholeBody), false);
-    assert!(
-        whole.contains("2014.0000 N m,") && !whole.contains("W/m"),
-        "{whole}"
-    );
+    assert!(whole.contains("2014.0000 N m,") && !whole.contains("W/m"), "{whole}");
 }

@@ -62,34 +62,15 @@ fn figure(xs: &[f64], ys: &[f64], zs: &[f64], axes: (u8, u8), value: f64) -> Fig
         .layer(Fill::between(xs, ys, zs, SERIES[1]).name("between"))
         .layer(Fill::from(value, xs, ys, SERIES[3]).opacity(0.5))
         .layer(Fill::range_of(xs, zs, SERIES[2]))
-        .layer(
-            Line::new(xs, ys)
-                .name("line")
-                .marked(Marker::Circle, 2.0)
-                .arrows(2),
-        )
+        .layer(Line::new(xs, ys).name("line").marked(Marker::Circle, 2.0).arrows(2))
         .layer(Points::new(pairs()).name("points"))
-        .layer(
-            Rule::horizontal(value)
-                .stretching()
-                .at_rim("level")
-                .beside("here"),
-        )
+        .layer(Rule::horizontal(value).stretching().at_rim("level").beside("here"))
         .layer(Rule::vertical(value).at_rim("place"))
-        .layer(Bars::new(
-            pairs().map(|(x, y)| (x, value, y, "bar".into())).collect(),
-            SERIES[0],
-        ))
+        .layer(Bars::new(pairs().map(|(x, y)| (x, value, y, "bar".into())).collect(), SERIES[0]))
         .layer(Label::new((value, value), "label"));
     let nodes: Vec<[f64; 2]> = pairs().map(|(x, y)| [x, y]).collect();
     let ring = (0..nodes.len() as u32 + 1).collect();
-    let mesh = Mesh {
-        cells: vec![Cell {
-            ring,
-            is_quadratic: false,
-        }],
-        ..Mesh::default()
-    };
+    let mesh = Mesh { cells: vec![Cell { ring, is_quadratic: false }], ..Mesh::default() };
     let window = Field::window(&nodes, 0.1);
     let field = Field::new(
         Arc::new(mesh),
@@ -101,15 +82,9 @@ fn figure(xs: &[f64], ys: &[f64], zs: &[f64], axes: (u8, u8), value: f64) -> Fig
     let picture = Panel::plane(window).layer(field).colour_bar(Side::Below);
     let colours = (Axis::new("level", "dB"), ColourMap::Inferno);
     let at = |column: usize, row: usize| zs.get(column + row).copied().unwrap_or(f64::NAN);
-    let heat = Heat::of_values(
-        ((value, 1.0), xs.len()),
-        ((0.0, value), ys.len()),
-        colours,
-        at,
-    );
-    let map = Panel::new(axis(axes.1, value), axis(axes.0, value))
-        .layer(heat)
-        .colour_bar(Side::Right);
+    let heat = Heat::of_values(((value, 1.0), xs.len()), ((0.0, value), ys.len()), colours, at);
+    let map =
+        Panel::new(axis(axes.1, value), axis(axes.0, value)).layer(heat).colour_bar(Side::Right);
     Figure::new("any", "Any data: everything.")
         .columns(2)
         .shared_y()
@@ -144,10 +119,7 @@ fn line(ys: &[f64], name: &str) -> Line {
 }
 
 fn plot() -> Panel {
-    Panel::new(
-        Axis::new("time *t*", "s").tight(),
-        Axis::new("amplitude", "m").decades(3.0),
-    )
+    Panel::new(Axis::new("time *t*", "s").tight(), Axis::new("amplitude", "m").decades(3.0))
 }
 
 #[test]
@@ -156,18 +128,10 @@ fn legend_names_only_what_is_seen() {
         .layer(line(&[1.0, 2.0], "alive"))
         .layer(line(&[1e-9, 1e-9], "far below"))
         .layer(line(&[f64::NAN; 2], "missing"));
-    let svg = Figure::new("legend", "Legend.")
-        .panel(panel)
-        .to_svg(None)
-        .unwrap();
+    let svg = Figure::new("legend", "Legend.").panel(panel).to_svg(None).unwrap();
     let words = texts(&svg);
     assert!(words.iter().any(|word| word == "alive"));
-    assert!(
-        !words
-            .iter()
-            .any(|word| word == "far below" || word == "missing"),
-        "{words:?}"
-    );
+    assert!(!words.iter().any(|word| word == "far below" || word == "missing"), "{words:?}");
 }
 
 #[test]
@@ -178,11 +142,7 @@ fn figures_without_data_say_so_and_panels_without_data_are_marked() {
         .columns(2)
         .panel(plot())
         .panel(plot().layer(line(&[1.0, 2.0], "line")));
-    check(
-        "half-empty",
-        &half.to_svg(None).unwrap(),
-        &["no data", "(a)", "(b)", "line"],
-    );
+    check("half-empty", &half.to_svg(None).unwrap(), &["no data", "(a)", "(b)", "line"]);
 }
 
 #[test]
@@ -192,14 +152,8 @@ fn narrow_pages_stack_panels_and_keep_the_width_asked_for() {
     });
     let size = |width: Option<f64>| {
         let svg = figure.to_svg(width).unwrap();
-        let view = svg
-            .split("viewBox=\"0 0 ")
-            .nth(1)
-            .unwrap()
-            .split('"')
-            .next()
-            .unwrap()
-            .to_owned();
+        let view =
+            svg.split("viewBox=\"0 0 ").nth(1).unwrap().split('"').next().unwrap().to_owned();
         let mut parts = view.split(' ').map(|part| part.parse::<f64>().unwrap());
         (parts.next().unwrap(), parts.next().unwrap())
     };
@@ -227,14 +181,8 @@ fn markers_at_the_end_of_an_axis_are_whole() {
         .panel(panel.layer(Points::new([(0.0, 0.0), (1.0, 1.0)])))
         .to_svg(None)
         .unwrap();
-    let clipped = svg
-        .split("<g clip-path")
-        .nth(1)
-        .unwrap()
-        .split("</g>")
-        .next()
-        .unwrap()
-        .to_owned();
+    let clipped =
+        svg.split("<g clip-path").nth(1).unwrap().split("</g>").next().unwrap().to_owned();
     assert!(!clipped.contains("<path"), "{clipped}");
 }
 
@@ -255,11 +203,8 @@ fn texts_of_any_length_stay_on_the_sheet_at_every_width() {
         .layer(Rule::vertical(0.98).at_rim("mode 5"))
         .layer(Label::new((0.99, 1.99), "label at the rim"))
     };
-    let figure = Figure::new("long", "Long.")
-        .columns(2)
-        .note(long)
-        .panel(panel("one"))
-        .panel(panel("two"));
+    let figure =
+        Figure::new("long", "Long.").columns(2).note(long).panel(panel("one")).panel(panel("two"));
     for width in [70.0, 85.0, 120.0, 178.0] {
         let svg = figure.to_svg(Some(width)).unwrap();
         check_texts(&format!("long texts at {width} mm"), &svg);
@@ -270,20 +215,14 @@ fn texts_of_any_length_stay_on_the_sheet_at_every_width() {
 fn a_character_that_is_none_does_not_stop_a_drawing() {
     let caption = "title \u{fffe} and \u{ffff}";
     let panel = plot().caption(caption).layer(line(&[1.0, 2.0], caption));
-    let svg = Figure::new("none", caption)
-        .panel(panel)
-        .to_svg(None)
-        .unwrap();
+    let svg = Figure::new("none", caption).panel(panel).to_svg(None).unwrap();
     assert!(Drawing::parse(&svg).is_ok());
 }
 
 #[test]
 fn drawings_become_one_page_of_pdf_of_their_size() {
     let figure = Figure::new("page", "Page.").panel(plot().layer(line(&[1.0, 2.0], "line")));
-    let pdf = Drawing::parse(&figure.to_svg(None).unwrap())
-        .unwrap()
-        .to_pdf()
-        .unwrap();
+    let pdf = Drawing::parse(&figure.to_svg(None).unwrap()).unwrap().to_pdf().unwrap();
     let text = String::from_utf8_lossy(&pdf);
     assert!(
         pdf.starts_with(b"%PDF-1.7")

@@ -19,15 +19,9 @@ const LARGEST_SVG: usize = 600_000;
 /// The lines of text in a drawing.
 fn texts(svg: &str) -> Vec<String> {
     let document = resvg::usvg::roxmltree::Document::parse(svg).unwrap();
-    let lines = document
-        .descendants()
-        .filter(|node| node.has_tag_name("text"));
-    let words = lines.map(|node| {
-        node.descendants()
-            .filter(|d| d.is_text())
-            .filter_map(|d| d.text())
-            .collect()
-    });
+    let lines = document.descendants().filter(|node| node.has_tag_name("text"));
+    let words = lines
+        .map(|node| node.descendants().filter(|d| d.is_text()).filter_map(|d| d.text()).collect());
     words.collect()
 }
 
@@ -85,10 +79,7 @@ fn check_texts(name: &str, svg: &str) {
             let overlap = |k: usize| a[k + 2].min(b[k + 2]) - a[k].max(b[k]);
             // Boxes reach from the ascender to the descender: lines that touch there are apart.
             let is_apart = overlap(0) < 1.0 || overlap(1) < 3.0;
-            assert!(
-                is_apart,
-                "{name}: '{words}' and '{others}' lie on each other"
-            );
+            assert!(is_apart, "{name}: '{words}' and '{others}' lie on each other");
         }
     }
 }
@@ -124,9 +115,7 @@ fn check(name: &str, svg: &str, expected: &[&str]) {
 
 /// Part of the pixels that are not white.
 fn ink_fraction(png: &[u8]) -> f64 {
-    let mut reader = png::Decoder::new(std::io::Cursor::new(png))
-        .read_info()
-        .unwrap();
+    let mut reader = png::Decoder::new(std::io::Cursor::new(png)).read_info().unwrap();
     let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
     reader.next_frame(&mut pixels).unwrap();
     let is_inked = |pixel: &&[u8]| pixel.iter().any(|&channel| channel < 230);

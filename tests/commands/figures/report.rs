@@ -18,10 +18,7 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
     let field = BaseField {
         is_pressed: None,
         nodes: contact.clone(),
-        angles: contact
-            .iter()
-            .map(|&node| mesh.frame_angles()[node as usize])
-            .collect(),
+        angles: contact.iter().map(|&node| mesh.frame_angles()[node as usize]).collect(),
         pressures: vec![2.827e6; contact.len()],
         shears: vec![0.848e6; contact.len()],
         displacement: vec![0.0; 2 * mesh.node_count()],
@@ -34,11 +31,7 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
             })
             .collect(),
     };
-    let frictions: Vec<f64> = sweep
-        .points
-        .iter()
-        .map(|p| p.friction_coefficient)
-        .collect();
+    let frictions: Vec<f64> = sweep.points.iter().map(|p| p.friction_coefficient).collect();
     let report = CeaReport {
         has_harmonics: true,
         title: "Polycarbonate disc",
@@ -96,10 +89,7 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
         let folder =
             OutputFolder::open(&folder.path().join("out"), &manifest, Replace::Anything).unwrap();
         // How long the run took is no matter of its report: the same bytes another day.
-        let slower = CeaReport {
-            wall_s: 77.7,
-            ..report.clone()
-        };
+        let slower = CeaReport { wall_s: 77.7, ..report.clone() };
         draw(&folder, &slower, &dampings, &options).unwrap();
         let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
         assert!(!read("report.html").contains("77.70 s"));
@@ -119,13 +109,7 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
     ] {
         assert!(text.contains(wanted), "{wanted}");
     }
-    for name in [
-        "locus",
-        "pairs",
-        "prestress",
-        "modes-mu-0.3",
-        "branch-n1-0-against",
-    ] {
+    for name in ["locus", "pairs", "prestress", "modes-mu-0.3", "branch-n1-0-against"] {
         assert!(text.contains(&format!("<figure id=\"{name}\">")), "{name}");
         for extension in ["svg", "png"] {
             let file = path.join(format!("figures/{name}.{extension}"));

@@ -16,11 +16,7 @@ use frictionsim::transient::{
 #[test]
 fn a_run_gets_every_figure_of_its_record() {
     let annulus = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 60, 12)).unwrap();
-    let contact = SlidingContact {
-        decay: None,
-        friction_coefficient: 0.4,
-        ..contact(610.0)
-    };
+    let contact = SlidingContact { decay: None, friction_coefficient: 0.4, ..contact(610.0) };
     let rotation_speed = contact.rotation_speed;
     let model = TransientModel::of_annulus(&annulus, &POLYCARBONATE, DAMPING, contact);
     let settings = TransientSettings {
@@ -59,28 +55,18 @@ fn a_run_gets_every_figure_of_its_record() {
         thickness: 0.009,
         extent: Extent::MetreOfThickness,
         peripheral_speed: rotation_speed * 0.0205,
-        references: vec![ModeLine {
-            frequency_hz: 9901.0,
-            label: "mode 5, *n* = 2".into(),
-        }],
+        references: vec![ModeLine { frequency_hz: 9901.0, label: "mode 5, *n* = 2".into() }],
         growth_rates: growth.collect(),
         mode_rates: Vec::new(),
     };
     let started = std::time::Instant::now();
     let figures = draw_run(&data, &DrawingOptions::default()).unwrap();
-    println!(
-        "{} figures of a run drawn in {:?}",
-        figures.len(),
-        started.elapsed()
-    );
+    println!("{} figures of a run drawn in {:?}", figures.len(), started.elapsed());
     let expected: [(&str, &[&str]); 10] = [
         ("overview-196", &["node 196", "time t (ms)"]),
         ("spectrum-196", &["frequency f (kHz)"]),
         ("overview-203", &["contact status", "mode 5", "angle θ (°)"]),
-        (
-            "spectrum-203",
-            &["accelerations of node 203", "mode 5", "2f"],
-        ),
+        ("spectrum-203", &["accelerations of node 203", "mode 5", "2f"]),
         ("growth", &["n = 2", "amplitude of uθ (m)"]),
         ("velocity", &["velocity |v| (m/s)", "t = 19.50 ms"]),
         ("shear-stress", &["shear stress τrθ (MPa)"]),
@@ -94,10 +80,7 @@ fn a_run_gets_every_figure_of_its_record() {
         check(&format!("run-{name}"), &figure.svg, labels);
     }
     // One column of a page.
-    let narrow = DrawingOptions {
-        width_mm: Some(85.0),
-        ..DrawingOptions::default()
-    };
+    let narrow = DrawingOptions { width_mm: Some(85.0), ..DrawingOptions::default() };
     for figure in draw_run(&data, &narrow).unwrap() {
         check(&format!("run-{}-column", figure.name), &figure.svg, &[]);
     }

@@ -45,10 +45,7 @@ fn points_over_speed_show_harmonics_selection_and_end_of_stick() {
         })
         .collect();
     let modes = [(9901.0, "mode 5, *n* = 2"), (7660.0, "mode 3, *n* = 1")];
-    let modes = modes.map(|(frequency_hz, label)| ModeLine {
-        frequency_hz,
-        label: label.into(),
-    });
+    let modes = modes.map(|(frequency_hz, label)| ModeLine { frequency_hz, label: label.into() });
     let figures = draw_sweep(&records, (0.3, 1.0), &modes, &DrawingOptions::default()).unwrap();
     let names: Vec<&str> = figures.iter().map(|f| f.name.as_str()).collect();
     assert_eq!(names, ["frequencies", "status"]);
@@ -85,11 +82,7 @@ fn points_over_any_key_have_frequencies_and_status_too() {
         .collect();
     let figures = draw_sweep(&records, (0.3, 1.0), &[], &DrawingOptions::default()).unwrap();
     assert_eq!(figures.len(), 2);
-    check(
-        "study-interference",
-        &figures[0].svg,
-        &["interference δ", "main frequency f (kHz)"],
-    );
+    check("study-interference", &figures[0].svg, &["interference δ", "main frequency f (kHz)"]);
 }
 
 #[test]
@@ -117,11 +110,6 @@ fn eigenvalue_analyses_over_one_key_become_a_critical_friction_line_for_each_bra
     check(
         "critical-friction",
         &figures[0].svg,
-        &[
-            "stiffness damping βR (s)",
-            "n = 2, branch 0",
-            "stable",
-            "μ (–)",
-        ],
+        &["stiffness damping βR (s)", "n = 2, branch 0", "stable", "μ (–)"],
     );
 }

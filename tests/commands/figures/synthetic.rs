@@ -81,10 +81,7 @@ pub fn sweep(count: usize) -> FrictionSweep {
     let points = (0..count)
         .map(|i| {
             let friction_coefficient = i as f64 / (count - 1) as f64;
-            FrictionPoint {
-                friction_coefficient,
-                modes: modes(friction_coefficient, None),
-            }
+            FrictionPoint { friction_coefficient, modes: modes(friction_coefficient, None) }
         })
         .collect();
     let mut intervals = Vec::new();
@@ -130,11 +127,7 @@ pub fn shape(
         let argument =
             f64::from(direction) * harmonic as f64 * angle + f64::from(direction) * swirl * s * 3.0;
         let wave = c64::new(argument.cos(), -argument.sin()) * phase;
-        let radial = if harmonic == 0 {
-            0.0
-        } else {
-            0.5 * s * profile
-        };
+        let radial = if harmonic == 0 { 0.0 } else { 0.5 * s * profile };
         out.push(wave * c64::new(0.0, radial));
         out.push(wave * c64::new(profile, 0.0));
     }

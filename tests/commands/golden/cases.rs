@@ -25,14 +25,7 @@ const fn case(
     inputs: &'static [&'static str],
     options: &'static [&'static str],
 ) -> Case {
-    Case {
-        name,
-        command,
-        inputs,
-        options,
-        has_simd: true,
-        is_slow: false,
-    }
+    Case { name, command, inputs, options, has_simd: true, is_slow: false }
 }
 
 /// A run on a table.
@@ -42,10 +35,7 @@ const fn table(
     inputs: &'static [&'static str],
     options: &'static [&'static str],
 ) -> Case {
-    Case {
-        has_simd: false,
-        ..case(name, command, inputs, options)
-    }
+    Case { has_simd: false, ..case(name, command, inputs, options) }
 }
 
 /// A run at full size.
@@ -55,10 +45,7 @@ const fn slow(
     inputs: &'static [&'static str],
     options: &'static [&'static str],
 ) -> Case {
-    Case {
-        is_slow: true,
-        ..case(name, command, inputs, options)
-    }
+    Case { is_slow: true, ..case(name, command, inputs, options) }
 }
 
 const DISC: &[&str] = &["cases/polycarbonate-disc.toml"];
@@ -68,12 +55,7 @@ const CYCLE: &[&str] = &["cases/limit-cycle.toml"];
 
 /// All runs, in order: later ones read tables of earlier ones.
 pub const CASES: &[Case] = &[
-    case(
-        "cea",
-        "cea",
-        DISC,
-        &["--no-figures", "--set", "cea.shapes_at=[0.3]"],
-    ),
+    case("cea", "cea", DISC, &["--no-figures", "--set", "cea.shapes_at=[0.3]"]),
     case(
         "cea-sparse",
         "cea",
@@ -97,11 +79,7 @@ pub const CASES: &[Case] = &[
         "frf",
         "frf",
         &["cases/hammer-test.toml"],
-        &[
-            "--no-figures",
-            "--set",
-            "frf.frequencies_hz={from=4000,to=10000,count=1501}",
-        ],
+        &["--no-figures", "--set", "frf.frequencies_hz={from=4000,to=10000,count=1501}"],
     ),
     table("identify", "identify", &["frf/frf.csv"], &["--no-figures"]),
     case(
@@ -122,12 +100,7 @@ pub const CASES: &[Case] = &[
             "output.snapshots=[0.005]",
         ],
     ),
-    table(
-        "signal",
-        "signal",
-        &["transient/probe-196.csv"],
-        &["--no-figures"],
-    ),
+    table("signal", "signal", &["transient/probe-196.csv"], &["--no-figures"]),
     case(
         "cycle",
         "cycle",

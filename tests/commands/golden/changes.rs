@@ -8,12 +8,7 @@ const CHANGES: &[(&str, &str, &str, &str)] = &[
     ("*", "points/*", "summaries.cycle.wall_s", CLOCK),
     ("*", "points/*", "summaries.cycle.cycles[].wall_s", CLOCK),
     ("*", "points/*", "summaries.transient.wall_s", CLOCK),
-    (
-        "*",
-        "points/*",
-        "summaries.transient.element_steps_per_s",
-        CLOCK,
-    ),
+    ("*", "points/*", "summaries.transient.element_steps_per_s", CLOCK),
     ("transient*", "probe-*", "a_*", MEAN_ACCELERATION),
     ("signal", "*", "*", SIGNAL),
     ("transient*", "summary.json", "growth[]*", GROWTH),
@@ -23,12 +18,7 @@ const CHANGES: &[(&str, &str, &str, &str)] = &[
     ("*", "points.csv", "cycles.*", NAMED),
     // Its transient is two milliseconds long: two quantities fewer, whose rows shift the others.
     ("convergence", "convergence.csv", "*", GROWTH),
-    (
-        "convergence",
-        "summary.json",
-        "series[].quantities[]*",
-        GROWTH,
-    ),
+    ("convergence", "summary.json", "series[].quantities[]*", GROWTH),
     (
         "*",
         "*",
@@ -78,21 +68,14 @@ pub fn explains(case: &str, file: &str, key: &str) -> bool {
         Some(start) => name.starts_with(start),
         None => pattern == name,
     };
-    CHANGES
-        .iter()
-        .any(|(c, f, k, _)| fits(c, case) && fits(f, file) && fits(k, key))
+    CHANGES.iter().any(|(c, f, k, _)| fits(c, case) && fits(f, file) && fits(k, key))
 }
 
 /// Wall times and speeds.
 pub fn depends_on_the_clock(key: &str) -> bool {
-    [
-        "wall_s",
-        "core_s",
-        "points_per_core_hour",
-        "element_steps_per_s",
-    ]
-    .iter()
-    .any(|name| key.contains(name))
+    ["wall_s", "core_s", "points_per_core_hour", "element_steps_per_s"]
+        .iter()
+        .any(|name| key.contains(name))
 }
 
 /// Relative to the largest value of the column or list.

@@ -44,13 +44,9 @@ impl Numbers {
         let scale = self.largest.max(f64::MIN_POSITIVE);
         let sums =
             (self.sum_of_magnitudes - now.sum_of_magnitudes).abs() / self.count.max(1) as f64;
-        let worst = [
-            (self.first - now.first).abs(),
-            (self.last - now.last).abs(),
-            sums,
-        ]
-        .into_iter()
-        .fold(0.0, f64::max);
+        let worst = [(self.first - now.first).abs(), (self.last - now.last).abs(), sums]
+            .into_iter()
+            .fold(0.0, f64::max);
         (worst > tolerance * scale)
             .then(|| format!("differs by {:.1e} of its scale", worst / scale))
     }
@@ -70,17 +66,9 @@ fn run(binary: &Path, case: &Case, folder: &Path) -> Result {
     command.current_dir(folder).arg(case.command);
     for input in case.inputs {
         let shipped = repository().join(input);
-        command.arg(if shipped.exists() {
-            shipped
-        } else {
-            folder.join(input)
-        });
+        command.arg(if shipped.exists() { shipped } else { folder.join(input) });
     }
-    command
-        .args(case.options)
-        .arg("--out")
-        .arg(&out)
-        .arg("--quiet");
+    command.args(case.options).arg("--out").arg(&out).arg("--quiet");
     if case.has_simd {
         command.args(["--simd", "scalar"]);
     }
@@ -93,17 +81,11 @@ fn run(binary: &Path, case: &Case, folder: &Path) -> Result {
 }
 
 fn read_folder(root: &Path, folder: &Path, result: &mut Result) {
-    let mut entries: Vec<PathBuf> = fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().path())
-        .collect();
+    let mut entries: Vec<PathBuf> =
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     entries.sort();
     for path in entries {
-        let name = path
-            .strip_prefix(root)
-            .unwrap()
-            .to_string_lossy()
-            .replace('\\', "/");
+        let name = path.strip_prefix(root).unwrap().to_string_lossy().replace('\\', "/");
         if path.is_dir() {
             read_folder(root, &path, result);
             continue;
@@ -125,12 +107,7 @@ fn read_folder(root: &Path, folder: &Path, result: &mut Result) {
 
 fn read_table(path: &Path) -> BTreeMap<String, Numbers> {
     let mut reader = csv::Reader::from_path(path).unwrap();
-    let names: Vec<String> = reader
-        .headers()
-        .unwrap()
-        .iter()
-        .map(str::to_owned)
-        .collect();
+    let names: Vec<String> = reader.headers().unwrap().iter().map(str::to_owned).collect();
     let mut columns: Vec<Numbers> = vec![Numbers::default(); names.len()];
     for row in reader.records() {
         for (column, text) in columns.iter_mut().zip(row.unwrap().iter()) {
@@ -200,9 +177,8 @@ fn every_command_gives_the_keys_columns_and_numbers_of_version_0_1_0() {
     let folder = tempfile::tempdir().unwrap();
     let frozen_path = repository().join("tests/commands/golden/frozen.json");
     let freezing = std::env::var_os("GOLDEN_FREEZE").map(PathBuf::from);
-    let binary = freezing
-        .clone()
-        .unwrap_or_else(|| PathBuf::from(env!("CARGO_BIN_EXE_frictionsim")));
+    let binary =
+        freezing.clone().unwrap_or_else(|| PathBuf::from(env!("CARGO_BIN_EXE_frictionsim")));
     let with_slow = freezing.is_some() || std::env::var_os("GOLDEN_SLOW").is_some();
     let mut now = BTreeMap::new();
     for case in CASES.iter().filter(|case| with_slow || !case.is_slow) {
@@ -215,9 +191,7 @@ fn every_command_gives_the_keys_columns_and_numbers_of_version_0_1_0() {
     }
     let text = fs::read_to_string(&frozen_path).unwrap();
     let frozen: BTreeMap<String, Result> = serde_json::from_str(&text).unwrap();
-    let differences: Vec<String> = now
-        .iter()
-        .flat_map(|(name, result)| compare(name, &frozen[name], result))
-        .collect();
+    let differences: Vec<String> =
+        now.iter().flat_map(|(name, result)| compare(name, &frozen[name], result)).collect();
     assert!(differences.is_empty(), "{}", differences.join("\n"));
 }

@@ -112,9 +112,7 @@ fn bar_rebounds_from_a_rigid_wall_as_one_dimensional_theory_says() {
     settings.time_step = TimeStep::Auto;
 
     // Every node but the clamped ones moves inwards.
-    let mut state = CentralDifference::start(model, operator.as_ref(), &settings)
-        .unwrap()
-        .state();
+    let mut state = CentralDifference::start(model, operator.as_ref(), &settings).unwrap().state();
     let masses = lumped_masses(&annulus.mesh, model.material);
     let mut is_free = vec![true; masses.len()];
     annulus

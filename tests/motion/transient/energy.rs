@@ -22,12 +22,7 @@ fn every_joule_is_accounted_for_through_stick_slip_and_separation() {
         run.run(&mut record).unwrap();
         for row in &record.rows {
             // Ten thousand steps of round-off 1e-16.
-            assert!(
-                row.balance_residual < 1e-12,
-                "{} s: {:e}",
-                row.time,
-                row.balance_residual
-            );
+            assert!(row.balance_residual < 1e-12, "{} s: {:e}", row.time, row.balance_residual);
             let powers = &row.powers;
             let parts = powers.stick + powers.slide + powers.contact_dissipated;
             assert!((powers.external - parts).abs() <= 1e-10 * powers.external.abs().max(1.0));

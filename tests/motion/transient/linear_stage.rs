@@ -34,9 +34,7 @@ fn harmonic(
         .collect();
     let place = |dof: usize| {
         let sector = dof / 2 / per_sector;
-        let within = local
-            .binary_search(&(dof - 2 * per_sector * sector))
-            .unwrap();
+        let within = local.binary_search(&(dof - 2 * per_sector * sector)).unwrap();
         (sector, within)
     };
     let values = polynomial.evaluate(0.3);
@@ -72,20 +70,13 @@ fn least_stable(model: &TransientModel<'_>, n: usize) -> c64 {
     let mass = harmonic(&tangent.mass, &tangent, model.annulus.unwrap(), n);
     let stiffness = harmonic(&tangent.stiffness, &tangent, model.annulus.unwrap(), n);
     let reduced = mass.partial_piv_lu().solve(&stiffness);
-    let (alpha, beta) = (
-        model.damping.mass_coefficient,
-        model.damping.stiffness_coefficient,
-    );
-    let roots = reduced
-        .eigenvalues()
-        .unwrap()
-        .into_iter()
-        .flat_map(|kappa| {
-            // lambda^2 + (alpha + beta kappa) lambda + kappa = 0
-            let half = (kappa * beta + alpha) * 0.5;
-            let root = (half * half - kappa).sqrt();
-            [root - half, -root - half]
-        });
+    let (alpha, beta) = (model.damping.mass_coefficient, model.damping.stiffness_coefficient);
+    let roots = reduced.eigenvalues().unwrap().into_iter().flat_map(|kappa| {
+        // lambda^2 + (alpha + beta kappa) lambda + kappa = 0
+        let half = (kappa * beta + alpha) * 0.5;
+        let root = (half * half - kappa).sqrt();
+        [root - half, -root - half]
+    });
     roots.max_by(|a, b| a.re.total_cmp(&b.re)).unwrap()
 }
 

@@ -8,21 +8,12 @@ use frictionsim::transient::{
 use std::ops::ControlFlow;
 
 pub fn disc(circumferential_elements: usize, radial_elements: usize) -> AnnulusMesh {
-    let specification = annulus(
-        ElementKind::Quad4,
-        circumferential_elements,
-        radial_elements,
-    );
+    let specification = annulus(ElementKind::Quad4, circumferential_elements, radial_elements);
     AnnulusMesh::generate(&specification).unwrap()
 }
 
 pub fn model(annulus: &AnnulusMesh, rotation_speed_rpm: f64) -> TransientModel<'_> {
-    TransientModel::of_annulus(
-        annulus,
-        &POLYCARBONATE,
-        DAMPING,
-        contact(rotation_speed_rpm),
-    )
+    TransientModel::of_annulus(annulus, &POLYCARBONATE, DAMPING, contact(rotation_speed_rpm))
 }
 
 pub fn settings(duration: f64, harmonics: &[usize]) -> TransientSettings {

@@ -16,14 +16,8 @@ use frictionsim::transient::{
 };
 
 const LAWS: [NormalLaw; 2] = [
-    NormalLaw::Exponential {
-        reference_pressure: 2e5,
-        height: 2e-6,
-    },
-    NormalLaw::Cubic {
-        stiffness: 5e11,
-        cubic_stiffness: 2e23,
-    },
+    NormalLaw::Exponential { reference_pressure: 2e5, height: 2e-6 },
+    NormalLaw::Cubic { stiffness: 5e11, cubic_stiffness: 2e23 },
 ];
 
 fn stiffening(law: NormalLaw) -> ContactStiffness {
@@ -46,10 +40,7 @@ fn disc(stiffness: ContactStiffness, mesh: &AnnulusMesh) -> TransientModel<'_> {
 fn every_joule_is_accounted_for_on_contact_that_stiffens() {
     let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 45, 9)).unwrap();
     for law in LAWS {
-        let damped = ContactStiffness {
-            normal_damping: 1e5,
-            ..stiffening(law)
-        };
+        let damped = ContactStiffness { normal_damping: 1e5, ..stiffening(law) };
         for stiffness in [stiffening(law), damped] {
             let model = disc(stiffness, &mesh);
             let operator =
@@ -61,11 +52,7 @@ fn every_joule_is_accounted_for_on_contact_that_stiffens() {
             run.run(&mut record).unwrap();
             for row in &record.rows {
                 // Ten thousand steps of round-off 1e-16.
-                assert!(
-                    row.balance_residual < 1e-12,
-                    "{law:?} {:e}",
-                    row.balance_residual
-                );
+                assert!(row.balance_residual < 1e-12, "{law:?} {:e}", row.balance_residual);
             }
             let open: u64 = record.rows.iter().map(|row| row.counts.open).sum();
             let stored = record.rows.iter().map(|row| row.contact_energy);
@@ -90,10 +77,7 @@ fn steady_sliding_on_a_law_stays_where_it_is() {
         let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
         run.run(&mut Watch(|sample: &Sample<'_>| {
             for (found, exact) in sample.normal_force().iter().zip(&exact) {
-                assert!(
-                    (found / exact - 1.0).abs() < 1e-8,
-                    "{law:?} {found} {exact}"
-                );
+                assert!((found / exact - 1.0).abs() < 1e-8, "{law:?} {found} {exact}");
             }
         }))
         .unwrap();

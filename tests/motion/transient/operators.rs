@@ -36,9 +36,7 @@ fn both_operators_equal_the_assembled_matrix_on_any_mesh() {
         let force = stiffness.multiply(total, &x);
         let masses = lumped_masses(&annulus.mesh, &material);
         let mut expected = vec![0.0; total];
-        free.dofs
-            .iter()
-            .for_each(|&dof| expected[dof] = force[dof] / masses[dof / 2]);
+        free.dofs.iter().for_each(|&dof| expected[dof] = force[dof] / masses[dof / 2]);
         for level in LEVELS.into_iter().filter(|level| level.available().is_ok()) {
             let operators: [Box<dyn StiffnessOperator>; 2] = [
                 Box::new(CyclicStencil::assemble(&annulus, &material, level).unwrap()),
@@ -86,10 +84,9 @@ fn stencil_and_sparse_rows_give_the_same_motion_through_contact() {
     assert!(cyclic.step >= 3000, "{}", cyclic.step);
     assert!(counts.iter().all(|&count| count > 1000), "{counts:?}");
     assert_eq!(counts, sparse_counts);
-    for (a, b) in [
-        (&cyclic.displacement, &sparse.displacement),
-        (&cyclic.velocity, &sparse.velocity),
-    ] {
+    for (a, b) in
+        [(&cyclic.displacement, &sparse.displacement), (&cyclic.velocity, &sparse.velocity)]
+    {
         // Round-off of 1e-16 a step, amplified where a status changes; no status changed its step.
         let error = largest_difference(a, b) / largest(a);
         assert!(error < 1e-10, "{error:e}");
@@ -109,11 +106,7 @@ fn avx2_and_avx512_give_the_same_bits_and_scalar_the_same_motion() {
             let error = largest_difference(&state.displacement, &scalar.displacement)
                 / largest(&scalar.displacement);
             assert!(error < 1e-10, "{choice:?} {level}: {error:e}");
-            assert_eq!(
-                *fused.get_or_insert_with(|| state.clone()),
-                state,
-                "{choice:?}"
-            );
+            assert_eq!(*fused.get_or_insert_with(|| state.clone()), state, "{choice:?}");
         }
     }
 }
@@ -180,18 +173,10 @@ fn a_large_body_moves_as_with_the_stencil_and_to_the_same_bits_on_any_number_of_
     let [cyclic, sparse] = &operators;
     let dofs = cyclic.dof_count();
     assert!((0..dofs).any(|dof| sparse.position(dof) != dof));
-    let held: Vec<bool> = (0..dofs)
-        .map(|dof| cyclic.masses()[cyclic.position(dof)] == 0.0)
-        .collect();
-    let start: Vec<f64> = (0..dofs)
-        .map(|dof| {
-            if held[dof] {
-                0.0
-            } else {
-                (1.7 * dof as f64).sin()
-            }
-        })
-        .collect();
+    let held: Vec<bool> =
+        (0..dofs).map(|dof| cyclic.masses()[cyclic.position(dof)] == 0.0).collect();
+    let start: Vec<f64> =
+        (0..dofs).map(|dof| if held[dof] { 0.0 } else { (1.7 * dof as f64).sin() }).collect();
     let coefficients = StepCoefficients {
         time_step: 1e-8,
         mass_coefficient: model.damping.mass_coefficient,
@@ -208,9 +193,7 @@ fn a_large_body_moves_as_with_the_stencil_and_to_the_same_bits_on_any_number_of_
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let powers: Vec<f64> = pool.unwrap().install(|| {
             operator.multiply(&mut fields.velocity, &mut fields.elastic_rate);
-            (0..4)
-                .map(|_| operator.advance(&mut fields, &coefficients))
-                .collect()
+            (0..4).map(|_| operator.advance(&mut fields, &coefficients)).collect()
         });
         (gather(operator, &fields.elastic), powers)
     };
@@ -223,9 +206,6 @@ fn a_large_body_moves_as_with_the_stencil_and_to_the_same_bits_on_any_number_of_
         assert!((power / expected - 1.0).abs() < 1e-12);
     }
     for threads in [2, 3] {
-        assert_eq!(
-            moved(sparse.as_ref(), threads),
-            (alone.clone(), powers.clone())
-        );
+        assert_eq!(moved(sparse.as_ref(), threads), (alone.clone(), powers.clone()));
     }
 }

@@ -34,10 +34,7 @@ fn restarted_run_equals_uninterrupted_run_bitwise() {
     let rigid = model(&annulus, 610.0);
     // Friction that remembers nothing and springs that are where their nodes are.
     let mut compliant = rigid;
-    compliant.contact.decay = Some(FrictionDecay {
-        static_ratio: 1.4,
-        decay_speed: 0.5,
-    });
+    compliant.contact.decay = Some(FrictionDecay { static_ratio: 1.4, decay_speed: 0.5 });
     compliant.stiffness = ContactStiffness {
         normal_stiffness: Some(2e12),
         normal_damping: 1e5,
@@ -65,11 +62,8 @@ fn restarted_run_equals_uninterrupted_run_bitwise() {
         let end = run.state();
 
         let mut first = start();
-        let mut stop = StopAt {
-            record: Recorder::new(&first, &wanted).unwrap(),
-            index: 617,
-            saved: None,
-        };
+        let mut stop =
+            StopAt { record: Recorder::new(&first, &wanted).unwrap(), index: 617, saved: None };
         assert_eq!(first.run(&mut stop).unwrap(), RunEnd::Stopped);
         let (state, mut record): (TransientState, Recorder) =
             postcard::from_bytes(&stop.saved.unwrap()).unwrap();
@@ -86,10 +80,7 @@ fn restarted_run_equals_uninterrupted_run_bitwise() {
 fn runs_are_bitwise_equal_inside_thread_pools_of_any_size() {
     let annulus = disc(30, 6);
     let end = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .unwrap();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             let model = model(&annulus, 610.0);
             let operator =
@@ -109,20 +100,12 @@ fn a_state_of_another_mesh_is_refused() {
     let saved = {
         let model = model(&small, 600.0);
         let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
-        CentralDifference::start(model, operator.as_ref(), &settings(1e-3, &[1]))
-            .unwrap()
-            .state()
+        CentralDifference::start(model, operator.as_ref(), &settings(1e-3, &[1])).unwrap().state()
     };
     let model = model(&large, 600.0);
     let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let error = CentralDifference::resume(model, operator.as_ref(), &settings(1e-3, &[1]), &saved)
         .err()
         .unwrap();
-    assert_eq!(
-        error,
-        TransientError::ForeignState {
-            found: 96,
-            expected: 120
-        }
-    );
+    assert_eq!(error, TransientError::ForeignState { found: 96, expected: 120 });
 }

@@ -25,11 +25,7 @@ fn each_harmonic_has_its_own_velocity_and_its_crest_at_its_phase() {
     let waves = [(1, 0.01, 0.3), (3, 0.07, -1.1), (20, 0.002, 0.0)];
     let perturbation = Perturbation {
         waves: waves
-            .map(|(harmonic, velocity, phase)| StandingWave {
-                harmonic,
-                velocity,
-                phase,
-            })
+            .map(|(harmonic, velocity, phase)| StandingWave { harmonic, velocity, phase })
             .to_vec(),
         ..Perturbation::default()
     };
@@ -54,22 +50,13 @@ fn each_harmonic_has_its_own_velocity_and_its_crest_at_its_phase() {
 fn noise_has_its_standard_deviation_in_both_directions_and_spares_the_clamped_edge() {
     let annulus = disc(90, 30);
     let noise = |seed: u64| {
-        let perturbation = Perturbation {
-            noise: 2e-3,
-            noise_seed: seed,
-            ..Perturbation::default()
-        };
+        let perturbation =
+            Perturbation { noise: 2e-3, noise_seed: seed, ..Perturbation::default() };
         perturbation.field(&model(&annulus, 610.0)).unwrap()
     };
     let field = noise(1);
-    let clamped = |node: usize| {
-        annulus
-            .mesh
-            .boundary("outer")
-            .unwrap()
-            .nodes
-            .contains(&(node as u32))
-    };
+    let clamped =
+        |node: usize| annulus.mesh.boundary("outer").unwrap().nodes.contains(&(node as u32));
     for component in 0..2 {
         let values: Vec<f64> = (0..annulus.mesh.node_count())
             .filter(|&node| !clamped(node))

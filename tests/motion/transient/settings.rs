@@ -28,10 +28,7 @@ fn a_setting_that_does_not_fit_is_named_with_its_bound() {
         s.time_step = TimeStep::Seconds(1e-6);
         s.sample_interval = 1e-9;
     });
-    assert!(
-        message.contains("sample_interval = 1e-9 s is below"),
-        "{message}"
-    );
+    assert!(message.contains("sample_interval = 1e-9 s is below"), "{message}");
     let message = failure(|s| s.perturbation = Perturbation::of(&[13], 1e-3));
     assert!(message.contains("holds 13, above 12"), "{message}");
     let message = failure(|s| s.expansion_time = -1.0);
@@ -86,10 +83,7 @@ fn a_run_that_leaves_the_numbers_says_when_where_and_why() {
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
     let error = run.run(&mut Watch(|_: &Sample<'_>| {})).unwrap_err();
     let message = error.to_string();
-    assert!(
-        matches!(error, TransientError::Unstable { .. }),
-        "{message}"
-    );
+    assert!(matches!(error, TransientError::Unstable { .. }), "{message}");
     for part in ["at t = ", "node is ", "degrees", "rotation speed"] {
         assert!(message.contains(part), "{message}");
     }

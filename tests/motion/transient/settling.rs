@@ -35,10 +35,9 @@ fn torus() -> Recorder {
 #[test]
 fn a_vibration_of_two_frequencies_is_no_limit_cycle() {
     let record = torus();
-    for analysis in [
-        TransientAnalysis::of(&record, &[1, 2]),
-        TransientAnalysis::without_symmetry(&record),
-    ] {
+    for analysis in
+        [TransientAnalysis::of(&record, &[1, 2]), TransientAnalysis::without_symmetry(&record)]
+    {
         // Every harmonic keeps its amplitude: only the frequencies tell.
         assert!(analysis.settling.is_settled());
         let EndState::TwoFrequency(found) = analysis.settling.state else {
@@ -48,10 +47,7 @@ fn a_vibration_of_two_frequencies_is_no_limit_cycle() {
         let [first, second] = found.frequencies_hz;
         assert!((first / 10_395.0 - 1.0).abs() < 0.01, "{found:?}");
         assert!((second / 9500.0 - 1.0).abs() < 0.01, "{found:?}");
-        assert!(
-            (1.4..3.0).contains(&found.envelope_ratio),
-            "{found:?}: (1 + 1/3) / (1 - 1/3) = 2"
-        );
+        assert!((1.4..3.0).contains(&found.envelope_ratio), "{found:?}: (1 + 1/3) / (1 - 1/3) = 2");
     }
 }
 
@@ -67,10 +63,7 @@ fn a_run_that_is_too_short_says_the_duration_that_is_enough() {
     // Five times four blocks of eight periods near 10 kHz, and a tenth more.
     assert!((0.016..0.02).contains(&duration), "{duration}");
     let then = reason(duration);
-    assert!(
-        !matches!(then, Some(Unsettled::TooShort { .. })),
-        "{then:?}"
-    );
+    assert!(!matches!(then, Some(Unsettled::TooShort { .. })), "{then:?}");
 }
 
 fn seeded(duration: f64, velocity: f64) -> TransientSettings {
@@ -100,20 +93,14 @@ fn a_growing_vibration_is_no_limit_cycle_and_a_saturated_one_is() {
 fn a_run_that_stops_where_it_has_settled_is_the_beginning_of_the_longer_one() {
     let settings = seeded(0.05, 0.5);
     let (whole, _) = run(610.0, &settings, &RecorderSettings::default());
-    let wanted = RecorderSettings {
-        stop_when_settled: true,
-        ..RecorderSettings::default()
-    };
+    let wanted = RecorderSettings { stop_when_settled: true, ..RecorderSettings::default() };
     let (stopped, end) = run(610.0, &settings, &wanted);
     assert_eq!(end, RunEnd::Stopped);
     assert!(stopped.has_stopped);
     let count = stopped.rows.len();
     assert!(count > 1000 && count < whole.rows.len());
     assert_eq!(stopped.rows, whole.rows[..count]);
-    assert_eq!(
-        TransientAnalysis::of(&stopped, &[]).settling.state,
-        EndState::LimitCycle
-    );
+    assert_eq!(TransientAnalysis::of(&stopped, &[]).settling.state, EndState::LimitCycle);
 }
 
 #[test]
@@ -199,10 +186,6 @@ fn the_acceleration_of_a_probe_is_the_change_of_its_velocity_over_the_interval()
     // A contact node lands within one step: by chance that step is sampled, and its acceleration is many times the mean.
     let peak = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |m: f64, v| m.max(v.abs()));
     let mean = peak(&mut record.probe_rows[0].iter().map(|row| row[4]));
-    let step = peak(
-        &mut record.raw_accelerations.as_ref().unwrap()[0]
-            .iter()
-            .map(|a| a[0]),
-    );
+    let step = peak(&mut record.raw_accelerations.as_ref().unwrap()[0].iter().map(|a| a[0]));
     assert!(step > 1.5 * mean, "{step} {mean}");
 }

@@ -31,10 +31,7 @@ const STEEL: ElasticMaterial = ElasticMaterial {
 const OPTIONS: TangentOptions = TangentOptions {
     mass: MassKind::Consistent,
     geometric_stiffness: false,
-    damping: RayleighDamping {
-        mass_coefficient: 0.0,
-        stiffness_coefficient: 0.0,
-    },
+    damping: RayleighDamping { mass_coefficient: 0.0, stiffness_coefficient: 0.0 },
     damping_model: DampingModel::WholeTangent,
     contact: ContactStiffness {
         law: None,
@@ -48,10 +45,8 @@ const OPTIONS: TangentOptions = TangentOptions {
 };
 
 fn mesh_of(bytes: &[u8], conditions: &[(&str, BoundaryCondition)]) -> Mesh {
-    let conditions: Vec<_> = conditions
-        .iter()
-        .map(|&(name, condition)| (name.to_owned(), condition))
-        .collect();
+    let conditions: Vec<_> =
+        conditions.iter().map(|&(name, condition)| (name.to_owned(), condition)).collect();
     Mesh::from_solids(&GmshFile::read(bytes).unwrap(), 1.0, &conditions).unwrap()
 }
 
@@ -66,14 +61,8 @@ fn sliding(mesh: &Mesh, normal_stiffness: Option<f64>) -> SlidingSurfaces {
         name: "pad".to_owned(),
         surface: boundary(mesh, "upper_z0"),
         counter: Counterpart::Surface(boundary(mesh, "lower_z1")),
-        friction: PairFriction {
-            ratio: 1.0,
-            decay: None,
-        },
-        stiffness: ContactStiffness {
-            normal_stiffness,
-            ..ContactStiffness::default()
-        },
+        friction: PairFriction { ratio: 1.0, decay: None },
+        stiffness: ContactStiffness { normal_stiffness, ..ContactStiffness::default() },
         law: None,
         topography: None,
     }
@@ -82,23 +71,12 @@ fn sliding(mesh: &Mesh, normal_stiffness: Option<f64>) -> SlidingSurfaces {
 /// The lower block turns about an axis far away.
 fn turning(mesh: &Mesh, axis: [f64; 3], center: [f64; 3]) -> Motion {
     let region = mesh.regions.iter().position(|name| name == "lower");
-    Motion {
-        regions: vec![region.unwrap()],
-        axis,
-        center,
-        rotation_speed: 10.0,
-        inertia: None,
-    }
+    Motion { regions: vec![region.unwrap()], axis, center, rotation_speed: 10.0, inertia: None }
 }
 
 fn stacked(gap: f64) -> [Block; 2] {
     [
-        Block {
-            name: "lower",
-            origin: [0.0; 3],
-            size: [0.05, 0.04, 0.02],
-            counts: [5, 3, 2],
-        },
+        Block { name: "lower", origin: [0.0; 3], size: [0.05, 0.04, 0.02], counts: [5, 3, 2] },
         Block {
             name: "upper",
             origin: [0.0, 0.0, 0.02 + gap],
@@ -238,20 +216,14 @@ fn a_frozen_state_has_the_same_tangent_above() {
 fn largest_difference(a: &[c64], b: &[c64]) -> f64 {
     assert_eq!(a.len(), b.len());
     let pairs = a.iter().zip(b);
-    pairs
-        .map(|(a, b)| (a - b).norm() / a.norm())
-        .fold(0.0, f64::max)
+    pairs.map(|(a, b)| (a - b).norm() / a.norm()).fold(0.0, f64::max)
 }
 
 #[test]
 fn a_tie_of_two_halves_has_the_spectrum_of_the_whole() {
     let clamped = [("whole_z0", BoundaryCondition::Clamped)];
-    let whole = [Block {
-        name: "whole",
-        origin: [0.0; 3],
-        size: [0.05, 0.04, 0.04],
-        counts: [4, 3, 4],
-    }];
+    let whole =
+        [Block { name: "whole", origin: [0.0; 3], size: [0.05, 0.04, 0.04], counts: [4, 3, 4] }];
     let whole = mesh_of(&file_of(&whole, |point| point), &clamped);
     let expected = Assembly::new(&whole, &STEEL, &[], &[], &[], BaseChoice::Closed).unwrap();
     let half = |name: &'static str, height: f64| Block {
@@ -278,11 +250,7 @@ fn turned([x, y, z]: [f64; 3]) -> [f64; 3] {
     let axis = [2.0 / 7.0, 3.0 / 7.0, 6.0 / 7.0];
     let (sin, cos) = 0.83_f64.sin_cos();
     let along = axis[0] * x + axis[1] * y + axis[2] * z;
-    let cross = [
-        axis[1] * z - axis[2] * y,
-        axis[2] * x - axis[0] * z,
-        axis[0] * y - axis[1] * x,
-    ];
+    let cross = [axis[1] * z - axis[2] * y, axis[2] * x - axis[0] * z, axis[0] * y - axis[1] * x];
     let point = [x, y, z];
     std::array::from_fn(|c| cos * point[c] + sin * cross[c] + (1.0 - cos) * along * axis[c])
 }
@@ -295,10 +263,7 @@ fn an_assembly_turned_in_space_keeps_its_spectrum() {
     // A pad that covers part of the lower block, held on its top.
     blocks[1].origin = [0.012, 0.007, 0.02];
     blocks[1].size = [0.03, 0.025, 0.012];
-    let held = [
-        ("lower_z0", BoundaryCondition::Clamped),
-        ("upper_x0", BoundaryCondition::Clamped),
-    ];
+    let held = [("lower_z0", BoundaryCondition::Clamped), ("upper_x0", BoundaryCondition::Clamped)];
     let center = [0.3, 0.01, 0.0];
     for normal_stiffness in [Some(1e14), None] {
         let spectrum = |place: fn([f64; 3]) -> [f64; 3]| {
@@ -316,11 +281,7 @@ fn an_assembly_turned_in_space_keeps_its_spectrum() {
         let error = largest_difference(&straight, &turned);
         println!("{normal_stiffness:?} {error:e} {:?}", straight[0]);
         assert!(error < 1e-9, "{normal_stiffness:?} {error:e}");
-        assert!(
-            straight
-                .iter()
-                .any(|lambda| lambda.re.abs() > 1e-6 * lambda.im)
-        );
+        assert!(straight.iter().any(|lambda| lambda.re.abs() > 1e-6 * lambda.im));
     }
 }
 
@@ -341,33 +302,21 @@ fn refusal(blocks: &[Block], sides: [&str; 2]) -> String {
 fn surfaces_that_make_no_contact_are_named_with_the_remedy() {
     let near = stacked(0.0);
     let cases = [
-        (
-            refusal(&stacked(0.03), ["upper_z0", "lower_z1"]),
-            "3.000e-2 m apart",
-        ),
+        (refusal(&stacked(0.03), ["upper_z0", "lower_z1"]), "3.000e-2 m apart"),
         (refusal(&near, ["upper_z0", "lower_x1"]), "never meet"),
-        (
-            refusal(&near, ["upper_z1", "lower_z1"]),
-            "point the same way",
-        ),
+        (refusal(&near, ["upper_z1", "lower_z1"]), "point the same way"),
     ];
     for (message, wanted) in &cases {
         assert!(message.starts_with("contacts.pad: "), "{message}");
         assert!(message.contains(wanted), "{message}");
-        assert!(
-            message.contains("name") || message.contains("move"),
-            "{message}"
-        );
+        assert!(message.contains("name") || message.contains("move"), "{message}");
     }
 }
 
 #[test]
 fn a_motion_that_leaves_surfaces_at_rest_is_refused() {
     let mesh = mesh_of(&file_of(&stacked(0.0), |point| point), &[]);
-    let still = Motion {
-        rotation_speed: 0.0,
-        ..turning(&mesh, [0.0, 0.0, 1.0], [1.0, 0.3, 0.0])
-    };
+    let still = Motion { rotation_speed: 0.0, ..turning(&mesh, [0.0, 0.0, 1.0], [1.0, 0.3, 0.0]) };
     let contact = sliding(&mesh, Some(1e14));
     let closed = BaseChoice::Closed;
     let found = Assembly::new(&mesh, &STEEL, &[], &[contact], &[still], closed);

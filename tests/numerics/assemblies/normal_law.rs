@@ -11,14 +11,8 @@ use frictionsim::mesh::Mesh;
 use frictionsim::prestress::{Assembly, BaseChoice, SlidingSurfaces};
 
 const LAWS: [NormalLaw; 2] = [
-    NormalLaw::Exponential {
-        reference_pressure: 2e6,
-        height: 5e-6,
-    },
-    NormalLaw::Cubic {
-        stiffness: 1e12,
-        cubic_stiffness: 4e22,
-    },
+    NormalLaw::Exponential { reference_pressure: 2e6, height: 5e-6 },
+    NormalLaw::Cubic { stiffness: 1e12, cubic_stiffness: 4e22 },
 ];
 
 fn bar() -> Mesh {
@@ -26,10 +20,7 @@ fn bar() -> Mesh {
 }
 
 fn stiffening(mesh: &Mesh, law: NormalLaw) -> SlidingSurfaces {
-    SlidingSurfaces {
-        law: Some(law),
-        ..sliding(mesh, Some(law.stiffness(0.0)))
-    }
+    SlidingSurfaces { law: Some(law), ..sliding(mesh, Some(law.stiffness(0.0))) }
 }
 
 fn solved<'a>(mesh: &'a Mesh, contact: SlidingSurfaces) -> Assembly<'a> {
@@ -45,10 +36,9 @@ fn a_bar_under_pressure_sinks_by_the_approach_of_the_law() {
         let assembly = solved(&mesh, stiffening(&mesh, law));
         let range = assembly.range(&[0.0]).unwrap();
         let approach = match law {
-            NormalLaw::Exponential {
-                reference_pressure,
-                height,
-            } => height * (1.0 + 1e8 / reference_pressure).ln(),
+            NormalLaw::Exponential { reference_pressure, height } => {
+                height * (1.0 + 1e8 / reference_pressure).ln()
+            }
             NormalLaw::Cubic { .. } => law.approach(1e8),
         };
         assert!((law.pressure(approach) / 1e8 - 1.0).abs() < 1e-12);
@@ -68,11 +58,7 @@ fn small_motions_are_those_of_the_stiffness_at_the_pressure() {
     };
     for law in LAWS {
         let stiffness = law.stiffness(law.approach(1e8));
-        if let NormalLaw::Exponential {
-            reference_pressure,
-            height,
-        } = law
-        {
+        if let NormalLaw::Exponential { reference_pressure, height } = law {
             assert!((stiffness * height / (1e8 + reference_pressure) - 1.0).abs() < 1e-12);
         }
         // Without friction the pressure is the same everywhere; with it, it is not.
@@ -89,10 +75,7 @@ fn small_motions_are_those_of_the_stiffness_at_the_pressure() {
 #[test]
 fn a_law_that_hardly_stiffens_is_linear_contact() {
     let mesh = bar();
-    let law = NormalLaw::Cubic {
-        stiffness: 1e13,
-        cubic_stiffness: 1e8,
-    };
+    let law = NormalLaw::Cubic { stiffness: 1e13, cubic_stiffness: 1e8 };
     let linear = solved(&mesh, sliding(&mesh, Some(1e13)));
     let own = solved(&mesh, stiffening(&mesh, law));
     let error = largest_difference(&eigenvalues(&linear, 0.4, 6), &eigenvalues(&own, 0.4, 6));

@@ -14,10 +14,7 @@ use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 
 const DAMPED: TangentOptions = TangentOptions {
-    damping: RayleighDamping {
-        mass_coefficient: 30.0,
-        stiffness_coefficient: 2e-8,
-    },
+    damping: RayleighDamping { mass_coefficient: 30.0, stiffness_coefficient: 2e-8 },
     ..OPTIONS
 };
 
@@ -45,10 +42,7 @@ fn pole(lines: [f64; 3], h: [c64; 3]) -> c64 {
 fn the_response_of_a_sliding_assembly_has_the_poles_of_its_eigenvalue_analysis() {
     let mesh = mesh_of(&file_of(&stacked(0.0), |point| point), &PRESSED);
     let motion = turning(&mesh, [0.0, 0.0, 1.0], [1.0, 0.3, 0.0]);
-    let axis = Axis {
-        center: [1.0, 0.3, 0.0],
-        direction: [0.0, 0.0, 1.0],
-    };
+    let axis = Axis { center: [1.0, 0.3, 0.0], direction: [0.0, 0.0, 1.0] };
     for normal_stiffness in [None, Some(1e14)] {
         let contact = sliding(&mesh, normal_stiffness);
         let motions = std::slice::from_ref(&motion);
@@ -66,16 +60,11 @@ fn the_response_of_a_sliding_assembly_has_the_poles_of_its_eigenvalue_analysis()
             let force = port([0.05, 0.04, 0.035], Direction::Tangential, "force_node");
             let response = port([0.05, 0.04, 0.0], Direction::X, "response_node");
             let lines = [-1e-4, 0.0, 1e-4].map(|shift| lambda.im / TAU * (1.0 + shift));
-            let h = direct_response(&system, force, response, &lines)
-                .unwrap()
-                .receptance;
+            let h = direct_response(&system, force, response, &lines).unwrap().receptance;
             let found = pole(lines, [h[0], h[1], h[2]]);
             println!("{normal_stiffness:?} {friction}: {lambda} {found}");
             // The other modes are a constant beside it to the square of the lines' distance, relative to theirs.
-            assert!(
-                (found - lambda).norm() < 1e-6 * lambda.norm(),
-                "{lambda} {found}"
-            );
+            assert!((found - lambda).norm() < 1e-6 * lambda.norm(), "{lambda} {found}");
         }
     }
 }
@@ -94,12 +83,7 @@ fn lowest(tangent: &SlidingTangent, friction: f64) -> c64 {
 /// Cross-method: two tied halves respond like the whole, and a node that follows another can be observed, not excited.
 #[test]
 fn tied_halves_respond_like_the_whole() {
-    let block = |name, origin, size, counts| Block {
-        name,
-        origin,
-        size,
-        counts,
-    };
+    let block = |name, origin, size, counts| Block { name, origin, size, counts };
     let clamped = |name| [(name, BoundaryCondition::Clamped)];
     let whole = [block("bar", [0.0; 3], [0.12, 0.02, 0.02], [6, 2, 2])];
     let halves = [
@@ -134,15 +118,10 @@ fn tied_halves_respond_like_the_whole() {
             let there = direct_response(&system, force.clone(), observed, &lines);
             assert!(there.unwrap().receptance.iter().all(|h| h.norm() > 0.0));
         }
-        direct_response(&system, force, response, &lines)
-            .unwrap()
-            .receptance
+        direct_response(&system, force, response, &lines).unwrap().receptance
     });
     for (whole, halves) in responses[0].iter().zip(&responses[1]) {
-        assert!(
-            (whole - halves).norm() < 1e-9 * whole.norm(),
-            "{whole} {halves}"
-        );
+        assert!((whole - halves).norm() < 1e-9 * whole.norm(), "{whole} {halves}");
     }
 }
 
@@ -205,12 +184,9 @@ fn dense_response(tangent: &SlidingTangent, omega: f64, force: usize) -> Vec<c64
     let real = dense(&tangent.stiffness) - dense(&tangent.mass) * (omega * omega);
     let imaginary = dense(&tangent.damping) * omega;
     let mut whole = DMatrix::zeros(2 * n, 2 * n);
-    for (row, column, block) in [
-        (0, 0, &real),
-        (n, n, &real),
-        (0, n, &-&imaginary),
-        (n, 0, &imaginary),
-    ] {
+    for (row, column, block) in
+        [(0, 0, &real), (n, n, &real), (0, n, &-&imaginary), (n, 0, &imaginary)]
+    {
         whole.view_mut((row, column), (n, n)).copy_from(block);
     }
     let mut load = DVector::zeros(2 * n);

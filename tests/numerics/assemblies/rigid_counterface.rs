@@ -49,20 +49,13 @@ fn a_rigid_plane_is_a_body_that_is_held_everywhere() {
     let mesh = mesh_of(&file_of(&sheet(), |point| point), &HELD);
     let center = [1.0, 0.3, 0.0];
     let motion = turning(&mesh, [0.0, 0.0, 1.0], center);
-    let corners = [
-        [-0.1, -0.1, 0.02],
-        [0.2, -0.1, 0.02],
-        [-0.1, 0.2, 0.02],
-        [0.2, 0.2, 0.02],
-    ];
+    let corners = [[-0.1, -0.1, 0.02], [0.2, -0.1, 0.02], [-0.1, 0.2, 0.02], [0.2, 0.2, 0.02]];
     let places = (0..400).map(|k| [0.0026 * f64::from(k % 20), 0.0022 * f64::from(k / 20), 0.02]);
     let points = places.chain(corners).map(|place| (place, -INTERFERENCE));
     let gaps = Arc::new(Topography::new("pushed.csv", points.collect()));
     for stiffness in [None, Some(2e13)] {
-        let held = SlidingSurfaces {
-            topography: Some(Arc::clone(&gaps)),
-            ..sliding(&mesh, stiffness)
-        };
+        let held =
+            SlidingSurfaces { topography: Some(Arc::clone(&gaps)), ..sliding(&mesh, stiffness) };
         let held = assembled(&mesh, held, std::slice::from_ref(&motion));
         let on_rigid = SlidingSurfaces {
             counter: Counterpart::Rigid(plane(RigidMotion::Turning(10.0), center)),
@@ -86,27 +79,15 @@ fn a_rigid_plane_is_a_body_that_is_held_everywhere() {
         }
         let spectra = [&held, &on_rigid].map(|assembly| eigenvalues(assembly, 0.4, 8));
         let error = largest_difference(&spectra[0], &spectra[1]);
-        assert!(
-            error < if stiffness.is_none() { 1e-9 } else { 1e-3 },
-            "{error:e}"
-        );
-        assert!(
-            spectra[0]
-                .iter()
-                .any(|eigenvalue| eigenvalue.re.abs() > 1e-6 * eigenvalue.im)
-        );
+        assert!(error < if stiffness.is_none() { 1e-9 } else { 1e-3 }, "{error:e}");
+        assert!(spectra[0].iter().any(|eigenvalue| eigenvalue.re.abs() > 1e-6 * eigenvalue.im));
     }
 }
 
 /// A bush of one ring of bricks around a shaft that turns: every node of the bore is pressed alike.
 #[test]
 fn a_shaft_presses_a_bush_evenly_whatever_its_axis() {
-    let block = Block {
-        name: "bush",
-        origin: [0.0; 3],
-        size: [1.0; 3],
-        counts: [2, 24, 2],
-    };
+    let block = Block { name: "bush", origin: [0.0; 3], size: [1.0; 3], counts: [2, 24, 2] };
     let (radius, wall, center) = (0.02, 0.01, [0.3, -0.2, 0.5]);
     // The axis lies along (2, 2, 1) / 3.
     let [e, f, axis] = [[1.0, 0.0, -2.0], [-4.0, 5.0, -2.0], [2.0, 2.0, 1.0]];
@@ -122,10 +103,7 @@ fn a_shaft_presses_a_bush_evenly_whatever_its_axis() {
     };
     let bytes = file_of(&[block], place);
     let mesh = mesh_of(&bytes, &[("bush_x1", BoundaryCondition::Clamped)]);
-    for shape in [
-        RigidShape::Cylinder(None),
-        RigidShape::Cylinder(Some(radius)),
-    ] {
+    for shape in [RigidShape::Cylinder(None), RigidShape::Cylinder(Some(radius))] {
         let rigid = RigidCounterface {
             shape,
             center,
@@ -137,10 +115,7 @@ fn a_shaft_presses_a_bush_evenly_whatever_its_axis() {
             name: "shaft".to_owned(),
             surface: boundary(&mesh, "bush_x0"),
             counter: Counterpart::Rigid(rigid),
-            friction: PairFriction {
-                ratio: 1.0,
-                decay: None,
-            },
+            friction: PairFriction { ratio: 1.0, decay: None },
             stiffness: ContactStiffness::default(),
             law: None,
             topography: None,
@@ -156,24 +131,16 @@ fn a_shaft_presses_a_bush_evenly_whatever_its_axis() {
         }
         let range = assembly.range(&[0.0]).unwrap();
         let forces = range.states[0].normal_forces(0.0);
-        let pressures = forces
-            .iter()
-            .zip(&surface.points)
-            .map(|(force, point)| force / point.weight);
+        let pressures =
+            forces.iter().zip(&surface.points).map(|(force, point)| force / point.weight);
         let pressures: Vec<f64> = pressures.collect();
-        assert!(
-            pressures.iter().all(|pressure| *pressure > 1e6),
-            "{pressures:?}"
-        );
+        assert!(pressures.iter().all(|pressure| *pressure > 1e6), "{pressures:?}");
     }
 }
 
 fn refusal(rigid: RigidCounterface) -> PairError {
     let mesh = mesh_of(&file_of(&sheet(), |point| point), &HELD);
-    let contact = SlidingSurfaces {
-        counter: Counterpart::Rigid(rigid),
-        ..sliding(&mesh, None)
-    };
+    let contact = SlidingSurfaces { counter: Counterpart::Rigid(rigid), ..sliding(&mesh, None) };
     let found = Assembly::new(&mesh, &STEEL, &[], &[contact], &[], BaseChoice::Solved);
     match found.unwrap_err() {
         PrestressError::Pair { error, .. } => *error,
@@ -186,31 +153,11 @@ fn a_rigid_counterface_that_does_not_fit_the_surface_is_refused() {
     let center = [1.0, 0.3, 0.0];
     let sliding = RigidMotion::Sliding([1.0, 0.0, 0.2]);
     let found = refusal(plane(sliding, center));
-    assert!(
-        matches!(
-            found,
-            PairError::LeavesPlane {
-                is_turning: false,
-                ..
-            }
-        ),
-        "{found}"
-    );
-    let tilted = RigidCounterface {
-        axis: [0.0, 0.6, 0.8],
-        ..plane(RigidMotion::Turning(1.0), center)
-    };
+    assert!(matches!(found, PairError::LeavesPlane { is_turning: false, .. }), "{found}");
+    let tilted =
+        RigidCounterface { axis: [0.0, 0.6, 0.8], ..plane(RigidMotion::Turning(1.0), center) };
     let found = refusal(tilted);
-    assert!(
-        matches!(
-            found,
-            PairError::LeavesPlane {
-                is_turning: true,
-                ..
-            }
-        ),
-        "{found}"
-    );
+    assert!(matches!(found, PairError::LeavesPlane { is_turning: true, .. }), "{found}");
     let found = refusal(plane(RigidMotion::Sliding([0.0; 3]), center));
     assert!(matches!(found, PairError::AtRest(_)), "{found}");
     let cylinder = RigidCounterface {

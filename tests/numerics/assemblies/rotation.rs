@@ -20,12 +20,7 @@ const SOFT: ElasticSupport = ElasticSupport {
 
 /// A ring of bricks along radius, angle and axis, r 50 to 150 mm, 10 mm thick, its two ends glued.
 pub(super) fn ring(counts: [usize; 3], bore: BoundaryCondition) -> (Mesh, TiedSurfaces) {
-    let block = Block {
-        name: "ring",
-        origin: [0.05, 0.0, -0.005],
-        size: [0.1, TAU, 0.01],
-        counts,
-    };
+    let block = Block { name: "ring", origin: [0.05, 0.0, -0.005], size: [0.1, TAU, 0.01], counts };
     let file = file_of(&[block], |[radius, angle, z]| {
         let (sin, cos) = angle.sin_cos();
         [radius * cos, radius * sin, z]
@@ -41,29 +36,17 @@ pub(super) fn ring(counts: [usize; 3], bore: BoundaryCondition) -> (Mesh, TiedSu
 
 /// The ring turns about an axis parallel to its own.
 pub(super) fn turning(rotation_speed: f64, center: [f64; 3], frame: RotationFrame) -> Motion {
-    Motion {
-        regions: vec![0],
-        axis: [0.0, 0.0, 1.0],
-        center,
-        rotation_speed,
-        inertia: Some(frame),
-    }
+    Motion { regions: vec![0], axis: [0.0, 0.0, 1.0], center, rotation_speed, inertia: Some(frame) }
 }
 
 fn frequencies(mesh: &Mesh, seam: &TiedSurfaces, speed: f64, count: usize) -> Vec<f64> {
-    let (ties, motion) = (
-        std::slice::from_ref(seam),
-        turning(speed, [0.0; 3], RotationFrame::Rest),
-    );
+    let (ties, motion) =
+        (std::slice::from_ref(seam), turning(speed, [0.0; 3], RotationFrame::Rest));
     let closed = BaseChoice::Closed;
     let assembly = Assembly::new(mesh, &STEEL, ties, &[], &[motion], closed).unwrap();
     let found = eigenvalues(&assembly, 0.0, count);
     // A gyroscopic system takes no power.
-    assert!(
-        found
-            .iter()
-            .all(|lambda| lambda.re.abs() < 1e-7 * lambda.im)
-    );
+    assert!(found.iter().all(|lambda| lambda.re.abs() < 1e-7 * lambda.im));
     found.iter().map(|lambda| lambda.im).collect()
 }
 

@@ -13,8 +13,7 @@ fn damping_factor(own: &c64) -> f64 {
 }
 
 fn holds(all: &[c64], own: &c64) -> bool {
-    all.iter()
-        .any(|other| (other - own).norm() < 1e-8 * own.norm())
+    all.iter().any(|other| (other - own).norm() < 1e-8 * own.norm())
 }
 
 /// Independent check: dense complex matrices. What is listed is in their spectrum, and of that nothing is missing below the highest mode
@@ -27,22 +26,13 @@ fn lists_of_lossy_modes_have_no_gaps_however_slow_the_sliding() {
     for (rotation_speed, loss_factor) in [(10.0, 0.3), (0.3, 0.05), (0.3, 0.3), (0.02, 0.15)] {
         let mut contact = sliding(&mesh, Some(1e14));
         contact.stiffness.loss_factor = loss_factor;
-        let motion = Motion {
-            rotation_speed,
-            ..turning(&mesh, [0.0, 0.0, 1.0], [1.0, 0.3, 0.0])
-        };
-        let steel = ElasticMaterial {
-            loss_factor: 0.3 * loss_factor,
-            ..STEEL
-        };
+        let motion = Motion { rotation_speed, ..turning(&mesh, [0.0, 0.0, 1.0], [1.0, 0.3, 0.0]) };
+        let steel = ElasticMaterial { loss_factor: 0.3 * loss_factor, ..STEEL };
         let solved = BaseChoice::Solved;
         let assembly = Assembly::new(&mesh, &steel, &[], &[contact], &[motion], solved).unwrap();
         let range = assembly.range(&[0.5]).unwrap();
         let options = TangentOptions {
-            damping: RayleighDamping {
-                mass_coefficient: 100.0,
-                stiffness_coefficient: 1e-8,
-            },
+            damping: RayleighDamping { mass_coefficient: 100.0, stiffness_coefficient: 1e-8 },
             ..OPTIONS
         };
         let tangent = assembly.tangent(&range.states[0], &options).unwrap();
@@ -59,14 +49,9 @@ fn lists_of_lossy_modes_have_no_gaps_however_slow_the_sliding() {
             let listed: Vec<c64> = modes.map(|mode| mode.eigenvalue).collect();
             let named = format!("{rotation_speed} rad/s, loss factor {loss_factor}, {count} modes");
             assert!(listed.len() >= count, "{named}: {listed:?}");
-            assert!(
-                listed.iter().all(|own| holds(&exact, own)),
-                "{named}: {listed:?}"
-            );
+            assert!(listed.iter().all(|own| holds(&exact, own)), "{named}: {listed:?}");
             let top = listed.iter().fold(0.0_f64, |top, own| top.max(own.im));
-            let light = exact
-                .iter()
-                .filter(|own| own.im < top && damping_factor(own) < LIGHT);
+            let light = exact.iter().filter(|own| own.im < top && damping_factor(own) < LIGHT);
             for own in light {
                 assert!(holds(&listed, own), "{named}: {own} is not in {listed:?}");
             }

@@ -11,14 +11,11 @@ const SLOPE: f64 = 1e-3;
 fn places(count: usize) -> Vec<[f64; 3]> {
     let mut state = 7_u64;
     let mut draw = || {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 40) as f64 / (1_u64 << 24) as f64
     };
-    (0..count)
-        .map(|_| [0.05 * draw(), 0.04 * draw(), 0.02])
-        .collect()
+    (0..count).map(|_| [0.05 * draw(), 0.04 * draw(), 0.02]).collect()
 }
 
 fn measured(places: &[[f64; 3]], gap: impl Fn([f64; 3]) -> f64) -> Option<Arc<Topography>> {
@@ -49,22 +46,14 @@ fn a_plane_of_gaps_at_scattered_points_is_exact_and_measured_points_keep_their_o
         }
     }
     // Between two scan lines 20 mm apart nothing is measured within half an element.
-    let lines = (0..100).map(|k| {
-        [
-            0.0005 * f64::from(k % 50) * 2.04,
-            0.01 + 0.02 * f64::from(k / 50),
-            0.02,
-        ]
-    });
+    let lines = (0..100)
+        .map(|k| [0.0005 * f64::from(k % 50) * 2.04, 0.01 + 0.02 * f64::from(k / 50), 0.02]);
     let contact = SlidingSurfaces {
         topography: measured(&lines.collect::<Vec<_>>(), plane),
         ..sliding(&mesh, Some(1e14))
     };
     let refused = assembled(&mesh, contact).unwrap_err().to_string();
-    assert!(
-        refused.contains("no measured point of pad.csv"),
-        "{refused}"
-    );
+    assert!(refused.contains("no measured point of pad.csv"), "{refused}");
 }
 
 #[test]
@@ -95,27 +84,17 @@ fn a_measured_gap_presses_as_the_same_gap_of_the_mesh_and_opens_where_it_opens()
             let state = &range.states[range.state_of[0]];
             let forces = state.normal_forces(friction);
             let points = &assembly.contacts()[0].1.points;
-            let pressure = points
-                .iter()
-                .zip(forces)
-                .map(|(point, force)| force / point.weight);
+            let pressure = points.iter().zip(forces).map(|(point, force)| force / point.weight);
             pressure.zip(state.is_pressed.iter().copied()).collect()
         };
         let (found, expected) = (pressures(&flat, contact), pressures(&tilted, plain));
         assert_eq!(found.len(), expected.len());
         let largest = expected.iter().map(|own| own.0).fold(0.0, f64::max);
         let open = expected.iter().filter(|own| !own.1).count();
-        assert!(
-            open > 0 && open < expected.len(),
-            "{open} of {}",
-            expected.len()
-        );
+        assert!(open > 0 && open < expected.len(), "{open} of {}", expected.len());
         for (found, expected) in found.iter().zip(&expected) {
             // The sheared block is another body by the slope itself.
-            assert!(
-                (found.0 - expected.0).abs() < 5.0 * SLOPE * largest,
-                "{found:?} {expected:?}"
-            );
+            assert!((found.0 - expected.0).abs() < 5.0 * SLOPE * largest, "{found:?} {expected:?}");
         }
     }
 }

@@ -28,12 +28,7 @@ fn fold(
     let pattern = polynomial.pattern();
     let per_sector = mesh.sector_node_count();
     let in_first = |dof: usize| dof / 2 < per_sector;
-    let count = tangent
-        .unknowns
-        .dofs
-        .iter()
-        .filter(|&&dof| in_first(dof))
-        .count();
+    let count = tangent.unknowns.dofs.iter().filter(|&&dof| in_first(dof)).count();
     let mut folded = Mat::zeros(count, count);
     for column in 0..pattern.dimension() {
         let dof = tangent.unknowns.dofs[column];
@@ -70,10 +65,7 @@ fn dense_eigenvalues(tangent: &SlidingTangent, mesh: &AnnulusMesh, mu: f64, n: i
     let folded = |p: &MatrixPolynomial| fold(tangent, mesh, p, mu, n);
     let (m, k) = (folded(&tangent.mass), folded(&tangent.stiffness));
     let all = match tangent.proportional {
-        Some(RayleighDamping {
-            mass_coefficient: alpha,
-            stiffness_coefficient: beta,
-        }) => {
+        Some(RayleighDamping { mass_coefficient: alpha, stiffness_coefficient: beta }) => {
             let kappas = m.partial_piv_lu().solve(&k).eigenvalues().unwrap();
             let roots = kappas.into_iter().flat_map(|kappa| {
                 let half = (alpha + beta * kappa) * 0.5;
@@ -120,30 +112,16 @@ fn worst_difference(
                 |l: &c64| l.im < limit && l.im > 0.02 * limit && l.re.abs() < 0.2 * limit;
             dense.retain(is_wanted);
             let is_standing = n == 0 || 2 * n == sectors;
-            let direction = if is_standing {
-                0
-            } else {
-                against * n.signum() as i8
-            };
+            let direction = if is_standing { 0 } else { against * n.signum() as i8 };
             let modes = point.modes.iter().filter(|mode| {
                 mode.harmonic == n.unsigned_abs() as usize
                     && (mode.direction == direction || mu == 0.0)
             });
-            let modes: Vec<c64> = modes
-                .map(|mode| mode.eigenvalue)
-                .filter(is_wanted)
-                .collect();
+            let modes: Vec<c64> = modes.map(|mode| mode.eigenvalue).filter(is_wanted).collect();
             let copies = if mu == 0.0 && !is_standing { 2 } else { 1 };
-            assert_eq!(
-                modes.len(),
-                copies * dense.len(),
-                "{n} at {mu}: {modes:?} {dense:?}"
-            );
+            assert_eq!(modes.len(), copies * dense.len(), "{n} at {mu}: {modes:?} {dense:?}");
             for lambda in &modes {
-                let nearest = dense
-                    .iter()
-                    .map(|d| (d - lambda).norm())
-                    .fold(f64::MAX, f64::min);
+                let nearest = dense.iter().map(|d| (d - lambda).norm()).fold(f64::MAX, f64::min);
                 worst = worst.max(nearest / lambda.norm());
             }
         }
@@ -154,11 +132,9 @@ fn worst_difference(
 /// Independent check: dense solution of every harmonic, folded from the matrices of the full mesh.
 #[test]
 fn spectrum_equals_dense_solution_of_every_harmonic_of_the_full_mesh() {
-    for (element, n_theta) in [
-        (ElementKind::Quad4, 24),
-        (ElementKind::Quad4, 17),
-        (ElementKind::Quad8, 12),
-    ] {
+    for (element, n_theta) in
+        [(ElementKind::Quad4, 24), (ElementKind::Quad4, 17), (ElementKind::Quad8, 12)]
+    {
         for mass in [MassKind::Consistent, MassKind::Lumped] {
             for normal_stiffness in [None, Some(7.4e12)] {
                 for geometric_stiffness in [false, true] {
@@ -182,10 +158,7 @@ fn spectrum_equals_dense_solution_of_every_harmonic_of_the_full_mesh() {
                         17500.0,
                     );
                     // Dense solvers leave a few ulps of the mesh's largest eigenvalue, 1e3 times these.
-                    assert!(
-                        worst < 1e-10,
-                        "{element:?} {mass:?} {normal_stiffness:?} {worst:e}"
-                    );
+                    assert!(worst < 1e-10, "{element:?} {mass:?} {normal_stiffness:?} {worst:e}");
                 }
             }
         }
@@ -196,11 +169,9 @@ fn spectrum_equals_dense_solution_of_every_harmonic_of_the_full_mesh() {
 #[test]
 fn quadratic_problem_equals_dense_companion_solution() {
     for damping_model in [DampingModel::WholeTangent, DampingModel::BodyOnly] {
-        for (normal_stiffness, normal_damping, tangential_damping) in [
-            (None, 0.0, 1e4),
-            (Some(7.4e12), 2e6, 3e4),
-            (Some(7.4e12), 0.0, 0.0),
-        ] {
+        for (normal_stiffness, normal_damping, tangential_damping) in
+            [(None, 0.0, 1e4), (Some(7.4e12), 2e6, 3e4), (Some(7.4e12), 0.0, 0.0)]
+        {
             let mut options = paper_options();
             options.damping_model = damping_model;
             options.contact = ContactStiffness {
@@ -253,24 +224,15 @@ fn random_models_lose_no_mode_and_gain_none() {
         options.damping.stiffness_coefficient = 4.5e-6 * random();
         specification.radial_grading = 0.8 + 0.5 * random();
         specification.inner_radius = 0.01 + 0.06 * random();
-        let material = ElasticMaterial {
-            poisson_ratio: -0.2 + 0.69 * random(),
-            formulation,
-            ..POLYCARBONATE
-        };
+        let material =
+            ElasticMaterial { poisson_ratio: -0.2 + 0.69 * random(), formulation, ..POLYCARBONATE };
         let mut contact = contact(610.0);
         contact.interference = 1e-3 * random();
         contact.rotation_speed = if random() < 0.5 { -3.0 } else { 9.0 };
         let frictions = [0.0, 0.5 * random(), 0.5 + 1.5 * random()];
         let limit = 6000.0 + 12000.0 * random();
-        let worst = worst_difference(
-            &specification,
-            &material,
-            &options,
-            &contact,
-            &frictions,
-            limit,
-        );
+        let worst =
+            worst_difference(&specification, &material, &options, &contact, &frictions, limit);
         assert!(worst < 1e-9, "model {index}: {worst:e}");
     }
 }
@@ -293,20 +255,9 @@ fn branches_of_a_standing_harmonic_that_meet_are_followed_beyond() {
     specification.inner_radius = 0.0387;
     specification.radial_grading = 1.09;
     let frictions = [0.0, 0.1, 0.2, 0.25, 0.3, 0.5, 0.7];
-    let worst = worst_difference(
-        &specification,
-        &material,
-        &options,
-        &contact,
-        &frictions,
-        19585.0,
-    );
+    let worst =
+        worst_difference(&specification, &material, &options, &contact, &frictions, 19585.0);
     assert!(worst < 1e-9, "{worst:e}");
-    let found = run(
-        &specification,
-        &options,
-        &frictions,
-        ModeLimit::MaxFrequency(19585.0),
-    );
+    let found = run(&specification, &options, &frictions, ModeLimit::MaxFrequency(19585.0));
     assert_eq!(found.coverage.largest_harmonic, 5);
 }

@@ -35,12 +35,5 @@ pub fn run(
         shapes_at: &[],
         count_modes: false,
     };
-    sweep(
-        specification,
-        &POLYCARBONATE,
-        options,
-        &contact(610.0),
-        &request,
-    )
-    .unwrap()
+    sweep(specification, &POLYCARBONATE, options, &contact(610.0), &request).unwrap()
 }

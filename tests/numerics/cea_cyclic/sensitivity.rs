@@ -18,24 +18,13 @@ fn eigenvalue_of(model: &CyclicModel, like: &Sensitivity, friction: f64) -> c64 
         shapes_at: &[],
         count_modes: false,
     };
-    let found = sweep(
-        &model.specification,
-        &model.material,
-        &model.options,
-        &model.contact,
-        &request,
-    )
-    .unwrap();
+    let found =
+        sweep(&model.specification, &model.material, &model.options, &model.contact, &request)
+            .unwrap();
     let is_same = |b: &&ModeBranch| {
         (b.harmonic, b.branch, b.direction) == (like.harmonic, like.branch, like.direction)
     };
-    found
-        .branches
-        .iter()
-        .find(is_same)
-        .unwrap()
-        .interpolate(friction)
-        .unwrap()
+    found.branches.iter().find(is_same).unwrap().interpolate(friction).unwrap()
 }
 
 /// Independent check: central differences of the whole analysis, prestress included.
@@ -47,21 +36,14 @@ fn sensitivities_equal_finite_differences() {
     dashpots.damping_model = DampingModel::BodyOnly;
     dashpots.contact.normal_damping = 1e5;
     for (options, formulation, element) in [
-        (
-            paper_options(),
-            PlaneFormulation::PlaneStrain,
-            ElementKind::Quad4,
-        ),
+        (paper_options(), PlaneFormulation::PlaneStrain, ElementKind::Quad4),
         (rigid, PlaneFormulation::PlaneStress, ElementKind::Quad8),
         (dashpots, PlaneFormulation::PlaneStrain, ElementKind::Quad4),
     ] {
         let mut contact = contact(610.0);
         // A strong prestress, so that its share cannot hide.
         contact.interference = 3e-4;
-        let material = ElasticMaterial {
-            formulation,
-            ..POLYCARBONATE
-        };
+        let material = ElasticMaterial { formulation, ..POLYCARBONATE };
         let model = CyclicModel {
             specification: annulus(element, 24, 6),
             material: material.into(),
@@ -75,14 +57,9 @@ fn sensitivities_equal_finite_differences() {
             shapes_at: &[],
             count_modes: false,
         };
-        let found = sweep(
-            &model.specification,
-            &model.material,
-            &model.options,
-            &model.contact,
-            &request,
-        )
-        .unwrap();
+        let found =
+            sweep(&model.specification, &model.material, &model.options, &model.contact, &request)
+                .unwrap();
         for s in sensitivities(&found, friction).unwrap() {
             let difference = |step: f64, change: &dyn Fn(&mut CyclicModel, f64)| {
                 let at = |offset: f64| {
@@ -160,27 +137,15 @@ fn sensitivities_equal_finite_differences() {
 #[test]
 fn sensitivities_of_stiffening_contact_equal_finite_differences() {
     let laws = [
-        NormalLaw::Exponential {
-            reference_pressure: 2e5,
-            height: 4e-6,
-        },
-        NormalLaw::Cubic {
-            stiffness: 8e11,
-            cubic_stiffness: 5e22,
-        },
+        NormalLaw::Exponential { reference_pressure: 2e5, height: 4e-6 },
+        NormalLaw::Cubic { stiffness: 8e11, cubic_stiffness: 5e22 },
     ];
     let moved = |law: NormalLaw, number: usize, share: f64| match law {
-        NormalLaw::Exponential {
-            reference_pressure: p,
-            height: h,
-        } => NormalLaw::Exponential {
+        NormalLaw::Exponential { reference_pressure: p, height: h } => NormalLaw::Exponential {
             reference_pressure: if number == 0 { p * (1.0 + share) } else { p },
             height: if number == 1 { h * (1.0 + share) } else { h },
         },
-        NormalLaw::Cubic {
-            stiffness: k,
-            cubic_stiffness: c,
-        } => NormalLaw::Cubic {
+        NormalLaw::Cubic { stiffness: k, cubic_stiffness: c } => NormalLaw::Cubic {
             stiffness: if number == 0 { k * (1.0 + share) } else { k },
             cubic_stiffness: if number == 1 { c * (1.0 + share) } else { c },
         },
@@ -190,10 +155,7 @@ fn sensitivities_of_stiffening_contact_equal_finite_differences() {
         law: Some(law),
         ..ContactStiffness::default()
     };
-    for (law, element) in laws
-        .into_iter()
-        .zip([ElementKind::Quad8, ElementKind::Quad4])
-    {
+    for (law, element) in laws.into_iter().zip([ElementKind::Quad8, ElementKind::Quad4]) {
         let mut contact = contact(610.0);
         contact.interference = 3e-4;
         let mut options = paper_options();
@@ -229,14 +191,12 @@ fn sensitivities_of_stiffening_contact_equal_finite_differences() {
                 |number: usize| difference(&|m, x| m.options.contact = of(moved(law, number, x)));
             let [cubic, pressure, height] = s.normal_law;
             let own = match law {
-                NormalLaw::Exponential {
-                    reference_pressure: p,
-                    height: h,
-                } => [pressure.unwrap() * p, height.unwrap() * h],
-                NormalLaw::Cubic {
-                    stiffness: k,
-                    cubic_stiffness: c,
-                } => [s.normal_stiffness.unwrap() * k, cubic.unwrap() * c],
+                NormalLaw::Exponential { reference_pressure: p, height: h } => {
+                    [pressure.unwrap() * p, height.unwrap() * h]
+                }
+                NormalLaw::Cubic { stiffness: k, cubic_stiffness: c } => {
+                    [s.normal_stiffness.unwrap() * k, cubic.unwrap() * c]
+                }
             };
             let modulus = POLYCARBONATE.young_modulus;
             let by_modulus = difference(&|m, x| m.material.annulus.young_modulus *= 1.0 + x);
@@ -250,11 +210,7 @@ fn sensitivities_of_stiffening_contact_equal_finite_differences() {
             ] {
                 let error = (analytic - numeric).norm();
                 let size = numeric.norm() + 1e-3 * s.eigenvalue.norm();
-                assert!(
-                    error < 1e-6 * size,
-                    "{law:?} {name} {s:?} {numeric} {:e}",
-                    error / size
-                );
+                assert!(error < 1e-6 * size, "{law:?} {name} {s:?} {numeric} {:e}", error / size);
             }
         }
     }

@@ -13,25 +13,14 @@ use frictionsim::prestress::TangentOptions;
 #[test]
 fn eigenvalues_equal_table_1_of_the_paper() {
     let specification = annulus(ElementKind::Quad8, 180, 35);
-    let found = run(
-        &specification,
-        &paper_options(),
-        &[0.3],
-        ModeLimit::Lowest(28),
-    );
+    let found = run(&specification, &paper_options(), &[0.3], ModeLimit::Lowest(28));
     for ((real, frequency, harmonic, _), mode) in TABLE_1.iter().zip(&found.sweep.points[0].modes) {
         assert_eq!(mode.harmonic, *harmonic, "{mode:?}");
-        assert!(
-            (mode.frequency_hz() / frequency - 1.0).abs() < 3e-3,
-            "{mode:?}"
-        );
+        assert!((mode.frequency_hz() / frequency - 1.0).abs() < 3e-3, "{mode:?}");
         // The paper's mesh is its own; 10 Hz is a tenth of a percent of the frequencies.
         assert!((mode.real_hz() - real).abs() < 10.0, "{real} {mode:?}");
         if mode.is_unstable() {
-            assert_eq!(
-                mode.direction, -1,
-                "unstable waves travel against the rotor: {mode:?}"
-            );
+            assert_eq!(mode.direction, -1, "unstable waves travel against the rotor: {mode:?}");
         }
     }
 }
@@ -40,12 +29,7 @@ fn eigenvalues_equal_table_1_of_the_paper() {
 #[test]
 fn critical_frictions_equal_those_of_the_continuum() {
     let specification = annulus(ElementKind::Quad8, 120, 24);
-    let found = run(
-        &specification,
-        &paper_options(),
-        &[0.0, 0.5, 1.0],
-        ModeLimit::Lowest(28),
-    );
+    let found = run(&specification, &paper_options(), &[0.0, 0.5, 1.0], ModeLimit::Lowest(28));
     let onsets = [(0.1224, 1, 1), (0.1382, 2, 0), (0.2121, 1, 0)];
     for ((critical, harmonic, branch), interval) in onsets.iter().zip(&found.sweep.intervals) {
         assert_eq!(
@@ -53,10 +37,7 @@ fn critical_frictions_equal_those_of_the_continuum() {
             (*harmonic, *branch, -1)
         );
         // Four digits are given; the continuum model has no geometric stiffness.
-        assert!(
-            (interval.critical_friction - critical).abs() < 1e-3,
-            "{interval:?}"
-        );
+        assert!((interval.critical_friction - critical).abs() < 1e-3, "{interval:?}");
     }
 }
 
@@ -67,10 +48,7 @@ fn unstable_intervals_do_not_depend_on_the_grid() {
     let mut options = paper_options();
     options.contact.normal_stiffness = Some(1e11);
     options.damping.stiffness_coefficient = 0.0;
-    let material = ElasticMaterial {
-        poisson_ratio: 0.45,
-        ..POLYCARBONATE
-    };
+    let material = ElasticMaterial { poisson_ratio: 0.45, ..POLYCARBONATE };
     let solve = |frictions: &[f64]| {
         let request = SweepRequest {
             friction_coefficients: frictions,
@@ -79,14 +57,7 @@ fn unstable_intervals_do_not_depend_on_the_grid() {
             count_modes: false,
         };
         let specification = annulus(ElementKind::Quad4, 40, 10);
-        sweep(
-            &specification,
-            &material,
-            &options,
-            &contact(610.0),
-            &request,
-        )
-        .unwrap()
+        sweep(&specification, &material, &options, &contact(610.0), &request).unwrap()
     };
     let steps: Vec<f64> = (0..=1250).map(|i| 0.004 * f64::from(i)).collect();
     let (fine, coarse) = (solve(&steps).sweep.intervals, solve(&[5.0]));
@@ -106,11 +77,7 @@ fn unstable_intervals_do_not_depend_on_the_grid() {
                 (b.harmonic, b.branch, b.direction) == (a.harmonic, a.branch, a.direction)
             };
             let at = solve(&[end]);
-            let lambda = at
-                .branches
-                .iter()
-                .find(is_branch)
-                .map(|b| b.interpolate(end).unwrap());
+            let lambda = at.branches.iter().find(is_branch).map(|b| b.interpolate(end).unwrap());
             let lambda = lambda.unwrap();
             assert!(lambda.re.abs() < 1e-10 * lambda.norm(), "{lambda}");
             compared += 1;
@@ -140,20 +107,10 @@ fn every_other_harmonic_is_proven_to_hold_no_mode_of_the_range() {
 #[test]
 fn results_are_the_same_to_the_last_bit_on_any_number_of_threads() {
     let solve = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .unwrap();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let specification = annulus(ElementKind::Quad4, 40, 8);
         let frictions = [0.0, 0.3, 0.7];
-        pool.install(|| {
-            run(
-                &specification,
-                &paper_options(),
-                &frictions,
-                ModeLimit::Lowest(30),
-            )
-        })
+        pool.install(|| run(&specification, &paper_options(), &frictions, ModeLimit::Lowest(30)))
     };
     let (one, four) = (solve(1), solve(4));
     assert_eq!(one.sweep, four.sweep);
@@ -176,14 +133,7 @@ fn stability_map_equals_single_sweeps_and_survives_failing_points() {
         (interference, changed)
     });
     let map = stability_map(&models, limit, 1.0);
-    assert!(
-        map[0]
-            .outcome
-            .as_ref()
-            .unwrap_err()
-            .to_string()
-            .contains("contact.interference")
-    );
+    assert!(map[0].outcome.as_ref().unwrap_err().to_string().contains("contact.interference"));
     for point in &map[1..] {
         let mut contact = model.contact;
         contact.interference = point.value;
@@ -193,14 +143,9 @@ fn stability_map_equals_single_sweeps_and_survives_failing_points() {
             shapes_at: &[],
             count_modes: false,
         };
-        let single = sweep(
-            &model.specification,
-            &model.material,
-            &model.options,
-            &contact,
-            &request,
-        )
-        .unwrap();
+        let single =
+            sweep(&model.specification, &model.material, &model.options, &contact, &request)
+                .unwrap();
         let onset = point.lowest_onset().unwrap();
         let first = &single.sweep.intervals[0];
         assert!((onset.critical_friction - first.critical_friction).abs() < 1e-10);
@@ -214,18 +159,10 @@ fn impossible_requests_name_their_key() {
     let specification = annulus(ElementKind::Quad4, 12, 2);
     for (frictions, limit, key) in [
         (vec![], ModeLimit::Lowest(3), "cea.friction_coefficients"),
-        (
-            vec![-0.1],
-            ModeLimit::Lowest(3),
-            "cea.friction_coefficients",
-        ),
+        (vec![-0.1], ModeLimit::Lowest(3), "cea.friction_coefficients"),
         (vec![0.1], ModeLimit::Lowest(0), "cea.modes"),
         (vec![0.1], ModeLimit::Lowest(1000), "cea.modes"),
-        (
-            vec![0.1],
-            ModeLimit::MaxFrequency(-5.0),
-            "cea.max_frequency_hz",
-        ),
+        (vec![0.1], ModeLimit::MaxFrequency(-5.0), "cea.max_frequency_hz"),
     ] {
         let request = SweepRequest {
             friction_coefficients: &frictions,
@@ -234,13 +171,7 @@ fn impossible_requests_name_their_key() {
             count_modes: false,
         };
         let (material, options) = (POLYCARBONATE, paper_options());
-        let outcome = sweep(
-            &specification,
-            &material,
-            &options,
-            &contact(610.0),
-            &request,
-        );
+        let outcome = sweep(&specification, &material, &options, &contact(610.0), &request);
         assert!(outcome.unwrap_err().to_string().contains(key));
     }
 }
@@ -257,23 +188,14 @@ fn branches_are_followed_past_an_eigenvalue_predicted_to_the_last_bit() {
         ..paper_options()
     };
     let intervals = |young_modulus: f64| {
-        let material = ElasticMaterial {
-            young_modulus,
-            ..POLYCARBONATE
-        };
+        let material = ElasticMaterial { young_modulus, ..POLYCARBONATE };
         let request = SweepRequest {
             friction_coefficients: &frictions,
             limit: ModeLimit::MaxFrequency(17_500.0),
             shapes_at: &[],
             count_modes: false,
         };
-        let found = sweep(
-            &specification,
-            &material,
-            &options,
-            &contact(1000.0),
-            &request,
-        );
+        let found = sweep(&specification, &material, &options, &contact(1000.0), &request);
         found.unwrap().sweep.intervals
     };
     let [exact, beside] = [2_540_479_684.482_66, 2_540_479_684.482_67].map(intervals);
@@ -281,9 +203,6 @@ fn branches_are_followed_past_an_eigenvalue_predicted_to_the_last_bit() {
     assert!(!exact.is_empty());
     for (a, b) in exact.iter().zip(&beside) {
         // Onsets are located to 1e-9.
-        assert!(
-            (a.critical_friction - b.critical_friction).abs() < 1e-8,
-            "{a:?} {b:?}"
-        );
+        assert!((a.critical_friction - b.critical_friction).abs() < 1e-8, "{a:?} {b:?}");
     }
 }

@@ -53,18 +53,13 @@ fn spectrum_branches_and_onsets_equal_those_of_the_sparse_solver() {
                     "{element:?} {mass:?} {mode:?} {nearest:e}"
                 );
                 let shares = theirs.modes.iter().filter(is_same).map(|m| m.contact_share);
-                let share = shares
-                    .map(|s| (s - mode.contact_share).abs())
-                    .fold(f64::MAX, f64::min);
+                let share = shares.map(|s| (s - mode.contact_share).abs()).fold(f64::MAX, f64::min);
                 // A quadratic form of a vector that is known to 1e-8.
                 assert!(share < 1e-7, "{element:?} {mass:?} {mode:?} {share:e}");
             }
         }
         for (ours, theirs) in cyclic.intervals.iter().zip(&sparse.intervals) {
-            assert_eq!(
-                (ours.harmonic, ours.direction),
-                (theirs.harmonic, theirs.direction)
-            );
+            assert_eq!((ours.harmonic, ours.direction), (theirs.harmonic, theirs.direction));
             assert!((ours.critical_friction - theirs.critical_friction).abs() < 1e-8);
         }
     }
@@ -80,13 +75,7 @@ fn a_cut_through_a_pair_keeps_both_members_in_both_solvers() {
     let base = SteadySliding::solve(&mesh, &elastic, &contact(610.0)).unwrap();
     let tangent = SlidingTangent::linearize(&mesh, &POLYCARBONATE, &elastic, &base, &options);
     for asked in 2..6 {
-        let cyclic = run(
-            &specification,
-            &options,
-            &[0.0, 0.4],
-            ModeLimit::Lowest(asked),
-        )
-        .sweep;
+        let cyclic = run(&specification, &options, &[0.0, 0.4], ModeLimit::Lowest(asked)).sweep;
         let request = SweepRequest {
             friction_coefficients: &[0.0, 0.4],
             limit: ModeLimit::Lowest(asked),
@@ -135,11 +124,7 @@ fn solvers_differ_by_no_more_than_the_uncertainty_that_they_state() {
                 difference < (10.0 * ours.uncertainty).max(1e-9),
                 "{penalty:e} {difference:e} {ours:?}"
             );
-            assert_eq!(
-                ours.uncertainty > 1e-9,
-                penalty > 1e14,
-                "{penalty:e} {ours:?}"
-            );
+            assert_eq!(ours.uncertainty > 1e-9, penalty > 1e14, "{penalty:e} {ours:?}");
         }
     }
 }
@@ -147,10 +132,9 @@ fn solvers_differ_by_no_more_than_the_uncertainty_that_they_state() {
 /// Consistency check on the whole mesh: shapes expanded from one sector satisfy the full problem.
 #[test]
 fn expanded_shapes_are_eigenvectors_of_the_full_mesh() {
-    for (element, normal_stiffness) in [
-        (ElementKind::Quad4, Some(7.4e12)),
-        (ElementKind::Quad8, None),
-    ] {
+    for (element, normal_stiffness) in
+        [(ElementKind::Quad4, Some(7.4e12)), (ElementKind::Quad8, None)]
+    {
         let mut options = paper_options();
         options.contact.normal_stiffness = normal_stiffness;
         let specification = annulus(element, 24, 6);
@@ -178,18 +162,11 @@ fn expanded_shapes_are_eigenvectors_of_the_full_mesh() {
             }
             y
         };
-        assert!(
-            found.sweep.points[1]
-                .modes
-                .iter()
-                .all(|mode| mode.shape.is_none())
-        );
+        assert!(found.sweep.points[1].modes.iter().all(|mode| mode.shape.is_none()));
         for mode in &found.sweep.points[0].modes {
             let shape = mode.shape.as_ref().unwrap();
-            let largest = shape
-                .chunks(2)
-                .map(|u| u[0].norm().hypot(u[1].norm()))
-                .fold(0.0, f64::max);
+            let largest =
+                shape.chunks(2).map(|u| u[0].norm().hypot(u[1].norm())).fold(0.0, f64::max);
             assert!((largest - 1.0).abs() < 1e-12);
             let x = tangent.unknowns.restrict(shape);
             let (m, c, k) = (

@@ -17,11 +17,7 @@ fn chain(count: usize) -> [Vec<Entries>; 3] {
     let friction = (0..count / 2).map(|i| (2 * i + 1, 2 * i, 0.4)).collect();
     let dashpots = (0..count).map(|i| (i, i, if i % 7 == 0 { 0.02 } else { 1e-3 }));
     let mass = (0..count).map(|i| (i, i, 1.0)).collect();
-    [
-        vec![mass],
-        vec![dashpots.collect()],
-        vec![elastic, friction],
-    ]
+    [vec![mass], vec![dashpots.collect()], vec![elastic, friction]]
 }
 
 /// `count` of the chain beside itself: every eigenvalue twice.
@@ -67,16 +63,9 @@ fn counts_are_those_of_a_dense_spectrum() {
         for mu in [0.0, 0.3, 3.5] {
             let spectrum = dense_eigenvalues(&tangent, mu);
             let top = gap(&spectrum, 15..25);
-            let below: Vec<c64> = spectrum
-                .iter()
-                .copied()
-                .filter(|own| own.im < top)
-                .collect();
+            let below: Vec<c64> = spectrum.iter().copied().filter(|own| own.im < top).collect();
             if mu > 1.0 {
-                assert!(
-                    below.iter().any(|own| own.re > 1e-3),
-                    "no flutter: {below:?}"
-                );
+                assert!(below.iter().any(|own| own.re > 1e-3), "no flutter: {below:?}");
             }
             let (none, near, determinants) = missing(&tangent, mu, &spectrum, top);
             assert_eq!((none, near), (0, None), "{size} {mu}");
@@ -93,10 +82,7 @@ fn counts_are_those_of_a_dense_spectrum() {
                 assert_eq!(found, dropped.len() as i64, "{size} {mu} {dropped:?}");
                 let sum: c64 = dropped.iter().map(|&k| below[k]).sum();
                 let mean = sum / dropped.len() as f64;
-                assert!(
-                    (near.unwrap() - mean).norm() < 5e-3 * top,
-                    "{near:?} {mean}"
-                );
+                assert!((near.unwrap() - mean).norm() < 5e-3 * top, "{near:?} {mean}");
             }
 
             // What is no eigenvalue counts against the list.
@@ -123,10 +109,7 @@ fn determinant_of_a_disc_is_that_of_dense_elimination() {
         .map(|p| p.pattern().multiply(&p.evaluate(mu), identity.as_ref()));
     let random = random_columns(4, 2, 3);
     for k in 0..4 {
-        let lambda = c64::new(
-            2e4 * random[(k, 0)],
-            TAU * 1e4 * (1.0 + random[(k, 1)].abs()),
-        );
+        let lambda = c64::new(2e4 * random[(k, 0)], TAU * 1e4 * (1.0 + random[(k, 1)].abs()));
         let [mass, damping, stiffness] = &dense;
         let matrix = Mat::from_fn(size, size, |i, j| {
             lambda * (lambda * mass[(i, j)] + damping[(i, j)]) + stiffness[(i, j)]
@@ -158,10 +141,7 @@ fn determinant_of_a_disc_is_that_of_dense_elimination() {
 #[test]
 fn sweep_of_a_disc_is_complete_by_count() {
     for damping_model in [DampingModel::WholeTangent, DampingModel::BodyOnly] {
-        let disc = Disc {
-            damping_model,
-            ..Disc::coarse()
-        };
+        let disc = Disc { damping_model, ..Disc::coarse() };
         let tangent = disc.tangent();
         for limit in [ModeLimit::Lowest(13), ModeLimit::MaxFrequency(15_000.0)] {
             let request = SweepRequest {
@@ -179,10 +159,7 @@ fn sweep_of_a_disc_is_complete_by_count() {
             assert!(result.points[2].modes.iter().any(|mode| mode.is_unstable()));
 
             // Without one of the unstable modes one is missing; those above the region are known as well.
-            let more = SweepRequest {
-                limit: ModeLimit::Lowest(40),
-                ..request
-            };
+            let more = SweepRequest { limit: ModeLimit::Lowest(40), ..request };
             let all = sweep(&tangent, &more, &|_| {}).unwrap();
             let modes = all.points[2].modes.iter();
             let known: Vec<c64> = modes.map(|mode| mode.eigenvalue).collect();

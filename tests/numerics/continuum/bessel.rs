@@ -89,17 +89,13 @@ pub fn determinant(
             let (du, dw) = ((f[1] - f[0] / r) * (-n / r), -f[2]);
             [u, w, du, dw]
         };
-        [
-            dilatational(pj),
-            dilatational(py),
-            rotational(sj),
-            rotational(sy),
-        ]
-        .map(|[u, w, du, dw]| {
-            let radial = du * (lambda + 2.0 * shear) + (u - w * n) * (lambda / r);
-            let tangential = ((u * n - w) / r + dw) * shear;
-            [u, w, radial, tangential]
-        })
+        [dilatational(pj), dilatational(py), rotational(sj), rotational(sy)].map(
+            |[u, w, du, dw]| {
+                let radial = du * (lambda + 2.0 * shear) + (u - w * n) * (lambda / r);
+                let tangential = ((u * n - w) / r + dw) * shear;
+                [u, w, radial, tangential]
+            },
+        )
     };
     let (a, b) = (annulus.inner_radius, annulus.outer_radius);
     let (inner, outer) = (fields(a), fields(b));

@@ -54,19 +54,12 @@ pub struct Contact {
 impl Contact {
     /// Rigid sliding contact without prestress.
     pub fn rigid(friction_coefficient: f64) -> Self {
-        Self {
-            friction_coefficient,
-            normal_stiffness: None,
-            prestress_interference: None,
-        }
+        Self { friction_coefficient, normal_stiffness: None, prestress_interference: None }
     }
 
     /// Penalty contact without prestress.
     pub fn penalty(friction_coefficient: f64, normal_stiffness: f64) -> Self {
-        Self {
-            normal_stiffness: Some(normal_stiffness),
-            ..Self::rigid(friction_coefficient)
-        }
+        Self { normal_stiffness: Some(normal_stiffness), ..Self::rigid(friction_coefficient) }
     }
 }
 
@@ -264,10 +257,7 @@ impl Annulus {
         limit: f64,
     ) -> Option<f64> {
         let growth = |friction_coefficient: f64| {
-            let contact = Contact {
-                friction_coefficient,
-                ..*contact
-            };
+            let contact = Contact { friction_coefficient, ..*contact };
             let mode = self.branch(harmonic, branch, -1, &contact, rayleigh);
             mode.lambda.re
         };
@@ -337,13 +327,7 @@ pub fn damped_pair(
     let direction = if harmonic == 0 { 0 } else { -1 };
     // Of the far overdamped roots of the largest kappa, friction gives some a small imaginary part.
     let oscillates = |mode: Eigenvalue| (mode.lambda.im > mode.lambda.re.abs()).then_some(mode);
-    let first = oscillates(Eigenvalue {
-        lambda: backward,
-        direction,
-    });
-    let second = oscillates(Eigenvalue {
-        lambda: forward.conj(),
-        direction: -direction,
-    });
+    let first = oscillates(Eigenvalue { lambda: backward, direction });
+    let second = oscillates(Eigenvalue { lambda: forward.conj(), direction: -direction });
     [first, if harmonic == 0 { None } else { second }]
 }

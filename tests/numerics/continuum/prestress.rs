@@ -60,10 +60,7 @@ impl SteadyState {
     pub fn displacement(&self, r: f64) -> [f64; 2] {
         let (a, b) = (self.inner_radius, self.outer_radius);
         let twist = self.shear * a * a / (2.0 * self.lame_constants[1]);
-        [
-            self.linear * r + self.inverse / r,
-            twist * r * (1.0 / (r * r) - 1.0 / (b * b)),
-        ]
+        [self.linear * r + self.inverse / r, twist * r * (1.0 / (r * r) - 1.0 / (b * b))]
     }
 
     /// Stress at radius `r`.

@@ -25,9 +25,8 @@ impl RadialElement {
     /// Basis of the given degree on `[inner, outer]`; the Gauss rule has twice as many points, far
     /// beyond what the products with `1/r^2` and `1/r^4` need.
     pub fn new(inner: f64, outer: f64, degree: usize) -> Self {
-        let nodes: Vec<f64> = (0..=degree)
-            .map(|i| -(PI * i as f64 / degree as f64).cos())
-            .collect();
+        let nodes: Vec<f64> =
+            (0..=degree).map(|i| -(PI * i as f64 / degree as f64).cos()).collect();
         let differentiation = differentiation_matrix(&nodes);
         let half = 0.5 * (outer - inner);
         let points = gauss_legendre(2 * degree)
@@ -40,12 +39,7 @@ impl RadialElement {
                         at_nodes.map(|(value, row)| value * row[j]).sum::<f64>() / half
                     })
                     .collect();
-                RadialPoint {
-                    radius: inner + half * (1.0 + x),
-                    weight: half * w,
-                    values,
-                    slopes,
-                }
+                RadialPoint { radius: inner + half * (1.0 + x), weight: half * w, values, slopes }
             })
             .collect();
         Self { points }
@@ -55,11 +49,7 @@ impl RadialElement {
 /// Barycentric weights of the Chebyshev points of the second kind.
 fn barycentric_weight(i: usize, degree: usize) -> f64 {
     let sign = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
-    if i == 0 || i == degree {
-        0.5 * sign
-    } else {
-        sign
-    }
+    if i == 0 || i == degree { 0.5 * sign } else { sign }
 }
 
 /// Lagrange polynomials at `x`, which is none of the nodes.
@@ -105,10 +95,8 @@ pub fn gauss_legendre(count: usize) -> Vec<(f64, f64)> {
                 let (mut previous, mut value) = (1.0, x);
                 for k in 2..=count {
                     let k = k as f64;
-                    (previous, value) = (
-                        value,
-                        ((2.0 * k - 1.0) * x * value - (k - 1.0) * previous) / k,
-                    );
+                    (previous, value) =
+                        (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * previous) / k);
                 }
                 slope = count as f64 * (previous - x * value) / (1.0 - x * x);
                 x -= value / slope;

@@ -15,11 +15,7 @@ pub const DISC: Annulus = Annulus {
 
 /// Sectors and layers of the coarsest mesh of an element.
 pub fn coarsest(element: ElementKind) -> (usize, usize) {
-    if element.is_quadratic() {
-        (64, 16)
-    } else {
-        (120, 30)
-    }
+    if element.is_quadratic() { (64, 16) } else { (120, 30) }
 }
 
 /// Mesh sizes relative to the coarsest.

@@ -33,10 +33,7 @@ pub const MASS: f64 = 7850.0 * WIDTH * HEIGHT;
 const NORMAL: f64 = 1e6 * WIDTH;
 const SPRING: f64 = 3e10 * HEIGHT;
 const DASHPOT: f64 = 6e5 * HEIGHT;
-const DECAY: FrictionDecay = FrictionDecay {
-    static_ratio: 1.5,
-    decay_speed: 0.1,
-};
+const DECAY: FrictionDecay = FrictionDecay { static_ratio: 1.5, decay_speed: 0.1 };
 
 fn critical_speed() -> f64 {
     let excess = NORMAL * 0.3 * (DECAY.static_ratio - 1.0);
@@ -64,17 +61,11 @@ pub fn block(pressure: f64) -> Mesh {
         lines.push(format!("1 2 2 2 {} {}", node(4, j), node(4, j + 1)));
         for i in 0..4 {
             let corners = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(a, b)| node(i + a, j + b));
-            lines.push(format!(
-                "3 2 4 4 {}",
-                corners.map(|n| n.to_string()).join(" ")
-            ));
+            lines.push(format!("3 2 4 4 {}", corners.map(|n| n.to_string()).join(" ")));
         }
     }
     let numbered = |lines: &[String]| {
-        let all = lines
-            .iter()
-            .enumerate()
-            .map(|(k, line)| format!("{} {line}\n", k + 1));
+        let all = lines.iter().enumerate().map(|(k, line)| format!("{} {line}\n", k + 1));
         format!("{}\n{}", lines.len(), all.collect::<String>())
     };
     let nodes: Vec<String> = (0..20)
@@ -94,9 +85,7 @@ pub fn block(pressure: f64) -> Mesh {
     let specification = BodySpecification {
         scale: 1.0,
         contact: "bottom".to_owned(),
-        counterface: CounterfaceSpecification::Plane {
-            direction: Some([1.0, 0.0]),
-        },
+        counterface: CounterfaceSpecification::Plane { direction: Some([1.0, 0.0]) },
         opposite: None,
         conditions: vec![
             ("right".to_owned(), BoundaryCondition::Support(mounting)),
@@ -142,10 +131,7 @@ fn a_block_on_a_spring_turns_unstable_at_the_critical_speed_of_the_stick_slip_os
         let exact = -(DASHPOT + NORMAL * 0.3 * DECAY.slope(speed)) / (2.0 * MASS);
         let found = growth_rate(&mesh, speed);
         let scale = DASHPOT / (2.0 * MASS);
-        assert!(
-            (found - exact).abs() < 0.02 * scale,
-            "{share} {found} {exact}"
-        );
+        assert!((found - exact).abs() < 0.02 * scale, "{share} {found} {exact}");
     }
     assert!(growth_rate(&mesh, 0.98 * critical) > 0.0);
     assert!(growth_rate(&mesh, 1.02 * critical) < 0.0);
@@ -157,10 +143,7 @@ fn samples(mesh: &Mesh, speed: f64) -> Vec<SampleRow> {
         mesh,
         annulus: None,
         material: &STEEL,
-        damping: RayleighDamping {
-            mass_coefficient: 0.0,
-            stiffness_coefficient: 3e-7,
-        },
+        damping: RayleighDamping { mass_coefficient: 0.0, stiffness_coefficient: 3e-7 },
         contact: contact(speed),
         stiffness: ContactStiffness::default(),
     };
@@ -172,19 +155,12 @@ fn samples(mesh: &Mesh, speed: f64) -> Vec<SampleRow> {
         sample_interval: 0.02 * period,
         expansion_time: 0.0,
         initial: InitialState::SteadySliding,
-        perturbation: Perturbation {
-            noise: 1e-2 * speed,
-            ..Perturbation::default()
-        },
+        perturbation: Perturbation { noise: 1e-2 * speed, ..Perturbation::default() },
     };
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
     let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
     run.run(&mut record).unwrap();
-    assert!(
-        run.largest_residual() < 1e-10,
-        "{:e}",
-        run.largest_residual()
-    );
+    assert!(run.largest_residual() < 1e-10, "{:e}", run.largest_residual());
     record.rows
 }
 
@@ -197,10 +173,7 @@ fn a_block_sticks_and_slips_below_its_critical_speed_and_slides_above() {
         let rows = samples(&mesh, share * critical_speed());
         let tail = &rows[rows.len() - 200..];
         let stuck: u64 = tail.iter().map(|row| row.counts.stick).sum();
-        let all: u64 = tail
-            .iter()
-            .map(|row| row.counts.stick + row.counts.slip)
-            .sum();
+        let all: u64 = tail.iter().map(|row| row.counts.stick + row.counts.slip).sum();
         assert!(rows.iter().all(|row| row.counts.ambiguous == 0));
         stuck as f64 / all as f64
     };

@@ -25,22 +25,11 @@ fn the_map_of_the_shipped_case_rises_with_speed() {
     let critical: Vec<f64> = ["30.0", "300.0", "3000.0"]
         .iter()
         .map(|speed| {
-            let mut rows = map
-                .lines()
-                .filter(|row| row.starts_with(&format!("{speed},1,1,")));
-            rows.next()
-                .unwrap()
-                .split(',')
-                .nth(4)
-                .unwrap()
-                .parse()
-                .unwrap()
+            let mut rows = map.lines().filter(|row| row.starts_with(&format!("{speed},1,1,")));
+            rows.next().unwrap().split(',').nth(4).unwrap().parse().unwrap()
         })
         .collect();
-    assert!(
-        critical[0] < 0.7 * critical[2] && critical[1] < 0.95 * critical[2],
-        "{critical:?}"
-    );
+    assert!(critical[0] < 0.7 * critical[2] && critical[1] < 0.95 * critical[2], "{critical:?}");
     let table = fs::read_to_string(folder.path().join("sensitivities.csv")).unwrap();
     let head = table.lines().next().unwrap();
     assert!(head.ends_with("growth_rate_per_decay_speed,frequency_hz_per_decay_speed"));

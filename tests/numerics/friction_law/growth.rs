@@ -33,8 +33,7 @@ fn eigenvalue(contact: &SlidingContact, stiffness: ContactStiffness, harmonic: u
     let found = sweep(&specification, &POLYCARBONATE, &options, contact, &request).unwrap();
     let modes = found.sweep.points[0].modes.iter();
     let own = modes.filter(|mode| mode.harmonic == harmonic);
-    own.map(|mode| mode.growth_rate())
-        .fold(f64::NEG_INFINITY, f64::max)
+    own.map(|mode| mode.growth_rate()).fold(f64::NEG_INFINITY, f64::max)
 }
 
 fn settings(duration: f64, perturbation: Perturbation) -> TransientSettings {
@@ -73,18 +72,12 @@ fn a_seeded_wave_grows_or_decays_as_its_eigenvalue_says_at_two_speeds() {
     let rigid = ContactStiffness::default();
     let mut rates = Vec::new();
     for (rpm, harmonic) in [(100.0, 2), (1800.0, 2)] {
-        let contact = SlidingContact {
-            friction_coefficient: 0.1,
-            ..falling(rpm)
-        };
+        let contact = SlidingContact { friction_coefficient: 0.1, ..falling(rpm) };
         let exact = eigenvalue(&contact, rigid, harmonic);
         let found = growth(&contact, rigid, harmonic);
         println!("{rpm} rpm: {found} 1/s, eigenvalue {exact} 1/s");
         assert!((found / exact - 1.0).abs() < 0.01);
-        let constant = SlidingContact {
-            decay: None,
-            ..contact
-        };
+        let constant = SlidingContact { decay: None, ..contact };
         println!("constant {}", eigenvalue(&constant, rigid, harmonic));
         assert!(eigenvalue(&constant, rigid, harmonic) < 0.0);
         rates.push(found);
@@ -117,15 +110,9 @@ fn a_wave_on_a_compliant_contact_grows_as_its_eigenvalue_says() {
 fn every_joule_is_accounted_for_under_a_falling_law_and_with_contact_springs() {
     let annulus = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 45, 9)).unwrap();
     let rigid = ContactStiffness::default();
-    let damped = ContactStiffness {
-        tangential_damping: 1e4,
-        ..rigid
-    };
-    let compliant = ContactStiffness {
-        normal_stiffness: Some(2e12),
-        normal_damping: 1e5,
-        ..damped
-    };
+    let damped = ContactStiffness { tangential_damping: 1e4, ..rigid };
+    let compliant =
+        ContactStiffness { normal_stiffness: Some(2e12), normal_damping: 1e5, ..damped };
     for (contact, stiffness) in [
         (falling(610.0), rigid),
         (contact(610.0), damped),
@@ -161,10 +148,7 @@ fn steady_sliding_does_not_depend_on_the_contact_stiffness() {
     let annulus = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 45, 9)).unwrap();
     let forces = |normal_stiffness: Option<f64>| {
         let model = TransientModel {
-            stiffness: ContactStiffness {
-                normal_stiffness,
-                ..ContactStiffness::default()
-            },
+            stiffness: ContactStiffness { normal_stiffness, ..ContactStiffness::default() },
             ..TransientModel::of_annulus(&annulus, &POLYCARBONATE, DAMPING, falling(610.0))
         };
         let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();

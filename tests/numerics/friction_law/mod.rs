@@ -14,10 +14,7 @@ use frictionsim::contact::{FrictionDecay, SlidingContact};
 /// The paper's cylinder with friction that falls over speeds of the order of its own, 1.31 m/s at 610 rpm.
 pub fn falling(rotation_speed_rpm: f64) -> SlidingContact {
     SlidingContact {
-        decay: Some(FrictionDecay {
-            static_ratio: 1.5,
-            decay_speed: 0.8,
-        }),
+        decay: Some(FrictionDecay { static_ratio: 1.5, decay_speed: 0.8 }),
         ..disc::contact(rotation_speed_rpm)
     }
 }

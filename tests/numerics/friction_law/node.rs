@@ -4,22 +4,12 @@ use frictionsim::contact::{
     ContactStatus, CoulombFriction, FrictionDecay, NodeFriction, SlippingNode,
 };
 
-const DECAY: FrictionDecay = FrictionDecay {
-    static_ratio: 1.4,
-    decay_speed: 0.2,
-};
+const DECAY: FrictionDecay = FrictionDecay { static_ratio: 1.4, decay_speed: 0.2 };
 
-const LAW: CoulombFriction = CoulombFriction {
-    friction_coefficient: 0.3,
-    decay: Some(DECAY),
-};
+const LAW: CoulombFriction = CoulombFriction { friction_coefficient: 0.3, decay: Some(DECAY) };
 
 fn resolve(inertia: f64, free_slip: f64, slip_before: f64, normal: f64) -> NodeFriction {
-    let node = SlippingNode {
-        inertia,
-        free_slip,
-        slip_before,
-    };
+    let node = SlippingNode { inertia, free_slip, slip_before };
     LAW.resolve(&node, normal)
 }
 
@@ -64,10 +54,9 @@ fn a_law_too_steep_for_the_inertia_is_reported_and_keeps_stick_and_slip_apart() 
     let slip = 1.37 - moving.force / inertia;
     let law = 0.3 * normal * DECAY.share(slip);
     assert!(slip > 0.0 && (moving.force / law - 1.0).abs() < 1e-12);
-    for (free, before, status) in [
-        (1.41, 0.0, ContactStatus::Slip),
-        (1.3, 0.5, ContactStatus::Stick),
-    ] {
+    for (free, before, status) in
+        [(1.41, 0.0, ContactStatus::Slip), (1.3, 0.5, ContactStatus::Stick)]
+    {
         let found = resolve(inertia, free, before, normal);
         assert_eq!(found.status, status);
         assert!(!found.is_ambiguous);
@@ -88,10 +77,11 @@ fn derivatives_of_the_law_equal_finite_differences() {
             };
             [changed.share(speed), changed.slope(speed)]
         };
-        for (rate, [up, down]) in DECAY.rates(speed).into_iter().zip([
-            [of(step, 0.0), of(-step, 0.0)],
-            [of(0.0, step), of(0.0, -step)],
-        ]) {
+        for (rate, [up, down]) in DECAY
+            .rates(speed)
+            .into_iter()
+            .zip([[of(step, 0.0), of(-step, 0.0)], [of(0.0, step), of(0.0, -step)]])
+        {
             for part in 0..2 {
                 let numeric = (up[part] - down[part]) / (2.0 * step);
                 assert!((numeric - rate[part]).abs() < 1e-6, "{speed} {part}");

@@ -21,10 +21,7 @@ fn options(normal_stiffness: Option<f64>) -> TangentOptions {
         geometric_stiffness: true,
         damping: DAMPING,
         damping_model: DampingModel::WholeTangent,
-        contact: ContactStiffness {
-            normal_stiffness,
-            ..ContactStiffness::default()
-        },
+        contact: ContactStiffness { normal_stiffness, ..ContactStiffness::default() },
     }
 }
 
@@ -61,10 +58,7 @@ fn assert_same(ours: &FrictionSweep, theirs: &FrictionSweep) {
         for mode in &ours.modes {
             let distance = |m: &ComplexMode| (m.eigenvalue - mode.eigenvalue).norm();
             let nearest = theirs.modes.iter().map(distance).fold(f64::MAX, f64::min);
-            assert!(
-                nearest < 1e-9 * mode.eigenvalue.norm(),
-                "{mode:?} {nearest:e}"
-            );
+            assert!(nearest < 1e-9 * mode.eigenvalue.norm(), "{mode:?} {nearest:e}");
         }
     }
     assert_eq!(ours.intervals.len(), theirs.intervals.len());
@@ -76,20 +70,13 @@ fn assert_same(ours: &FrictionSweep, theirs: &FrictionSweep) {
 /// Cross-method: harmonics of one sector against the matrices of the whole mesh, at both senses of rotation.
 #[test]
 fn harmonics_and_the_whole_mesh_have_one_spectrum_under_a_falling_law() {
-    for (rpm, normal_stiffness, element, sectors) in [
-        (610.0, None, ElementKind::Quad4, 36),
-        (-300.0, Some(7.4e12), ElementKind::Quad8, 18),
-    ] {
+    for (rpm, normal_stiffness, element, sectors) in
+        [(610.0, None, ElementKind::Quad4, 36), (-300.0, Some(7.4e12), ElementKind::Quad8, 18)]
+    {
         let (options, contact) = (options(normal_stiffness), falling(rpm));
         let specification = annulus(element, sectors, 6);
         let frictions = [0.0, 0.2, 0.4];
-        let ours = swept(
-            &specification,
-            &POLYCARBONATE,
-            &options,
-            &contact,
-            &frictions,
-        );
+        let ours = swept(&specification, &POLYCARBONATE, &options, &contact, &frictions);
         let request = SweepRequest {
             friction_coefficients: &frictions,
             limit: ModeLimit::Lowest(18),
@@ -107,23 +94,10 @@ fn harmonics_and_the_whole_mesh_have_one_spectrum_under_a_falling_law() {
 fn far_above_the_decay_speed_the_spectrum_is_that_of_constant_friction() {
     let specification = annulus(ElementKind::Quad4, 36, 6);
     let mut fast = falling(610.0);
-    fast.decay = Some(FrictionDecay {
-        static_ratio: 1.5,
-        decay_speed: 0.03,
-    });
-    let constant = SlidingContact {
-        decay: None,
-        ..fast
-    };
+    fast.decay = Some(FrictionDecay { static_ratio: 1.5, decay_speed: 0.03 });
+    let constant = SlidingContact { decay: None, ..fast };
     let of = |contact: &SlidingContact| {
-        swept(
-            &specification,
-            &POLYCARBONATE,
-            &options(None),
-            contact,
-            &[0.2, 0.4],
-        )
-        .sweep
+        swept(&specification, &POLYCARBONATE, &options(None), contact, &[0.2, 0.4]).sweep
     };
     assert_same(&of(&fast), &of(&constant));
 }
@@ -134,18 +108,11 @@ fn responses_by_harmonics_and_of_the_whole_mesh_agree_under_a_falling_law() {
     let (options, contact) = (options(None), falling(610.0));
     let sector = SectorMesh::generate(&specification).unwrap();
     let tangent = SectorTangent::linearize(&sector, &POLYCARBONATE, &options, &contact).unwrap();
-    let terminal = Terminal {
-        node: 3,
-        direction: Direction::Tangential,
-    };
+    let terminal = Terminal { node: 3, direction: Direction::Tangential };
     let frequencies = [3000.0, 9000.0];
-    let by_harmonics = cyclic_response(
-        &CyclicSystem::sliding(&tangent, 0.3),
-        terminal,
-        terminal,
-        &frequencies,
-    )
-    .unwrap();
+    let by_harmonics =
+        cyclic_response(&CyclicSystem::sliding(&tangent, 0.3), terminal, terminal, &frequencies)
+            .unwrap();
     let system = FrfSystem::sliding(&whole(&specification, &options, &contact), 0.3);
     let unknown = system.unknown(terminal, "node").unwrap();
     let direct = direct_response(&system, unknown, unknown, &frequencies).unwrap();
@@ -172,13 +139,7 @@ fn sensitivities_to_the_law_equal_finite_differences() {
     for normal_stiffness in [None, Some(7.4e12)] {
         let options = options(normal_stiffness);
         let of = |material: &ElasticMaterial, contact: &SlidingContact| {
-            swept(
-                &specification,
-                material,
-                &options,
-                contact,
-                &[0.0, friction],
-            )
+            swept(&specification, material, &options, contact, &[0.0, friction])
         };
         let found = of(&POLYCARBONATE, &contact);
         let changed = |index: usize, step: f64| {

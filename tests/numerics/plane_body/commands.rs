@@ -19,9 +19,7 @@ const MATERIAL: &str = "[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.380
 /// numbers begin at 1001.
 fn folder() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
-    let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 24, 4))
-        .unwrap()
-        .mesh;
+    let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 24, 4)).unwrap().mesh;
     let numbers: Vec<usize> = (1001..=1000 + mesh.node_count()).collect();
     let bytes = write_msh(&mesh, FORMS[2], &numbers, |[x, y]| [1e3 * x, 1e3 * y]);
     fs::write(folder.path().join("disc.msh"), bytes).unwrap();
@@ -57,8 +55,7 @@ fn summary(folder: &Path) -> Value {
 fn table(path: &Path) -> Vec<Vec<f64>> {
     let text = fs::read_to_string(path).unwrap();
     let rows = text.lines().skip(1);
-    rows.map(|row| row.split(',').map(|cell| cell.parse().unwrap()).collect())
-        .collect()
+    rows.map(|row| row.split(',').map(|cell| cell.parse().unwrap()).collect()).collect()
 }
 
 /// Node 4 + 5 * 6 = 34 of the annulus stands at 90 degrees, 73 mm from the axis.
@@ -68,25 +65,10 @@ fn a_probe_by_place_is_that_of_the_nearest_node_on_either_kind_of_mesh() {
     let path = folder.path();
     let places = [
         ("annulus.toml", "output.probes=[34]", "34", "number"),
-        (
-            "annulus.toml",
-            "output.probes=[{ radius = 0.0731, angle_deg = 91 }]",
-            "34",
-            "polar",
-        ),
-        (
-            "annulus.toml",
-            "output.probes=[{ x = 1e-4, y = 0.0731 }]",
-            "34",
-            "point",
-        ),
+        ("annulus.toml", "output.probes=[{ radius = 0.0731, angle_deg = 91 }]", "34", "polar"),
+        ("annulus.toml", "output.probes=[{ x = 1e-4, y = 0.0731 }]", "34", "point"),
         ("body.toml", "output.probes=[1034]", "1034", "label"),
-        (
-            "body.toml",
-            "output.probes=[{ x = 1e-4, y = 0.0731 }]",
-            "1034",
-            "place",
-        ),
+        ("body.toml", "output.probes=[{ x = 1e-4, y = 0.0731 }]", "1034", "place"),
     ];
     let mut all = Vec::new();
     for (case, probe, label, out) in places {
@@ -97,27 +79,17 @@ fn a_probe_by_place_is_that_of_the_nearest_node_on_either_kind_of_mesh() {
         let probes = &summary(&path.join(out))["probes"][label];
         let is_placed = probe.contains('{');
         assert_eq!(probes["place"]["at_m"].is_array(), is_placed, "{probe}");
-        all.push((
-            out,
-            table(&path.join(out).join(format!("probe-{label}.csv"))),
-        ));
+        all.push((out, table(&path.join(out).join(format!("probe-{label}.csv")))));
     }
     let (_, expected) = &all[0];
-    let largest = |column: usize| {
-        expected
-            .iter()
-            .fold(0.0_f64, |m, row| m.max(row[column].abs()))
-    };
+    let largest = |column: usize| expected.iter().fold(0.0_f64, |m, row| m.max(row[column].abs()));
     for (name, found) in &all {
         assert_eq!(found.len(), expected.len(), "{name}");
         for (row, other) in found.iter().zip(expected) {
             for column in 0..7 {
                 // Sparse and cyclic sums differ in their last digits; accelerations are their differences.
                 let bound = 1e-6 * largest(column);
-                assert!(
-                    (row[column] - other[column]).abs() <= bound,
-                    "{name} {column}"
-                );
+                assert!((row[column] - other[column]).abs() <= bound, "{name} {column}");
             }
         }
     }
@@ -131,26 +103,14 @@ fn bad_places_are_refused_with_the_remedy_and_far_ones_are_said() {
         ("annulus.toml", "[{ x = 0.0, angle_deg = 3 }]", "{ x, y }"),
         ("body.toml", "[{ x = 0.0, y = 0.05, z = 0.0 }]", "z"),
         ("body.toml", "[5]", "numbered 1001 to 1120"),
-        (
-            "body.toml",
-            "[1034, { x = 0.0, y = 0.073 }]",
-            "node 1034 twice",
-        ),
+        ("body.toml", "[1034, { x = 0.0, y = 0.073 }]", "node 1034 twice"),
     ] {
         let text = format!("output.probes={probe}");
-        frictionsim(&folder, "check", case, &[&text])
-            .assert()
-            .code(2)
-            .stderr(contains(words));
+        frictionsim(&folder, "check", case, &[&text]).assert().code(2).stderr(contains(words));
     }
     let mut far = Command::cargo_bin("frictionsim").unwrap();
     far.current_dir(folder.path())
-        .args([
-            "check",
-            "body.toml",
-            "--set",
-            "output.probes=[{ x = 0.0, y = 73.0 }]",
-        ])
+        .args(["check", "body.toml", "--set", "output.probes=[{ x = 0.0, y = 73.0 }]"])
         .assert()
         .success()
         .stdout(contains("m away"));
@@ -171,11 +131,7 @@ fn figures_of_a_body_are_drawn_again_without_its_mesh_file() {
     for command in ["transient", "cea", "mesh"] {
         let figures = path.join(command).join("figures");
         let bytes = |name: &fs::DirEntry| (name.path(), fs::read(name.path()).unwrap());
-        let all = || {
-            fs::read_dir(&figures)
-                .unwrap()
-                .map(|entry| bytes(&entry.unwrap()))
-        };
+        let all = || fs::read_dir(&figures).unwrap().map(|entry| bytes(&entry.unwrap()));
         let before: BTreeMap<_, _> = all().collect();
         assert!(!before.is_empty());
         Command::cargo_bin("frictionsim")
@@ -201,12 +157,7 @@ fn a_signal_is_named_by_the_modes_of_an_imported_body() {
     let (mode, frequency): (usize, f64) = (cells[1].parse().unwrap(), cells[3].parse().unwrap());
     let samples = (0..20_000).map(|k| f64::from(k) * 5e-6);
     let rows: String = samples
-        .map(|t| {
-            format!(
-                "{t:e},{:e}\n",
-                (std::f64::consts::TAU * frequency * t).sin()
-            )
-        })
+        .map(|t| format!("{t:e},{:e}\n", (std::f64::consts::TAU * frequency * t).sin()))
         .collect();
     fs::write(folder.path().join("tone.csv"), format!("time_s,a\n{rows}")).unwrap();
     frictionsim(&folder, "signal", "tone.csv", &[])
@@ -232,23 +183,14 @@ fn convergence_of_an_imported_body_splits_its_elements() {
     let quantities = series["quantities"].as_array().unwrap();
     let orders = quantities.iter().filter_map(|quantity| {
         let name = quantity["name"].as_str()?;
-        name.starts_with("frequency, mode")
-            .then(|| quantity["order"].as_f64())?
+        name.starts_with("frequency, mode").then(|| quantity["order"].as_f64())?
     });
     let orders: Vec<f64> = orders.collect();
     assert!(orders.len() >= 3, "{orders:?}");
     // The start of 24 by 4 elements is coarse: only the lowest modes show the order within a twentieth.
-    assert!(
-        orders[..3].iter().all(|order| (order - 2.0).abs() < 0.1),
-        "{orders:?}"
-    );
-    frictionsim(
-        &folder,
-        "convergence",
-        "body.toml",
-        &["convergence.factors=[1, 1.5, 2.25]"],
-    )
-    .assert()
-    .code(2)
-    .stderr(contains("powers of two"));
+    assert!(orders[..3].iter().all(|order| (order - 2.0).abs() < 0.1), "{orders:?}");
+    frictionsim(&folder, "convergence", "body.toml", &["convergence.factors=[1, 1.5, 2.25]"])
+        .assert()
+        .code(2)
+        .stderr(contains("powers of two"));
 }

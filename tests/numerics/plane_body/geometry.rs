@@ -5,22 +5,14 @@ use crate::msh::{FORMS, write_msh};
 use crate::triangles::{body, triangles};
 use frictionsim::mesh::{AnnulusMesh, ElementKind, GmshFile, Mesh};
 
-const KINDS: [ElementKind; 4] = [
-    ElementKind::Quad4,
-    ElementKind::Quad8,
-    ElementKind::Tri3,
-    ElementKind::Tri6,
-];
+const KINDS: [ElementKind; 4] =
+    [ElementKind::Quad4, ElementKind::Quad8, ElementKind::Tri3, ElementKind::Tri6];
 
 fn file(kind: ElementKind, around: usize, radial: usize) -> GmshFile {
     let is_quadratic = kind.is_quadratic();
     let mesh = match kind.corner_count() {
         3 => triangles(&annulus(ElementKind::Quad4, around, radial), is_quadratic),
-        _ => {
-            AnnulusMesh::generate(&annulus(kind, around, radial))
-                .unwrap()
-                .mesh
-        }
+        _ => AnnulusMesh::generate(&annulus(kind, around, radial)).unwrap().mesh,
     };
     let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
     GmshFile::read(&write_msh(&mesh, FORMS[3], &numbers, |p| p)).unwrap()

@@ -28,16 +28,11 @@ const GENERATED: &str = "[geometry]\ninner_radius = 0.0205\nouter_radius = 0.090
 /// A folder with the meshes of the disc and of the oval.
 fn folder() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
-    let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 18, 3))
-        .unwrap()
-        .mesh;
+    let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 18, 3)).unwrap().mesh;
     let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
     let oval = |[x, y]: [f64; 2]| {
         let outwards = (x.hypot(y) - 0.0205) / 0.07;
-        [
-            x * (1.0 + 0.3 * outwards) + 0.006 * outwards,
-            y * (1.0 - 0.1 * outwards),
-        ]
+        [x * (1.0 + 0.3 * outwards) + 0.006 * outwards, y * (1.0 - 0.1 * outwards)]
     };
     let disc = write_msh(&mesh, FORMS[2], &numbers, |point| point);
     fs::write(folder.path().join("disc.msh"), disc).unwrap();
@@ -66,9 +61,7 @@ fn case(folder: &TempDir, mesh: &str, set: &[&str]) -> Case {
 fn onsets(case: &Case) -> Vec<[f64; 2]> {
     let found = modes_and_onsets(case).unwrap().intervals;
     let onsets = found.iter();
-    onsets
-        .map(|i| [i.critical_friction, i.frequency_hz])
-        .collect()
+    onsets.map(|i| [i.critical_friction, i.frequency_hz]).collect()
 }
 
 fn line(number: usize, frequency_hz: f64) -> MeasuredMode {
@@ -101,9 +94,7 @@ fn the_map_of_a_body_without_symmetry_has_the_onsets_of_its_eigenvalue_analysis(
         let set = format!("material.density={}", point.value);
         let expected = onsets(&case(&folder, "oval.msh", &[&set]));
         let outcome = point.outcome.as_ref().unwrap().iter();
-        let own: Vec<[f64; 2]> = outcome
-            .map(|i| [i.critical_friction, i.frequency_hz])
-            .collect();
+        let own: Vec<[f64; 2]> = outcome.map(|i| [i.critical_friction, i.frequency_hz]).collect();
         assert_same(&own, &expected, 1e-6);
         seen += own.len();
     }
@@ -145,9 +136,8 @@ fn uncertainty_finds_the_lowest_critical_friction_of_an_imported_body() {
             let set = format!("material.young_modulus={:?}", sample.values[0]);
             let expected = onsets(&case(&folder, mesh, &[&set]));
             let own = sample.onsets.iter();
-            let own: Vec<[f64; 2]> = own
-                .map(|onset| [onset.critical_friction, onset.frequency_hz])
-                .collect();
+            let own: Vec<[f64; 2]> =
+                own.map(|onset| [onset.critical_friction, onset.frequency_hz]).collect();
             assert_same(&own, &expected, 1e-6);
             assert!((own[0][0] - 0.3).abs() > 0.01, "{own:?}");
             assert!(sample.onsets.iter().all(|onset| onset.harmonic.is_none()));
@@ -205,12 +195,7 @@ fn no_study_solves_an_imported_body_by_sectors() {
     refusal(modes_and_onsets(&body).unwrap_err().messages().join("; "));
     let sampler = Sampler::new(&body).map(|_| ());
     refusal(sampler.unwrap_err().messages().join("; "));
-    refusal(
-        fit_case(&body, &[line(2, 1e4)])
-            .unwrap_err()
-            .messages()
-            .join("; "),
-    );
+    refusal(fit_case(&body, &[line(2, 1e4)]).unwrap_err().messages().join("; "));
 }
 
 #[test]
@@ -222,16 +207,11 @@ fn rotating_waves_are_sought_in_no_imported_body() {
         "transient={ duration = 1e-4, initial = \"limit-cycle\", limit_cycle_harmonic = 1 }",
     ];
     let body = case(&folder, "disc.msh", &set);
-    let errors = [
-        body.require_rotating_waves().unwrap_err(),
-        body.require_transient().unwrap_err(),
-    ];
+    let errors =
+        [body.require_rotating_waves().unwrap_err(), body.require_transient().unwrap_err()];
     for error in errors {
         let text = error.to_string();
-        assert!(
-            text.contains("rotational symmetry of the built-in annulus"),
-            "{text}"
-        );
+        assert!(text.contains("rotational symmetry of the built-in annulus"), "{text}");
     }
     // Its limit cycles are periodic motions of the whole mesh, and its modes compete.
     let error = body.require_basin().unwrap_err().to_string();
@@ -245,16 +225,8 @@ fn warnings_name_no_radius_that_an_imported_body_does_not_have() {
     let folder = folder();
     let body = case(&folder, "oval.msh", &["contact.interference=0.02"]);
     let said: Vec<String> = body.warnings.iter().map(ToString::to_string).collect();
-    assert!(
-        said.iter()
-            .any(|text| text.contains("contact.interference")),
-        "{said:?}"
-    );
-    let large = case(
-        &folder,
-        "oval.msh",
-        &["mesh.scale=1000", "contact.interference=0.1"],
-    );
+    assert!(said.iter().any(|text| text.contains("contact.interference")), "{said:?}");
+    let large = case(&folder, "oval.msh", &["mesh.scale=1000", "contact.interference=0.1"]);
     let wide: Vec<String> = large.warnings.iter().map(ToString::to_string).collect();
     assert!(wide.iter().any(|text| text.contains("m wide")), "{wide:?}");
     for text in said.iter().chain(&wide) {
@@ -282,10 +254,7 @@ fn relative_seeds_of_an_imported_body_are_shares_of_its_own_slip_speed() {
 #[test]
 fn keys_that_have_no_effect_beside_a_mesh_file_are_said() {
     let folder = folder();
-    let set = [
-        "mesh.circumferential_elements=10",
-        "geometry.inner_radius=0.02",
-    ];
+    let set = ["mesh.circumferential_elements=10", "geometry.inner_radius=0.02"];
     let body = case(&folder, "disc.msh", &set);
     let said: Vec<String> = body.warnings.iter().map(ToString::to_string).collect();
     for key in ["mesh.circumferential_elements", "geometry.inner_radius"] {
@@ -331,9 +300,6 @@ fn a_table_of_more_modes_than_anybody_measures_is_refused_at_once() {
     let text = refuse_too_few(&body, &many).unwrap_err().to_string();
     assert!(text.contains("20000 lines, at most 1000"), "{text}");
     let text = refuse_too_few(&body, &[line(2, 1e-320)]).unwrap_err();
-    assert!(
-        text.to_string().contains("no frequency of a mode"),
-        "{text}"
-    );
+    assert!(text.to_string().contains("no frequency of a mode"), "{text}");
     assert!(text.is_usage());
 }

@@ -53,36 +53,21 @@ fn a_case_describes_disc_and_shaft() {
 #[test]
 fn bad_shafts_are_refused_with_a_remedy() {
     for (from, to, key, remedy) in [
-        (
-            "[materials.shaft]",
-            "[materials.disc]",
-            "materials.disc",
-            "[materials.shaft]",
-        ),
+        ("[materials.shaft]", "[materials.disc]", "materials.disc", "[materials.shaft]"),
         (
             "[materials.shaft]\nyoung_modulus = 2.1e11\npoisson_ratio = 0.3\ndensity = 7850.0\n",
             "",
             "geometry.shaft_inner_radius",
             "add [materials.shaft]",
         ),
-        (
-            "shaft_inner_radius = 0.006",
-            "",
-            "materials.shaft",
-            "give geometry.shaft_inner_radius",
-        ),
+        ("shaft_inner_radius = 0.006", "", "materials.shaft", "give geometry.shaft_inner_radius"),
         (
             "shaft_inner_radius = 0.006",
             "shaft_inner_radius = 0.03",
             "geometry.shaft_inner_radius = 0.03",
             "must be below 0.0205",
         ),
-        (
-            "shaft_radial_elements = 2",
-            "",
-            "shaft_radial_elements",
-            "missing",
-        ),
+        ("shaft_radial_elements = 2", "", "shaft_radial_elements", "missing"),
         (
             "[contact]",
             "[boundaries.bore]\ncondition = \"free\"\n[contact]",
@@ -97,10 +82,7 @@ fn bad_shafts_are_refused_with_a_remedy() {
         ),
     ] {
         let error = parse(from, to).unwrap_err();
-        assert!(
-            error.contains(key) && error.contains(remedy),
-            "{to}: {error}"
-        );
+        assert!(error.contains(key) && error.contains(remedy), "{to}: {error}");
     }
 }
 

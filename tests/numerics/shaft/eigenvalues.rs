@@ -31,26 +31,14 @@ fn cyclic_and_sparse_spectra_of_two_bodies_are_the_same() {
     };
     let damped = |mut materials: AnnulusMaterials| {
         if let Some(shaft) = &mut materials.shaft {
-            shaft.damping = Some(RayleighDamping {
-                mass_coefficient: 5.0,
-                stiffness_coefficient: 1e-8,
-            });
+            shaft.damping =
+                Some(RayleighDamping { mass_coefficient: 5.0, stiffness_coefficient: 1e-8 });
         }
         materials
     };
     let cases = [
-        (
-            ElementKind::Quad4,
-            20,
-            rigid_contact(true),
-            on(POLYCARBONATE),
-        ),
-        (
-            ElementKind::Quad8,
-            12,
-            rigid_contact(true),
-            damped(on(STEEL)),
-        ),
+        (ElementKind::Quad4, 20, rigid_contact(true), on(POLYCARBONATE)),
+        (ElementKind::Quad8, 12, rigid_contact(true), damped(on(STEEL))),
         (
             ElementKind::Quad4,
             18,
@@ -133,10 +121,8 @@ fn sensitivities_of_two_bodies_are_those_of_each_bodys_own_parameters() {
     let materials = |change: &dyn Fn(&mut AnnulusMaterials)| {
         let mut materials = on(STEEL);
         // So much that the little it does to a stiff shaft stands above round-off.
-        materials.shaft.as_mut().unwrap().damping = Some(RayleighDamping {
-            mass_coefficient: 5e3,
-            stiffness_coefficient: 1e-6,
-        });
+        materials.shaft.as_mut().unwrap().damping =
+            Some(RayleighDamping { mass_coefficient: 5e3, stiffness_coefficient: 1e-6 });
         change(&mut materials);
         materials
     };
@@ -168,23 +154,13 @@ fn sensitivities_of_two_bodies_are_those_of_each_bodys_own_parameters() {
     };
     for like in [1, 4] {
         let own = &found[like];
-        let modulus = |f: f64| {
-            eigenvalue(
-                &materials(&|m| m.annulus.young_modulus *= f),
-                &options,
-                like,
-            )
-        };
+        let modulus =
+            |f: f64| eigenvalue(&materials(&|m| m.annulus.young_modulus *= f), &options, like);
         check(like, "E", own.young_modulus.unwrap(), &modulus, 2.5e9);
         let density = |f: f64| eigenvalue(&materials(&|m| m.annulus.density *= f), &options, like);
         check(like, "rho", own.density, &density, 1228.0);
-        let ratio = |f: f64| {
-            eigenvalue(
-                &materials(&|m| m.annulus.poisson_ratio *= f),
-                &options,
-                like,
-            )
-        };
+        let ratio =
+            |f: f64| eigenvalue(&materials(&|m| m.annulus.poisson_ratio *= f), &options, like);
         check(like, "nu", own.poisson_ratio.unwrap(), &ratio, 0.3805);
         let beta = |f: f64| {
             let mut options = options;
@@ -205,15 +181,9 @@ fn sensitivities_of_two_bodies_are_those_of_each_bodys_own_parameters() {
             let changed = |f: f64| shaft(&|region| change(region, f));
             check(like, name, own.shaft[i].unwrap(), &changed, value);
         };
-        by("shaft E", 0, STEEL.young_modulus, &|m, f| {
-            m.elastic.young_modulus *= f
-        });
-        by("shaft nu", 1, STEEL.poisson_ratio, &|m, f| {
-            m.elastic.poisson_ratio *= f
-        });
-        by("shaft rho", 2, STEEL.density, &|m, f| {
-            m.elastic.density *= f
-        });
+        by("shaft E", 0, STEEL.young_modulus, &|m, f| m.elastic.young_modulus *= f);
+        by("shaft nu", 1, STEEL.poisson_ratio, &|m, f| m.elastic.poisson_ratio *= f);
+        by("shaft rho", 2, STEEL.density, &|m, f| m.elastic.density *= f);
         by("shaft alpha", 3, 5e3, &|m, f| damping(m, [f, 1.0]));
         by("shaft beta", 4, 1e-6, &|m, f| damping(m, [1.0, f]));
     }

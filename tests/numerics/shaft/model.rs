@@ -33,19 +33,13 @@ pub fn with_shaft(element: ElementKind, around: usize, radial: [usize; 2]) -> An
 pub fn on(shaft: ElasticMaterial) -> AnnulusMaterials {
     AnnulusMaterials {
         annulus: POLYCARBONATE,
-        shaft: Some(RegionMaterial {
-            elastic: shaft,
-            damping: None,
-        }),
+        shaft: Some(RegionMaterial { elastic: shaft, damping: None }),
     }
 }
 
 /// A shaft of the disc's material, `factor` times as stiff.
 pub fn stiffer(factor: f64) -> AnnulusMaterials {
-    on(ElasticMaterial {
-        young_modulus: factor * POLYCARBONATE.young_modulus,
-        ..POLYCARBONATE
-    })
+    on(ElasticMaterial { young_modulus: factor * POLYCARBONATE.young_modulus, ..POLYCARBONATE })
 }
 
 pub fn rigid_contact(geometric_stiffness: bool) -> TangentOptions {

@@ -92,9 +92,7 @@ fn glued_bodies_of_one_material_have_the_matrices_of_one_body() {
             let mass = assemble_mass(mesh, material, MassKind::Consistent);
             [assemble_stiffness(mesh, material), mass]
         };
-        let pairs = matrices(&mesh, &two)
-            .into_iter()
-            .zip(matrices(&one, &alone));
+        let pairs = matrices(&mesh, &two).into_iter().zip(matrices(&one, &alone));
         for (ours, theirs) in pairs {
             let (ours, theirs) = (summed(&ours, &place), summed(&theirs, &|dof| dof));
             let largest = theirs.values().fold(0.0_f64, |m, v| m.max(v.abs()));

@@ -44,23 +44,16 @@ fn a_wave_in_disc_and_shaft_grows_as_the_complex_eigenvalue_predicts() {
     let specification = with_shaft(ElementKind::Quad4, 48, [4, 10]);
     let annulus = AnnulusMesh::generate(&specification).unwrap();
     let mut steel = on(STEEL);
-    steel.shaft.as_mut().unwrap().damping = Some(RayleighDamping {
-        mass_coefficient: 20.0,
-        stiffness_coefficient: 1e-8,
-    });
-    let options = TangentOptions {
-        mass: MassKind::Lumped,
-        ..rigid_contact(false)
-    };
+    steel.shaft.as_mut().unwrap().damping =
+        Some(RayleighDamping { mass_coefficient: 20.0, stiffness_coefficient: 1e-8 });
+    let options = TangentOptions { mass: MassKind::Lumped, ..rigid_contact(false) };
     for (materials, n, duration) in [(on(POLYCARBONATE), 2, 0.006), (steel, 2, 0.006)] {
         let limit = ModeLimit::MaxFrequency(20e3);
         let found = spectrum(&specification, &materials, &options, &[0.0, 0.3], limit);
         let modes = &found.sweep.points[1].modes;
         let of_harmonic = modes.iter().filter(|mode| mode.harmonic == n);
-        let predicted = of_harmonic
-            .map(|mode| mode.eigenvalue)
-            .max_by(|a, b| a.re.total_cmp(&b.re))
-            .unwrap();
+        let predicted =
+            of_harmonic.map(|mode| mode.eigenvalue).max_by(|a, b| a.re.total_cmp(&b.re)).unwrap();
         assert!(predicted.re > 0.0);
         let settings = settings(duration, Perturbation::of(&[n], 1e-8));
         let record = run(&annulus, &materials, OperatorChoice::Cyclic, &settings);

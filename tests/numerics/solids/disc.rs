@@ -33,9 +33,8 @@ fn modes_in_the_plane_of_the_thick_disc_are_those_of_an_independent_solution() {
 #[test]
 fn every_mode_with_axial_motion_decays() {
     let modes = modes(&disc(ElementKind::Quad8, [36, 8, 2]), 0.3, 11_000.0);
-    let (axial, plane): (Vec<&ComplexMode>, Vec<_>) = modes
-        .iter()
-        .partition(|mode| mode.axial_share.unwrap() > 0.5);
+    let (axial, plane): (Vec<&ComplexMode>, Vec<_>) =
+        modes.iter().partition(|mode| mode.axial_share.unwrap() > 0.5);
     assert!(axial.len() > 15 && axial.iter().all(|mode| mode.growth_rate() < 0.0));
     assert!(plane.iter().any(|mode| mode.is_unstable()));
 }

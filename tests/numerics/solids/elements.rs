@@ -38,9 +38,8 @@ fn bricks_hold_every_constant_strain() {
             for (k, node) in sector.nodes.iter().enumerate() {
                 let [i, j] = node.place;
                 if i > 0 && i < 2 * nr && j > 0 && j < 2 * nz {
-                    let inside = force[3 * k..3 * k + 3]
-                        .iter()
-                        .fold(0.0_f64, |m, f| m.max(f.abs()));
+                    let inside =
+                        force[3 * k..3 * k + 3].iter().fold(0.0_f64, |m, f| m.max(f.abs()));
                     // Rounding of a hundred terms.
                     assert!(inside < 1e-11 * largest, "{element:?} n = {n} {node:?}");
                 }
@@ -53,10 +52,7 @@ fn bricks_hold_every_constant_strain() {
 /// or the face included.
 #[test]
 fn rigid_rotation_leaves_the_prestressed_body_in_balance() {
-    let ring = SolidContact::Ring {
-        inner_radius: 0.04,
-        outer_radius: 0.07,
-    };
+    let ring = SolidContact::Ring { inner_radius: 0.04, outer_radius: 0.07 };
     for element in [ElementKind::Quad4, ElementKind::Quad8] {
         for contact in [SolidContact::Inner, ring] {
             let mut model = disc(element, [12, 6, 2]);
@@ -67,10 +63,7 @@ fn rigid_rotation_leaves_the_prestressed_body_in_balance() {
                 SolidTangent::linearize(&sector, &model.material, &options, &model.contact).unwrap()
             };
             let with = of(model.options);
-            let without = of(TangentOptions {
-                geometric_stiffness: false,
-                ..model.options
-            });
+            let without = of(TangentOptions { geometric_stiffness: false, ..model.options });
             let without = without.harmonic(0).stiffness;
             let mut rotation = vec![0.0; without[0].dimension()];
             for (dof, unknown) in with.unknown_of().iter().enumerate() {
@@ -89,11 +82,7 @@ fn rigid_rotation_leaves_the_prestressed_body_in_balance() {
                     .collect();
                 let mut difference = after.clone();
                 difference.add_scaled(-1.0, before);
-                let scale = difference
-                    .values()
-                    .iter()
-                    .fold(0.0_f64, |m, v| m.max(v.abs()))
-                    * 0.09;
+                let scale = difference.values().iter().fold(0.0_f64, |m, v| m.max(v.abs())) * 0.09;
                 for (dof, unknown) in with.unknown_of().iter().enumerate() {
                     if let (Some(unknown), false) = (unknown, outermost(dof)) {
                         // Each row sums a hundred terms of that size.
@@ -112,10 +101,9 @@ fn rigid_rotation_leaves_the_prestressed_body_in_balance() {
 /// Poisson's ratio 1/3) gives `omega b^2 sqrt(rho h / D) = 17.715` for n = 0 and 22.015 for n = 1.
 #[test]
 fn bricks_of_8_and_20_nodes_bend_like_a_thin_plate() {
-    for (element, divisions) in [
-        (ElementKind::Quad4, [48, 16, 1]),
-        (ElementKind::Quad8, [36, 14, 1]),
-    ] {
+    for (element, divisions) in
+        [(ElementKind::Quad4, [48, 16, 1]), (ElementKind::Quad8, [36, 14, 1])]
+    {
         let mut model = disc(element, divisions);
         let (outer, thickness) = (0.1, 0.001);
         model.specification.annulus.inner_radius = 0.5 * outer;
@@ -123,10 +111,8 @@ fn bricks_of_8_and_20_nodes_bend_like_a_thin_plate() {
         model.specification.thickness = thickness;
         model.material.poisson_ratio = 1.0 / 3.0;
         // As good as free.
-        model.options.contact = ContactStiffness {
-            normal_stiffness: Some(1.0),
-            ..ContactStiffness::default()
-        };
+        model.options.contact =
+            ContactStiffness { normal_stiffness: Some(1.0), ..ContactStiffness::default() };
         let e = model.material.young_modulus;
         let rigidity = e * thickness.powi(3) / (12.0 * (1.0 - 1.0 / 9.0));
         let unit = (rigidity / (model.material.density * thickness)).sqrt() / (outer * outer) / TAU;
@@ -134,10 +120,7 @@ fn bricks_of_8_and_20_nodes_bend_like_a_thin_plate() {
         for (harmonic, factor) in [(0, 17.715), (1, 22.015)] {
             let mode = found.iter().find(|mode| mode.harmonic == harmonic).unwrap();
             let ratio = mode.frequency_hz() / (factor * unit);
-            assert!(
-                (ratio - 1.0).abs() < 0.01,
-                "{element:?} n = {harmonic}: {ratio}"
-            );
+            assert!((ratio - 1.0).abs() < 0.01, "{element:?} n = {harmonic}: {ratio}");
         }
     }
 }
@@ -148,10 +131,7 @@ fn bricks_of_8_and_20_nodes_bend_like_a_thin_plate() {
 #[test]
 fn frequencies_converge_with_the_order_of_the_bricks() {
     let base = disc(ElementKind::Quad8, [12, 2, 1]);
-    let [a, b] = [
-        base.specification.annulus.inner_radius,
-        base.specification.annulus.outer_radius,
-    ];
+    let [a, b] = [base.specification.annulus.inner_radius, base.specification.annulus.outer_radius];
     let residual =
         |k: f64| libm::jn(2, k * a) * libm::yn(1, k * b) - libm::yn(2, k * a) * libm::jn(1, k * b);
     let (mut low, mut high) = (3.0 / b, 5.0 / b);
@@ -173,18 +153,14 @@ fn frequencies_converge_with_the_order_of_the_bricks() {
             model.options.damping = RayleighDamping::default();
             let found = modes(&model, 0.0, 1.15 * exact);
             let distance = |mode: &&ComplexMode| (mode.frequency_hz() - exact).abs();
-            let twists = found
-                .iter()
-                .filter(|mode| mode.harmonic == 0 && mode.axial_share < Some(1e-6));
+            let twists =
+                found.iter().filter(|mode| mode.harmonic == 0 && mode.axial_share < Some(1e-6));
             let nearest = twists.min_by(|a, b| distance(a).total_cmp(&distance(b)));
             distance(&nearest.unwrap()) / exact
         });
         let orders = [0, 1].map(|k| (errors[k] / errors[k + 1]).log2());
         // Terms of the next order are a twentieth of the error on the finer pair.
-        assert!(
-            orders[1] > order - 0.2,
-            "{element:?}: {errors:?}, {orders:?}"
-        );
+        assert!(orders[1] > order - 0.2, "{element:?}: {errors:?}, {orders:?}");
     }
 }
 

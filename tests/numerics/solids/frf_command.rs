@@ -49,10 +49,9 @@ fn damping_is_identified_from_the_response_of_a_disc_with_thickness() {
     let mut identify = Command::cargo_bin("frictionsim").unwrap();
     identify.current_dir(folder.path());
     let found = json(identify.args(["identify", "frf/frf.csv", "--no-figures"]));
-    for (key, exact, bound) in [
-        ("mass_coefficient", 40.0, 0.1),
-        ("stiffness_coefficient", 4.5e-7, 0.05),
-    ] {
+    for (key, exact, bound) in
+        [("mass_coefficient", 40.0, 0.1), ("stiffness_coefficient", 4.5e-7, 0.05)]
+    {
         // Noise of 1 %: a few standard errors of the estimates of a dozen modes.
         let value = found[key]["value"].as_f64().unwrap();
         assert!((value / exact - 1.0).abs() < bound, "{key}: {value}");
@@ -99,8 +98,6 @@ fn methods_of_plane_bodies_and_held_nodes_are_refused_with_key_and_remedy() {
     }
     let held = frictionsim(&folder, "frf", &["frf.boundary=clamped"]);
     let run = { held }.assert().code(2);
-    run.stderr(contains(
-        "frf.force_node = 63 cannot move in axial direction",
-    ))
-    .stderr(contains("frf.boundary = \"free\""));
+    run.stderr(contains("frf.force_node = 63 cannot move in axial direction"))
+        .stderr(contains("frf.boundary = \"free\""));
 }

@@ -19,13 +19,8 @@ fn plane(
     };
     let mut material = model.material;
     material.formulation = formulation;
-    let found = sweep(
-        &model.specification.annulus,
-        &material,
-        &model.options,
-        &model.contact,
-        &request,
-    );
+    let found =
+        sweep(&model.specification.annulus, &material, &model.options, &model.contact, &request);
     found.unwrap().sweep.points.remove(0).modes
 }
 
@@ -33,8 +28,7 @@ fn plane(
 fn nearest<'a>(modes: &'a [ComplexMode], wanted: &ComplexMode) -> &'a ComplexMode {
     let distance = |mode: &&ComplexMode| (mode.eigenvalue - wanted.eigenvalue).norm();
     let same = modes.iter().filter(|mode| mode.harmonic == wanted.harmonic);
-    same.min_by(|a, b| distance(a).total_cmp(&distance(b)))
-        .unwrap()
+    same.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()
 }
 
 #[test]
@@ -49,11 +43,7 @@ fn guided_faces_give_plane_strain() {
             let found = nearest(&solid, &mode);
             // A 20-node brick has no node at mid-thickness between its sides, a plane quadrilateral has: 0.3 Hz at 11 kHz.
             let error = (found.eigenvalue - mode.eigenvalue).norm() / mode.eigenvalue.norm();
-            assert!(
-                error < 3e-5,
-                "{geometric_stiffness} n = {}: {error:e}",
-                mode.harmonic
-            );
+            assert!(error < 3e-5, "{geometric_stiffness} n = {}: {error:e}", mode.harmonic);
         }
     }
 }
@@ -86,10 +76,8 @@ fn a_thin_disc_has_the_modes_of_plane_stress() {
     let mut model = disc(ElementKind::Quad8, [24, 8, 1]);
     model.specification.thickness = 2e-4;
     let solid = modes(&model, 0.3, 9000.0);
-    let in_plane: Vec<ComplexMode> = solid
-        .into_iter()
-        .filter(|mode| mode.axial_share.unwrap() < 0.1)
-        .collect();
+    let in_plane: Vec<ComplexMode> =
+        solid.into_iter().filter(|mode| mode.axial_share.unwrap() < 0.1).collect();
     let reference = plane(&model, PlaneFormulation::PlaneStress, 8900.0);
     assert!(reference.len() > 3);
     for mode in reference {
@@ -135,10 +123,7 @@ fn the_stress_of_a_stretched_tube_is_that_of_the_theory() {
         assert!(worst(kind, [24, 4, 2], 0.0) < 1e-9);
     }
     // b / r^2 is 1e-4 inside.
-    let inner = disc(ElementKind::Quad4, [24, 4, 1])
-        .specification
-        .annulus
-        .inner_radius;
+    let inner = disc(ElementKind::Quad4, [24, 4, 1]).specification.annulus.inner_radius;
     let b = 1e-4 * inner * inner;
     let [coarse, fine] = [1, 2].map(|k| worst(ElementKind::Quad4, [48 * k, 12 * k, 1], b));
     assert!(fine < 0.1 && fine < 0.35 * coarse, "{coarse:.4} {fine:.4}");

@@ -44,10 +44,7 @@ pub fn disc(element: ElementKind, [around, radial, axial]: [usize; 3]) -> SolidM
         options: TangentOptions {
             mass: MassKind::Consistent,
             geometric_stiffness: false,
-            damping: RayleighDamping {
-                mass_coefficient: 40.0,
-                stiffness_coefficient: 4.5e-7,
-            },
+            damping: RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 4.5e-7 },
             damping_model: DampingModel::WholeTangent,
             contact: ContactStiffness::default(),
         },

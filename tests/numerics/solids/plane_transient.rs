@@ -65,10 +65,7 @@ fn thick(divisions: [usize; 2]) -> Course {
     let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar);
     let operator = operator.unwrap();
     let mut run = CentralDifference::start(body, operator.as_ref(), &settings()).unwrap();
-    let mut course = Course {
-        is_solid: true,
-        ..Course::default()
-    };
+    let mut course = Course { is_solid: true, ..Course::default() };
     run.run(&mut course).unwrap();
     course
 }
@@ -136,9 +133,6 @@ fn a_guided_body_moves_sticks_slips_and_opens_as_in_plane_strain_the_more_so_the
     // Statuses, displacement, mean normal force, mean kinetic energy; the last is within 0.2 % on both meshes.
     for (k, bound) in [0.04, 0.06, 0.01, 0.002].into_iter().enumerate() {
         assert!(fine[k] < bound, "{k}: {fine:?}");
-        assert!(
-            k == 3 || fine[k] < 0.4 * coarse[k],
-            "{k}: {coarse:?} {fine:?}"
-        );
+        assert!(k == 3 || fine[k] < 0.4 * coarse[k], "{k}: {coarse:?} {fine:?}");
     }
 }

@@ -72,10 +72,7 @@ fn has_poles_at_onsets(model: &SolidModel) {
     for onset in onsets {
         let lambda = c64::new(0.0, TAU * onset.frequency_hz);
         let pole = pole_beside(model, onset.critical_friction, lambda, (1, 1.0));
-        println!(
-            "mu {:.4}, {:.1} Hz: {pole:.1e} Hz",
-            onset.critical_friction, onset.frequency_hz
-        );
+        println!("mu {:.4}, {:.1} Hz: {pole:.1e} Hz", onset.critical_friction, onset.frequency_hz);
         // Onsets are located to 1e-9; what the reduced space of the eigenvalue analysis leaves out of a mesh that fine.
         assert!(pole.norm() < 1e-6 * onset.frequency_hz, "{onset:?}: {pole}");
     }
@@ -91,10 +88,8 @@ fn the_response_has_its_pole_on_the_axis_at_every_critical_friction_of_the_eigen
 /// The springs carry the base state, on which all of the tangent rests.
 #[test]
 fn on_a_base_state_that_springs_carry_the_response_has_the_poles_of_the_eigenvalue_analysis() {
-    for (element, divisions) in [
-        (ElementKind::Quad4, [24, 6, 2]),
-        (ElementKind::Quad8, [16, 4, 1]),
-    ] {
+    for (element, divisions) in [(ElementKind::Quad4, [24, 6, 2]), (ElementKind::Quad8, [16, 4, 1])]
+    {
         let mut model = disc(element, divisions);
         model.options.geometric_stiffness = true;
         model.options.contact = ContactStiffness {
@@ -109,16 +104,11 @@ fn on_a_base_state_that_springs_carry_the_response_has_the_poles_of_the_eigenval
 /// A contact that stiffens carries the base state, and the tangent has its stiffness at the pressure there.
 #[test]
 fn on_a_contact_that_stiffens_the_response_has_the_poles_of_the_eigenvalue_analysis() {
-    for (element, divisions) in [
-        (ElementKind::Quad4, [24, 6, 2]),
-        (ElementKind::Quad8, [16, 4, 1]),
-    ] {
+    for (element, divisions) in [(ElementKind::Quad4, [24, 6, 2]), (ElementKind::Quad8, [16, 4, 1])]
+    {
         let mut model = disc(element, divisions);
         model.options.geometric_stiffness = true;
-        let law = NormalLaw::Exponential {
-            reference_pressure: 2e5,
-            height: 2e-6,
-        };
+        let law = NormalLaw::Exponential { reference_pressure: 2e5, height: 2e-6 };
         model.options.contact = ContactStiffness {
             normal_stiffness: Some(law.stiffness(0.0)),
             law: Some(law),
@@ -131,31 +121,21 @@ fn on_a_contact_that_stiffens_the_response_has_the_poles_of_the_eigenvalue_analy
 /// Around, bricks of 20 nodes have the traction of a point act along the normals of nodes beside it: a term of `mu^2`.
 #[test]
 fn friction_that_falls_with_speed_gives_the_response_the_poles_of_the_eigenvalue_analysis() {
-    for (element, divisions) in [
-        (ElementKind::Quad4, [16, 3, 2]),
-        (ElementKind::Quad8, [8, 3, 1]),
-    ] {
+    for (element, divisions) in [(ElementKind::Quad4, [16, 3, 2]), (ElementKind::Quad8, [8, 3, 1])]
+    {
         let mut model = disc(element, divisions);
-        model.contact.decay = Some(FrictionDecay {
-            static_ratio: 2.0,
-            decay_speed: 1.0,
-        });
+        model.contact.decay = Some(FrictionDecay { static_ratio: 2.0, decay_speed: 1.0 });
         let friction = 0.8;
         let found = modes(&model, friction, 10e3);
         // The others hardly oscillate across the sliding.
-        let sharp = found
-            .iter()
-            .filter(|mode| mode.damping_factor().abs() < 0.05);
+        let sharp = found.iter().filter(|mode| mode.damping_factor().abs() < 0.05);
         let sharp: Vec<_> = sharp.collect();
         assert!(sharp.len() >= 4);
         let mut worst = 0.0_f64;
         for mode in sharp {
             let lambda = mode.eigenvalue;
             let pole = pole_beside(&model, friction, lambda, (8, 0.06 * lambda.im / TAU));
-            println!(
-                "{element:?}, n = {}: {lambda:.3} 1/s, {pole:.1e} Hz",
-                mode.harmonic
-            );
+            println!("{element:?}, n = {}: {lambda:.3} 1/s, {pole:.1e} Hz", mode.harmonic);
             worst = worst.max(pole.norm() / lambda.norm() * TAU);
         }
         println!("{element:?}: {worst:.1e}");

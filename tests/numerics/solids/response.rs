@@ -17,13 +17,7 @@ use Direction::{Axial, Radial, Tangential};
 pub fn body(model: &SolidModel, is_clamped: bool) -> CyclicSystem {
     let sector = SolidSector::generate(&model.specification).unwrap();
     let options = &model.options;
-    CyclicSystem::solid_body(
-        &sector,
-        &model.material,
-        options.mass,
-        options.damping,
-        is_clamped,
-    )
+    CyclicSystem::solid_body(&sector, &model.material, options.mass, options.damping, is_clamped)
 }
 
 pub fn sliding(model: &SolidModel, friction: f64) -> CyclicSystem {
@@ -53,13 +47,8 @@ pub fn at(
     direction: Direction,
 ) -> Terminal {
     let found = sector.nodes.iter();
-    let node = found
-        .clone()
-        .position(|node| node.place == place && node.half_step == half_step);
-    Terminal {
-        node: s * sector.node_count() + node.unwrap(),
-        direction,
-    }
+    let node = found.clone().position(|node| node.place == place && node.half_step == half_step);
+    Terminal { node: s * sector.node_count() + node.unwrap(), direction }
 }
 
 pub const FREQUENCIES: [f64; 6] = [700.0, 1999.0, 4321.0, 7000.0, 9100.0, 15_000.0];
@@ -156,10 +145,7 @@ fn harmonics_in_sliding_contact_sum_to_the_response_of_a_whole_ring_of_bricks() 
         tangential_damping: 2e4,
         ..ContactStiffness::default()
     };
-    let ring = SolidContact::Ring {
-        inner_radius: 0.03,
-        outer_radius: 0.06,
-    };
+    let ring = SolidContact::Ring { inner_radius: 0.03, outer_radius: 0.06 };
     let (hex8, hex20) = (ElementKind::Quad4, ElementKind::Quad8);
     for (element, contact, place) in [
         (hex8, rigid, SolidContact::Inner),
@@ -216,15 +202,8 @@ fn excitation_and_response_can_be_exchanged_without_friction() {
     let mut model = disc(ElementKind::Quad8, [12, 3, 1]);
     model.options.geometric_stiffness = true;
     let sector = SolidSector::generate(&model.specification).unwrap();
-    let (a, b) = (
-        at(&sector, 1, [0, 2], 0, Axial),
-        at(&sector, 5, [2, 0], 1, Tangential),
-    );
-    for system in [
-        body(&model, false),
-        body(&model, true),
-        sliding(&model, 0.0),
-    ] {
+    let (a, b) = (at(&sector, 1, [0, 2], 0, Axial), at(&sector, 5, [2, 0], 1, Tangential));
+    for system in [body(&model, false), body(&model, true), sliding(&model, 0.0)] {
         let there = cyclic_response(&system, a, b, &FREQUENCIES).unwrap();
         let back = cyclic_response(&system, b, a, &FREQUENCIES).unwrap();
         for (x, y) in there.receptance.iter().zip(&back.receptance) {
@@ -242,10 +221,7 @@ fn the_response_has_the_same_bits_on_any_number_of_threads() {
     let model = disc(ElementKind::Quad4, [12, 3, 2]);
     let system = sliding(&model, 0.3);
     let sector = SolidSector::generate(&model.specification).unwrap();
-    let (a, b) = (
-        at(&sector, 1, [0, 0], 0, Axial),
-        at(&sector, 5, [2, 4], 0, Radial),
-    );
+    let (a, b) = (at(&sector, 1, [0, 0], 0, Axial), at(&sector, 5, [2, 4], 0, Radial));
     let f: Vec<f64> = (1..=77).map(|line| 100.0 * f64::from(line)).collect();
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
@@ -262,40 +238,21 @@ fn held_directions_missing_nodes_and_axial_motion_in_the_plane_are_refused_with_
     let system = sliding(&model, 0.3);
     let held = at(&sector, 0, [0, 2], 0, Radial);
     let error = system.check(held, "force_node").unwrap_err();
-    assert!(matches!(
-        error,
-        FrfError::Constrained {
-            direction: "radial",
-            ..
-        }
-    ));
-    assert!(
-        system
-            .check(at(&sector, 0, [0, 2], 0, Axial), "force_node")
-            .is_ok()
-    );
+    assert!(matches!(error, FrfError::Constrained { direction: "radial", .. }));
+    assert!(system.check(at(&sector, 0, [0, 2], 0, Axial), "force_node").is_ok());
     let clamped = at(&sector, 0, [6, 2], 0, Axial);
     let error = system.check(clamped, "response_node").unwrap_err();
     assert!(error.to_string().contains("cannot move in axial direction"));
-    let missing = Terminal {
-        node: 12 * sector.node_count(),
-        direction: Axial,
-    };
+    let missing = Terminal { node: 12 * sector.node_count(), direction: Axial };
     let error = system.check(missing, "response_node").unwrap_err();
-    assert!(
-        error.to_string().contains("frf.response_node = 145"),
-        "{error}"
-    );
+    assert!(error.to_string().contains("frf.response_node = 145"), "{error}");
 
     let plane = SectorMesh::generate(&model.specification.annulus).unwrap();
     let mut material = model.material;
     material.formulation = PlaneFormulation::PlaneStrain;
     let damping = model.options.damping;
     let flat = CyclicSystem::body(&plane, &material, MassKind::Consistent, damping, true);
-    let axial = Terminal {
-        node: 0,
-        direction: Axial,
-    };
+    let axial = Terminal { node: 0, direction: Axial };
     let error = flat.check(axial, "force_node").unwrap_err();
     assert!(matches!(error, FrfError::InPlane { node: 1, .. }));
 }

@@ -31,12 +31,9 @@ fn plane_and_guided(around: usize, is_sliding: bool) -> Vec<(c64, c64)> {
         (flat, body(&model, true))
     };
     let mut pairs = Vec::new();
-    for (turn, place, direction) in [
-        (1, 0, Tangential),
-        (3, 3, Radial),
-        (7, 4, Tangential),
-        (11, 2, Radial),
-    ] {
+    for (turn, place, direction) in
+        [(1, 0, Tangential), (3, 3, Radial), (7, 4, Tangential), (11, 2, Radial)]
+    {
         // A ray has its nodes by rising radius in the plane.
         let s = turn * around / 16;
         let plane_node = |s: usize, i: usize| s * plane.node_count() + i;
@@ -71,9 +68,7 @@ fn guided_faces_respond_as_plane_strain_does() {
     // those of the corners beside them: the two differ by the square of a sector.
     let apart = [16, 32].map(|around| {
         let pairs = plane_and_guided(around, true);
-        let top = pairs
-            .iter()
-            .fold(0.0_f64, |m, (known, _)| m.max(known.norm()));
+        let top = pairs.iter().fold(0.0_f64, |m, (known, _)| m.max(known.norm()));
         let apart = pairs.iter().map(|(known, h)| (h - known).norm() / top);
         apart.fold(0.0, f64::max)
     });

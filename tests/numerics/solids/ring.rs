@@ -11,10 +11,7 @@ use std::f64::consts::TAU;
 /// A ring on the outer half of the top face.
 fn ringed(element: ElementKind, divisions: [usize; 3]) -> SolidModel {
     let mut model = disc(element, divisions);
-    model.specification.contact = SolidContact::Ring {
-        inner_radius: 0.05,
-        outer_radius: 0.08,
-    };
+    model.specification.contact = SolidContact::Ring { inner_radius: 0.05, outer_radius: 0.08 };
     model.contact.interference = 5e-6;
     model
 }
@@ -30,10 +27,7 @@ fn base(model: &SolidModel) -> Result<(SolidSector, SolidSliding), PrestressErro
 /// A ring on the whole face of a layer whose bottom cannot move, guided at its sides.
 fn layer(element: ElementKind) -> SolidModel {
     let mut model = ringed(element, [24, 4, 2]);
-    model.specification.contact = SolidContact::Ring {
-        inner_radius: 0.0205,
-        outer_radius: 0.0905,
-    };
+    model.specification.contact = SolidContact::Ring { inner_radius: 0.0205, outer_radius: 0.0905 };
     model.specification.conditions = [
         BoundaryCondition::Guide,
         BoundaryCondition::Guide,
@@ -72,10 +66,7 @@ fn springs_that_carry_the_base_state_stand_in_series_with_a_layer() {
         let nodal: f64 = base.normal_forces.iter().map(|(_, force)| force).sum();
         let area: f64 = sector.rings.iter().map(|ring| ring.area).sum();
         for pressure in base.pressures.iter().chain(&[nodal / area]) {
-            assert!(
-                (pressure / exact - 1.0).abs() < tolerance,
-                "{pressure} {exact}"
-            );
+            assert!((pressure / exact - 1.0).abs() < tolerance, "{pressure} {exact}");
         }
     }
 }
@@ -92,10 +83,7 @@ fn contact_that_stiffens_shares_the_distance_with_a_layer() {
         let [lambda, shear] = model.material.solid_lame_constants();
         let exact = (lambda + 2.0 * shear) * 2.5e-6 / 0.009;
         let laws = [
-            NormalLaw::Exponential {
-                reference_pressure: exact / f64::exp_m1(5.0),
-                height: 5e-7,
-            },
+            NormalLaw::Exponential { reference_pressure: exact / f64::exp_m1(5.0), height: 5e-7 },
             NormalLaw::Cubic {
                 stiffness: 0.1 * exact / 2.5e-6,
                 cubic_stiffness: 0.9 * exact / 2.5e-6_f64.powi(3),
@@ -107,10 +95,7 @@ fn contact_that_stiffens_shares_the_distance_with_a_layer() {
             let nodal: f64 = base.normal_forces.iter().map(|(_, force)| force).sum();
             let area: f64 = sector.rings.iter().map(|ring| ring.area).sum();
             for pressure in base.pressures.iter().chain(&[nodal / area]) {
-                assert!(
-                    (pressure / exact - 1.0).abs() < tolerance,
-                    "{law:?}: {pressure} {exact}"
-                );
+                assert!((pressure / exact - 1.0).abs() < tolerance, "{law:?}: {pressure} {exact}");
             }
             for approach in &base.approaches {
                 assert!((approach / 2.5e-6 - 1.0).abs() < tolerance, "{approach}");
@@ -125,10 +110,7 @@ fn a_law_that_hardly_stiffens_is_springs() {
     let mut linear = ringed(ElementKind::Quad8, [24, 7, 1]);
     compliant(&mut linear, 3e11);
     let mut own = linear;
-    own.options.contact.law = Some(NormalLaw::Cubic {
-        stiffness: 3e11,
-        cubic_stiffness: 1e8,
-    });
+    own.options.contact.law = Some(NormalLaw::Cubic { stiffness: 3e11, cubic_stiffness: 1e8 });
     let [linear, own] = [linear, own].map(|model| modes(&model, 0.5, 4000.0));
     assert_eq!(linear.len(), own.len());
     for (a, b) in linear.iter().zip(&own) {
@@ -153,10 +135,7 @@ fn springs_that_carry_the_base_state_give_a_contact_that_opens_a_width_of_its_ow
         let force: f64 = base.normal_forces.iter().map(|(_, force)| force).sum();
         let modes = modes(&model, 0.5, 4000.0);
         let rate = modes.iter().map(|mode| mode.growth_rate());
-        [
-            force * sector.sector_count() as f64,
-            rate.fold(f64::MIN, f64::max),
-        ]
+        [force * sector.sector_count() as f64, rate.fold(f64::MIN, f64::max)]
     });
     for quantity in 0..2 {
         let [coarse, middle, fine] = found.map(|values| values[quantity]);
@@ -170,11 +149,8 @@ fn a_ring_on_a_bending_plate_opens_and_keeps_the_contact_conditions() {
     for element in [ElementKind::Quad4, ElementKind::Quad8] {
         let (sector, base) = base(&ringed(element, [24, 14, 2])).unwrap();
         assert!(base.is_pressed.contains(&true) && base.is_pressed.contains(&false));
-        for ((ring, &pressed), pressure) in sector
-            .rings
-            .iter()
-            .zip(&base.is_pressed)
-            .zip(&base.pressures)
+        for ((ring, &pressed), pressure) in
+            sector.rings.iter().zip(&base.is_pressed).zip(&base.pressures)
         {
             let depth = -base.pressed_displacement[3 * ring.nodes[0] + 2];
             match pressed {
@@ -190,10 +166,7 @@ fn a_ring_on_a_bending_plate_opens_and_keeps_the_contact_conditions() {
 fn reaction_of_the_ground_balances_the_friction_of_the_ring() {
     let (sector, base) = base(&ringed(ElementKind::Quad8, [24, 14, 2])).unwrap();
     let torque = base.torque(&sector, 0.3);
-    let forces = base
-        .normal_forces
-        .iter()
-        .map(|(node, n)| 0.3 * n * sector.nodes[*node].radius);
+    let forces = base.normal_forces.iter().map(|(node, n)| 0.3 * n * sector.nodes[*node].radius);
     assert!((torque / (24.0 * forces.sum::<f64>()) - 1.0).abs() < 1e-12);
     assert!(torque > 0.0);
 }
@@ -204,10 +177,7 @@ fn a_pressure_that_lifts_the_disc_off_leaves_no_contact() {
     model.contact.interference = 0.0;
     model.specification.conditions[3] = BoundaryCondition::Pressure(-1e5);
     let error = base(&model).unwrap_err();
-    assert!(
-        matches!(error, PrestressError::GapEverywhere { .. }),
-        "{error}"
-    );
+    assert!(matches!(error, PrestressError::GapEverywhere { .. }), "{error}");
 }
 
 /// Both bricks see the same squeal: 8 nodes on a finer mesh.

@@ -31,8 +31,7 @@ fn eigenvalues(model: &SolidModel, friction: f64) -> BTreeMap<Name, c64> {
     let found = solid_sweep(model, &request()).unwrap();
     let own = solid_sensitivities(&found, friction).unwrap();
     let own = own.iter();
-    own.map(|s| ((s.harmonic, s.branch, s.direction), s.eigenvalue))
-        .collect()
+    own.map(|s| ((s.harmonic, s.branch, s.direction), s.eigenvalue)).collect()
 }
 
 /// Fourth order, so that the step may stay far above round-off.
@@ -62,13 +61,10 @@ fn compare(model: &SolidModel, what: &str) {
     };
     let contact = model.options.contact;
     let (cubic, exponential) = match contact.law {
-        Some(NormalLaw::Cubic {
-            cubic_stiffness, ..
-        }) => (Some(cubic_stiffness), None),
-        Some(NormalLaw::Exponential {
-            reference_pressure,
-            height,
-        }) => (None, Some([reference_pressure, height])),
+        Some(NormalLaw::Cubic { cubic_stiffness, .. }) => (Some(cubic_stiffness), None),
+        Some(NormalLaw::Exponential { reference_pressure, height }) => {
+            (None, Some([reference_pressure, height]))
+        }
         None => (None, None),
     };
     let k_n = contact.normal_stiffness.filter(|_| exponential.is_none());
@@ -77,27 +73,9 @@ fn compare(model: &SolidModel, what: &str) {
     type Of = fn(&Sensitivity) -> Option<c64>;
     type Change = fn(&mut SolidModel, f64);
     let checks: [(&str, Option<f64>, f64, Of, Change); 11] = [
-        (
-            "nu",
-            Some(1.0),
-            2.5e-4,
-            |s| s.poisson_ratio,
-            |m, h| m.material.poisson_ratio += h,
-        ),
-        (
-            "E",
-            Some(2.5e9),
-            1e7,
-            |s| s.young_modulus,
-            |m, h| m.material.young_modulus += h,
-        ),
-        (
-            "rho",
-            Some(1228.0),
-            5.0,
-            |s| Some(s.density),
-            |m, h| m.material.density += h,
-        ),
+        ("nu", Some(1.0), 2.5e-4, |s| s.poisson_ratio, |m, h| m.material.poisson_ratio += h),
+        ("E", Some(2.5e9), 1e7, |s| s.young_modulus, |m, h| m.material.young_modulus += h),
+        ("rho", Some(1228.0), 5.0, |s| Some(s.density), |m, h| m.material.density += h),
         (
             "alpha",
             Some(40.0),
@@ -133,10 +111,7 @@ fn compare(model: &SolidModel, what: &str) {
             |s| s.normal_law[0],
             |m, h| {
                 let law = &mut m.options.contact.law;
-                if let Some(NormalLaw::Cubic {
-                    cubic_stiffness, ..
-                }) = law
-                {
+                if let Some(NormalLaw::Cubic { cubic_stiffness, .. }) = law {
                     *cubic_stiffness += h;
                 }
             },
@@ -148,10 +123,7 @@ fn compare(model: &SolidModel, what: &str) {
             |s| s.normal_law[1],
             |m, h| {
                 let law = &mut m.options.contact.law;
-                if let Some(NormalLaw::Exponential {
-                    reference_pressure, ..
-                }) = law
-                {
+                if let Some(NormalLaw::Exponential { reference_pressure, .. }) = law {
                     *reference_pressure += h;
                 }
             },
@@ -207,10 +179,7 @@ fn compare(model: &SolidModel, what: &str) {
                 worst = (error, analytic * scale, numeric * scale, branch);
             }
         }
-        println!(
-            "{what}, {name}: {:.1e} {:.6e} {:.6e} {:?}",
-            worst.0, worst.1, worst.2, worst.3
-        );
+        println!("{what}, {name}: {:.1e} {:.6e} {:.6e} {:?}", worst.0, worst.1, worst.2, worst.3);
         errors.push(worst.0);
     };
     for (name, scale, step, of, change) in checks {
@@ -221,10 +190,7 @@ fn compare(model: &SolidModel, what: &str) {
     }
     let by_friction = differences(2e-3, &|offset| eigenvalues(model, FRICTION + offset));
     check("mu", FRICTION, &by_friction, |s| Some(s.friction));
-    assert!(
-        errors.iter().all(|error| *error < 1e-7),
-        "{what}: {errors:?}"
-    );
+    assert!(errors.iter().all(|error| *error < 1e-7), "{what}: {errors:?}");
 }
 
 const SPRINGS: ContactStiffness = ContactStiffness {
@@ -249,14 +215,8 @@ const COMPLIANT: ContactStiffness = ContactStiffness {
 
 /// Of about the stiffness of the body where it is pressed.
 const LAWS: [NormalLaw; 2] = [
-    NormalLaw::Exponential {
-        reference_pressure: 2e6,
-        height: 4e-5,
-    },
-    NormalLaw::Cubic {
-        stiffness: 1e11,
-        cubic_stiffness: 1e19,
-    },
+    NormalLaw::Exponential { reference_pressure: 2e6, height: 4e-5 },
+    NormalLaw::Cubic { stiffness: 1e11, cubic_stiffness: 1e19 },
 ];
 
 /// A strong prestress, so that its share cannot hide, and friction that falls with the speed.
@@ -269,20 +229,14 @@ fn strained(element: ElementKind, contact: ContactStiffness) -> SolidModel {
     model.options.contact = contact;
     model.options.geometric_stiffness = true;
     model.contact.interference = 2e-4;
-    model.contact.decay = Some(FrictionDecay {
-        static_ratio: 1.3,
-        decay_speed: 1.2,
-    });
+    model.contact.decay = Some(FrictionDecay { static_ratio: 1.3, decay_speed: 1.2 });
     model
 }
 
 #[test]
 fn sensitivities_in_rigid_contact_equal_finite_differences() {
     for element in [ElementKind::Quad4, ElementKind::Quad8] {
-        compare(
-            &strained(element, ContactStiffness::default()),
-            &format!("rigid, {element:?}"),
-        );
+        compare(&strained(element, ContactStiffness::default()), &format!("rigid, {element:?}"));
     }
 }
 
@@ -290,10 +244,7 @@ fn sensitivities_in_rigid_contact_equal_finite_differences() {
 #[test]
 fn sensitivities_under_a_ring_in_rigid_contact_equal_finite_differences() {
     let mut model = strained(ElementKind::Quad8, ContactStiffness::default());
-    model.specification.contact = SolidContact::Ring {
-        inner_radius: 0.03,
-        outer_radius: 0.06,
-    };
+    model.specification.contact = SolidContact::Ring { inner_radius: 0.03, outer_radius: 0.06 };
     // One element under the ring and one on either side; the pressure keeps off the values at which two eigenvalues meet.
     model.specification.annulus.radial_elements = 3;
     model.specification.conditions[3] = BoundaryCondition::Guide;
@@ -323,10 +274,7 @@ fn sensitivities_on_springs_equal_finite_differences() {
 #[test]
 fn sensitivities_with_a_base_state_on_springs_equal_finite_differences() {
     for element in [ElementKind::Quad4, ElementKind::Quad8] {
-        compare(
-            &strained(element, COMPLIANT),
-            &format!("compliant, {element:?}"),
-        );
+        compare(&strained(element, COMPLIANT), &format!("compliant, {element:?}"));
     }
 }
 
@@ -341,35 +289,25 @@ fn sensitivities_of_a_contact_that_stiffens_equal_finite_differences() {
                 is_base_compliant: false,
                 ..COMPLIANT
             };
-            compare(
-                &strained(element, contact),
-                &format!("{law:?}, {element:?}"),
-            );
+            compare(&strained(element, contact), &format!("{law:?}, {element:?}"));
         }
     }
 }
 
 /// As stiff at rest as the springs of a body that is partly open.
-const SOFT: NormalLaw = NormalLaw::Cubic {
-    stiffness: 2e9,
-    cubic_stiffness: 2e18,
-};
+const SOFT: NormalLaw = NormalLaw::Cubic { stiffness: 2e9, cubic_stiffness: 2e18 };
 
 /// A plate bends away under the ring that presses it: the end of the pressed part moves with every parameter.
 #[test]
 fn sensitivities_follow_the_end_of_what_is_pressed() {
     let laws = [None, Some(SOFT)];
-    for (element, law) in [ElementKind::Quad4, ElementKind::Quad8]
-        .map(|e| laws.map(|law| (e, law)))
-        .concat()
+    for (element, law) in
+        [ElementKind::Quad4, ElementKind::Quad8].map(|e| laws.map(|law| (e, law))).concat()
     {
         let mut model = strained(element, COMPLIANT);
         model.options.contact.law = law;
         model.specification.annulus.radial_elements = 5;
-        model.specification.contact = SolidContact::Ring {
-            inner_radius: 0.03,
-            outer_radius: 0.07,
-        };
+        model.specification.contact = SolidContact::Ring { inner_radius: 0.03, outer_radius: 0.07 };
         model.contact.interference = 4e-5;
         // Soft, so that more than the last ring is pressed.
         model.options.contact.normal_stiffness = Some(2e9);

@@ -38,10 +38,7 @@ fn solved(model: &SolidModel) -> SolidSweep {
 /// Listed eigenvalues of harmonic `n`.
 fn listed(found: &SolidSweep, n: usize) -> Vec<c64> {
     let modes = found.sweep.points[0].modes.iter();
-    modes
-        .filter(|mode| mode.harmonic == n)
-        .map(|mode| mode.eigenvalue)
-        .collect()
+    modes.filter(|mode| mode.harmonic == n).map(|mode| mode.eigenvalue).collect()
 }
 
 /// Oscillating eigenvalues of a whole harmonic below the limit, both waves with positive imaginary part; of the unknowns that move
@@ -55,10 +52,7 @@ fn dense(model: &SolidModel, n: usize, is_held: &dyn Fn(usize) -> bool) -> Vec<c
     let (harmonic, sigma) = (tangent.harmonic(n), c64::new(TAU * LIMIT, 0.0));
     let at = harmonic.at(FRICTION);
     let unknowns = harmonic.moving().into_iter().enumerate();
-    let kept: Vec<usize> = unknowns
-        .filter(|(_, u)| !is_held(*u))
-        .map(|(k, _)| k)
-        .collect();
+    let kept: Vec<usize> = unknowns.filter(|(_, u)| !is_held(*u)).map(|(k, _)| k).collect();
     let (size, h) = (kept.len(), at.half_bandwidth);
     let full = |band: &[c64]| {
         Mat::from_fn(size, size, |i, j| {
@@ -99,9 +93,7 @@ fn dense(model: &SolidModel, n: usize, is_held: &dyn Fn(usize) -> bool) -> Vec<c
 /// Largest distance of an eigenvalue relative to it from the nearest of the others.
 fn distance(values: &[c64], others: &[c64]) -> f64 {
     let nearest = |value: &c64| {
-        let distances = others
-            .iter()
-            .map(|other| (other - value).norm() / value.norm());
+        let distances = others.iter().map(|other| (other - value).norm() / value.norm());
         distances.fold(f64::INFINITY, f64::min)
     };
     values.iter().map(nearest).fold(0.0, f64::max)
@@ -120,10 +112,8 @@ fn assert_equal(found: &SolidSweep, n: usize, exact: &[c64], what: &str) {
 
 #[test]
 fn slow_sliding_has_the_eigenvalues_of_a_dense_solution_of_the_whole_harmonic() {
-    for (element, divisions) in [
-        (ElementKind::Quad4, [24, 6, 2]),
-        (ElementKind::Quad8, [24, 4, 1]),
-    ] {
+    for (element, divisions) in [(ElementKind::Quad4, [24, 6, 2]), (ElementKind::Quad8, [24, 4, 1])]
+    {
         for rpm in [0.1, 1.0, 10.0, 100.0] {
             let model = turning(element, divisions, rpm);
             let found = solved(&model);
@@ -139,10 +129,7 @@ fn slow_sliding_has_the_eigenvalues_of_a_dense_solution_of_the_whole_harmonic() 
 fn a_ring_on_a_penalty_contact_has_the_eigenvalues_of_a_dense_solution_when_it_turns_slowly() {
     for rpm in [0.1, 10.0] {
         let mut model = turning(ElementKind::Quad8, [24, 7, 1], rpm);
-        model.specification.contact = SolidContact::Ring {
-            inner_radius: 0.03,
-            outer_radius: 0.07,
-        };
+        model.specification.contact = SolidContact::Ring { inner_radius: 0.03, outer_radius: 0.07 };
         model.specification.conditions[3] = BoundaryCondition::Guide;
         model.contact.interference = 5e-6;
         model.options.contact.normal_stiffness = Some(1e12);
@@ -161,9 +148,7 @@ fn sliding_that_comes_to_rest_has_the_spectrum_with_the_motion_across_it_held() 
     let tangent =
         SolidTangent::linearize(&sector, &model.material, &model.options, &model.contact).unwrap();
     let nodes = sector.rings.iter().flat_map(|ring| &ring.nodes);
-    let across: Vec<usize> = nodes
-        .filter_map(|node| tangent.unknown_of()[3 * node + 2])
-        .collect();
+    let across: Vec<usize> = nodes.filter_map(|node| tangent.unknown_of()[3 * node + 2]).collect();
     let found = solved(&model);
     for n in [0, 2] {
         let held = dense(&model, n, &|unknown| across.contains(&unknown));
@@ -201,23 +186,9 @@ fn the_note_names_the_dashpot_of_friction_and_not_the_damping_of_the_material() 
     ] {
         command.args(["--set", set]);
     }
-    let output = command
-        .arg("--out")
-        .arg(folder.path().join("out"))
-        .output()
-        .unwrap();
+    let output = command.arg("--out").arg(folder.path().join("out")).output().unwrap();
     let text = String::from_utf8_lossy(&output.stdout);
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
-    assert!(
-        text.contains("dashpot of friction across the sliding"),
-        "{text}"
-    );
-    assert!(
-        !text.contains("damping.stiffness_coefficient set it"),
-        "{text}"
-    );
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(text.contains("dashpot of friction across the sliding"), "{text}");
+    assert!(!text.contains("damping.stiffness_coefficient set it"), "{text}");
 }

@@ -24,9 +24,7 @@ fn modes_for_a_fit_and_onsets_of_a_sample_are_those_of_the_body_with_its_thickne
     let overrides = COARSE.map(str::to_owned);
     let case = Case::parse("disc", &bytes, &overrides).unwrap();
     let known = modes_and_onsets(&case).unwrap();
-    let intervals = unstable_intervals(&case, &[0.3, 0.6], None)
-        .unwrap()
-        .intervals;
+    let intervals = unstable_intervals(&case, &[0.3, 0.6], None).unwrap().intervals;
     assert_eq!(intervals.len(), known.intervals.len());
     for (found, known) in intervals.iter().zip(&known.intervals) {
         // Onsets are located to 1e-9, from other friction values.
@@ -76,15 +74,9 @@ fn friction_that_falls_with_the_speed_is_said_and_destabilizes_a_body_with_thick
         let onset = &summary["critical_frictions"][0]["critical_friction"];
         (String::from_utf8(output).unwrap(), onset.as_f64().unwrap())
     };
-    let (said, falling) = lowest(&[
-        "contact.static_friction_ratio=1.4",
-        "contact.decay_speed=2.0",
-    ]);
+    let (said, falling) = lowest(&["contact.static_friction_ratio=1.4", "contact.decay_speed=2.0"]);
     assert!(said.contains("friction falls with speed"), "{said}");
-    assert!(
-        said.contains("rises by 1 %") && said.contains("decay_speed"),
-        "{said}"
-    );
+    assert!(said.contains("rises by 1 %") && said.contains("decay_speed"), "{said}");
     let (said, constant) = lowest(&[]);
     assert!(!said.contains("friction falls with speed"), "{said}");
     assert!(falling < constant, "{falling} {constant}");
@@ -95,13 +87,9 @@ fn contact_arrays(overrides: &[&str]) -> Vec<(String, String)> {
     let folder = tempfile::tempdir().unwrap();
     let mut run = Command::cargo_bin("frictionsim").unwrap();
     run.current_dir(folder.path()).arg("transient");
-    run.arg(shipped())
-        .args(["--out", "run", "--no-figures", "-qq"]);
-    let transient = [
-        "mesh.element=quad4",
-        "transient.duration=2e-5",
-        "transient.initial=steady-sliding",
-    ];
+    run.arg(shipped()).args(["--out", "run", "--no-figures", "-qq"]);
+    let transient =
+        ["mesh.element=quad4", "transient.duration=2e-5", "transient.initial=steady-sliding"];
     for set in COARSE.iter().chain(&transient).chain(overrides) {
         run.args(["--set", set]);
     }

@@ -28,8 +28,7 @@ fn body<'a>(model: &'a SolidModel, sector: &'a SolidSector) -> SolidTransientMod
 }
 
 fn operator(body: &SolidTransientModel<'_>) -> Box<dyn StiffnessOperator> {
-    body.operator(OperatorChoice::Auto, SimdLevel::detect())
-        .unwrap()
+    body.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap()
 }
 
 /// A run of a model, recorded.
@@ -63,10 +62,7 @@ fn lumped(element: ElementKind, divisions: [usize; 3]) -> SolidModel {
 /// A ring on a layer whose bottom slides on the ground: all of it is pressed.
 fn ringed(divisions: [usize; 3]) -> SolidModel {
     let mut model = lumped(ElementKind::Quad4, divisions);
-    model.specification.contact = SolidContact::Ring {
-        inner_radius: 0.03,
-        outer_radius: 0.07,
-    };
+    model.specification.contact = SolidContact::Ring { inner_radius: 0.03, outer_radius: 0.07 };
     model.specification.conditions[3] = BoundaryCondition::Guide;
     model.contact.interference = 5e-6;
     model
@@ -77,9 +73,7 @@ fn ringed(divisions: [usize; 3]) -> SolidModel {
 fn grows_as_predicted(model: &SolidModel, harmonic: usize, limit_hz: f64, duration: f64) {
     let all = modes(model, model.contact.friction_coefficient, limit_hz);
     let own = all.iter().filter(|mode| mode.harmonic == harmonic);
-    let mode = own
-        .max_by(|a, b| a.growth_rate().total_cmp(&b.growth_rate()))
-        .unwrap();
+    let mode = own.max_by(|a, b| a.growth_rate().total_cmp(&b.growth_rate())).unwrap();
     assert!(mode.is_unstable(), "{:?}", mode.growth_rate());
     let record = run(model, &seeded(harmonic, 1e-6, duration));
     let analysis = TransientAnalysis::of(&record, &[harmonic]);
@@ -121,10 +115,7 @@ fn a_wave_under_a_ring_that_opens_in_part_grows_at_the_rate_of_the_eigenvalue_an
     specification.annulus.inner_radius = 0.045;
     specification.annulus.outer_radius = 0.12;
     specification.thickness = 0.008;
-    specification.contact = SolidContact::Ring {
-        inner_radius: 0.075,
-        outer_radius: 0.11,
-    };
+    specification.contact = SolidContact::Ring { inner_radius: 0.075, outer_radius: 0.11 };
     specification.conditions = [
         BoundaryCondition::Clamped,
         BoundaryCondition::Free,
@@ -134,10 +125,8 @@ fn a_wave_under_a_ring_that_opens_in_part_grows_at_the_rate_of_the_eigenvalue_an
     model.material.young_modulus = 2.1e11;
     model.material.poisson_ratio = 0.3;
     model.material.density = 7850.0;
-    model.options.damping = RayleighDamping {
-        mass_coefficient: 20.0,
-        stiffness_coefficient: 1.5e-7,
-    };
+    model.options.damping =
+        RayleighDamping { mass_coefficient: 20.0, stiffness_coefficient: 1.5e-7 };
     model.options.damping_model = DampingModel::BodyOnly;
     model.options.contact.normal_stiffness = Some(1e11);
     model.options.contact.is_base_compliant = true;
@@ -155,10 +144,7 @@ fn a_wave_on_a_contact_that_stiffens_grows_at_the_rate_of_the_eigenvalue_analysi
     let mut model = ringed([24, 7, 2]);
     model.contact.friction_coefficient = 0.1;
     model.contact.rotation_speed = 6000.0 * TAU / 60.0;
-    let law = NormalLaw::Exponential {
-        reference_pressure: 1e5,
-        height: 1e-6,
-    };
+    let law = NormalLaw::Exponential { reference_pressure: 1e5, height: 1e-6 };
     model.options.contact.law = Some(law);
     model.options.contact.normal_stiffness = Some(law.stiffness(0.0));
     model.options.damping_model = DampingModel::BodyOnly;
@@ -194,10 +180,7 @@ impl Observer for Cone {
 
 #[test]
 fn energy_is_balanced_through_stick_slip_and_separation() {
-    for contact in [
-        SolidContact::Inner,
-        ringed([24, 4, 2]).specification.contact,
-    ] {
+    for contact in [SolidContact::Inner, ringed([24, 4, 2]).specification.contact] {
         let mut model = lumped(ElementKind::Quad4, [24, 4, 2]);
         model.specification.contact = contact;
         if contact != SolidContact::Inner {
@@ -209,11 +192,7 @@ fn energy_is_balanced_through_stick_slip_and_separation() {
         // Faster than the rotor, so that nodes stick and lift.
         let settings = seeded(2, 8.0, 1e-3);
         let mut run = CentralDifference::start(body, operator.as_ref(), &settings).unwrap();
-        let mut cone = Cone {
-            seen: [false; 3],
-            largest_residual: 0.0,
-            largest_across: 0.0,
-        };
+        let mut cone = Cone { seen: [false; 3], largest_residual: 0.0, largest_across: 0.0 };
         run.run(&mut cone).unwrap();
         // Only a body that is free across the face lifts off it.
         let lifts = contact == SolidContact::Inner;
@@ -264,10 +243,7 @@ fn a_resumed_run_has_the_bits_of_one_that_was_never_stopped() {
     let body = body(&model, &sector);
     let operator = operator(&body);
     let whole = seeded(2, 1.0, 4e-4);
-    let half = TransientSettings {
-        duration: 2e-4,
-        ..whole.clone()
-    };
+    let half = TransientSettings { duration: 2e-4, ..whole.clone() };
     let mut one = CentralDifference::start(body, operator.as_ref(), &whole).unwrap();
     let mut record = Recorder::new(&one, &RecorderSettings::default()).unwrap();
     one.run(&mut record).unwrap();
@@ -276,9 +252,7 @@ fn a_resumed_run_has_the_bits_of_one_that_was_never_stopped() {
     first.run(&mut earlier).unwrap();
     let mut second =
         CentralDifference::resume(body, operator.as_ref(), &whole, &first.state()).unwrap();
-    let mut later = earlier
-        .resume(&second, &RecorderSettings::default())
-        .unwrap();
+    let mut later = earlier.resume(&second, &RecorderSettings::default()).unwrap();
     second.run(&mut later).unwrap();
     assert_eq!(one.state(), second.state());
     assert_eq!(record.rows, later.rows);

@@ -39,13 +39,7 @@ impl WholeRing {
         });
         let per_sector = 3 * sector.node_count();
         let moving = (0..mass.nrows()).filter(|dof| !sector.is_held(dof % per_sector));
-        Self {
-            moving: moving.collect(),
-            sector,
-            mass,
-            damping,
-            stiffness,
-        }
+        Self { moving: moving.collect(), sector, mass, damping, stiffness }
     }
 
     /// In sliding contact at a friction coefficient: springs `k_n` or `u_n = 0`, Coulomb's force along the sliding, `mu p / V`
@@ -60,18 +54,12 @@ impl WholeRing {
         // T = mu N along +e_theta for a rotor that turns counter-clockwise.
         let drag = friction * face.inward_sign();
         let per_sector = sector.node_count();
-        ring.add_dashpots(
-            &base,
-            across,
-            friction * model.contact.rotation_speed.recip(),
-        );
+        ring.add_dashpots(&base, across, friction * model.contact.rotation_speed.recip());
         let rings = sector.rings.iter().zip(&base.is_pressed);
-        let pressed = rings
-            .filter(|(_, pressed)| **pressed)
-            .flat_map(|(ring, _)| {
-                let share = ring.area / ring.nodes.len() as f64;
-                ring.nodes.iter().map(move |node| (*node, share))
-            });
+        let pressed = rings.filter(|(_, pressed)| **pressed).flat_map(|(ring, _)| {
+            let share = ring.area / ring.nodes.len() as f64;
+            ring.nodes.iter().map(move |node| (*node, share))
+        });
         for (node, area) in pressed.collect::<Vec<_>>() {
             for s in 0..sector.sector_count() {
                 let dof = |c: usize| 3 * (s * per_sector + node) + c;

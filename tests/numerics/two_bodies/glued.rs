@@ -56,16 +56,11 @@ fn frequencies(mesh: &Mesh, glue: &Glue, held: Vec<usize>, count: usize) -> Vec<
     let free = |matrix: &Triplets| -> Vec<(usize, usize, f64)> {
         let entries = glued(matrix, glue).into_iter();
         let at = |dof: usize| unknowns.unknown_of[dof];
-        entries
-            .filter_map(|(row, column, value)| Some((at(row)?, at(column)?, value)))
-            .collect()
+        entries.filter_map(|(row, column, value)| Some((at(row)?, at(column)?, value))).collect()
     };
     let stiffness = free(&assemble_stiffness(mesh, one_material()));
     let mass = free(&assemble_mass(mesh, one_material(), MassKind::Consistent));
-    let positions = stiffness
-        .iter()
-        .chain(&mass)
-        .map(|&(row, column, _)| (row, column));
+    let positions = stiffness.iter().chain(&mass).map(|&(row, column, _)| (row, column));
     let pattern = Arc::new(SparsityPattern::from_positions(unknowns.len(), positions));
     let on_pattern = |terms| MatrixPolynomial::on_pattern(&pattern, &[terms]);
     let (stiffness, mass) = (on_pattern(stiffness), on_pattern(mass));
@@ -206,9 +201,7 @@ fn every_constant_strain_passes_glue_between_meshes_that_do_not_match() {
             }
             for (&dof, masters) in &glue {
                 let force = std::mem::take(&mut forces[dof]);
-                masters
-                    .iter()
-                    .for_each(|&(m, part)| forces[m] += part * force);
+                masters.iter().for_each(|&(m, part)| forces[m] += part * force);
             }
             for (node, &[_, y, _]) in mesh.nodes.iter().enumerate() {
                 if y > -0.02 && y < 0.03 {

@@ -32,25 +32,15 @@ fn a_mode_of_two_bodies_whose_meshes_do_not_match_grows_as_its_eigenvalue_says()
     };
     let mesh = rings([40, 48], [3, 9], 0.05);
     for shaft in [POLYCARBONATE, brass] {
-        let region = |elastic| RegionMaterial {
-            elastic,
-            damping: None,
-        };
+        let region = |elastic| RegionMaterial { elastic, damping: None };
         let materials = vec![region(POLYCARBONATE), region(shaft)];
         assert_eq!(mesh.regions, ["disc", "shaft"]);
         let options = options(MassKind::Lumped, false);
         let found = modes_of(&mesh, &materials, &options, ModeLimit::Lowest(12), &[0.3]);
-        let mode = found
-            .iter()
-            .max_by(|a, b| a.eigenvalue.re.total_cmp(&b.eigenvalue.re))
-            .unwrap();
+        let mode = found.iter().max_by(|a, b| a.eigenvalue.re.total_cmp(&b.eigenvalue.re)).unwrap();
         assert!(mode.eigenvalue.re > 0.0);
-        let (record, harmonic) = run(
-            &mesh,
-            &materials,
-            mode.eigenvalue,
-            mode.shape.as_ref().unwrap(),
-        );
+        let (record, harmonic) =
+            run(&mesh, &materials, mode.eigenvalue, mode.shape.as_ref().unwrap());
         let analysis = TransientAnalysis::of(&record, &[harmonic]);
         assert_eq!(analysis.first_nonlinearity, None);
         let stage = analysis.growth[0].stage.as_ref().unwrap();
@@ -91,9 +81,7 @@ fn run(
         initial: InitialState::SteadySliding,
         perturbation: Perturbation::default(),
     };
-    let step = StepPlan::of(model, operator.as_ref(), &settings)
-        .unwrap()
-        .time_step;
+    let step = StepPlan::of(model, operator.as_ref(), &settings).unwrap().time_step;
     let elastic = assemble_stiffness(mesh, materials);
     let base = SteadySliding::solve(mesh, &elastic, &contact()).unwrap();
     let mut displacement = base.displacement(0.3);
@@ -109,8 +97,6 @@ fn run(
     run.run(&mut record).unwrap();
     let last = &record.rows.last().unwrap().harmonics;
     let size = |n: &usize| last[*n][0].hypot(last[*n][1]);
-    let harmonic = (1..last.len())
-        .max_by(|a, b| size(a).total_cmp(&size(b)))
-        .unwrap();
+    let harmonic = (1..last.len()).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap();
     (record, harmonic)
 }

@@ -55,15 +55,10 @@ fn built_in(
 
 fn largest_error(found: &[ComplexMode], expected: &[ComplexMode]) -> f64 {
     let error = |a: c64| {
-        let distances = expected
-            .iter()
-            .map(|b| (a - b.eigenvalue).norm() / a.norm());
+        let distances = expected.iter().map(|b| (a - b.eigenvalue).norm() / a.norm());
         distances.fold(f64::MAX, f64::min)
     };
-    found
-        .iter()
-        .map(|mode| error(mode.eigenvalue))
-        .fold(0.0, f64::max)
+    found.iter().map(|mode| error(mode.eigenvalue)).fold(0.0, f64::max)
 }
 
 /// Cross-method check: pairs of nodes in polar frames, and mortar weights in global axes.
@@ -71,12 +66,8 @@ fn largest_error(found: &[ComplexMode], expected: &[ComplexMode]) -> f64 {
 fn matching_bodies_of_a_file_have_the_spectrum_of_the_built_in_shaft() {
     let mesh = rings([24, 24], [2, 5], 0.0);
     for (geometric_stiffness, tolerance) in [(false, 1e-9), (true, 3e-4)] {
-        let found = modes(
-            &mesh,
-            one_material(),
-            &options(MassKind::Consistent, geometric_stiffness),
-            8,
-        );
+        let found =
+            modes(&mesh, one_material(), &options(MassKind::Consistent, geometric_stiffness), 8);
         let expected = built_in(ElementKind::Quad4, 24, [2, 5], geometric_stiffness, 10);
         let error = largest_error(&found, &expected);
         // Slopes of the edge are those of its chords, not of its polar components.
@@ -121,18 +112,8 @@ fn blocks(along: [usize; 2]) -> Result<Mesh, MeshFileError> {
     let lower = rectangle([-0.01, -0.02], [0.06, 0.02], [along[0], 3]);
     let upper = rectangle([0.0, 0.0], [0.04, 0.03], [along[1], 4]);
     let parts = [
-        Part {
-            mesh: lower,
-            region: "lower",
-            names: ["floor", "track"],
-            turn: 0.0,
-        },
-        Part {
-            mesh: upper,
-            region: "upper",
-            names: ["sole", "top"],
-            turn: 0.0,
-        },
+        Part { mesh: lower, region: "lower", names: ["floor", "track"], turn: 0.0 },
+        Part { mesh: upper, region: "upper", names: ["sole", "top"], turn: 0.0 },
     ];
     let specification = BodySpecification {
         scale: 1.0,
@@ -175,10 +156,7 @@ fn a_constant_pressure_passes_between_meshes_that_do_not_match() {
             let exact: f64 = points.map(|at| 2e6 * width * hat(at)).sum();
             // The midpoint rule on hats.
             let tolerance = 1e-5 * 2e6 * size;
-            assert!(
-                (force[1] - exact).abs() < tolerance,
-                "{along:?} {x} {force:?} {exact}"
-            );
+            assert!((force[1] - exact).abs() < tolerance, "{along:?} {x} {force:?} {exact}");
             assert!(force[0].abs() < tolerance);
         }
     }
@@ -187,20 +165,11 @@ fn a_constant_pressure_passes_between_meshes_that_do_not_match() {
 /// Theory: without Poisson's effect and friction springs and the upper block give way in a row, whatever the meshes.
 #[test]
 fn a_block_on_a_block_of_another_mesh_is_pressed_alike_everywhere() {
-    let material = ElasticMaterial {
-        poisson_ratio: 0.0,
-        ..POLYCARBONATE
-    };
+    let material = ElasticMaterial { poisson_ratio: 0.0, ..POLYCARBONATE };
     let mesh = blocks([13, 5]).unwrap();
     // The lower block as stiff as nothing deforms.
-    let stiff = ElasticMaterial {
-        young_modulus: 1e9 * material.young_modulus,
-        ..material
-    };
-    let region = |elastic| frictionsim::fem::RegionMaterial {
-        elastic,
-        damping: None,
-    };
+    let stiff = ElasticMaterial { young_modulus: 1e9 * material.young_modulus, ..material };
+    let region = |elastic| frictionsim::fem::RegionMaterial { elastic, damping: None };
     let materials = vec![region(stiff), region(material)];
     assert_eq!(mesh.regions, ["lower", "upper"]);
     let stiffness = assemble_stiffness(&mesh, &materials);

@@ -85,27 +85,14 @@ pub fn rings_of(
     let shaft = ring(element, [0.006, 0.0205], around[0], radial[0]);
     let disc = ring(element, [0.0205, outer_radius], around[1], radial[1]);
     let parts = [
-        Part {
-            mesh: disc,
-            region: "disc",
-            names: ["inner", "outer"],
-            turn: 0.0,
-        },
-        Part {
-            mesh: shaft,
-            region: "shaft",
-            names: ["bore", "journal"],
-            turn,
-        },
+        Part { mesh: disc, region: "disc", names: ["inner", "outer"], turn: 0.0 },
+        Part { mesh: shaft, region: "shaft", names: ["bore", "journal"], turn },
     ];
     let clamped = |name: &str| (name.to_owned(), BoundaryCondition::Clamped);
     let specification = BodySpecification {
         scale: 1.0,
         contact: "inner".to_owned(),
-        counterface: CounterfaceSpecification::Cylinder {
-            center: [0.0; 2],
-            radius: None,
-        },
+        counterface: CounterfaceSpecification::Cylinder { center: [0.0; 2], radius: None },
         opposite: Some("journal".to_owned()),
         conditions: vec![clamped("outer"), clamped("bore")],
     };
@@ -156,12 +143,8 @@ pub fn modes_of(
     let stiffness = assemble_stiffness(mesh, material);
     let base = SteadySliding::solve(mesh, &stiffness, &contact()).unwrap();
     let tangent = SlidingTangent::linearize(mesh, material, &stiffness, &base, options);
-    let request = SweepRequest {
-        friction_coefficients: &[0.3],
-        limit,
-        shapes_at,
-        count_modes: false,
-    };
+    let request =
+        SweepRequest { friction_coefficients: &[0.3], limit, shapes_at, count_modes: false };
     let found = sweep(&tangent, &request, &|_| {}).unwrap();
     found.points.into_iter().next().unwrap().modes
 }
@@ -185,12 +168,7 @@ pub fn rectangle(corner: [f64; 2], size: [f64; 2], count: [usize; 2]) -> Mesh {
     mesh.element_starts.push(0);
     for j in 0..ny {
         for i in 0..nx {
-            let corners = [
-                node(i, j),
-                node(i + 1, j),
-                node(i + 1, j + 1),
-                node(i, j + 1),
-            ];
+            let corners = [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
             mesh.elements.extend(corners);
             mesh.element_starts.push(mesh.elements.len() as u32);
             mesh.element_kinds.push(ElementKind::Quad4);

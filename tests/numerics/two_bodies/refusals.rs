@@ -41,18 +41,8 @@ fn bodies_that_do_not_meet_are_refused_with_a_remedy() {
     let body = "counterface = \"body\"\ncounter_boundary = \"track\"";
     read("good.msh", body).unwrap();
     for (mesh, contact, message, remedy) in [
-        (
-            "deep.msh",
-            body,
-            "the bodies overlap",
-            "contact.interference",
-        ),
-        (
-            "apart.msh",
-            body,
-            "no point of \"sole\"",
-            "check the curves",
-        ),
+        ("deep.msh", body, "the bodies overlap", "contact.interference"),
+        ("apart.msh", body, "no point of \"sole\"", "check the curves"),
         (
             "good.msh",
             "counterface = \"body\"\ncounter_boundary = \"sole\"",

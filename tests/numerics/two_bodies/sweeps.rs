@@ -79,10 +79,7 @@ fn steps_whose_sweeps_end_early_are_counted_and_said_where_there_are_any() {
     let (printed, summary) = run(folder.path(), &[]);
     let steps = summary["steps"].as_u64().unwrap();
     let unconverged = summary["unconverged_steps"].as_u64().unwrap();
-    assert!(
-        unconverged > 0 && unconverged <= steps,
-        "{unconverged} of {steps}"
-    );
+    assert!(unconverged > 0 && unconverged <= steps, "{unconverged} of {steps}");
     let sentence = format!("had not converged in {unconverged} of {steps} steps");
     assert!(printed.contains(&sentence), "{printed}");
     assert!(printed.contains("exchange the two sides of the contact"));

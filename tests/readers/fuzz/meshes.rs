@@ -35,10 +35,7 @@ fn no_mesh_file_makes_its_reader_panic() {
     let specification = BodySpecification {
         scale: 1.0,
         contact: "inner".to_owned(),
-        counterface: CounterfaceSpecification::Cylinder {
-            center: [0.0; 2],
-            radius: None,
-        },
+        counterface: CounterfaceSpecification::Cylinder { center: [0.0; 2], radius: None },
         opposite: None,
         conditions: vec![("outer".to_owned(), BoundaryCondition::Clamped)],
     };

@@ -38,10 +38,7 @@ fn hold<T: AsRef<[u8]>>(
         if outcome.is_err() || took > LONGEST {
             let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{target}-{seed}"));
             let _ = std::fs::write(&path, input.as_ref());
-            panic!(
-                "{target}: seed {seed} after {took:.1} s, input in {}",
-                path.display()
-            );
+            panic!("{target}: seed {seed} after {took:.1} s, input in {}", path.display());
         }
         seed += 1;
     }

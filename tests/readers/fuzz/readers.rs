@@ -12,9 +12,7 @@ fn shipped_cases() -> Vec<Vec<u8>> {
     let entries = std::fs::read_dir(folder).unwrap();
     let mut paths: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
     paths.sort();
-    let cases = paths
-        .iter()
-        .filter(|path| path.extension().is_some_and(|e| e == "toml"));
+    let cases = paths.iter().filter(|path| path.extension().is_some_and(|e| e == "toml"));
     cases.map(|path| std::fs::read(path).unwrap()).collect()
 }
 

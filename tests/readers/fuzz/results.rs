@@ -32,17 +32,12 @@ fn case(name: &str) -> String {
 
 /// One finished folder of a command with the files that `plot` reads.
 fn finished(folder: &Path, command: &str) -> PathBuf {
-    let (disc, run) = (
-        case("polycarbonate-disc.toml"),
-        case("polycarbonate-610rpm.toml"),
-    );
+    let (disc, run) = (case("polycarbonate-disc.toml"), case("polycarbonate-610rpm.toml"));
     let (cycle, hammer) = (case("limit-cycle.toml"), case("hammer-test.toml"));
     // Without the transient, which takes seconds.
     let convergence = folder.join("convergence.toml").display().to_string();
     let text = fs::read_to_string(case("convergence.toml")).unwrap();
-    let lines = text
-        .lines()
-        .filter(|line| !line.starts_with("time_step_factors"));
+    let lines = text.lines().filter(|line| !line.starts_with("time_step_factors"));
     fs::write(&convergence, lines.collect::<Vec<&str>>().join("\n")).unwrap();
     let with = |first: &[&str], more: &[&str]| {
         let all = [first, &SMALL, &["--out", command], more].concat();
@@ -50,10 +45,7 @@ fn finished(folder: &Path, command: &str) -> PathBuf {
     };
     match command {
         "mesh" => with(&["mesh", &disc], &[]),
-        "cea" => with(
-            &["cea", &disc],
-            &["--set", "cea.friction_coefficients=[0.0, 0.3]"],
-        ),
+        "cea" => with(&["cea", &disc], &["--set", "cea.friction_coefficients=[0.0, 0.3]"]),
         "transient" => with(
             &["transient", &run],
             &[
@@ -82,18 +74,15 @@ fn finished(folder: &Path, command: &str) -> PathBuf {
                 "mesh.radial_elements=8",
             ],
         ),
-        "convergence" => with(
-            &["convergence", &convergence],
-            &["--set", "convergence.analyses=[\"cea\"]"],
-        ),
-        "frf" => with(
-            &["frf", &hammer],
-            &["--set", "frf.force_node=5", "--set", "frf.response_node=5"],
-        ),
-        "sweep" => with(
-            &["sweep", &disc],
-            &["--set", "sweep.\"contact.interference\"=[2e-5, 3e-5]"],
-        ),
+        "convergence" => {
+            with(&["convergence", &convergence], &["--set", "convergence.analyses=[\"cea\"]"])
+        }
+        "frf" => {
+            with(&["frf", &hammer], &["--set", "frf.force_node=5", "--set", "frf.response_node=5"])
+        }
+        "sweep" => {
+            with(&["sweep", &disc], &["--set", "sweep.\"contact.interference\"=[2e-5, 3e-5]"])
+        }
         other => panic!("{other}"),
     }
     folder.join(command)
@@ -123,11 +112,7 @@ fn record_of(random: &mut Random, original: &[u8]) -> Vec<u8> {
 /// Draws a folder as `plot` does.
 fn plot(folder: &Path) -> bool {
     let manifest = frictionsim::results::read_manifest(folder);
-    let coarse = DrawingOptions {
-        dots_per_inch: 20.0,
-        width_mm: None,
-        formats: vec![Format::Svg],
-    };
+    let coarse = DrawingOptions { dots_per_inch: 20.0, width_mm: None, formats: vec![Format::Svg] };
     manifest.is_ok_and(|manifest| redraw(folder, &manifest, &coarse).is_ok())
 }
 
@@ -211,10 +196,7 @@ fn a_damaged_table_of_a_response_is_never_drawn() {
         |random| text(random, std::slice::from_ref(&original)),
         |bytes| {
             fs::write(folder.join("frf.csv"), bytes).unwrap();
-            assert!(
-                bytes == original || !plot(&folder),
-                "drawn although it was changed"
-            );
+            assert!(bytes == original || !plot(&folder), "drawn although it was changed");
         },
     );
 }

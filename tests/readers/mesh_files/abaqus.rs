@@ -86,25 +86,15 @@ fn instances_stand_where_their_translation_and_rotation_put_them() {
     for volume in mesh.region_measures() {
         assert!((volume - 6.0).abs() < 1e-12);
     }
-    for (name, exact) in [
-        ("One_Top", 2.0),
-        ("Two_Top", 2.0),
-        ("Two_Skin", 22.0),
-        ("Both_feet", 4.0),
-    ] {
+    for (name, exact) in
+        [("One_Top", 2.0), ("Two_Top", 2.0), ("Two_Skin", 22.0), ("Both_feet", 4.0)]
+    {
         assert!((area(&mesh, name) - exact).abs() < 1e-12, "{name}");
     }
     // Node 3 of the second instance, (1, 2, 0): moved to (11, 2, 0), turned to (8, 1, 0). Its number follows those of the first.
-    let node = mesh
-        .labels
-        .iter()
-        .position(|&label| label == 99 + 3)
-        .unwrap();
+    let node = mesh.labels.iter().position(|&label| label == 99 + 3).unwrap();
     let [x, y, z] = mesh.nodes[node];
-    assert!(
-        (x - 8.0).abs() + (y - 1.0).abs() + z.abs() < 1e-12,
-        "{x} {y} {z}"
-    );
+    assert!((x - 8.0).abs() + (y - 1.0).abs() + z.abs() < 1e-12, "{x} {y} {z}");
     // Two nodes are no surface: they bound nothing but can be held.
     let corner = mesh.boundary("Corner").unwrap();
     assert_eq!((corner.nodes.len(), corner.faces.len()), (2, 0));
@@ -115,20 +105,10 @@ fn materials_ties_contacts_and_conditions_are_those_of_the_file() {
     let model = read("bricks.inp", ASSEMBLY).unwrap().model;
     assert_eq!(model.title.as_deref(), Some("two bricks"));
     let material = &model.materials[1];
-    assert_eq!(
-        (material.region.as_str(), material.name.as_str()),
-        ("Two_All", "Mat")
-    );
-    assert_eq!(
-        (material.density, material.mass_coefficient),
-        (Some(2.5e-9), Some(10.0))
-    );
-    let Some(FileElasticity::Orthotropic {
-        young_moduli,
-        poisson_ratios,
-        shear_moduli,
-        axes,
-    }) = &material.elasticity
+    assert_eq!((material.region.as_str(), material.name.as_str()), ("Two_All", "Mat"));
+    assert_eq!((material.density, material.mass_coefficient), (Some(2.5e-9), Some(10.0)));
+    let Some(FileElasticity::Orthotropic { young_moduli, poisson_ratios, shear_moduli, axes }) =
+        &material.elasticity
     else {
         panic!("{material:?}");
     };
@@ -136,40 +116,24 @@ fn materials_ties_contacts_and_conditions_are_those_of_the_file() {
     assert_eq!(*poisson_ratios, [0.25, 0.1, 0.1]);
     assert_eq!(*shear_moduli, [3000.0, 1000.0, 1000.0]);
     // The orientation turns with its instance: axis 1 from y to -x.
-    let MaterialAxes::Vectors([first, second]) = axes else {
-        panic!("{axes:?}")
-    };
+    let MaterialAxes::Vectors([first, second]) = axes else { panic!("{axes:?}") };
     let off = |a: [f64; 3], b: [f64; 3]| (0..3).map(|i| (a[i] - b[i]).abs()).sum::<f64>();
     assert!(off(*first, [-1.0, 0.0, 0.0]) < 1e-12 && off(*second, [0.0, -1.0, 0.0]) < 1e-12);
     let tie = &model.ties[0];
-    assert_eq!(
-        [&tie.name, &tie.surface, &tie.counter],
-        ["Glue", "One_Top", "Two_Top"]
-    );
+    assert_eq!([&tie.name, &tie.surface, &tie.counter], ["Glue", "One_Top", "Two_Top"]);
     let contact = &model.contacts[0];
-    assert_eq!(
-        [&contact.surface, &contact.counter],
-        ["One_Skin", "Two_Skin"]
-    );
+    assert_eq!([&contact.surface, &contact.counter], ["One_Skin", "Two_Skin"]);
     assert_eq!(contact.friction_coefficient, Some(0.3));
     let (ratio, speed) = contact.decay.unwrap();
     assert!((ratio - 1.5).abs() < 1e-12 && (speed - 200.0).abs() < 1e-9);
     assert_eq!(contact.normal_stiffness, Some(1e5));
     let found = |name: &str| {
         let condition = model.conditions.iter().find(|c| c.boundary == name);
-        condition
-            .unwrap_or_else(|| panic!("{name}: {:?}", model.conditions))
-            .kind
+        condition.unwrap_or_else(|| panic!("{name}: {:?}", model.conditions)).kind
     };
-    assert_eq!(
-        found("Both_feet"),
-        FileConditionKind::Fixed([false, false, true])
-    );
+    assert_eq!(found("Both_feet"), FileConditionKind::Fixed([false, false, true]));
     assert_eq!(found("One_Foot"), FileConditionKind::Fixed([true; 3]));
-    assert_eq!(
-        found("held_nodes_1_2"),
-        FileConditionKind::Fixed([true, true, false])
-    );
+    assert_eq!(found("held_nodes_1_2"), FileConditionKind::Fixed([true, true, false]));
     assert_eq!(found("Two_Top"), FileConditionKind::Pressure(2.5));
     assert_eq!(found("One_All_P1"), FileConditionKind::Pressure(1.25));
     assert_eq!(model.conditions.len(), 5);
@@ -180,58 +144,25 @@ fn what_is_not_used_is_listed_with_its_line_and_count() {
     let text = ASSEMBLY.to_owned()
         + "*AMPLITUDE, NAME=A\n0., 1.\n*AMPLITUDE, NAME=B\n0., 1.\n*ELEMENT, TYPE=MASS, ELSET=Point\n7, 99\n";
     let file = read("bricks.inp", &text).unwrap();
-    let listed: Vec<String> = file
-        .model
-        .left_out
-        .iter()
-        .map(ToString::to_string)
-        .collect();
-    let line = |begin: &str| {
-        1 + text
-            .lines()
-            .position(|line| line.starts_with(begin))
-            .unwrap()
-    };
+    let listed: Vec<String> = file.model.left_out.iter().map(ToString::to_string).collect();
+    let line = |begin: &str| 1 + text.lines().position(|line| line.starts_with(begin)).unwrap();
     for expected in [
         format!("*AMPLITUDE (line {}, 2 times)", line("*AMPLITUDE")),
         format!("*CLOAD (line {})", line("*CLOAD")),
-        format!(
-            "*STATIC (line {}): the case says what is computed",
-            line("*STATIC")
-        ),
-        format!(
-            "*NODE PRINT (line {}): the case says what is written",
-            line("*NODE PRINT")
-        ),
+        format!("*STATIC (line {}): the case says what is computed", line("*STATIC")),
+        format!("*NODE PRINT (line {}): the case says what is written", line("*NODE PRINT")),
         format!("*DSLOAD, HP (line {}): pressures", line("One.Top, HP")),
-        format!(
-            "*BOUNDARY with a displacement (line {}): only",
-            line("Two.Foot, 1, 1, 0.5")
-        ),
+        format!("*BOUNDARY with a displacement (line {}): only", line("Two.Foot, 1, 1, 0.5")),
         format!("*TIE, ADJUST (line {}): nodes stay", line("*TIE")),
-        format!(
-            "*ELEMENT, TYPE=MASS (line {}): elements other",
-            line("7, 99")
-        ),
+        format!("*ELEMENT, TYPE=MASS (line {}): elements other", line("7, 99")),
     ] {
-        assert!(
-            listed.iter().any(|found| found.starts_with(&expected)),
-            "{expected}: {listed:#?}"
-        );
+        assert!(listed.iter().any(|found| found.starts_with(&expected)), "{expected}: {listed:#?}");
     }
     // Nothing else is listed.
     assert_eq!(listed.len(), 8, "{listed:#?}");
+    assert!(file.model.remarks.iter().any(|remark| remark.contains("C3D8R")));
     assert!(
-        file.model
-            .remarks
-            .iter()
-            .any(|remark| remark.contains("C3D8R"))
-    );
-    assert!(
-        file.model
-            .remarks
-            .iter()
-            .any(|remark| remark.starts_with("2 nodes belong to no element"))
+        file.model.remarks.iter().any(|remark| remark.starts_with("2 nodes belong to no element"))
     );
 }
 
@@ -256,67 +187,23 @@ fn wrong_input_files_are_told_by_line_and_name() {
                 "1, 1, 2, 3, 4, 5, 6, 7, 8, 8",
                 "line 15: element 1 has 9 nodes",
             ),
-            (
-                "TYPE=C3D8R",
-                "TYPE=C3D27",
-                "line 14: elements of type C3D27 are not supported",
-            ),
-            (
-                "3, 1, 2, 0",
-                "3, 1, 2.x, 0",
-                "line 7: a coordinate expected, found \"2.x\"",
-            ),
+            ("TYPE=C3D8R", "TYPE=C3D27", "line 14: elements of type C3D27 are not supported"),
+            ("3, 1, 2, 0", "3, 1, 2.x, 0", "line 7: a coordinate expected, found \"2.x\""),
             (
                 "One.Foot, Two.Foot",
                 "One.Foot, Two.Foo",
                 "line 34: no node set is called \"Two.Foo\"",
             ),
-            (
-                "2, 3\n*TIE",
-                "2, 33\n*TIE",
-                "line 36: no node has the number \"33\"",
-            ),
-            (
-                "All, S2",
-                "All, S7",
-                "line 19: element 1 (hex8) has no face \"S7\"",
-            ),
-            (
-                "One.Top, Two.Top",
-                "One.Top, Two.Tip",
-                "no surface is called \"Two.Tip\"",
-            ),
-            (
-                "MATERIAL=Mat",
-                "MATERIAL=Met",
-                "no material is called \"Met\"",
-            ),
-            (
-                "ORIENTATION=Fibre",
-                "ORIENTATION=Fibra",
-                "no orientation is called \"Fibra\"",
-            ),
+            ("2, 3\n*TIE", "2, 33\n*TIE", "line 36: no node has the number \"33\""),
+            ("All, S2", "All, S7", "line 19: element 1 (hex8) has no face \"S7\""),
+            ("One.Top, Two.Top", "One.Top, Two.Tip", "no surface is called \"Two.Tip\""),
+            ("MATERIAL=Mat", "MATERIAL=Met", "no material is called \"Met\""),
+            ("ORIENTATION=Fibre", "ORIENTATION=Fibra", "no orientation is called \"Fibra\""),
             ("PART=BRICK", "PART=BLOCK", "no part is called \"BLOCK\""),
-            (
-                "8000., 8000., 1500.",
-                "8000., x, 1500.",
-                "a number of *ELASTIC expected",
-            ),
-            (
-                "INTERACTION=RUB",
-                "INTERACTION=ROB",
-                "no surface interaction is called \"ROB\"",
-            ),
-            (
-                "*END PART",
-                "*NCOPY",
-                "*END PART of part \"BRICK\" is missing",
-            ),
-            (
-                "One.Foot, PINNED",
-                "One.Foot, PIND",
-                "a direction 1 to 6 or a word such as ENCASTRE",
-            ),
+            ("8000., 8000., 1500.", "8000., x, 1500.", "a number of *ELASTIC expected"),
+            ("INTERACTION=RUB", "INTERACTION=ROB", "no surface interaction is called \"ROB\""),
+            ("*END PART", "*NCOPY", "*END PART of part \"BRICK\" is missing"),
+            ("One.Foot, PINNED", "One.Foot, PIND", "a direction 1 to 6 or a word such as ENCASTRE"),
             ("*STATIC", "*NGEN", "*NGEN is not supported"),
         ],
     );
@@ -339,12 +226,8 @@ fn the_stiffness_of_an_orthotropic_material_gives_its_engineering_constants() {
     let end = ASSEMBLY.find("*DENSITY").unwrap();
     let text = [&ASSEMBLY[..begin], &constants, &ASSEMBLY[end..]].concat();
     let model = read("bricks.inp", &text).unwrap().model;
-    let Some(FileElasticity::Orthotropic {
-        young_moduli,
-        poisson_ratios,
-        shear_moduli,
-        ..
-    }) = &model.materials[0].elasticity
+    let Some(FileElasticity::Orthotropic { young_moduli, poisson_ratios, shear_moduli, .. }) =
+        &model.materials[0].elasticity
     else {
         panic!("{:?}", model.materials[0]);
     };

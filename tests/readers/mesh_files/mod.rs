@@ -26,9 +26,7 @@ fn body(name: &str, text: &str) -> Mesh {
 /// Area of a named boundary, m2.
 fn area(mesh: &Mesh, name: &str) -> f64 {
     let names: Vec<&str> = mesh.boundaries.iter().map(|b| b.name.as_str()).collect();
-    let boundary = mesh
-        .boundary(name)
-        .unwrap_or_else(|| panic!("{name} of {names:?}"));
+    let boundary = mesh.boundary(name).unwrap_or_else(|| panic!("{name} of {names:?}"));
     mesh.face_area(&boundary.faces)
 }
 

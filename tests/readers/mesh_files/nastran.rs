@@ -47,18 +47,12 @@ fn nodes_of_nested_systems_in_all_fields_make_a_brick() {
     assert!((mesh.region_measures()[0] - 6.0).abs() < 1e-12);
     // (1, 2, 0) turned to (-2, 1, 0), moved by 5.
     let [x, y, z] = mesh.nodes[2];
-    assert!(
-        (x - 3.0).abs() + (y - 1.0).abs() + z.abs() < 1e-12,
-        "{x} {y} {z}"
-    );
+    assert!((x - 3.0).abs() + (y - 1.0).abs() + z.abs() < 1e-12, "{x} {y} {z}");
     let [x, y, z] = mesh.nodes[3];
     assert!((x - 3.0).abs() + y.abs() + z.abs() < 1e-12, "{x} {y} {z}");
-    for (name, exact) in [
-        ("PLOAD4_3", 2.0),
-        ("SPC_20_123", 2.0),
-        ("SPC_21_3", 2.0),
-        ("PSHELL_4", 3.0),
-    ] {
+    for (name, exact) in
+        [("PLOAD4_3", 2.0), ("SPC_20_123", 2.0), ("SPC_21_3", 2.0), ("PSHELL_4", 3.0)]
+    {
         assert!((area(&mesh, name) - exact).abs() < 1e-12, "{name}");
     }
 }
@@ -68,20 +62,10 @@ fn materials_supports_and_pressures_are_those_that_the_subcase_names() {
     let model = read("brick.bdf", BRICK).unwrap().model;
     assert_eq!(model.title.as_deref(), Some("a brick"));
     let material = &model.materials[0];
-    assert_eq!(
-        (material.region.as_str(), material.density),
-        ("iron", Some(7200.0))
-    );
-    let isotropic = FileElasticity::Isotropic {
-        young_modulus: 1.1e11,
-        poisson_ratio: 0.27,
-    };
+    assert_eq!((material.region.as_str(), material.density), ("iron", Some(7200.0)));
+    let isotropic = FileElasticity::Isotropic { young_modulus: 1.1e11, poisson_ratio: 0.27 };
     assert_eq!(material.elasticity, Some(isotropic));
-    let found: Vec<_> = model
-        .conditions
-        .iter()
-        .map(|c| (c.boundary.as_str(), c.kind))
-        .collect();
+    let found: Vec<_> = model.conditions.iter().map(|c| (c.boundary.as_str(), c.kind)).collect();
     assert_eq!(
         found,
         [
@@ -91,20 +75,13 @@ fn materials_supports_and_pressures_are_those_that_the_subcase_names() {
         ]
     );
     let listed: Vec<String> = model.left_out.iter().map(ToString::to_string).collect();
-    assert!(
-        listed.iter().any(|l| l.starts_with("FORCE (line 31)")),
-        "{listed:#?}"
-    );
+    assert!(listed.iter().any(|l| l.starts_with("FORCE (line 31)")), "{listed:#?}");
     assert!(
         listed
             .iter()
             .any(|l| l.contains("set 21, directions 3") && l.contains("no subcase names this set"))
     );
-    assert!(
-        listed
-            .iter()
-            .any(|l| l.starts_with("CQUAD4 (line 29): read as a surface"))
-    );
+    assert!(listed.iter().any(|l| l.starts_with("CQUAD4 (line 29): read as a surface")));
     assert_eq!(listed.len(), 3, "{listed:#?}");
 }
 
@@ -120,12 +97,8 @@ fn an_orthotropic_stiffness_gives_engineering_constants() {
     );
     let text = BRICK.replace("MAT1    7       1.1+11          .27     7200.\n", &mat9);
     let material = &read("brick.bdf", &text).unwrap().model.materials[0];
-    let Some(FileElasticity::Orthotropic {
-        young_moduli,
-        poisson_ratios,
-        shear_moduli,
-        ..
-    }) = &material.elasticity
+    let Some(FileElasticity::Orthotropic { young_moduli, poisson_ratios, shear_moduli, .. }) =
+        &material.elasticity
     else {
         panic!("{material:?}");
     };
@@ -143,22 +116,14 @@ fn wrong_bulk_data_is_told_by_line_and_name() {
         "brick.bdf",
         BRICK,
         &[
-            (
-                "+E      7       8",
-                "+E      7       88",
-                "line 21: CHEXA 10 names node 88",
-            ),
+            ("+E      7       8", "+E      7       88", "line 21: CHEXA 10 names node 88"),
             ("+E      7       8", "+E      7", "CHEXA 10 lacks node 8"),
             (
                 "GRID,7,1,1.,2.,3.",
                 "GRID,7,3,1.,2.,3.",
                 "line 19: no coordinate system has the number 3",
             ),
-            (
-                "CORD2C,2,1",
-                "CORD2C,2,2",
-                "coordinate system 2 is defined by itself",
-            ),
+            ("CORD2C,2,1", "CORD2C,2,2", "coordinate system 2 is defined by itself"),
             (
                 "GRID,7,1,1.,2.,3.",
                 "GRID,7,1,1.,2.a,3.",
@@ -170,11 +135,7 @@ fn wrong_bulk_data_is_told_by_line_and_name() {
                 "names material 8, which is no MAT1 or MAT9",
             ),
             ("10      2.5", "11      2.5", "PLOAD4 names element 11"),
-            (
-                "5       7\nCQUAD4",
-                "5       6\nCQUAD4",
-                "name no face of element 10",
-            ),
+            ("5       7\nCQUAD4", "5       6\nCQUAD4", "name no face of element 10"),
             (
                 "SPC1    20      123",
                 "SPC1    20      12x",

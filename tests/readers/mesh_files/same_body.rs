@@ -10,11 +10,7 @@ use std::fmt::Write;
 const SIDES: [&str; 2] = ["x0", "z1"];
 
 fn bent([x, y, z]: [f64; 3]) -> [f64; 3] {
-    [
-        0.1 * x + 0.01 * y * z,
-        0.07 * y + 0.02 * x * x,
-        0.05 * z + 0.01 * x,
-    ]
+    [0.1 * x + 0.01 * y * z, 0.07 * y + 0.02 * x * x, 0.05 * z + 0.01 * x]
 }
 
 /// Element number (from 1), local face and nodes of every face of a side.
@@ -22,23 +18,12 @@ fn faces_of(file: &GmshFile, side: &str) -> Vec<(usize, Vec<usize>, Vec<u32>)> {
     let mut found = Vec::new();
     for (kind, nodes) in &file.surfaces[side] {
         let corners = &nodes[..kind.corner_count()];
-        let element = file
-            .elements
-            .iter()
-            .position(|e| corners.iter().all(|n| e.nodes.contains(n)));
+        let element =
+            file.elements.iter().position(|e| corners.iter().all(|n| e.nodes.contains(n)));
         let element = element.unwrap();
-        let local = |node: &u32| {
-            file.elements[element]
-                .nodes
-                .iter()
-                .position(|n| n == node)
-                .unwrap()
-        };
-        found.push((
-            element + 1,
-            corners.iter().map(local).collect(),
-            corners.to_vec(),
-        ));
+        let local =
+            |node: &u32| file.elements[element].nodes.iter().position(|n| n == node).unwrap();
+        found.push((element + 1, corners.iter().map(local).collect(), corners.to_vec()));
     }
     found
 }
@@ -55,20 +40,10 @@ fn abaqus_face(kind: ElementKind, corners: &[usize]) -> usize {
             &[3, 7, 8, 4],
             &[4, 8, 5, 1],
         ],
-        ElementKind::Pyramid5 | ElementKind::Pyramid13 => &[
-            &[1, 2, 3, 4],
-            &[1, 5, 2],
-            &[2, 5, 3],
-            &[3, 5, 4],
-            &[4, 5, 1],
-        ],
-        _ => &[
-            &[1, 2, 3],
-            &[4, 6, 5],
-            &[1, 4, 5, 2],
-            &[2, 5, 6, 3],
-            &[3, 6, 4, 1],
-        ],
+        ElementKind::Pyramid5 | ElementKind::Pyramid13 => {
+            &[&[1, 2, 3, 4], &[1, 5, 2], &[2, 5, 3], &[3, 5, 4], &[4, 5, 1]]
+        }
+        _ => &[&[1, 2, 3], &[4, 6, 5], &[1, 4, 5, 2], &[2, 5, 6, 3], &[3, 6, 4, 1]],
     };
     let is_same = |face: &&[usize]| {
         face.len() == corners.len() && corners.iter().all(|c| face.contains(&(c + 1)))
@@ -115,9 +90,9 @@ fn inp(file: &GmshFile) -> String {
 /// of the top.
 fn nastran_order(kind: ElementKind) -> Vec<usize> {
     match kind {
-        ElementKind::Hex20 => vec![
-            0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18, 19, 12, 13, 14, 15,
-        ],
+        ElementKind::Hex20 => {
+            vec![0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18, 19, 12, 13, 14, 15]
+        }
         ElementKind::Wedge15 => vec![0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 13, 14, 9, 10, 11],
         _ => (0..kind.node_count()).collect(),
     }
@@ -145,8 +120,7 @@ fn bdf(file: &GmshFile) -> String {
         // Small fields of eight columns, eight on a line.
         for (i, line) in fields.chunks(8).enumerate() {
             write!(out, "{:<8}", if i == 0 { name } else { "+" }).unwrap();
-            line.iter()
-                .for_each(|field| write!(out, "{field:<8}").unwrap());
+            line.iter().for_each(|field| write!(out, "{field:<8}").unwrap());
             out.push('\n');
         }
     }
@@ -157,10 +131,7 @@ fn bdf(file: &GmshFile) -> String {
             let (first, second) = match (kind, corners.len()) {
                 (ElementKind::Tet4 | ElementKind::Tet10, _) => {
                     let apex = (0..4).find(|corner| !corners.contains(corner)).unwrap();
-                    (
-                        label(nodes[0]),
-                        label(file.elements[element - 1].nodes[apex]).to_string(),
-                    )
+                    (label(nodes[0]), label(file.elements[element - 1].nodes[apex]).to_string())
                 }
                 (_, 3) => (label(nodes[0]), String::new()),
                 _ => (label(nodes[0]), label(nodes[2]).to_string()),
@@ -175,9 +146,9 @@ fn bdf(file: &GmshFile) -> String {
 fn unv_order(kind: ElementKind) -> Vec<usize> {
     match kind {
         ElementKind::Tet10 => vec![0, 4, 1, 5, 2, 6, 7, 8, 9, 3],
-        ElementKind::Hex20 => vec![
-            0, 8, 1, 9, 2, 10, 3, 11, 16, 17, 18, 19, 4, 12, 5, 13, 6, 14, 7, 15,
-        ],
+        ElementKind::Hex20 => {
+            vec![0, 8, 1, 9, 2, 10, 3, 11, 16, 17, 18, 19, 4, 12, 5, 13, 6, 14, 7, 15]
+        }
         ElementKind::Wedge15 => vec![0, 6, 1, 7, 2, 8, 12, 13, 14, 3, 9, 4, 10, 5, 11],
         _ => (0..kind.node_count()).collect(),
     }
@@ -188,11 +159,7 @@ fn unv(file: &GmshFile) -> String {
     for (label, [x, y, z]) in file.labels.iter().zip(&file.points) {
         let exponent = |value: &f64| format!("{value:.17e}").replace('e', "D");
         let [x, y, z] = [x, y, z].map(exponent);
-        writeln!(
-            out,
-            "{label:10}         1         1        11\n  {x}  {y}  {z}"
-        )
-        .unwrap();
+        writeln!(out, "{label:10}         1         1        11\n  {x}  {y}  {z}").unwrap();
     }
     out.push_str("    -1\n    -1\n  2412\n");
     let kind = file.elements[0].kind;
@@ -205,24 +172,17 @@ fn unv(file: &GmshFile) -> String {
         _ => 113,
     };
     let mut write_element = |label: usize, descriptor: usize, nodes: &[usize]| {
-        writeln!(
-            out,
-            "{label:10}{descriptor:10}         1         1         7{:10}",
-            nodes.len()
-        )
-        .unwrap();
+        writeln!(out, "{label:10}{descriptor:10}         1         1         7{:10}", nodes.len())
+            .unwrap();
         for line in nodes.chunks(8) {
-            line.iter()
-                .for_each(|node| write!(out, "{node:10}").unwrap());
+            line.iter().for_each(|node| write!(out, "{node:10}").unwrap());
             out.push('\n');
         }
     };
     let label = |node: u32| file.labels[node as usize];
     for element in &file.elements {
-        let nodes: Vec<usize> = unv_order(kind)
-            .into_iter()
-            .map(|at| label(element.nodes[at]))
-            .collect();
+        let nodes: Vec<usize> =
+            unv_order(kind).into_iter().map(|at| label(element.nodes[at])).collect();
         write_element(element.label, descriptor, &nodes);
     }
     let mut next = 1 + file.elements.len();
@@ -274,12 +234,7 @@ fn a_body_is_the_same_to_the_bit_whatever_format_it_comes_in() {
         let file = block(kind, [3, 2, 2], bent);
         let expected = Mesh::from_solids(&file, 1.0, &[]).unwrap();
         assert_same("inp", &body("block.inp", &inp(&file)), &expected, SIDES);
-        assert_same(
-            "bdf",
-            &body("block.bdf", &bdf(&file)),
-            &expected,
-            ["PLOAD4_1", "PLOAD4_2"],
-        );
+        assert_same("bdf", &body("block.bdf", &bdf(&file)), &expected, ["PLOAD4_1", "PLOAD4_2"]);
         // Dataset 2412 has no pyramid.
         if kind.corner_count() != 5 {
             assert_same("unv", &body("block.unv", &unv(&file)), &expected, SIDES);
@@ -315,18 +270,12 @@ fn files_that_gmsh_wrote_have_the_volume_and_the_faces_of_their_ring() {
             mesh.quality().worst_jacobian
         );
         // Parabolas for arcs of 22.5 degrees.
-        assert!(
-            (found / volume - 1.0).abs() < 2e-4,
-            "{name} {found} {volume}"
-        );
+        assert!((found / volume - 1.0).abs() < 2e-4, "{name} {found} {volume}");
         // Mid-side nodes in wrong places fold or shear elements.
         assert!(mesh.quality().worst_jacobian > 0.3, "{name}");
         if !name.ends_with("bdf") {
             let found = area(&mesh, "bottom");
-            assert!(
-                (found / bottom - 1.0).abs() < 2e-4,
-                "{name} {found} {bottom}"
-            );
+            assert!((found / bottom - 1.0).abs() < 2e-4, "{name} {found} {bottom}");
         }
     }
 }

@@ -66,11 +66,7 @@ fn groups_are_regions_surfaces_and_sets_of_nodes() {
     assert!((area(&mesh, "head") - 2.0).abs() < 1e-12);
     let model = read("brick.unv", BRICK).unwrap().model;
     assert_eq!(model.left_out[0].to_string(), "dataset 151 (line 2)");
-    assert!(
-        model.remarks[0].contains("divided by 1000"),
-        "{:?}",
-        model.remarks
-    );
+    assert!(model.remarks[0].contains("divided by 1000"), "{:?}", model.remarks);
 }
 
 #[test]

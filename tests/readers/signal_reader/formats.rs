@@ -13,10 +13,7 @@ pub fn wave(samples: &[f64]) -> Vec<u8> {
     let file = SignalFile {
         sampling_rate: 5e4,
         start: 0.0,
-        channels: vec![Channel {
-            name: String::new(),
-            samples: samples.to_vec(),
-        }],
+        channels: vec![Channel { name: String::new(), samples: samples.to_vec() }],
         notes: Vec::new(),
     };
     write_wav(&file, 1).unwrap()
@@ -69,19 +66,13 @@ fn matlab_file(variables: &[Vec<u8>], compressed: bool) -> Vec<u8> {
 
 /// A MATLAB file of a signal and its sampling rate.
 pub fn matlab(samples: &[f64], compressed: bool) -> Vec<u8> {
-    let variables = [
-        array("fs", &[&[5e4]], None),
-        array("acceleration", &[samples], None),
-    ];
+    let variables = [array("fs", &[&[5e4]], None), array("acceleration", &[samples], None)];
     matlab_file(&variables, compressed)
 }
 
 fn named() -> NamedResponse {
     let f: Vec<f64> = (1..40).map(|k| 12.5 * f64::from(k)).collect();
-    let h = f
-        .iter()
-        .map(|f| 1.0 / c64::new(250.0 * 250.0 - f * f, 5.0 * f))
-        .collect();
+    let h = f.iter().map(|f| 1.0 / c64::new(250.0 * 250.0 - f * f, 5.0 * f)).collect();
     NamedResponse {
         name: "disc 12:+Z".into(),
         response: FrequencyResponse::new(f, h, ResponseQuantity::Mobility).unwrap(),
@@ -94,11 +85,7 @@ fn binary(text: &str, values: &[c64], is_big: bool) -> Vec<u8> {
     let order = if is_big { 2 } else { 1 };
     let head = lines[2..13].join("\r\n");
     let number = |v: f64| {
-        if is_big {
-            v.to_be_bytes()
-        } else {
-            v.to_le_bytes()
-        }
+        if is_big { v.to_be_bytes() } else { v.to_le_bytes() }
     };
     let mut out = format!(
         "    -1\r\n    58b{order:>6}{:>6}{:>12}{:>12}\r\n{head}\r\n",
@@ -129,10 +116,7 @@ fn universal_files_in_text_and_binary_give_back_the_response() {
         for (a, b) in got.values().iter().zip(want.response.values()) {
             assert!((a - b).norm() <= tolerance * b.norm());
         }
-        let pairs = got
-            .frequencies_hz()
-            .iter()
-            .zip(want.response.frequencies_hz());
+        let pairs = got.frequencies_hz().iter().zip(want.response.frequencies_hz());
         assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < 1e-9 * b));
     };
     // Twelve decimals in text; eight bytes in binary.
@@ -140,23 +124,12 @@ fn universal_files_in_text_and_binary_give_back_the_response() {
     check(&binary(&text, want.response.values(), false), 0.0);
     check(&binary(&text, want.response.values(), true), 0.0);
     // Other datasets around it, and a sign as the only separator.
-    let crowded = format!(
-        "    -1\n   151\nheader\n    -1\n{}",
-        text.replace("E-05 -", "E-05-")
-    );
+    let crowded = format!("    -1\n   151\nheader\n    -1\n{}", text.replace("E-05 -", "E-05-"));
     check(crowded.as_bytes(), 1e-12);
     let cut = &text[..text.len() - 200];
-    let error = read_response(cut.as_bytes(), "cut.uff", None)
-        .err()
-        .unwrap()
-        .to_string();
-    assert!(
-        error.starts_with("cut.uff: universal file: dataset 58 number 1"),
-        "{error}"
-    );
-    let error = read_signal(text.as_bytes(), "x", None)
-        .unwrap_err()
-        .to_string();
+    let error = read_response(cut.as_bytes(), "cut.uff", None).err().unwrap().to_string();
+    assert!(error.starts_with("cut.uff: universal file: dataset 58 number 1"), "{error}");
+    let error = read_signal(text.as_bytes(), "x", None).unwrap_err().to_string();
     assert!(error.contains("no time response"), "{error}");
 }
 
@@ -167,10 +140,7 @@ fn signals_come_back_from_universal_wav_and_matlab_files() {
         sampling_rate: 5e4,
         start: 0.0,
         channels: ["a", "b"]
-            .map(|name| Channel {
-                name: name.into(),
-                samples: samples.clone(),
-            })
+            .map(|name| Channel { name: name.into(), samples: samples.clone() })
             .to_vec(),
         notes: Vec::new(),
     };
@@ -197,18 +167,12 @@ fn matlab_responses_are_complex_columns_beside_a_frequency() {
     let want = named().response;
     let parts = |part: fn(&c64) -> f64| want.values().iter().map(part).collect::<Vec<f64>>();
     let (re, im) = (parts(|z| z.re), parts(|z| z.im));
-    let variables = [
-        array("freq", &[want.frequencies_hz()], None),
-        array("H", &[&re], Some(&im)),
-    ];
+    let variables = [array("freq", &[want.frequencies_hz()], None), array("H", &[&re], Some(&im))];
     let bytes = matlab_file(&variables, true);
     let read = read_response(&bytes, "x", Some(ResponseQuantity::Mobility)).unwrap();
     assert_eq!(read.response, want);
     // A matrix alone is a table without names.
-    let matrix = matlab_file(
-        &[array("data", &[want.frequencies_hz(), &re, &im], None)],
-        false,
-    );
+    let matrix = matlab_file(&[array("data", &[want.frequencies_hz(), &re, &im], None)], false);
     let options = ResponseOptions {
         quantity: Some(ResponseQuantity::Mobility),
         columns: ["f", "re", "im"].map(String::from).to_vec(),
@@ -220,25 +184,14 @@ fn matlab_responses_are_complex_columns_beside_a_frequency() {
 
 #[test]
 fn a_file_of_another_format_is_named_with_the_formats_that_are_read() {
-    for (bytes, name) in [
-        (&b"\x89HDF\r\n\x1a\n"[..], "HDF5"),
-        (b"PK\x03\x04....", "ZIP"),
-        (b"\x93NUMPY", "NumPy"),
-    ] {
-        for error in [
-            read_response(bytes, "x", None).err(),
-            read_signal(bytes, "x", None).err(),
-        ] {
+    for (bytes, name) in
+        [(&b"\x89HDF\r\n\x1a\n"[..], "HDF5"), (b"PK\x03\x04....", "ZIP"), (b"\x93NUMPY", "NumPy")]
+    {
+        for error in [read_response(bytes, "x", None).err(), read_signal(bytes, "x", None).err()] {
             let error = error.unwrap().to_string();
-            assert!(
-                error.contains(name) && error.contains("UFF/UNV, dataset 58"),
-                "{error}"
-            );
+            assert!(error.contains(name) && error.contains("UFF/UNV, dataset 58"), "{error}");
         }
     }
-    let error = read_response(&wave(&[0.0; 20]), "x", None)
-        .err()
-        .unwrap()
-        .to_string();
+    let error = read_response(&wave(&[0.0; 20]), "x", None).err().unwrap().to_string();
     assert!(error.contains("frictionsim signal"), "{error}");
 }

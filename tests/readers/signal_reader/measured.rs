@@ -27,37 +27,24 @@ fn table(header: &str, row: impl Fn(f64, faer::c64) -> String) -> String {
 
 #[test]
 fn every_notation_of_a_complex_response_reads_as_real_and_imaginary_part() {
-    let want = read(
-        &table("f,re,im", |f, h| format!("{f},{},{}", h.re, h.im)),
-        &[],
-        &[],
-    );
+    let want = read(&table("f,re,im", |f, h| format!("{f},{},{}", h.re, h.im)), &[], &[]);
     let want = &want.responses[0].response;
     let level = |h: faer::c64, reference: f64| 20.0 * (h.norm() / reference).log10();
     let degrees = |h: faer::c64| h.arg().to_degrees();
     let polar = |f: f64, h: faer::c64| format!("{f};{};{}", level(h, 1.0), degrees(h));
     let parts = |f: f64, h: faer::c64| format!("{f};{};{}", h.re, h.im);
     let tables = [
-        table(
-            "Frequency (Hz);Magnitude (dB re 1 m/s2/N);Phase (deg)",
-            polar,
-        ),
-        table(
-            "Frequency (Hz);Magnitude (dB re 1e-6 m/s2/N);Phase (deg)",
-            |f, h| format!("{f};{};{}", level(h, 1e-6), degrees(h)),
-        ),
+        table("Frequency (Hz);Magnitude (dB re 1 m/s2/N);Phase (deg)", polar),
+        table("Frequency (Hz);Magnitude (dB re 1e-6 m/s2/N);Phase (deg)", |f, h| {
+            format!("{f};{};{}", level(h, 1e-6), degrees(h))
+        }),
         table("Frequency;Real;Imaginary\nHz;m/s2/N;m/s2/N", parts),
         table("Frequency;Real;Imaginary\nHz;(m/s^2)/N;(m/s^2)/N", parts),
-        table(
-            "Fr\u{e9}quence (Hz);Partie r\u{e9}elle;Partie imaginaire",
-            parts,
-        ),
+        table("Fr\u{e9}quence (Hz);Partie r\u{e9}elle;Partie imaginaire", parts),
         table("Fr\u{e9}quence (Hz);Module;Phase (\u{b0})", |f, h| {
             format!("{f};{};{}", h.norm(), degrees(h))
         }),
-        table("Frequency (Hz),H1", |f, h| {
-            format!("{f},{}{:+}j", h.re, h.im)
-        }),
+        table("Frequency (Hz),H1", |f, h| format!("{f},{}{:+}j", h.re, h.im)),
         table("f,H", |f, h| format!("{f},({}{:+}i)", h.re, h.im)),
         table(
             "\n ***** ANSYS POST26 VARIABLE LISTING *****\n\n     FREQ     2 UZ\n              UZ_2\n        \
@@ -85,69 +72,32 @@ fn every_notation_of_a_complex_response_reads_as_real_and_imaginary_part() {
 #[test]
 fn responses_of_one_table_are_all_read_and_one_is_picked_by_name_or_number() {
     let text = table("f,H11 re,H11 im,H21 re,H21 im,coherence", |f, h| {
-        format!(
-            "{f},{},{},{},{},{}",
-            h.re,
-            h.im,
-            -h.re,
-            -h.im,
-            if f < 50.0 { 0.5 } else { 0.99 }
-        )
+        format!("{f},{},{},{},{},{}", h.re, h.im, -h.re, -h.im, if f < 50.0 { 0.5 } else { 0.99 })
     });
     let file = read(&text, &[], &[]);
     let names: Vec<&str> = file.responses.iter().map(|r| r.name.as_str()).collect();
     assert_eq!(names, ["H11", "H21"]);
-    assert!(
-        file.notes.iter().any(|note| note.contains("coherence")),
-        "{:?}",
-        file.notes
-    );
+    assert!(file.notes.iter().any(|note| note.contains("coherence")), "{:?}", file.notes);
     for named in &file.responses {
         let factors = named.response.variance_factors();
         // (1 - c)/c of 1 over that of 0.99.
-        assert!(
-            (factors[0] - 99.0).abs() < 1e-9 && factors[6] == 1.0,
-            "{factors:?}"
-        );
+        assert!((factors[0] - 99.0).abs() < 1e-9 && factors[6] == 1.0, "{factors:?}");
     }
     for wanted in ["H21", "2"] {
         let file = read(&text, &[], &[wanted]);
-        assert_eq!(
-            (file.responses.len(), file.responses[0].name.as_str()),
-            (1, "H21")
-        );
+        assert_eq!((file.responses.len(), file.responses[0].name.as_str()), (1, "H21"));
     }
-    let options = ResponseOptions {
-        channels: vec!["H31".into()],
-        ..ResponseOptions::default()
-    };
+    let options = ResponseOptions { channels: vec!["H31".into()], ..ResponseOptions::default() };
     let error = frictionsim::signal::reader::read_response(text.as_bytes(), "x", &options);
-    assert!(
-        error
-            .unwrap_err()
-            .to_string()
-            .contains("--channel H31: the file has H11, H21")
-    );
+    assert!(error.unwrap_err().to_string().contains("--channel H31: the file has H11, H21"));
 }
 
 #[test]
 fn the_other_sign_of_time_is_seen_said_and_turned() {
-    let plain = read(
-        &table("f,re,im", |f, h| format!("{f},{},{}", h.re, h.im)),
-        &[],
-        &[],
-    );
-    let turned = read(
-        &table("f,re,im", |f, h| format!("{f},{},{}", h.re, -h.im)),
-        &[],
-        &[],
-    );
+    let plain = read(&table("f,re,im", |f, h| format!("{f},{},{}", h.re, h.im)), &[], &[]);
+    let turned = read(&table("f,re,im", |f, h| format!("{f},{},{}", h.re, -h.im)), &[], &[]);
     assert_eq!(turned.responses, plain.responses);
-    assert!(
-        turned.notes[0].contains("exp(-i omega t)"),
-        "{:?}",
-        turned.notes
-    );
+    assert!(turned.notes[0].contains("exp(-i omega t)"), "{:?}", turned.notes);
     assert!(plain.notes.is_empty(), "{:?}", plain.notes);
 }
 
@@ -155,41 +105,21 @@ fn the_other_sign_of_time_is_seen_said_and_turned() {
 fn frequencies_that_look_like_kilohertz_are_doubted_where_no_unit_is_written() {
     let small = |header: &str| table(header, |f, h| format!("{},{},{}", f / 12.0, h.re, h.im));
     assert!(read(&small("Frequency,re,im"), &[], &[]).notes[0].contains("if they are kHz"));
-    assert!(
-        read(&small("Frequency (Hz),re,im"), &[], &[])
-            .notes
-            .is_empty()
-    );
-    assert!(
-        read(&small("x,y,z"), &["f_khz", "re", "im"], &[])
-            .notes
-            .is_empty()
-    );
+    assert!(read(&small("Frequency (Hz),re,im"), &[], &[]).notes.is_empty());
+    assert!(read(&small("x,y,z"), &["f_khz", "re", "im"], &[]).notes.is_empty());
 }
 
 #[test]
 fn columns_without_names_ask_for_them_and_a_wrong_number_of_names_is_refused() {
     let doubtful: String = (1..12).map(|i| format!("{i} {i} {i}\n")).collect();
     assert!(message(&doubtful).contains("--columns f,re,im"));
-    let options = ResponseOptions {
-        columns: vec!["f".into(), "re".into()],
-        ..ResponseOptions::default()
-    };
+    let options =
+        ResponseOptions { columns: vec!["f".into(), "re".into()], ..ResponseOptions::default() };
     let complex = rows(",", ".", "\n");
     let error = frictionsim::signal::reader::read_response(complex.as_bytes(), "x", &options);
-    assert!(
-        error
-            .unwrap_err()
-            .to_string()
-            .contains("names 2 columns, the table has 3")
-    );
-    let no_unit = read_response(b"10,0.1+0.2j,x\n20,0.1+0.2j,y\n", "x", None)
-        .err()
-        .unwrap();
-    assert!(
-        no_unit.to_string().starts_with("x:1:13: `x` in column 3"),
-        "{no_unit}"
-    );
+    assert!(error.unwrap_err().to_string().contains("names 2 columns, the table has 3"));
+    let no_unit = read_response(b"10,0.1+0.2j,x\n20,0.1+0.2j,y\n", "x", None).err().unwrap();
+    assert!(no_unit.to_string().starts_with("x:1:13: `x` in column 3"), "{no_unit}");
 }
 
 #[test]
@@ -203,11 +133,7 @@ fn time_stamps_are_seconds_from_the_first_also_past_midnight() {
         let rows: String = (0..400).map(row).collect();
         for text in [rows.clone(), format!("date time{separator}x\n{rows}")] {
             let file = read_signal(text.as_bytes(), "x", None).unwrap();
-            assert!(
-                (file.sampling_rate / 100.0 - 1.0).abs() < 1e-6,
-                "{}",
-                file.sampling_rate
-            );
+            assert!((file.sampling_rate / 100.0 - 1.0).abs() < 1e-6, "{}", file.sampling_rate);
             assert_eq!(file.channels.len(), 1);
         }
     }
@@ -219,46 +145,26 @@ fn time_stamps_are_seconds_from_the_first_also_past_midnight() {
 #[test]
 fn a_rounded_time_column_asks_for_the_rate_and_is_overruled_by_it() {
     let rows: String = (0..400)
-        .map(|k| {
-            format!(
-                "{:.4},{}\n",
-                f64::from(k) / 51_200.0,
-                (TAU * 0.1 * f64::from(k)).sin()
-            )
-        })
+        .map(|k| format!("{:.4},{}\n", f64::from(k) / 51_200.0, (TAU * 0.1 * f64::from(k)).sin()))
         .collect();
     let text = format!("t,x\n{rows}");
-    let error = read_signal(text.as_bytes(), "x", None)
-        .unwrap_err()
-        .to_string();
-    assert!(
-        error.contains("rounded to 0.0001 s") && error.contains("--rate HZ"),
-        "{error}"
-    );
+    let error = read_signal(text.as_bytes(), "x", None).unwrap_err().to_string();
+    assert!(error.contains("rounded to 0.0001 s") && error.contains("--rate HZ"), "{error}");
     let file = read_signal(text.as_bytes(), "x", Some(51_200.0)).unwrap();
     assert_eq!(file.sampling_rate, 51_200.0);
-    assert!(
-        file.notes[0].contains("replaces the time column"),
-        "{:?}",
-        file.notes
-    );
+    assert!(file.notes[0].contains("replaces the time column"), "{:?}", file.notes);
     // Half the rate is no rounding.
     assert!(read_signal(text.as_bytes(), "x", Some(25_600.0)).is_err());
 }
 
 #[test]
 fn signal_columns_are_named_and_skipped_on_request() {
-    let rows: String = (0..40)
-        .map(|k| format!("{k},{},{}\n", 2 * k, 3 * k))
-        .collect();
+    let rows: String = (0..40).map(|k| format!("{k},{},{}\n", 2 * k, 3 * k)).collect();
     let options = SignalOptions {
         columns: ["t_ms", "-", "mic"].map(String::from).to_vec(),
         ..SignalOptions::default()
     };
     let file = frictionsim::signal::reader::read_signal(rows.as_bytes(), "x", &options).unwrap();
     assert_eq!(file.sampling_rate, 1e3);
-    assert_eq!(
-        (file.channels.len(), file.channels[0].name.as_str()),
-        (1, "mic")
-    );
+    assert_eq!((file.channels.len(), file.channels[0].name.as_str()), (1, "mic"));
 }

@@ -23,22 +23,13 @@ fn read_response(
     source: &str,
     quantity: Option<ResponseQuantity>,
 ) -> Result<Read, ReadError> {
-    let options = ResponseOptions {
-        quantity,
-        ..ResponseOptions::default()
-    };
+    let options = ResponseOptions { quantity, ..ResponseOptions::default() };
     let file = frictionsim::signal::reader::read_response(bytes, source, &options)?;
-    Ok(Read {
-        response: file.responses[0].response.clone(),
-        notes: file.notes,
-    })
+    Ok(Read { response: file.responses[0].response.clone(), notes: file.notes })
 }
 
 fn read_signal(bytes: &[u8], source: &str, rate: Option<f64>) -> Result<SignalFile, ReadError> {
-    let options = SignalOptions {
-        rate,
-        ..SignalOptions::default()
-    };
+    let options = SignalOptions { rate, ..SignalOptions::default() };
     frictionsim::signal::reader::read_signal(bytes, source, &options)
 }
 
@@ -55,9 +46,7 @@ fn rows(separator: &str, decimal: &str, end: &str) -> String {
 }
 
 fn message(text: &str) -> String {
-    read_response(text.as_bytes(), "FRF.csv", None)
-        .expect_err("must be refused")
-        .to_string()
+    read_response(text.as_bytes(), "FRF.csv", None).expect_err("must be refused").to_string()
 }
 
 #[test]
@@ -69,20 +58,11 @@ fn every_common_dialect_gives_the_same_response() {
         format!("frequency_hz\treal\timag\n{}", rows("\t", ",", "\n")),
         format!("frequency_hz  real  imag\n{}", rows("  ", ".", "\n")),
         format!("frequency_hz real imag\n{}", rows(" ", ",", "\n")),
-        format!(
-            "# hammer test\n# frequency_hz, real, imag\n{}",
-            rows(", ", ".", "\n")
-        ),
-        format!(
-            "Disc 3\nFrequency;Real;Imag\n[Hz];[m/s2/N];[m/s2/N]\n{}",
-            rows(";", ".", "\n")
-        ),
+        format!("# hammer test\n# frequency_hz, real, imag\n{}", rows(", ", ".", "\n")),
+        format!("Disc 3\nFrequency;Real;Imag\n[Hz];[m/s2/N];[m/s2/N]\n{}", rows(";", ".", "\n")),
         format!("\u{feff}frequency_hz,real,imag\n{}", rows(",", ".", "\n")),
         format!("frequency_hz,real,imag,\n{}", rows(",", ".", ",\n")),
-        format!(
-            "\"frequency_hz\",\"real\",\"imag\"\r{}",
-            rows(",", ".", "\r")
-        ),
+        format!("\"frequency_hz\",\"real\",\"imag\"\r{}", rows(",", ".", "\r")),
         format!("\n\nfrequency_hz,real,imag\n\n{}\n", rows(",", ".", "\n\n")),
     ];
     for text in &dialects {
@@ -90,10 +70,8 @@ fn every_common_dialect_gives_the_same_response() {
         let got = got.unwrap_or_else(|e| panic!("{e}\n{text}"));
         assert_eq!(got.response, want, "{text}");
     }
-    let wide: Vec<u8> = [0xff, 0xfe]
-        .into_iter()
-        .chain(plain.encode_utf16().flat_map(u16::to_le_bytes))
-        .collect();
+    let wide: Vec<u8> =
+        [0xff, 0xfe].into_iter().chain(plain.encode_utf16().flat_map(u16::to_le_bytes)).collect();
     assert_eq!(read_response(&wide, "c", None).unwrap().response, want);
 }
 
@@ -103,18 +81,10 @@ fn decibel_with_degrees_and_kilohertz_equal_real_with_imaginary() {
     let mut radians = "omega (rad/s)\tabs\tphase (rad)\n".to_string();
     let mut parts = "f,re,im\n".to_string();
     for i in 1..=12 {
-        let (f, m, p) = (
-            100.0 * f64::from(i),
-            0.3 + 0.1 * f64::from(i),
-            20.0 * f64::from(i),
-        );
+        let (f, m, p) = (100.0 * f64::from(i), 0.3 + 0.1 * f64::from(i), 20.0 * f64::from(i));
         polar += &format!("{};{};{}\n", f / 1e3, 20.0 * m.log10(), p);
         radians += &format!("{}\t{}\t{}\n", TAU * f, m, p.to_radians());
-        parts += &format!(
-            "{f},{},{}\n",
-            m * p.to_radians().cos(),
-            m * p.to_radians().sin()
-        );
+        parts += &format!("{f},{},{}\n", m * p.to_radians().cos(), m * p.to_radians().sin());
     }
     let read = |t: &str| read_response(t.as_bytes(), "x", None).unwrap().response;
     let (a, b, c) = (read(&polar), read(&radians), read(&parts));
@@ -133,29 +103,14 @@ fn quantity_comes_from_option_name_unit_or_assumption_in_this_order() {
         (file.response.quantity(), file.notes.len())
     };
     use ResponseQuantity::*;
-    assert_eq!(
-        read("frequency_hz,mobility_real,mobility_imag", None),
-        (Mobility, 0)
-    );
-    assert_eq!(
-        read("# receptance\nfrequency_hz,real,imag", None),
-        (Receptance, 0)
-    );
+    assert_eq!(read("frequency_hz,mobility_real,mobility_imag", None), (Mobility, 0));
+    assert_eq!(read("# receptance\nfrequency_hz,real,imag", None), (Receptance, 0));
     assert_eq!(read("f (Hz),Re (m/N),Im (m/N)", None), (Receptance, 0));
     assert_eq!(read("f (Hz),Re (m/s/N),Im (m/s/N)", None), (Mobility, 0));
-    assert_eq!(
-        read("f (Hz),Re ((m/s^2)/N),Im ((m/s^2)/N)", None),
-        (Accelerance, 0)
-    );
+    assert_eq!(read("f (Hz),Re ((m/s^2)/N),Im ((m/s^2)/N)", None), (Accelerance, 0));
     assert_eq!(read("frequency_hz,real,imag", None), (Accelerance, 1));
-    assert_eq!(
-        read("frequency_hz,real,imag", Some(Mobility)),
-        (Mobility, 0)
-    );
-    assert_eq!(
-        read("f (Hz),Re (m/N),Im (m/N)", Some(Mobility)),
-        (Mobility, 1)
-    );
+    assert_eq!(read("frequency_hz,real,imag", Some(Mobility)), (Mobility, 0));
+    assert_eq!(read("f (Hz),Re (m/N),Im (m/N)", Some(Mobility)), (Mobility, 1));
 }
 
 #[test]
@@ -206,11 +161,7 @@ fn every_refusal_names_file_line_column_and_remedy() {
     let commas = format!("frequency_hz,real,imag\n{}", rows(",", ",", "\n"));
     assert!(message(&commas).starts_with("FRF.csv:2:1: 6 fields separated by commas"));
     let mixed = "f;re;im\n1.000,5;1;2\n".to_string();
-    assert!(
-        message(&mixed).contains("comma and point"),
-        "{}",
-        message(&mixed)
-    );
+    assert!(message(&mixed).contains("comma and point"), "{}", message(&mixed));
     let negative = (1..10).map(|i| format!("{i},-{i}\n")).collect::<String>();
     assert!(message(&format!("f,magnitude\n{negative}")).contains("decibels"));
 }
@@ -218,21 +169,9 @@ fn every_refusal_names_file_line_column_and_remedy() {
 #[test]
 fn columns_without_names_are_read_only_where_the_numbers_leave_no_doubt() {
     let complex = rows(",", ".", "\n");
-    assert!(
-        read_response(complex.as_bytes(), "x", None)
-            .unwrap()
-            .response
-            .has_phase()
-    );
-    let magnitude: String = (1..12)
-        .map(|i| format!("{i} {}\n", 0.1 * f64::from(i)))
-        .collect();
-    assert!(
-        !read_response(magnitude.as_bytes(), "x", None)
-            .unwrap()
-            .response
-            .has_phase()
-    );
+    assert!(read_response(complex.as_bytes(), "x", None).unwrap().response.has_phase());
+    let magnitude: String = (1..12).map(|i| format!("{i} {}\n", 0.1 * f64::from(i))).collect();
+    assert!(!read_response(magnitude.as_bytes(), "x", None).unwrap().response.has_phase());
     let doubtful: String = (1..12).map(|i| format!("{i} {i} {i}\n")).collect();
     assert!(message(&doubtful).contains("add a first line such as"));
 }
@@ -240,15 +179,10 @@ fn columns_without_names_are_read_only_where_the_numbers_leave_no_doubt() {
 #[test]
 fn signals_are_read_with_time_column_or_rate() {
     let tone = |i: usize| (0.3 * i as f64).sin();
-    let timed: String = (0..40)
-        .map(|i| format!("{:.6},{},{}\n", 2e-6 * i as f64, tone(i), i))
-        .collect();
-    let file = read_signal(
-        format!("time_s,a_r_m_per_s2,other\n{timed}").as_bytes(),
-        "x",
-        None,
-    )
-    .unwrap();
+    let timed: String =
+        (0..40).map(|i| format!("{:.6},{},{}\n", 2e-6 * i as f64, tone(i), i)).collect();
+    let file =
+        read_signal(format!("time_s,a_r_m_per_s2,other\n{timed}").as_bytes(), "x", None).unwrap();
     assert!((file.sampling_rate / 5e5 - 1.0).abs() < 1e-9);
     assert_eq!(file.channels.len(), 2);
     assert_eq!(file.channels[0].name, "a_r_m_per_s2");
@@ -256,25 +190,14 @@ fn signals_are_read_with_time_column_or_rate() {
     // Without names: the first column advances evenly, so it is the time.
     let file = read_signal(timed.as_bytes(), "x", None).unwrap();
     assert!((file.sampling_rate / 5e5 - 1.0).abs() < 1e-9);
-    let milli: String = (0..40)
-        .map(|i| format!("{}\t{}\n", 0.02 * f64::from(i), tone(i as usize)))
-        .collect();
+    let milli: String =
+        (0..40).map(|i| format!("{}\t{}\n", 0.02 * f64::from(i), tone(i as usize))).collect();
     let file = read_signal(format!("Time (ms)\tacc\n{milli}").as_bytes(), "x", None).unwrap();
     assert!((file.sampling_rate / 5e4 - 1.0).abs() < 1e-9);
     let bare: String = (0..40).map(|i| format!("{}\n", tone(i))).collect();
-    assert_eq!(
-        read_signal(bare.as_bytes(), "x", Some(51_200.0))
-            .unwrap()
-            .sampling_rate,
-        51_200.0
-    );
+    assert_eq!(read_signal(bare.as_bytes(), "x", Some(51_200.0)).unwrap().sampling_rate, 51_200.0);
     let stated = format!("# Sampling rate: 51.2 kHz\n{bare}");
-    assert_eq!(
-        read_signal(stated.as_bytes(), "x", None)
-            .unwrap()
-            .sampling_rate,
-        51_200.0
-    );
+    assert_eq!(read_signal(stated.as_bytes(), "x", None).unwrap().sampling_rate, 51_200.0);
     let error = read_signal(bare.as_bytes(), "x", None).unwrap_err();
     assert_eq!(error.problem, ReadProblem::NoRate);
 }
@@ -285,23 +208,13 @@ fn gaps_and_disorder_in_time_are_refused_at_their_line() {
     let gap: String = (0..40).filter(|i| *i != 20).map(row).collect();
     let error = read_signal(format!("t,x\n{gap}").as_bytes(), "s.csv", None).unwrap_err();
     assert!(
-        error
-            .to_string()
-            .starts_with("s.csv:22:1: time 0.021 s is not on the grid"),
+        error.to_string().starts_with("s.csv:22:1: time 0.021 s is not on the grid"),
         "{error}"
     );
     let back: String = (0..40).map(|i| row(if i == 20 { 3 } else { i })).collect();
     let error = read_signal(format!("t,x\n{back}").as_bytes(), "s.csv", None).unwrap_err();
-    assert!(
-        error
-            .to_string()
-            .starts_with("s.csv:22:1: time 0.003 s does not follow"),
-        "{error}"
-    );
+    assert!(error.to_string().starts_with("s.csv:22:1: time 0.003 s does not follow"), "{error}");
     let good: String = (0..40).map(row).collect();
     let error = read_signal(format!("t,x\n{good}").as_bytes(), "s.csv", Some(500.0)).unwrap_err();
-    assert!(matches!(
-        error.problem,
-        ReadProblem::RateContradiction { .. }
-    ));
+    assert!(matches!(error.problem, ReadProblem::RateContradiction { .. }));
 }

@@ -18,21 +18,15 @@ use std::time::{Duration, Instant};
 fn analyse(bytes: &[u8]) {
     let read = frictionsim::signal::reader::read_response(bytes, "x", &ResponseOptions::default());
     if let Ok(file) = read {
-        let responses: Vec<FrequencyResponse> = file
-            .responses
-            .into_iter()
-            .map(|named| named.response)
-            .collect();
+        let responses: Vec<FrequencyResponse> =
+            file.responses.into_iter().map(|named| named.response).collect();
         if let Ok(found) = identify(&responses, &IdentificationOptions::default()) {
             assert!(found.rayleigh.mass_coefficient.value.is_finite());
             assert!(found.rayleigh.stiffness_coefficient.value.is_finite());
         }
     }
     for rate in [None, Some(5e4)] {
-        let options = SignalOptions {
-            rate,
-            ..SignalOptions::default()
-        };
+        let options = SignalOptions { rate, ..SignalOptions::default() };
         let Ok(file) = frictionsim::signal::reader::read_signal(bytes, "x", &options) else {
             continue;
         };
@@ -53,10 +47,7 @@ fn analyse(bytes: &[u8]) {
 fn response(count: usize) -> FrequencyResponse {
     let f: Vec<f64> = (1..=count).map(|k| 10.0 * k as f64).collect();
     let mode = |f: f64, f0: f64| 1.0 / faer::c64::new(f0 * f0 - f * f, 0.02 * f0 * f);
-    let h = f
-        .iter()
-        .map(|f| mode(*f, 200.0) + mode(*f, 410.0))
-        .collect();
+    let h = f.iter().map(|f| mode(*f, 200.0) + mode(*f, 410.0)).collect();
     FrequencyResponse::new(f, h, ResponseQuantity::Receptance).unwrap()
 }
 
@@ -64,19 +55,11 @@ fn response(count: usize) -> FrequencyResponse {
 fn corpus() -> Vec<Vec<u8>> {
     let response = response(60);
     let lines = response.frequencies_hz().iter().zip(response.values());
-    let table: String = lines
-        .clone()
-        .map(|(f, h)| format!("{f},{:e},{:e}\n", h.re, h.im))
-        .collect();
+    let table: String =
+        lines.clone().map(|(f, h)| format!("{f},{:e},{:e}\n", h.re, h.im)).collect();
     let text = format!("frequency_hz,real,imaginary\n{table}");
     let mobility: String = lines
-        .map(|(f, h)| {
-            format!(
-                "{f};{:.4};{:.2}\n",
-                20.0 * h.norm().log10(),
-                h.arg().to_degrees()
-            )
-        })
+        .map(|(f, h)| format!("{f};{:.4};{:.2}\n", 20.0 * h.norm().log10(), h.arg().to_degrees()))
         .collect();
     let level = format!("Frequency;Level;Phase\nHz;dB re 1 m/N;deg\n{mobility}");
     let samples: Vec<f64> = (0..400)
@@ -85,20 +68,12 @@ fn corpus() -> Vec<Vec<u8>> {
     let signal = SignalFile {
         sampling_rate: 5e4,
         start: 0.0,
-        channels: vec![Channel {
-            name: "a".into(),
-            samples: samples.clone(),
-        }],
+        channels: vec![Channel { name: "a".into(), samples: samples.clone() }],
         notes: Vec::new(),
     };
     let rows = samples.iter().enumerate();
-    let timed: String = rows
-        .map(|(k, x)| format!("{:.6}\t{x}\n", 2e-5 * k as f64))
-        .collect();
-    let named = NamedResponse {
-        name: "1:3".into(),
-        response,
-    };
+    let timed: String = rows.map(|(k, x)| format!("{:.6}\t{x}\n", 2e-5 * k as f64)).collect();
+    let named = NamedResponse { name: "1:3".into(), response };
     vec![
         text.into_bytes(),
         level.into_bytes(),
@@ -162,9 +137,7 @@ fn no_mutation_of_a_file_makes_a_reader_or_an_analysis_panic() {
     }
     let mut state = 1u64;
     let mut draw = |bound: usize| {
-        state = state
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         ((state >> 33) as usize) % bound.max(1)
     };
     let mut count = 0;

@@ -40,12 +40,7 @@ impl Across {
         along.add_scaled(-1.0, &dashpots);
         let moving = dashpots.restricted_to(&moving_unknowns(all.dimension(), &harmonic.rigid));
         let damped = (0..moving.dimension()).filter(|&k| moving.get(k, k) > 0.0);
-        Self {
-            rank: damped.count(),
-            dashpots,
-            along,
-            moving,
-        }
+        Self { rank: damped.count(), dashpots, along, moving }
     }
 
     /// Whether they damp a mode at rest strongly at a friction coefficient, `mu x^T A x / (2 sqrt(kappa)) > 1/4`.

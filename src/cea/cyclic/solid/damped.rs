@@ -69,9 +69,7 @@ pub(super) fn follow_damped(
     let at_rest = problem.at(0.0);
     for (branch, (kappa, shape)) in pairs.iter().enumerate() {
         let started = start(&mut course.follower, &at_rest, branch, *kappa, shape);
-        course
-            .paths
-            .extend(started.into_iter().flatten().map(Tracked::new));
+        course.paths.extend(started.into_iter().flatten().map(Tracked::new));
     }
     let (mut before, mut overdamped) = (0.0, Vec::new());
     for &friction in range.grid {
@@ -80,16 +78,8 @@ pub(super) fn follow_damped(
         before = friction;
     }
     let factorizations = course.follower.factorizations;
-    let paths = course
-        .paths
-        .into_iter()
-        .map(|tracked| tracked.path)
-        .collect();
-    let followed = HarmonicPaths {
-        paths,
-        problem,
-        factorizations,
-    };
+    let paths = course.paths.into_iter().map(|tracked| tracked.path).collect();
+    let followed = HarmonicPaths { paths, problem, factorizations };
     Ok((followed, overdamped))
 }
 
@@ -104,11 +94,7 @@ struct Tracked {
 
 impl Tracked {
     fn new(path: Path) -> Self {
-        Self {
-            reached: path.points.len(),
-            path,
-            is_open: true,
-        }
+        Self { reached: path.points.len(), path, is_open: true }
     }
 
     fn last(&self) -> &Eigenpair {
@@ -129,9 +115,8 @@ impl Course<'_> {
     fn step(&mut self, before: f64, friction: f64) -> Result<Overdamped, CeaError> {
         let shared = Rc::new(self.problem.at(friction));
         let all = spectrum(self.problem, &shared, self.largest)?;
-        let was_open: Vec<usize> = (0..self.paths.len())
-            .filter(|&index| self.paths[index].is_open)
-            .collect();
+        let was_open: Vec<usize> =
+            (0..self.paths.len()).filter(|&index| self.paths[index].is_open).collect();
         self.advance(before, friction, &shared);
         // Every branch claims the eigenvalue that it has come to; two cannot share one.
         let mut is_claimed = vec![false; all.len()];
@@ -177,9 +162,7 @@ impl Course<'_> {
             tracked.reached = tracked.path.points.len();
             let points = &mut tracked.path.points;
             let control = shortened([before, friction]);
-            let has_come = self
-                .follower
-                .advance(points, friction, control, &mut matrices);
+            let has_come = self.follower.advance(points, friction, control, &mut matrices);
             tracked.is_open = has_come && !problem.is_ending(tracked.last().theta);
         }
     }
@@ -209,8 +192,7 @@ impl Course<'_> {
         let mut back = vec![found];
         let mut matrices = |value: f64| Rc::new(problem.at(value));
         let control = shortened([before, friction]);
-        self.follower
-            .walk(&mut back, before, control, &mut matrices);
+        self.follower.walk(&mut back, before, control, &mut matrices);
         back.reverse();
         let joined = was_open.iter().copied().find(|&index| {
             let tracked = &self.paths[index];
@@ -248,9 +230,8 @@ impl Course<'_> {
 
     /// The motions that do not oscillate.
     fn overdamped(&self, friction: f64, all: &[c64]) -> Overdamped {
-        let slow = all
-            .iter()
-            .filter(|value| value.norm() <= self.largest && self.is_overdamped(value));
+        let slow =
+            all.iter().filter(|value| value.norm() <= self.largest && self.is_overdamped(value));
         let rates: Vec<f64> = slow.map(|value| -value.re).collect();
         Overdamped {
             friction_coefficient: friction,
@@ -273,10 +254,7 @@ impl Course<'_> {
 
 /// Steps no shorter than a share of the step of friction.
 fn shortened([before, friction]: [f64; 2]) -> StepControl {
-    StepControl {
-        shortest: SHORTEST * (friction - before),
-        ..StepControl::NORMAL
-    }
+    StepControl { shortest: SHORTEST * (friction - before), ..StepControl::NORMAL }
 }
 
 /// Whether two pairs at the same friction coefficient are one.

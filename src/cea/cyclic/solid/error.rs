@@ -60,12 +60,9 @@ pub(super) fn reduction_error(
         }
     }
     let mut slope = vec![c64::new(0.0, 0.0); x.len()];
-    for (factor, matrix) in [
-        (one, c0),
-        (turn, c1),
-        (friction, &harmonic.across),
-        (lambda + lambda, &harmonic.mass),
-    ] {
+    for (factor, matrix) in
+        [(one, c0), (turn, c1), (friction, &harmonic.across), (lambda + lambda, &harmonic.mass)]
+    {
         add_product(&mut slope, factor, matrix, &x, false);
     }
     let moving = moving_unknowns(x.len(), &harmonic.rigid);
@@ -75,15 +72,9 @@ pub(super) fn reduction_error(
         part
     };
     let (real, imaginary) = (part(|v| v.re), part(|v| v.im));
-    let answers = real
-        .iter()
-        .zip(&imaginary)
-        .map(|(re, im)| c64::new(*re, *im));
-    let missing: c64 = moving
-        .iter()
-        .zip(answers)
-        .map(|(&unknown, v)| left[unknown].conj() * v)
-        .sum();
+    let answers = real.iter().zip(&imaginary).map(|(re, im)| c64::new(*re, *im));
+    let missing: c64 =
+        moving.iter().zip(answers).map(|(&unknown, v)| left[unknown].conj() * v).sum();
     let slope: c64 = y.iter().zip(&slope).map(|(y, v)| y.conj() * v).sum();
     (missing / (slope * lambda)).norm()
 }
@@ -95,11 +86,7 @@ fn add_product(sum: &mut [c64], factor: c64, matrix: &BandedMatrix, x: &[c64], t
         let first = columns.start + matrix.half_bandwidth() - row;
         for (column, &value) in columns.zip(&matrix.row(row)[first..]) {
             if value != 0.0 {
-                let (to, from) = if transposed {
-                    (column, row)
-                } else {
-                    (row, column)
-                };
+                let (to, from) = if transposed { (column, row) } else { (row, column) };
                 sum[to] += factor * value * x[from];
             }
         }

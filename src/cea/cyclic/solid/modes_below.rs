@@ -22,10 +22,7 @@ pub(super) struct AtRest {
 fn pencil(tangent: &SolidTangent, n: usize) -> Result<Pencil, CeaError> {
     let [mass, stiffness] = tangent.at_rest(n);
     let moving = moving_unknowns(mass.dimension(), &tangent.rigid());
-    let (mass, stiffness) = (
-        mass.restricted_to(&moving),
-        stiffness.restricted_to(&moving),
-    );
+    let (mass, stiffness) = (mass.restricted_to(&moving), stiffness.restricted_to(&moving));
     Pencil::new(mass, stiffness).ok_or(CeaError::Prestress(PrestressError::Singular))
 }
 
@@ -39,10 +36,8 @@ pub(super) fn bound(
         ModeLimit::Lowest(asked) => asked,
     };
     let few = (tangent.sector().sector_count() / 2).min(BATCH - 1);
-    let pencils: Result<Vec<Pencil>, CeaError> = (0..=few)
-        .into_par_iter()
-        .map(|n| pencil(tangent, n))
-        .collect();
+    let pencils: Result<Vec<Pencil>, CeaError> =
+        (0..=few).into_par_iter().map(|n| pencil(tangent, n)).collect();
     let pencils = pencils?;
     let count = asked.div_ceil(2 * few.max(1)) + 1;
     let found: Vec<Vec<f64>> = pencils
@@ -63,9 +58,7 @@ pub(super) fn wanted(
     let ModeLimit::Lowest(asked) = limit else {
         return Ok(bound);
     };
-    let all = found
-        .iter()
-        .flat_map(|found| of_all_waves(tangent, found.harmonic, &found.modes));
+    let all = found.iter().flat_map(|found| of_all_waves(tangent, found.harmonic, &found.modes));
     just_above(asked, all.collect())
 }
 
@@ -100,17 +93,9 @@ pub(super) fn modes_below(
         let modes = pencil.lowest(counted);
         let found = modes.iter().filter(|mode| mode.0 < kappa).count();
         if found != counted {
-            return Err(CeaError::Incomplete {
-                harmonic: n,
-                counted,
-                found,
-            });
+            return Err(CeaError::Incomplete { harmonic: n, counted, found });
         }
-        Ok(Some(AtRest {
-            harmonic: n,
-            pencil,
-            modes,
-        }))
+        Ok(Some(AtRest { harmonic: n, pencil, modes }))
     };
     let (mut all, mut empty, mut known) = (Vec::new(), Vec::new(), known.into_iter());
     let (mut n, mut in_a_row, mut step) = (0, 0, 1);
@@ -132,11 +117,7 @@ pub(super) fn modes_below(
         }
         n = batch[batch.len() - 1];
         step = if in_a_row >= EMPTY { 1 + n / 2 } else { 1 };
-        n = if n < largest {
-            (n + step).min(largest)
-        } else {
-            n + 1
-        };
+        n = if n < largest { (n + step).min(largest) } else { n + 1 };
     }
     Ok((all, empty))
 }

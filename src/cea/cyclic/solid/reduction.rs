@@ -56,10 +56,7 @@ impl Reduction {
         let count = harmonic.mass.dimension();
         let moving = moving_unknowns(count, &harmonic.rigid);
         let mut place = vec![None; count];
-        moving
-            .iter()
-            .enumerate()
-            .for_each(|(k, &unknown)| place[unknown] = Some(k));
+        moving.iter().enumerate().for_each(|(k, &unknown)| place[unknown] = Some(k));
         let unit = |unknown: usize| {
             let mut load = vec![0.0; moving.len()];
             place[unknown].into_iter().for_each(|k| load[k] = 1.0);
@@ -69,28 +66,18 @@ impl Reduction {
             let rows = matrix.columns(unknown);
             let mut load = vec![0.0; moving.len()];
             for row in rows {
-                place[row]
-                    .into_iter()
-                    .for_each(|k| load[k] = matrix.get(row, unknown));
+                place[row].into_iter().for_each(|k| load[k] = matrix.get(row, unknown));
             }
             load
         };
         let is_moving = |unknown: &&usize| place[**unknown].is_some();
         let mut loads: Vec<Vec<f64>> = contact.iter().filter(is_moving).map(|&u| unit(u)).collect();
         loads.extend(
-            harmonic
-                .rigid
-                .iter()
-                .map(|(normal, ..)| column(&harmonic.stiffness[0], *normal)),
+            harmonic.rigid.iter().map(|(normal, ..)| column(&harmonic.stiffness[0], *normal)),
         );
         let first = main_directions(pencil, loads);
         let mut loads: Vec<Vec<f64>> = first.iter().map(|x| pencil.mass.multiply(x)).collect();
-        loads.extend(
-            harmonic
-                .rigid
-                .iter()
-                .map(|(normal, ..)| column(&harmonic.mass, *normal)),
-        );
+        loads.extend(harmonic.rigid.iter().map(|(normal, ..)| column(&harmonic.mass, *normal)));
         let second = main_directions(pencil, loads);
 
         let kappas = modes.iter().map(|mode| mode.0).collect();
@@ -119,11 +106,7 @@ impl Reduction {
                 basis[(unknown, j)] = *value;
             }
         }
-        Self {
-            basis,
-            kappas,
-            turned: None,
-        }
+        Self { basis, kappas, turned: None }
     }
 
     /// The same space with a basis in which the dashpots across the sliding are diagonal, the strongest first.
@@ -224,12 +207,7 @@ impl Reduction {
     /// A shape over all unknowns.
     pub fn expand(&self, x: &[c64]) -> Vec<c64> {
         (0..self.basis.nrows())
-            .map(|row| {
-                x.iter()
-                    .enumerate()
-                    .map(|(j, v)| v * self.basis[(row, j)])
-                    .sum()
-            })
+            .map(|row| x.iter().enumerate().map(|(j, v)| v * self.basis[(row, j)]).sum())
             .collect()
     }
 
@@ -308,9 +286,7 @@ fn main_directions(pencil: &Pencil, loads: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
         return Vec::new();
     }
     let size = loads.len();
-    let scale: Vec<f64> = (0..size)
-        .map(|i| dot(&responses[i], &loads[i]).sqrt().recip())
-        .collect();
+    let scale: Vec<f64> = (0..size).map(|i| dot(&responses[i], &loads[i]).sqrt().recip()).collect();
     let mut gram = Mat::zeros(size, size);
     for j in 0..size {
         for i in 0..=j {
@@ -320,16 +296,12 @@ fn main_directions(pencil: &Pencil, loads: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     }
     let (values, vectors) = symmetric_eigen(&gram);
     let largest = values.last().copied().unwrap_or(0.0);
-    let kept = (0..size)
-        .rev()
-        .take_while(|&k| values[k] > LEAST_ENERGY * largest);
+    let kept = (0..size).rev().take_while(|&k| values[k] > LEAST_ENERGY * largest);
     kept.map(|k| {
         let mut x = vec![0.0; responses[0].len()];
         for (i, response) in responses.iter().enumerate() {
             let share = vectors[(i, k)] * scale[i];
-            x.iter_mut()
-                .zip(response)
-                .for_each(|(v, r)| *v += share * r);
+            x.iter_mut().zip(response).for_each(|(v, r)| *v += share * r);
         }
         x
     })

@@ -23,11 +23,7 @@ impl Pencil {
     pub fn new(mass: BandedMatrix, stiffness: BandedMatrix) -> Option<Self> {
         let factor = BandedFactor::new(&stiffness, &mass, 0.0);
         let is_held = factor.negative_count() == 0 && factor.is_regular();
-        is_held.then_some(Self {
-            mass: CompactRows::new(&mass),
-            bands: [mass, stiffness],
-            factor,
-        })
+        is_held.then_some(Self { mass: CompactRows::new(&mass), bands: [mass, stiffness], factor })
     }
 
     /// `K` over the unknowns that may move, N/m.

@@ -36,10 +36,8 @@ pub fn solid_sensitivities(
     friction_coefficient: f64,
 ) -> Result<Vec<Sensitivity>, CeaError> {
     let tangent = &result.tangent;
-    let rates: Result<Vec<Option<SolidRate>>, _> = PARAMETERS
-        .into_par_iter()
-        .map(|parameter| tangent.rate(parameter))
-        .collect();
+    let rates: Result<Vec<Option<SolidRate>>, _> =
+        PARAMETERS.into_par_iter().map(|parameter| tangent.rate(parameter)).collect();
     let rates = rates?;
     let found: Vec<Vec<(usize, Sensitivity)>> = result
         .coverage
@@ -88,11 +86,7 @@ fn of_harmonic(
     for rate in rates {
         let terms = rate.as_ref().map(|rate| {
             let rate = tangent.harmonic_rate(rate, n);
-            let drags: Vec<f64> = rate
-                .rigid
-                .iter()
-                .map(|(.., drag)| friction * drag)
-                .collect();
+            let drags: Vec<f64> = rate.rigid.iter().map(|(.., drag)| friction * drag).collect();
             (terms(&rate, friction), drags)
         });
         for (responses, pair) in responses.iter_mut().zip(&pairs) {
@@ -104,10 +98,7 @@ fn of_harmonic(
     let of_pair = |(pair, responses): (&FullPair, &Vec<Option<c64>>)| {
         let by_friction = pair.response(&by_friction, &factors);
         let branch = &result.branches[pair.place];
-        (
-            pair.place,
-            Sensitivity::new(branch, friction, pair.eigenvalue(), by_friction, responses),
-        )
+        (pair.place, Sensitivity::new(branch, friction, pair.eigenvalue(), by_friction, responses))
     };
     pairs.iter().zip(&responses).map(of_pair).collect()
 }
@@ -159,11 +150,7 @@ impl FullPair {
         let forms = terms.iter().map(|(factor, power, matrix)| {
             factor * self.root.powi(*power) * matrix.form(&self.y, &self.x)
         });
-        let works = self
-            .works
-            .iter()
-            .zip(drags)
-            .map(|(work, drag)| work * *drag);
+        let works = self.works.iter().zip(drags).map(|(work, drag)| work * *drag);
         let response = -(forms.sum::<c64>() + works.sum::<c64>()) / self.slope;
         self.wave.own(response)
     }
@@ -179,12 +166,7 @@ struct Full<'a> {
 
 impl<'a> Full<'a> {
     fn new(harmonic: &'a SolidHarmonic, friction: f64) -> Self {
-        Self {
-            at: harmonic.at(friction),
-            moving: harmonic.moving(),
-            harmonic,
-            friction,
-        }
+        Self { at: harmonic.at(friction), moving: harmonic.moving(), harmonic, friction }
     }
 
     /// The eigenpair of a branch, from its eigenvalue in the small space; `None` where it has stopped to oscillate or is not found.
@@ -228,16 +210,9 @@ impl<'a> Full<'a> {
 impl Full<'_> {
     /// `T(root)`, factorized.
     fn factorized(&self, root: c64) -> BandedLu {
-        let MovingHarmonic {
-            mass,
-            damping,
-            stiffness,
-            half_bandwidth,
-        } = &self.at;
+        let MovingHarmonic { mass, damping, stiffness, half_bandwidth } = &self.at;
         let entries = mass.iter().zip(damping).zip(stiffness);
-        let band: Vec<c64> = entries
-            .map(|((m, c), k)| k + root * (c + root * m))
-            .collect();
+        let band: Vec<c64> = entries.map(|((m, c), k)| k + root * (c + root * m)).collect();
         let mut lu = BandedLu::new(self.moving.len(), *half_bandwidth);
         lu.factorize(&band);
         lu
@@ -250,10 +225,7 @@ impl Full<'_> {
         let factor = if adjoint { factor.conj() } else { factor };
         let mass = multiply_band(&self.at.mass, h, x, adjoint);
         let damping = multiply_band(&self.at.damping, h, x, adjoint);
-        mass.iter()
-            .zip(damping)
-            .map(|(m, c)| factor * m + c)
-            .collect()
+        mass.iter().zip(damping).map(|(m, c)| factor * m + c).collect()
     }
 
     /// The root of `y^H T(.) x = 0` nearest to `near`.
@@ -294,15 +266,7 @@ impl Full<'_> {
             y[normal] = (turn * factor).conj() * along;
             works.push(along.conj() * c64::new(0.0, 1.0) * force);
         }
-        FullPair {
-            place,
-            wave,
-            root,
-            x,
-            y,
-            slope,
-            works,
-        }
+        FullPair { place, wave, root, x, y, slope, works }
     }
 
     /// `(T x)_n` of each node in rigid contact.

@@ -11,25 +11,15 @@ pub(super) fn shape(tangent: &SolidTangent, n: usize, waves: Waves, x: &[c64]) -
     let is_backward = waves == Waves::Backward;
     let value = |dof: usize| {
         let value = tangent.unknown_of()[dof].map_or(c64::new(0.0, 0.0), |unknown| x[unknown]);
-        let turned = if dof % 3 == 1 {
-            value * c64::new(0.0, 1.0)
-        } else {
-            value
-        };
+        let turned = if dof % 3 == 1 { value * c64::new(0.0, 1.0) } else { value };
         if is_backward { turned.conj() } else { turned }
     };
-    let wave: Vec<[c64; 3]> = (0..sector.node_count())
-        .map(|node| [0, 1, 2].map(|c| value(3 * node + c)))
-        .collect();
+    let wave: Vec<[c64; 3]> =
+        (0..sector.node_count()).map(|node| [0, 1, 2].map(|c| value(3 * node + c))).collect();
     let size = |u: &[c64; 3]| u.iter().map(|v| v.norm_sqr()).sum::<f64>();
-    let peak = wave.iter().fold(
-        &wave[0],
-        |best, u| if size(u) > size(best) { u } else { best },
-    );
-    let larger = peak.iter().fold(
-        peak[0],
-        |best, v| if v.norm() > best.norm() { *v } else { best },
-    );
+    let peak = wave.iter().fold(&wave[0], |best, u| if size(u) > size(best) { u } else { best });
+    let larger =
+        peak.iter().fold(peak[0], |best, v| if v.norm() > best.norm() { *v } else { best });
     let scale = larger.conj() / (larger.norm() * size(peak).sqrt()).max(f64::MIN_POSITIVE);
     let sectors = sector.sector_count();
     let sign = if is_backward { -1.0 } else { 1.0 };

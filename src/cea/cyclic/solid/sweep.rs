@@ -145,23 +145,15 @@ pub fn solid_sweep_with_waves(
         .iter()
         .map(|&friction| point(&producer, &followed, friction, request))
         .collect();
-    let branches: Vec<Vec<ModeBranch>> = followed
-        .par_iter()
-        .map(|paths| branches_of(paths, direction))
-        .collect();
-    let branches = branches
-        .into_iter()
-        .flatten()
-        .filter(|branch| occurs_in(branch, &points));
+    let branches: Vec<Vec<ModeBranch>> =
+        followed.par_iter().map(|paths| branches_of(paths, direction)).collect();
+    let branches = branches.into_iter().flatten().filter(|branch| occurs_in(branch, &points));
     let branches: Vec<ModeBranch> = branches.collect();
     let mut intervals: Vec<_> = branches.iter().flat_map(|b| b.intervals.clone()).collect();
     intervals.sort_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction));
     let coverage = Coverage {
         largest_harmonic: sector.sector_count() / 2,
-        followed: followed
-            .iter()
-            .map(|paths| paths.problem.harmonic)
-            .collect(),
+        followed: followed.iter().map(|paths| paths.problem.harmonic).collect(),
         proven_empty: Vec::new(),
         counted_empty: empty,
         limit_hz: wanted.sqrt() / TAU,
@@ -197,9 +189,7 @@ fn follow(
     let [contact, axial, _] = &groups(tangent);
     let problem = || {
         let matrices = (&found.harmonic, &found.across);
-        let reduced = found
-            .reduction
-            .tangent(n, matrices, [contact, axial], tangent.rayleigh());
+        let reduced = found.reduction.tangent(n, matrices, [contact, axial], tangent.rayleigh());
         HarmonicProblem::new(reduced, tangent.is_standing(n))
     };
     let kappas = found.reduction.kappas.iter().enumerate();
@@ -208,11 +198,7 @@ fn follow(
         .map(|(k, &kappa)| (kappa, found.reduction.mode(k)))
         .collect();
     let damped = || {
-        let range = Range {
-            grid,
-            kept,
-            largest: margin.sqrt(),
-        };
+        let range = Range { grid, kept, largest: margin.sqrt() };
         follow_damped(problem(), &pairs, &range)
     };
     let (paths, overdamped) = match found.is_damped {
@@ -235,20 +221,12 @@ fn follow(
 /// The overdamped motions of all harmonics at each friction value.
 fn together(grid: &[f64], overdamped: &[Overdamped]) -> Vec<Overdamped> {
     let at = |&friction: &f64| {
-        let own = overdamped
-            .iter()
-            .filter(|own| own.friction_coefficient == friction);
-        let none = Overdamped {
-            friction_coefficient: friction,
-            count: 0,
-            decay: [f64::INFINITY, 0.0],
-        };
+        let own = overdamped.iter().filter(|own| own.friction_coefficient == friction);
+        let none =
+            Overdamped { friction_coefficient: friction, count: 0, decay: [f64::INFINITY, 0.0] };
         own.fold(none, |sum, own| Overdamped {
             count: sum.count + own.count,
-            decay: [
-                sum.decay[0].min(own.decay[0]),
-                sum.decay[1].max(own.decay[1]),
-            ],
+            decay: [sum.decay[0].min(own.decay[0]), sum.decay[1].max(own.decay[1])],
             ..sum
         })
     };

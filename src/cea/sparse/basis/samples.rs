@@ -38,10 +38,7 @@ impl BasisBuilder<'_> {
         self.hold_frictionless();
         // One set of factors is enough: those of K(0), which factors with friction update, instead of the shifted ones.
         let preconditioner = &mut self.preconditioner;
-        if let Some(shared) = self
-            .cache
-            .frictionless(self.tangent, || *preconditioner = None)?
-        {
+        if let Some(shared) = self.cache.frictionless(self.tangent, || *preconditioner = None)? {
             self.preconditioner = Some(shared);
         }
         for mu in values.iter().filter(|mu| **mu > 0.0) {

@@ -114,12 +114,8 @@ impl ReducedModel {
         count: usize,
         with_left: bool,
     ) -> Result<Vec<ReducedMode>, LinalgError> {
-        let (
-            Linearization::Companion {
-                frequency_scale: omega,
-            },
-            Some(structural),
-        ) = (self.linearization, &at.structural)
+        let (Linearization::Companion { frequency_scale: omega }, Some(structural)) =
+            (self.linearization, &at.structural)
         else {
             return Ok(Vec::new());
         };
@@ -131,10 +127,8 @@ impl ReducedModel {
         let lu = ComplexDenseLu::factorize(Mat::from_fn(m, m, |i, j| {
             c64::new(at.stiffness[(i, j)], structural[(i, j)])
         }));
-        let (mut damped, mut inert) = (
-            complex(&at.damping, -omega),
-            complex(&at.mass, -omega * omega),
-        );
+        let (mut damped, mut inert) =
+            (complex(&at.damping, -omega), complex(&at.mass, -omega * omega));
         lu.solve_in_place(damped.as_mut());
         lu.solve_in_place(inert.as_mut());
         let operator = Mat::from_fn(2 * m, 2 * m, |i, j| match (i < m, j < m) {
@@ -181,9 +175,7 @@ impl ReducedModel {
         lu.solve_in_place(inertia.as_mut());
         match self.linearization {
             Linearization::Reduced(_) => inertia,
-            Linearization::Companion {
-                frequency_scale: omega,
-            } => {
+            Linearization::Companion { frequency_scale: omega } => {
                 let m = at.stiffness.nrows();
                 let mut damped = at.damping.clone();
                 lu.solve_in_place(damped.as_mut());

@@ -55,8 +55,7 @@ impl SparseSweep<'_> {
         let Ok(missing @ 1..) = before.missing else {
             return Ok(before);
         };
-        self.builder
-            .search(self.grid[k], TRACKING_MARGIN + missing as usize)?;
+        self.builder.search(self.grid[k], TRACKING_MARGIN + missing as usize)?;
         self.solve()?;
         let after = self.count_at(counter, k, covered);
         Ok(ModeCount {
@@ -213,11 +212,7 @@ mod tests {
             sweep.solve().unwrap();
             let branches = sweep.track().unwrap();
             let counter = ModeCounter::new(&tangent).unwrap();
-            assert!(
-                sweep
-                    .count_at(&counter, 2, Covered::AllListed)
-                    .is_complete()
-            );
+            assert!(sweep.count_at(&counter, 2, Covered::AllListed).is_complete());
             let lost = sweep.points[2].modes.remove(3).eigenvalue;
             sweep.points[2].checks.remove(3);
             sweep.points[2].wanted -= 1;

@@ -32,10 +32,7 @@ pub(super) struct Repairs {
 
 impl Default for Repairs {
     fn default() -> Self {
-        Self {
-            error_before: f64::INFINITY,
-            error_of_iterations: f64::INFINITY,
-        }
+        Self { error_before: f64::INFINITY, error_of_iterations: f64::INFINITY }
     }
 }
 
@@ -194,10 +191,7 @@ impl SparseSweep<'_> {
             }
             let (mu, point) = (self.grid[k], &self.points[k]);
             // A correction serves its own point alone.
-            let beside = missing
-                .iter()
-                .filter(|&&other| gaps[other] == gaps[k])
-                .count();
+            let beside = missing.iter().filter(|&&other| gaps[other] == gaps[k]).count();
             let is_near = beside == 1 && point.worst().1 <= CORRECTABLE;
             let error = point.worst().1;
             has_grown |= if self.has_few_slow(k) {
@@ -297,20 +291,15 @@ mod tests {
                 let exact = dense(&tangent, point.friction_coefficient);
                 let listed: Vec<c64> = point.modes.iter().map(|mode| mode.eigenvalue).collect();
                 let holds = |all: &[c64], own: &c64| {
-                    all.iter()
-                        .any(|other| (other - own).norm() < 1e-8 * own.norm())
+                    all.iter().any(|other| (other - own).norm() < 1e-8 * own.norm())
                 };
                 assert!(listed.iter().all(|own| holds(&exact, own)), "{listed:?}");
                 let top = listed.iter().fold(0.0_f64, |top, own| top.max(own.im));
-                let lightly_damped = exact
-                    .iter()
-                    .filter(|own| own.im < top && -own.re < 0.5 * own.norm());
+                let lightly_damped =
+                    exact.iter().filter(|own| own.im < top && -own.re < 0.5 * own.norm());
                 for own in lightly_damped {
                     let mu = point.friction_coefficient;
-                    assert!(
-                        holds(&listed, own),
-                        "{dashpot} {mu}: {own} not in {listed:?}"
-                    );
+                    assert!(holds(&listed, own), "{dashpot} {mu}: {own} not in {listed:?}");
                 }
             }
         }

@@ -32,11 +32,8 @@ impl SparseSweep<'_> {
         let vectors = |own: &FoundInterval| {
             let State { mu, mode } = own.onset().filter(|_| !request.shapes_at.is_empty())?;
             let solver = self.point_solver();
-            let found = solver.vectors(
-                self.builder.model_and_factors(),
-                *mu,
-                std::slice::from_ref(mode),
-            );
+            let found =
+                solver.vectors(self.builder.model_and_factors(), *mu, std::slice::from_ref(mode));
             found.into_iter().next()
         };
         let crossings = found.iter().map(vectors).collect();
@@ -95,10 +92,9 @@ impl SparseSweep<'_> {
                     return Ok(found.into_iter().flatten().collect());
                 };
                 match miss {
-                    CeaError::NotConverged {
-                        friction_coefficient,
-                        ..
-                    } if !is_spent => self.builder.improve_at(friction_coefficient)?,
+                    CeaError::NotConverged { friction_coefficient, .. } if !is_spent => {
+                        self.builder.improve_at(friction_coefficient)?
+                    }
                     error => return Err(error),
                 };
             }
@@ -150,50 +146,40 @@ impl SparseSweep<'_> {
             false => Vec::new(),
         };
         let mut vectors = vectors.into_iter();
-        let modes = wanted
-            .iter()
-            .zip(&point.checks)
-            .enumerate()
-            .map(|(i, (mode, check))| {
-                let branch = branches.iter().find(|b| b.modes[k] == Some(i));
-                let label = branch.map_or_else(
-                    || BranchLabel {
-                        harmonic: self.edge.harmonic(&check.edge, check.peak),
-                        branch: 0,
-                    },
-                    |b| b.label,
-                );
-                // Without friction any combination of a degenerate pair is a mode: it has no direction.
-                let direction = match point.friction_coefficient {
-                    0.0 => 0,
-                    _ => self.edge.direction(&check.edge, label.harmonic),
-                };
-                // A body that turns without damping neither grows nor decays but by round-off.
-                let is_round_off = self.tangent.is_gyroscopic
-                    && mode.eigenvalue.re.abs() <= check.uncertainty * mode.eigenvalue.norm();
-                let own = vectors.next();
-                let (shape, left) = own.map(|own| (own.right, own.left)).unzip();
-                ComplexMode {
-                    eigenvalue: match is_round_off {
-                        true => c64::new(0.0, mode.eigenvalue.im),
-                        false => mode.eigenvalue,
-                    },
-                    harmonic: label.harmonic,
-                    branch: label.branch,
-                    direction,
-                    nodal_diameters: None,
-                    residual: check.residual,
-                    uncertainty: check.uncertainty,
-                    contact_share: check.contact_share,
-                    axial_share: None,
-                    shape,
-                    left,
-                    wave: None,
-                }
-            });
-        FrictionPoint {
-            friction_coefficient: point.friction_coefficient,
-            modes: modes.collect(),
-        }
+        let modes = wanted.iter().zip(&point.checks).enumerate().map(|(i, (mode, check))| {
+            let branch = branches.iter().find(|b| b.modes[k] == Some(i));
+            let label = branch.map_or_else(
+                || BranchLabel { harmonic: self.edge.harmonic(&check.edge, check.peak), branch: 0 },
+                |b| b.label,
+            );
+            // Without friction any combination of a degenerate pair is a mode: it has no direction.
+            let direction = match point.friction_coefficient {
+                0.0 => 0,
+                _ => self.edge.direction(&check.edge, label.harmonic),
+            };
+            // A body that turns without damping neither grows nor decays but by round-off.
+            let is_round_off = self.tangent.is_gyroscopic
+                && mode.eigenvalue.re.abs() <= check.uncertainty * mode.eigenvalue.norm();
+            let own = vectors.next();
+            let (shape, left) = own.map(|own| (own.right, own.left)).unzip();
+            ComplexMode {
+                eigenvalue: match is_round_off {
+                    true => c64::new(0.0, mode.eigenvalue.im),
+                    false => mode.eigenvalue,
+                },
+                harmonic: label.harmonic,
+                branch: label.branch,
+                direction,
+                nodal_diameters: None,
+                residual: check.residual,
+                uncertainty: check.uncertainty,
+                contact_share: check.contact_share,
+                axial_share: None,
+                shape,
+                left,
+                wave: None,
+            }
+        });
+        FrictionPoint { friction_coefficient: point.friction_coefficient, modes: modes.collect() }
     }
 }

@@ -39,12 +39,7 @@ pub(in crate::fem::operator) struct SheetLayout {
 
 impl SheetLayout {
     pub(in crate::fem::operator) fn new(count: usize, nodes: usize, reach: usize) -> Self {
-        Self {
-            count,
-            stride: (count + 2).next_multiple_of(LANES),
-            nodes,
-            reach,
-        }
+        Self { count, stride: (count + 2).next_multiple_of(LANES), nodes, reach }
     }
 
     /// First value of a component's line.
@@ -96,9 +91,7 @@ fn couple<const FUSED: bool>(
     let (r, t, z) = (line(0), line(1), line(2));
     let [y_r, y_t, y_z] = y;
     let (y_r, y_t, y_z) = (&mut y_r[..width], &mut y_t[..width], &mut y_z[..width]);
-    let SheetCoupling {
-        here, beside, odd, ..
-    } = *coupling;
+    let SheetCoupling { here, beside, odd, .. } = *coupling;
     for j in 0..width {
         let sum = |x: &[f64]| x[j + 2] + x[j];
         let difference = |x: &[f64]| x[j + 2] - x[j];

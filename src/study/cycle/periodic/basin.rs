@@ -43,12 +43,7 @@ pub fn boundary_of_modes(
         Some(TimeStep::Auto) | None => None,
     };
     let fastest = modes.iter().map(|(_, mode)| mode.eigenvalue.im);
-    let map = PeriodMap::new(
-        body,
-        operator.as_ref(),
-        fastest.fold(0.0, f64::max),
-        longest,
-    );
+    let map = PeriodMap::new(body, operator.as_ref(), fastest.fold(0.0, f64::max), longest);
     let mut contest = ModeContest::new(map.map_err(StudyError::Transient)?, &modes, request);
     let rivals = contest.rivals();
     let found = request.boundary(rivals, |ratio| Ok::<_, StudyError>(contest.run(ratio)))?;

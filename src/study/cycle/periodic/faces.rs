@@ -23,10 +23,7 @@ pub fn faces_in_air(case: &Case, stepped: &SteppedMesh<'_>) -> Vec<FlatFace> {
             let contacts = contacts.filter_map(|own| Some([own.surface, own.counter.surface()?]));
             let ties = body.ties.iter().map(|own| [own.surface, own.counter]);
             let mut covered = covered(&stepped.mesh, contacts.chain(ties));
-            let on_rigid = body
-                .contacts
-                .iter()
-                .filter(|own| own.counter.rigid().is_some());
+            let on_rigid = body.contacts.iter().filter(|own| own.counter.rigid().is_some());
             covered.extend(on_rigid.flat_map(|own| {
                 let faces = stepped.mesh.boundaries[own.surface].faces.iter();
                 faces.map(|face| sorted(&face.nodes))
@@ -85,8 +82,7 @@ fn flat_face(sector: &SolidSector, face: SolidFace) -> Option<FlatFace> {
         for &k in &nodes {
             let node = &sector.nodes[k];
             let (sine, cosine) = sector.angle(k, s).sin_cos();
-            flat.places
-                .push([node.radius * cosine, node.radius * sine, node.height]);
+            flat.places.push([node.radius * cosine, node.radius * sine, node.height]);
             flat.areas.push(area(node.radius));
             let dof = 3 * (s * sector.node_count() + k) + 2;
             flat.normals.push(vec![(dof, 1.0)]);

@@ -144,10 +144,7 @@ impl Steady {
 
 /// What the transient has: lumped mass, no geometric stiffness.
 fn options_in_time(case: &Case) -> TangentOptions {
-    TangentOptions {
-        geometric_stiffness: false,
-        ..tangent_options(case, MassKind::Lumped)
-    }
+    TangentOptions { geometric_stiffness: false, ..tangent_options(case, MassKind::Lumped) }
 }
 
 /// The modes of a case over friction as the transient has them, with their shapes at some of the values.

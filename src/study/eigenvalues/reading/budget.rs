@@ -81,17 +81,10 @@ impl Parts<'_> {
                 let damping = own.alpha * m[i] + own.beta * k[i] + beta * g[i] + loss;
                 [m[i], strain, damping]
             });
-            rows.push(Row {
-                name: own.name.clone(),
-                source: Source::Part,
-                forms: each.collect(),
-            });
+            rows.push(Row { name: own.name.clone(), source: Source::Part, forms: each.collect() });
             if let Some(balance) = &mut sums.balance {
                 let factors = |lambda: c64| {
-                    [
-                        lambda * lambda + lambda * own.alpha,
-                        lambda * own.beta + own.ratio(lambda),
-                    ]
+                    [lambda * lambda + lambda * own.alpha, lambda * own.beta + own.ratio(lambda)]
                 };
                 shapes.add(balance, [&mass, &stiffness], factors);
             }
@@ -119,17 +112,11 @@ impl Parts<'_> {
                 sums.kinetic[i] += m[i];
                 [m[i], k[i], c + alpha * m[i]]
             });
-            rows.push(Row {
-                name: name.clone(),
-                source: Source::Support,
-                forms: each.collect(),
-            });
+            rows.push(Row { name: name.clone(), source: Source::Support, forms: each.collect() });
             let Some(balance) = &mut sums.balance else {
                 continue;
             };
-            shapes.add(balance, [&dashpots, &springs], |lambda| {
-                [lambda, c64::new(1.0, *eta)]
-            });
+            shapes.add(balance, [&dashpots, &springs], |lambda| [lambda, c64::new(1.0, *eta)]);
             if let Some([mass, none]) = &masses {
                 let factors = |lambda: c64| [lambda * lambda + lambda * alpha, c64::ZERO];
                 shapes.add(balance, [mass, none], factors);
@@ -149,15 +136,9 @@ impl Parts<'_> {
             [f64::NAN, f64::NAN, lambda.re * skew / lambda.im]
         });
         if let Some(balance) = &mut sums.balance {
-            shapes.add(balance, [&gyroscopic, &transport], |lambda| {
-                [lambda, c64::ONE]
-            });
+            shapes.add(balance, [&gyroscopic, &transport], |lambda| [lambda, c64::ONE]);
         }
-        Some(Row {
-            name: "rotation".to_owned(),
-            source: Source::Rotation,
-            forms: forms.collect(),
-        })
+        Some(Row { name: "rotation".to_owned(), source: Source::Rotation, forms: forms.collect() })
     }
 
     /// What each contact feeds of their sum `fed`.
@@ -184,16 +165,12 @@ impl Parts<'_> {
         (i, mode): (usize, &ComplexMode),
         (balance, kinetic, fed): (&[c64], f64, f64),
     ) -> Vec<f64> {
-        let (re, im) = (
-            shapes.columns.col_as_slice(2 * i),
-            shapes.columns.col_as_slice(2 * i + 1),
-        );
+        let (re, im) = (shapes.columns.col_as_slice(2 * i), shapes.columns.col_as_slice(2 * i + 1));
         let work = |dof: &usize| (c64::new(re[*dof], -im[*dof]) * balance[*dof]).im;
         let contacts = self.contacts.iter();
         let works = contacts.map(|(_, dofs)| dofs.iter().map(work).sum::<f64>());
-        let rates: Vec<f64> = works
-            .map(|work| work / (2.0 * mode.eigenvalue.im * kinetic))
-            .collect();
+        let rates: Vec<f64> =
+            works.map(|work| work / (2.0 * mode.eigenvalue.im * kinetic)).collect();
         let left = (fed - rates.iter().sum::<f64>()) / rates.len() as f64;
         rates.into_iter().map(|rate| rate + left).collect()
     }

@@ -65,10 +65,8 @@ pub(super) fn feed(
     parts.of_rotation(&shapes, &mut sums);
     let geometric = geometric(case, model, parts, friction);
     let has_turning = geometric.is_some();
-    let terms: Vec<PointTerms> = pressed
-        .iter()
-        .map(|own| terms(own, friction, has_turning))
-        .collect();
+    let terms: Vec<PointTerms> =
+        pressed.iter().map(|own| terms(own, friction, has_turning)).collect();
     let whole = parts.options.damping_model == DampingModel::WholeTangent;
     let beta = match whole {
         true => parts.options.damping.stiffness_coefficient,
@@ -96,10 +94,7 @@ pub(super) fn feed(
             let held = held(own, friction, &phi, &forces);
             scale * (held - form(terms, factors, &phi).im)
         });
-        ModeFeed {
-            mode: shapes.name(number, mode),
-            rates: rates.collect(),
-        }
+        ModeFeed { mode: shapes.name(number, mode), rates: rates.collect() }
     });
     Some(Feed {
         modes: modes.collect(),
@@ -126,9 +121,7 @@ fn form(terms: &PointTerms, factors: [c64; 2], phi: &[c64]) -> c64 {
     let mut sum = c64::ZERO;
     for (entries, factor) in terms.iter().zip(factors) {
         let own = entries.iter();
-        let own: c64 = own
-            .map(|&(row, column, value)| phi[row].conj() * phi[column] * value)
-            .sum();
+        let own: c64 = own.map(|&(row, column, value)| phi[row].conj() * phi[column] * value).sum();
         sum += factor * own;
     }
     sum

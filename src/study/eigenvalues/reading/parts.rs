@@ -21,10 +21,7 @@ pub(super) struct Pair(MatrixPolynomial);
 
 impl Pair {
     fn new(count: usize, [mass, stiffness]: [Triplets; 2]) -> Self {
-        Self(MatrixPolynomial::from_triplets(
-            count,
-            &[mass.entries, stiffness.entries],
-        ))
+        Self(MatrixPolynomial::from_triplets(count, &[mass.entries, stiffness.entries]))
     }
 
     /// `M x`.
@@ -98,10 +95,7 @@ impl<'a> Parts<'a> {
                     let surfaces = std::iter::once(own.surface).chain(own.counter.surface());
                     (own.name.clone(), surfaces.collect())
                 });
-                (
-                    &assembly.options,
-                    contact_dofs(mesh, &pairs.collect::<Vec<_>>()),
-                )
+                (&assembly.options, contact_dofs(mesh, &pairs.collect::<Vec<_>>()))
             }
         };
         let materials = case.materials();
@@ -185,9 +179,7 @@ impl<'a> Parts<'a> {
             MatrixPolynomial::from_triplets(self.mesh.dof_count(), &terms)
         });
         let values = geometric.evaluate((shapes.friction - origin).max(0.0));
-        let image = geometric
-            .pattern()
-            .multiply(&values, shapes.columns.as_ref());
+        let image = geometric.pattern().multiply(&values, shapes.columns.as_ref());
         shapes.forms(&image)
     }
 }
@@ -201,9 +193,7 @@ fn contact_dofs(mesh: &Mesh, contacts: &[(String, Vec<usize>)]) -> Vec<(String, 
             let place = mesh.nodes[other];
             (0..3).map(|k| (at[k] - place[k]).powi(2)).sum()
         };
-        nodes(contacts[contact].1[0])
-            .map(away)
-            .fold(f64::INFINITY, f64::min)
+        nodes(contacts[contact].1[0]).map(away).fold(f64::INFINITY, f64::min)
     };
     let mut touched: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for (contact, (_, surfaces)) in contacts.iter().enumerate() {
@@ -280,8 +270,5 @@ fn supports(mesh: &Mesh) -> Vec<(String, Pair, f64)> {
         };
         (mesh.boundaries[boundary].name.clone(), pair, eta)
     };
-    (0..mesh.boundaries.len())
-        .filter(|&b| supported(b))
-        .map(of)
-        .collect()
+    (0..mesh.boundaries.len()).filter(|&b| supported(b)).map(of).collect()
 }

@@ -36,12 +36,7 @@ impl<'a> Shapes<'a> {
             let value = shape(column)[row];
             if column % 2 == 0 { value.re } else { value.im }
         });
-        Self {
-            friction: point.friction_coefficient,
-            has_harmonics,
-            modes,
-            columns,
-        }
+        Self { friction: point.friction_coefficient, has_harmonics, modes, columns }
     }
 
     pub fn name(&self, number: usize, mode: &ComplexMode) -> ModeName {
@@ -58,16 +53,10 @@ impl<'a> Shapes<'a> {
     /// `phi^H A phi` of each mode, from the product of a symmetric `A` with the columns.
     pub fn forms(&self, image: &Mat<f64>) -> Vec<f64> {
         let product = |column: usize| -> f64 {
-            let pairs = self
-                .columns
-                .col_as_slice(column)
-                .iter()
-                .zip(image.col_as_slice(column));
+            let pairs = self.columns.col_as_slice(column).iter().zip(image.col_as_slice(column));
             pairs.map(|(x, y)| x * y).sum()
         };
-        (0..self.modes.len())
-            .map(|i| product(2 * i) + product(2 * i + 1))
-            .collect()
+        (0..self.modes.len()).map(|i| product(2 * i) + product(2 * i + 1)).collect()
     }
 
     /// `Im(phi^H G phi)` of each mode, from the product of a skew `G` with the columns.
@@ -113,11 +102,8 @@ impl<'a> Shapes<'a> {
     ) -> Vec<Coupling> {
         let (own, of_references) = (self.forms(own_images), references.forms(images));
         let mut all = Vec::new();
-        for (i, (number, mode)) in self
-            .modes
-            .iter()
-            .enumerate()
-            .filter(|(_, (_, mode))| mode.is_unstable())
+        for (i, (number, mode)) in
+            self.modes.iter().enumerate().filter(|(_, (_, mode))| mode.is_unstable())
         {
             let phi = [2 * i, 2 * i + 1].map(|column| self.columns.col_as_slice(column));
             let mut shares: Vec<Coupling> = Vec::new();

@@ -64,10 +64,8 @@ pub(super) fn read(
 impl Apart {
     fn new(model: &SlidingModel, tangent: &WaveTangent, sweep: &FrictionSweep) -> Self {
         let modes = sweep.points.iter().flat_map(|point| &point.modes);
-        let mut numbers: Vec<usize> = modes
-            .filter(|mode| mode.wave.is_some())
-            .map(|mode| mode.harmonic)
-            .collect();
+        let mut numbers: Vec<usize> =
+            modes.filter(|mode| mode.wave.is_some()).map(|mode| mode.harmonic).collect();
         numbers.sort_unstable();
         numbers.dedup();
         let named = |names: &mut dyn Iterator<Item = &str>| names.map(str::to_owned).collect();
@@ -83,11 +81,7 @@ impl Apart {
                 (named(&mut parts.support_names()), all.collect())
             }
         };
-        Self {
-            regions: model.mesh.regions.clone(),
-            supports,
-            harmonics,
-        }
+        Self { regions: model.mesh.regions.clone(), supports, harmonics }
     }
 
     fn waving<'a>(&self, point: &'a FrictionPoint) -> Vec<Waving<'a>> {
@@ -162,14 +156,11 @@ impl Apart {
             SteadyState::Plane(base) => {
                 let all = edge_places(case, &model.mesh, CONTACT, base).into_iter();
                 let per_sector = self.contact_count()?;
-                all.enumerate()
-                    .map(|(i, place)| (i % per_sector, place))
-                    .collect()
+                all.enumerate().map(|(i, place)| (i % per_sector, place)).collect()
             }
-            SteadyState::Solid(solid) => ring_places(&solid.report.sector)
-                .into_iter()
-                .enumerate()
-                .collect(),
+            SteadyState::Solid(solid) => {
+                ring_places(&solid.report.sector).into_iter().enumerate().collect()
+            }
             SteadyState::Assembly(_) => return None,
         };
         let area: f64 = places.iter().map(|(_, place)| place.area).sum();
@@ -190,9 +181,7 @@ impl Apart {
             let pairs = rates.iter().zip(&places);
             ModeFeed {
                 mode: own.name,
-                rates: pairs
-                    .map(|(rate, (_, place))| rate + left * place.area)
-                    .collect(),
+                rates: pairs.map(|(rate, (_, place))| rate + left * place.area).collect(),
             }
         });
         Some(Feed {

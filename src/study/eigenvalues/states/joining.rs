@@ -97,9 +97,7 @@ pub fn undecided(parts: &[Part]) -> impl Iterator<Item = Undecided> {
             [onset, end]
         };
         let all = pair[1].sweep.intervals.iter().flat_map(ends).flatten();
-        let guess = all
-            .filter(|mu| gap.contains(mu))
-            .min_by(|a, b| a.total_cmp(b));
+        let guess = all.filter(|mu| gap.contains(mu)).min_by(|a, b| a.total_cmp(b));
         let is_open = guess.is_some() || jumps_between(&pair[0], &pair[1]).next().is_some();
         is_open.then_some(Undecided { gap, guess })
     })
@@ -119,22 +117,16 @@ pub fn joined(mut parts: Vec<Part>, frictions: &[f64]) -> FrictionSweep {
     let parts: Vec<FrictionSweep> = parts.into_iter().map(|part| part.sweep).collect();
     let all: Vec<&FrictionPoint> = parts.iter().flat_map(|part| &part.points).collect();
     let points = frictions.iter().filter_map(|mu| {
-        all.iter()
-            .find(|point| point.friction_coefficient == *mu)
-            .map(|point| (*point).clone())
+        all.iter().find(|point| point.friction_coefficient == *mu).map(|point| (*point).clone())
     });
     let points = points.collect();
     let ended = parts.iter().flat_map(|part| part.ended.iter().copied());
     let ended = ended.collect();
     let counts = parts.iter().flat_map(|part| part.counts.clone());
-    let mut counts: Vec<ModeCount> = counts
-        .filter(|count| frictions.contains(&count.friction_coefficient))
-        .collect();
+    let mut counts: Vec<ModeCount> =
+        counts.filter(|count| frictions.contains(&count.friction_coefficient)).collect();
     counts.dedup_by(|b, a| a.friction_coefficient == b.friction_coefficient);
-    FrictionSweep {
-        counts,
-        ..FrictionSweep::joined(points, found, ended)
-    }
+    FrictionSweep { counts, ..FrictionSweep::joined(points, found, ended) }
 }
 
 /// Unstable intervals over all parts: those that go on across a change are one, and growth may jump across zero at it.
@@ -205,12 +197,7 @@ fn relabel(before: &Part, after: &mut FrictionSweep) {
             number_of[j] = Some(last.modes[i].branch);
         }
     }
-    let known = before
-        .sweep
-        .points
-        .iter()
-        .flat_map(|point| &point.modes)
-        .map(|mode| mode.branch);
+    let known = before.sweep.points.iter().flat_map(|point| &point.modes).map(|mode| mode.branch);
     let mut next = known.max().map_or(0, |branch| branch + 1);
     let mut new_number = std::collections::BTreeMap::new();
     for (mode, number) in first.modes.iter().zip(number_of) {
@@ -230,7 +217,5 @@ fn relabel(before: &Part, after: &mut FrictionSweep) {
     };
     let modes = after.points.iter_mut().flat_map(|point| &mut point.modes);
     let branches = modes.map(|mode| &mut mode.branch);
-    branches
-        .chain(after.intervals.iter_mut().map(|i| &mut i.branch))
-        .for_each(renumber);
+    branches.chain(after.intervals.iter_mut().map(|i| &mut i.branch)).for_each(renumber);
 }

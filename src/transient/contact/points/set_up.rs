@@ -40,10 +40,7 @@ impl PointContact {
             let mut shown: BTreeMap<u32, Vec<(usize, f64)>> = BTreeMap::new();
             for (k, point) in surface.points.iter().enumerate() {
                 for &(node, share) in &surface.shares[k] {
-                    shown
-                        .entry(node)
-                        .or_default()
-                        .push((contact.points.len(), share));
+                    shown.entry(node).or_default().push((contact.points.len(), share));
                 }
                 let rows = [&point.normal, &point.slip, &point.across]
                     .map(|row| contact.touch(row, assembly.basis(), operator, &mut touched));
@@ -70,9 +67,9 @@ impl PointContact {
                 });
             }
             let nodes = surface.nodes.iter();
-            contact.nodes.extend(nodes.map(|node| ShownNode {
-                points: shown.remove(node).unwrap_or_default(),
-            }));
+            contact.nodes.extend(
+                nodes.map(|node| ShownNode { points: shown.remove(node).unwrap_or_default() }),
+            );
         }
         contact.across = vec![0.0; contact.nodes.len()];
         contact.velocities = vec![0.0; contact.dofs.len()];
