@@ -35,6 +35,8 @@ pub struct QuadraticKrylovSettings {
     pub tolerance: f64,
     /// Operator applications (in vectors) after which the iteration gives up.
     pub max_applications: usize,
+    /// `c >= 0` where `1 / s = nu - c` of the `nu` that are sought.
+    pub centre: f64,
 }
 
 /// `|Im s| / |s|`, which is `|Im lambda| / |lambda|` as well, below which a motion decays without oscillating: its damping factor is
@@ -77,7 +79,7 @@ pub fn quadratic_krylov(
     settings: &QuadraticKrylovSettings,
 ) -> Result<QuadraticPairs, LinalgError> {
     if operator.dimension() <= SMALL {
-        return whole(operator, settings.pairs);
+        return whole(operator, settings);
     }
     let mut process = TwoLevelArnoldi::new(operator, start);
     let mut next_look = (FIRST_LOOK * settings.pairs as f64) as usize;
@@ -91,7 +93,7 @@ pub fn quadratic_krylov(
         let next = (NEXT_LOOK * process.expanded as f64) as usize;
         next_look = process.expanded + next.max(settings.pairs / 3).max(4);
         let eigen = real_eigen(process.projection().as_ref(), false, 2 * settings.pairs)?;
-        let leading = leading_pairs(&eigen.values, settings.pairs);
+        let leading = leading_pairs(&eigen.values, settings);
         let residuals = process.residuals(&eigen, &leading);
         let is_converged = |residual: &&f64| **residual <= settings.tolerance;
         let converged = residuals.iter().filter(is_converged).count();
@@ -99,7 +101,7 @@ pub fn quadratic_krylov(
             return Ok(process.pairs(&eigen, &leading));
         }
         if is_spent && operator.dimension() <= LARGEST_WHOLE {
-            return whole(operator, settings.pairs);
+            return whole(operator, settings);
         }
         if is_spent && converged >= settings.least {
             return Ok(process.pairs(&eigen, &leading));
@@ -116,7 +118,10 @@ pub fn quadratic_krylov(
 }
 
 /// The pairs by a dense decomposition of `S`.
-fn whole(operator: &dyn QuadraticOperator, pairs: usize) -> Result<QuadraticPairs, LinalgError> {
+fn whole(
+    operator: &dyn QuadraticOperator,
+    settings: &QuadraticKrylovSettings,
+) -> Result<QuadraticPairs, LinalgError> {
     let n = operator.dimension();
     let (one, zero) = (Mat::identity(n, n), Mat::zeros(n, n));
     let a = operator.apply(one.as_ref(), zero.as_ref());
@@ -126,8 +131,8 @@ fn whole(operator: &dyn QuadraticOperator, pairs: usize) -> Result<QuadraticPair
         (true, false) => b[(i, j - n)],
         (false, _) => f64::from(i - n == j),
     });
-    let eigen = real_eigen(full.as_ref(), false, 2 * pairs)?;
-    let leading = leading_pairs(&eigen.values, pairs);
+    let eigen = real_eigen(full.as_ref(), false, 2 * settings.pairs)?;
+    let leading = leading_pairs(&eigen.values, settings);
     Ok(QuadraticPairs {
         values: leading.iter().map(|&j| eigen.values[j]).collect(),
         vectors: Mat::from_fn(n, 2 * leading.len(), |i, j| {
@@ -138,10 +143,15 @@ fn whole(operator: &dyn QuadraticOperator, pairs: usize) -> Result<QuadraticPair
 }
 
 /// Columns of the first of each conjugate pair among the `count` pairs of largest modulus that oscillate.
-fn leading_pairs(values: &[c64], count: usize) -> Vec<usize> {
-    let mut columns: Vec<usize> = (0..values.len()).filter(|&i| is_vibration(values[i])).collect();
+fn leading_pairs(values: &[c64], settings: &QuadraticKrylovSettings) -> Vec<usize> {
+    // The reciprocal has the conjugate phase, `s = 1 / (nu - centre)` the sign of `Im(nu)` turned round.
+    let oscillates = |s: c64| match settings.centre {
+        0.0 => is_vibration(s),
+        centre => s.im > 0.0 && is_vibration((s.inv() + centre).conj()),
+    };
+    let mut columns: Vec<usize> = (0..values.len()).filter(|&i| oscillates(values[i])).collect();
     columns.sort_by(|&i, &j| values[j].norm().total_cmp(&values[i].norm()));
-    columns.truncate(count);
+    columns.truncate(settings.pairs);
     columns
 }
 
@@ -325,6 +335,7 @@ mod tests {
             least: 8,
             tolerance: 1e-12,
             max_applications: 2 * size,
+            centre: 0.0,
         };
         let found =
             quadratic_krylov(&operator, [start[0].as_ref(), start[1].as_ref()], &settings).unwrap();
@@ -335,7 +346,7 @@ mod tests {
             (false, _) => f64::from(i - size == j),
         });
         let all = real_eigen(full.as_ref(), false, usize::MAX).unwrap();
-        let exact = leading_pairs(&all.values, 8);
+        let exact = leading_pairs(&all.values, &settings);
         for (k, &column) in exact.iter().enumerate() {
             let s = found.values[k];
             assert!((s - all.values[column]).norm() < 1e-10 * s.norm());
@@ -368,6 +379,7 @@ mod tests {
                 least: 8,
                 tolerance: 1e-12,
                 max_applications: 4 * size,
+                centre: 0.0,
             };
             // Decoupled: s^2 - 2 p s + p^2 + q^2 = 0.
             for i in size - 4..size {
@@ -404,6 +416,7 @@ mod tests {
             least,
             tolerance: 1e-6,
             max_applications: 24,
+            centre: 0.0,
         };
         let found = quadratic_krylov(&operator, start, &settings(2)).unwrap();
         assert_eq!((found.values.len(), found.applications), (8, 24));
@@ -419,8 +432,13 @@ mod tests {
     fn invariant_subspace_ends_the_iteration_with_what_there_is() {
         let operator = oscillators(3);
         let start = [random_columns(3, 1, 1), random_columns(3, 1, 2)];
-        let settings =
-            QuadraticKrylovSettings { pairs: 8, least: 8, tolerance: 1e-12, max_applications: 100 };
+        let settings = QuadraticKrylovSettings {
+            pairs: 8,
+            least: 8,
+            tolerance: 1e-12,
+            max_applications: 100,
+            centre: 0.0,
+        };
         let found =
             quadratic_krylov(&operator, [start[0].as_ref(), start[1].as_ref()], &settings).unwrap();
         assert_eq!(found.values.len(), 3);

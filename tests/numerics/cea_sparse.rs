@@ -7,7 +7,7 @@ use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use crate::table_1::TABLE_1;
 use faer::{Mat, c64};
 use frictionsim::cea::sparse::{
-    FactorCache, FrictionlessModes, Linearization, ShiftInverted, StiffnessFactors,
+    Centre, FactorCache, FrictionlessModes, Linearization, ShiftInverted, StiffnessFactors,
     StructureMatrices, sweep,
 };
 use frictionsim::cea::{
@@ -241,10 +241,11 @@ fn sweep_agrees_with_krylov_schur_at_the_same_friction() {
     let tangent = Disc::coarse().tangent();
     let mu = 0.6;
     let result = run(&tangent, &[mu], ModeLimit::Lowest(24));
-    let linearization = Linearization::of(&tangent, 1e5);
+    let linearization = Linearization::of(&tangent, 1e5, Centre::default());
     let operator = ShiftInverted {
         matrices: &StructureMatrices::at(&tangent, linearization, mu),
-        factors: &StiffnessFactors::general(&tangent, &FactorCache::default(), mu).unwrap(),
+        factors: &StiffnessFactors::general(&tangent.stiffness, &FactorCache::default(), mu)
+            .unwrap(),
     };
     let settings = KrylovSchurSettings {
         wanted: Wanted::Largest(30),
@@ -270,12 +271,13 @@ fn sweep_with_general_damping_agrees_with_krylov_schur_at_every_friction() {
     let tangent = disc.tangent();
     let values: Vec<f64> = (0..9).map(|i| f64::from(i) * 0.075).collect();
     let result = run(&tangent, &values, ModeLimit::Lowest(8));
-    let linearization = Linearization::of(&tangent, 1e5);
+    let linearization = Linearization::of(&tangent, 1e5, Centre::default());
     for point in &result.points[1..] {
         let mu = point.friction_coefficient;
         let operator = ShiftInverted {
             matrices: &StructureMatrices::at(&tangent, linearization, mu),
-            factors: &StiffnessFactors::general(&tangent, &FactorCache::default(), mu).unwrap(),
+            factors: &StiffnessFactors::general(&tangent.stiffness, &FactorCache::default(), mu)
+                .unwrap(),
         };
         let settings = KrylovSchurSettings {
             wanted: Wanted::Largest(24),

@@ -9,16 +9,16 @@ use super::mode::ReducedMode;
 use super::open_residuals::OpenResiduals;
 use super::packed::PackedModes;
 use super::reduced::ReducedModel;
-use super::rigid::RigidMotions;
 use super::structure::{ShiftInverted, StructureMatrices};
 use crate::cea::{CeaError, SweepProgress, SweepStage, SweepWatch};
 use crate::linalg::dense::{
     column, column_mut, column_norms, columns_of, dot, from_columns, join_columns,
     orthonormal_complement, random_columns,
 };
-use crate::linalg::{KrylovSchurSettings, LinalgError, Wanted, krylov_schur};
+use crate::linalg::{KrylovSchurSettings, LinalgError, MatrixPolynomial, Wanted, krylov_schur};
 use crate::linalg::{Mat, Scale};
 use crate::prestress::SlidingTangent;
+use std::borrow::Cow;
 
 /// Part of a block of corrections, relative to its longest, below which directions are round-off.
 const VECTOR_TOLERANCE: f64 = 1e-10;
@@ -43,8 +43,6 @@ const SEARCH_WIDTH: usize = 4;
 const MAX_CORRECTIONS: usize = 16;
 /// Refinements of the modes at one friction coefficient for structural damping, each of which wins about the loss factor.
 const LOSSY_ROUNDS: usize = 6;
-/// The same where no iteration comes first: bodies that nothing holds.
-const FREE_ROUNDS: usize = 12;
 /// Refinements of one basis before the preconditioner is considered unfit.
 const MAX_ROUNDS: usize = 40;
 
@@ -62,8 +60,8 @@ pub struct BasisBuilder<'a> {
     linearization: Linearization,
     /// `None` only while others take its place.
     preconditioner: Option<StiffnessFactors>,
-    /// Rigid motions of bodies that nothing holds, which the basis leaves out.
-    rigid: Option<RigidMotions>,
+    /// What takes the place of `K` in factors, see [`Linearization::centred_stiffness`].
+    stiffness: Cow<'a, MatrixPolynomial>,
     cache: FactorCache,
     /// The preconditioner with friction.
     updates: FrictionUpdates,
@@ -71,6 +69,8 @@ pub struct BasisBuilder<'a> {
     pub model: ReducedModel,
     /// Modes to be held at every friction coefficient.
     pub count: usize,
+    /// Rigid motions, which the basis holds before the modes.
+    rigid: usize,
     /// Whether the basis is made of the modes at a few friction coefficients, each from an iteration of its own; else it grows
     /// by residuals.
     is_sampling: bool,
@@ -87,11 +87,12 @@ impl<'a> BasisBuilder<'a> {
         (&self.model, self.factors())
     }
 
-    /// Starts from frictionless `modes`, one column each, and the factors of `K(0)` or, better, `K(0) - sigma M(0)`.
+    /// Starts from frictionless motions, one column each, `rigid` ones before the modes, and the factors of `K(0)` or, better,
+    /// `K(0) - sigma M(0)`.
     pub fn new(
         tangent: &'a SlidingTangent,
         linearization: Linearization,
-        modes: &Mat<f64>,
+        (modes, rigid): (&Mat<f64>, usize),
         factors: StiffnessFactors,
         watch: &'a dyn SweepWatch,
     ) -> Self {
@@ -101,11 +102,15 @@ impl<'a> BasisBuilder<'a> {
             tangent,
             linearization,
             preconditioner: Some(factors),
-            rigid: None,
-            cache: FactorCache::default(),
+            stiffness: linearization.centred_stiffness(tangent),
+            cache: match linearization.is_symmetric(tangent) {
+                true => FactorCache::default(),
+                false => FactorCache::general(),
+            },
             updates: FrictionUpdates::default(),
             model,
-            count: modes.ncols(),
+            count: modes.ncols() - rigid,
+            rigid,
             is_sampling: matches!(linearization, Linearization::Companion { .. }),
             sampled: Vec::new(),
             watch,
@@ -118,22 +123,9 @@ impl<'a> BasisBuilder<'a> {
         self.is_sampling
     }
 
-    /// The same for bodies that nothing holds.
-    pub(super) fn without(self, rigid: Option<RigidMotions>) -> Self {
-        Self { rigid, ..self }
-    }
-
     fn factors(&self) -> &StiffnessFactors {
         let factors = self.preconditioner.as_ref();
         factors.expect("a basis has the factors it was made with, or those that replaced them")
-    }
-
-    /// `factors^-1 x` of each column without rigid motions, in place.
-    fn precondition(&self, factors: &StiffnessFactors, x: &mut Mat<f64>) {
-        factors.solve_in_place(x);
-        if let Some(rigid) = &self.rigid {
-            rigid.remove_from(x);
-        }
     }
 
     /// Steps so far: the state of the basis is known by their number.
@@ -250,7 +242,7 @@ impl<'a> BasisBuilder<'a> {
                 let mass = &builder.tangent.mass;
                 let values = &mass.coefficients()[0];
                 let mut image = mass.pattern().multiply(values, new.as_ref());
-                builder.precondition(builder.factors(), &mut image);
+                builder.factors().solve_in_place(&mut image);
                 image *= Scale(inertia);
                 Ok::<_, LinalgError>(image)
             })?;
@@ -276,7 +268,7 @@ impl<'a> BasisBuilder<'a> {
             open.gather(&matrices, &group.entries, &vectors);
         }
         let mut corrections = open.columns.clone();
-        self.precondition(factors, &mut corrections);
+        factors.solve_in_place(&mut corrections);
         open.with_energy(corrections)
     }
 
@@ -287,13 +279,13 @@ impl<'a> BasisBuilder<'a> {
     /// If `K(mu)` is singular or the iteration does not converge.
     pub fn search(&mut self, mu: f64, extra: usize) -> Result<(), CeaError> {
         let unknowns = self.tangent.stiffness.dimension();
-        let wanted = (self.count + extra).min(unknowns);
-        if let Linearization::Companion { frequency_scale } = self.linearization {
+        let wanted = (self.count + extra + self.rigid).min(unknowns);
+        if let Linearization::Companion { .. } = self.linearization {
             let width = SEARCH_WIDTH.min(unknowns);
             let start = [3, 4].map(|seed| random_columns(unknowns, width, seed));
             // What was held there may span what looks like a mode and is none.
             self.model.drop_sample(mu);
-            self.sample(mu, frequency_scale, wanted, |_| start)?;
+            self.sample(mu, wanted, |_| start)?;
             return Ok(());
         }
         let vectors = self.step(mu, |builder| builder.dominant_vectors(mu, wanted))?;
@@ -308,7 +300,7 @@ impl<'a> BasisBuilder<'a> {
     fn dominant_vectors(&self, mu: f64, wanted: usize) -> Result<Mat<f64>, CeaError> {
         let unknowns = self.tangent.stiffness.dimension();
         let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
-        let factors = StiffnessFactors::general(self.tangent, &self.cache, mu)?;
+        let factors = StiffnessFactors::general(&self.stiffness, &self.cache, mu)?;
         let operator = ShiftInverted { matrices: &matrices, factors: &factors };
         let settings = KrylovSchurSettings {
             wanted: Wanted::Largest(wanted),

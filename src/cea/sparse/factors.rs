@@ -5,7 +5,6 @@ use crate::linalg::{
     DenseLu, LdlAnalysis, LinalgError, LuAnalysis, Mat, MatrixPolynomial, Scale, SparseLdl,
     SparseLu,
 };
-use crate::prestress::SlidingTangent;
 use std::sync::{Arc, OnceLock};
 
 /// Rows that friction may touch for factors of `K(0)` to be updated. Each takes one solution; beyond, LU factors of the whole
@@ -31,8 +30,8 @@ impl StiffnessFactors {
     ///
     /// # Errors
     /// If it is singular.
-    pub fn frictionless(tangent: &SlidingTangent) -> Result<Self, LinalgError> {
-        Ok(Self::Symmetric(Arc::new(symmetric(tangent)?)))
+    pub fn frictionless(stiffness: &MatrixPolynomial) -> Result<Self, LinalgError> {
+        Ok(Self::Symmetric(Arc::new(symmetric(stiffness)?)))
     }
 
     /// Factors of `K(mu)`, with what all friction coefficients share made once and kept in `cache`.
@@ -40,18 +39,18 @@ impl StiffnessFactors {
     /// # Errors
     /// If it is singular.
     pub fn general(
-        tangent: &SlidingTangent,
+        stiffness: &MatrixPolynomial,
         cache: &FactorCache,
         mu: f64,
     ) -> Result<Self, LinalgError> {
-        let shared = cache.shared.get_or_init(|| Shared::new(tangent));
+        let shared = cache.shared.get_or_init(|| Shared::new(stiffness, cache.is_general));
         match shared.as_ref().map_err(Clone::clone)? {
             Shared::Base(base) => {
-                let updated = UpdatedFactors::new(base, &tangent.stiffness, mu)?;
+                let updated = UpdatedFactors::new(base, stiffness, mu)?;
                 Ok(Self::Updated(Box::new(updated)))
             }
             Shared::Analysis(analysis) => {
-                let factors = SparseLu::factorize(analysis, tangent.stiffness.evaluate(mu))?;
+                let factors = SparseLu::factorize(analysis, stiffness.evaluate(mu))?;
                 Ok(Self::General(Box::new(factors)))
             }
         }
@@ -76,18 +75,25 @@ impl StiffnessFactors {
     }
 }
 
-fn symmetric(tangent: &SlidingTangent) -> Result<SparseLdl, LinalgError> {
-    let analysis = LdlAnalysis::new(tangent.stiffness.pattern())?;
-    SparseLdl::factorize(&analysis, &tangent.stiffness.evaluate(0.0))
+fn symmetric(stiffness: &MatrixPolynomial) -> Result<SparseLdl, LinalgError> {
+    let analysis = LdlAnalysis::new(stiffness.pattern())?;
+    SparseLdl::factorize(&analysis, &stiffness.evaluate(0.0))
 }
 
 /// What the factors of one tangent at several friction coefficients share.
 #[derive(Default)]
 pub struct FactorCache {
     shared: OnceLock<Result<Shared, LinalgError>>,
+    /// Whether the matrix is not symmetric without friction.
+    is_general: bool,
 }
 
 impl FactorCache {
+    /// A cache for a matrix that is not symmetric without friction either.
+    pub fn general() -> Self {
+        Self { is_general: true, ..Self::default() }
+    }
+
     /// Factors of `K(0)`, where those with friction are updates of them; `None` where they are not. `release` is called before they are
     /// made, to let go of what they replace.
     ///
@@ -95,14 +101,14 @@ impl FactorCache {
     /// If it is singular.
     pub fn frictionless(
         &self,
-        tangent: &SlidingTangent,
+        stiffness: &MatrixPolynomial,
         release: impl FnOnce(),
     ) -> Result<Option<StiffnessFactors>, LinalgError> {
-        if friction_rows(&tangent.stiffness).len() > MOST_ROWS {
+        if self.is_general || friction_rows(stiffness).len() > MOST_ROWS {
             return Ok(None);
         }
         release();
-        let shared = self.shared.get_or_init(|| Shared::new(tangent));
+        let shared = self.shared.get_or_init(|| Shared::new(stiffness, false));
         match shared.as_ref().map_err(Clone::clone)? {
             Shared::Base(base) => Ok(Some(StiffnessFactors::Symmetric(Arc::clone(&base.ldl)))),
             Shared::Analysis(_) => Ok(None),
@@ -116,13 +122,13 @@ enum Shared {
 }
 
 impl Shared {
-    fn new(tangent: &SlidingTangent) -> Result<Self, LinalgError> {
-        let rows = friction_rows(&tangent.stiffness);
-        if rows.len() > MOST_ROWS {
-            return LuAnalysis::new(tangent.stiffness.pattern()).map(Self::Analysis);
+    fn new(stiffness: &MatrixPolynomial, is_general: bool) -> Result<Self, LinalgError> {
+        let rows = friction_rows(stiffness);
+        if is_general || rows.len() > MOST_ROWS {
+            return LuAnalysis::new(stiffness.pattern()).map(Self::Analysis);
         }
-        let ldl = symmetric(tangent)?;
-        let base = FrictionlessBase::new(Arc::new(ldl), rows, &tangent.stiffness);
+        let ldl = symmetric(stiffness)?;
+        let base = FrictionlessBase::new(Arc::new(ldl), rows, stiffness);
         Ok(Self::Base(Arc::new(base)))
     }
 }
@@ -349,7 +355,7 @@ mod tests {
         let tangent = string_on_belt(60, 0.4, false);
         let cache = FactorCache::default();
         let values = tangent.stiffness.evaluate(0.3);
-        let factors = StiffnessFactors::general(&tangent, &cache, 0.3).unwrap();
+        let factors = StiffnessFactors::general(&tangent.stiffness, &cache, 0.3).unwrap();
         assert!(matches!(factors, StiffnessFactors::Updated(_)));
         let b = random_columns(tangent.stiffness.dimension(), 3, 5);
         let pattern = tangent.stiffness.pattern();

@@ -2,62 +2,65 @@
 
 use super::factors::StiffnessFactors;
 use super::inertia::{counted, gyroscopic_count};
-use super::linearization::Linearization;
-use super::rigid::RigidMotions;
-use super::structure::{ShiftInverted, StructureMatrices};
+use super::linearization::Centre;
 use super::{GUARD_MODES, LOSSY_GUARD};
 use crate::cea::{CeaError, ModeLimit, SweepWatch};
-use crate::fem::RayleighDamping;
-use crate::linalg::Mat;
-use crate::linalg::dense::{columns_of, from_columns};
+use crate::linalg::dense::{column, column_mut, columns_of, dot, from_columns, norm, pick_columns};
 use crate::linalg::{
-    KrylovSchurSettings, LdlAnalysis, LinalgError, MatrixPolynomial, SparseLdl, Wanted,
-    krylov_schur,
+    LanczosPairs, LanczosSettings, LdlAnalysis, LinalgError, Mat, MatRef, MatrixPolynomial,
+    SparseLdl, SymmetricPencil, block_lanczos,
 };
 use crate::prestress::SlidingTangent;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// Bound on the residual of the iteration.
+/// Residual of a pair `1 / (kappa + c^2)`, relative to itself.
 const TOLERANCE: f64 = 1e-11;
-/// Width of its random start block: a compromise of cheap blocked solves and few vectors.
+/// Vectors iterated together: rigid motions of one body come six at a time.
 const BLOCK: usize = 8;
-/// Shift of the factors of bodies that nothing holds, relative to the highest eigenvalue wanted ...
-const FREE_SHIFT: f64 = 0.1;
-/// ... or to the largest of the mesh.
-const STIFFEST: f64 = 1e-6;
-/// The same where that does not converge: a coarse mesh, whose modes are not that far below its stiffest.
-const STIFFER: f64 = 1e-3;
-/// The first of such shifts where a frame turns, relative to the largest of the mesh.
-const LEAST_SHIFT: f64 = 1e-9;
-/// Eigenvalue, relative to the highest found, below which a motion of such bodies is rigid: a thousandth of its frequency.
-const RIGID: f64 = 1e-6;
-/// Rigid motions of one body in space.
-const RIGID_OF_ONE_BODY: usize = 6;
+/// First guess of the shift `c^2`, relative to the largest eigenvalue of the mesh: below the modes of all but the finest meshes.
+const FIRST_SHIFT: f64 = 1e-7;
+/// `c^2` relative to the highest eigenvalue wanted: the lowest modes lie apart still, and the highest keep their digits.
+const SHIFT: f64 = 1e-4;
+/// Lowest eigenvalue, relative to the highest, above which factors of `K` itself serve all modes.
+const STIFFLY_HELD: f64 = 1e-5;
+/// Shifts that are tried until all pairs converge, and restarts with each.
+const MAX_SHIFTS: usize = 5;
+const MAX_RESTARTS: usize = 8;
+/// Energy of a motion, in rounding errors of the terms that make it up, below which it is rigid.
+const ROUNDING_ERRORS: f64 = 8.0;
+/// Iterations with more vectors after the inertia counted modes that were not found.
+const MAX_RECOUNTS: usize = 3;
 /// Where the shift of the factors kept may lie between zero and the highest eigenvalue `kappa`.
 const AMID: std::ops::Range<f64> = 0.4..0.65;
 /// Distance of that shift from the frequencies about it, relative to the highest. At a pair of equal frequencies the factors would
 /// magnify round-off by all digits.
 const LEAST_DISTANCE: f64 = 1e-4;
 
-/// The lowest modes of `K x = kappa M x` at `mu = 0`.
+/// The lowest modes of `K x = kappa M x` at `mu = 0`, of bodies that are held, held in part or free.
 pub struct FrictionlessModes {
-    /// Vectors, one column each, by rising frequency.
+    /// Vectors of unit length, one column each: rigid motions, then modes by rising frequency.
     pub vectors: Mat<f64>,
-    /// Angular frequencies `sqrt(kappa)`, rad/s; 0 where only gyroscopic forces hold a motion, `kappa < 0`.
+    /// How many of them are rigid motions.
+    pub rigid: usize,
+    /// Angular frequencies `sqrt(kappa)` of the modes, rad/s; 0 where only gyroscopic forces hold a motion, `kappa < 0`.
     pub frequencies: Vec<f64>,
+    /// Where the eigenproblems with friction are centred.
+    pub centre: Centre,
     /// Factors of `K(0) - sigma M(0)`, `sigma` amid the modes where it can be.
     pub factors: StiffnessFactors,
-    /// Rigid motions of bodies that nothing holds, which are none of the modes.
-    pub rigid: Option<RigidMotions>,
 }
 
 impl FrictionlessModes {
     /// Computes the modes within `limit` and a few more, up to a gap in the spectrum, so that no
     /// multiple eigenvalue is split.
     ///
+    /// With `c > 0` the matrix `K + c^2 M` is positive definite however a body is held: one iteration on it finds rigid motions,
+    /// the modes of soft mounts and those of the parts, each to its own accuracy. A sum of rounding errors tells rigid motions.
+    ///
     /// # Errors
-    /// [`CeaError::CountMismatch`] if the inertia of `K - sigma M` in that gap counts another number.
+    /// [`CeaError::NoModes`], [`CeaError::TooManyModes`]; [`CeaError::CountMismatch`] if the inertia of `K - sigma M` in that gap
+    /// counts another number.
     pub fn compute(tangent: &SlidingTangent, limit: ModeLimit) -> Result<Self, CeaError> {
         Self::found_by(tangent, &Inertia::new(tangent)?, limit)
     }
@@ -72,18 +75,17 @@ impl FrictionlessModes {
         watch: &dyn SweepWatch,
     ) -> Result<Self, CeaError> {
         const NAME: &str = "frictionless";
-        if tangent.is_free {
-            return Self::compute(tangent, limit);
-        }
         let inertia = Inertia::new(tangent)?;
         let unknowns = tangent.stiffness.dimension();
-        if let Some((vectors, frequencies)) = recalled(watch.recall(NAME), unknowns) {
-            let factors = inertia.factors(&frequencies, None)?;
-            return Ok(Self { vectors, frequencies, factors, rigid: None });
+        if let Some((vectors, frequencies, centre)) = recalled(watch.recall(NAME), unknowns) {
+            let factors = inertia.factors(&frequencies, centre.shift.powi(2))?;
+            let rigid = vectors.ncols() - frequencies.len();
+            return Ok(Self { vectors, rigid, frequencies, centre, factors });
         }
         let found = Self::found_by(tangent, &inertia, limit)?;
         let mut columns = columns_of(&found.vectors);
         columns.push(found.frequencies.clone());
+        columns.push(vec![found.centre.shift, found.centre.rigid]);
         watch.keep(NAME, &columns);
         Ok(found)
     }
@@ -93,175 +95,128 @@ impl FrictionlessModes {
         inertia: &Inertia<'_>,
         limit: ModeLimit,
     ) -> Result<Self, CeaError> {
-        if tangent.is_free {
-            let found = free_modes(tangent, inertia, limit, STIFFEST);
-            // A shift far below the modes leaves them no digits; one far above tells them apart slowly.
-            return match found {
-                Err(CeaError::Linalg(_)) => free_modes(tangent, inertia, limit, STIFFER),
-                found => found,
-            };
-        }
-        let turning = match tangent.is_gyroscopic {
-            true => Some(inertia.factorize_positive()?),
-            false => None,
-        };
-        let unheld = turning.as_ref().map_or(0, |(.., unheld)| *unheld);
-        let wanted = match limit {
-            ModeLimit::Lowest(count) if unheld > 0 => {
-                count.max((count + unheld).min(tangent.stiffness.dimension()))
-            }
-            ModeLimit::Lowest(count) => count,
-            ModeLimit::MaxFrequency(limit_hz) if tangent.is_gyroscopic => {
-                let omega = TAU * limit_hz;
-                let turning = gyroscopic_count(tangent, omega)? + unheld;
-                turning.max(inertia.count_below(omega)?)
-            }
-            ModeLimit::MaxFrequency(limit_hz) => inertia.count_below(TAU * limit_hz)?,
-        };
-        // An empty range still needs the lowest mode, for the message.
         let unknowns = tangent.stiffness.dimension();
-        if wanted > unknowns {
-            return Err(CeaError::TooManyModes { asked: wanted, total: unknowns });
-        }
-        let is_empty = wanted == 0;
-        let wanted = (wanted.max(1) + beyond_wanted(tangent)).min(unknowns);
-        let request = (wanted + GUARD_MODES).min(unknowns);
-        let undamped = Linearization::Reduced(RayleighDamping::default());
-        let (factors, shift) = match turning {
-            Some((factors, shift, _)) => (factors, shift),
-            None => (inertia.factorize_stiffness()?, 0.0),
-        };
-        let operator = ShiftInverted {
-            matrices: &StructureMatrices::at(tangent, undamped, 0.0),
-            factors: &factors,
-        };
-        let pairs = krylov_schur(&operator, None, &settings(request))?;
-        let kappas = pairs.values.iter().map(|s| s.re.recip() - shift);
-        let frequencies: Vec<f64> = kappas.map(|kappa| kappa.max(0.0).sqrt()).collect();
-        if let ModeLimit::MaxFrequency(limit_hz) = limit
-            && is_empty
-        {
-            return Err(CeaError::NoModes { limit_hz, lowest_hz: frequencies[0] / TAU });
-        }
-        let kept = if request == unknowns {
-            request
-        } else {
-            let kept = widest_gap(&frequencies, wanted);
-            let middle = 0.5 * (frequencies[kept - 1] + frequencies[kept]);
-            let counted = inertia.count_below(middle)?;
-            if counted != kept {
-                return Err(CeaError::CountMismatch {
-                    found: kept,
-                    counted,
-                    frequency_hz: middle / TAU,
-                });
-            }
-            kept
-        };
-        let factors = inertia.factors(&frequencies[..kept], Some(factors))?;
-        Ok(Self {
-            vectors: pairs.vectors.get(.., ..kept).to_owned(),
-            frequencies: frequencies[..kept].to_vec(),
-            factors,
-            rigid: None,
-        })
-    }
-}
-
-/// The modes of bodies that nothing holds: those of `(K + sigma M) x = (kappa + sigma) M x` whose `kappa` is none of the round-off
-/// that rigid motions have.
-fn free_modes(
-    tangent: &SlidingTangent,
-    inertia: &Inertia<'_>,
-    limit: ModeLimit,
-    part: f64,
-) -> Result<FrictionlessModes, CeaError> {
-    let unknowns = tangent.stiffness.dimension();
-    let shift = match limit {
-        ModeLimit::MaxFrequency(limit_hz) => FREE_SHIFT * (TAU * limit_hz).powi(2),
-        ModeLimit::Lowest(_) => inertia.largest_ratio() * part,
-    };
-    let ldl = SparseLdl::factorize(&inertia.analysis, &inertia.shifted(-shift))?;
-    let factors = StiffnessFactors::Symmetric(Arc::new(ldl));
-    let undamped = Linearization::Reduced(RayleighDamping::default());
-    let operator = ShiftInverted {
-        matrices: &StructureMatrices::at(tangent, undamped, 0.0),
-        factors: &factors,
-    };
-    let below = match limit {
-        ModeLimit::Lowest(count) => count,
-        ModeLimit::MaxFrequency(limit_hz) => inertia.count_below(TAU * limit_hz)?,
-    };
-    let mut rigid_guess = RIGID_OF_ONE_BODY;
-    loop {
-        let beyond = beyond_wanted(tangent);
-        let request = (below + rigid_guess + beyond + GUARD_MODES).min(unknowns);
-        let pairs = krylov_schur(&operator, None, &settings(request))?;
-        let kappas: Vec<f64> = pairs.values.iter().map(|s| s.re.recip() - shift).collect();
-        let highest = kappas.iter().fold(0.0_f64, |a, b| a.max(*b));
-        let rigid = kappas.iter().filter(|kappa| **kappa <= RIGID * highest).count();
-        let elastic = kappas.len() - rigid;
-        let wanted = match limit {
+        // Motions below the limit, rigid ones among them; those that a turning frame alone holds count twice.
+        let below = match limit {
             ModeLimit::Lowest(count) => count,
-            ModeLimit::MaxFrequency(_) => below.saturating_sub(rigid),
+            ModeLimit::MaxFrequency(limit_hz) => inertia.bound_below(tangent, TAU * limit_hz)?,
         };
-        if wanted > unknowns - rigid {
-            let (asked, total) = (wanted, unknowns - rigid);
-            return Err(CeaError::TooManyModes { asked, total });
-        }
-        if elastic < (wanted + 1).min(unknowns - rigid) {
-            rigid_guess = 2 * rigid;
-            continue;
-        }
-        let frequencies: Vec<f64> = kappas[rigid..].iter().map(|kappa| kappa.sqrt()).collect();
-        let kept_at_least = (wanted + beyond).min(elastic.saturating_sub(1));
-        if let (0, ModeLimit::MaxFrequency(limit_hz)) = (wanted, limit) {
-            let lowest_hz = frequencies[0] / TAU;
-            return Err(CeaError::NoModes { limit_hz, lowest_hz });
-        }
-        let kept = match request == unknowns {
-            true => elastic,
-            false => {
-                let kept = widest_gap(&frequencies, kept_at_least);
+        let beyond = beyond_wanted(tangent);
+        let mut shift = match limit {
+            ModeLimit::Lowest(_) => FIRST_SHIFT * inertia.largest_ratio(),
+            ModeLimit::MaxFrequency(limit_hz) => SHIFT * (TAU * limit_hz).powi(2),
+        };
+        let (mut extra, mut recounts) = (0, 0);
+        loop {
+            let request = (below.max(1) + beyond + GUARD_MODES + extra).min(unknowns);
+            let found = inertia.lowest(request, &mut shift)?;
+            let rigid = found.rigid;
+            let wanted = match limit {
+                ModeLimit::Lowest(asked) if asked > unknowns - rigid => {
+                    return Err(CeaError::TooManyModes { asked, total: unknowns - rigid });
+                }
+                ModeLimit::Lowest(count) => (count + found.unheld).min(unknowns - rigid),
+                ModeLimit::MaxFrequency(_) => below.saturating_sub(rigid),
+            };
+            // Rigid motions took places of modes.
+            let elastic = request - rigid;
+            if elastic < (wanted.max(1) + beyond + 1).min(unknowns - rigid) {
+                extra += rigid + found.unheld + 1;
+                continue;
+            }
+            let frequencies: Vec<f64> =
+                found.kappas[rigid..].iter().map(|kappa| kappa.max(0.0).sqrt()).collect();
+            if let (0, ModeLimit::MaxFrequency(limit_hz)) = (wanted, limit) {
+                return Err(CeaError::NoModes { limit_hz, lowest_hz: frequencies[0] / TAU });
+            }
+            // The cut, in a gap, and the proof that none is missing below it.
+            let mut kept = elastic;
+            if request < unknowns {
+                kept = widest_gap(&frequencies, (wanted + beyond).min(elastic - 1));
                 let middle = 0.5 * (frequencies[kept - 1] + frequencies[kept]);
                 let counted = inertia.count_below(middle)?;
-                if counted != kept + rigid {
+                if counted != kept + rigid && recounts == MAX_RECOUNTS {
                     return Err(CeaError::CountMismatch {
                         found: kept + rigid,
                         counted,
                         frequency_hz: middle / TAU,
                     });
                 }
-                kept
+                if counted != kept + rigid {
+                    recounts += 1;
+                    extra += counted.abs_diff(kept + rigid) + BLOCK;
+                    continue;
+                }
             }
-        };
-        let motions = pairs.vectors.get(.., ..rigid).to_owned();
-        return Ok(FrictionlessModes {
-            vectors: pairs.vectors.get(.., rigid..rigid + kept).to_owned(),
-            factors: inertia.factors(&frequencies[..kept], Some(factors))?,
-            frequencies: frequencies[..kept].to_vec(),
-            rigid: Some(RigidMotions::of(&tangent.mass, motions)),
-        });
+            let centre = found.centre(kept + rigid);
+            let factors = inertia.factors(&frequencies[..kept], centre.shift.powi(2))?;
+            return Ok(Self {
+                vectors: found.vectors.get(.., ..rigid + kept).to_owned(),
+                rigid,
+                frequencies: frequencies[..kept].to_vec(),
+                centre,
+                factors,
+            });
+        }
     }
 }
 
-/// For the `count` lowest modes.
-fn settings(count: usize) -> KrylovSchurSettings {
-    KrylovSchurSettings {
-        wanted: Wanted::Largest(count),
-        tolerance: TOLERANCE,
-        block: BLOCK,
-        max_applications: 200 * (count + 20),
+/// The lowest motions of a pencil.
+struct Lowest {
+    /// Vectors of unit length, by rising `kappa`.
+    vectors: Mat<f64>,
+    /// Rayleigh quotients; 0 of rigid motions.
+    kappas: Vec<f64>,
+    /// Leading ones that are rigid.
+    rigid: usize,
+    /// Motions with `kappa < 0`, which a turning frame drives apart.
+    unheld: usize,
+    /// `kappa` below which no motion can be told from a rigid one.
+    rounding: f64,
+}
+
+impl Lowest {
+    /// Where eigenproblems of the `count` leading motions are centred: at zero where the body is held stiffly.
+    fn centre(&self, count: usize) -> Centre {
+        let highest = self.kappas[count - 1].max(0.0);
+        let is_stiff = self.rigid == 0 && self.kappas[0] > STIFFLY_HELD * highest;
+        let shift = if is_stiff { 0.0 } else { (SHIFT * highest).sqrt() };
+        let rigid = if self.rigid == 0 { 0.0 } else { self.rounding.sqrt() };
+        Centre { shift, rigid }
     }
 }
 
-/// Vectors and frequencies that were kept, if they are some.
-fn recalled(kept: Option<Vec<Vec<f64>>>, unknowns: usize) -> Option<(Mat<f64>, Vec<f64>)> {
+/// `K + c^2 M` and `M`.
+struct ShiftedPencil<'a> {
+    mass: &'a MatrixPolynomial,
+    values: Vec<f64>,
+    factors: SparseLdl,
+}
+
+impl SymmetricPencil for ShiftedPencil<'_> {
+    fn dimension(&self) -> usize {
+        self.mass.dimension()
+    }
+
+    fn mass_times(&self, x: MatRef<'_, f64>) -> Mat<f64> {
+        self.mass.pattern().multiply(&self.values, x)
+    }
+
+    fn solve_in_place(&self, x: &mut Mat<f64>) {
+        self.factors.solve_in_place(x.as_mut());
+    }
+}
+
+/// Vectors, frequencies and centre that were kept, if they are some.
+fn recalled(kept: Option<Vec<Vec<f64>>>, unknowns: usize) -> Option<(Mat<f64>, Vec<f64>, Centre)> {
     let mut columns = kept?;
+    let &[shift, rigid] = &columns.pop()?[..] else {
+        return None;
+    };
     let frequencies = columns.pop()?;
-    let is_whole = frequencies.len() == columns.len() && !columns.is_empty();
+    let is_whole = frequencies.len() <= columns.len() && !columns.is_empty();
     let vectors = from_columns(&columns, unknowns)?;
-    is_whole.then_some((vectors, frequencies))
+    is_whole.then_some((vectors, frequencies, Centre { shift, rigid }))
 }
 
 /// Modes held beyond those wanted. Losses other than viscous move modes past each other, and no iteration finds them in their order:
@@ -315,41 +270,104 @@ impl<'a> Inertia<'a> {
         })
     }
 
-    fn factorize_stiffness(&self) -> Result<StiffnessFactors, LinalgError> {
-        let ldl = SparseLdl::factorize(&self.analysis, &self.stiffness.evaluate(0.0))?;
-        Ok(StiffnessFactors::Symmetric(Arc::new(ldl)))
-    }
-
-    /// Factors of `K + sigma M`, `sigma`, and how many motions `K` does not hold: `sigma = 0` but where there are some, as in a
-    /// frame that turns faster than a shaft can bend.
-    fn factorize_positive(&self) -> Result<(StiffnessFactors, f64, usize), LinalgError> {
-        let of = |ldl| StiffnessFactors::Symmetric(Arc::new(ldl));
-        let ldl = SparseLdl::factorize(&self.analysis, &self.stiffness.evaluate(0.0))?;
-        let unheld = ldl.negative_count();
-        if unheld == 0 {
-            return Ok((of(ldl), 0.0, 0));
-        }
-        let mut shift = LEAST_SHIFT * self.largest_ratio();
-        loop {
-            let ldl = SparseLdl::factorize(&self.analysis, &self.shifted(-shift))?;
-            if ldl.negative_count() == 0 {
-                return Ok((of(ldl), shift, unheld));
+    /// The `count` lowest motions, by an iteration on `K + shift M`. A shift that does not make it positive definite, or that leaves a
+    /// pair short of its accuracy, is replaced by another.
+    fn lowest(&self, count: usize, shift: &mut f64) -> Result<Lowest, LinalgError> {
+        let mut outcome = Err(LinalgError::NotConverged {
+            converged: 0,
+            wanted: count,
+            tolerance: TOLERANCE,
+            applications: 0,
+        });
+        for _ in 0..MAX_SHIFTS {
+            let factors = loop {
+                match SparseLdl::factorize(&self.analysis, &self.shifted(-*shift)) {
+                    Ok(factors) if factors.negative_count() == 0 => break factors,
+                    Err(error) if !(*shift < self.largest_ratio()) => return Err(error),
+                    _ => *shift *= 10.0,
+                }
+            };
+            let pencil =
+                ShiftedPencil { mass: self.mass, values: self.mass.evaluate(0.0), factors };
+            let settings = LanczosSettings {
+                count,
+                tolerance: TOLERANCE,
+                block: BLOCK,
+                max_restarts: MAX_RESTARTS,
+            };
+            let pairs = block_lanczos(&pencil, None, &settings)?;
+            if pairs.converged == count {
+                return Ok(self.told_apart(&pencil, pairs));
             }
-            shift *= 4.0;
+            outcome = Err(LinalgError::NotConverged {
+                converged: pairs.converged,
+                wanted: count,
+                tolerance: TOLERANCE,
+                applications: MAX_RESTARTS * count,
+            });
+            // The highest pair is known well enough to place the shift by it.
+            let highest = pairs.values[count - 1].recip() - *shift;
+            let better = (SHIFT * highest).max(FIRST_SHIFT * FIRST_SHIFT * self.largest_ratio());
+            let is_other = (better / *shift).ln().abs() > std::f64::consts::LN_2;
+            *shift = if is_other { better } else { 10.0 * *shift };
         }
+        outcome
     }
 
-    /// Factors of `K - sigma M` with a shift amid the modes, else those of `K`, where they are known already.
-    fn factors(
-        &self,
-        frequencies: &[f64],
-        unshifted: Option<StiffnessFactors>,
-    ) -> Result<StiffnessFactors, LinalgError> {
-        match (self.factorize_amid(frequencies), unshifted) {
-            (Some(amid), _) => Ok(amid),
-            (None, Some(unshifted)) => Ok(unshifted),
-            (None, None) => self.factorize_stiffness(),
+    /// Rayleigh quotients of the vectors, and which are those of rigid motions: the energy `x^T K x` is a sum of rounding errors of
+    /// `|x|^T |K| |x|`.
+    fn told_apart(&self, pencil: &ShiftedPencil<'_>, pairs: LanczosPairs) -> Lowest {
+        let mut vectors = pairs.vectors;
+        let values = self.stiffness.evaluate(0.0);
+        let pattern = self.stiffness.pattern();
+        let images = pattern.multiply(&values, vectors.as_ref());
+        let momenta = pencil.mass_times(vectors.as_ref());
+        let magnitudes: Vec<f64> = values.iter().map(|v| v.abs()).collect();
+        let absolute = Mat::from_fn(vectors.nrows(), vectors.ncols(), |i, j| vectors[(i, j)].abs());
+        let terms = pattern.multiply(&magnitudes, absolute.as_ref());
+        let mut found: Vec<(f64, f64, usize)> = (0..vectors.ncols())
+            .map(|j| {
+                let x = column(vectors.as_ref(), j);
+                let inertia = dot(x, column(momenta.as_ref(), j));
+                let kappa = dot(x, column(images.as_ref(), j)) / inertia;
+                let size = dot(column(absolute.as_ref(), j), column(terms.as_ref(), j)) / inertia;
+                (kappa, ROUNDING_ERRORS * f64::EPSILON * size, j)
+            })
+            .collect();
+        let is_rigid = |own: &(f64, f64, usize)| own.0.abs() <= own.1;
+        // Rigid ones first, as if at zero.
+        found.sort_by(|a, b| is_rigid(b).cmp(&is_rigid(a)).then(a.0.total_cmp(&b.0)));
+        let rigid = found.iter().filter(|own| is_rigid(own)).count();
+        let rounding = found[..rigid].iter().map(|own| own.1).fold(0.0, f64::max);
+        let order: Vec<usize> = found.iter().map(|own| own.2).collect();
+        vectors = pick_columns(&vectors, &order);
+        for j in 0..vectors.ncols() {
+            let length = norm(column(vectors.as_ref(), j));
+            column_mut(&mut vectors, j).iter_mut().for_each(|v| *v /= length);
         }
+        let kappas: Vec<f64> = found.iter().map(|own| own.0).collect();
+        let unheld = kappas[rigid..].iter().filter(|kappa| **kappa < 0.0).count();
+        Lowest { vectors, kappas, rigid, unheld, rounding }
+    }
+
+    /// Motions below an angular frequency, at least as many as there are.
+    fn bound_below(&self, tangent: &SlidingTangent, omega: f64) -> Result<usize, LinalgError> {
+        let below = self.count_below(omega)?;
+        if !tangent.is_gyroscopic {
+            return Ok(below);
+        }
+        let ldl = SparseLdl::factorize(&self.analysis, &self.stiffness.evaluate(0.0));
+        let unheld = ldl.map_or(0, |ldl| ldl.negative_count());
+        Ok(below.max(gyroscopic_count(tangent, omega)? + unheld))
+    }
+
+    /// Factors of `K - sigma M` with a shift amid the modes, else those of `K + shift M`.
+    fn factors(&self, frequencies: &[f64], shift: f64) -> Result<StiffnessFactors, LinalgError> {
+        if let Some(amid) = self.factorize_amid(frequencies) {
+            return Ok(amid);
+        }
+        let ldl = SparseLdl::factorize(&self.analysis, &self.shifted(-shift))?;
+        Ok(StiffnessFactors::Symmetric(Arc::new(ldl)))
     }
 
     /// Factors of `K - sigma M` with a shift amid the modes; nothing where there is no such gap, or no such factors.

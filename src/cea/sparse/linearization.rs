@@ -1,30 +1,68 @@
 //! Linearization of the quadratic eigenproblem.
 
 use crate::fem::RayleighDamping;
-use crate::linalg::{c64, is_vibration};
+use crate::linalg::{MatrixPolynomial, c64, is_vibration};
 use crate::prestress::SlidingTangent;
+use std::borrow::Cow;
+
+/// The point about which eigenvalues are searched for: `K + c C + c^2 M`, or `K + c^2 M`, takes the place of `K` in factors, so that
+/// they exist however a body is held, and softly held bodies lose no digits.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Centre {
+    /// `c`, rad/s.
+    pub shift: f64,
+    /// Modulus of an eigenvalue up to which it belongs to a rigid motion, rad/s; 0 where there are none.
+    pub rigid: f64,
+}
 
 /// How `T(lambda) x = (lambda^2 M + lambda C + K) x = 0` becomes a linear eigenproblem.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Linearization {
     /// Proportional damping `C = alpha M + beta K`: `K x = kappa M x` and
     /// `lambda^2 + alpha lambda + (1 + beta lambda) kappa = 0`. Half the size.
-    Reduced(RayleighDamping),
+    Reduced(RayleighDamping, Centre),
     /// Any damping: `z = (x, nu x)`, `lambda = omega nu`. The scale `omega` makes the two halves of `z`
     /// alike in size; without it the linearisation loses digits.
     Companion {
         /// Scale of the eigenvalues `omega`, rad/s.
         frequency_scale: f64,
+        /// Where they are searched for: `lambda = c + omega nu`.
+        centre: Centre,
     },
 }
 
 impl Linearization {
     /// The cheapest linearisation of `tangent`; `frequency_scale` (rad/s) is a typical wanted frequency.
-    pub fn of(tangent: &SlidingTangent, frequency_scale: f64) -> Self {
+    pub fn of(tangent: &SlidingTangent, frequency_scale: f64, centre: Centre) -> Self {
         match tangent.proportional {
-            Some(damping) => Self::Reduced(damping),
-            None => Self::Companion { frequency_scale },
+            Some(damping) => Self::Reduced(damping, centre),
+            None => Self::Companion { frequency_scale, centre },
         }
+    }
+
+    pub(super) fn centre(self) -> Centre {
+        match self {
+            Self::Reduced(_, centre) | Self::Companion { centre, .. } => centre,
+        }
+    }
+
+    /// What takes the place of `K` about the centre.
+    pub fn centred_stiffness(self, tangent: &SlidingTangent) -> Cow<'_, MatrixPolynomial> {
+        let shift = self.centre().shift;
+        if shift == 0.0 {
+            return Cow::Borrowed(&tangent.stiffness);
+        }
+        let sum = MatrixPolynomial::combination;
+        let inert = sum(1.0, &tangent.stiffness, shift * shift, &tangent.mass);
+        Cow::Owned(match self {
+            Self::Reduced(..) => inert,
+            Self::Companion { .. } => sum(1.0, &inert, shift, &tangent.damping),
+        })
+    }
+
+    /// Whether that is symmetric without friction.
+    pub fn is_symmetric(self, tangent: &SlidingTangent) -> bool {
+        !tangent.is_gyroscopic || self.centre().shift == 0.0 || matches!(self, Self::Reduced(..))
     }
 
     /// Residual force relative to inertia force above which a point is improved.
@@ -33,23 +71,31 @@ impl Linearization {
     /// errors of its right and left vectors: this keeps it below 1e-9.
     pub fn force_residual_goal(self) -> f64 {
         match self {
-            Self::Reduced(_) => 1e-10,
+            Self::Reduced(..) => 1e-10,
             Self::Companion { .. } => 1e-7,
         }
     }
 
-    /// `lambda` with `Im > 0` that belongs to the eigenvalue `s` of the shift-inverted operator,
-    /// `s = 1/kappa` or `s = 1/nu`; `None` for a motion that decays without oscillating
-    /// ([`is_vibration`]) and for the conjugate of a mode.
-    pub fn eigenvalue(self, s: c64) -> Option<c64> {
+    /// `kappa`, or `lambda`, that belongs to the eigenvalue `s` of the shift-inverted operator: `kappa = 1/s - c^2`,
+    /// `lambda = c + omega/s`.
+    pub fn value(self, s: c64) -> c64 {
         match self {
-            Self::Reduced(damping) => {
-                let lambda = damping.eigenvalue(s.inv());
-                (lambda.im > 0.0).then_some(lambda)
+            Self::Reduced(_, centre) => s.inv() - centre.shift * centre.shift,
+            Self::Companion { frequency_scale, centre } => s.inv() * frequency_scale + centre.shift,
+        }
+    }
+
+    /// `lambda` with `Im > 0` that belongs to the eigenvalue `s` of the shift-inverted operator; `None` for a motion that decays
+    /// without oscillating ([`is_vibration`]), for a rigid one and for the conjugate of a mode.
+    pub fn eigenvalue(self, s: c64) -> Option<c64> {
+        let (value, rigid) = (self.value(s), self.centre().rigid);
+        match self {
+            Self::Reduced(damping, _) => {
+                let lambda = damping.eigenvalue(value);
+                (lambda.im > 0.0 && value.norm() > rigid * rigid).then_some(lambda)
             }
-            Self::Companion { frequency_scale } => {
-                let nu = s.inv();
-                is_vibration(nu).then_some(nu * frequency_scale)
+            Self::Companion { .. } => {
+                (is_vibration(value) && value.norm() > rigid).then_some(value)
             }
         }
     }
@@ -57,8 +103,17 @@ impl Linearization {
     /// The `s` of [`Self::eigenvalue`] that belongs to `lambda`.
     pub fn inverse_value(self, lambda: c64) -> c64 {
         match self {
-            Self::Reduced(damping) => damping.kappa(lambda).inv(),
-            Self::Companion { frequency_scale } => (lambda / frequency_scale).inv(),
+            Self::Reduced(damping, centre) => {
+                (damping.kappa(lambda) + centre.shift * centre.shift).inv()
+            }
+            Self::Companion { frequency_scale, centre } => {
+                ((lambda - centre.shift) / frequency_scale).inv()
+            }
         }
+    }
+
+    /// `|lambda|^2 + c^2`: what inertia forces are measured by, so that those of the softest motions do not vanish beside round-off.
+    pub fn inertia(self, lambda: c64) -> f64 {
+        lambda.norm_sqr() + self.centre().shift.powi(2)
     }
 }

@@ -1,6 +1,6 @@
 //! Sweep over the friction coefficient on any mesh, with sparse matrices.
 //!
-//! 1. [`FrictionlessModes`]: the lowest modes at `mu = 0` by Krylov-Schur iteration; the inertia of
+//! 1. [`FrictionlessModes`]: the lowest modes at `mu = 0` by block Lanczos iteration; the inertia of
 //!    `K - sigma M` proves that none is missing.
 //! 2. [`BasisBuilder`]: one basis that holds the modes of all friction coefficients. Where damping is proportional it
 //!    grows by residuals; otherwise it takes up the modes at a few friction coefficients, each from a Krylov iteration
@@ -37,7 +37,6 @@ mod pairs;
 mod point;
 mod projected;
 mod reduced;
-mod rigid;
 mod structure;
 mod sweep;
 mod term;
@@ -49,7 +48,7 @@ pub use edge::ContactEdge;
 pub use factors::{FactorCache, StiffnessFactors};
 pub use frictionless::FrictionlessModes;
 pub use full_problem::FullProblem;
-pub use linearization::Linearization;
+pub use linearization::{Centre, Linearization};
 pub use mode::ReducedMode;
 pub use nodal_diameters::sweep_by_diameters;
 pub use onset::{FoundInterval, OnsetFinder};
@@ -57,7 +56,6 @@ pub use pairs::{ModePair, mode_pairs};
 pub use point::{ModeCheck, PointSolver, SolvedPoint};
 pub use projected::ProjectedMatrices;
 pub use reduced::ReducedModel;
-pub use rigid::RigidMotions;
 pub use structure::{ShiftInverted, StructureMatrices};
 pub use sweep::{SparseSweep, sweep};
 

@@ -2,7 +2,7 @@
 
 use super::factors::{FactorCache, StiffnessFactors};
 use super::full_problem::FullProblem;
-use super::linearization::Linearization;
+use super::linearization::{Centre, Linearization};
 use super::structure::{Companion, StructureMatrices};
 use crate::cea::CeaError;
 use crate::fem::own_frequency_step;
@@ -22,6 +22,8 @@ pub(super) const FEW: usize = 6;
 /// Distance of the shift from an eigenvalue, relative to it: far enough for regular factors, near enough for iterations that gain
 /// as many digits.
 const OFFSET: f64 = 1e-7;
+/// Where Krylov iterations are centred, relative to the highest mode.
+const BESIDE_ZERO: f64 = 1e-2;
 /// Steps of inverse iteration.
 const STEPS: usize = 4;
 /// What the vectors from two starts may differ by, of length 1, where an eigenvalue is single.
@@ -215,9 +217,15 @@ fn krylov_vectors(
 ) -> Result<Vec<Option<Vectors>>, CeaError> {
     let moduli = targets.iter().map(|lambda| lambda.norm());
     let frequency_scale = moduli.fold(0.0, f64::max);
-    let linearization = Linearization::Companion { frequency_scale };
+    // A centre beside zero: the body may be free, or held softly.
+    let shift = if tangent.is_gyroscopic { 0.0 } else { BESIDE_ZERO * frequency_scale };
+    let centre = Centre { shift, rigid: 0.0 };
+    let linearization = Linearization::Companion { frequency_scale, centre };
     let matrices = StructureMatrices::at(tangent, linearization, mu);
-    let factors = StiffnessFactors::general(tangent, &FactorCache::default(), mu)?;
+    let factors = {
+        let stiffness = linearization.centred_stiffness(tangent);
+        StiffnessFactors::general(&stiffness, &FactorCache::default(), mu)?
+    };
     let operator = Companion::new(&matrices, &factors, frequency_scale);
 
     // Two start vectors, for modes that come in pairs.
@@ -227,6 +235,7 @@ fn krylov_vectors(
         least: count.min(unknowns),
         tolerance: RESIDUAL,
         max_applications: 40 * (count + 10),
+        centre: shift / frequency_scale,
     };
     let width = 2.min(unknowns);
     let [x, y] = [5, 6].map(|seed| random_columns(unknowns, width, seed));
@@ -235,15 +244,19 @@ fn krylov_vectors(
     let operator = Companion::transposed(&matrices, &factors, frequency_scale);
     let left = quadratic_krylov(&operator, start, &settings)?;
     let vectors = |target: &c64| {
-        let [right, left] = [&right, &left].map(|all| vector_of(all, *target, frequency_scale));
+        let [right, left] = [&right, &left].map(|all| vector_of(all, *target, linearization));
         Some([right?, left?])
     };
     Ok(targets.iter().map(vectors).collect())
 }
 
 /// The vector of the only eigenvalue at `target`, of unit length.
-fn vector_of(found: &QuadraticPairs, target: c64, frequency_scale: f64) -> Option<Vec<c64>> {
-    let distance = |s: &c64| (frequency_scale / s - target).norm() / target.norm();
+fn vector_of(
+    found: &QuadraticPairs,
+    target: c64,
+    linearization: Linearization,
+) -> Option<Vec<c64>> {
+    let distance = |s: &c64| (linearization.value(*s) - target).norm() / target.norm();
     // Of `s` with `Im > 0` the eigenvalue is the conjugate of the one with `Im(lambda) > 0`.
     let distance = |s: &c64| distance(&s.conj());
     let mut near = (0..found.values.len()).filter(|&k| distance(&found.values[k]) <= SAME);

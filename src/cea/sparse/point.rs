@@ -27,7 +27,7 @@ const EIGENVALUE_GOAL: f64 = 1e-9;
 pub struct ModeCheck {
     /// `|T(lambda) x| / ((|lambda|^2 |M| + |lambda| |C| + |K|) |x|)`.
     pub residual: f64,
-    /// `|T(lambda) x| / (|lambda|^2 |M x|)`: stricter, as it does not count the stiffest waves of the mesh.
+    /// `|T(lambda) x| / ((|lambda|^2 + c^2) |M x|)`: stricter, as it does not count the stiffest waves of the mesh.
     pub force_residual: f64,
     /// See [`crate::cea::ComplexMode::uncertainty`].
     pub uncertainty: f64,
@@ -258,7 +258,7 @@ impl PointSolver<'_> {
                 let [residual, momentum, shape] =
                     [&residuals, &momenta, &x].map(|mapped| packed.vector(j, &group, mapped));
                 let force = matrices.residual_factor(lambda) * residual.norm();
-                let inertia = modulus * modulus * momentum.norm();
+                let inertia = self.linearization.inertia(lambda) * momentum.norm();
                 let scale = modulus * modulus * norms[2] + modulus * norms[1] + norms[0];
                 let check = ModeCheck {
                     residual: force / (scale * shape.norm()),

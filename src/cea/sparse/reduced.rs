@@ -81,7 +81,7 @@ impl ReducedModel {
             powers.map(term).collect()
         };
         let damping = match linearization {
-            Linearization::Reduced(_) => Vec::new(),
+            Linearization::Reduced(..) => Vec::new(),
             Linearization::Companion { .. } => terms(&tangent.damping, !tangent.is_gyroscopic),
         };
         let structural = tangent.structural.as_ref();
@@ -174,7 +174,7 @@ impl ReducedModel {
         let structural = (!structural.is_empty()).then(|| evaluate(structural));
         let (stiffness, mass) = (evaluate(stiffness), evaluate(mass));
         let damping = match self.linearization {
-            Linearization::Reduced(coefficients) => {
+            Linearization::Reduced(coefficients, _) => {
                 Scale(coefficients.mass_coefficient) * &mass
                     + Scale(coefficients.stiffness_coefficient) * &stiffness
             }

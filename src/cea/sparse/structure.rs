@@ -7,6 +7,7 @@ use crate::linalg::dense::{column, column_mut, join_rows};
 use crate::linalg::{BlockOperator, MatrixPolynomial, QuadraticOperator, SparsityPattern};
 use crate::linalg::{Mat, MatRef, Scale, c64};
 use crate::prestress::{SlidingTangent, TabledStiffness};
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// `K`, `C` and `M` at one friction coefficient, or their coefficients of one power of it.
@@ -26,15 +27,15 @@ impl<'a> StructureMatrices<'a> {
     pub fn at(tangent: &'a SlidingTangent, linearization: Linearization, mu: f64) -> Self {
         let of = |p: &MatrixPolynomial| p.pattern().by_rows(&p.evaluate(mu));
         let damping = match linearization {
-            Linearization::Reduced(_) => Vec::new(),
+            Linearization::Reduced(..) => Vec::new(),
             Linearization::Companion { .. } => of(&tangent.damping),
         };
         let structural = match linearization {
-            Linearization::Reduced(_) => None,
+            Linearization::Reduced(..) => None,
             Linearization::Companion { .. } => tangent.structural.as_ref(),
         };
         let tabled = match linearization {
-            Linearization::Reduced(_) => &[][..],
+            Linearization::Reduced(..) => &[][..],
             Linearization::Companion { .. } => tangent.tabled.as_slice(),
         };
         let tabled = tabled.iter();
@@ -44,6 +45,18 @@ impl<'a> StructureMatrices<'a> {
             structural: structural.map(of),
             tabled: tabled.map(|part| (part, of(&part.stiffness))).collect(),
             linearization,
+        }
+    }
+
+    /// Values of what takes the place of `C` about the centre, `C + 2 c M`.
+    fn centred_damping(&self) -> Cow<'_, [f64]> {
+        let [_, damping, mass] = &self.values;
+        match self.linearization {
+            Linearization::Companion { centre, .. } if centre.shift > 0.0 => {
+                let pairs = damping.iter().zip(mass);
+                Cow::Owned(pairs.map(|(c, m)| c + 2.0 * centre.shift * m).collect())
+            }
+            _ => Cow::Borrowed(damping),
         }
     }
 
@@ -61,19 +74,19 @@ impl<'a> StructureMatrices<'a> {
     ) -> (Mat<f64>, Mat<f64>) {
         let [stiffness, damping, mass] = &self.values;
         match self.linearization {
-            Linearization::Reduced(_) => {
+            Linearization::Reduced(..) => {
                 let [mut residual, inert] = self.pattern.multiply_sorted([stiffness, mass], x);
                 for entry in entries {
-                    let kappa = entry.inverse_value.inv();
+                    let kappa = self.linearization.value(entry.inverse_value);
                     add_complex_multiple(&mut residual, -kappa, &inert, entry);
                 }
                 (residual, inert)
             }
-            Linearization::Companion { frequency_scale } => {
+            Linearization::Companion { .. } => {
                 let all = [&stiffness[..], damping, mass];
                 let [mut residual, damped, inert] = self.pattern.multiply_sorted(all, x);
                 for entry in entries {
-                    let lambda = entry.inverse_value.inv() * frequency_scale;
+                    let lambda = self.linearization.value(entry.inverse_value);
                     add_complex_multiple(&mut residual, lambda * lambda, &inert, entry);
                     add_complex_multiple(&mut residual, lambda, &damped, entry);
                 }
@@ -86,7 +99,7 @@ impl<'a> StructureMatrices<'a> {
                 for (part, values) in &self.tabled {
                     let [image] = self.pattern.multiply_sorted([values], x);
                     for entry in entries {
-                        let lambda = entry.inverse_value.inv() * frequency_scale;
+                        let lambda = self.linearization.value(entry.inverse_value);
                         add_complex_multiple(&mut residual, part.gain.at(lambda), &image, entry);
                     }
                 }
@@ -98,7 +111,7 @@ impl<'a> StructureMatrices<'a> {
     /// `T(lambda) x` over what [`Self::residuals_and_momenta`] returns: `T(lambda) = (1 + beta lambda) (K - kappa M)`.
     pub fn residual_factor(&self, lambda: c64) -> f64 {
         match self.linearization {
-            Linearization::Reduced(damping) => {
+            Linearization::Reduced(damping, _) => {
                 (lambda * damping.stiffness_coefficient + 1.0).norm()
             }
             Linearization::Companion { .. } => 1.0,
@@ -110,8 +123,8 @@ impl<'a> StructureMatrices<'a> {
     pub fn inertia_factor(&self, entry: &PackedEntry) -> f64 {
         let value = entry.inverse_value.inv().norm();
         match self.linearization {
-            Linearization::Reduced(_) => value,
-            Linearization::Companion { frequency_scale } => (value * frequency_scale).powi(2),
+            Linearization::Reduced(..) => value,
+            Linearization::Companion { frequency_scale, .. } => (value * frequency_scale).powi(2),
         }
     }
 
@@ -126,7 +139,7 @@ impl<'a> StructureMatrices<'a> {
         };
         let [stiff, damped, inert] = [0, 1, 2].map(|i| norm(&self.values[i]));
         let damped = match self.linearization {
-            Linearization::Reduced(damping) => {
+            Linearization::Reduced(damping, _) => {
                 damping.mass_coefficient * inert + damping.stiffness_coefficient * stiff
             }
             Linearization::Companion { .. } => damped,
@@ -157,20 +170,20 @@ fn add_complex_multiple(
     sum.for_each(|(t, (p, q))| *t += factor.re * q + factor.im * p);
 }
 
-/// Shift-and-invert about zero, in real arithmetic: the lowest modes are its eigenvalues of largest
-/// modulus.
+/// Shift-and-invert about the centre, in real arithmetic: the lowest modes are its eigenvalues of largest
+/// modulus. `K` and `C` stand for what takes their places there ([`Linearization`]).
 ///
-/// Reduced problem: `K^-1 M`, eigenvalues `s = 1/kappa`. Quadratic problem:
+/// Reduced problem: `K^-1 M`, eigenvalues `s = 1/(kappa + c^2)`. Quadratic problem:
 ///
 /// ```text
 /// [ -omega K^-1 C   -omega^2 K^-1 M ] [ x    ]     1  [ x    ]
-/// [  I               0              ] [ nu x ]  =  -- [ nu x ],    lambda = omega nu.
+/// [  I               0              ] [ nu x ]  =  -- [ nu x ],    lambda = c + omega nu.
 ///                                                  nu
 /// ```
 pub struct ShiftInverted<'a> {
     /// Matrices at the friction coefficient of the factors.
     pub matrices: &'a StructureMatrices<'a>,
-    /// Factors of `K`.
+    /// Factors of what takes the place of `K`.
     pub factors: &'a StiffnessFactors,
 }
 
@@ -178,27 +191,27 @@ impl BlockOperator for ShiftInverted<'_> {
     fn dimension(&self) -> usize {
         let n = self.matrices.pattern.dimension();
         match self.matrices.linearization {
-            Linearization::Reduced(_) => n,
+            Linearization::Reduced(..) => n,
             Linearization::Companion { .. } => 2 * n,
         }
     }
 
     fn apply(&self, z: MatRef<'_, f64>) -> Mat<f64> {
-        let [_, damping, mass] = &self.matrices.values;
+        let (damping, mass) = (self.matrices.centred_damping(), &self.matrices.values[2]);
         let product = |values: &[f64], x| {
             let [image] = self.matrices.pattern.multiply_sorted([values], x);
             image
         };
         match self.matrices.linearization {
-            Linearization::Reduced(_) => {
+            Linearization::Reduced(..) => {
                 let mut image = product(mass, z);
                 self.factors.solve_in_place(&mut image);
                 image
             }
-            Linearization::Companion { frequency_scale: omega } => {
+            Linearization::Companion { frequency_scale: omega, .. } => {
                 let (x, y) = z.split_at_row(self.matrices.pattern.dimension());
                 let mut top =
-                    Scale(-omega) * product(damping, x) - Scale(omega * omega) * product(mass, y);
+                    Scale(-omega) * product(&damping, x) - Scale(omega * omega) * product(mass, y);
                 self.factors.solve_in_place(&mut top);
                 join_rows(top.as_ref(), x)
             }
@@ -240,12 +253,12 @@ impl<'a> Companion<'a> {
         frequency_scale: f64,
         is_transposed: bool,
     ) -> Self {
-        let [_, damping, mass] = &matrices.values;
+        let (damping, mass) = (matrices.centred_damping(), &matrices.values[2]);
         let scaled = |factor: f64, values: &[f64]| -> Vec<f64> {
             values.iter().map(|v| factor * v).collect()
         };
         let values =
-            [scaled(-frequency_scale, damping), scaled(-frequency_scale * frequency_scale, mass)];
+            [scaled(-frequency_scale, &damping), scaled(-frequency_scale * frequency_scale, mass)];
         Self {
             pattern: matrices.pattern,
             factors,

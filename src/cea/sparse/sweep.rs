@@ -132,7 +132,7 @@ impl<'a> SparseSweep<'a> {
         }
         let modes = FrictionlessModes::compute_watched(tangent, request.limit, watch)?;
         let highest = modes.frequencies.last().copied().unwrap_or(1.0);
-        let linearization = Linearization::of(tangent, highest);
+        let linearization = Linearization::of(tangent, highest, modes.centre);
         Ok(Self {
             tangent,
             linearization,
@@ -141,11 +141,10 @@ impl<'a> SparseSweep<'a> {
             builder: BasisBuilder::new(
                 tangent,
                 linearization,
-                &modes.vectors,
+                (&modes.vectors, modes.rigid),
                 modes.factors,
                 watch,
-            )
-            .without(modes.rigid),
+            ),
             grid,
             lowest,
             points: Vec::new(),
@@ -166,9 +165,8 @@ impl<'a> SparseSweep<'a> {
             return self.builder.cover(&self.grid[first..]);
         }
         // A basis for all friction values is wide where the body has no symmetry: few values are cheaper each by itself.
-        let is_held = !self.tangent.is_free;
         let has_symmetry = !self.tangent.contact_angles.is_empty();
-        if self.grid.len() <= FEW_VALUES && is_held && !has_symmetry {
+        if self.grid.len() <= FEW_VALUES && !has_symmetry {
             return self.builder.cover_each(&self.grid);
         }
         let (lowest, highest) = (self.lowest, self.grid[self.grid.len() - 1]);
@@ -183,7 +181,7 @@ impl<'a> SparseSweep<'a> {
             samples.push(highest);
         }
         // The undamped modes are those of the frictionless problem where damping is proportional.
-        if matches!(self.linearization, Linearization::Reduced(_)) && samples.len() > 1 {
+        if matches!(self.linearization, Linearization::Reduced(..)) && samples.len() > 1 {
             samples.remove(0);
         }
         self.builder.cover(&samples)
@@ -370,6 +368,7 @@ mod tests {
     use crate::cea::Unwatched;
     use crate::cea::sparse::StiffnessFactors;
     use crate::cea::sparse::fixtures::string_on_belt;
+    use crate::cea::sparse::linearization::Centre;
 
     /// Consistency check: a mode taken away from one point is missed by the tracking and found again, with proportional
     /// and with general damping.
@@ -403,16 +402,21 @@ mod tests {
     fn search_finds_modes_that_the_basis_never_held() {
         let tangent = string_on_belt(60, 0.4, true);
         let modes = FrictionlessModes::compute(&tangent, ModeLimit::Lowest(6)).unwrap();
-        let linearization = Linearization::of(&tangent, 1.0);
+        let linearization = Linearization::of(&tangent, 1.0, Centre::default());
         let without_second = crate::linalg::dense::pick_columns(&modes.vectors, &[0, 2, 3, 4, 5]);
-        let mut builder =
-            BasisBuilder::new(&tangent, linearization, &without_second, modes.factors, &Unwatched);
+        let mut builder = BasisBuilder::new(
+            &tangent,
+            linearization,
+            (&without_second, 0),
+            modes.factors,
+            &Unwatched,
+        );
         let before = builder.model.solve(0.2, 5).unwrap();
         builder.search(0.2, 2).unwrap();
         let after = builder.model.solve(0.2, 5).unwrap();
-        let factors = StiffnessFactors::frictionless(&tangent).unwrap();
+        let factors = StiffnessFactors::frictionless(&tangent.stiffness).unwrap();
         let mut complete =
-            BasisBuilder::new(&tangent, linearization, &modes.vectors, factors, &Unwatched);
+            BasisBuilder::new(&tangent, linearization, (&modes.vectors, 0), factors, &Unwatched);
         complete.cover(&[0.2]).unwrap();
         for (found, exact) in after.iter().zip(complete.model.solve(0.2, 5).unwrap()) {
             assert!((found.eigenvalue - exact.eigenvalue).norm() < 1e-9 * exact.eigenvalue.norm());

@@ -1,7 +1,7 @@
 //! A basis of the modes at a few friction coefficients, each from an iteration of its own.
 
 use super::{
-    BasisBuilder, FREE_ROUNDS, LOSSY_ROUNDS, MAX_CORRECTIONS, SAMPLE_RESIDUAL, SAMPLE_TOLERANCE,
+    BasisBuilder, LOSSY_ROUNDS, MAX_CORRECTIONS, SAMPLE_RESIDUAL, SAMPLE_TOLERANCE,
     VECTOR_TOLERANCE, turn_to_real,
 };
 use crate::cea::CeaError;
@@ -38,7 +38,7 @@ impl BasisBuilder<'_> {
         self.hold_frictionless();
         // One set of factors is enough: those of K(0), which factors with friction update, instead of the shifted ones.
         let preconditioner = &mut self.preconditioner;
-        if let Some(shared) = self.cache.frictionless(self.tangent, || *preconditioner = None)? {
+        if let Some(shared) = self.cache.frictionless(&self.stiffness, || *preconditioner = None)? {
             self.preconditioner = Some(shared);
         }
         for mu in values.iter().filter(|mu| **mu > 0.0) {
@@ -47,11 +47,16 @@ impl BasisBuilder<'_> {
         Ok(())
     }
 
+    /// Leading vectors of the basis that are motions without friction: rigid ones and modes.
+    fn leading_count(&self) -> usize {
+        self.rigid + self.count
+    }
+
     /// Branches begin without friction: the modes there, without damping too, are near enough, or those of proportional damping.
     pub(super) fn hold_frictionless(&mut self) {
-        let modes = Mat::identity(self.model.dimension(), self.count);
+        let modes = Mat::identity(self.model.dimension(), self.leading_count());
         self.model.hold_coordinates(0.0, modes);
-        if let Linearization::Reduced(_) = self.linearization {
+        if let Linearization::Reduced(..) = self.linearization {
             self.sampled.push(0.0);
         }
     }
@@ -64,26 +69,23 @@ impl BasisBuilder<'_> {
         match self.linearization {
             _ if !self.is_sampling => Ok(self.refine_at(mu)?.is_some()),
             _ if self.sampled.contains(&mu) => self.refine_sample(mu),
-            Linearization::Reduced(_) => {
+            Linearization::Reduced(..) => {
                 self.sampled.push(mu);
                 let vectors =
-                    self.step(mu, |builder| builder.dominant_vectors(mu, builder.count))?;
+                    self.step(mu, |builder| builder.dominant_vectors(mu, builder.leading_count()))?;
                 let has_grown = self.model.extend(vectors.clone(), SAMPLE_TOLERANCE).ncols() > 0;
                 self.model.hold_sample(mu, &vectors);
                 Ok(has_grown)
             }
-            Linearization::Companion { frequency_scale } => {
+            Linearization::Companion { .. } => {
                 self.sampled.push(mu);
-                if self.rigid.is_some() {
-                    return self.sample_free(mu);
-                }
                 if self.may_decompose() {
                     return self.sample_densely(mu);
                 }
                 // Combinations of the modes without friction, which the basis holds first.
                 let known = self.model.dimension();
-                let frictionless = self.count.min(known);
-                let has_grown = self.sample(mu, frequency_scale, self.count, |builder| {
+                let frictionless = self.leading_count().min(known);
+                let has_grown = self.sample(mu, self.leading_count(), |builder| {
                     [1, 2].map(|seed| {
                         let mixed = random_columns(frictionless, START_WIDTH, seed);
                         builder.model.expand(mixed.as_ref())
@@ -130,7 +132,7 @@ impl BasisBuilder<'_> {
     /// new basis in the old one.
     pub fn restrict(&mut self) -> Option<Mat<f64>> {
         let may_restrict = self.is_lossy() && self.model.has_samples();
-        may_restrict.then(|| self.model.restrict(self.count.min(self.model.dimension())))
+        may_restrict.then(|| self.model.restrict(self.leading_count().min(self.model.dimension())))
     }
 
     /// Refines the sample at `mu` round after round and keeps of what was added to the `known` first vectors of the basis only the modes.
@@ -226,31 +228,16 @@ impl BasisBuilder<'_> {
         2 * below + usize::from(self.sampled.contains(&mu))
     }
 
-    /// Takes up the modes at `mu` of bodies that nothing holds, whose `K` has no factors, from those without damping.
-    fn sample_free(&mut self, mu: f64) -> Result<bool, CeaError> {
-        let modes = Mat::identity(self.model.dimension(), self.count);
-        let vectors = self.model.expand(modes.as_ref());
-        self.model.hold_sample(mu, &vectors);
-        for _ in 0..FREE_ROUNDS {
-            if !self.refine_sample(mu)? {
-                break;
-            }
-        }
-        Ok(true)
-    }
-
     /// Adds the vectors of the `modes` lowest modes of the quadratic problem at `mu`, found from what `start` gives; whether
     /// the basis grew.
     pub(super) fn sample(
         &mut self,
         mu: f64,
-        frequency_scale: f64,
         modes: usize,
         start: impl FnOnce(&Self) -> [Mat<f64>; 2],
     ) -> Result<bool, CeaError> {
-        let vectors = self.step(mu, |builder| {
-            builder.quadratic_modes(mu, frequency_scale, modes, &start(builder))
-        })?;
+        let vectors =
+            self.step(mu, |builder| builder.quadratic_modes(mu, modes, &start(builder)))?;
         let has_grown = self.model.extend(vectors.clone(), SAMPLE_TOLERANCE).ncols() > 0;
         self.model.hold_sample(mu, &vectors);
         Ok(has_grown)
@@ -260,14 +247,17 @@ impl BasisBuilder<'_> {
     fn quadratic_modes(
         &self,
         mu: f64,
-        frequency_scale: f64,
         modes: usize,
         [x, y]: &[Mat<f64>; 2],
     ) -> Result<Mat<f64>, CeaError> {
+        let Linearization::Companion { frequency_scale, centre } = self.linearization else {
+            return Ok(Mat::zeros(self.tangent.stiffness.dimension(), 0));
+        };
         let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
+        let is_symmetric = self.linearization.is_symmetric(self.tangent);
         let factors = match mu {
-            0.0 => StiffnessFactors::frictionless(self.tangent)?,
-            _ => StiffnessFactors::general(self.tangent, &self.cache, mu)?,
+            0.0 if is_symmetric => StiffnessFactors::frictionless(&self.stiffness)?,
+            _ => StiffnessFactors::general(&self.stiffness, &self.cache, mu)?,
         };
         let operator = Companion::new(&matrices, &factors, frequency_scale);
         let settings = QuadraticKrylovSettings {
@@ -276,6 +266,7 @@ impl BasisBuilder<'_> {
             least: modes.saturating_sub(TRACKING_MARGIN),
             tolerance: SAMPLE_RESIDUAL,
             max_applications: 20 * (modes + 10),
+            centre: centre.shift / frequency_scale,
         };
         let found = quadratic_krylov(&operator, [x.as_ref(), y.as_ref()], &settings)?;
         let mut vectors = found.vectors;
@@ -289,7 +280,7 @@ impl BasisBuilder<'_> {
             let modes = builder.model.solve_right(mu, builder.count)?;
             // With friction each round wins more digits, and many columns share the factors.
             let preconditioner = builder.factors();
-            let stiffness = &builder.tangent.stiffness;
+            let stiffness = &*builder.stiffness;
             let updated = builder.updates.at(preconditioner, stiffness, mu);
             let preconditioner = updated.as_ref().unwrap_or(preconditioner);
             Ok::<_, LinalgError>(builder.corrections(preconditioner, &modes, mu))

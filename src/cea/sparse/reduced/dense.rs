@@ -8,7 +8,7 @@ use crate::cea::sparse::projected::ProjectedMatrices;
 use crate::linalg::dense_eigen::{complex_eigen, real_eigen};
 use crate::linalg::dense_few::few_eigenvalues;
 use crate::linalg::{ComplexDenseLu, DenseLu, LinalgError, MatrixPolynomial};
-use crate::linalg::{Mat, MatRef, c64};
+use crate::linalg::{Mat, MatRef, Scale, c64};
 use crate::prestress::SlidingTangent;
 
 impl ReducedModel {
@@ -34,9 +34,11 @@ impl ReducedModel {
         if at.structural.is_some() {
             return self.solve_lossy(at, count, with_left);
         }
+        let centred = self.centred(at);
+        let at = centred.as_ref().unwrap_or(at);
         let lu = DenseLu::factorize(at.stiffness.clone());
         let leading = match self.linearization {
-            Linearization::Reduced(_) => count,
+            Linearization::Reduced(..) => count,
             Linearization::Companion { .. } => 2 * count,
         };
         let operator = self.shift_inverted(at, &lu);
@@ -114,7 +116,9 @@ impl ReducedModel {
         count: usize,
         with_left: bool,
     ) -> Result<Vec<ReducedMode>, LinalgError> {
-        let (Linearization::Companion { frequency_scale: omega }, Some(structural)) =
+        let centred = self.centred(at);
+        let at = centred.as_ref().unwrap_or(at);
+        let (Linearization::Companion { frequency_scale: omega, .. }, Some(structural)) =
             (self.linearization, &at.structural)
         else {
             return Ok(Vec::new());
@@ -169,13 +173,36 @@ impl ReducedModel {
         Ok(modes)
     }
 
+    /// The matrices about the centre of the linearisation, where it is not zero: `K + c C + c^2 M`, or `K + c^2 M`, and `C + 2 c M`.
+    fn centred(&self, at: &ProjectedMatrices) -> Option<ProjectedMatrices> {
+        let shift = self.linearization.centre().shift;
+        if shift == 0.0 {
+            return None;
+        }
+        let inert = &at.stiffness + Scale(shift * shift) * &at.mass;
+        let (stiffness, damping) = match self.linearization {
+            Linearization::Reduced(..) => (inert, at.damping.clone()),
+            Linearization::Companion { .. } => {
+                (inert + Scale(shift) * &at.damping, &at.damping + Scale(2.0 * shift) * &at.mass)
+            }
+        };
+        let structural = at.structural.clone();
+        Some(ProjectedMatrices {
+            stiffness,
+            damping,
+            mass: at.mass.clone(),
+            structural,
+            tabled: Vec::new(),
+        })
+    }
+
     /// The dense shift-inverted operator of the linearisation.
     fn shift_inverted(&self, at: &ProjectedMatrices, lu: &DenseLu) -> Mat<f64> {
         let mut inertia = at.mass.clone();
         lu.solve_in_place(inertia.as_mut());
         match self.linearization {
-            Linearization::Reduced(_) => inertia,
-            Linearization::Companion { frequency_scale: omega } => {
+            Linearization::Reduced(..) => inertia,
+            Linearization::Companion { frequency_scale: omega, .. } => {
                 let m = at.stiffness.nrows();
                 let mut damped = at.damping.clone();
                 lu.solve_in_place(damped.as_mut());

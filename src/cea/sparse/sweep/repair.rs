@@ -138,7 +138,7 @@ impl SparseSweep<'_> {
     /// Points whose modes could still be improved.
     fn missing_points(&self) -> Vec<usize> {
         let first = match self.linearization {
-            Linearization::Reduced(_) => 0,
+            Linearization::Reduced(..) => 0,
             Linearization::Companion { .. } => self.first_asked(),
         };
         let goal = self.goal();
