@@ -36,7 +36,7 @@ pub enum LinalgError {
     },
     /// An iteration reached its limit before all wanted pairs converged.
     #[error(
-        "Krylov-Schur iteration: only {converged} of {wanted} eigenpairs converged to \
+        "eigenvalue iteration: only {converged} of {wanted} eigenpairs converged to \
          {tolerance:.0e} after {applications} operator applications"
     )]
     NotConverged {

@@ -1,13 +1,19 @@
 //! Block Lanczos iteration with thick restarts for symmetric pencils.
 
 use super::dense::{
-    add_product, column_norms, combine, product, random_columns, transpose_product,
+    add_product, column, column_mut, column_norms, combine, dot, join_columns, pick_columns,
+    product, random_columns, transpose_product,
 };
 use super::{LinalgError, interruption};
-use faer::{Mat, MatRef, Side};
+use faer::diag::Diag;
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::evd::{
+    ComputeEigenvectors, SelfAdjointEvdParams, self_adjoint_evd, self_adjoint_evd_scratch,
+};
+use faer::{Auto, Mat, MatRef, Par, Spec};
 
-/// Part of a new vector beyond the known ones below which it counts as dependent on them.
-const DEPENDENT: f64 = 1e-10;
+/// Part of a new vector beyond the others of its block below which it is round-off: what is dropped is missing in residuals.
+const DEPENDENT: f64 = 1e-13;
 
 /// A symmetric pencil `(A, M)`, `M` positive definite: what the iteration asks of it.
 pub trait SymmetricPencil {
@@ -172,8 +178,7 @@ impl<'a> Process<'a> {
             let along = transpose_product(self.momenta.as_ref(), columns.as_ref());
             add_product(columns.as_mut(), -1.0, self.basis.as_ref(), along.as_ref());
             let momenta = self.pencil.mass_times(columns.as_ref());
-            let coefficients = orthonormal_coefficients(&columns, &momenta, pass == 0);
-            combine(&mut columns, coefficients.as_ref());
+            columns = orthonormalized(columns, momenta, if pass == 0 { DEPENDENT } else { 0.0 });
         }
         let kept = columns.ncols().min(room);
         columns.truncate(columns.nrows(), kept);
@@ -187,11 +192,25 @@ impl<'a> Process<'a> {
     fn ritz(&self) -> Result<Ritz, LinalgError> {
         let m = self.expanded;
         let t = Mat::from_fn(m, m, |i, j| 0.5 * (self.projected[(i, j)] + self.projected[(j, i)]));
-        let eigen = t.self_adjoint_eigen(Side::Lower);
-        let eigen = eigen.map_err(|_| LinalgError::DenseEigen { dimension: m })?;
-        let values = (0..m).rev().map(|i| eigen.S()[i]).collect();
-        let vectors = Mat::from_fn(m, m, |i, j| eigen.U()[(i, m - 1 - j)]);
-        Ok(Ritz { values, vectors })
+        // By the QR algorithm: dividing and conquering leaves errors of thousands of roundings in the smallest values (faer 0.24).
+        let auto = <SelfAdjointEvdParams as Auto<f64>>::auto();
+        let by_qr = Spec::new(SelfAdjointEvdParams { recursion_threshold: usize::MAX, ..auto });
+        let (mut values, mut vectors) = (Diag::<f64>::zeros(m), Mat::<f64>::zeros(m, m));
+        let with = ComputeEigenvectors::Yes;
+        let scratch = self_adjoint_evd_scratch::<f64>(m, with, Par::Seq, by_qr);
+        self_adjoint_evd(
+            t.as_ref(),
+            values.as_mut(),
+            Some(vectors.as_mut()),
+            Par::Seq,
+            MemStack::new(&mut MemBuffer::new(scratch)),
+            by_qr,
+        )
+        .map_err(|_| LinalgError::DenseEigen { dimension: m })?;
+        Ok(Ritz {
+            values: values.column_vector().iter().rev().copied().collect(),
+            vectors: Mat::from_fn(m, m, |i, j| vectors[(i, m - 1 - j)]),
+        })
     }
 
     /// `|B y| / theta` of the `count` leading pairs, `B` what couples the multiplied vectors with the open ones.
@@ -208,14 +227,12 @@ impl<'a> Process<'a> {
         let (old, total) = (self.expanded, self.basis.ncols());
         let leading = ritz.vectors.get(.., ..kept);
         let coupling = product(self.projected.get(old.., ..), leading);
-        let n = self.basis.nrows();
         for columns in [&mut self.basis, &mut self.momenta] {
             let mut head = columns.get(.., ..old).to_owned();
             combine(&mut head, leading);
             let open = columns.get(.., old..total).to_owned();
-            *columns = super::dense::join_columns(head.as_ref(), open.as_ref());
+            *columns = join_columns(head.as_ref(), open.as_ref());
         }
-        debug_assert_eq!(self.basis.nrows(), n);
         let mut projected = Mat::zeros(kept + total - old, kept);
         for (j, theta) in ritz.values[..kept].iter().enumerate() {
             projected[(j, j)] = *theta;
@@ -226,37 +243,38 @@ impl<'a> Process<'a> {
     }
 }
 
-/// What turns columns `w` into `M`-orthonormal ones, by modified Gram-Schmidt in coordinates of `w^T M w`, longest remainder first;
-/// columns that depend on the others are left out where they may be.
-fn orthonormal_coefficients(w: &Mat<f64>, momenta: &Mat<f64>, may_drop: bool) -> Mat<f64> {
-    let gram = transpose_product(w.as_ref(), momenta.as_ref());
-    let b = gram.nrows();
-    let dot = |x: &[f64], y: &[f64]| -> f64 {
-        let row = |i: usize| -> f64 { (0..b).map(|j| gram[(i, j)] * y[j]).sum() };
-        (0..b).map(|i| x[i] * row(i)).sum()
+/// Orthonormal columns in the inner product of `M` from `w` and `M w`, by modified Gram-Schmidt, longest remainder first; remainders
+/// shorter than `shortest` of their column are left out.
+fn orthonormalized(mut w: Mat<f64>, mut momenta: Mat<f64>, shortest: f64) -> Mat<f64> {
+    let length = |w: &Mat<f64>, momenta: &Mat<f64>, j: usize| {
+        dot(column(w.as_ref(), j), column(momenta.as_ref(), j)).max(0.0).sqrt()
     };
-    let lengths: Vec<f64> = (0..b).map(|j| gram[(j, j)].max(0.0)).collect();
-    let longest = lengths.iter().fold(0.0_f64, |a, v| a.max(*v));
-    let mut open: Vec<Vec<f64>> =
-        (0..b).map(|j| (0..b).map(|i| f64::from(u8::from(i == j))).collect()).collect();
-    let mut kept: Vec<Vec<f64>> = Vec::new();
+    let whole: Vec<f64> = (0..w.ncols()).map(|j| length(&w, &momenta, j)).collect();
+    let mut open: Vec<usize> = (0..w.ncols()).collect();
+    let mut kept = Vec::new();
     while !open.is_empty() {
-        let remainders: Vec<f64> = open.iter().map(|c| dot(c, c)).collect();
-        let place = (0..open.len()).max_by(|&i, &j| remainders[i].total_cmp(&remainders[j]));
-        let place = place.expect("there are open columns");
-        let remainder = remainders[place];
-        if may_drop && !(remainder > DEPENDENT * longest) || !(remainder > 0.0) {
+        let remainder = |j: usize| length(&w, &momenta, j) / whole[j];
+        let longest = (0..open.len())
+            .max_by(|&a, &b| remainder(open[a]).total_cmp(&remainder(open[b])).then(b.cmp(&a)));
+        let own = open.remove(longest.unwrap_or(0));
+        let own_length = length(&w, &momenta, own);
+        if !(own_length > shortest * whole[own]) {
             break;
         }
-        let own = open.swap_remove(place);
-        let own: Vec<f64> = own.iter().map(|v| v / remainder.sqrt()).collect();
-        for other in &mut open {
-            let along = dot(&own, other);
-            other.iter_mut().zip(&own).for_each(|(o, v)| *o -= along * v);
+        for columns in [&mut w, &mut momenta] {
+            column_mut(columns, own).iter_mut().for_each(|v| *v /= own_length);
+        }
+        for &other in &open {
+            let along = dot(column(momenta.as_ref(), own), column(w.as_ref(), other));
+            for columns in [&mut w, &mut momenta] {
+                let known = column(columns.as_ref(), own).to_vec();
+                let target = column_mut(columns, other).iter_mut().zip(known);
+                target.for_each(|(t, k)| *t -= along * k);
+            }
         }
         kept.push(own);
     }
-    Mat::from_fn(b, kept.len(), |i, j| kept[j][i])
+    pick_columns(&w, &kept)
 }
 
 #[cfg(test)]

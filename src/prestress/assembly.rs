@@ -261,28 +261,21 @@ impl<'a> Assembly<'a> {
         load: &[f64],
         count: usize,
     ) -> Result<PressedRange, PrestressError> {
-        if self.is_free() {
-            if load.iter().any(|force| *force != 0.0) {
-                return Err(PrestressError::NothingHolds);
-            }
-            return Ok(PressedRange::of_one(
-                PressedState {
-                    displacements: vec![vec![0.0; self.mesh.dof_count()]],
-                    normal_forces: Vec::new(),
-                    stiffnesses: Vec::new(),
-                    is_pressed: Vec::new(),
-                    frozen_below: 0.0,
-                },
-                count,
-            ));
-        }
-        let unknowns = self.joined.basis.unknowns();
-        let solver = CholeskySolver::new(&self.joined.basis.congruent(stiffness), &unknowns)?;
-        let right = unknowns.restrict(&self.joined.basis.transposed_forces(load));
-        let displacement = unknowns.expand(&solver.solve(right));
+        // Without a load there is nothing to hold, in part or at all.
+        let displacement = if load.iter().all(|force| *force == 0.0) {
+            vec![0.0; self.mesh.dof_count()]
+        } else if self.is_free() {
+            return Err(PrestressError::NothingHolds);
+        } else {
+            let basis = &self.joined.basis;
+            let unknowns = basis.unknowns();
+            let solver = CholeskySolver::new(&basis.congruent(stiffness), &unknowns)?;
+            let right = unknowns.restrict(&basis.transposed_forces(load));
+            basis.displacement(&unknowns.expand(&solver.solve(right)))
+        };
         Ok(PressedRange::of_one(
             PressedState {
-                displacements: vec![self.joined.basis.displacement(&displacement)],
+                displacements: vec![displacement],
                 normal_forces: Vec::new(),
                 stiffnesses: Vec::new(),
                 is_pressed: Vec::new(),
@@ -320,7 +313,6 @@ impl<'a> Assembly<'a> {
             structural: assemble_losses(self.mesh, self.materials),
             tabled: assemble_tabled(self.mesh, self.materials),
             rotation: self.joined.rotation.as_ref().map(|own| own.terms.clone()),
-            is_free: self.is_free(),
         };
         // Each contact has its stretch of the state's points.
         let mut first = 0;

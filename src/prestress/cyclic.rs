@@ -211,7 +211,6 @@ impl<'a> CyclicTangent<'a> {
             tabled: tabled.collect(),
             proportional: whole.proportional,
             is_gyroscopic: whole.is_gyroscopic,
-            is_free: whole.is_free,
             unknowns: DofMap::excluding(dimension, []),
             contact_tangential: touched(&whole.contact_tangential),
             contact_normal: touched(&whole.contact_normal),

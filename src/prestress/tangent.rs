@@ -51,8 +51,6 @@ pub struct SlidingTangent {
     pub proportional: Option<RayleighDamping>,
     /// Whether `C(0)` has a skew part: bodies that turn.
     pub is_gyroscopic: bool,
-    /// Whether nothing holds the bodies: `K` leaves their rigid motions without stiffness.
-    pub is_free: bool,
     /// Which full dofs the unknowns are.
     pub unknowns: DofMap,
     /// Unknown of each contact node's tangential displacement, in the order of the interface.
@@ -130,8 +128,6 @@ pub struct BodyTerms {
     pub tabled: Vec<(Arc<ModulusTable>, Triplets)>,
     /// Stiffness and gyroscopic matrix of regions that turn, which `alpha_R` and `beta_R` do not multiply.
     pub rotation: Option<[Triplets; 2]>,
-    /// Whether nothing holds the bodies.
-    pub is_free: bool,
 }
 
 /// The surfaces of one contact and their state.
@@ -185,7 +181,6 @@ impl SlidingTangent {
             structural: assemble_losses(mesh, material),
             tabled: assemble_tabled(mesh, material),
             rotation: None,
-            is_free: false,
         };
         let part = ContactPart {
             points: &base.points,
@@ -329,7 +324,6 @@ impl SlidingTangent {
             structural,
             tabled,
             is_gyroscopic: body.rotation.is_some(),
-            is_free: body.is_free,
             contact_tangential: touched(&dofs.tangential),
             contact_normal: touched(&dofs.normal),
             contact_opposite: touched(&dofs.opposite),

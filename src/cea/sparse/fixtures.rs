@@ -26,7 +26,6 @@ pub fn string_on_belt(count: usize, coupling: f64, is_proportional: bool) -> Sli
         stiffness,
         structural: None,
         tabled: Vec::new(),
-        is_free: false,
         proportional: is_proportional.then_some(damping),
         unknowns: DofMap::excluding(count, []),
         contact_tangential: Vec::new(),

@@ -20,8 +20,11 @@ const TOLERANCE: f64 = 1e-11;
 const BLOCK: usize = 8;
 /// First guess of the shift `c^2`, relative to the largest eigenvalue of the mesh: below the modes of all but the finest meshes.
 const FIRST_SHIFT: f64 = 1e-7;
-/// `c^2` relative to the highest eigenvalue wanted: the lowest modes lie apart still, and the highest keep their digits.
-const SHIFT: f64 = 1e-4;
+/// `c^2` relative to the highest eigenvalue wanted: small enough to tell the lowest modes apart, large enough that the highest keep
+/// their digits beside the reciprocals of the lowest.
+const SHIFT: f64 = 1e-3;
+/// What a shift grows by that leaves pairs short of their accuracy.
+const FARTHER: f64 = 10.0;
 /// Lowest eigenvalue, relative to the highest, above which factors of `K` itself serve all modes.
 const STIFFLY_HELD: f64 = 1e-5;
 /// Shifts that are tried until all pairs converge, and restarts with each.
@@ -279,12 +282,12 @@ impl<'a> Inertia<'a> {
             tolerance: TOLERANCE,
             applications: 0,
         });
-        for _ in 0..MAX_SHIFTS {
+        for attempt in 0..MAX_SHIFTS {
             let factors = loop {
                 match SparseLdl::factorize(&self.analysis, &self.shifted(-*shift)) {
                     Ok(factors) if factors.negative_count() == 0 => break factors,
                     Err(error) if !(*shift < self.largest_ratio()) => return Err(error),
-                    _ => *shift *= 10.0,
+                    _ => *shift *= FARTHER,
                 }
             };
             let pencil =
@@ -306,10 +309,11 @@ impl<'a> Inertia<'a> {
                 applications: MAX_RESTARTS * count,
             });
             // The highest pair is known well enough to place the shift by it.
-            let highest = pairs.values[count - 1].recip() - *shift;
-            let better = (SHIFT * highest).max(FIRST_SHIFT * FIRST_SHIFT * self.largest_ratio());
-            let is_other = (better / *shift).ln().abs() > std::f64::consts::LN_2;
-            *shift = if is_other { better } else { 10.0 * *shift };
+            let placed = SHIFT * (pairs.values[count - 1].recip() - *shift);
+            *shift = match attempt {
+                0 if placed > 0.0 => placed,
+                _ => FARTHER * *shift,
+            };
         }
         outcome
     }
