@@ -214,8 +214,7 @@ mod tests {
                 points: points.collect(),
                 intervals: Vec::new(),
                 crossings: Vec::new(),
-                ended: Vec::new(),
-                counts: Vec::new(),
+                ..FrictionSweep::default()
             },
             dofs: 100,
             method: "sparse",

@@ -192,23 +192,6 @@ pub enum CeaError {
         /// Case key of the table.
         key: String,
     },
-    /// A branch that could not be continued, after a search for it.
-    #[error(
-        "the branch at {frequency_hz:.1} Hz (harmonic {harmonic}, branch {branch}) is lost between \
-         friction coefficients {from} and {to}, and a search there did not find it"
-    )]
-    LostBranch {
-        /// Circumferential harmonic.
-        harmonic: usize,
-        /// Branch within the harmonic.
-        branch: usize,
-        /// Frequency where it was last seen, Hz.
-        frequency_hz: f64,
-        /// Friction coefficient where it was last seen.
-        from: f64,
-        /// Friction coefficient where it is missing.
-        to: f64,
-    },
 }
 
 impl CeaError {

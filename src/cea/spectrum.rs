@@ -152,7 +152,7 @@ pub struct UnstableInterval {
 }
 
 /// A sweep over the friction coefficient.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct FrictionSweep {
     /// One entry for each friction value, in the order given.
     pub points: Vec<FrictionPoint>,
@@ -163,6 +163,10 @@ pub struct FrictionSweep {
     pub crossings: Vec<Option<ModeVectors>>,
     /// Modes of a whole mesh whose branches end, by rising friction.
     pub ended: Vec<EndedMode>,
+    /// Modes of a whole mesh that did not converge at a friction value, and are not listed there.
+    pub unconverged: Vec<UnconvergedMode>,
+    /// Rigid motions of the bodies, which are not listed.
+    pub rigid_motions: usize,
     /// Counts of the modes of a whole mesh, where they were asked for.
     pub counts: Vec<ModeCount>,
 }
@@ -178,8 +182,17 @@ impl FrictionSweep {
         found.sort_by(|(a, _), (b, _)| a.critical_friction.total_cmp(&b.critical_friction));
         ended.sort_by(|a, b| a.friction_coefficient.total_cmp(&b.friction_coefficient));
         let (intervals, crossings) = found.into_iter().unzip();
-        Self { points, intervals, crossings, ended, counts: Vec::new() }
+        Self { points, intervals, crossings, ended, ..Self::default() }
     }
+}
+
+/// A mode that no iteration made converge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UnconvergedMode {
+    /// Friction coefficient.
+    pub friction_coefficient: f64,
+    /// Its frequency where the iterations ended, Hz.
+    pub frequency_hz: f64,
 }
 
 /// The last mode of a branch that ends within a sweep.

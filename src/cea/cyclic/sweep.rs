@@ -217,8 +217,7 @@ fn finish(tangent: SectorTangent, found: Found, verdict: Verdict) -> CyclicSweep
             points,
             crossings: vec![None; intervals.len()],
             intervals,
-            ended: Vec::new(),
-            counts: Vec::new(),
+            ..FrictionSweep::default()
         },
         branches,
         coverage,

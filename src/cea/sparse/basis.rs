@@ -70,7 +70,7 @@ pub struct BasisBuilder<'a> {
     /// Modes to be held at every friction coefficient.
     pub count: usize,
     /// Rigid motions, which the basis holds before the modes.
-    rigid: usize,
+    pub rigid: usize,
     /// Whether the basis is made of the modes at a few friction coefficients, each from an iteration of its own; else it grows
     /// by residuals.
     is_sampling: bool,

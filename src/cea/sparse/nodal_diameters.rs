@@ -260,9 +260,11 @@ fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
         let mut modes = points.iter().flat_map(|point| &point.modes);
         modes.any(|mode| mode.branch == branch)
     };
-    let (mut found, mut ended) = (Vec::new(), Vec::new());
+    let (mut found, mut ended, mut unconverged) = (Vec::new(), Vec::new(), Vec::new());
+    let rigid_motions = parts.iter().map(|part| part.rigid_motions).sum();
     for (part, sweep) in parts.into_iter().enumerate() {
         ended.extend(sweep.ended);
+        unconverged.extend(sweep.unconverged);
         for (mut interval, crossing) in sweep.intervals.into_iter().zip(sweep.crossings) {
             let rank = rank_of.get(&(part, interval.branch));
             let Some(rank) = rank.filter(|rank| is_listed(**rank)) else {
@@ -272,7 +274,8 @@ fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
             found.push((interval, crossing));
         }
     }
-    FrictionSweep { counts, ..FrictionSweep::joined(points, found, ended) }
+    let joined = FrictionSweep::joined(points, found, ended);
+    FrictionSweep { counts, unconverged, rigid_motions, ..joined }
 }
 
 /// One count of those of all numbers of diameters at each friction coefficient that all of them counted at, over the frequencies that

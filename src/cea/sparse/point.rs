@@ -18,8 +18,6 @@ use std::f64::consts::TAU;
 
 /// Residual relative to the matrices below which there is only round-off.
 const ROUND_OFF: f64 = 1e-15;
-/// Residual force, relative to the inertia force, from which on a motion is far from any mode.
-const NO_MODE: f64 = 0.1;
 /// Relative error of an eigenvalue that such a residual may mean.
 const EIGENVALUE_GOAL: f64 = 1e-9;
 /// What the full matrices say about one mode.
@@ -85,6 +83,19 @@ impl SolvedPoint {
         open.map(|(mode, _)| mode)
     }
 
+    /// Takes out the modes that have not converged; their frequencies, rad/s.
+    pub fn drop_unconverged(&mut self) -> Vec<f64> {
+        let mut dropped = Vec::new();
+        for i in (0..self.wanted).rev() {
+            if !(self.checks[i].residual <= RESIDUAL_BOUND) {
+                self.checks.remove(i);
+                dropped.push(self.modes.remove(i).eigenvalue.im);
+                self.wanted -= 1;
+            }
+        }
+        dropped
+    }
+
     /// Left vectors in the whole basis of `model`, with what depends on them: each takes an LU of that size, so points get them once
     /// their modes have converged.
     pub fn refine_lefts(&mut self, model: &ReducedModel) {
@@ -129,31 +140,8 @@ pub struct PointSolver<'a> {
     pub limit: ModeLimit,
     /// Modes tracked.
     pub count: usize,
-    /// What becomes of motions near critical damping that are no modes.
-    pub combinations: Combinations,
-}
-
-/// What becomes of motions near critical damping that are no modes, but combinations of what the basis does not hold.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Combinations {
-    /// They are modes until they do not converge.
-    Kept,
-    /// They are left out: where nothing makes them converge.
-    LeftOut,
-    /// They are left out, and count among the lowest modes nonetheless: where those that take their places lie beyond the reach of
-    /// the basis.
-    Counted,
-}
-
-impl Combinations {
-    /// What is tried next where modes do not converge.
-    pub fn next(self) -> Option<Self> {
-        match self {
-            Self::Kept => Some(Self::LeftOut),
-            Self::LeftOut => Some(Self::Counted),
-            Self::Counted => None,
-        }
-    }
+    /// Whether motions near critical damping that have not converged are left out: combinations of what the basis does not hold.
+    pub leaves_out: bool,
 }
 
 impl PointSolver<'_> {
@@ -167,16 +155,12 @@ impl PointSolver<'_> {
         let frequencies = |modes: &[ReducedMode]| -> Vec<f64> {
             modes.iter().map(|mode| mode.eigenvalue.im).collect()
         };
-        let with_combinations = frequencies(&modes);
-        if self.combinations > Combinations::Kept {
-            self.leave_out_combinations(&mut modes, model, mu);
+        if self.leaves_out {
+            let checks = self.check(model, mu, &modes);
+            let mut converged = checks.iter().map(|check| check.residual <= RESIDUAL_BOUND);
+            modes.retain(|mode| converged.next() == Some(true) || !mode.is_nearly_critical());
         }
         let wanted = match self.limit {
-            ModeLimit::Lowest(count) if self.combinations == Combinations::Counted => {
-                let all = keeping_ties(with_combinations.iter().copied(), count);
-                let highest = with_combinations[..all].last().copied().unwrap_or(0.0);
-                modes.iter().take_while(|mode| mode.eigenvalue.im <= highest).count()
-            }
             ModeLimit::Lowest(count) => keeping_ties(frequencies(&modes).into_iter(), count),
             ModeLimit::MaxFrequency(hz) => {
                 modes.iter().take_while(|m| m.eigenvalue.im < TAU * hz).count()
@@ -197,50 +181,6 @@ impl PointSolver<'_> {
             solved_in: model.sample_width(mu),
             has_coarse_lefts: true,
         })
-    }
-
-    /// Leaves out motions near critical damping that are no modes: the basis holds the `count` lowest natural frequencies `|lambda|` of
-    /// those that oscillate, and of motions beyond, or that do not oscillate, only combinations, whose frequency may lie among theirs.
-    fn leave_out_combinations(&self, modes: &mut Vec<ReducedMode>, model: &ReducedModel, mu: f64) {
-        let is_sampled = model.sample_width(mu).is_some();
-        let is_doubtful = self.doubt(modes, is_sampled || !model.has_samples());
-        modes.retain(|mode| {
-            if !mode.is_nearly_critical() {
-                return true;
-            }
-            let check = &self.check(model, mu, std::slice::from_ref(mode))[0];
-            check.residual <= RESIDUAL_BOUND || !is_doubtful(mode, check)
-        });
-    }
-
-    /// Which of `modes` may be such motions; those not near critical damping only where the basis holds the modes `as_such`.
-    fn doubt(
-        &self,
-        modes: &[ReducedMode],
-        as_such: bool,
-    ) -> impl Fn(&ReducedMode, &ModeCheck) -> bool + use<> {
-        let mut natural: Vec<f64> = modes.iter().map(|m| m.eigenvalue.norm()).collect();
-        natural.sort_by(f64::total_cmp);
-        let place = self.count.saturating_sub(1);
-        let reach = natural.get(place).copied().unwrap_or(f64::INFINITY);
-        let searched = modes.iter().map(|m| m.eigenvalue);
-        let searched = searched.filter(|own| own.norm() <= reach);
-        let highest = searched.map(|own| own.im).fold(0.0, f64::max);
-        move |mode, check| {
-            let own = mode.eigenvalue;
-            let is_beyond = own.norm() > reach && own.im < highest;
-            let is_far = is_beyond || check.force_residual > NO_MODE;
-            mode.hardly_oscillates() || as_such && is_far && mode.is_nearly_critical()
-        }
-    }
-
-    /// Whether the wanted mode of largest error at a point is such a motion, and far from any mode.
-    pub fn is_led_astray(&self, point: &SolvedPoint) -> bool {
-        let is_doubtful = self.doubt(&point.modes, point.solved_in.is_some());
-        let pairs = point.modes.iter().zip(&point.checks).take(point.wanted);
-        let worst = pairs.max_by(|a, b| a.1.force_residual.total_cmp(&b.1.force_residual));
-        worst
-            .is_some_and(|(mode, check)| check.force_residual > NO_MODE && is_doubtful(mode, check))
     }
 
     /// Residuals and edge displacements of `modes` in the full matrices at `mu`.

@@ -9,7 +9,7 @@ use super::branches::{BranchLabel, TrackedBranch, label_frictionless, track};
 use super::edge::ContactEdge;
 use super::frictionless::FrictionlessModes;
 use super::linearization::Linearization;
-use super::point::{Combinations, PointSolver, SolvedPoint};
+use super::point::{PointSolver, SolvedPoint};
 use super::{RESIDUAL_BOUND, TRACKING_MARGIN};
 use crate::cea::{
     CeaError, FrictionSweep, ModeLimit, SweepProgress, SweepRequest, SweepStage, SweepWatch,
@@ -106,8 +106,10 @@ pub struct SparseSweep<'a> {
     /// Smallest friction coefficient asked for.
     lowest: f64,
     points: Vec<SolvedPoint>,
-    /// What becomes of motions near critical damping that do not converge to modes.
-    combinations: Combinations,
+    /// Whether motions near critical damping that do not converge are left out.
+    leaves_out: bool,
+    /// Friction coefficient and frequency (rad/s) of the modes that did not converge, which are not listed.
+    unconverged: Vec<(f64, f64)>,
     labels: Vec<BranchLabel>,
     /// What was done to each point.
     repairs: Vec<Repairs>,
@@ -148,7 +150,8 @@ impl<'a> SparseSweep<'a> {
             grid,
             lowest,
             points: Vec::new(),
-            combinations: Combinations::Kept,
+            leaves_out: false,
+            unconverged: Vec::new(),
             labels: Vec::new(),
             repairs: Vec::new(),
             watch,
@@ -208,18 +211,21 @@ impl<'a> SparseSweep<'a> {
             let stale: Vec<usize> = all.iter().copied().filter(is_stale).collect();
             self.solve_anew(&stale)?;
         }
-        loop {
-            self.repair_all()?;
-            let unsettled = match self.check_residuals() {
-                Ok(()) => break,
-                Err(error) => error,
-            };
+        self.repair_all()?;
+        if !self.leaves_out && self.open_points().next().is_some() {
             // What no repair makes converge may be no mode.
-            match (&unsettled, self.combinations.next()) {
-                (CeaError::NotConverged { .. }, Some(next)) => self.combinations = next,
-                _ => return Err(unsettled),
-            }
+            self.leaves_out = true;
             self.solve_anew(&all)?;
+            self.repair_all()?;
+        }
+        self.converge_rest()?;
+        self.check_tables()?;
+        let first = self.first_asked();
+        self.unconverged.clear();
+        for point in &mut self.points[first..] {
+            let mu = point.friction_coefficient;
+            let dropped = point.drop_unconverged();
+            self.unconverged.extend(dropped.into_iter().map(|frequency| (mu, frequency)));
         }
         let model = &self.builder.model;
         self.points.par_iter_mut().for_each(|point| point.refine_lefts(model));
@@ -257,11 +263,7 @@ impl<'a> SparseSweep<'a> {
 
     /// The point at `mu` in the basis as it is, or what an earlier run of the same sweep found there.
     fn solve_point(&self, mu: f64) -> Result<SolvedPoint, LinalgError> {
-        let stage = match self.combinations {
-            Combinations::Kept => "",
-            Combinations::LeftOut => "-left-out",
-            Combinations::Counted => "-counted",
-        };
+        let stage = if self.leaves_out { "-left-out" } else { "" };
         let name = format!("value-{:04}-{mu:?}{stage}", self.builder.steps());
         let kept = self.watch.recall(&name);
         if let Some(mut point) = kept.and_then(|kept| SolvedPoint::from_columns(mu, &kept)) {
@@ -280,11 +282,31 @@ impl<'a> SparseSweep<'a> {
             edge: &self.edge,
             limit: self.limit,
             count: self.builder.count,
-            combinations: self.combinations,
+            leaves_out: self.leaves_out,
         }
     }
 
-    fn check_residuals(&self) -> Result<(), CeaError> {
+    /// Points asked for with a wanted mode that has not converged.
+    fn open_points(&self) -> impl Iterator<Item = usize> {
+        let asked = self.first_asked()..self.grid.len();
+        asked.filter(|&k| !(self.points[k].worst().0 <= RESIDUAL_BOUND))
+    }
+
+    /// Finds modes that no repair made converge one by one in the full problem, whatever that costs.
+    fn converge_rest(&mut self) -> Result<(), CeaError> {
+        let open: Vec<usize> = self.open_points().collect();
+        if !self.tangent.tabled.is_empty() || open.is_empty() {
+            return Ok(());
+        }
+        for &k in &open {
+            self.converge(k)?;
+        }
+        self.solve_anew(&open)?;
+        Ok(())
+    }
+
+    /// Refuses modes whose stiffness follows from a table that does not reach them, or that changes too fast for them.
+    fn check_tables(&self) -> Result<(), CeaError> {
         for point in &self.points[self.first_asked()..] {
             for (mode, check) in point.modes.iter().zip(&point.checks).take(point.wanted) {
                 let frequency_hz = mode.eigenvalue.im / TAU;
@@ -297,21 +319,13 @@ impl<'a> SparseSweep<'a> {
                         frequency_hz,
                     });
                 }
-                let is_unsettled = check.residual.is_nan() || check.residual > RESIDUAL_BOUND;
+                let is_unsettled = !(check.residual <= RESIDUAL_BOUND);
                 if let Some(part) = self.tangent.tabled.first().filter(|_| is_unsettled) {
                     return Err(CeaError::Unsettled {
                         key: part.gain.table.key().to_owned(),
                         friction_coefficient: point.friction_coefficient,
                         frequency_hz,
                         residual: check.residual,
-                    });
-                }
-                if check.residual.is_nan() || check.residual > RESIDUAL_BOUND {
-                    return Err(CeaError::NotConverged {
-                        friction_coefficient: point.friction_coefficient,
-                        frequency_hz: mode.eigenvalue.im / TAU,
-                        residual: check.residual,
-                        bound: RESIDUAL_BOUND,
                     });
                 }
             }
@@ -321,12 +335,12 @@ impl<'a> SparseSweep<'a> {
 
     /// Continues all branches from `mu = 0`. Where one is lost the basis takes up, of the quadratic problem, modes at
     /// more friction coefficients about that place; in the end an independent iteration searches for it. A branch that stays lost
-    /// ends there if the count of modes beyond says that none is missing: it changes faster than it can be followed.
+    /// ends there, and a note says so.
     ///
     /// # Errors
-    /// [`CeaError::LostBranch`] if modes may be missing.
+    /// If an iteration or a dense decomposition fails.
     pub fn track(&mut self) -> Result<Vec<TrackedBranch>, CeaError> {
-        let (mut given_up, mut searched, mut complete) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut given_up, mut searched) = (Vec::new(), Vec::new());
         loop {
             let (model, edge) = (&self.builder.model, &self.edge);
             let outcome = track(&self.points, model, edge, &self.labels, &given_up)?;
@@ -334,29 +348,17 @@ impl<'a> SparseSweep<'a> {
                 Ok(branches) => return Ok(branches),
                 Err(lost) => lost,
             };
-            let (from, to) = (self.grid[lost.point], self.grid[lost.point + 1]);
             if searched.contains(&lost.point) {
-                let is_complete = complete.contains(&lost.point);
-                if !is_complete && !self.has_all_at(lost.point + 1).unwrap_or(false) {
-                    return Err(CeaError::LostBranch {
-                        harmonic: lost.label.harmonic,
-                        branch: lost.label.branch,
-                        frequency_hz: lost.frequency / TAU,
-                        from,
-                        to,
-                    });
-                }
-                complete.push(lost.point);
                 given_up.push(lost);
                 continue;
             }
+            let (from, to) = (self.grid[lost.point], self.grid[lost.point + 1]);
             let is_sampling = self.builder.is_sampling();
             let has_improved = is_sampling && self.builder.improve_between(from, to, lost.place)?;
             if !has_improved {
                 searched.push(lost.point);
                 self.builder.search(to, TRACKING_MARGIN)?;
             }
-            complete.clear();
             self.solve()?;
         }
     }

@@ -91,8 +91,7 @@ mod tests {
             ],
             intervals: Vec::new(),
             crossings: Vec::new(),
-            ended: Vec::new(),
-            counts: Vec::new(),
+            ..FrictionSweep::default()
         };
         let all = branches(&sweep);
         let lengths = |branch: usize, changes: &[f64]| -> Vec<usize> {

@@ -181,9 +181,5 @@ pub fn notes(model: &AssemblyModel) -> Vec<String> {
         };
         format!("{} with {terms}", rotors.join(", "))
     });
-    let free = model.assembly().is_free().then(|| {
-        "nothing holds the bodies: their rigid motions, at frequency zero, are not listed; the modes are those of free parts"
-            .to_owned()
-    });
-    closed.into_iter().chain(turning).chain(free).collect()
+    closed.into_iter().chain(turning).collect()
 }

@@ -172,14 +172,30 @@ pub(super) fn ended_notes(sweep: &FrictionSweep) -> Vec<String> {
     });
     let lost = (!lost.is_empty()).then(|| {
         format!(
-            "{} too fast to be followed ({}): no mode is missing, as a count says, but branches beyond have new numbers, and of \
-             those that are unstable there the critical friction lies in between; ask for friction coefficients closer together \
-             there, or for a faster sliding",
+            "{} too fast to be followed ({}): branches beyond have new numbers, and of those that are unstable there the critical \
+             friction lies in between; ask for friction coefficients closer together there, or for a faster sliding; \
+             cea.count_modes says whether a mode is missing",
             number(lost.len(), "branch changes", "branches change"),
             listed(lost),
         )
     });
-    damped.into_iter().chain(lost).collect()
+    let open = sweep.unconverged.iter();
+    let open: Vec<String> = open
+        .map(|mode| {
+            format!("{:.0} Hz at friction {}", mode.frequency_hz, mode.friction_coefficient)
+        })
+        .collect();
+    let open = (!open.is_empty()).then(|| {
+        let which = number(open.len(), "mode has", "modes have");
+        format!("{which} not converged and not listed ({})", listed(open))
+    });
+    let rigid = (sweep.rigid_motions > 0).then(|| {
+        let which = number(sweep.rigid_motions, "rigid motion", "rigid motions");
+        format!(
+            "{which}, at frequency zero, not listed: nothing holds the body in those directions"
+        )
+    });
+    damped.into_iter().chain(lost).chain(open).chain(rigid).collect()
 }
 
 /// The motions that friction across the sliding keeps from oscillating, and those that it damps.

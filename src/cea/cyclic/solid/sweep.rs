@@ -165,8 +165,7 @@ pub fn solid_sweep_with_waves(
             points,
             crossings: vec![None; intervals.len()],
             intervals,
-            ended: Vec::new(),
-            counts: Vec::new(),
+            ..FrictionSweep::default()
         },
         coverage,
         dofs: tangent.unknown_of().iter().flatten().count() * sector.sector_count(),

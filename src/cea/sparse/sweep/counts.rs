@@ -4,7 +4,7 @@ use super::{FEW_VALUES, SparseSweep};
 use crate::cea::sparse::branches::TrackedBranch;
 use crate::cea::sparse::count::{ModeCounter, Winding};
 use crate::cea::sparse::point::SolvedPoint;
-use crate::cea::sparse::{NEARLY_CRITICAL, RESIDUAL_BOUND, TRACKING_MARGIN};
+use crate::cea::sparse::{RESIDUAL_BOUND, TRACKING_MARGIN};
 use crate::cea::{CeaError, CountedRegion, ModeCount, ModeLimit, SweepRequest};
 use crate::linalg::c64;
 use std::f64::consts::TAU;
@@ -34,7 +34,7 @@ impl SparseSweep<'_> {
         let counter = ModeCounter::new(self.tangent)?;
         let mut counts = Vec::new();
         for k in self.counted_values() {
-            counts.push(self.completed_at(&counter, k, Covered::AllListed)?);
+            counts.push(self.completed_at(&counter, k)?);
         }
         let has_changed = counts.iter().any(|count| count.recovered > 0);
         let branches = if has_changed { self.track()? } else { branches };
@@ -45,34 +45,19 @@ impl SparseSweep<'_> {
     ///
     /// # Errors
     /// Those of the search.
-    fn completed_at(
-        &mut self,
-        counter: &ModeCounter<'_>,
-        k: usize,
-        covered: Covered,
-    ) -> Result<ModeCount, CeaError> {
-        let before = self.count_at(counter, k, covered);
+    fn completed_at(&mut self, counter: &ModeCounter<'_>, k: usize) -> Result<ModeCount, CeaError> {
+        let before = self.count_at(counter, k);
         let Ok(missing @ 1..) = before.missing else {
             return Ok(before);
         };
         self.builder.search(self.grid[k], TRACKING_MARGIN + missing as usize)?;
         self.solve()?;
-        let after = self.count_at(counter, k, covered);
+        let after = self.count_at(counter, k);
         Ok(ModeCount {
             determinants: before.determinants + after.determinants,
             recovered: after.known.saturating_sub(before.known),
             ..after
         })
-    }
-
-    /// Whether no mode far from critical damping is missing at a point, as a count says after a search.
-    ///
-    /// # Errors
-    /// [`CeaError::Uncountable`]; those of the search.
-    pub(super) fn has_all_at(&mut self, k: usize) -> Result<bool, CeaError> {
-        let counter = ModeCounter::new(self.tangent)?;
-        let count = self.completed_at(&counter, k, Covered::FarFromCritical)?;
-        Ok(count.is_complete())
     }
 
     fn counted_values(&self) -> Vec<usize> {
@@ -95,13 +80,13 @@ impl SparseSweep<'_> {
         chosen
     }
 
-    fn count_at(&self, counter: &ModeCounter<'_>, k: usize, covered: Covered) -> ModeCount {
+    fn count_at(&self, counter: &ModeCounter<'_>, k: usize) -> ModeCount {
         let point = &self.points[k];
         let converged = point.modes.iter().zip(&point.checks);
         let converged = converged.filter(|(_, check)| check.residual <= RESIDUAL_BOUND);
         let known: Vec<c64> = converged.map(|(mode, _)| mode.eigenvalue).collect();
         let mut top = upper_end(point, &known, self.limit);
-        let mut count = count_below(counter, point, &known, (top, covered));
+        let mut count = count_below(counter, point, &known, top);
         let highest = highest(point);
         for _ in 0..LOWERINGS {
             let above = count.near.filter(|near| near.im > highest);
@@ -111,18 +96,11 @@ impl SparseSweep<'_> {
             };
             let determinants = count.determinants;
             top = 0.5 * (highest + above.im.min(top));
-            count = count_below(counter, point, &known, (top, covered));
+            count = count_below(counter, point, &known, top);
             count.determinants += determinants;
         }
         count
     }
-}
-
-/// Which of the known modes the region of a count reaches.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Covered {
-    AllListed,
-    FarFromCritical,
 }
 
 /// The count at a point whose converged modes are `known`, up to the angular frequency `top`.
@@ -130,18 +108,13 @@ fn count_below(
     counter: &ModeCounter<'_>,
     point: &SolvedPoint,
     known: &[c64],
-    (top, covered): (f64, Covered),
+    top: f64,
 ) -> ModeCount {
     let inside: Vec<c64> = known.iter().copied().filter(|own| own.im < top).collect();
-    let is_covered = |own: &c64| match covered {
-        Covered::AllListed => true,
-        Covered::FarFromCritical => own.re.abs() <= NEARLY_CRITICAL * own.norm(),
-    };
-    let reached: Vec<c64> = inside.iter().copied().filter(is_covered).collect();
     let mut outcome = Err(String::new());
-    let mut region = CountedRegion::about(&reached, top, FARTHER[0]);
+    let mut region = CountedRegion::about(&inside, top, FARTHER[0]);
     for factor in FARTHER {
-        region = CountedRegion::about(&reached, top, factor);
+        region = CountedRegion::about(&inside, top, factor);
         let found = counter.count(point.friction_coefficient, known, &region);
         let is_final = found.is_ok();
         outcome = found.map_err(|error| error.to_string());
@@ -212,11 +185,11 @@ mod tests {
             sweep.solve().unwrap();
             let branches = sweep.track().unwrap();
             let counter = ModeCounter::new(&tangent).unwrap();
-            assert!(sweep.count_at(&counter, 2, Covered::AllListed).is_complete());
+            assert!(sweep.count_at(&counter, 2).is_complete());
             let lost = sweep.points[2].modes.remove(3).eigenvalue;
             sweep.points[2].checks.remove(3);
             sweep.points[2].wanted -= 1;
-            let count = sweep.count_at(&counter, 2, Covered::AllListed);
+            let count = sweep.count_at(&counter, 2);
             assert_eq!(count.missing, Ok(1), "{count:?}");
             let near = count.near.unwrap();
             let top = TAU * count.region.frequencies_hz[1];

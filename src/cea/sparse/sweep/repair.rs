@@ -4,7 +4,6 @@ use super::{MAX_REPAIRS, SparseSweep};
 use crate::cea::sparse::linearization::Linearization;
 use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::sparse::pairs::FEW;
-use crate::cea::sparse::point::Combinations;
 use crate::cea::sparse::{RESIDUAL_BOUND, TRACKING_MARGIN};
 use crate::cea::{CeaError, ModeLimit};
 
@@ -77,7 +76,7 @@ impl SparseSweep<'_> {
                 is_stuck: before.0 == point && error > SLOWEST * before.1,
             };
             before = (point, error);
-            if !self.repair_round(round, &worst, &missing, &mut searched)? {
+            if !self.repair_round(&worst, &missing, &mut searched)? {
                 break;
             }
             self.solve_repaired(&missing)?;
@@ -88,35 +87,20 @@ impl SparseSweep<'_> {
     /// One round; whether there was anything left to do.
     fn repair_round(
         &mut self,
-        round: usize,
         worst: &Worst,
         missing: &[usize],
         searched: &mut Vec<usize>,
     ) -> Result<bool, CeaError> {
         let mu = self.grid[worst.point];
         let is_hopeless = worst.is_stuck && worst.residual > RESIDUAL_BOUND;
-        let is_astray = round > 0
-            && self.combinations == Combinations::Kept
-            && self.point_solver().is_led_astray(&self.points[worst.point]);
         if self.has_few_slow(worst.point) {
             self.repair(missing)?;
-        } else if is_astray {
-            // No iteration finds what is no mode. What the others may be near is found now or never.
-            self.combinations = Combinations::LeftOut;
-            for &k in missing {
-                let is_new = self.repairs[k].error_of_iterations.is_infinite();
-                if is_new && self.can_converge(k) {
-                    self.converge(k)?;
-                }
-            }
         } else if is_hopeless && !searched.contains(&worst.point) {
             // Corrections by the stiffness without friction fail a mode that friction damps strongly: an iteration finds it.
             searched.push(worst.point);
             self.builder.search(mu, TRACKING_MARGIN)?;
-        } else if let Some(next) = self.combinations.next()
-            && is_hopeless
-        {
-            self.combinations = next;
+        } else if is_hopeless && !self.leaves_out {
+            self.leaves_out = true;
             searched.clear();
         } else if !self.repair(missing)? {
             if worst.residual <= RESIDUAL_BOUND {
@@ -149,9 +133,7 @@ impl SparseSweep<'_> {
     /// Whether point `k` has fewer modes than are asked for, as motions that are none were left out.
     fn is_short(&self, k: usize) -> bool {
         match self.limit {
-            ModeLimit::Lowest(count) => {
-                self.combinations == Combinations::LeftOut && self.points[k].wanted < count
-            }
+            ModeLimit::Lowest(count) => self.leaves_out && self.points[k].wanted < count,
             ModeLimit::MaxFrequency(_) => false,
         }
     }
@@ -226,7 +208,7 @@ impl SparseSweep<'_> {
     }
 
     /// Finds the modes that are left at point `k` one by one; whether the basis grew.
-    fn converge(&mut self, k: usize) -> Result<bool, CeaError> {
+    pub(super) fn converge(&mut self, k: usize) -> Result<bool, CeaError> {
         self.repairs[k].error_of_iterations = self.points[k].worst().1;
         let open: Vec<ReducedMode> = self.open_modes(k).cloned().collect();
         self.builder.converge_at(self.grid[k], &open)

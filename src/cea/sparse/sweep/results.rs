@@ -1,10 +1,10 @@
 //! What a sweep found: points, unstable intervals, shapes.
 
 use super::{MAX_REPAIRS, SETTLED, SparseSweep};
-use crate::cea::EndedMode;
 use crate::cea::sparse::branches::{BranchLabel, TrackedBranch};
 use crate::cea::sparse::onset::{FoundInterval, OnsetFinder, State};
 use crate::cea::{CeaError, ComplexMode, FrictionPoint, FrictionSweep, SweepRequest};
+use crate::cea::{EndedMode, UnconvergedMode};
 use crate::linalg::c64;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
@@ -42,8 +42,18 @@ impl SparseSweep<'_> {
             intervals: found.into_iter().map(|own| own.interval).collect(),
             crossings,
             ended: self.ended(branches),
+            unconverged: self.unconverged(),
+            rigid_motions: self.builder.rigid,
             counts: Vec::new(),
         })
+    }
+
+    /// The modes that no iteration made converge.
+    fn unconverged(&self) -> Vec<UnconvergedMode> {
+        let each = self.unconverged.iter().map(|&(friction_coefficient, frequency)| {
+            UnconvergedMode { friction_coefficient, frequency_hz: frequency / TAU }
+        });
+        each.collect()
     }
 
     /// The modes whose branches end.

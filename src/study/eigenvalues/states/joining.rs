@@ -126,7 +126,12 @@ pub fn joined(mut parts: Vec<Part>, frictions: &[f64]) -> FrictionSweep {
     let mut counts: Vec<ModeCount> =
         counts.filter(|count| frictions.contains(&count.friction_coefficient)).collect();
     counts.dedup_by(|b, a| a.friction_coefficient == b.friction_coefficient);
-    FrictionSweep { counts, ..FrictionSweep::joined(points, found, ended) }
+    let unconverged = parts.iter().flat_map(|part| part.unconverged.iter().copied());
+    let unconverged = unconverged.filter(|own| frictions.contains(&own.friction_coefficient));
+    let unconverged = unconverged.collect();
+    let rigid_motions = parts.first().map_or(0, |part| part.rigid_motions);
+    let joined = FrictionSweep::joined(points, found, ended);
+    FrictionSweep { counts, unconverged, rigid_motions, ..joined }
 }
 
 /// Unstable intervals over all parts: those that go on across a change are one, and growth may jump across zero at it.
