@@ -81,8 +81,7 @@ fn sweep(mesh: &AnnulusMesh) -> FrictionSweep {
             unstable_from_start: false,
         }],
         crossings: Vec::new(),
-        ended: Vec::new(),
-        counts: Vec::new(),
+        ..FrictionSweep::default()
     }
 }
 

@@ -52,7 +52,6 @@ fn problem(
         stiffness,
         structural: None,
         tabled: Vec::new(),
-        is_free: false,
         proportional,
         unknowns: DofMap::excluding(size, []),
         contact_tangential: Vec::new(),

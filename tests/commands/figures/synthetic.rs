@@ -105,8 +105,7 @@ pub fn sweep(count: usize) -> FrictionSweep {
         points,
         intervals,
         crossings: Vec::new(),
-        ended: Vec::new(),
-        counts: Vec::new(),
+        ..FrictionSweep::default()
     }
 }
 

@@ -70,7 +70,6 @@ fn frequencies(mesh: &Mesh, glue: &Glue, held: Vec<usize>, count: usize) -> Vec<
         stiffness,
         structural: None,
         tabled: Vec::new(),
-        is_free: false,
         proportional: None,
         unknowns,
         contact_tangential: Vec::new(),
