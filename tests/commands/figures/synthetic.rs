@@ -101,12 +101,7 @@ pub fn sweep(count: usize) -> FrictionSweep {
         }
     }
     intervals.sort_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction));
-    FrictionSweep {
-        points,
-        intervals,
-        crossings: Vec::new(),
-        ..FrictionSweep::default()
-    }
+    FrictionSweep { points, intervals, crossings: Vec::new(), ..FrictionSweep::default() }
 }
 
 /// A wave of one harmonic, clamped outside, with an arbitrary solver phase; friction shears it.

@@ -11,6 +11,8 @@ use crate::cea::{CeaError, ModeLimit};
 const CORRECTABLE: f64 = 1e-4;
 /// Ratio of errors before and after a repair above which repairs lead nowhere.
 const SLOWEST: f64 = 0.9;
+/// The same above which modes that are converged are left as they are: round-off does not become less.
+const LITTLE: f64 = 0.5;
 /// The same above which the few modes that are left at a point are found one by one.
 const SLOW: f64 = 0.3;
 /// Attempts to improve points, for each friction value, where a mode misses the bound of converged pairs.
@@ -66,10 +68,12 @@ impl SparseSweep<'_> {
             };
             // What is converged is improved for a while, what is not for longer.
             let is_converged = |&k: &usize| self.points[k].worst().0 <= RESIDUAL_BOUND;
-            if round >= MAX_REPAIRS + self.grid.len() && missing.iter().all(is_converged) {
+            let (residual, error) = self.points[point].worst();
+            let gains_little = before.0 == point && error > LITTLE * before.1;
+            let is_spent = gains_little || round >= MAX_REPAIRS + self.grid.len();
+            if is_spent && missing.iter().all(is_converged) {
                 break;
             }
-            let (residual, error) = self.points[point].worst();
             let worst = Worst {
                 point,
                 residual,
