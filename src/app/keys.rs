@@ -76,8 +76,12 @@ fn describe(keys: &[&CaseKey]) -> String {
             },
             key.meaning
         );
-        if !key.used_by.is_empty() {
-            let _ = writeln!(out, "    used by {} only", key.used_by.join(" and "));
+        if !key.of_waves.is_empty() {
+            let _ = writeln!(
+                out,
+                "    not used by the rotating waves of a plane annulus (cycle, basin): {}",
+                key.of_waves
+            );
         }
     }
     out

@@ -17,6 +17,7 @@ use crate::results::{OutputFolder, object, read_record};
 use crate::study::transient::TransientStudy;
 use crate::transient::{CentralDifference, Recorder, RunEnd};
 use clap::Args;
+use std::path::Path;
 use std::time::Instant;
 use watch::{Checkpoints, Watch};
 
@@ -38,7 +39,7 @@ fn resume<'b>(
     study: &'b TransientStudy<'_>,
     operator: &'b dyn StiffnessOperator,
     saved: Checkpoint,
-    folder: &OutputFolder,
+    folder: &Path,
 ) -> Result<(CentralDifference<'b>, Recorder), Failure> {
     let run = study.resume(operator, &saved.state)?;
     let plan = run.plan();
@@ -47,13 +48,13 @@ fn resume<'b>(
         return Err(Failure::usage(format!(
             "the run in {} has come to {reached:.6} s, beyond transient.duration = {:?} s: raise that, or start \
              over without --resume",
-            folder.path().display(),
+            folder.display(),
             study.settings().duration,
         )));
     }
     let record = match saved.record {
         Some(record) => record,
-        None => read_record(folder.path())?,
+        None => read_record(folder)?,
     };
     let record = study.resume_record(&run, record)?;
     Ok((run, record))
@@ -91,15 +92,18 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     // Whatever is wrong with the case is said before the folder is touched.
     let fresh = study.start(operator.as_ref())?;
     let recorder = study.recorder(&fresh)?;
-    let folder = open(&session, arguments.resume)?;
     let saved = match arguments.resume {
-        true => continuation::find(&session, &folder)?,
+        true => continuation::find(&session)?,
         false => None,
     };
     let goes_on = saved.is_some();
     let (mut loop_, record) = match saved {
         None => (fresh, recorder),
-        Some(saved) => resume(&study, operator.as_ref(), saved, &folder)?,
+        Some(saved) => resume(&study, operator.as_ref(), saved, &continuation::place(&session))?,
+    };
+    let folder = match arguments.resume {
+        true => continuation::reopen(&session, goes_on)?,
+        false => open(&session)?,
     };
     let stepped = step(&session, &study, &folder, &mut loop_, record)?;
 
@@ -182,10 +186,7 @@ fn step(
     })
 }
 
-fn open(session: &Session, resume: bool) -> Result<OutputFolder, Failure> {
-    if resume {
-        return continuation::reopen(session);
-    }
+fn open(session: &Session) -> Result<OutputFolder, Failure> {
     let folder = session.open_folder()?;
     // A checkpoint of an earlier run must not outlive the results it belongs to.
     folder.discard(CHECKPOINT);

@@ -128,10 +128,8 @@ pub struct CaseKey {
     pub example: &'static str,
     /// What it is, to be read behind "is".
     pub meaning: &'static str,
-    /// Commands that use it; empty for all that read its section.
-    pub used_by: &'static [&'static str],
-    /// What holds in the others.
-    pub otherwise: &'static str,
+    /// What holds where `cycle` and `basin` seek rotating waves, which do not use it; empty of a key that every command uses.
+    pub of_waves: &'static str,
     /// First version that knows it.
     pub since: &'static str,
 }

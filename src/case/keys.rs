@@ -38,21 +38,17 @@ const fn key(
         default,
         example,
         meaning,
-        used_by: &[],
-        otherwise: "",
+        of_waves: "",
         since: "0.1",
     }
 }
 
 impl CaseKey {
-    /// This key, used by these commands alone; in the others something else holds.
-    const fn used_by(self, commands: &'static [&'static str], otherwise: &'static str) -> Self {
-        Self { used_by: commands, otherwise, ..self }
+    /// This key, which rotating waves do not use: what holds of them instead.
+    const fn of_waves(self, of_waves: &'static str) -> Self {
+        Self { of_waves, ..self }
     }
 }
-
-/// Commands whose contact may give way.
-const COMPLIANT: &[&str] = &["cea", "frf", "transient"];
 
 /// All keys in the order of the documentation: name, values, unit, default, example, meaning.
 #[rustfmt::skip]
@@ -127,7 +123,7 @@ pub const KEYS: &[CaseKey] = &[
 
     key("damping.mass_coefficient", Number(NotNegative), "1/s", Value("0.0"), "40.0", "Rayleigh's alpha"),
     key("damping.stiffness_coefficient", Number(NotNegative), "s", Value("0.0"), "4.5e-7", "Rayleigh's beta"),
-    key("damping.include_contact", Flag, "", Value("true"), "true", "whether beta acts on contact and friction terms as well as on the body").used_by(COMPLIANT, "beta acts on the body alone"),
+    key("damping.include_contact", Flag, "", Value("true"), "true", "whether beta acts on contact and friction terms as well as on the body").of_waves("beta acts on the body alone"),
 
     key("contact.friction_coefficient", Number(NotNegative), "", Required, "0.3", "Coulomb's friction coefficient"),
     key("contact.static_friction_ratio", Number(AtLeast(1.0)), "", Value("1.0"), "1.4", "static friction over kinetic: mu(v) = friction_coefficient (1 + (ratio - 1) exp(-|v| / decay_speed))"),
@@ -144,15 +140,15 @@ pub const KEYS: &[CaseKey] = &[
     key("contact.radius", Number(Positive), "m", Otherwise("that of the contact curve"), "0.0205", "the radius of the cylinder or sphere where the contact curve or surface is not round"),
     key("contact.direction", Numbers(Finite), "", Otherwise("[1, 0]"), "[1.0, 0.0]", "the direction in which a plane slides, with the body on its left; of solid elements [x, y, z]"),
     key("contact.speed", Number(Finite), "m/s", Otherwise("needed by counterface = \"plane\""), "1.5", "the speed of a plane, or of another body along a straight contact curve"),
-    key("contact.normal_stiffness", NumberOr(Positive, "rigid"), "Pa/m", Otherwise("rigid"), "7.4e12", "the normal stiffness of the contact (left out or \"rigid\" = rigid)").used_by(COMPLIANT, "its contact is rigid"),
-    key("contact.normal_law", Choice(words::<NormalLawWord>), "", Value("\"linear\""), "\"exponential\"", "pressure over the approach g of the body and its counterface, as of contacts: such a law carries the base state too").used_by(COMPLIANT, "its contact is rigid"),
-    key("contact.cubic_stiffness", Number(Positive), "Pa/m3", Otherwise("needed by normal_law = \"cubic\""), "1e25", "the coefficient c of that law; k is normal_stiffness").used_by(COMPLIANT, "its contact is rigid"),
-    key("contact.reference_pressure", Number(Positive), "Pa", Otherwise("needed by normal_law = \"exponential\""), "1e5", "the pressure p_r of that law").used_by(COMPLIANT, "its contact is rigid"),
-    key("contact.height", Number(Positive), "m", Otherwise("needed by normal_law = \"exponential\""), "1e-6", "the height h of that law, of the roughness").used_by(COMPLIANT, "its contact is rigid"),
-    key("contact.base_state", Choice(words::<BaseContact>), "", Value("\"rigid\""), "\"rigid\"", "whether normal_stiffness carries the base state of a three-dimensional body too").used_by(COMPLIANT, "its contact is rigid"),
+    key("contact.normal_stiffness", NumberOr(Positive, "rigid"), "Pa/m", Otherwise("rigid"), "7.4e12", "the normal stiffness of the contact (left out or \"rigid\" = rigid)").of_waves("its contact is rigid"),
+    key("contact.normal_law", Choice(words::<NormalLawWord>), "", Value("\"linear\""), "\"exponential\"", "pressure over the approach g of the body and its counterface, as of contacts: such a law carries the base state too"),
+    key("contact.cubic_stiffness", Number(Positive), "Pa/m3", Otherwise("needed by normal_law = \"cubic\""), "1e25", "the coefficient c of that law; k is normal_stiffness"),
+    key("contact.reference_pressure", Number(Positive), "Pa", Otherwise("needed by normal_law = \"exponential\""), "1e5", "the pressure p_r of that law"),
+    key("contact.height", Number(Positive), "m", Otherwise("needed by normal_law = \"exponential\""), "1e-6", "the height h of that law, of the roughness"),
+    key("contact.base_state", Choice(words::<BaseContact>), "", Value("\"rigid\""), "\"rigid\"", "whether normal_stiffness carries the base state of a three-dimensional body too"),
     key("contact.loss_factor", Number(NotNegative), "", Value("0.0"), "0.05", "the structural damping eta of the normal stiffness: k (1 + i eta) in `cea` and `frf`, which friction follows"),
-    key("contact.normal_damping", Number(NotNegative), "Pa s/m", Value("0.0"), "0.0", "a normal dashpot on the contact").used_by(COMPLIANT, "its contact is rigid"),
-    key("contact.tangential_damping", Number(NotNegative), "Pa s/m", Value("0.0"), "0.0", "a tangential dashpot on the contact").used_by(COMPLIANT, "Coulomb's law alone acts along its contact"),
+    key("contact.normal_damping", Number(NotNegative), "Pa s/m", Value("0.0"), "0.0", "a normal dashpot on the contact").of_waves("its contact is rigid"),
+    key("contact.tangential_damping", Number(NotNegative), "Pa s/m", Value("0.0"), "0.0", "a tangential dashpot on the contact").of_waves("Coulomb's law alone acts along its contact"),
 
     key("motion.*.axis", Numbers(Finite), "", Required, "[0.0, 0.0, 1.0]", "the axis about which the region of that name turns, counter-clockwise seen against it"),
     key("motion.*.center", Numbers(Finite), "m", Otherwise("[0, 0, 0]"), "[0.0, 0.0, 0.0]", "a point of that axis"),

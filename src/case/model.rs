@@ -103,9 +103,9 @@ fn unmodified(
     if is_solid {
         mesh.reject(
             "file",
-            "mesh.file describes a plane body; three-dimensional bodies are generated",
-            "material.formulation is \"three-dimensional\"",
-            "give radii and element counts, or a plane formulation",
+            "mesh.file holds plane elements, and material.formulation is \"three-dimensional\"",
+            "triangles and quadrilaterals in the plane",
+            "give a plane formulation, a file with solid elements, or the radii of a body that is generated",
         );
     }
     let plane = Surroundings::Plane {

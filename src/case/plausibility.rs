@@ -383,23 +383,16 @@ fn overdamping(case: &Case) -> Option<Diagnostic> {
 impl Case {
     /// Keys that the case gives and that an analysis of a command does not use, each with the reason.
     pub fn ignored_by(&self, command: &str) -> Vec<Diagnostic> {
-        let has = [
-            ("transient", self.transient.is_some()),
-            ("cycle", self.cycle.is_some()),
-            ("basin", self.basin.is_some()),
-        ];
+        let has = [("cycle", self.cycle.is_some()), ("basin", self.basin.is_some())];
         let analyses = has.into_iter().filter(|(analysis, is_here)| {
             *analysis == command || (*is_here && ["sweep", "convergence"].contains(&command))
         });
-        let ignored = analyses.flat_map(|(analysis, _)| {
-            KEYS.iter()
-                .filter(move |key| !key.used_by.is_empty() && !key.used_by.contains(&analysis))
-                .filter(move |_| analysis == "transient" || self.has_rotating_waves())
-                .filter(|key| self.departs_from_default(key))
-                .map(move |key| (analysis, key))
+        let ignored = analyses.filter(|_| self.has_rotating_waves()).flat_map(|(analysis, _)| {
+            let keys = KEYS.iter().filter(|key| !key.of_waves.is_empty());
+            keys.filter(|key| self.departs_from_default(key)).map(move |key| (analysis, key))
         });
         let say = |(analysis, key): (&str, &CaseKey)| {
-            let message = format!("{} is not used by {analysis}: {}", key.name, key.otherwise);
+            let message = format!("{} is not used by {analysis}: {}", key.name, key.of_waves);
             Diagnostic::error(message, "not used", self.raw.place(key.name), None)
         };
         let mut said: Vec<Diagnostic> = ignored.map(say).collect();

@@ -98,7 +98,7 @@ pub fn object(key: &CaseKey) -> Value {
         "required": key.default == Default::Required,
         "example": key.example,
         "meaning": key.meaning,
-        "used_by": key.used_by,
+        "of_rotating_waves": Some(key.of_waves).filter(|words| !words.is_empty()),
         "since": key.since,
     })
 }

@@ -77,6 +77,11 @@ impl ModeWave {
 }
 
 impl ComplexMode {
+    /// Its number of nodal diameters in tables: of a body that `has_harmonics`, or that was made of one sector.
+    pub fn diameters(&self, has_harmonics: bool) -> Option<usize> {
+        has_harmonics.then_some(self.harmonic).or(self.nodal_diameters)
+    }
+
     /// `Re(lambda) / 2 pi`, Hz.
     pub fn real_hz(&self) -> f64 {
         self.eigenvalue.re / TAU
@@ -149,6 +154,13 @@ pub struct UnstableInterval {
     pub restabilized: Option<(f64, f64)>,
     /// Whether the branch is already unstable at the lower end of the range.
     pub unstable_from_start: bool,
+}
+
+impl UnstableInterval {
+    /// As [`ComplexMode::diameters`].
+    pub fn diameters(&self, has_harmonics: bool) -> Option<usize> {
+        has_harmonics.then_some(self.harmonic).or(self.nodal_diameters)
+    }
 }
 
 /// A sweep over the friction coefficient.

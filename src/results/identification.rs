@@ -73,7 +73,7 @@ fn write_modes(
         let numbers = [f, f_low, f_high, zeta, low, high, half, band[0], band[1]];
         let mut cells = vec![(k + 1).to_string()];
         cells.extend(numbers.iter().map(|v| format_number(*v)));
-        cells.push(u8::from(mode.used).to_string());
+        cells.push(mode.used.to_string());
         cells.push(mode.flag.clone().unwrap_or_default());
         table.row(cells)?;
     }

@@ -85,9 +85,9 @@ const QUANTITIES: &[Quantity<'static>] = &[
     // Transients and limit cycles.
     quantity_of("steps", "steps", "", Count),
     quantity_of("time_step_s", "time step", "s", Scientific(4)),
-    quantity_of("main_frequency_hz", "main frequency", "Hz", Fixed(1)),
+    quantity_of("main_frequency_hz", "main frequency", "Hz", Fixed(2)),
     quantity_of("main_harmonic", "nodal diameters", "", Count),
-    quantity_of("second_frequency_hz", "second frequency", "Hz", Fixed(1)),
+    quantity_of("second_frequency_hz", "second frequency", "Hz", Fixed(2)),
     quantity_of("envelope_ratio", "largest over smallest envelope", "", Fixed(2)),
     quantity_of("rate_per_s", "growth rate", "1/s", Fixed(1)),
     quantity_of("first_nonlinearity_s", "first node that sticks or opens", "s", Fixed(6)),

@@ -143,6 +143,8 @@ pub struct Crossing {
     pub harmonic: Option<usize>,
     /// Friction coefficient.
     pub critical_friction: Option<f64>,
+    /// Whether it is unstable at the lowest friction already.
+    pub unstable_from_start: bool,
 }
 
 /// Amplitude ratios between which the winner of two waves changes.

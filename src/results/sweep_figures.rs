@@ -49,7 +49,7 @@ pub fn draw_sweep(
     ];
     let mut figures = draw_all(declarations, options)?;
     let mut families = cycle_families(records);
-    families.sort_by_key(|(_, family)| family.family());
+    families.sort_by_key(|(_, family)| (family.mode, family.family()));
     let families: Vec<NamedFamily<'_>> = families.iter().map(|(l, f)| (l.clone(), f)).collect();
     figures.extend(draw_branches(&families, &[], options)?);
     Ok(figures)

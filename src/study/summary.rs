@@ -9,6 +9,7 @@ use crate::cea::Unwatched;
 use crate::fem::operator::SimdLevel;
 use crate::results::cycle::{CycleReport, CycleSummary};
 use crate::results::cycle_figures::FamilyRecord;
+use crate::results::periodic::PeriodicSummary;
 use crate::results::transient::TransientReport;
 use crate::results::{self, Manifest, object};
 use serde_json::Value;
@@ -61,14 +62,23 @@ fn transient(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
     Ok(object(&results::transient::summary(&report, manifest))?)
 }
 
-/// The limit cycles of a body without symmetry.
+/// The limit cycles of a body without symmetry, with their branches as `curves`.
 fn periodic(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
     let start = Instant::now();
     let study = PeriodicStudy::new(case, SimdLevel::choose(&manifest.simd)?)?;
     let results = study.run(0, &Unwatched, &|_| {})?;
+    let branches = results.iter().filter_map(|result| {
+        let branch = result.own()?.branch.as_ref()?;
+        Some(FamilyRecord::of_mode(result.mode.number, branch))
+    });
+    let curves: Vec<FamilyRecord> = branches.collect();
     let report = study.report(results, start.elapsed().as_secs_f64());
     PeriodicStudy::refuse_nothing(&report)?;
-    Ok(object(&results::periodic::summary(&report, manifest))?)
+    let summary = PeriodicSummary {
+        curves: Some(serde_json::to_value(curves)?),
+        ..results::periodic::summary(&report, manifest)
+    };
+    Ok(object(&summary)?)
 }
 
 /// With the branches as `curves`, of which the command itself writes tables; `judge` may refuse what was found.

@@ -499,7 +499,7 @@ fn a_run_that_was_interrupted_while_it_replaces_others_goes_on_where_it_was() {
     begun.write("checkpoint.bin", |out| out.write_all(b"state")).unwrap();
     begun.suspend().unwrap();
     assert_eq!(fs::read(at("table.csv")).unwrap(), b"old");
-    assert!(OutputFolder::is_begun(folder.path(), &manifest("transient")));
+    assert!(OutputFolder::begun(folder.path(), &manifest("transient")).is_some());
     // Killed before its end once more.
     drop(open("transient", Replace::SameCase).unwrap());
 

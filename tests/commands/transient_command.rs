@@ -1,5 +1,6 @@
 //! `frictionsim transient` as a user meets it: files, checkpoints, exit codes, and the shipped cases on coarse meshes.
 
+use crate::bricks::{Block, file_of};
 use assert_cmd::Command;
 use predicates::str::contains;
 use serde_json::Value;
@@ -8,6 +9,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
+
+const BRICK: Block =
+    Block { name: "brick", origin: [0.0; 3], size: [0.01; 3], counts: [2, 1, 1] };
 
 fn case(name: &str) -> String {
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
@@ -373,6 +377,42 @@ fn a_finished_run_is_extended_bit_for_bit() {
         .assert()
         .code(2)
         .stderr(contains("transient.perturbation.noise is 0.001 here, not given there"));
+}
+
+/// A mesh file that has changed since is another body: what is there stays as it is, and a plain rerun needs --force.
+#[test]
+fn a_refused_continuation_leaves_the_finished_folder_as_it_was() {
+    let folder = folder();
+    let mesh = String::from_utf8(file_of(&[BRICK], |point| point)).unwrap();
+    let (path, case) = (folder.path().join("body.msh"), folder.path().join("case.toml"));
+    fs::write(&path, &mesh).unwrap();
+    fs::write(
+        &case,
+        "[mesh]\nfile = \"body.msh\"\n[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n\
+         [boundaries.brick_z1]\ncondition = \"clamped\"\n[contact]\nboundary = \"brick_z0\"\ncounterface = \"plane\"\n\
+         direction = [1.0, 0.0, 0.0]\nspeed = 1.0\nfriction_coefficient = 0.3\ninterference = 1e-5\n\
+         normal_stiffness = 1e12\n[transient]\nduration = 4e-5\nexpansion_time = 1e-5\n",
+    )
+    .unwrap();
+    let out = folder.path().join("out");
+    let run = |further: &[&str]| {
+        let mut all = vec!["transient", case.to_str().unwrap(), "--no-figures", "-qq", "--out"];
+        all.push(out.to_str().unwrap());
+        all.extend(further);
+        frictionsim(&all.into_iter().map(str::to_owned).collect::<Vec<_>>()).assert()
+    };
+    run(&[]).code(0);
+    let known = ["manifest.json", "mesh.msh", "summary.json", "checkpoint.bin"];
+    let bytes = || known.map(|name| fs::read(out.join(name)).unwrap());
+    let before = bytes();
+    let moved = Block { size: [0.011, 0.01, 0.01], ..BRICK };
+    fs::write(&path, file_of(&[moved], |point| point)).unwrap();
+    run(&["--resume"]).code(2);
+    assert!(bytes() == before, "the folder has changed");
+    run(&[]).code(2).stderr(contains("--force"));
+    assert!(bytes() == before);
+    run(&["--force"]).code(0);
+    assert!(bytes() != before);
 }
 
 #[test]

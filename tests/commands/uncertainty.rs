@@ -4,6 +4,9 @@
 //! threads, the shards and the interruptions.
 
 use assert_cmd::Command;
+use frictionsim::case::Case;
+use frictionsim::study::eigenvalues::modes_and_onsets;
+use frictionsim::study::uncertainty::Sampler;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -159,4 +162,38 @@ fn distributions_that_reach_forbidden_values_are_refused_or_said() {
     let (code, said) = of(&format!("{key}={{ normal = [0.44, 0.02] }}"));
     assert_eq!(code, 0, "{said}");
     assert!(said.contains("drawn from the rest"), "{said}");
+}
+
+/// The block of the shipped case slides with a friction far above its onset: samples have the onset that `cea` finds, and where the
+/// lowest friction of an analysis is unstable already, a sweep says that it is no critical one.
+#[test]
+fn samples_of_solid_bodies_beyond_their_onset_have_the_onset_of_an_analysis() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/tread-block.toml");
+    let text = std::fs::read(&path).unwrap();
+    let uncertain = [
+        "cea.friction_coefficients=[0.0, 0.4, 0.5, 0.6]",
+        "cea.modes=3",
+        "uncertainty={ samples = 1, seed = 1, index_samples = 0 }",
+        "uncertainty.distributions={ \"material.density\" = { uniform = [1149.9999999, 1150.0000001] } }",
+    ];
+    let case = Case::parse(path.to_str().unwrap(), &text, &uncertain.map(str::to_owned)).unwrap();
+    let known = modes_and_onsets(&case).unwrap().intervals;
+    let known = known.iter().map(|own| own.critical_friction).fold(f64::INFINITY, f64::min);
+    assert!((known - 0.4511).abs() < 1e-4, "{known}");
+    let samples = Sampler::new(&case).unwrap().block(1);
+    let onset = samples[0].lowest(0.6).unwrap();
+    assert!((onset.critical_friction - known).abs() < 1e-6, "{onset:?} {known}");
+    assert!(!onset.unstable_from_start && samples[0].is_unstable(0.6));
+
+    let out = tempfile::tempdir().unwrap();
+    let mut sweep = Command::cargo_bin("frictionsim").unwrap();
+    sweep.arg("sweep").arg(&path).args(["--no-figures", "-q", "--out"]).arg(out.path().join("sweep"));
+    for set in [
+        "cea.friction_coefficients=[0.6]",
+        "cea.modes=1",
+        "sweep={ \"material.density\" = [1150.0], analyses = [\"cea\"] }",
+    ] {
+        sweep.args(["--set", set]);
+    }
+    sweep.assert().success().stdout(predicates::str::contains("<=0.600000"));
 }

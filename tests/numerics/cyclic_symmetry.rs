@@ -3,8 +3,10 @@
 use crate::bricks::{Block, file_of};
 use frictionsim::case::{Case, CaseErrors};
 use frictionsim::cea::{ComplexMode, Unwatched};
-use frictionsim::results::cea::Reading;
-use frictionsim::study::eigenvalues::{SlidingModel, Solution, solve};
+use frictionsim::results::Manifest;
+use frictionsim::results::cea::{self, Reading};
+use frictionsim::study::eigenvalues::{self, SlidingModel, Solution, solve};
+use frictionsim::study::uncertainty::Sampler;
 use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::fs;
@@ -274,4 +276,46 @@ fn a_wrong_number_of_solid_sectors_is_reported_where_it_is_given() {
     let wrong = wrong.to_string();
     assert!(wrong.contains("case.toml:3"), "{wrong}");
     assert!(wrong.contains("the sector does not fit"), "{wrong}");
+}
+
+/// A body of sectors says its nodal diameters in every table, and its samples have the onset of the analysis although the case's own
+/// friction lies above it.
+#[test]
+fn every_table_of_a_body_of_sectors_has_its_nodal_diameters_and_samples_have_its_onsets() {
+    let more = "[cea]\nmodes = 8\nfriction_coefficients = [0.0, 0.2, 0.4]\n[uncertainty]\nsamples = 2\nindex_samples = 0\n\
+        [uncertainty.distributions]\n\"material.density\" = { uniform = [1227.999999, 1228.000001] }\n";
+    let mesh = disc_sector(4, [8, 5], 0.0);
+    let case = read("tables", mesh.as_bytes(), &screwed_disc(4, more), "auto");
+    let case = case.unwrap_or_else(|e| panic!("{e}"));
+    let cea = case.cea.clone().unwrap();
+    let model = SlidingModel::new(&case, &cea).unwrap();
+    let solution = solve(&case, &cea, &model, &Unwatched).unwrap();
+    let field = model.base_field(&case);
+    let report = eigenvalues::report(&case, &cea, &model, &solution, &field, 0.0);
+    let manifest = Manifest::new("cea");
+    let told = cea::summary(&report, &manifest);
+    let own = |modes: &[ComplexMode]| modes.iter().map(|m| m.nodal_diameters).collect::<Vec<_>>();
+    let listed = told.modes_at_friction.unwrap();
+    let listed: Vec<_> = listed.iter().map(|mode| mode.harmonic).collect();
+    assert_eq!(listed, own(&solution.sweep.points[2].modes));
+    assert!(listed.iter().all(Option::is_some));
+    let onsets: Vec<_> = told.critical_frictions.iter().map(|onset| onset.harmonic).collect();
+    let intervals = &solution.sweep.intervals;
+    assert_eq!(onsets, intervals.iter().map(|own| own.nodal_diameters).collect::<Vec<_>>());
+    assert!(!onsets.is_empty() && told.unstable_modes.iter().all(|mode| mode.harmonic.is_some()));
+    let reading = solution.reading.as_ref().unwrap();
+    assert!(reading.contributions.iter().all(|row| row.mode.harmonic.is_some()));
+    // The page says what the terminal says.
+    let page = cea::html_report(&report, Vec::new(), &manifest).to_html();
+    assert_eq!(page.matches(">harmonic n</th>").count(), 2, "{page}");
+    // Samples.
+    let lowest = intervals.iter().map(|own| (own.critical_friction, own.nodal_diameters));
+    let (critical, diameters) = lowest.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+    assert!(critical < 0.4);
+    for sample in Sampler::new(&case).unwrap().block(1) {
+        let onset = sample.lowest(0.4).unwrap();
+        assert!((onset.critical_friction / critical - 1.0).abs() < 1e-6, "{onset:?} {critical}");
+        assert_eq!((onset.harmonic, onset.unstable_from_start), (diameters, false));
+        assert!(sample.is_unstable(0.4));
+    }
 }

@@ -4,6 +4,7 @@ use crate::app::{Failure, Session};
 use crate::case::RawCase;
 use crate::results::transient::{Checkpoint, CheckpointError, read_checkpoint};
 use crate::results::{OutputFolder, Replace, read_manifest};
+use std::path::{Path, PathBuf};
 
 /// Keys that may differ when a run goes on: what they say concerns its end alone.
 const FREE: [&str; 2] = ["transient.duration", "transient.stop_when_settled"];
@@ -13,19 +14,36 @@ pub fn run_hash(session: &Session) -> String {
     session.case.raw.without(&FREE).hash()
 }
 
-/// Takes the folder of a run that goes on; its case may have another end.
+/// Where the files of the run lie that is to go on.
+pub fn place(session: &Session) -> PathBuf {
+    let (path, _) = session.options.output.destination(&session.manifest, true);
+    OutputFolder::begun(&path, &session.manifest).unwrap_or(path)
+}
+
+/// Takes the folder of a run that goes on from its checkpoint, or starts over where `goes_on` is false.
 ///
 /// # Errors
-/// A folder of another run, with the key that differs; those of the folder.
-pub fn reopen(session: &Session) -> Result<OutputFolder, Failure> {
+/// Those of the folder.
+pub fn reopen(session: &Session, goes_on: bool) -> Result<OutputFolder, Failure> {
     let ours = &session.manifest;
     let (path, _) = session.options.output.destination(ours, true);
-    if OutputFolder::is_begun(&path, ours) {
+    let is_extended = goes_on && place(session) == path;
+    let found = read_manifest(&path).ok().filter(|found| found.case_hash != ours.case_hash);
+    if found.is_none() || !is_extended {
         return session.reopen_folder();
     }
-    let found = match read_manifest(&path) {
+    if session.options.output.dry_run {
+        return Err(session.options.output.dry_run_at(&path, ours));
+    }
+    session.keep_mesh(OutputFolder::open(&path, ours, Replace::Continued)?)
+}
+
+/// Refuses to go on with a run whose case differs in more than its end.
+fn refuse_other_case(session: &Session, path: &Path) -> Result<(), Failure> {
+    let ours = &session.manifest;
+    let found = match read_manifest(path) {
         Ok(found) if found.command == ours.command && found.case_hash != ours.case_hash => found,
-        _ => return session.reopen_folder(),
+        _ => return Ok(()),
     };
     let theirs = RawCase::parse(&found.case_file, found.case_text.as_bytes(), &found.overrides)?;
     let here = session.case.raw.without(&FREE);
@@ -36,18 +54,17 @@ pub fn reopen(session: &Session) -> Result<OutputFolder, Failure> {
             path.display()
         )));
     }
-    if session.options.output.dry_run {
-        return Err(session.options.output.dry_run_at(&path, ours));
-    }
-    session.keep_mesh(OutputFolder::open(&path, ours, Replace::Continued)?)
+    Ok(())
 }
 
-/// The checkpoint of a folder, if there is one.
+/// The checkpoint to go on from, if there is one; nothing is written.
 ///
 /// # Errors
-/// [`CheckpointError`] for one that cannot be used.
-pub fn find(session: &Session, folder: &OutputFolder) -> Result<Option<Checkpoint>, Failure> {
-    match read_checkpoint(folder.path(), &run_hash(session), &session.manifest.simd) {
+/// A folder of another run, with the key that differs; [`CheckpointError`] for a checkpoint that cannot be used.
+pub fn find(session: &Session) -> Result<Option<Checkpoint>, Failure> {
+    let path = place(session);
+    refuse_other_case(session, &path)?;
+    match read_checkpoint(&path, &run_hash(session), &session.manifest.simd) {
         Ok(checkpoint) => Ok(Some(checkpoint)),
         Err(CheckpointError::Missing { path }) => {
             tracing::warn!("{} does not exist: starting from the beginning", path.display());

@@ -119,15 +119,15 @@ impl PeriodicBranch {
         pairs.collect()
     }
 
-    /// Amplitude (m) of the smallest of several cycles at the kept value, where stable sliding lies inside it: what a kick must
-    /// exceed to tip sliding into the largest.
-    pub fn threshold(&self) -> Option<f64> {
+    /// The smallest of several cycles at the kept value, where stable sliding lies inside it: what a kick must exceed to tip sliding
+    /// into the largest.
+    pub fn threshold(&self) -> Option<&PeriodicMotion> {
         let mut both = self.coexistence().into_iter();
         both.find(|[from, to]| (*from..=*to).contains(&self.own))?;
         let here = self.motions.iter().filter(|own| own.value == self.own);
-        let mut amplitudes: Vec<f64> = here.map(|own| own.motion.amplitude).collect();
-        amplitudes.sort_by(f64::total_cmp);
-        amplitudes.first().copied().filter(|_| amplitudes.len() > 1)
+        let mut motions: Vec<&PeriodicMotion> = here.map(|own| &own.motion).collect();
+        motions.sort_by(|a, b| a.amplitude.total_cmp(&b.amplitude));
+        motions.first().copied().filter(|_| motions.len() > 1)
     }
 
     /// Values at which it turns back, SI, in its order.

@@ -117,6 +117,11 @@ pub struct PeriodicMotion {
 }
 
 impl PeriodicMotion {
+    /// `2 pi f` times the amplitude: the velocity of a kick along the counterface that reaches it, m/s.
+    pub fn kick_velocity(&self) -> f64 {
+        std::f64::consts::TAU * self.frequency_hz * self.amplitude
+    }
+
     /// Steps once more through a period that was found, from where the contact node that moves most is farthest ahead.
     pub fn of(map: &mut PeriodMap<'_>, found: &Found, request: MotionRequest) -> Self {
         let (mut motion, first) = Self::brief(map, found);

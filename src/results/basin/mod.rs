@@ -216,7 +216,7 @@ pub fn write_basin(folder: &OutputFolder, summary: &BasinSummary) -> Result<(), 
         ("seed_ratio", &|run| run.seed_ratio.into()),
         ("saturation_ratio", &|run| run.saturation_ratio.into()),
         ("winner", &|run| run.winner.into()),
-        ("is_settled", &|run| u8::from(run.is_settled).into()),
+        ("is_settled", &|run| run.is_settled.into()),
         ("duration_s", &|run| run.duration_s.into()),
     ];
     folder.write("basin.csv", |out| write_rows(out, columns, &summary.runs))?;

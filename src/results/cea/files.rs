@@ -54,11 +54,6 @@ pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, Fol
 /// # Errors
 /// Those of the writer.
 pub fn write_eigenvalues(out: &mut dyn Write, report: &CeaReport<'_>) -> io::Result<()> {
-    // A body without symmetry has modes without a harmonic.
-    let harmonic = |mode: &ComplexMode| match report.has_harmonics {
-        true => Some(mode.harmonic),
-        false => mode.nodal_diameters,
-    };
     let direction = |mode: &ComplexMode| report.has_harmonics.then_some(mode.direction);
     let mesh_error = |friction: f64, mode: usize| {
         let reading = report.reading.as_ref()?;
@@ -71,7 +66,7 @@ pub fn write_eigenvalues(out: &mut dyn Write, report: &CeaReport<'_>) -> io::Res
         ("frequency_hz", &|row| row.2.frequency_hz().into()),
         ("damping_factor", &|row| row.2.damping_factor().into()),
         ("growth_rate_per_s", &|row| row.2.growth_rate().into()),
-        ("harmonic", &|row| harmonic(row.2).into()),
+        ("harmonic", &|row| row.2.diameters(report.has_harmonics).into()),
         ("branch", &|row| row.2.branch.into()),
         ("direction", &|row| direction(row.2).into()),
         ("unstable", &|row| row.2.is_unstable().into()),
@@ -101,10 +96,7 @@ pub fn write_stability(
     has_harmonics: bool,
 ) -> io::Result<()> {
     let columns: &[Column<'_, (&UnstableInterval, Option<f64>)>] = &[
-        ("harmonic", &|i| {
-            let own = has_harmonics.then_some(i.0.harmonic);
-            own.or(i.0.nodal_diameters).into()
-        }),
+        ("harmonic", &|i| i.0.diameters(has_harmonics).into()),
         ("branch", &|i| i.0.branch.into()),
         ("direction", &|i| has_harmonics.then_some(i.0.direction).into()),
         ("critical_friction", &|i| i.0.critical_friction.into()),

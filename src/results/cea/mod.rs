@@ -122,6 +122,12 @@ impl CeaReport<'_> {
         }
     }
 
+    /// Whether its modes, of a body made of one sector, are waves with numbers of nodal diameters.
+    fn is_by_diameters(&self) -> bool {
+        let mut modes = self.sweep.points.iter().flat_map(|point| &point.modes);
+        modes.any(|mode| mode.nodal_diameters.is_some())
+    }
+
     /// The friction values of the tables.
     pub fn tabulated(&self) -> impl Iterator<Item = &FrictionPoint> {
         self.sweep

@@ -277,7 +277,9 @@ fn budget_panel(name: String, rows: &[&Contribution], frictions: &[f64]) -> Pane
 
 /// The branch of a mode.
 fn branch_of_mode(mode: &ModeName) -> Branch {
-    (mode.harmonic.unwrap_or(0), mode.branch, mode.direction.unwrap_or(0))
+    // Waves around a body made of one sector are numbered together.
+    let harmonic = mode.harmonic.filter(|_| mode.direction.is_some());
+    (harmonic.unwrap_or(0), mode.branch, mode.direction.unwrap_or(0))
 }
 
 impl Reading {

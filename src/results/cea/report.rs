@@ -95,7 +95,7 @@ fn results(report: &CeaReport<'_>) -> Vec<(String, String)> {
     };
     let mut rows = vec![("lowest critical friction".to_owned(), onset)];
     rows.extend(lowest.map(|interval| {
-        let frequency = fixed(interval.frequency_hz, 1);
+        let frequency = fixed(interval.frequency_hz, 2);
         ("its frequency".to_owned(), format!("{frequency} Hz"))
     }));
     let own = report.base.friction_coefficient;
@@ -109,7 +109,7 @@ fn results(report: &CeaReport<'_>) -> Vec<(String, String)> {
             let text = format!(
                 "{} 1/s at {} Hz",
                 fixed(TAU * mode.real_hz(), 1),
-                fixed(mode.frequency_hz(), 1)
+                fixed(mode.frequency_hz(), 2)
             );
             ("fastest growth there".to_owned(), text)
         }));
@@ -122,8 +122,14 @@ fn results(report: &CeaReport<'_>) -> Vec<(String, String)> {
     rows
 }
 
+/// A count in a table; nothing where there is none.
+fn cell(count: Option<usize>) -> String {
+    count.map_or(String::new(), |count| count.to_string())
+}
+
 fn critical_table(report: &CeaReport<'_>) -> ReportTable {
     let numbers = report.mode_numbers();
+    let has_diameters = report.is_by_diameters();
     let rows = report.sweep.intervals.iter().map(|interval| {
         let branch = branch_of(interval);
         let mut row = match report.has_harmonics {
@@ -132,17 +138,19 @@ fn critical_table(report: &CeaReport<'_>) -> ReportTable {
                 branch.1.to_string(),
                 direction_name(branch.2).to_owned(),
             ],
-            false => vec![
-                numbers.get(&branch).map_or(String::new(), usize::to_string),
-                branch.1.to_string(),
-            ],
+            false => {
+                let number = numbers.get(&branch).map_or(String::new(), usize::to_string);
+                let diameters = has_diameters.then(|| cell(interval.nodal_diameters));
+                let both = std::iter::once(number).chain(diameters);
+                both.chain([branch.1.to_string()]).collect()
+            }
         };
         row.push(if interval.unstable_from_start {
             format!("below {}", interval.critical_friction)
         } else {
             format!("{:.5}", interval.critical_friction)
         });
-        row.push(format!("{:.1}", interval.frequency_hz));
+        row.push(format!("{:.2}", interval.frequency_hz));
         let again = interval.restabilized;
         row.push(again.map_or(String::new(), |(friction, _)| format!("{friction:.5}")));
         row
@@ -150,7 +158,11 @@ fn critical_table(report: &CeaReport<'_>) -> ReportTable {
     let own = report.base.friction_coefficient;
     let names: Vec<String> = match report.has_harmonics {
         true => ["harmonic n", "branch", "travels"].map(String::from).to_vec(),
-        false => vec![format!("mode at friction {own}"), "branch".to_owned()],
+        false => {
+            let number = Some(format!("mode at friction {own}"));
+            let diameters = has_diameters.then(|| "harmonic n".to_owned());
+            number.into_iter().chain(diameters).chain(["branch".to_owned()]).collect()
+        }
     };
     let values = ["critical friction", "frequency (Hz)", "stable again at"];
     ReportTable::new(
@@ -172,6 +184,7 @@ fn eigenvalue_tables(report: &CeaReport<'_>) -> Vec<ReportTable> {
 }
 
 fn eigenvalue_table(report: &CeaReport<'_>, point: &FrictionPoint) -> ReportTable {
+    let is_by_diameters = report.has_harmonics || report.is_by_diameters();
     let rows = point.modes.iter().enumerate().map(|(index, mode)| {
         let mut row = vec![
             (index + 1).to_string(),
@@ -179,8 +192,8 @@ fn eigenvalue_table(report: &CeaReport<'_>, point: &FrictionPoint) -> ReportTabl
             format!("{:.2}", mode.frequency_hz()),
             format!("{:.5}", mode.damping_factor()),
         ];
-        if report.has_harmonics {
-            row.push(mode.harmonic.to_string());
+        if is_by_diameters {
+            row.push(cell(mode.diameters(report.has_harmonics)));
         }
         row.push(mode.branch.to_string());
         if report.has_harmonics {
@@ -190,10 +203,10 @@ fn eigenvalue_table(report: &CeaReport<'_>, point: &FrictionPoint) -> ReportTabl
         row
     });
     let mut columns = vec!["mode", "Re λ / 2π (Hz)", "Im λ / 2π (Hz)", "damping factor"];
-    columns.extend(match report.has_harmonics {
-        true => &["harmonic n", "branch", "travels", "stability"][..],
-        false => &["branch", "stability"][..],
-    });
+    columns.extend(is_by_diameters.then_some("harmonic n"));
+    columns.push("branch");
+    columns.extend(report.has_harmonics.then_some("travels"));
+    columns.push("stability");
     ReportTable::new(
         format!("Eigenvalues at friction coefficient {}", point.friction_coefficient),
         columns,

@@ -1,7 +1,6 @@
 //! `sensitivities.csv`: which parameter decides whether a mode grows.
 
 use super::direction_name;
-use crate::cea::cyclic::Sensitivity;
 use crate::linalg::c64;
 use crate::results::report::ReportTable;
 use crate::results::table::{Table, format_number};
@@ -18,8 +17,6 @@ pub struct SensitivityReport {
     pub values: Vec<f64>,
     /// One for each branch.
     pub rows: Vec<SensitivityRow>,
-    /// Whether modes have a circumferential harmonic and a direction.
-    pub has_harmonics: bool,
     /// Whether rows say how critical friction coefficients move.
     pub has_onsets: bool,
 }
@@ -29,12 +26,12 @@ pub struct SensitivityReport {
 pub struct SensitivityRow {
     /// Where the derivatives are taken.
     pub friction_coefficient: f64,
-    /// Circumferential harmonic, where modes have one.
-    pub harmonic: usize,
+    /// Nodal diameters, where modes have them.
+    pub harmonic: Option<usize>,
     /// Branch.
     pub branch: usize,
-    /// Direction of travel.
-    pub direction: i8,
+    /// Direction of travel, of a body that has harmonics.
+    pub direction: Option<i8>,
     /// Eigenvalue, rad/s.
     pub eigenvalue: c64,
     /// `d lambda / d parameter`, in the order of the parameters; `None` of one that the branch does not have.
@@ -52,88 +49,7 @@ pub struct OnsetRates {
     pub derivatives: Vec<Option<f64>>,
 }
 
-/// Short names of the parameters, the friction coefficient first.
-const NAMES: [&str; 17] = [
-    "friction_coefficient",
-    "normal_stiffness",
-    "mass_coefficient",
-    "stiffness_coefficient",
-    "young_modulus",
-    "poisson_ratio",
-    "density",
-    "static_friction_ratio",
-    "decay_speed",
-    "shaft_young_modulus",
-    "shaft_poisson_ratio",
-    "shaft_density",
-    "shaft_mass_coefficient",
-    "shaft_stiffness_coefficient",
-    "cubic_stiffness",
-    "reference_pressure",
-    "height",
-];
-
-/// Of those, the columns that every table has.
-const ALWAYS: usize = 7;
-
-/// Derivatives in the order of [`NAMES`]; none with respect to a contact stiffness that is rigid, to how constant
-/// friction falls, or to a shaft that is not there.
-fn derivatives(branch: &Sensitivity) -> [Option<c64>; 17] {
-    let [modulus, ratio, density, mass, stiffness] = branch.shaft;
-    let [cubic, pressure, height] = branch.normal_law;
-    [
-        Some(branch.friction),
-        branch.normal_stiffness,
-        Some(branch.mass_coefficient),
-        Some(branch.stiffness_coefficient),
-        branch.young_modulus,
-        branch.poisson_ratio,
-        Some(branch.density),
-        branch.static_friction_ratio,
-        branch.decay_speed,
-        modulus,
-        ratio,
-        density,
-        mass,
-        stiffness,
-        cubic,
-        pressure,
-        height,
-    ]
-}
-
 impl SensitivityReport {
-    /// Of branches that were solved harmonic by harmonic. `given`: normal stiffness, `alpha_R`, `beta_R`, `E`, `nu`, `rho`, static
-    /// over kinetic friction and decay speed of the case, then `E`, `nu`, `rho`, `alpha_R`, `beta_R` of its shaft, then cubic
-    /// stiffness, reference pressure and height of the contact's law (0 for rigid contact, constant friction, no shaft, linear
-    /// contact). Parameters of a friction law that falls with speed, of a shaft, and of contact that stiffens, are there where the
-    /// case has one.
-    pub fn of_harmonics(branches: &[Sensitivity], given: [f64; 16]) -> Self {
-        let all: Vec<_> = branches.iter().map(derivatives).collect();
-        let is_given = |i: &usize| *i < ALWAYS || all.iter().any(|row| row[*i].is_some());
-        let columns: Vec<usize> = (0..NAMES.len()).filter(is_given).collect();
-        let rows = branches.iter().zip(&all).map(|(branch, all)| SensitivityRow {
-            friction_coefficient: branch.friction_coefficient,
-            harmonic: branch.harmonic,
-            branch: branch.branch,
-            direction: branch.direction,
-            eigenvalue: branch.eigenvalue,
-            derivatives: columns.iter().map(|&i| all[i]).collect(),
-            onset: None,
-        });
-        let value = |&i: &usize| match i {
-            0 => f64::NAN,
-            i => given[i - 1],
-        };
-        Self {
-            parameters: columns.iter().map(|&i| NAMES[i].to_owned()).collect(),
-            values: columns.iter().map(value).collect(),
-            rows: rows.collect(),
-            has_harmonics: true,
-            has_onsets: false,
-        }
-    }
-
     /// Change of the eigenvalue, 1/s, for one per cent more of each parameter, that of the growth rate largest first.
     fn per_cent<'a>(&'a self, row: &'a SensitivityRow) -> Vec<(&'a str, c64)> {
         let own = [row.friction_coefficient];
@@ -182,16 +98,12 @@ impl SensitivityReport {
         let columns = self.columns();
         let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
         let mut table = Table::new(out, &columns)?;
-        let named = |text: String| match self.has_harmonics {
-            true => text,
-            false => String::new(),
-        };
         for row in &self.rows {
             let mut cells = vec![
                 format_number(row.friction_coefficient),
-                named(row.harmonic.to_string()),
+                row.harmonic.map_or(String::new(), |n| n.to_string()),
                 row.branch.to_string(),
-                named(row.direction.to_string()),
+                row.direction.map_or(String::new(), |way| way.to_string()),
                 format_number(row.eigenvalue.re),
                 format_number(row.eigenvalue.im / TAU),
             ];
@@ -229,10 +141,8 @@ impl SensitivityReport {
         let changes = self.per_cent(own).into_iter();
         let changes = changes.filter(|(_, change)| change.norm() > 0.0);
         let (rate, frequency) = (own.eigenvalue.re, own.eigenvalue.im / TAU);
-        let travels = match self.has_harmonics {
-            true => format!(", {} the rotor", direction_name(own.direction)),
-            false => String::new(),
-        };
+        let travels = own.direction.map(|way| format!(", {} the rotor", direction_name(way)));
+        let travels = travels.unwrap_or_default();
         ReportTable::new(
             format!(
                 "One per cent more of each parameter changes {}{travels} ({frequency:.1} Hz, {} at {:.1} 1/s at friction {}) by",
@@ -247,9 +157,9 @@ impl SensitivityReport {
     }
 
     fn name(&self, row: &SensitivityRow) -> String {
-        match self.has_harmonics {
-            true => format!("n = {}, branch {}", row.harmonic, row.branch),
-            false => format!("branch {}", row.branch),
+        match row.harmonic {
+            Some(harmonic) => format!("n = {harmonic}, branch {}", row.branch),
+            None => format!("branch {}", row.branch),
         }
     }
 

@@ -107,11 +107,11 @@ pub struct UnstableCount {
 /// Where a branch turns unstable, and where it is stable again.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CriticalFriction {
-    /// Circumferential harmonic; none on a body without symmetry, nor a direction.
+    /// Nodal diameters; none on a body without symmetry.
     pub harmonic: Option<usize>,
     /// Branch, or rank.
     pub branch: usize,
-    /// +1 with the rotor, 0 standing, -1 against it.
+    /// +1 with the rotor, 0 standing, -1 against it; none on a body without harmonics.
     pub direction: Option<i8>,
     /// Critical friction coefficient.
     pub critical_friction: Option<f64>,
@@ -131,7 +131,7 @@ pub struct CriticalFriction {
 impl CriticalFriction {
     fn of(interval: &UnstableInterval, mesh_error: Option<f64>, has_harmonics: bool) -> Self {
         Self {
-            harmonic: has_harmonics.then_some(interval.harmonic),
+            harmonic: interval.diameters(has_harmonics),
             branch: interval.branch,
             direction: has_harmonics.then_some(interval.direction),
             critical_friction: present(interval.critical_friction),
@@ -147,11 +147,11 @@ impl CriticalFriction {
 /// A mode.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ModeSummary {
-    /// Circumferential harmonic; none on a body without symmetry, nor a direction.
+    /// Nodal diameters; none on a body without symmetry.
     pub harmonic: Option<usize>,
     /// Branch, or rank.
     pub branch: usize,
-    /// +1 with the rotor, 0 standing, -1 against it.
+    /// +1 with the rotor, 0 standing, -1 against it; none on a body without harmonics.
     pub direction: Option<i8>,
     /// `Re lambda / 2 pi`, Hz.
     pub real_hz: f64,
@@ -172,7 +172,7 @@ pub struct ModeSummary {
 impl ModeSummary {
     fn of(mode: &ComplexMode, mesh_error: Option<f64>, has_harmonics: bool) -> Self {
         Self {
-            harmonic: has_harmonics.then_some(mode.harmonic),
+            harmonic: mode.diameters(has_harmonics),
             branch: mode.branch,
             direction: has_harmonics.then_some(mode.direction),
             real_hz: mode.real_hz(),
@@ -192,11 +192,11 @@ pub struct UnstableMode {
     pub friction_coefficient: f64,
     /// Number by frequency among all modes at that friction, from 1.
     pub mode: usize,
-    /// Circumferential harmonic; none on a body without symmetry, nor a direction.
+    /// Nodal diameters; none on a body without symmetry.
     pub harmonic: Option<usize>,
     /// Branch, or rank.
     pub branch: usize,
-    /// +1 with the rotor, 0 standing, -1 against it.
+    /// +1 with the rotor, 0 standing, -1 against it; none on a body without harmonics.
     pub direction: Option<i8>,
     /// `Im lambda / 2 pi`, Hz.
     pub frequency_hz: f64,
@@ -234,7 +234,7 @@ impl UnstableMode {
         Self {
             friction_coefficient: friction,
             mode: index + 1,
-            harmonic: report.has_harmonics.then_some(mode.harmonic),
+            harmonic: mode.diameters(report.has_harmonics),
             branch: mode.branch,
             direction: report.has_harmonics.then_some(mode.direction),
             frequency_hz: mode.frequency_hz(),

@@ -21,6 +21,7 @@ use crate::cycle::{
 };
 use crate::mesh::Mesh;
 use crate::results::cycle_figures::CycleRecord;
+use crate::results::cycle_table::write_cycles;
 use crate::results::extent::Extent;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::record::write_record;
@@ -159,7 +160,9 @@ pub fn write(folder: &OutputFolder, report: &CycleReport<'_>) -> Result<Value, F
     two_waves::write_two_waves(folder, report)?;
     fields::write_fields(folder, report)?;
     write_record(folder, &CycleRecord::of(report))?;
-    write_summary(folder, &summary(report, folder.manifest()))
+    let summary = write_summary(folder, &summary(report, folder.manifest()))?;
+    folder.write("cycle.csv", |out| write_cycles(out, &summary))?;
+    Ok(summary)
 }
 
 /// Writes contact and motion of the edge along the phase, which is also the history of the contact node at angle zero.
@@ -198,7 +201,7 @@ pub fn write_branch(
     };
     let columns: &[Column<'_, Row<'_>>] = &[
         (branch.parameter.key(), &|row| value(row.0).into()),
-        ("harmonic", &|row| (row.0.harmonic as f64).into()),
+        ("harmonic", &|row| row.0.harmonic.into()),
         ("main_frequency_hz", &|row| row.0.frequency_hz().into()),
         ("stick", &|row| row.0.fractions[0].into()),
         ("slip", &|row| row.0.fractions[1].into()),

@@ -2,12 +2,11 @@
 
 use super::confirmation::confirmation_text;
 use super::stability::print_stability;
+use super::summary::family;
 use super::two_waves::print_two_waves;
 use super::{CycleReport, CycleResult};
 use crate::cycle::periodic::velocity_level;
-use crate::cycle::{CycleBranch, Family, LimitCycle};
-use crate::results::cycle_table::{printed_cycle, printed_heading};
-use crate::results::quantity::significant;
+use crate::results::cycle_table::{branch_sentence, printed_cycle, printed_heading};
 use std::fmt::Write as _;
 
 /// The report as text.
@@ -41,8 +40,10 @@ pub fn print(report: &CycleReport<'_>) -> String {
             );
         }
         print_stability(&mut out, result);
-        if let Some(branch) = &result.branch {
-            branch_line(&mut out, result.family, branch);
+        // As the page says it.
+        let told = serde_json::to_value(family(report, result)).ok();
+        if let Some(text) = told.as_ref().and_then(branch_sentence) {
+            let _ = writeln!(out, "{text}");
         }
     }
     for result in &report.two_waves {
@@ -71,31 +72,4 @@ fn result_line(out: &mut String, report: &CycleReport<'_>, result: &CycleResult)
         }
         Err(absence) => writeln!(out, "{}", absence.reason),
     };
-}
-
-fn branch_line(out: &mut String, family: Family, branch: &CycleBranch) {
-    let value = |cycle: Option<&LimitCycle>| {
-        cycle.map_or(f64::NAN, |cycle| {
-            let value = branch.parameter.of(&cycle.state.point);
-            branch.parameter.in_key_units(value)
-        })
-    };
-    let folds = branch.folds.iter();
-    let folds: Vec<String> =
-        folds.map(|&fold| significant(branch.parameter.in_key_units(fold), 5)).collect();
-    let folds = match folds.as_slice() {
-        [] => "no fold".to_owned(),
-        [one] => format!("a fold at {one}"),
-        several => format!("{} folds at {}", several.len(), several.join(", ")),
-    };
-    let _ = writeln!(
-        out,
-        "{family}: {} cycles over {} from {} ({}) to {} ({}), {folds}",
-        branch.cycles.len(),
-        branch.parameter.key(),
-        value(branch.cycles.first()),
-        branch.ends[0].describe(),
-        value(branch.cycles.last()),
-        branch.ends[1].describe(),
-    );
 }

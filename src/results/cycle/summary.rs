@@ -2,7 +2,8 @@
 
 use super::confirmation::ConfirmationSummary;
 use super::stability::StabilitySummary;
-use super::{CycleReport, CycleResult, TwoWaveSummary};
+use super::{CycleReport, CycleResult, TwoWaveSummary, amplitude};
+use crate::chart::extremes;
 use crate::cycle::periodic::velocity_level;
 use crate::cycle::{CycleBranch, LimitCycle, Onset};
 use crate::results::extent::Extent;
@@ -113,6 +114,9 @@ pub struct LimitCycleSummary {
     pub status: StatusFractions,
     /// Mean powers.
     pub power_w: MeanPowers,
+    /// Amplitude of the wave's own harmonic of the contact edge's tangential displacement, m.
+    #[serde(default)]
+    pub amplitude_m: Option<f64>,
     /// Amplitudes of the harmonics 0 to 8 of the contact edge's tangential displacement, m.
     pub harmonics: Vec<f64>,
     /// Residual of the energy balance, relative to the external power.
@@ -129,6 +133,9 @@ pub struct BranchSummary {
     pub key: String,
     /// Cycles.
     pub cycles: usize,
+    /// Smallest and largest value of the parameter.
+    #[serde(default)]
+    pub range: Option<[f64; 2]>,
     /// Values at which it turns back.
     pub folds: Vec<f64>,
     /// Why it ends, at either end.
@@ -186,7 +193,8 @@ pub fn summary(report: &CycleReport<'_>, manifest: &Manifest) -> CycleSummary {
     }
 }
 
-fn family(report: &CycleReport<'_>, result: &CycleResult) -> FamilySummary {
+/// The summary of one family.
+pub(super) fn family(report: &CycleReport<'_>, result: &CycleResult) -> FamilySummary {
     let absence = result.cycle.as_ref().err();
     let reason = |is_stable: bool| {
         let absence = absence.filter(|absence| absence.is_stable == is_stable);
@@ -227,6 +235,7 @@ fn limit_cycle(report: &CycleReport<'_>, cycle: &LimitCycle) -> LimitCycleSummar
             normal_contact: present(powers.normal_contact),
             contact_damping: None,
         },
+        amplitude_m: present(amplitude(cycle)),
         harmonics: cycle.harmonics.to_vec(),
         balance_residual: cycle.powers.balance_residual(),
         velocity_level_db: None,
@@ -239,6 +248,8 @@ fn branch_of(
     branch: &CycleBranch,
 ) -> BranchSummary {
     let in_key_units = |value: f64| branch.parameter.in_key_units(value);
+    let values = branch.cycles.iter().map(|cycle| branch.parameter.of(&cycle.state.point));
+    let (low, high) = extremes(values.map(in_key_units));
     let mut cycles = branch.cycles.iter();
     let saturation = cycles.find_map(|cycle| cycle.saturation_speed(report.inner_radius));
     let changes = result.stability_changes.iter();
@@ -251,6 +262,7 @@ fn branch_of(
     BranchSummary {
         key: branch.parameter.key().to_owned(),
         cycles: branch.cycles.len(),
+        range: (low <= high).then_some([low, high]),
         folds: branch.folds.iter().map(|&fold| in_key_units(fold)).collect(),
         ends: branch.ends.map(|end| end.describe().to_owned()),
         saturation_speed_rpm: saturation.map(|speed| speed * 60.0 / TAU),

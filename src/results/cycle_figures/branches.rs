@@ -55,6 +55,9 @@ struct Curve<'a> {
 
 impl Curve<'_> {
     fn name(&self) -> String {
+        if let Some(mode) = self.family.mode {
+            return format!("mode {mode}{}", self.suffix);
+        }
         let family = self.family.family().to_string();
         format!("*{}{}", family.replacen(' ', "* ", 1), self.suffix)
     }

@@ -1,6 +1,7 @@
 //! Record of a search for limit cycles, from which its figures are drawn again.
 
 use crate::contact::ContactStatus;
+use crate::cycle::periodic::{BranchMotion, PeriodicBranch, PeriodicPowers};
 use crate::cycle::{CycleBranch, CycleStability, Family, LimitCycle, TwoWaveMotion, Verdict};
 use crate::results::charts::palette::status_of_code;
 use crate::results::cycle::{CycleReport, CycleResult, TwoWaveResult, amplitude, known};
@@ -51,7 +52,7 @@ impl TwoWaveRecord {
 
 impl Record for CycleRecord {
     const MAGIC: [u8; 8] = *b"FRICSIMY";
-    const VERSION: u32 = 3;
+    const VERSION: u32 = 4;
 
     fn inconsistency(&self) -> Option<&'static str> {
         let is_whole = |family: &FamilyRecord| {
@@ -79,10 +80,13 @@ const MOST_PHASES: usize = 1_000_000;
 /// The limit cycles of one harmonic.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FamilyRecord {
-    /// Circumferential harmonic `n`.
+    /// Circumferential harmonic `n`; 0 of a body without rotating waves, whose cycles have a mode.
     pub harmonic: usize,
     /// Onset of that harmonic at which the cycles are born, from 1.
     pub onset: usize,
+    /// The mode that leads to the cycles of a body without rotating waves.
+    #[serde(default)]
+    pub mode: Option<usize>,
     /// Critical friction and frequency (Hz) of every onset.
     pub onsets: Vec<[f64; 2]>,
     /// The cycle at the case's own operating point.
@@ -163,6 +167,7 @@ impl FamilyRecord {
         Self {
             harmonic: result.family.harmonic,
             onset: result.family.onset,
+            mode: None,
             onsets: onsets
                 .map(|onset| [onset.friction_coefficient, onset.frequency / TAU])
                 .collect(),
@@ -170,6 +175,20 @@ impl FamilyRecord {
                 .zip(result.frames.first())
                 .map(|(cycle, frame)| WaveRecord::of(cycle, &frame.fields)),
             branch: branch.map(|(branch, cycle)| BranchRecord::of(branch, cycle, result)),
+        }
+    }
+}
+
+impl FamilyRecord {
+    /// The branch of a mode of a body without rotating waves.
+    pub fn of_mode(mode: usize, branch: &PeriodicBranch) -> Self {
+        Self {
+            harmonic: 0,
+            onset: 0,
+            mode: Some(mode),
+            onsets: Vec::new(),
+            cycle: None,
+            branch: Some(BranchRecord::of_motions(branch)),
         }
     }
 }
@@ -217,6 +236,34 @@ impl BranchRecord {
             .chain(&self.shares);
         let known = [self.stable.len(), self.growth_rate.len()];
         columns.all(|column| column.len() == count) && known == [count; 2]
+    }
+
+    fn of_motions(branch: &PeriodicBranch) -> Self {
+        let in_units = |value: f64| branch.parameter.in_key_units(value);
+        let column = |of: &dyn Fn(&BranchMotion) -> f64| -> Vec<f64> {
+            branch.motions.iter().map(of).collect()
+        };
+        let share = |of: fn(&PeriodicPowers) -> f64| {
+            column(&|own| of(&own.motion.powers) / own.motion.powers.contact.external)
+        };
+        Self {
+            key: branch.parameter.key().to_owned(),
+            values: column(&|own| in_units(own.value)),
+            own_value: in_units(branch.own),
+            frequency_hz: column(&|own| own.motion.frequency_hz),
+            amplitude: column(&|own| own.motion.amplitude),
+            status: [0, 1, 2].map(|i| column(&|own| own.motion.fractions[i])),
+            shares: [
+                share(|powers| powers.contact.stick),
+                share(|powers| powers.contact.slide),
+                share(|powers| powers.contact.contact_dissipated),
+                share(|powers| powers.material_damping),
+                share(|powers| powers.contact.normal),
+            ],
+            stable: branch.motions.iter().map(BranchMotion::is_stable).collect(),
+            growth_rate: branch.motions.iter().map(BranchMotion::growth_rate).collect(),
+            folds: branch.folds().into_iter().map(in_units).collect(),
+        }
     }
 
     fn of(branch: &CycleBranch, own: &LimitCycle, result: &CycleResult) -> Self {

@@ -1,13 +1,13 @@
 //! `report.html` of limit cycles: figures, cycles, branches.
 
 use super::{CycleFigures, NamedFamily, draw_branches, draw_cycles};
-use crate::chart::extremes;
-use crate::results::cycle_table::{CycleColumn, cycle_results, cycle_table};
+use crate::results::cycle_table::{CycleColumn, branch_sentence, cycle_results, cycle_table};
 use crate::results::drawing::{DrawingError, DrawingOptions, write_report};
 use crate::results::extent::Extent;
 use crate::results::folder::OutputFolder;
 use crate::results::manifest::Manifest;
-use crate::results::report::{Report, ReportSection, entries, number};
+use crate::results::quantity::significant;
+use crate::results::report::{Report, ReportSection, ReportTable, cell, entries};
 use serde::Deserialize;
 use serde_json::Value;
 
@@ -38,12 +38,14 @@ fn html_report(summary: &Value, manifest: &Manifest) -> Report {
     let mut paragraphs =
         vec!["Waves that turn against the rotor without changing their shape.".to_owned()];
     paragraphs.extend(extent.note().map(|note| format!("{note}.")));
+    let pairs = entries(summary, "two_waves");
+    let together = (!pairs.is_empty()).then(|| two_wave_table(pairs));
     let figures = ReportSection::new("Limit cycles")
-        .with_tables([cycle_table(cycles, extent, &COLUMNS, &absence)]);
+        .with_tables(std::iter::once(cycle_table(cycles, extent, &COLUMNS, &absence)).chain(together));
     let rows = cycles.iter().flat_map(|cycle| results(cycle, extent));
     let rows = rows.collect();
     let mut sections = vec![ReportSection::results(paragraphs, rows), figures];
-    let branches: Vec<String> = cycles.iter().filter_map(branch_text).collect();
+    let branches: Vec<String> = cycles.iter().filter_map(branch_sentence).collect();
     if !branches.is_empty() {
         sections.push(ReportSection::new("Branches").with_paragraphs(branches));
     }
@@ -76,45 +78,33 @@ fn absence(cycle: &Value) -> String {
     cycle["error"].as_str().unwrap_or_default().to_owned()
 }
 
-fn branch_text(cycle: &Value) -> Option<String> {
-    let branch = cycle.get("branch")?;
-    let text = |pointer: &str| branch.pointer(pointer).and_then(Value::as_str).unwrap_or("?");
-    let folds = entries(branch, "folds").iter();
-    let folds: Vec<f64> = folds.filter_map(Value::as_f64).collect();
-    // Any parameter, of any size.
-    let text_of = |value: f64| {
-        format!("{value:.6e}").parse::<f64>().map_or_else(|_| String::new(), |v| format!("{v:?}"))
-    };
-    let (low, high) = extremes(folds.iter().copied());
-    let folds = match folds.len() {
-        0 => "no fold".to_owned(),
-        1 => format!("a fold at {}", text_of(low)),
-        count => format!("{count} folds between {} and {}", text_of(low), text_of(high)),
-    };
-    let saturation = match branch["saturation_speed_rpm"].as_f64() {
-        Some(speed) => format!("; no point sticks above {speed:.1} rpm"),
-        None => String::new(),
-    };
-    let changes = branch["stability_changes"].as_array();
-    let changes: Vec<String> = changes
-        .into_iter()
-        .flatten()
-        .map(|change| {
-            let at = text_of(number(change, "/at").unwrap_or(f64::NAN));
-            format!("{at} ({} nodal diameters)", change["harmonic"])
-        })
-        .collect();
-    let changes = match changes.is_empty() {
-        true => String::new(),
-        false => format!("; stability changes at {}", changes.join(", ")),
-    };
-    Some(format!(
-        "n = {}, onset {}: {} cycles over {}, at the one end until {}, at the other until {}; {folds}{saturation}{changes}.",
-        cycle["harmonic"],
-        cycle["onset"],
-        branch["cycles"],
-        text("/key"),
-        text("/ends/0"),
-        text("/ends/1"),
-    ))
+/// Motions of two waves that live together, one row each.
+fn two_wave_table(pairs: &[Value]) -> ReportTable {
+    let columns = [
+        ("first frequency (Hz)", "/frequencies_hz/0", 1.0, 2),
+        ("second frequency (Hz)", "/frequencies_hz/1", 1.0, 2),
+        ("first amplitude (µm)", "/amplitudes_m/0", 1e6, 3),
+        ("second amplitude (µm)", "/amplitudes_m/1", 1e6, 3),
+        ("stick (%)", "/status/0", 100.0, 1),
+        ("slip (%)", "/status/1", 100.0, 1),
+        ("open (%)", "/status/2", 100.0, 1),
+        ("power of the rotor", "/external_w", 1.0, 2),
+        ("transient from it, first (Hz)", "/transient_frequencies_hz/0", 1.0, 2),
+        ("second (Hz)", "/transient_frequencies_hz/1", 1.0, 2),
+    ];
+    let rows = pairs.iter().map(|pair| {
+        let name = format!("n = {} and {} together", pair["harmonics"][0], pair["harmonics"][1]);
+        let cells = columns.iter();
+        let cells = cells.map(|(_, place, factor, digits)| cell(pair, place, *factor, *digits));
+        let births = entries(pair, "births").iter().filter_map(Value::as_f64);
+        let births: Vec<String> = births.map(|value| significant(value, 5)).collect();
+        let reason = pair["error"].as_str().unwrap_or_default().to_owned();
+        std::iter::once(name).chain(cells).chain([births.join(", "), reason]).collect()
+    });
+    let names = columns.iter().map(|column| column.0);
+    ReportTable::new(
+        "Motions of two frequencies",
+        std::iter::once("waves").chain(names).chain(["one wave alone at", "why there is none"]),
+        rows,
+    )
 }

@@ -46,7 +46,7 @@ pub fn write(folder: &OutputFolder, summary: &FitSummary) -> Result<Value, Folde
         ("direction", &|mode| mode.direction.into()),
         ("frequency_hz", &|mode| mode.frequency_hz.into()),
         ("real_hz", &|mode| mode.real_hz.into()),
-        ("unstable", &|mode| u8::from(mode.is_unstable()).into()),
+        ("unstable", &|mode| mode.is_unstable().into()),
     ];
     folder.write("modes.csv", |out| write_rows(out, modes, &summary.modes))?;
     folder.write(BLOCK, |out| out.write_all(summary.block().as_bytes()))?;

@@ -151,7 +151,7 @@ pub fn write_mac(folder: &OutputFolder, summary: &MacSummary) -> Result<(), Fold
         ("real_hz", &|at| summary.modes[at.1].real_hz.into()),
         ("harmonic", &|at| summary.modes[at.1].harmonic.into()),
         ("mac", &|at| summary.mac[at.0][at.1].into()),
-        ("paired", &|at| u8::from(is_pair(at.0, at.1)).into()),
+        ("paired", &|at| is_pair(at.0, at.1).into()),
     ];
     folder.write("mac.csv", |out| write_rows(out, columns, rows))?;
     Ok(())

@@ -88,7 +88,7 @@ impl FreeSpectrum {
                 let mut row = vec![String::new(), (k + 1).to_string()];
                 row.extend(numbers.map(format_number));
                 row.extend([String::new(), k.to_string(), String::new()]);
-                row.push(u8::from(lambda.re > 0.0).to_string());
+                row.push((lambda.re > 0.0).to_string());
                 row.extend([format_number(mode.residual), String::new()]);
                 table.row(row)?;
             }

@@ -102,14 +102,22 @@ pub(super) fn branch_figure(motion: &MotionRecord) -> Result<Figure, ChartError>
         motion.hertz(),
         coexistence(curve),
     );
+    let threshold = curve.threshold.map(|[amplitude, velocity]| {
+        Points::new([(curve.own[0], amplitude)])
+            .marker(Marker::Square, 2.2, SERIES[0])
+            .name(format!("a kick of more than {velocity:.3e} m/s tips sliding"))
+    });
     let figure = Figure::new(format!("branch-{}", motion.tag()), caption)
         .shared_x()
-        .panel(one(
-            Axis::new("amplitude", "m").prefixed().including(0.0),
-            110.0,
-            &curve.amplitude,
-            Some(curve.own[2]),
-        ))
+        .panel(
+            one(
+                Axis::new("amplitude", "m").prefixed().including(0.0),
+                110.0,
+                &curve.amplitude,
+                Some(curve.own[2]),
+            )
+            .layers(threshold),
+        )
         .panel(one(
             Axis::new("frequency", "kHz").times(1e-3),
             76.0,

@@ -24,6 +24,7 @@ use crate::cycle::periodic::{
     FloquetMultipliers, MotionConfirmation, PeriodicBranch, PeriodicMotion, Sound,
 };
 use crate::mesh::{Mesh, SolidSector};
+use crate::results::cycle_table::write_cycles;
 use crate::results::extent::Extent;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::record::write_record;
@@ -64,6 +65,13 @@ pub struct FoundCycle {
     pub confirmation: Option<MotionConfirmation>,
     /// The branch through it over the parameter of the case, where one was asked for.
     pub branch: Option<PeriodicBranch>,
+}
+
+impl FoundCycle {
+    /// Velocity of a kick that tips stable sliding into it, m/s, where an unstable cycle lies between both.
+    pub fn kick_velocity(&self) -> Option<f64> {
+        Some(self.branch.as_ref()?.threshold()?.kick_velocity())
+    }
 }
 
 /// What the search from one mode has led to.
@@ -200,5 +208,7 @@ pub fn write(folder: &OutputFolder, report: &PeriodicReport<'_>) -> Result<Value
         }
     }
     write_record(folder, &PeriodicRecord::of(report))?;
-    write_summary(folder, &summary(report, folder.manifest()))
+    let summary = write_summary(folder, &summary(report, folder.manifest()))?;
+    folder.write("cycle.csv", |out| write_cycles(out, &summary))?;
+    Ok(summary)
 }

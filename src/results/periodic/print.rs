@@ -1,10 +1,9 @@
 //! Printed result of a search for the limit cycles of a body without symmetry.
 
-use super::{FoundCycle, PeriodicReport, PeriodicResult};
+use super::{FoundCycle, PeriodicReport, PeriodicResult, summary_of};
 use crate::cycle::Verdict;
-use crate::cycle::periodic::{FloquetMultiplier, FloquetMultipliers, PeriodicBranch, REMAINDER};
-use crate::results::cycle_table::{printed_cycle, printed_heading};
-use crate::results::quantity::significant;
+use crate::cycle::periodic::{FloquetMultiplier, FloquetMultipliers, REMAINDER};
+use crate::results::cycle_table::{branch_sentence, printed_cycle, printed_heading};
 use std::fmt::Write as _;
 
 /// The report as text.
@@ -112,57 +111,11 @@ fn found_lines(
             let _ = writeln!(out, "{mode}: {}", stability_text(multipliers));
         }
     }
-    if let Some(branch) = &found.branch {
-        let _ = writeln!(out, "{mode}: {}", branch_text(branch));
+    // As the page says it.
+    let told = serde_json::to_value(summary_of(report, result)).ok();
+    if let Some(text) = told.as_ref().and_then(branch_sentence) {
+        let _ = writeln!(out, "{text}");
     }
-}
-
-/// Where a branch ends, turns back and changes its stability, and where it lives beside stable sliding, in words.
-fn branch_text(branch: &PeriodicBranch) -> String {
-    let parameter = branch.parameter;
-    let value = |value: f64| significant(parameter.in_key_units(value), 5);
-    let list = |values: Vec<f64>| values.into_iter().map(value).collect::<Vec<_>>().join(", ");
-    let key = parameter.key();
-    let Some((first, last)) = branch.motions.first().zip(branch.motions.last()) else {
-        return format!(
-            "no cycle at the values of {key} that were asked for ({})",
-            branch.ends[1].describe()
-        );
-    };
-    let changes = branch.stability_changes();
-    let changes = match changes.is_empty() {
-        true => String::new(),
-        false => format!(", stability changes at {}", list(changes)),
-    };
-    let folds = match branch.folds() {
-        folds if folds.is_empty() => ", no fold".to_owned(),
-        folds if folds.len() == 1 => format!(", a fold at {}", list(folds)),
-        folds => format!(", {} folds at {}", folds.len(), list(folds)),
-    };
-    let onsets = match branch.onsets.is_empty() {
-        true => String::new(),
-        false => format!("; steady sliding loses its stability at {}", list(branch.onsets.clone())),
-    };
-    let both = branch.coexistence().into_iter();
-    let both = both.map(|[from, to]| {
-        let [from, to] = [from, to].map(value);
-        format!("; stable sliding and a limit cycle coexist from {key} = {from} to {to}")
-    });
-    let threshold = branch.threshold().map_or_else(String::new, |amplitude| {
-        format!(
-            "; at the case's own {key} the unstable cycle between both has an amplitude of {amplitude:.3e} m, which a kick must exceed \
-             to tip sliding into the large one"
-        )
-    });
-    format!(
-        "{} cycles over {key} from {} ({}) to {} ({}){folds}{changes}{onsets}{}{threshold}",
-        branch.motions.len(),
-        value(first.value),
-        branch.ends[0].describe(),
-        value(last.value),
-        branch.ends[1].describe(),
-        both.collect::<String>(),
-    )
 }
 
 /// Whether small perturbations grow, in words.

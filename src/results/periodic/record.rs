@@ -66,6 +66,8 @@ pub struct CurveRecord {
     pub key: String,
     /// The parameter (in units of the key), frequency (Hz) and amplitude (m) of the case's own cycle.
     pub own: [f64; 3],
+    /// Amplitude (m) and velocity of the kick (m/s) of the unstable cycle between stable sliding and the case's own.
+    pub threshold: Option<[f64; 2]>,
     /// The parameter at each cycle, in units of the key.
     pub values: Vec<f64>,
     /// Frequency, Hz.
@@ -90,7 +92,7 @@ pub struct CurveRecord {
 
 impl Record for PeriodicRecord {
     const MAGIC: [u8; 8] = *b"FRICSIMP";
-    const VERSION: u32 = 3;
+    const VERSION: u32 = 4;
 
     fn inconsistency(&self) -> Option<&'static str> {
         let is_whole = self.angles.len() == self.nodes.len()
@@ -124,6 +126,7 @@ impl CurveRecord {
         Self {
             key: branch.parameter.key().to_owned(),
             own: [in_units(branch.own), own.frequency_hz, own.amplitude],
+            threshold: branch.threshold().map(|own| [own.amplitude, own.kick_velocity()]),
             values: column(&|own| in_units(own.value)),
             frequency_hz: column(&|own| own.motion.frequency_hz),
             amplitude: column(&|own| own.motion.amplitude),

@@ -1,12 +1,11 @@
 //! `report.html` of the limit cycles of a body without symmetry.
 
 use super::figures::{PeriodicFigures, draw_cycles};
-use crate::results::cycle_table::{CycleColumn, cycle_results, cycle_table};
+use crate::results::cycle_table::{CycleColumn, branch_sentence, cycle_results, cycle_table};
 use crate::results::drawing::{DrawingError, DrawingOptions, write_report};
 use crate::results::extent::Extent;
 use crate::results::folder::OutputFolder;
 use crate::results::manifest::Manifest;
-use crate::results::quantity::significant;
 use crate::results::report::{Report, ReportSection, entries};
 use serde::Deserialize;
 use serde_json::Value;
@@ -43,7 +42,7 @@ fn html_report(summary: &Value, manifest: &Manifest) -> Report {
     let rows = cycles.iter().flat_map(|cycle| results(cycle, extent));
     let rows = rows.collect();
     let figures = ReportSection::new("Limit cycles")
-        .with_paragraphs(cycles.iter().filter_map(branch_text))
+        .with_paragraphs(cycles.iter().filter_map(branch_sentence))
         .with_tables([cycle_table(cycles, extent, &COLUMNS, &absence)]);
     Report {
         title: summary["title"].as_str().unwrap_or_default().to_owned(),
@@ -76,37 +75,4 @@ fn absence(cycle: &Value) -> String {
         (None, Some(other)) => format!("the cycle of mode {other}"),
         (None, None) => String::new(),
     }
-}
-
-/// Where a branch ends, turns back, changes its stability and lives beside stable sliding.
-fn branch_text(cycle: &Value) -> Option<String> {
-    let branch = cycle.get("branch").filter(|branch| branch.is_object())?;
-    let text = |pointer: &str| branch.pointer(pointer).and_then(Value::as_str);
-    let list = |key: &str| -> Vec<String> {
-        let values = entries(branch, key).iter().filter_map(Value::as_f64);
-        values.map(|value| significant(value, 5)).collect()
-    };
-    let key = text("/key").unwrap_or("?");
-    let said = |what: &str, values: Vec<String>| match values.is_empty() {
-        true => String::new(),
-        false => format!("; {what} {}", values.join(", ")),
-    };
-    let folds = match list("folds") {
-        folds if folds.is_empty() => "; no fold".to_owned(),
-        folds => said("folds at", folds),
-    };
-    let both = entries(branch, "coexistence").iter().map(|ends| {
-        let [from, to] = [0, 1].map(|i| significant(ends[i].as_f64().unwrap_or(f64::NAN), 5));
-        format!("; stable sliding and a limit cycle coexist from {key} = {from} to {to}")
-    });
-    Some(format!(
-        "Mode {}: {} cycles over {key}, at the one end until {}, at the other until {}{folds}{}{}{}.",
-        cycle["mode"],
-        branch["cycles"],
-        text("/ends/0").unwrap_or("?"),
-        text("/ends/1").unwrap_or("?"),
-        said("stability changes at", list("stability_changes")),
-        said("steady sliding loses its stability at", list("onsets")),
-        both.collect::<String>(),
-    ))
 }

@@ -11,6 +11,7 @@ use crate::results::summary::{
     CriticalSummary, Entry, MeanPowers, StatusFractions, Summary, present,
 };
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 /// `summary.json` of `frictionsim cycle` on a body without symmetry.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -36,6 +37,9 @@ pub struct PeriodicSummary {
     pub cycles: Vec<SoughtSummary>,
     /// What it was made from.
     pub manifest: Manifest,
+    /// The branches, where no tables hold them: at a point of a study.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub curves: Option<Value>,
 }
 
 /// A mode of steady sliding.
@@ -152,6 +156,10 @@ pub struct MotionSummary {
     pub contact_node: usize,
     /// Half the range of its displacement along the counterface, m.
     pub amplitude_m: f64,
+    /// Velocity of a kick that tips stable sliding into this cycle: `2 pi f` times the amplitude of the unstable cycle between both,
+    /// m/s.
+    #[serde(default)]
+    pub kick_velocity: Option<f64>,
     /// Level of the velocity, root mean square over time and mass, over 5e-8 m/s, dB.
     #[serde(default)]
     pub velocity_level_db: f64,
@@ -261,6 +269,7 @@ pub fn summary(report: &PeriodicReport<'_>, manifest: &Manifest) -> PeriodicSumm
         extent: report.extent,
         cycles: cycles.collect(),
         manifest: manifest.clone(),
+        curves: None,
     }
 }
 
@@ -310,6 +319,7 @@ fn motion(report: &PeriodicReport<'_>, found: &FoundCycle) -> MotionSummary {
         steps: motion.steps,
         contact_node: report.node_label(node),
         amplitude_m: motion.amplitude,
+        kick_velocity: found.kick_velocity(),
         velocity_level_db: motion.velocity_level(),
         sound: found.sound.as_ref().map(|sound| SoundSummary {
             power_w: sound.power(),

@@ -68,8 +68,8 @@ fn write_branch(out: &mut dyn Write, branch: &PeriodicBranch, thickness: f64) ->
             known.map_or("", |found| found.verdict().word()).into()
         }),
         ("residual", &|row| row.0.motion.residual.into()),
-        ("periods", &|row| (row.0.motion.periods as f64).into()),
-        ("fold", &|row| if row.0.is_fold { "yes" } else { "" }.into()),
+        ("periods", &|row| row.0.motion.periods.into()),
+        ("fold", &|row| row.0.is_fold.into()),
     ];
     let rows = branch.motions.iter();
     let rows = rows.map(|own| (own, own.motion.powers.scaled(thickness)));

@@ -163,7 +163,7 @@ impl ModeSummary {
                 mode: number + 1,
                 frequency_hz: mode.frequency_hz(),
                 growth_rate_per_s: mode.growth_rate(),
-                harmonic: has_harmonics.then_some(mode.harmonic),
+                harmonic: mode.diameters(has_harmonics),
                 branch: mode.branch,
                 direction: has_harmonics.then_some(mode.direction),
                 unstable: mode.is_unstable(),

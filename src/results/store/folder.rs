@@ -120,9 +120,10 @@ impl OutputFolder {
         }
     }
 
-    /// Whether this run has been begun in a folder whose results it is to replace, and was interrupted.
-    pub fn is_begun(path: &Path, manifest: &Manifest) -> bool {
-        is_owned(&path.join(STAGING), manifest).unwrap_or(false)
+    /// Where this run was begun beside results that it is to replace, if it was, and interrupted.
+    pub fn begun(path: &Path, manifest: &Manifest) -> Option<PathBuf> {
+        let staging = path.join(STAGING);
+        is_owned(&staging, manifest).unwrap_or(false).then_some(staging)
     }
 
     /// Takes the folder of an earlier run to draw its figures anew: figures and report that are not

@@ -69,6 +69,7 @@ pub const LONG_TABLES: [LongTable; 4] = [
         file: "branches.csv",
         analysis: "cycle",
         columns: &[
+            "mode",
             "harmonic",
             "onset",
             "key",
@@ -132,13 +133,17 @@ fn cycles_of_branches(summary: &Value) -> Vec<Map<String, Value>> {
         let Some(Value::Object(branch)) = family.get("branch") else {
             continue;
         };
+        let mode = family.get("mode").filter(|mode| !mode.is_null());
         let count = branch.get("values").and_then(Value::as_array).map_or(0, Vec::len);
         for i in 0..count {
             let at = |name: &str| branch.get(name).and_then(|list| list.get(i)).cloned();
             let status = |k: usize| branch.get("status").and_then(|s| s.get(k)?.get(i)).cloned();
+            // Cycles of a mode are no waves.
+            let of_wave = |name: &str| family.get(name).filter(|_| mode.is_none()).cloned();
             let cells = [
-                ("harmonic", family.get("harmonic").cloned()),
-                ("onset", family.get("onset").cloned()),
+                ("mode", mode.cloned()),
+                ("harmonic", of_wave("harmonic")),
+                ("onset", of_wave("onset")),
                 ("key", branch.get("key").cloned()),
                 ("value", at("values")),
                 ("main_frequency_hz", at("frequency_hz")),
@@ -205,15 +210,18 @@ mod tests {
             "frequency_hz": [9e3, 8e3], "amplitude": [1e-6, 2e-6],
             "status": [[0.5, 0.4], [0.5, 0.4], [0.0, 0.2]],
             "stable": [true, null], "growth_rate": [-3.5, null] });
-        let summary = json!({ "curves": [{ "harmonic": 2, "onset": 1, "branch": branch }] });
+        let summary = json!({ "curves": [{ "harmonic": 2, "onset": 1, "branch": branch },
+            { "harmonic": 0, "onset": 0, "mode": 4, "branch": branch }] });
         let text = written("branches.csv", &[record(1, 0.02, "cycle", summary)]);
         let rows: Vec<&str> = text.lines().skip(1).collect();
         let key = "contact.rotation_speed_rpm";
         assert_eq!(
             rows,
             [
-                format!("0.02,2,1,{key},10.0,9000.0,1e-6,0.5,0.5,0.0,true,-3.5,1"),
-                format!("0.02,2,1,{key},20.0,8000.0,2e-6,0.4,0.4,0.2,,,1"),
+                format!("0.02,,2,1,{key},10.0,9000.0,1e-6,0.5,0.5,0.0,true,-3.5,1"),
+                format!("0.02,,2,1,{key},20.0,8000.0,2e-6,0.4,0.4,0.2,,,1"),
+                format!("0.02,4,,,{key},10.0,9000.0,1e-6,0.5,0.5,0.0,true,-3.5,1"),
+                format!("0.02,4,,,{key},20.0,8000.0,2e-6,0.4,0.4,0.2,,,1"),
             ]
         );
     }

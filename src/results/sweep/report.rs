@@ -282,9 +282,16 @@ pub(super) fn rows(report: &SweepReport<'_>) -> Vec<Vec<String>> {
     for (record, point) in report.records.iter().zip(&summaries) {
         let mut row = vec![record.point.to_string()];
         row.extend(record.swept.values().map(printed));
-        row.extend(columns.iter().map(|(key, of)| match &record.error {
-            Some(_) => "failed".to_owned(),
-            None => number(point, *of).map_or_else(String::new, |n| quantity(key).number(n)),
+        // The first friction of the analysis is no critical one.
+        let mut crossings = point.iter().filter_map(|summary| summary.critical_frictions.first());
+        let is_bound = crossings.next().is_some_and(|first| first.unstable_from_start);
+        row.extend(columns.iter().map(|(key, of)| match (&record.error, number(point, *of)) {
+            (Some(_), _) => "failed".to_owned(),
+            (None, None) => String::new(),
+            (None, Some(n)) if is_bound && *key == "critical_friction" => {
+                format!("<={}", quantity(key).number(n))
+            }
+            (None, Some(n)) => quantity(key).number(n),
         }));
         if has_ends {
             let settled = point.iter().find_map(|summary| summary.settled);

@@ -30,6 +30,7 @@ pub fn write_samples(
         "branch",
         "direction",
         "frequency_hz",
+        "unstable_from_start",
         "error",
     ]);
     folder.write("samples.csv", |out| {
@@ -41,7 +42,7 @@ pub fn write_samples(
             row.extend(sample.values.iter().map(|value| format_number(*value)));
             row.push(format_number(sample.friction_coefficient));
             row.push(match sample.error {
-                None => u8::from(sample.is_unstable(sample.friction_coefficient)).to_string(),
+                None => sample.is_unstable(sample.friction_coefficient).to_string(),
                 Some(_) => String::new(),
             });
             row.push(text(&|onset| format_number(onset.critical_friction)));
@@ -49,6 +50,7 @@ pub fn write_samples(
             row.push(text(&|onset| onset.branch.to_string()));
             row.push(text(&|onset| onset.direction.to_string()));
             row.push(text(&|onset| format_number(onset.frequency_hz)));
+            row.push(text(&|onset| onset.unstable_from_start.to_string()));
             row.push(sample.error.clone().unwrap_or_default());
             table.row(row)?;
         }

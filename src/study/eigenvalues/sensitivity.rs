@@ -120,9 +120,9 @@ pub fn body_sensitivities(
         let onset = onset.and_then(|_| onset_rates(&places[at], &columns, at));
         rows.push(SensitivityRow {
             friction_coefficient: friction,
-            harmonic: mode.harmonic,
+            harmonic: mode.diameters(case.has_sectors()),
             branch: mode.branch,
-            direction: mode.direction,
+            direction: case.has_sectors().then_some(mode.direction),
             eigenvalue: mode.eigenvalue,
             derivatives: std::iter::once(Some(pair.derivative)).chain(by_keys).collect(),
             onset,
@@ -136,7 +136,6 @@ pub fn body_sensitivities(
                 .chain(parameters.iter().map(|(_, value)| *value))
                 .collect(),
             rows,
-            has_harmonics: case.has_sectors(),
             has_onsets: true,
         },
         missing,

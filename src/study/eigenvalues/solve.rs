@@ -13,8 +13,9 @@ use crate::case::{Case, Cea, CeaMethod};
 use crate::cea::cyclic::Sensitivity;
 use crate::cea::{CeaError, FrictionSweep, SweepRequest, Unwatched};
 use crate::contact::NormalLaw;
-use crate::fem::RegionMaterial;
-use crate::results::cea::SensitivityReport;
+use crate::fem::{RayleighDamping, RegionMaterial};
+use crate::linalg::c64;
+use crate::results::cea::{SensitivityReport, SensitivityRow};
 
 /// Solves the case's eigenproblems with its method; `progress` hears of every friction value solved.
 ///
@@ -118,7 +119,7 @@ fn solve_with(
         method: if found.is_by_diameters { "cyclic" } else { method },
         sensitivities: match of_body {
             Some(of_body) => Some(of_body),
-            None => sensitivities.map(|branches| sensitivity_report(case, branches)),
+            None => sensitivities.map(|branches| sensitivity_report(case, &branches)),
         },
         notes,
         sweep: found.sweep,
@@ -192,41 +193,105 @@ fn whole_mesh_instead(
     }
 }
 
-/// Sensitivities with the values that the case gives its parameters.
-fn sensitivity_report(case: &Case, branches: Vec<Sensitivity>) -> SensitivityReport {
-    let law = case.contact.sliding.decay;
-    let annulus = case.body.annulus();
-    let shaft = annulus.and_then(|annulus| annulus.materials.shaft);
-    let of_shaft = shaft.map_or([0.0; 3], |RegionMaterial { elastic, .. }| {
-        [elastic.young_modulus, elastic.poisson_ratio, elastic.density]
-    });
-    let own = shaft.and_then(|shaft| shaft.damping).unwrap_or_default();
-    let of_law = match case.contact.stiffness.law {
+/// A parameter of a body solved harmonic by harmonic: its short name, its value in a case (0 where the case has none), and the
+/// derivative of a branch by it.
+struct Parameter {
+    name: &'static str,
+    value: fn(&Case) -> f64,
+    derivative: fn(&Sensitivity) -> Option<c64>,
+}
+
+const fn parameter(
+    name: &'static str,
+    value: fn(&Case) -> f64,
+    derivative: fn(&Sensitivity) -> Option<c64>,
+) -> Parameter {
+    Parameter { name, value, derivative }
+}
+
+/// The friction coefficient, whose value is that of the branch, comes first.
+const PARAMETERS: [Parameter; 17] = [
+    parameter("friction_coefficient", |_| f64::NAN, |s| Some(s.friction)),
+    parameter("normal_stiffness", normal_stiffness, |s| s.normal_stiffness),
+    parameter("mass_coefficient", |c| c.damping.rayleigh.mass_coefficient, |s| {
+        Some(s.mass_coefficient)
+    }),
+    parameter("stiffness_coefficient", |c| c.damping.rayleigh.stiffness_coefficient, |s| {
+        Some(s.stiffness_coefficient)
+    }),
+    parameter("young_modulus", |c| c.material.young_modulus, |s| s.young_modulus),
+    parameter("poisson_ratio", |c| c.material.poisson_ratio, |s| s.poisson_ratio),
+    parameter("density", |c| c.material.density, |s| Some(s.density)),
+    parameter(
+        "static_friction_ratio",
+        |c| c.contact.sliding.decay.map_or(1.0, |law| law.static_ratio),
+        |s| s.static_friction_ratio,
+    ),
+    parameter(
+        "decay_speed",
+        |c| c.contact.sliding.decay.map_or(0.0, |law| law.decay_speed),
+        |s| s.decay_speed,
+    ),
+    parameter("shaft_young_modulus", |c| shaft(c).elastic.young_modulus, |s| s.shaft[0]),
+    parameter("shaft_poisson_ratio", |c| shaft(c).elastic.poisson_ratio, |s| s.shaft[1]),
+    parameter("shaft_density", |c| shaft(c).elastic.density, |s| s.shaft[2]),
+    parameter("shaft_mass_coefficient", |c| shaft_damping(c).mass_coefficient, |s| s.shaft[3]),
+    parameter("shaft_stiffness_coefficient", |c| shaft_damping(c).stiffness_coefficient, |s| {
+        s.shaft[4]
+    }),
+    parameter("cubic_stiffness", |c| of_law(c)[0], |s| s.normal_law[0]),
+    parameter("reference_pressure", |c| of_law(c)[1], |s| s.normal_law[1]),
+    parameter("height", |c| of_law(c)[2], |s| s.normal_law[2]),
+];
+
+/// Of those, the columns that every table has.
+const ALWAYS: usize = 7;
+
+fn normal_stiffness(case: &Case) -> f64 {
+    case.contact.stiffness.normal_stiffness.unwrap_or(0.0)
+}
+
+/// The shaft of a case; asked for where a branch has derivatives by it.
+fn shaft(case: &Case) -> RegionMaterial {
+    let shaft = case.body.annulus().and_then(|annulus| annulus.materials.shaft);
+    shaft.expect("a branch with derivatives by a shaft has one")
+}
+
+fn shaft_damping(case: &Case) -> RayleighDamping {
+    shaft(case).damping.unwrap_or_default()
+}
+
+/// Cubic stiffness, reference pressure and height of contact that stiffens.
+fn of_law(case: &Case) -> [f64; 3] {
+    match case.contact.stiffness.law {
         Some(NormalLaw::Cubic { cubic_stiffness, .. }) => [cubic_stiffness, 0.0, 0.0],
         Some(NormalLaw::Exponential { reference_pressure, height }) => {
             [0.0, reference_pressure, height]
         }
         None => [0.0; 3],
-    };
-    SensitivityReport::of_harmonics(
-        &branches,
-        [
-            case.contact.stiffness.normal_stiffness.unwrap_or(0.0),
-            case.damping.rayleigh.mass_coefficient,
-            case.damping.rayleigh.stiffness_coefficient,
-            case.material.young_modulus,
-            case.material.poisson_ratio,
-            case.material.density,
-            law.map_or(1.0, |law| law.static_ratio),
-            law.map_or(0.0, |law| law.decay_speed),
-            of_shaft[0],
-            of_shaft[1],
-            of_shaft[2],
-            own.mass_coefficient,
-            own.stiffness_coefficient,
-            of_law[0],
-            of_law[1],
-            of_law[2],
-        ],
-    )
+    }
+}
+
+/// Sensitivities with the values that the case gives its parameters: of falling friction, a shaft and contact that stiffens where
+/// the case has them.
+fn sensitivity_report(case: &Case, branches: &[Sensitivity]) -> SensitivityReport {
+    let of_some = |own: &Parameter| branches.iter().any(|b| (own.derivative)(b).is_some());
+    let all = PARAMETERS.iter().enumerate();
+    let used: Vec<&Parameter> =
+        all.filter(|(i, own)| *i < ALWAYS || of_some(own)).map(|(_, own)| own).collect();
+    let rows = branches.iter().map(|branch| SensitivityRow {
+        friction_coefficient: branch.friction_coefficient,
+        harmonic: Some(branch.harmonic),
+        branch: branch.branch,
+        direction: Some(branch.direction),
+        eigenvalue: branch.eigenvalue,
+        derivatives: used.iter().map(|own| (own.derivative)(branch)).collect(),
+        onset: None,
+    });
+    SensitivityReport {
+        parameters: used.iter().map(|own| own.name.to_owned()).collect(),
+        values: used.iter().map(|own| (own.value)(case)).collect(),
+        rows: rows.collect(),
+        has_onsets: false,
+    }
 }

@@ -123,9 +123,10 @@ pub fn unstable_intervals(
     let cea = Cea { modes: own.modes, ..analysis(case, frictions, f64::INFINITY) };
     let solver = Solver::of(case, cea.method)?;
     let mut frictions = frictions.to_vec();
-    if solver == Solver::WholeMesh {
+    if matches!(solver, Solver::WholeMesh | Solver::Assembly) {
         // Harmonics are followed from no friction on; the branches of a whole mesh over the values that it is given.
         frictions.push(0.0);
+        frictions.extend(&own.friction_coefficients);
         frictions.sort_by(f64::total_cmp);
         frictions.dedup();
     }
@@ -161,7 +162,8 @@ pub fn unstable_intervals(
 
 fn branches_within(sweep: &FrictionSweep) -> Vec<(usize, usize)> {
     let modes = sweep.points.iter().flat_map(|point| &point.modes);
-    let mut found: Vec<(usize, usize)> = modes.map(|mode| (mode.harmonic, mode.branch)).collect();
+    let name = |mode: &ComplexMode| (mode.nodal_diameters.unwrap_or(mode.harmonic), mode.branch);
+    let mut found: Vec<(usize, usize)> = modes.map(name).collect();
     found.sort_unstable();
     found.dedup();
     found

@@ -68,13 +68,14 @@ impl<'a> Sampler<'a> {
         let found = eigenvalues::unstable_intervals(&case, &frictions, harmonics);
         let found = found.map_err(|failure| failure.messages().join("; "))?;
         let onset = |interval: &UnstableInterval| Onset {
-            harmonic: case.has_sectors().then_some(interval.harmonic),
+            harmonic: interval.diameters(case.has_sectors()),
             branch: interval.branch,
             // Which way a wave turns is for harmonics.
             direction: if case.has_sectors() { interval.direction } else { 0 },
             critical_friction: interval.critical_friction,
             restabilized: interval.restabilized.map(|end| end.0),
             frequency_hz: interval.frequency_hz,
+            unstable_from_start: interval.unstable_from_start,
         };
         Ok((own, found.intervals.iter().map(onset).collect(), found))
     }

@@ -1,6 +1,7 @@
 //! Consistency checks of warnings: what is possible but hardly meant is said, with the reason.
 
 use super::{DISC, RUN, STUDY, assert_reports, report, valid};
+use frictionsim::case::KEYS;
 
 #[test]
 fn slips_of_units_are_said() {
@@ -63,6 +64,9 @@ fn keys_that_an_analysis_ignores_are_said() {
         "contact.normal_stiffness is not used by cycle: its contact is rigid"
     );
     assert!(case.ignored_by("cea").is_empty());
+    // Contact that stiffens has no rotating waves: every command uses its law.
+    let law = KEYS.iter().find(|key| key.name == "contact.normal_law").unwrap();
+    assert!(law.of_waves.is_empty());
     let compliant = valid(RUN, &["contact.normal_stiffness=7e12"]);
     assert!(compliant.ignored_by("transient").is_empty());
     let sliding = valid(RUN, &["transient.initial=\"steady-sliding\""]);

@@ -44,7 +44,7 @@ impl<'a> Shapes<'a> {
             friction_coefficient: self.friction,
             mode: number,
             frequency_hz: mode.frequency_hz(),
-            harmonic: self.has_harmonics.then_some(mode.harmonic),
+            harmonic: mode.diameters(self.has_harmonics),
             branch: mode.branch,
             direction: self.has_harmonics.then_some(mode.direction),
         }
