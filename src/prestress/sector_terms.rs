@@ -9,15 +9,15 @@ use crate::mesh::SectorMesh;
 /// A matrix that depends on the friction coefficient, `P(mu) = sum_p P_p (i mu)^p` with real `P_p`.
 pub type FrictionPolynomial = Vec<BandedMatrix>;
 
-/// What the matrices are made of; each term may also be a derivative.
+/// What the matrices are made of.
 #[derive(Clone, Debug)]
 pub(super) struct Terms {
-    pub(super) elastic: Option<SectorMatrix>,
+    pub(super) elastic: SectorMatrix,
     /// Springs and dashpots of the supported edges.
     pub(super) supports: Option<[SectorMatrix; 2]>,
     /// Damping that a body has beyond that of the whole.
     pub(super) own_damping: Option<SectorMatrix>,
-    pub(super) mass: Option<SectorMatrix>,
+    pub(super) mass: SectorMatrix,
     /// Stress of the pressed state and, for each unit of friction, of the sheared state.
     pub(super) stress: Option<[SectorMatrix; 2]>,
     /// `N / a` of each contact node, zero without geometric stiffness.

@@ -1,7 +1,6 @@
 //! `sensitivities.csv`: which parameter decides whether a mode grows.
 
 use super::direction_name;
-use crate::cea::cyclic::Sensitivity;
 use crate::linalg::c64;
 use crate::results::report::ReportTable;
 use crate::results::table::{Table, format_number};
@@ -20,8 +19,6 @@ pub struct SensitivityReport {
     pub rows: Vec<SensitivityRow>,
     /// Whether modes have a circumferential harmonic and a direction.
     pub has_harmonics: bool,
-    /// Whether rows say how critical friction coefficients move.
-    pub has_onsets: bool,
 }
 
 /// Derivatives of one eigenvalue.
@@ -52,88 +49,7 @@ pub struct OnsetRates {
     pub derivatives: Vec<Option<f64>>,
 }
 
-/// Short names of the parameters, the friction coefficient first.
-const NAMES: [&str; 17] = [
-    "friction_coefficient",
-    "normal_stiffness",
-    "mass_coefficient",
-    "stiffness_coefficient",
-    "young_modulus",
-    "poisson_ratio",
-    "density",
-    "static_friction_ratio",
-    "decay_speed",
-    "shaft_young_modulus",
-    "shaft_poisson_ratio",
-    "shaft_density",
-    "shaft_mass_coefficient",
-    "shaft_stiffness_coefficient",
-    "cubic_stiffness",
-    "reference_pressure",
-    "height",
-];
-
-/// Of those, the columns that every table has.
-const ALWAYS: usize = 7;
-
-/// Derivatives in the order of [`NAMES`]; none with respect to a contact stiffness that is rigid, to how constant
-/// friction falls, or to a shaft that is not there.
-fn derivatives(branch: &Sensitivity) -> [Option<c64>; 17] {
-    let [modulus, ratio, density, mass, stiffness] = branch.shaft;
-    let [cubic, pressure, height] = branch.normal_law;
-    [
-        Some(branch.friction),
-        branch.normal_stiffness,
-        Some(branch.mass_coefficient),
-        Some(branch.stiffness_coefficient),
-        branch.young_modulus,
-        branch.poisson_ratio,
-        Some(branch.density),
-        branch.static_friction_ratio,
-        branch.decay_speed,
-        modulus,
-        ratio,
-        density,
-        mass,
-        stiffness,
-        cubic,
-        pressure,
-        height,
-    ]
-}
-
 impl SensitivityReport {
-    /// Of branches that were solved harmonic by harmonic. `given`: normal stiffness, `alpha_R`, `beta_R`, `E`, `nu`, `rho`, static
-    /// over kinetic friction and decay speed of the case, then `E`, `nu`, `rho`, `alpha_R`, `beta_R` of its shaft, then cubic
-    /// stiffness, reference pressure and height of the contact's law (0 for rigid contact, constant friction, no shaft, linear
-    /// contact). Parameters of a friction law that falls with speed, of a shaft, and of contact that stiffens, are there where the
-    /// case has one.
-    pub fn of_harmonics(branches: &[Sensitivity], given: [f64; 16]) -> Self {
-        let all: Vec<_> = branches.iter().map(derivatives).collect();
-        let is_given = |i: &usize| *i < ALWAYS || all.iter().any(|row| row[*i].is_some());
-        let columns: Vec<usize> = (0..NAMES.len()).filter(is_given).collect();
-        let rows = branches.iter().zip(&all).map(|(branch, all)| SensitivityRow {
-            friction_coefficient: branch.friction_coefficient,
-            harmonic: branch.harmonic,
-            branch: branch.branch,
-            direction: branch.direction,
-            eigenvalue: branch.eigenvalue,
-            derivatives: columns.iter().map(|&i| all[i]).collect(),
-            onset: None,
-        });
-        let value = |&i: &usize| match i {
-            0 => f64::NAN,
-            i => given[i - 1],
-        };
-        Self {
-            parameters: columns.iter().map(|&i| NAMES[i].to_owned()).collect(),
-            values: columns.iter().map(value).collect(),
-            rows: rows.collect(),
-            has_harmonics: true,
-            has_onsets: false,
-        }
-    }
-
     /// Change of the eigenvalue, 1/s, for one per cent more of each parameter, that of the growth rate largest first.
     fn per_cent<'a>(&'a self, row: &'a SensitivityRow) -> Vec<(&'a str, c64)> {
         let own = [row.friction_coefficient];
@@ -164,17 +80,15 @@ impl SensitivityReport {
             columns.push(format!("growth_rate_per_{name}"));
             columns.push(format!("frequency_hz_per_{name}"));
         }
-        if self.has_onsets {
-            columns.push("critical_friction".to_owned());
-            let names = self.parameters.iter().skip(1);
-            columns.extend(names.map(|name| format!("critical_friction_per_{name}")));
-        }
+        columns.push("critical_friction".to_owned());
+        let names = self.parameters.iter().skip(1);
+        columns.extend(names.map(|name| format!("critical_friction_per_{name}")));
         columns
     }
 
     /// Writes one row for each branch: the derivative of its growth rate (1/s) and of its frequency (Hz) for each unit of
-    /// each parameter, empty of a parameter that it does not have; and where onsets were followed, the first critical friction
-    /// coefficient of the branch with its derivatives.
+    /// each parameter, empty of one by which there is none; and the first critical friction coefficient
+    ///  of the branch with its derivatives.
     ///
     /// # Errors
     /// Those of the writer.
@@ -199,13 +113,10 @@ impl SensitivityReport {
                 let parts = derivative.map_or([f64::NAN; 2], |d| [d.re, d.im / TAU]);
                 cells.extend(parts.map(format_number));
             }
-            if self.has_onsets {
-                let critical = row.onset.as_ref().map(|onset| onset.critical_friction);
-                let rate = |i: usize| row.onset.as_ref().and_then(|onset| onset.derivatives[i]);
-                let rates = (1..self.parameters.len()).map(rate);
-                let all = std::iter::once(critical).chain(rates);
-                cells.extend(all.map(|value| format_number(value.unwrap_or(f64::NAN))));
-            }
+            let critical = row.onset.as_ref().map(|onset| onset.critical_friction);
+            let rate = |i: usize| row.onset.as_ref().and_then(|onset| onset.derivatives[i]);
+            let all = std::iter::once(critical).chain((1..self.parameters.len()).map(rate));
+            cells.extend(all.map(|value| format_number(value.unwrap_or(f64::NAN))));
             table.row(cells)?;
         }
         table.finish()

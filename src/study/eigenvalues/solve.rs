@@ -1,6 +1,6 @@
 //! Solution of the eigenvalue analysis of a case, and the notes on its results.
 
-use super::model::{Model, Solver, mode_limit};
+use super::model::{Model, Solver, Spectrum, mode_limit};
 use super::notes::{
     MISSING_SHOWN, count_notes, coverage_note, damping_note, ended_notes, friction_note,
     instead_note, overdamped_note, table_notes, uncertainty_note,
@@ -10,10 +10,7 @@ use super::sensitivity::body_sensitivities;
 use super::solid::SolidBody;
 use super::{Progress, SlidingModel, Solution, StudyError};
 use crate::case::{Case, Cea, CeaMethod};
-use crate::cea::cyclic::Sensitivity;
-use crate::cea::{CeaError, FrictionSweep, SweepRequest, Unwatched};
-use crate::contact::NormalLaw;
-use crate::fem::RegionMaterial;
+use crate::cea::{CeaError, SweepRequest, Unwatched};
 use crate::results::cea::SensitivityReport;
 
 /// Solves the case's eigenproblems with its method; `progress` hears of every friction value solved.
@@ -41,15 +38,11 @@ fn solve_with(
     case: &Case,
     cea: &Cea,
     model: &SlidingModel,
-    (with_rates, progress): (bool, &Progress<'_>),
+    (with_reading, progress): (bool, &Progress<'_>),
 ) -> Result<Solution, StudyError> {
     // Branches are known up to the largest friction coefficient of the sweep.
     let friction = case.contact.sliding.friction_coefficient;
     let frictions = cea.solved_friction_coefficients();
-    let with_reading = with_rates;
-    let with_rates = with_rates
-        && cea.sensitivities != Some(false)
-        && frictions.iter().any(|&mu| mu >= friction);
     let waves_at: &[f64] = if with_reading { &frictions } else { &[] };
     let shapes_at = |of: &Model| {
         let modes = case.cost().cea.map_or(0, |cost| cost.modes) as f64;
@@ -63,7 +56,7 @@ fn solve_with(
             shapes_at: &shapes_at(of),
             count_modes: cea.count_modes && with_reading,
         };
-        of.spectrum_with_waves(case, (&request, waves_at), with_rates, progress)
+        of.spectrum_with_waves(case, (&request, waves_at), progress)
     };
     let solved = solve(&model.model);
     let (mut found, method, instead) = match solved {
@@ -75,9 +68,11 @@ fn solve_with(
             (found, whole.method(), Some(instead_note(&error)))
         }
     };
-    let is_asked = with_rates && cea.sensitivities == Some(true);
-    let (of_body, rate_note) = match is_asked && method == "sparse" {
-        true => body_rates(case, cea, &found.sweep),
+    // Those of waves cost next to nothing.
+    let is_asked = cea.sensitivities.unwrap_or(found.waves.is_some());
+    let is_asked = is_asked && with_reading && frictions.iter().any(|&mu| mu >= friction);
+    let (sensitivities, rate_note) = match is_asked {
+        true => body_rates(case, cea, &found),
         false => (None, None),
     };
 
@@ -89,19 +84,13 @@ fn solve_with(
     notes.extend(overdamped_note(case, model, &found.overdamped));
     notes.extend(model.solid().and_then(SolidBody::note));
     notes.extend(table_notes(case));
-    if found.without_sensitivities > 0 {
-        notes.push(format!(
-            "sensitivities.csv leaves {} of the branches out, which could not be found again at friction {friction}",
-            found.without_sensitivities
-        ));
-    }
     notes.extend(rate_note);
     notes.extend(uncertainty_note(case, &found.sweep));
     notes.extend(damping_note(case, &found.sweep));
     notes.extend(ended_notes(&found.sweep));
     notes.extend(friction_note(case, model));
     let reading = match with_reading {
-        true => read(case, model, found.tangent.as_ref(), &found.sweep),
+        true => read(case, model, found.waves.as_ref().map(|waves| &waves.tangent), &found.sweep),
         false => None,
     };
     // Shapes and waves that only the reading needed.
@@ -111,36 +100,34 @@ fn solve_with(
             point.modes.iter_mut().for_each(|mode| mode.shape = None);
         }
     }
-    let sensitivities = found.sensitivities;
     Ok(Solution {
         reading,
         dofs: found.dofs,
         method: if found.is_by_diameters { "cyclic" } else { method },
-        sensitivities: match of_body {
-            Some(of_body) => Some(of_body),
-            None => sensitivities.map(|branches| sensitivity_report(case, branches)),
-        },
+        sensitivities,
         notes,
         sweep: found.sweep,
     })
 }
 
-/// Sensitivities of a body solved on its whole mesh; why there are none, or what is missing of them.
+/// Sensitivities of a body; why there are none, or what is missing of them.
 fn body_rates(
     case: &Case,
     cea: &Cea,
-    sweep: &FrictionSweep,
+    found: &Spectrum,
 ) -> (Option<SensitivityReport>, Option<String>) {
     let friction = case.contact.sliding.friction_coefficient;
+    let (sweep, waves) = (&found.sweep, found.waves.as_ref());
     let mut points = sweep.points.iter();
-    if !points.any(|p| p.friction_coefficient == friction && !p.modes.is_empty()) {
+    if waves.is_none() && !points.any(|p| p.friction_coefficient == friction && !p.modes.is_empty())
+    {
         let note = format!(
             "no sensitivities: there are no modes at contact.friction_coefficient = {friction}; name it in \
              cea.friction_coefficients"
         );
         return (None, Some(note));
     }
-    match body_sensitivities(case, cea, sweep) {
+    match body_sensitivities(case, cea, sweep, waves) {
         Ok(found) => {
             let missing = found.missing.iter().take(MISSING_SHOWN).cloned();
             let mut missing: Vec<String> = missing.collect();
@@ -190,43 +177,4 @@ fn whole_mesh_instead(
         }
         _ => Ok(None),
     }
-}
-
-/// Sensitivities with the values that the case gives its parameters.
-fn sensitivity_report(case: &Case, branches: Vec<Sensitivity>) -> SensitivityReport {
-    let law = case.contact.sliding.decay;
-    let annulus = case.body.annulus();
-    let shaft = annulus.and_then(|annulus| annulus.materials.shaft);
-    let of_shaft = shaft.map_or([0.0; 3], |RegionMaterial { elastic, .. }| {
-        [elastic.young_modulus, elastic.poisson_ratio, elastic.density]
-    });
-    let own = shaft.and_then(|shaft| shaft.damping).unwrap_or_default();
-    let of_law = match case.contact.stiffness.law {
-        Some(NormalLaw::Cubic { cubic_stiffness, .. }) => [cubic_stiffness, 0.0, 0.0],
-        Some(NormalLaw::Exponential { reference_pressure, height }) => {
-            [0.0, reference_pressure, height]
-        }
-        None => [0.0; 3],
-    };
-    SensitivityReport::of_harmonics(
-        &branches,
-        [
-            case.contact.stiffness.normal_stiffness.unwrap_or(0.0),
-            case.damping.rayleigh.mass_coefficient,
-            case.damping.rayleigh.stiffness_coefficient,
-            case.material.young_modulus,
-            case.material.poisson_ratio,
-            case.material.density,
-            law.map_or(1.0, |law| law.static_ratio),
-            law.map_or(0.0, |law| law.decay_speed),
-            of_shaft[0],
-            of_shaft[1],
-            of_shaft[2],
-            own.mass_coefficient,
-            own.stiffness_coefficient,
-            of_law[0],
-            of_law[1],
-            of_law[2],
-        ],
-    )
 }
