@@ -52,7 +52,7 @@ pub use options::{DampingModel, TangentOptions};
 pub use pressed_state::{PressedState, Pressing};
 pub use sector::SectorSliding;
 pub use sector_tangent::{HarmonicTangent, SectorTangent};
-pub use sector_terms::FrictionPolynomial;
+pub use sector_terms::{FrictionPolynomial, evaluate};
 pub use solid::SolidSliding;
 pub use solid_harmonic::{MovingHarmonic, SolidHarmonic, moving_unknowns};
 pub use solid_tangent::{SolidTangent, sector_unknowns};

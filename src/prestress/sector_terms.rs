@@ -4,10 +4,24 @@ use super::{SectorSliding, TangentOptions};
 use crate::fem::MaterialField;
 use crate::fem::sector::{self, MirrorParity, SectorMatrix};
 use crate::linalg::banded::BandedMatrix;
+use crate::linalg::c64;
 use crate::mesh::SectorMesh;
 
 /// A matrix that depends on the friction coefficient, `P(mu) = sum_p P_p (i mu)^p` with real `P_p`.
 pub type FrictionPolynomial = Vec<BandedMatrix>;
+
+/// `P(z)`, `z = i mu`.
+pub fn evaluate(polynomial: &FrictionPolynomial, z: c64) -> Vec<c64> {
+    let mut values: Vec<c64> = polynomial[0].values().iter().map(|v| c64::new(*v, 0.0)).collect();
+    let mut power = z;
+    for coefficient in &polynomial[1..] {
+        for (value, v) in values.iter_mut().zip(coefficient.values()) {
+            *value += power * *v;
+        }
+        power *= z;
+    }
+    values
+}
 
 /// What the matrices are made of.
 #[derive(Clone, Debug)]

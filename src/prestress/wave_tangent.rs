@@ -1,7 +1,8 @@
 //! The linearisation of a body that is solved harmonic by harmonic.
 
-use super::{FrictionPolynomial, HarmonicTangent, MovingHarmonic};
-use super::{SectorTangent, SolidHarmonic, SolidTangent};
+use super::{
+    HarmonicTangent, MovingHarmonic, SectorTangent, SolidHarmonic, SolidTangent, evaluate,
+};
 use crate::linalg::c64;
 
 /// The tangent of one sector of a body.
@@ -59,10 +60,10 @@ impl WaveHarmonic {
 impl HarmonicTangent {
     /// The matrices at a friction coefficient, the damping written out where it is proportional.
     pub fn at(&self, friction_coefficient: f64) -> MovingHarmonic {
-        let mu = friction_coefficient;
-        let [mass, stiffness] = [&self.mass, &self.stiffness].map(|p| evaluate(p, mu));
+        let (mu, z) = (friction_coefficient, c64::new(0.0, friction_coefficient));
+        let [mass, stiffness] = [&self.mass, &self.stiffness].map(|p| evaluate(p, z));
         let mut damping = match &self.damping {
-            Some(damping) => evaluate(damping, mu),
+            Some(damping) => evaluate(damping, z),
             None => {
                 let [alpha, beta] =
                     [self.rayleigh.mass_coefficient, self.rayleigh.stiffness_coefficient];
@@ -70,25 +71,12 @@ impl HarmonicTangent {
             }
         };
         if let Some(dashpots) = &self.friction_dashpots {
-            let added = evaluate(dashpots, mu);
+            let added = evaluate(dashpots, z);
             damping.iter_mut().zip(added).for_each(|(sum, c)| *sum += c * mu);
         }
         let half_bandwidth = self.mass[0].half_bandwidth();
         MovingHarmonic { half_bandwidth, mass, damping, stiffness }
     }
-}
-
-/// `P(i mu)`.
-fn evaluate(polynomial: &FrictionPolynomial, mu: f64) -> Vec<c64> {
-    let mut values = vec![c64::new(0.0, 0.0); polynomial[0].values().len()];
-    let mut power = c64::new(1.0, 0.0);
-    for coefficient in polynomial {
-        for (value, v) in values.iter_mut().zip(coefficient.values()) {
-            *value += power * *v;
-        }
-        power *= c64::new(0.0, mu);
-    }
-    values
 }
 
 impl MovingHarmonic {
