@@ -214,7 +214,7 @@ impl super::Case {
         Self::from_raw(raw).map_err(said)
     }
 
-    /// The continuous parameters of the model that the case gives as numbers other than 0, with these, by key; the friction
+    /// The continuous parameters of the model that the case gives as numbers, with these, by key; the friction
     /// coefficient of `[contact]`, which sweeps vary, and the thickness of a plane body, which scales results alone, are left out.
     pub fn model_numbers(&self) -> Vec<(String, f64)> {
         let mut found = Vec::new();
@@ -223,7 +223,7 @@ impl super::Case {
             key == "contact.friction_coefficient"
                 || (key == "geometry.thickness" && self.body.dimension() == 2)
         };
-        found.retain(|(key, value)| *value != 0.0 && !is_left_out(key));
+        found.retain(|(key, _)| !is_left_out(key));
         found
     }
 

@@ -47,11 +47,6 @@ impl FrictionDecay {
         -self.excess(slip_speed) / self.decay_speed
     }
 
-    /// Its second derivative, s2/m2.
-    pub fn curvature(&self, slip_speed: f64) -> f64 {
-        -self.slope(slip_speed) / self.decay_speed
-    }
-
     /// Largest fall of `mu(v) / mu` with `|v|`, s/m.
     pub fn steepest_fall(&self) -> f64 {
         -self.slope(0.0)
@@ -60,14 +55,6 @@ impl FrictionDecay {
     /// `(q - 1) exp(-|v| / v_c)`.
     fn excess(&self, slip_speed: f64) -> f64 {
         (self.static_ratio - 1.0) * (-slip_speed.abs() / self.decay_speed).exp()
-    }
-
-    /// Derivatives of share and slope at `v` with respect to `q`, and with respect to `v_c`.
-    pub fn rates(&self, slip_speed: f64) -> [[f64; 2]; 2] {
-        let (speed, decay) = (slip_speed.abs(), self.decay_speed);
-        let unit = (-speed / decay).exp();
-        let by_speed = self.excess(speed) * speed / (decay * decay);
-        [[unit, -unit / decay], [by_speed, (self.excess(speed) / decay - by_speed) / decay]]
     }
 }
 

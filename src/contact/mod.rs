@@ -35,7 +35,7 @@ pub use law::{
 };
 pub use linearized::{ContactTerms, PressedPoints, linearized};
 pub use mortar::{MortarNode, mortar_nodes};
-pub use normal_law::{LawParameter, NormalLaw};
+pub use normal_law::NormalLaw;
 pub use opposite::OppositeShare;
 pub use pair_error::PairError;
 pub use pairing::{ContactSite, ContactSurface, Motion, PairFriction, PointKind};

@@ -233,53 +233,26 @@ impl ElementGeometry {
         Condensed { stiffness: condensed, recovered: Some(recovered) }
     }
 
-    /// Derivative of [`Self::stiffness`] where the elasticity changes at the `rate` of another material's:
-    ///
-    /// ```text
-    /// dK = [1; R]^T dK_full [1; R],   dR = -K_ii^-1 (dK_iu + dK_ii R)
-    /// ```
-    pub fn stiffness_rate(&self, material: &ElasticMaterial, rate: &ElasticMaterial) -> Condensed {
-        let change = self.full_stiffness(rate, None);
-        let nodal = self.dimension() * self.node_count();
-        let internal = change.nrows() - nodal;
-        let Some(recovered) = self.stiffness(material).recovered else {
-            return Condensed { stiffness: change, recovered: None };
-        };
-        let mut follows = DMatrix::<f64>::identity(nodal + internal, nodal);
-        follows.view_mut((nodal, 0), (internal, nodal)).copy_from(&recovered);
-        let image = &change * &follows;
-        let mut stiffness = follows.transpose() * &image;
-        mirror_upper_triangle(&mut stiffness);
-        let full = self.full_stiffness(material, None);
-        let inner = full.view((nodal, nodal), (internal, internal)).into_owned();
-        let load = image.view((nodal, 0), (internal, nodal)).into_owned();
-        let factor = inner
-            .cholesky()
-            .expect("incompatible modes of a sound element have positive stiffness");
-        Condensed { stiffness, recovered: Some(-factor.solve(&load)) }
-    }
-
-    /// Element geometric stiffness `K_sigma = ∫ (grad N_I . sigma . grad N_J) I dV` of a sum of stresses, in nodal frames, N/m,
-    /// in the plane for each metre of thickness.
+    /// Element geometric stiffness `K_sigma = ∫ (grad N_I . sigma . grad N_J) I dV` of the stress of nodal displacements
+    /// `values`, in their frames, m, and of the amplitudes of the incompatible modes that an element has: N/m, in the plane for
+    /// each metre of thickness.
     ///
     /// It is the stress part of the tangent alone: a pressure that follows its surface adds the follower terms of the contact,
     /// which the caller must include too.
-    pub fn geometric_stiffness(&self, parts: &[StressPart<'_>]) -> DMatrix<f64> {
+    pub fn geometric_stiffness(
+        &self,
+        material: &ElasticMaterial,
+        values: &[f64],
+        internal: Option<&DVector<f64>>,
+    ) -> DMatrix<f64> {
         let count = self.node_count();
         let points = self.stiffness_points();
-        let gradients: Vec<Vec<Matrix3<f64>>> = parts
-            .iter()
-            .map(|part| self.displacement_gradients(&points, part.values, part.internal.as_ref()))
-            .collect();
+        let gradients = self.displacement_gradients(&points, values, internal);
+        let law = self.solid_aware(material);
         let mut scalar = DMatrix::<f64>::zeros(count, count);
         for (i, point) in points.iter().enumerate() {
-            let mut stress = Matrix3::zeros();
-            for (part, gradients) in parts.iter().zip(&gradients) {
-                let law = self.solid_aware(part.material);
-                let stress_there = stress_of(&law, &gradients[i], self.position(point));
-                stress += tensor(&stress_there);
-            }
-            stress *= point.measure;
+            let stress = tensor(&stress_of(&law, &gradients[i], self.position(point)));
+            let stress = stress * point.measure;
             for column in 0..count {
                 let flux = stress * point.gradients[column];
                 for row in 0..=column {
@@ -317,16 +290,6 @@ pub struct Condensed {
     /// What the amplitudes of the incompatible modes are for each nodal displacement, `alpha = R u`, `R = -K_ii^-1 K_iu`;
     /// `None` for elements without.
     pub recovered: Option<DMatrix<f64>>,
-}
-
-/// A part of the stress: a material's law on the strain of nodal displacements and of the incompatible modes with them.
-pub struct StressPart<'a> {
-    /// The law.
-    pub material: &'a ElasticMaterial,
-    /// Displacements of the element's nodes in their frames, m.
-    pub values: &'a [f64],
-    /// Amplitudes of the incompatible modes; `None` for elements without.
-    pub internal: Option<DVector<f64>>,
 }
 
 /// `D epsilon` over some components.
@@ -389,11 +352,8 @@ pub fn geometric_stiffness(
 ) -> DMatrix<f64> {
     let geometry = ElementGeometry::new(mesh, element);
     let values = nodal_values(mesh, element, base);
-    geometry.geometric_stiffness(&[StressPart {
-        material,
-        internal: geometry.internal_amplitudes(material, &values),
-        values: &values,
-    }])
+    let internal = geometry.internal_amplitudes(material, &values);
+    geometry.geometric_stiffness(material, &values, internal.as_ref())
 }
 
 /// What the displacements `base` add to an element's stiffness, see [`ElementGeometry::displacement_stiffness`].

@@ -236,25 +236,6 @@ impl ElasticMaterial {
         solid.lame_constants()
     }
 
-    /// A material whose Lamé constants are the derivatives of this one's with respect to Poisson's ratio, so that whatever is
-    /// linear in the Lamé constants differentiates itself.
-    pub fn poisson_rate(&self) -> Self {
-        let (e, nu) = (self.young_modulus, self.poisson_ratio);
-        let shear = -e / (2.0 * (1.0 + nu).powi(2));
-        let lambda = match self.formulation {
-            PlaneFormulation::PlaneStrain | PlaneFormulation::ThreeDimensional => {
-                e * (1.0 + 2.0 * nu * nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)).powi(2)
-            }
-            PlaneFormulation::PlaneStress => e * (1.0 + nu * nu) / (1.0 - nu * nu).powi(2),
-        };
-        Self {
-            young_modulus: shear * (3.0 * lambda + 2.0 * shear) / (lambda + shear),
-            poisson_ratio: lambda / (2.0 * (lambda + shear)),
-            density: self.density,
-            ..Self::PLAIN
-        }
-    }
-
     /// Elasticity matrix `D` in `sigma = D epsilon` at a place, Pa, over `(xx, yy, zz, xy, yz, zx)` with engineering shear
     /// strains `2 epsilon_xy, ...`; what a plane formulation says of the third direction is in it, so that strains of a plane
     /// body, which have none, give its stresses in the plane.

@@ -95,15 +95,6 @@ impl SectorMatrix {
         matrix
     }
 
-    /// Multiplies every entry.
-    pub fn scaled(&self, factor: f64) -> Self {
-        let mut result = self.clone();
-        for (_, coupling) in &mut result.couplings {
-            coupling.scale(factor);
-        }
-        result
-    }
-
     /// Sum of two matrices of one sector and one parity; `other` may have fewer couplings.
     pub fn plus(&self, other: &Self) -> Self {
         assert_eq!(self.parity, other.parity);

@@ -7,11 +7,9 @@ mod element;
 mod face;
 mod stress;
 
-pub use element::{mass, stiffness, stiffness_rate};
-pub use face::{
-    FaceTerm, MovingSpan, face_load, face_matrix, face_matrix_rate, nodal_matrix, whole_element,
-};
-pub use stress::{geometric_stiffness, geometric_stiffness_rate};
+pub use element::{mass, stiffness};
+pub use face::{FaceTerm, face_load, face_matrix, nodal_matrix, whole_element};
+pub use stress::geometric_stiffness;
 
 use super::sector::MirrorParity;
 use crate::linalg::banded::BandedMatrix;

@@ -87,35 +87,6 @@ pub(super) struct Pressing {
     pub approaches: Vec<f64>,
 }
 
-/// Derivative of [`pressed_span`] where the values of the rings change at `rates`: the roots of the parabola move.
-pub(super) fn pressed_span_rate(
-    sector: &SolidSector,
-    (values, rates): (&[f64], &[f64]),
-    element: &FaceElement,
-) -> [f64; 2] {
-    let [from, middle, to] = of_element(sector, values, element);
-    let slope = |at: f64| 0.5 * (to - from) + (from + to - 2.0 * middle) * at;
-    let span = pressed_span(sector, values, element);
-    let is_open = span[0] == span[1];
-    span.map(|end| match end.abs() < 1.0 && !is_open {
-        true if sector.is_quadratic() && slope(end) != 0.0 => {
-            -along_element(sector, rates, element, end) / slope(end)
-        }
-        _ => 0.0,
-    })
-}
-
-/// Derivative along an element of what [`along_element`] gives.
-pub(super) fn slope_along(
-    sector: &SolidSector,
-    values: &[f64],
-    element: &FaceElement,
-    along: f64,
-) -> f64 {
-    let [from, middle, to] = of_element(sector, values, element);
-    0.5 * (to - from) + (from + to - 2.0 * middle) * along
-}
-
 /// `delta - u_n` at each ring, the mean over its nodes, m.
 pub(super) fn approaches(
     sector: &SolidSector,
@@ -251,14 +222,10 @@ impl Springs<'_> {
         self.matrix(&|approach| self.law.stiffness(approach))
     }
 
-    /// `int s(g) n n^T dA`, N/m, whose force at the approaches is that of the pressure.
-    pub fn secant(&self) -> SolidMatrix {
-        self.matrix(&|approach| self.law.secant(approach)[0])
-    }
-
-    /// `int s g n dA`, N.
+    /// `int s g n dA`, N, with the secant `s(g)`, whose force at the approaches is that of the pressure.
     fn push(&self) -> Vec<f64> {
-        let system = System::new(self.sector, &[&self.secant()]);
+        let secant = self.matrix(&|approach| self.law.secant(approach));
+        let system = System::new(self.sector, &[&secant]);
         system.stiffness.multiply(&field(self.sector, self.approaches))
     }
 

@@ -1,7 +1,7 @@
 //! Steady sliding of a rotationally symmetric annulus, from one sector.
 
 use super::PrestressError;
-use crate::contact::{LawParameter, NormalLaw, SlidingContact, SteadyFriction};
+use crate::contact::{NormalLaw, SlidingContact, SteadyFriction};
 use crate::fem::sector::SectorMatrix;
 use crate::linalg::banded::{BandedLdl, BandedMatrix};
 use crate::mesh::SectorMesh;
@@ -79,64 +79,6 @@ impl SectorSliding {
             normal_forces,
             sliding_direction,
             friction,
-        })
-    }
-
-    /// Derivative of the state when the elastic stiffness changes at the rate `elastic_rate`
-    /// (`u_0`, `u_1`, `N_i` and the springs, in the units of the state for each unit of the parameter).
-    ///
-    /// ```text
-    /// K u_0' = -K' u_0 (u_0' = 0 on the contact normal),  N' = K' u_0 + K u_0',  K u_1' = s (mu(V) / mu) N' e_t - K' u_1
-    /// ```
-    ///
-    /// On springs the distances give way by `d'`, `N_i' + (S d')_i = w_i p' - k_i d_i'` with `S` the forces of unit distances, and
-    /// `p'` what `law_parameter` does at the same approach.
-    ///
-    /// # Errors
-    /// [`PrestressError::Singular`] as in [`Self::solve`].
-    pub fn rate(
-        &self,
-        sector: &SectorMesh,
-        elastic: &SectorMatrix,
-        elastic_rate: Option<&SectorMatrix>,
-        law: Option<(NormalLaw, Option<LawParameter>)>,
-    ) -> Result<Self, PrestressError> {
-        let system = PressedSystem::new(sector, elastic)?;
-        let changed = |displacement: &[f64]| -> Vec<f64> {
-            let none = || vec![0.0; displacement.len()];
-            let force =
-                elastic_rate.map_or_else(none, |rate| rate.harmonic(0).multiply(displacement));
-            system.distance_forces(force)
-        };
-        // With the distances held.
-        let force = changed(&self.pressed_displacement);
-        let mut pressed = system.solve(force.iter().map(|f| -f).collect());
-        let mut normal_forces: Vec<f64> = system
-            .normal_forces(&pressed)
-            .iter()
-            .zip(sector.contact_nodes())
-            .map(|(reaction, node)| reaction + force[2 * node])
-            .collect();
-        // With those that the springs give way by.
-        let mut springs = None;
-        if let (Some((law, parameter)), Some(stiffness)) = (law, &self.springs) {
-            let yielding = system.yielding(self, stiffness, (law, parameter), &normal_forces)?;
-            for (value, added) in pressed.iter_mut().zip(system.pressed_by(&yielding[0])) {
-                *value += added;
-            }
-            normal_forces.clone_from(&yielding[1]);
-            springs = Some(yielding[2].clone());
-        }
-        let mut load = changed(&self.sheared_displacement);
-        load.iter_mut().for_each(|force| *force = -*force);
-        system.add_traction(&mut load, &normal_forces, self.friction.drag);
-        Ok(Self {
-            pressed_displacement: system.displacement(pressed),
-            sheared_displacement: system.displacement(system.solve(load)),
-            normal_forces,
-            springs,
-            sliding_direction: self.sliding_direction,
-            friction: self.friction,
         })
     }
 }
@@ -259,36 +201,6 @@ impl<'a> PressedSystem<'a> {
         Ok(forces.map(|(force, w)| law.approach(force.max(0.0) / w)).collect())
     }
 
-    /// Rates of distances, normal forces and springs where those of the forces with the distances held are `held`.
-    fn yielding(
-        &self,
-        state: &SectorSliding,
-        springs: &[f64],
-        (law, parameter): (NormalLaw, Option<LawParameter>),
-        held: &[f64],
-    ) -> Result<[Vec<f64>; 3], PrestressError> {
-        let lengths = self.sector.tributary_lengths();
-        let count = lengths.len();
-        let approach = |i: usize| law.approach(state.normal_forces[i] / lengths[i]);
-        let by_law = |i: usize| {
-            let rates = parameter.and_then(|parameter| law.rates(parameter, approach(i)));
-            rates.unwrap_or_default().map(|rate| lengths[i] * rate)
-        };
-        let response = self.responses();
-        let mut matrix = response.clone();
-        (0..count).for_each(|i| matrix[(i, i)] += springs[i]);
-        let right = DVector::from_fn(count, |i, _| by_law(i)[0] - held[i]);
-        let distances = matrix.lu().solve(&right).ok_or(PrestressError::Singular)?;
-        let reactions = response * &distances;
-        let stiffer =
-            |i: usize| by_law(i)[1] - lengths[i] * law.curvature(approach(i)) * distances[i];
-        Ok([
-            distances.iter().copied().collect(),
-            (0..count).map(|i| held[i] + reactions[i]).collect(),
-            (0..count).map(stiffer).collect(),
-        ])
-    }
-
     fn normal_forces(&self, distances: &[f64]) -> Vec<f64> {
         let force = self.stiffness.multiply(distances);
         let nodes = self.sector.contact_nodes();
@@ -310,13 +222,6 @@ impl<'a> PressedSystem<'a> {
             distances[2 * node] += distances[2 * opposite];
         }
         distances
-    }
-
-    fn distance_forces(&self, mut forces: Vec<f64>) -> Vec<f64> {
-        for (node, opposite) in pairs(self.sector) {
-            forces[2 * opposite] += forces[2 * node];
-        }
-        forces
     }
 }
 

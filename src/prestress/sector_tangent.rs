@@ -7,7 +7,7 @@ use super::sector_terms::{
 use super::{DampingModel, PrestressError, SectorSliding, TangentOptions};
 use crate::contact::SlidingContact;
 use crate::fem::sector::{self, SectorMatrix};
-use crate::fem::{MaterialField, RayleighDamping, RegionMaterial};
+use crate::fem::{ElasticMaterial, MaterialField, RayleighDamping, RegionMaterial};
 use crate::linalg::banded::BandedMatrix;
 use crate::mesh::SectorMesh;
 use std::ops::Range;
@@ -49,7 +49,6 @@ pub struct SectorTangent {
     /// Of each region: the annulus, then the shaft.
     pub(super) materials: Vec<RegionMaterial>,
     pub(super) options: TangentOptions,
-    pub(super) contact: SlidingContact,
     pub(super) base: SectorSliding,
     pub(super) terms: Terms,
 }
@@ -78,8 +77,8 @@ impl SectorTangent {
             turning: turning(sector, options, &base),
             own_damping: sector::extra_damping(sector, material, options.mass, options.damping),
             stress,
-            mass: Some(sector::mass(sector, material, options.mass)),
-            elastic: Some(elastic),
+            mass: sector::mass(sector, material, options.mass),
+            elastic,
             supports,
             normal_stiffness: match &base.springs {
                 Some(springs) => Some(springs.clone()),
@@ -96,7 +95,6 @@ impl SectorTangent {
                 })
                 .collect(),
             options: *options,
-            contact: *contact,
             base,
             terms,
         })
@@ -143,6 +141,17 @@ impl SectorTangent {
         dofs.filter_map(|dof| unknowns.iter().position(|&u| u == dof)).collect()
     }
 
+    /// A material of one region, with the damping that the region has of its own, and nothing elsewhere.
+    pub(super) fn of_region(&self, own: usize, elastic: ElasticMaterial) -> Vec<RegionMaterial> {
+        let nothing = ElasticMaterial { density: 0.0, ..elastic.without_stiffness() };
+        let regions = self.materials.iter().enumerate();
+        let regions = regions.map(|(region, material)| RegionMaterial {
+            elastic: if region == own { elastic } else { nothing },
+            damping: material.damping,
+        });
+        regions.collect()
+    }
+
     /// Rayleigh coefficients.
     pub fn rayleigh(&self) -> RayleighDamping {
         self.options.damping
@@ -160,24 +169,22 @@ impl SectorTangent {
 
     /// Matrices of harmonic `n`.
     pub fn harmonic(&self, n: usize) -> HarmonicTangent {
-        let rayleigh = self.options.damping;
         HarmonicTangent {
             harmonic: n,
             contact: self.contact_unknowns(),
             shares: None,
-            mass: self.mass(&self.terms, n),
-            stiffness: self.stiffness(&self.terms, n),
-            damping: (!self.is_proportional())
-                .then(|| self.damping(&self.terms, rayleigh, true, n)),
-            friction_dashpots: self.friction_dashpots(&self.terms).map(|c| vec![c]),
-            rayleigh,
+            mass: self.mass(n),
+            stiffness: self.stiffness(n),
+            damping: (!self.is_proportional()).then(|| self.damping(n)),
+            friction_dashpots: self.friction_dashpots().map(|c| vec![c]),
+            rayleigh: self.options.damping,
         }
     }
 
     /// `M_n` and `K_n` without friction, real and symmetric.
     pub fn harmonic_at_rest(&self, n: usize) -> [BandedMatrix; 2] {
-        let mass = self.harmonic_of(&self.terms.mass, n);
-        let mut stiffness = self.stiffness_at_rest(&self.terms, n);
+        let mass = self.wave(&self.terms.mass, n);
+        let mut stiffness = self.stiffness_at_rest(n);
         if let Some([springs, _]) = &self.terms.supports {
             stiffness.add_scaled(1.0, &self.wave(springs, n));
         }
@@ -203,10 +210,6 @@ impl SectorTangent {
         BandedMatrix::zeros(2 * self.sector.free_node_count(), half_bandwidth)
     }
 
-    pub(super) fn harmonic_of(&self, matrix: &Option<SectorMatrix>, n: usize) -> BandedMatrix {
-        matrix.as_ref().map_or_else(|| self.zero(), |matrix| self.wave(matrix, n))
-    }
-
     /// Harmonic `n` of a matrix over displacements, with distances across the contact.
     pub(super) fn wave(&self, matrix: &SectorMatrix, n: usize) -> BandedMatrix {
         let mut wave = matrix.harmonic(n);
@@ -214,71 +217,63 @@ impl SectorTangent {
         wave
     }
 
-    pub(super) fn mass(&self, terms: &Terms, n: usize) -> FrictionPolynomial {
-        self.project(vec![self.harmonic_of(&terms.mass, n)])
+    fn mass(&self, n: usize) -> FrictionPolynomial {
+        self.project(vec![self.wave(&self.terms.mass, n)])
     }
 
     /// `K_e + K_sigma`, supports, the contact forces that turn with the edge, and the normal law.
-    pub(super) fn stiffness(&self, terms: &Terms, n: usize) -> FrictionPolynomial {
-        let mut full = self.damped_stiffness(terms, n);
-        if let Some([springs, _]) = &terms.supports {
+    fn stiffness(&self, n: usize) -> FrictionPolynomial {
+        let mut full = self.damped_stiffness(n);
+        if let Some([springs, _]) = &self.terms.supports {
             full[0].add_scaled(1.0, &self.wave(springs, n));
         }
         self.project(full)
     }
 
     /// The stiffness that `beta_R` multiplies: all but the supports; over all free dofs.
-    fn damped_stiffness(&self, terms: &Terms, n: usize) -> FrictionPolynomial {
-        let mut full = vec![self.stiffness_at_rest(terms, n), self.zero()];
-        if let Some([_, sheared]) = &terms.stress {
+    fn damped_stiffness(&self, n: usize) -> FrictionPolynomial {
+        let mut full = vec![self.stiffness_at_rest(n), self.zero()];
+        if let Some([_, sheared]) = &self.terms.stress {
             // Odd parity: the harmonic is i times this, which is what a coefficient of i mu wants.
             full[1].add_scaled(1.0, &self.wave(sheared, n));
         }
         let mut turning = self.zero();
-        self.turning_friction(terms, n, &mut turning);
+        self.turning_friction(n, &mut turning);
         to_distances(&mut turning, &self.sector);
         full[1].add_scaled(1.0, &turning);
-        if let Some(normal_stiffness) = &terms.normal_stiffness {
+        if let Some(normal_stiffness) = &self.terms.normal_stiffness {
             self.add_friction(&mut full[1], normal_stiffness);
         }
         full
     }
 
     /// Body, prestress and contact without friction and supports.
-    fn stiffness_at_rest(&self, terms: &Terms, n: usize) -> BandedMatrix {
-        let mut stiffness = self.harmonic_of(&terms.elastic, n);
-        if let Some([pressed, _]) = &terms.stress {
+    fn stiffness_at_rest(&self, n: usize) -> BandedMatrix {
+        let mut stiffness = self.wave(&self.terms.elastic, n);
+        if let Some([pressed, _]) = &self.terms.stress {
             stiffness.add_scaled(1.0, &self.wave(pressed, n));
         }
         let mut turning = self.zero();
-        self.turning_pressure(terms, n, &mut turning);
+        self.turning_pressure(n, &mut turning);
         to_distances(&mut turning, &self.sector);
         stiffness.add_scaled(1.0, &turning);
-        let values = terms.normal_stiffness.iter().flatten();
+        let values = self.terms.normal_stiffness.iter().flatten();
         for (node, value) in self.sector.contact_nodes().zip(values) {
             stiffness.add(2 * node, 2 * node, *value);
         }
         stiffness
     }
 
-    /// (2), `alpha_R M + beta_R K`, with the options' damping model; dashpots if `with_dashpots`.
-    pub(super) fn damping(
-        &self,
-        terms: &Terms,
-        rayleigh: RayleighDamping,
-        with_dashpots: bool,
-        n: usize,
-    ) -> FrictionPolynomial {
+    /// (2), `alpha_R M + beta_R K`, with the options' damping model, and dashpots.
+    fn damping(&self, n: usize) -> FrictionPolynomial {
+        let (terms, rayleigh) = (&self.terms, self.options.damping);
         let stiffness = match self.options.damping_model {
-            DampingModel::WholeTangent => self.project(self.damped_stiffness(terms, n)),
-            DampingModel::BodyOnly => self.project(vec![self.harmonic_of(&terms.elastic, n)]),
+            DampingModel::WholeTangent => self.project(self.damped_stiffness(n)),
+            DampingModel::BodyOnly => self.project(vec![self.wave(&self.terms.elastic, n)]),
         };
-        let mass = multiplied(self.mass(terms, n), rayleigh.mass_coefficient);
+        let mass = multiplied(self.mass(n), rayleigh.mass_coefficient);
         let stiffness = multiplied(stiffness, rayleigh.stiffness_coefficient);
         let damping = sum(mass, stiffness);
-        if !with_dashpots {
-            return damping;
-        }
         let contact = self.options.contact;
         let lengths = self.sector.tributary_lengths();
         let mut dashpots = vec![self.zero(), self.zero()];
@@ -303,9 +298,9 @@ impl SectorTangent {
     }
 
     /// On the tangential rows alone, whose scaling by `-i` cancels that of the unknown.
-    pub(super) fn friction_dashpots(&self, terms: &Terms) -> Option<BandedMatrix> {
+    fn friction_dashpots(&self) -> Option<BandedMatrix> {
         let mut dashpots = self.zero();
-        let values = terms.friction_dashpots.as_ref()?;
+        let values = self.terms.friction_dashpots.as_ref()?;
         for (node, value) in self.sector.contact_nodes().zip(values) {
             for (row, along) in self.slip(node) {
                 for (column, across) in self.slip(node) {
@@ -337,7 +332,7 @@ impl SectorTangent {
 
     /// Onto the unknowns; for rigid contact each normal row is added to its tangential row with the
     /// factor `-s mu`, which is `s (i mu)` once the tangential row is multiplied by `-i`.
-    pub(super) fn project(&self, mut full: Vec<BandedMatrix>) -> FrictionPolynomial {
+    fn project(&self, mut full: Vec<BandedMatrix>) -> FrictionPolynomial {
         if self.terms.normal_stiffness.is_none() {
             full.push(self.zero());
             for power in (1..full.len()).rev() {

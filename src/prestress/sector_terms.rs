@@ -4,20 +4,34 @@ use super::{SectorSliding, TangentOptions};
 use crate::fem::MaterialField;
 use crate::fem::sector::{self, MirrorParity, SectorMatrix};
 use crate::linalg::banded::BandedMatrix;
+use crate::linalg::c64;
 use crate::mesh::SectorMesh;
 
 /// A matrix that depends on the friction coefficient, `P(mu) = sum_p P_p (i mu)^p` with real `P_p`.
 pub type FrictionPolynomial = Vec<BandedMatrix>;
 
-/// What the matrices are made of; each term may also be a derivative.
+/// `P(z)`, `z = i mu`.
+pub fn evaluate(polynomial: &FrictionPolynomial, z: c64) -> Vec<c64> {
+    let mut values: Vec<c64> = polynomial[0].values().iter().map(|v| c64::new(*v, 0.0)).collect();
+    let mut power = z;
+    for coefficient in &polynomial[1..] {
+        for (value, v) in values.iter_mut().zip(coefficient.values()) {
+            *value += power * *v;
+        }
+        power *= z;
+    }
+    values
+}
+
+/// What the matrices are made of.
 #[derive(Clone, Debug)]
 pub(super) struct Terms {
-    pub(super) elastic: Option<SectorMatrix>,
+    pub(super) elastic: SectorMatrix,
     /// Springs and dashpots of the supported edges.
     pub(super) supports: Option<[SectorMatrix; 2]>,
     /// Damping that a body has beyond that of the whole.
     pub(super) own_damping: Option<SectorMatrix>,
-    pub(super) mass: Option<SectorMatrix>,
+    pub(super) mass: SectorMatrix,
     /// Stress of the pressed state and, for each unit of friction, of the sheared state.
     pub(super) stress: Option<[SectorMatrix; 2]>,
     /// `N / a` of each contact node, zero without geometric stiffness.

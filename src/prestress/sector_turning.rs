@@ -1,7 +1,6 @@
 //! Contact forces of steady sliding that turn with the edge, in the harmonics of an annulus.
 
 use super::sector_tangent::SectorTangent;
-use super::sector_terms::Terms;
 use crate::linalg::banded::BandedMatrix;
 use std::f64::consts::PI;
 
@@ -16,9 +15,9 @@ impl SectorTangent {
     /// ```
     ///
     /// which is symmetric, and zero under a rigid motion but for what the turned stress balances.
-    pub(super) fn turning_pressure(&self, terms: &Terms, n: usize, stiffness: &mut BandedMatrix) {
+    pub(super) fn turning_pressure(&self, n: usize, stiffness: &mut BandedMatrix) {
         let nodes = self.sector.contact_nodes();
-        for (node, turning) in nodes.clone().zip(&terms.turning) {
+        for (node, turning) in nodes.clone().zip(&self.terms.turning) {
             let tangential = 2 * node + 1;
             stiffness.add(tangential, tangential, -turning);
             if let Some(opposite) = self.sector.opposite(node) {
@@ -26,7 +25,7 @@ impl SectorTangent {
             }
         }
         for (i, node, j, slope) in self.slopes(n) {
-            let value = terms.turning[i] * slope;
+            let value = self.terms.turning[i] * slope;
             let Some([opposite, normal]) = self.opposites(node, nodes.start + j) else {
                 return;
             };
@@ -42,9 +41,9 @@ impl SectorTangent {
     /// ```text
     /// dF_n,s = -(T / a) (u_s - u_n'),   dF_n,m = (T / a) (u_m - u_n'),   dF_t,m = -(T / a) D^T (u_s - u_m)
     /// ```
-    pub(super) fn turning_friction(&self, terms: &Terms, n: usize, friction: &mut BandedMatrix) {
+    pub(super) fn turning_friction(&self, n: usize, friction: &mut BandedMatrix) {
         let nodes = self.sector.contact_nodes();
-        for (node, turning) in nodes.clone().zip(&terms.turning) {
+        for (node, turning) in nodes.clone().zip(&self.terms.turning) {
             let turning = self.base.friction.drag * turning;
             friction.add(2 * node, 2 * node + 1, turning);
             if let Some(opposite) = self.sector.opposite(node) {
@@ -52,7 +51,7 @@ impl SectorTangent {
             }
         }
         for (i, node, j, slope) in self.slopes(n) {
-            let value = self.base.friction.drag * terms.turning[i] * slope;
+            let value = self.base.friction.drag * self.terms.turning[i] * slope;
             let Some([opposite, normal]) = self.opposites(node, nodes.start + j) else {
                 return;
             };

@@ -32,7 +32,7 @@ pub struct SolidTangent {
     unknown_of: Vec<Option<usize>>,
 }
 
-/// What the matrices are made of; each term may also be a derivative.
+/// What the matrices are made of.
 #[derive(Clone, Debug, Default)]
 pub(super) struct SolidTerms {
     pub elastic: SolidMatrix,
@@ -117,20 +117,12 @@ impl SolidTangent {
 
     /// All matrices of harmonic `n`.
     pub fn harmonic(&self, n: usize) -> SolidHarmonic {
-        let mut harmonic = self.assembled(&self.terms, n);
+        let terms = &self.terms;
         let [springs, dashpots] = &self.supports;
-        self.add(&mut harmonic.stiffness[0], n, MirrorParity::Even, &[springs]);
-        self.add(&mut harmonic.damping[0], n, MirrorParity::Even, &[dashpots]);
-        harmonic.rigid = self.rigid();
-        harmonic
-    }
-
-    /// The matrices of harmonic `n` that some terms make, without the supports and rigid contact.
-    pub(super) fn assembled(&self, terms: &SolidTerms, n: usize) -> SolidHarmonic {
         let mass = self.sum(n, MirrorParity::Even, &[&terms.mass]);
-        let stiffness = self.stiffness(terms, n);
+        let mut stiffness = self.stiffness(n);
         let rayleigh = self.options.damping;
-        let mut damping = self.damped(terms, &stiffness, n);
+        let mut damping = self.damped(&stiffness, n);
         for matrix in &mut damping {
             matrix.scale(rayleigh.stiffness_coefficient);
         }
@@ -138,18 +130,21 @@ impl SolidTangent {
         let [even, odd] = &terms.contact.dashpots;
         damping[0].add_scaled(1.0, &self.sum(n, MirrorParity::Even, &[even]));
         damping[1].add_scaled(1.0, &self.sum(n, MirrorParity::Odd, &[odd]));
+        self.add(&mut stiffness[0], n, MirrorParity::Even, &[springs]);
+        self.add(&mut damping[0], n, MirrorParity::Even, &[dashpots]);
         let across = &terms.contact.friction_dashpots;
         SolidHarmonic {
             mass,
             stiffness,
             damping,
             across: self.sum(n, MirrorParity::Even, &[across]),
-            rigid: Vec::new(),
+            rigid: self.rigid(),
         }
     }
 
     /// Body, prestress and contact, by power of `i mu`.
-    pub(super) fn stiffness(&self, terms: &SolidTerms, n: usize) -> [BandedMatrix; 2] {
+    fn stiffness(&self, n: usize) -> [BandedMatrix; 2] {
+        let terms = &self.terms;
         let [pressed, sheared] = &terms.stress;
         let [normal, friction] = &terms.contact.penalty;
         [
@@ -159,16 +154,11 @@ impl SolidTangent {
     }
 
     /// The part of the stiffness that `beta_R` multiplies.
-    pub(super) fn damped(
-        &self,
-        terms: &SolidTerms,
-        stiffness: &[BandedMatrix; 2],
-        n: usize,
-    ) -> [BandedMatrix; 2] {
+    fn damped(&self, stiffness: &[BandedMatrix; 2], n: usize) -> [BandedMatrix; 2] {
         match self.options.damping_model {
             DampingModel::WholeTangent => stiffness.clone(),
             DampingModel::BodyOnly => [
-                self.sum(n, MirrorParity::Even, &[&terms.elastic]),
+                self.sum(n, MirrorParity::Even, &[&self.terms.elastic]),
                 self.sum(n, MirrorParity::Odd, &[]),
             ],
         }
@@ -205,7 +195,7 @@ impl SolidTangent {
     }
 
     /// Nodes in rigid contact; none on springs. Those of a ring are free to move along the normal, else they would not belong to it.
-    pub(super) fn rigid_nodes(&self) -> impl Iterator<Item = usize> {
+    fn rigid_nodes(&self) -> impl Iterator<Item = usize> {
         let is_rigid = self.options.contact.normal_stiffness.is_none();
         let nodes = self.base.normal_forces.iter().map(|(node, _)| *node);
         nodes.filter(move |_| is_rigid)
@@ -238,7 +228,7 @@ fn prestress(
 }
 
 /// What forces of the contact do that turn with their nodes, from `(node, [N / r, s N mu(V) / (mu r)])`.
-pub(super) fn turning_forces(
+fn turning_forces(
     sector: &SolidSector,
     forces: impl Iterator<Item = (usize, [f64; 2])>,
 ) -> [SolidMatrix; 2] {

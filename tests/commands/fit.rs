@@ -85,7 +85,7 @@ fn one_support_stiffness_explains_the_four_frequencies_heard() {
 
 /// In how many of `seeds` noisy spectra of a case the interval of each fitted parameter holds the value of the case.
 fn coverage(case: &Case, limit_hz: f64, noise: [f64; 2], seeds: u64) -> Vec<usize> {
-    let (modes, _) = modes_below(case, limit_hz, false).unwrap();
+    let modes = modes_below(case, limit_hz).unwrap();
     let keys = &case.require_fit().unwrap().parameters;
     let truth: Vec<f64> = keys.iter().map(|p| case.number(&p.parameter.key).unwrap()).collect();
     let mut hits = vec![0; truth.len()];

@@ -187,7 +187,11 @@ fn samples_of_solid_bodies_beyond_their_onset_have_the_onset_of_an_analysis() {
 
     let out = tempfile::tempdir().unwrap();
     let mut sweep = Command::cargo_bin("frictionsim").unwrap();
-    sweep.arg("sweep").arg(&path).args(["--no-figures", "-q", "--out"]).arg(out.path().join("sweep"));
+    sweep
+        .arg("sweep")
+        .arg(&path)
+        .args(["--no-figures", "-q", "--out"])
+        .arg(out.path().join("sweep"));
     for set in [
         "cea.friction_coefficients=[0.6]",
         "cea.modes=1",

@@ -41,7 +41,7 @@ fn a_kick_tips_sliding_into_its_cycle_at_the_amplitude_of_the_unstable_cycle() {
     let [low, high] = bounds(&found);
     assert!(high / low < 1.02 && found.runs.iter().all(|run| run.is_settled));
     // In units of the amplitude at which a contact node sticks.
-    let expected = unstable * TAU * cycle.motion.frequency_hz / speed;
+    let expected = unstable.amplitude * TAU * cycle.motion.frequency_hz / speed;
     assert!(low < 1.1 * expected && high > 0.9 * expected, "{low} {high} {expected}");
 }
 

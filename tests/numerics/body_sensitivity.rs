@@ -44,7 +44,7 @@ impl Body {
 
     fn sensitivities(&self) -> (SensitivityReport, Vec<String>) {
         let (case, (_, sweep)) = (self.case(&[]), self.solve(&[]));
-        let found = body_sensitivities(&case, case.require_cea().unwrap(), &sweep).unwrap();
+        let found = body_sensitivities(&case, case.require_cea().unwrap(), &sweep, None).unwrap();
         (found.report, found.missing)
     }
 

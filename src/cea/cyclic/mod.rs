@@ -22,8 +22,6 @@ mod sweep;
 mod vectors;
 
 pub use map::{CyclicModel, StabilityMapPoint, map_of, solid_stability_map, stability_map};
-pub use sensitivity::{Sensitivity, sensitivities};
-pub use solid::{
-    Overdamped, SolidModel, SolidSweep, solid_sensitivities, solid_sweep, solid_sweep_with_waves,
-};
+pub use sensitivity::{Beside, WavePair, wave_pairs, wave_responses};
+pub use solid::{Overdamped, SolidModel, SolidSweep, solid_sweep, solid_sweep_with_waves};
 pub use sweep::{Coverage, CyclicSweep, onsets, sweep, sweep_with_waves};

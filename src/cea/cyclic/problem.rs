@@ -5,7 +5,7 @@ use super::vectors::{ZERO, add, dot, largest, product};
 use crate::fem::RayleighDamping;
 use crate::linalg::banded::{BandedLu, BandedMatrix};
 use crate::linalg::{Mat, STANDSTILL, c64};
-use crate::prestress::{FrictionPolynomial, HarmonicTangent};
+use crate::prestress::{FrictionPolynomial, HarmonicTangent, evaluate};
 
 pub(super) const I: c64 = c64::new(0.0, 1.0);
 
@@ -365,19 +365,6 @@ impl HarmonicProblem {
     pub fn workspace(&self) -> BandedLu {
         BandedLu::new(self.dimension, self.half_bandwidth)
     }
-}
-
-/// `P(z)`.
-fn evaluate(polynomial: &FrictionPolynomial, z: c64) -> Vec<c64> {
-    let mut values: Vec<c64> = polynomial[0].values().iter().map(|v| c64::new(*v, 0.0)).collect();
-    let mut power = z;
-    for coefficient in &polynomial[1..] {
-        for (value, v) in values.iter_mut().zip(coefficient.values()) {
-            *value += power * *v;
-        }
-        power *= z;
-    }
-    values
 }
 
 /// `dP / d mu = i dP / dz`; `None` where it vanishes identically.

@@ -1,205 +1,209 @@
-//! Derivatives of the eigenvalues by the parameters of the model.
+//! Right and left vectors of waves, and what small changes of the model do to their eigenvalues.
 
-use super::CyclicSweep;
-use super::branch::path_theta;
-use super::follow::Follower;
-use super::problem::HarmonicProblem;
-use super::vectors::ZERO;
-use crate::cea::{CeaError, ModeBranch};
-use crate::contact::LawParameter;
-use crate::linalg::banded::BandedMatrix;
+use super::vectors::{ZERO, dot, normalize};
+use crate::cea::ModeBranch;
+use crate::linalg::banded::{BandedLu, multiply_band};
 use crate::linalg::c64;
-use crate::prestress::{HarmonicTangent, Parameter, SectorTangent, TangentRate};
+use crate::prestress::{MovingHarmonic, WaveHarmonic, WaveTangent};
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 
-/// Derivatives of one eigenvalue, `d lambda / d parameter`, rad/s for each unit of the parameter.
-///
-/// ```text
-/// d lambda = - y^H (lambda^2 dM + lambda dC + dK) x / y^H (2 lambda M + C) x
-/// ```
-///
-/// with left and right vectors of one harmonic, so that pairs that coincide at `mu = 0` do no harm. The
-/// matrices' derivatives are analytic and include the change of the prestress.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Sensitivity {
+/// Rayleigh quotient iterations of one branch at most, each with two solves of either side.
+const ITERATIONS: usize = 8;
+
+/// Change of an eigenvalue relative to it at which its vectors have settled to the square of that.
+const SETTLED: f64 = 1e-8;
+
+/// Distance relative to an eigenvalue from that of its branch above which it is another's: small spaces leave out far less.
+const LOST: f64 = 1e-3;
+
+/// Step of the friction coefficient: the matrices are quadratic in it, of which the central difference is exact.
+const FRICTION_STEP: f64 = 1e-3;
+
+/// The eigenpair of a branch at one friction coefficient, over the unknowns of its whole harmonic.
+#[derive(Clone, Debug)]
+pub struct WavePair {
     /// Circumferential harmonic.
     pub harmonic: usize,
     /// Branch within the harmonic.
     pub branch: usize,
     /// Direction of travel of the branch.
     pub direction: i8,
-    /// Where the derivatives are taken.
+    /// Friction coefficient.
     pub friction_coefficient: f64,
-    /// Eigenvalue there, rad/s.
+    /// Eigenvalue `lambda`, rad/s.
     pub eigenvalue: c64,
-    /// With respect to the friction coefficient `mu`.
-    pub friction: c64,
-    /// With respect to the normal stiffness `k_n`, Pa/m; `None` for rigid contact.
-    pub normal_stiffness: Option<c64>,
-    /// With respect to `alpha_R`, 1/s.
-    pub mass_coefficient: c64,
-    /// With respect to `beta_R`, s.
-    pub stiffness_coefficient: c64,
-    /// With respect to Young's modulus, Pa; `None` for an orthotropic material.
-    pub young_modulus: Option<c64>,
-    /// With respect to Poisson's ratio; `None` for an orthotropic material.
-    pub poisson_ratio: Option<c64>,
-    /// With respect to the density, kg/m3.
-    pub density: c64,
-    /// With respect to static over kinetic friction `q`; `None` for constant friction.
-    pub static_friction_ratio: Option<c64>,
-    /// With respect to the decay speed `v_c`, m/s; `None` for constant friction.
-    pub decay_speed: Option<c64>,
-    /// With respect to Young's modulus (Pa), Poisson's ratio and density (kg/m3) of a deformable shaft, and to the
-    /// `alpha_R` (1/s) and `beta_R` (s) that it has of its own; `None` of what there is not.
-    pub shaft: [Option<c64>; 5],
-    /// With respect to `cubic_stiffness` (Pa/m3), `reference_pressure` (Pa) and `height` (m) of contact that stiffens with
-    /// pressure; `None` of what its law has not.
-    pub normal_law: [Option<c64>; 3],
-}
-
-/// Sensitivities of every branch of a sweep at one friction coefficient within its range.
-///
-/// # Errors
-/// [`CeaError::Friction`] outside the range; [`CeaError::LostHarmonic`] where a branch cannot be
-/// solved for there.
-pub fn sensitivities(
-    result: &CyclicSweep,
-    friction_coefficient: f64,
-) -> Result<Vec<Sensitivity>, CeaError> {
-    let tangent = &result.tangent;
-    let mut rates = Vec::new();
-    for parameter in PARAMETERS {
-        rates.push(tangent.rate(parameter)?);
-    }
-    result
-        .branches
-        .par_iter()
-        .map(|branch| of_branch(tangent, &rates, branch, friction_coefficient))
-        .collect()
-}
-
-pub(super) const PARAMETERS: [Parameter; 16] = [
-    Parameter::NormalStiffness,
-    Parameter::MassCoefficient,
-    Parameter::StiffnessCoefficient,
-    Parameter::YoungModulus(0),
-    Parameter::PoissonRatio(0),
-    Parameter::Density(0),
-    Parameter::StaticFrictionRatio,
-    Parameter::DecaySpeed,
-    Parameter::YoungModulus(1),
-    Parameter::PoissonRatio(1),
-    Parameter::Density(1),
-    Parameter::OwnMassCoefficient,
-    Parameter::OwnStiffnessCoefficient,
-    Parameter::NormalLaw(LawParameter::CubicStiffness),
-    Parameter::NormalLaw(LawParameter::ReferencePressure),
-    Parameter::NormalLaw(LawParameter::Height),
-];
-
-impl Sensitivity {
-    /// Of a branch, from its derivatives with respect to the friction coefficient and to [`PARAMETERS`].
-    pub(super) fn new(
-        branch: &ModeBranch,
-        friction_coefficient: f64,
-        eigenvalue: c64,
-        friction: c64,
-        responses: &[Option<c64>],
-    ) -> Self {
-        let given = |index: usize| responses[index].unwrap_or(ZERO);
-        Self {
-            harmonic: branch.harmonic,
-            branch: branch.branch,
-            direction: branch.direction,
-            friction_coefficient,
-            eigenvalue,
-            friction,
-            normal_stiffness: responses[0],
-            mass_coefficient: given(1),
-            stiffness_coefficient: given(2),
-            young_modulus: responses[3],
-            poisson_ratio: responses[4],
-            density: given(5),
-            static_friction_ratio: responses[6],
-            decay_speed: responses[7],
-            shaft: std::array::from_fn(|i| responses[8 + i]),
-            normal_law: std::array::from_fn(|i| responses[13 + i]),
-        }
-    }
-}
-
-/// The wave that a branch is: `+n`, or `-n`, which is the complex conjugate of a root of the wave `+n`'s problem with `Im < 0`.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Wave {
+    /// `d lambda / d mu`, rad/s.
+    pub derivative: c64,
+    /// Whether the branch is the wave `-n`: the complex conjugate of a root of the wave `+n`'s problem with `Im < 0`.
     is_backward: bool,
+    /// The root of the wave `+n`.
+    root: c64,
+    right: Vec<c64>,
+    left: Vec<c64>,
+    /// `y^H (2 lambda M + C) x`.
+    slope: c64,
 }
 
-impl Wave {
-    pub fn of(branch: &ModeBranch, sliding_direction: f64) -> Self {
-        Self { is_backward: f64::from(branch.direction) * sliding_direction > 0.0 }
-    }
-
-    /// What belongs to the branch of what belongs to the wave `+n`, and the other way round.
-    pub fn own(self, value: c64) -> c64 {
-        if self.is_backward { value.conj() } else { value }
-    }
-}
-
-fn of_branch(
-    tangent: &SectorTangent,
-    rates: &[Option<TangentRate>],
-    branch: &ModeBranch,
-    friction: f64,
-) -> Result<Sensitivity, CeaError> {
-    let n = branch.harmonic;
-    let matrices = tangent.harmonic(n);
-    let problem = HarmonicProblem::new(matrices.clone(), tangent.is_standing(n));
-    let guess = branch.interpolate(friction);
-    let guess = guess.ok_or(CeaError::Friction { value: friction })?;
-    let wave = Wave::of(branch, tangent.base().sliding_direction);
-    let theta = path_theta(&problem, wave.is_backward, guess);
-    let found = Follower::new(&problem).find(&problem.at(friction), friction, theta);
-    let found = found.ok_or(CeaError::LostHarmonic { harmonic: n, friction })?;
-    let own = wave.own(found.theta);
-    let eigenvalue = problem.eigenvalue(own);
-    let root = wave.own(eigenvalue);
-    let z = c64::new(0.0, friction);
-    let forms = |set: &HarmonicTangent| {
-        let of = |matrix: &[BandedMatrix]| form(matrix, z, &found.y, &found.x);
-        let dashpots = set.friction_dashpots.as_ref();
-        let dashpots = dashpots.map_or(ZERO, |c| of(c));
-        let damping = set.damping.as_ref().map_or(ZERO, |c| of(c));
-        [of(&set.mass), damping + dashpots * friction, of(&set.stiffness)]
+/// The eigenpairs of branches, each at a friction coefficient: `None` where the branch does not oscillate there, and where
+/// Rayleigh quotient iteration does not find its eigenvalue again.
+pub fn wave_pairs(tangent: &WaveTangent, wanted: &[(&ModeBranch, f64)]) -> Vec<Option<WavePair>> {
+    let numbers = wanted.iter().map(|(branch, _)| (branch.harmonic, ()));
+    let numbers: BTreeMap<usize, ()> = numbers.collect();
+    let harmonics: BTreeMap<usize, WaveHarmonic> =
+        numbers.into_par_iter().map(|(n, ())| (n, tangent.harmonic(n))).collect();
+    let direction = tangent.sliding_direction();
+    let pair = |&(branch, friction): &(&ModeBranch, f64)| {
+        let is_backward = f64::from(branch.direction) * direction > 0.0;
+        pair_of(&harmonics[&branch.harmonic], (branch, friction), is_backward)
     };
-    let rayleigh = tangent.rayleigh();
-    let [m, mut c, k] = forms(&matrices);
-    if problem.is_proportional() {
-        c = m * rayleigh.mass_coefficient + k * rayleigh.stiffness_coefficient;
-    }
-    let slope = m * root * 2.0 + c;
-    let respond = |rate: &Option<TangentRate>| {
-        let rate = tangent.harmonic_rate(rate.as_ref()?, n);
-        let [m, c, k] = forms(&rate);
-        let response = -(root * root * m + root * c + k) / slope;
-        Some(wave.own(response))
-    };
-    let responses: Vec<Option<c64>> = rates.iter().map(respond).collect();
-    let by_friction = problem.eigenvalue_slope(own) * wave.own(found.rate);
-    Ok(Sensitivity::new(branch, friction, eigenvalue, by_friction, &responses))
+    wanted.par_iter().map(pair).collect()
 }
 
-/// `y^H P(z) x`.
-fn form(polynomial: &[BandedMatrix], z: c64, y: &[c64], x: &[c64]) -> c64 {
-    let mut power = c64::new(1.0, 0.0);
-    let mut total = ZERO;
-    for matrix in polynomial {
-        for (row, left) in y.iter().enumerate() {
-            let columns = matrix.columns(row);
-            let product: c64 = columns.map(|column| x[column] * matrix.get(row, column)).sum();
-            total += power * left.conj() * product;
+/// A model with a parameter beside its value, as a term of a difference quotient.
+pub struct Beside {
+    /// Weight in the quotient.
+    pub weight: f64,
+    /// Its linearisation.
+    pub tangent: WaveTangent,
+    /// What its friction coefficient has more than that of the eigenpairs.
+    pub friction_shift: f64,
+}
+
+/// `d lambda / d p` of each pair from models with the parameter `p` beside its value,
+///
+/// ```text
+/// d lambda = - y^H (lambda^2 dM + lambda dC + dK) x / y^H (2 lambda M + C) x
+/// ```
+///
+/// with left and right vectors of one harmonic, so that waves `n` and `-n` that coincide at `mu = 0` do no harm. The base state
+/// follows. `None` where the unknowns change with the parameter.
+pub fn wave_responses(pairs: &[&WavePair], quotient: &[Beside]) -> Option<Vec<c64>> {
+    let mut order: Vec<usize> = (0..pairs.len()).collect();
+    let place = |i: usize| (pairs[i].harmonic, pairs[i].friction_coefficient.to_bits());
+    order.sort_by_key(|&i| place(i));
+    let mut responses = vec![ZERO; pairs.len()];
+    for of_harmonic in order.chunk_by(|a, b| pairs[*a].harmonic == pairs[*b].harmonic) {
+        let n = pairs[of_harmonic[0]].harmonic;
+        let sides: Vec<WaveHarmonic> = quotient.iter().map(|own| own.tangent.harmonic(n)).collect();
+        for alike in of_harmonic.chunk_by(|a, b| place(*a) == place(*b)) {
+            let friction = pairs[alike[0]].friction_coefficient;
+            let terms = quotient.iter().zip(&sides);
+            let terms =
+                terms.map(|(own, side)| (own.weight, side.at(friction + own.friction_shift)));
+            let change = MovingHarmonic::combined(&terms.collect::<Vec<_>>())?;
+            for &i in alike {
+                responses[i] = pairs[i].response(&change)?;
+            }
         }
-        power *= z;
     }
-    total
+    Some(responses)
+}
+
+impl WavePair {
+    /// Change of the eigenvalue where the matrices change; `None` of matrices of other unknowns.
+    fn response(&self, change: &MovingHarmonic) -> Option<c64> {
+        let MovingHarmonic { half_bandwidth: h, mass, damping, stiffness } = change;
+        if mass.len() != self.right.len() * (2 * h + 1) {
+            return None;
+        }
+        let form = |band: &[c64]| form(band, *h, &self.left, &self.right);
+        let changed = self.root * (self.root * form(mass) + form(damping)) + form(stiffness);
+        Some(of_wave(-changed / self.slope, self.is_backward))
+    }
+}
+
+/// What belongs to a branch of what belongs to the wave `+n`, and the other way round.
+fn of_wave(value: c64, is_backward: bool) -> c64 {
+    if is_backward { value.conj() } else { value }
+}
+
+/// `y^H A x` of a band; changes are zero in most of it.
+fn form(band: &[c64], h: usize, y: &[c64], x: &[c64]) -> c64 {
+    let rows = band.chunks_exact(2 * h + 1).enumerate().zip(y);
+    let images = rows.map(|((row, band), y)| {
+        let entries = band.iter().enumerate().filter(|(_, value)| **value != ZERO);
+        y.conj() * entries.map(|(k, value)| value * x[row + k - h]).sum::<c64>()
+    });
+    images.sum()
+}
+
+/// The pair of a branch, by two-sided Rayleigh quotient iteration from its eigenvalue.
+fn pair_of(
+    harmonic: &WaveHarmonic,
+    (branch, friction): (&ModeBranch, f64),
+    is_backward: bool,
+) -> Option<WavePair> {
+    let start = of_wave(branch.interpolate(friction)?, is_backward);
+    let at = harmonic.at(friction);
+    let count = at.mass.len() / (2 * at.half_bandwidth + 1);
+    let (mut right, mut left) = (any_vector(count, 0.3), any_vector(count, 1.1));
+    let mut root = start;
+    for _ in 0..ITERATIONS {
+        let lu = factorized(&at, root);
+        for _ in 0..2 {
+            right = apply_slope(&at, root, &right, false);
+            lu.solve(&mut right);
+            normalize(&mut right);
+            left = apply_slope(&at, root, &left, true);
+            lu.solve_adjoint(&mut left);
+            normalize(&mut left);
+        }
+        let last = root;
+        root = rayleigh_quotient(&at, last, &right, &left);
+        if (root - last).norm() <= SETTLED * root.norm() {
+            break;
+        }
+    }
+    // Not so of what is not a number.
+    let is_it = (root - start).norm() <= LOST * start.norm();
+    let mut pair = WavePair {
+        harmonic: branch.harmonic,
+        branch: branch.branch,
+        direction: branch.direction,
+        friction_coefficient: friction,
+        eigenvalue: of_wave(root, is_backward),
+        derivative: ZERO,
+        is_backward,
+        root,
+        slope: dot(&left, &apply_slope(&at, root, &right, false)),
+        right,
+        left,
+    };
+    let sides = [1.0, -1.0]
+        .map(|sign| (0.5 * sign / FRICTION_STEP, harmonic.at(friction + sign * FRICTION_STEP)));
+    pair.derivative = pair.response(&MovingHarmonic::combined(&sides)?)?;
+    is_it.then_some(pair)
+}
+
+/// A vector with a part of every mode.
+fn any_vector(count: usize, phase: f64) -> Vec<c64> {
+    let entry = |i: usize| c64::new(1.0 + (1.7 * i as f64).sin(), (phase + 0.9 * i as f64).cos());
+    (0..count).map(entry).collect()
+}
+
+/// `T(root)`, factorized.
+fn factorized(at: &MovingHarmonic, root: c64) -> BandedLu {
+    let entries = at.mass.iter().zip(&at.damping).zip(&at.stiffness);
+    let band: Vec<c64> = entries.map(|((m, c), k)| k + root * (c + root * m)).collect();
+    let mut lu = BandedLu::new(at.mass.len() / (2 * at.half_bandwidth + 1), at.half_bandwidth);
+    lu.factorize(&band);
+    lu
+}
+
+/// `(2 root M + C) x` or its adjoint.
+fn apply_slope(at: &MovingHarmonic, root: c64, x: &[c64], adjoint: bool) -> Vec<c64> {
+    let factor = of_wave(root + root, adjoint);
+    let mass = multiply_band(&at.mass, at.half_bandwidth, x, adjoint);
+    let damping = multiply_band(&at.damping, at.half_bandwidth, x, adjoint);
+    mass.iter().zip(damping).map(|(m, c)| factor * m + c).collect()
+}
+
+/// The root of `y^H T(.) x = 0` nearest to `near`.
+fn rayleigh_quotient(at: &MovingHarmonic, near: c64, x: &[c64], y: &[c64]) -> c64 {
+    let [m, c, k] = [&at.mass, &at.damping, &at.stiffness]
+        .map(|band| dot(y, &multiply_band(band, at.half_bandwidth, x, false)));
+    let root = (c * c - m * k * 4.0).sqrt();
+    let [one, other] = [(root - c) / (m * 2.0), (-root - c) / (m * 2.0)];
+    if (one - near).norm() <= (other - near).norm() { one } else { other }
 }

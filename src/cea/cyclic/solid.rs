@@ -11,10 +11,8 @@ mod error;
 mod modes_below;
 mod reduction;
 mod rest;
-mod sensitivity;
 mod shape;
 mod sweep;
 
 pub use damped::Overdamped;
-pub use sensitivity::solid_sensitivities;
 pub use sweep::{SolidModel, SolidSweep, solid_sweep, solid_sweep_with_waves};

@@ -33,15 +33,6 @@ pub fn stiffness(sector: &SolidSector, material: &ElasticMaterial) -> SolidMatri
     layered(sector, |e| geometry(sector, e).stiffness(material).stiffness)
 }
 
-/// Derivative of [`stiffness`] where the elasticity changes at the `rate` of another material's, N/m for each unit.
-pub fn stiffness_rate(
-    sector: &SolidSector,
-    material: &ElasticMaterial,
-    rate: &ElasticMaterial,
-) -> SolidMatrix {
-    layered(sector, |e| geometry(sector, e).stiffness_rate(material, rate).stiffness)
-}
-
 /// Mass, kg: consistent `∫ rho N_I N_J dV`, or lumped by row sums (8 nodes) or the scaled diagonal (20 nodes; Hinton, Rock and
 /// Zienkiewicz 1976).
 pub fn mass(sector: &SolidSector, material: &ElasticMaterial, kind: MassKind) -> SolidMatrix {

@@ -1,7 +1,7 @@
 //! Terms on the faces of a body of revolution: contact, supports, pressure.
 
 use super::SolidMatrix;
-use crate::mesh::{FaceElement, SolidSector, face_quadrature, face_shapes};
+use crate::mesh::{FaceElement, SolidSector, face_quadrature};
 use nalgebra::DMatrix;
 
 /// A term `∫ w d_row (d_column . u) dA` on a face: a force along one direction for each unit of motion along another.
@@ -77,63 +77,6 @@ pub fn face_matrix(
             for (j, column) in columns.iter().enumerate() {
                 for (i, row) in rows.iter().enumerate() {
                     matrix[(i, j)] += weight * row * column;
-                }
-            }
-        }
-        result.places.push((result.matrices.len(), face.nodes.clone()));
-        result.matrices.push(matrix);
-    }
-    result
-}
-
-/// How the part of an element that a term acts on moves, along with its Gauss points.
-pub struct MovingSpan<'a> {
-    /// Rates of the two ends.
-    pub rate: &'a dyn Fn(&FaceElement) -> [f64; 2],
-    /// Derivative of the term's weight along the element at a place, as [`FaceTerm::weight`] has it.
-    pub weight_slope: &'a dyn Fn(&FaceElement, f64, f64) -> f64,
-}
-
-/// Derivative of [`face_matrix`] where the ends of the pressed part of quadratic elements move, the weight staying where it is: that
-/// of the sum over the Gauss points, which is Leibniz's rule as far as these integrate exactly. Linear elements, whose nodes are
-/// pressed or not, have none.
-pub fn face_matrix_rate(
-    sector: &SolidSector,
-    faces: &[FaceElement],
-    term: &FaceTerm<'_>,
-    moving: &MovingSpan<'_>,
-) -> SolidMatrix {
-    let mut result = SolidMatrix::default();
-    for face in faces {
-        let (ends, rates) = ((term.span)(face), (moving.rate)(face));
-        if !sector.is_quadratic() || rates == [0.0; 2] {
-            continue;
-        }
-        let size = 3 * face.nodes.len();
-        let mut matrix = DMatrix::zeros(size, size);
-        let [middle, half] = [0.5 * (ends[0] + ends[1]), 0.5 * (ends[1] - ends[0])];
-        let [shift, growth] = [0.5 * (rates[0] + rates[1]), 0.5 * (rates[1] - rates[0])];
-        let end = |along: f64| face.radius_at(sector, [0.0, along]);
-        for ([x, y], share) in face_quadrature(true) {
-            let (at, moved) = ([x, middle + half * y], shift + growth * y);
-            let (values, area) = face.values_at(sector, (at, half * share));
-            let radius = face.radius_at(sector, at);
-            // Shape functions are parabolas along the element.
-            let [before, after] = [-1.0, 1.0].map(|step| face_shapes(true, [x, at[1] + step]));
-            let slopes = before.iter().zip(&after).map(|(a, b)| 0.5 * (b - a) * moved);
-            let slopes: Vec<f64> = slopes.collect();
-            let grown = growth / half + 0.5 * (end(1.0) - end(-1.0)) * moved / radius;
-            let weight = (term.weight)(face, radius, at[1]);
-            let slope = (moving.weight_slope)(face, radius, at[1]);
-            let rate = area * (grown * weight + slope * moved);
-            let ahead = angles_ahead(sector, face, at);
-            let [rows, columns] = [term.row, term.column].map(|c| along(&values, &ahead, c));
-            let [row_rates, column_rates] =
-                [term.row, term.column].map(|c| along(&slopes, &ahead, c));
-            for j in 0..size {
-                for i in 0..size {
-                    let product = row_rates[i] * columns[j] + rows[i] * column_rates[j];
-                    matrix[(i, j)] += rate * rows[i] * columns[j] + area * weight * product;
                 }
             }
         }

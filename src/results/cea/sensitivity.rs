@@ -17,8 +17,6 @@ pub struct SensitivityReport {
     pub values: Vec<f64>,
     /// One for each branch.
     pub rows: Vec<SensitivityRow>,
-    /// Whether rows say how critical friction coefficients move.
-    pub has_onsets: bool,
 }
 
 /// Derivatives of one eigenvalue.
@@ -80,17 +78,15 @@ impl SensitivityReport {
             columns.push(format!("growth_rate_per_{name}"));
             columns.push(format!("frequency_hz_per_{name}"));
         }
-        if self.has_onsets {
-            columns.push("critical_friction".to_owned());
-            let names = self.parameters.iter().skip(1);
-            columns.extend(names.map(|name| format!("critical_friction_per_{name}")));
-        }
+        columns.push("critical_friction".to_owned());
+        let names = self.parameters.iter().skip(1);
+        columns.extend(names.map(|name| format!("critical_friction_per_{name}")));
         columns
     }
 
     /// Writes one row for each branch: the derivative of its growth rate (1/s) and of its frequency (Hz) for each unit of
-    /// each parameter, empty of a parameter that it does not have; and where onsets were followed, the first critical friction
-    /// coefficient of the branch with its derivatives.
+    /// each parameter, empty of one by which there is none; and the first critical friction coefficient
+    ///  of the branch with its derivatives.
     ///
     /// # Errors
     /// Those of the writer.
@@ -111,13 +107,10 @@ impl SensitivityReport {
                 let parts = derivative.map_or([f64::NAN; 2], |d| [d.re, d.im / TAU]);
                 cells.extend(parts.map(format_number));
             }
-            if self.has_onsets {
-                let critical = row.onset.as_ref().map(|onset| onset.critical_friction);
-                let rate = |i: usize| row.onset.as_ref().and_then(|onset| onset.derivatives[i]);
-                let rates = (1..self.parameters.len()).map(rate);
-                let all = std::iter::once(critical).chain(rates);
-                cells.extend(all.map(|value| format_number(value.unwrap_or(f64::NAN))));
-            }
+            let critical = row.onset.as_ref().map(|onset| onset.critical_friction);
+            let rate = |i: usize| row.onset.as_ref().and_then(|onset| onset.derivatives[i]);
+            let all = std::iter::once(critical).chain((1..self.parameters.len()).map(rate));
+            cells.extend(all.map(|value| format_number(value.unwrap_or(f64::NAN))));
             table.row(cells)?;
         }
         table.finish()

@@ -50,7 +50,7 @@ pub fn watched_map(
             let frictions = request.friction_coefficients;
             let model = Model::with_solver(point, solver.clone(), options, frictions)?;
             let own = PartWatch { whole: watch, prefix: format!("map-{number}-"), is_heard: false };
-            let found = model.spectrum(point, request, false, &own)?;
+            let found = model.spectrum(point, request, &own)?;
             watch.reached(SweepProgress {
                 stage: SweepStage::MapPoints,
                 solved: done.fetch_add(1, Ordering::Relaxed) + 1,

@@ -28,14 +28,15 @@ mod states;
 pub use assembly::AssemblyModel;
 pub use dampings::dampings;
 pub use map::{map, watched_map};
-pub use model::{Model, Solver, Spectrum, asked_modes, mode_limit, no_cyclic_losses};
+pub use model::{Model, Solver, Spectrum, Waves, asked_modes, mode_limit, no_cyclic_losses};
+pub(super) use sensitivity::rates_of_waves;
 pub use sensitivity::{BodySensitivities, body_sensitivities};
 pub use sliding::{SlidingModel, SteadyState};
 pub use solid::SolidBody;
 pub use solve::{solve, solve_modes};
 pub(super) use spectrum::analysis;
 pub use spectrum::{
-    OnsetSearch, modes_at_own_friction, modes_below, modes_with_shapes_below, unstable_intervals,
+    OnsetSearch, modes_at_own_friction, modes_below, modes_with_waves_below, unstable_intervals,
 };
 pub use states::WholeMesh;
 
@@ -84,7 +85,7 @@ pub fn modes_and_onsets(case: &Case) -> Result<FrictionSweep, StudyError> {
         count_modes: false,
     };
     let model = Model::new(case, &cea)?;
-    let sweep = model.spectrum(case, &request, false, &Unwatched)?.sweep;
+    let sweep = model.spectrum(case, &request, &Unwatched)?.sweep;
     refuse_no_modes(case, &cea, &sweep)?;
     Ok(sweep)
 }

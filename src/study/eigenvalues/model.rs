@@ -4,9 +4,10 @@ use super::assembly::{self, AssemblyModel};
 use super::states::{StatesSweep, WholeMesh};
 use super::{Progress, StudyError};
 use crate::case::{Annulus, Body, Case, CaseErrors, Cea, CeaMethod, ModeSelection, Revolution};
-use crate::cea::cyclic::{self, Coverage, Overdamped, Sensitivity, SolidModel, SolidSweep};
-use crate::cea::{CeaError, FrictionSweep, ModeLimit, SweepRequest};
-use crate::prestress::{SectorTangent, SlidingTangent, SolidTangent, TangentOptions};
+use crate::cea::cyclic::{self, Coverage, Overdamped, SolidModel, SolidSweep};
+use crate::cea::{CeaError, FrictionSweep, ModeBranch, ModeLimit, SweepRequest};
+use crate::mesh::{SectorMesh, SolidSector};
+use crate::prestress::{SectorTangent, SlidingTangent, SolidTangent, TangentOptions, WaveTangent};
 use crate::study::tangent_options;
 
 /// The eigenvalue solver that a body gets.
@@ -138,12 +139,12 @@ pub enum Model {
     Assembly(Box<AssemblyModel>),
 }
 
-/// The linearisation of a body that is solved harmonic by harmonic.
-pub enum WaveTangent {
-    /// Of a plane annulus.
-    Plane(Box<SectorTangent>),
-    /// Of a body of revolution in three dimensions.
-    Solid(Box<SolidTangent>),
+/// The branches of a body that is solved harmonic by harmonic, and what their waves belong to.
+pub struct Waves {
+    /// The linearisation of a sector.
+    pub tangent: WaveTangent,
+    /// The branches of all modes that occur in the sweep.
+    pub branches: Vec<ModeBranch>,
 }
 
 /// The spectrum of a model over friction coefficients.
@@ -152,18 +153,14 @@ pub struct Spectrum {
     pub sweep: FrictionSweep,
     /// Unknowns of the eigenproblem.
     pub dofs: usize,
-    /// Sensitivities at the case's own friction coefficient, where they were asked for and the solver has them.
-    pub sensitivities: Option<Vec<Sensitivity>>,
-    /// Branches at that friction coefficient whose sensitivities could not be found.
-    pub without_sensitivities: usize,
     /// What the solver has to say of the spectrum.
     pub notes: Vec<String>,
     /// Which harmonics were solved, of a body that has them.
     pub coverage: Option<Coverage>,
     /// Motions of a body of revolution that decay without oscillating, at each friction coefficient; none elsewhere.
     pub overdamped: Vec<Overdamped>,
-    /// What the waves of the modes belong to; none of a body solved on its whole mesh.
-    pub tangent: Option<WaveTangent>,
+    /// The branches with what they belong to; none of a body solved on its whole mesh.
+    pub waves: Option<Waves>,
     /// Whether a body made of one sector was solved by waves around it.
     pub is_by_diameters: bool,
 }
@@ -177,13 +174,11 @@ fn spectrum_of(found: StatesSweep, mut notes: Vec<String>) -> Spectrum {
     notes.extend(found.notes);
     Spectrum {
         dofs: found.dofs,
-        sensitivities: None,
-        without_sensitivities: 0,
         notes,
         coverage: None,
         overdamped: Vec::new(),
         sweep: found.sweep,
-        tangent: None,
+        waves: None,
         is_by_diameters: found.is_by_diameters,
     }
 }
@@ -246,10 +241,9 @@ impl Model {
         &self,
         case: &Case,
         request: &SweepRequest<'_>,
-        with_rates: bool,
         progress: &Progress<'_>,
     ) -> Result<Spectrum, CeaError> {
-        self.spectrum_with_waves(case, (request, &[]), with_rates, progress)
+        self.spectrum_with_waves(case, (request, &[]), progress)
     }
 
     /// [`Self::spectrum`] that keeps the waves of one sector at some of the friction coefficients, where there are sectors.
@@ -260,45 +254,39 @@ impl Model {
         &self,
         case: &Case,
         (request, waves_at): (&SweepRequest<'_>, &[f64]),
-        with_rates: bool,
         progress: &Progress<'_>,
     ) -> Result<Spectrum, CeaError> {
-        let friction = case.contact.sliding.friction_coefficient;
         match self {
             Self::Sectors(annulus, options) => {
                 let (grid, materials) = (&annulus.specification, &annulus.materials);
                 let sliding = &case.contact.sliding;
                 let request = (request, waves_at);
                 let found = cyclic::sweep_with_waves(grid, materials, options, sliding, request)?;
-                let rates = with_rates.then(|| cyclic::sensitivities(&found, friction));
                 Ok(Spectrum {
                     dofs: found.tangent.dimension() * found.tangent.sector().sector_count(),
-                    sensitivities: rates.transpose()?,
-                    without_sensitivities: 0,
                     notes: Vec::new(),
                     coverage: Some(found.coverage),
                     overdamped: Vec::new(),
                     sweep: found.sweep,
-                    tangent: Some(WaveTangent::Plane(Box::new(found.tangent))),
+                    waves: Some(Waves {
+                        tangent: WaveTangent::Plane(Box::new(found.tangent)),
+                        branches: found.branches,
+                    }),
                     is_by_diameters: false,
                 })
             }
             Self::SolidSectors(model) => {
                 let found = cyclic::solid_sweep_with_waves(model, request, waves_at)?;
-                let rates = with_rates.then(|| cyclic::solid_sensitivities(&found, friction));
-                let sensitivities = rates.transpose()?;
-                let branches = found.branches.iter();
-                let there = branches.filter(|branch| branch.interpolate(friction).is_some());
-                let own = sensitivities.as_ref().map(Vec::len);
                 Ok(Spectrum {
                     dofs: found.dofs,
-                    without_sensitivities: own.map_or(0, |own| there.count() - own),
-                    sensitivities,
                     notes: vec![reduction_note(&found, request)],
                     coverage: Some(found.coverage),
                     overdamped: found.overdamped,
                     sweep: found.sweep,
-                    tangent: Some(WaveTangent::Solid(Box::new(found.tangent))),
+                    waves: Some(Waves {
+                        tangent: WaveTangent::Solid(Box::new(found.tangent)),
+                        branches: found.branches,
+                    }),
                     is_by_diameters: false,
                 })
             }
@@ -384,6 +372,28 @@ impl Model {
             Self::Assembly(assembly) => assembly.tangent(state),
             Self::Sectors(..) | Self::SolidSectors(_) => panic!("no whole mesh"),
         }
+    }
+
+    /// The linearisation of a body solved harmonic by harmonic; `None` of one solved on its whole mesh.
+    ///
+    /// # Errors
+    /// A sector that cannot be built; no state of steady sliding.
+    pub fn wave_tangent(&self, case: &Case) -> Result<Option<WaveTangent>, CeaError> {
+        Ok(match self {
+            Self::Sectors(annulus, options) => {
+                let sector = SectorMesh::generate(&annulus.specification)?;
+                let (materials, sliding) = (&annulus.materials, &case.contact.sliding);
+                let tangent = SectorTangent::linearize(&sector, materials, options, sliding)?;
+                Some(WaveTangent::Plane(Box::new(tangent)))
+            }
+            Self::SolidSectors(model) => {
+                let SolidModel { specification, material, options, contact } = &**model;
+                let sector = SolidSector::generate(specification)?;
+                let tangent = SolidTangent::linearize(&sector, material, options, contact)?;
+                Some(WaveTangent::Solid(Box::new(tangent)))
+            }
+            Self::Whole(_) | Self::Assembly(_) => None,
+        })
     }
 
     /// The spectrum of some harmonics of a plane annulus, without a proof that none is missed; `None` for another body, and

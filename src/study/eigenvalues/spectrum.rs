@@ -1,9 +1,8 @@
 //! The spectrum of a case for those who study it: no files, no base fields, no shapes.
 
 use super::StudyError;
-use super::model::{Model, Solver, mode_limit};
+use super::model::{Model, Solver, Waves, mode_limit};
 use crate::case::{Case, Cea, CeaMethod, ModeSelection};
-use crate::cea::cyclic::Sensitivity;
 use crate::cea::{
     CeaError, ComplexMode, FrictionSweep, ModeLimit, SweepRequest, UnstableInterval, Unwatched,
 };
@@ -38,29 +37,24 @@ pub(in crate::study) fn analysis(case: &Case, frictions: &[f64], limit_hz: f64) 
     }
 }
 
-/// The modes of a case below `limit_hz` at its own friction coefficient, and with `with_rates` their sensitivities where the
-/// solver has them.
+/// The modes of a case below `limit_hz` at its own friction coefficient.
 ///
 /// # Errors
 /// Those of the solver.
-pub fn modes_below(
-    case: &Case,
-    limit_hz: f64,
-    with_rates: bool,
-) -> Result<(Vec<ComplexMode>, Vec<Sensitivity>), StudyError> {
-    modes_with_shapes_below(case, limit_hz, with_rates, &[])
+pub fn modes_below(case: &Case, limit_hz: f64) -> Result<Vec<ComplexMode>, StudyError> {
+    Ok(modes_with_waves_below(case, limit_hz, &[])?.0)
 }
 
-/// [`modes_below`] with the shapes of the modes where `shapes_at` holds the case's own friction coefficient.
+/// [`modes_below`] with the branches of a body solved harmonic by harmonic, and with the shapes of the modes where `shapes_at`
+/// holds the case's own friction coefficient.
 ///
 /// # Errors
 /// Those of the solver.
-pub fn modes_with_shapes_below(
+pub fn modes_with_waves_below(
     case: &Case,
     limit_hz: f64,
-    with_rates: bool,
     shapes_at: &[f64],
-) -> Result<(Vec<ComplexMode>, Vec<Sensitivity>), StudyError> {
+) -> Result<(Vec<ComplexMode>, Option<Waves>), StudyError> {
     let friction = case.contact.sliding.friction_coefficient;
     let cea = analysis(case, &[friction], limit_hz);
     let model = Model::new(case, &cea)?;
@@ -70,9 +64,9 @@ pub fn modes_with_shapes_below(
         shapes_at,
         count_modes: false,
     };
-    let found = model.spectrum(case, &request, with_rates, &Unwatched)?;
+    let found = model.spectrum(case, &request, &Unwatched)?;
     let point = found.sweep.points.into_iter().next();
-    Ok((point.map_or_else(Vec::new, |point| point.modes), found.sensitivities.unwrap_or_default()))
+    Ok((point.map_or_else(Vec::new, |point| point.modes), found.waves))
 }
 
 /// The modes of a case at its own friction coefficient, by frequency; no shapes. With all the symmetry that the body has.
@@ -93,7 +87,7 @@ pub fn modes_at_own_friction(
     let solver = Solver::by_symmetry(case);
     let frictions = request.friction_coefficients;
     let model = Model::with_solver(case, solver, *options, frictions)?;
-    let found = model.spectrum(case, &request, false, &Unwatched)?;
+    let found = model.spectrum(case, &request, &Unwatched)?;
     let point = found.sweep.points.into_iter().next();
     Ok(point.map_or_else(Vec::new, |point| point.modes))
 }
@@ -147,7 +141,7 @@ pub fn unstable_intervals(
             intervals: found.intervals,
         });
     }
-    let found = model.spectrum(case, &request, false, &Unwatched)?;
+    let found = model.spectrum(case, &request, &Unwatched)?;
     super::refuse_no_modes(case, &cea, &found.sweep)?;
     let followed = match (&model, found.coverage) {
         (Model::Sectors(..), Some(coverage)) => coverage.followed,

@@ -5,13 +5,16 @@ use super::{
     BoundedParameter, FitError, FitProblem, Fitted, MeasuredMode, MeasuredShapes, ModelMode, fit,
     summary,
 };
-use crate::case::{Case, Fit, FitParameter, ModelParameter, Spacing};
-use crate::cea::ComplexMode;
-use crate::cea::cyclic::Sensitivity;
+use crate::case::{Case, Cea, Fit, FitParameter, ModelParameter, Spacing};
+use crate::cea::cyclic::{WavePair, wave_pairs};
+use crate::cea::{ComplexMode, ModeBranch};
 use crate::linalg::c64;
 use crate::results::fit::FitSummary;
-use crate::study::eigenvalues::{Solver, analysis};
+use crate::study::eigenvalues::{Solver, Waves, analysis, rates_of_waves};
 use crate::study::{StudyError, eigenvalues};
+
+/// Step of a parameter for the differences of the matrices, relative to its value.
+const STEP: f64 = 1e-4;
 
 /// Modes are computed up to this much above the highest line.
 const MARGIN: f64 = 1.15;
@@ -77,8 +80,7 @@ pub fn summarize(
     fitted: &Fitted,
 ) -> Result<FitSummary, StudyError> {
     // The case as it is written need not have a solution.
-    let before = eigenvalues::modes_below(case, limit_hz(lines), false)
-        .map_or_else(|_| Vec::new(), |found| found.0);
+    let before = eigenvalues::modes_below(case, limit_hz(lines)).unwrap_or_default();
     Ok(summary::of(case, case.require_fit()?, fitted, &before))
 }
 
@@ -152,25 +154,60 @@ fn modes(
     }
     let own = [case.contact.sliding.friction_coefficient];
     let shapes_at = &own[..usize::from(shapes.is_some())];
-    let solved = eigenvalues::modes_with_shapes_below(&case, limit_hz, with_rates, shapes_at);
-    let (modes, sensitivities) = solved.map_err(said)?;
+    let solved = eigenvalues::modes_with_waves_below(&case, limit_hz, shapes_at);
+    let (modes, waves) = solved.map_err(said)?;
     let assurances = assurances(&case, shapes, &modes)?;
-    let has_harmonics = case.has_sectors();
-    let of = |(mode, assurances): (&ComplexMode, Vec<f64>)| {
-        let is_it = |s: &&Sensitivity| {
-            (s.harmonic, s.branch, s.direction) == (mode.harmonic, mode.branch, mode.direction)
-        };
-        let own = sensitivities.iter().find(is_it);
-        ModelMode {
-            eigenvalue: mode.eigenvalue,
-            harmonic: has_harmonics.then_some(mode.harmonic),
-            branch: mode.branch,
-            direction: mode.direction,
-            rates: parameters.clone().map(|p| rate(own?, p)).collect(),
-            assurances,
+    let by_parameter = match waves.filter(|_| with_rates) {
+        Some(waves) => {
+            let cea = analysis(&case, &own, limit_hz);
+            wave_rates((&case, &cea), &modes, &waves, (wanted, values))
         }
+        None => vec![vec![None; modes.len()]; wanted.parameters.len()],
     };
-    Ok(modes.iter().zip(assurances).map(of).collect())
+    let has_harmonics = case.has_sectors();
+    let of = |(i, (mode, assurances)): (usize, (&ComplexMode, Vec<f64>))| ModelMode {
+        eigenvalue: mode.eigenvalue,
+        harmonic: has_harmonics.then_some(mode.harmonic),
+        branch: mode.branch,
+        direction: mode.direction,
+        rates: by_parameter.iter().map(|rates| rates[i]).collect(),
+        assurances,
+    };
+    Ok(modes.iter().zip(assurances).enumerate().map(of).collect())
+}
+
+/// Derivatives of modes of a body solved harmonic by harmonic by each parameter, with the keys that follow it; `None` where
+/// there is none.
+fn wave_rates(
+    (case, cea): (&Case, &Cea),
+    modes: &[ComplexMode],
+    waves: &Waves,
+    (wanted, values): (&Fit, &[f64]),
+) -> Vec<Vec<Option<c64>>> {
+    let friction = case.contact.sliding.friction_coefficient;
+    let branch_of = |mode: &ComplexMode| {
+        let is_it = |b: &&ModeBranch| {
+            (b.harmonic, b.branch, b.direction) == (mode.harmonic, mode.branch, mode.direction)
+        };
+        waves.branches.iter().find(is_it)
+    };
+    let branches: Vec<_> = modes.iter().map(branch_of).collect();
+    let all: Vec<_> = branches.iter().flatten().map(|branch| (*branch, friction)).collect();
+    let mut found = wave_pairs(&waves.tangent, &all).into_iter();
+    let pairs: Vec<Option<WavePair>> =
+        branches.iter().map(|branch| branch.and_then(|_| found.next()?)).collect();
+    let there: Vec<&WavePair> = pairs.iter().flatten().collect();
+    let by_parameter = wanted.parameters.iter().zip(values).map(|(parameter, &value)| {
+        // From zero the range says what is little.
+        let scale = if value == 0.0 { parameter.to - parameter.from } else { value.abs() };
+        let moved = |offset: f64| case.with_parameters([(&parameter.parameter, value + offset)]);
+        let own = (&there[..], waves.tangent.pressed());
+        let rates = rates_of_waves((case, cea), own, STEP * scale, &moved);
+        let mut rates = rates.ok().map(Vec::into_iter);
+        let of = |pair: &Option<WavePair>| pair.as_ref().and_then(|_| rates.as_mut()?.next());
+        pairs.iter().map(of).collect()
+    });
+    by_parameter.collect()
 }
 
 /// Modal assurance of the measured shapes with each mode; nothing without any.
@@ -209,23 +246,4 @@ fn modes_of_free_part<'p>(
         assurances,
     };
     Ok(modes.iter().zip(assurances).enumerate().map(of).collect())
-}
-
-/// Derivative of an eigenvalue by a parameter, with the keys that follow it; `None` where it is not known.
-fn rate(sensitivity: &Sensitivity, parameter: &ModelParameter) -> Option<c64> {
-    let of = |key: &String| match key.as_str() {
-        "contact.friction_coefficient" => Some(sensitivity.friction),
-        "contact.normal_stiffness" => sensitivity.normal_stiffness,
-        "contact.cubic_stiffness" => sensitivity.normal_law[0],
-        "contact.reference_pressure" => sensitivity.normal_law[1],
-        "contact.height" => sensitivity.normal_law[2],
-        "damping.mass_coefficient" => Some(sensitivity.mass_coefficient),
-        "damping.stiffness_coefficient" => Some(sensitivity.stiffness_coefficient),
-        "material.young_modulus" => sensitivity.young_modulus,
-        "material.poisson_ratio" => sensitivity.poisson_ratio,
-        "material.density" => Some(sensitivity.density),
-        _ => None,
-    };
-    let keys = std::iter::once(&parameter.key).chain(&parameter.also);
-    keys.map(of).sum()
 }

@@ -38,7 +38,7 @@ pub(super) fn shaped_modes(case: &Case, cea: &Cea) -> Result<Vec<ComplexMode>, S
         shapes_at: frictions,
         count_modes: false,
     };
-    let found = model.spectrum(case, &request, false, &Unwatched)?;
+    let found = model.spectrum(case, &request, &Unwatched)?;
     let point = found.sweep.points.into_iter().next();
     Ok(point.map_or_else(Vec::new, |point| point.modes))
 }

@@ -120,7 +120,7 @@ pub(super) fn spectrum_of(case: &Case, cea: &Cea) -> Result<(Model, FrictionSwee
         shapes_at: &[],
         count_modes: false,
     };
-    let sweep = model.spectrum(case, &request, false, &Unwatched)?.sweep;
+    let sweep = model.spectrum(case, &request, &Unwatched)?.sweep;
     Ok((model, sweep))
 }
 

@@ -2,29 +2,68 @@
 
 use crate::cea_cyclic::model::paper_options;
 use crate::disc::{POLYCARBONATE, annulus, contact};
+use crate::waves::{STEP, difference, is_of, pairs, rates};
 use faer::c64;
-use frictionsim::cea::cyclic::{CyclicModel, Sensitivity, sensitivities, sweep};
-use frictionsim::cea::{ModeBranch, ModeLimit, SweepRequest};
+use frictionsim::cea::cyclic::{CyclicModel, CyclicSweep, WavePair, sweep};
+use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::contact::{ContactStiffness, NormalLaw};
 use frictionsim::fem::{ElasticMaterial, PlaneFormulation};
-use frictionsim::mesh::ElementKind;
-use frictionsim::prestress::DampingModel;
+use frictionsim::mesh::{ElementKind, SectorMesh};
+use frictionsim::prestress::{DampingModel, SectorTangent, WaveTangent};
 
-/// One eigenvalue of a changed model, by following its branch.
-fn eigenvalue_of(model: &CyclicModel, like: &Sensitivity, friction: f64) -> c64 {
+const FRICTION: f64 = 0.35;
+
+fn swept(model: &CyclicModel, frictions: &[f64], limit_hz: f64) -> CyclicSweep {
     let request = SweepRequest {
-        friction_coefficients: &[friction],
-        limit: ModeLimit::MaxFrequency(17600.0),
+        friction_coefficients: frictions,
+        limit: ModeLimit::MaxFrequency(limit_hz),
         shapes_at: &[],
         count_modes: false,
     };
-    let found =
-        sweep(&model.specification, &model.material, &model.options, &model.contact, &request)
-            .unwrap();
-    let is_same = |b: &&ModeBranch| {
-        (b.harmonic, b.branch, b.direction) == (like.harmonic, like.branch, like.direction)
-    };
-    found.branches.iter().find(is_same).unwrap().interpolate(friction).unwrap()
+    let CyclicModel { specification, material, options, contact } = model;
+    sweep(specification, material, options, contact, &request).unwrap()
+}
+
+fn tangent(model: &CyclicModel) -> WaveTangent {
+    let sector = SectorMesh::generate(&model.specification).unwrap();
+    let CyclicModel { material, options, contact, .. } = model;
+    let tangent = SectorTangent::linearize(&sector, material, options, contact);
+    WaveTangent::Plane(Box::new(tangent.unwrap()))
+}
+
+/// One eigenvalue of a changed model, by following its branch.
+fn eigenvalue_of(model: &CyclicModel, like: &WavePair, friction: f64) -> c64 {
+    let found = swept(model, &[friction], 17600.0);
+    found.branches.iter().find(is_of(like)).unwrap().interpolate(friction).unwrap()
+}
+
+/// Name, value, step relative to it for differences of analyses, and what a share of the value more is.
+type Check<'a> = (&'a str, f64, f64, &'a dyn Fn(&mut CyclicModel, f64));
+
+/// The derivatives of every branch by some parameters; how many branches there are.
+fn compare(model: &CyclicModel, checks: &[Check<'_>], tolerance: f64) -> usize {
+    let found = swept(model, &[0.0, FRICTION], 12000.0);
+    let pairs = pairs(&tangent(model), &found.branches, FRICTION);
+    for (name, value, step, change) in checks {
+        let moved = |share: f64| {
+            let mut changed = *model;
+            change(&mut changed, share);
+            changed
+        };
+        let rates = rates(&pairs, STEP * value, &|offset| tangent(&moved(offset / value)));
+        for (pair, rate) in pairs.iter().zip(rates) {
+            let numeric = difference(*step, &|share| eigenvalue_of(&moved(share), pair, FRICTION));
+            // Relative to the change over the parameter's own size, and to |lambda| where that is tiny.
+            let error = (rate * *value - numeric).norm();
+            let size = numeric.norm() + 1e-3 * pair.eigenvalue.norm();
+            assert!(error < tolerance * size, "{name} {pair:?} {numeric} {:e}", error / size);
+        }
+    }
+    for pair in &pairs {
+        let numeric = difference(1e-3, &|more| eigenvalue_of(model, pair, FRICTION + more));
+        assert!((numeric - pair.derivative).norm() < 1e-9 * pair.eigenvalue.norm());
+    }
+    pairs.len()
 }
 
 /// Independent check: central differences of the whole analysis, prestress included.
@@ -44,92 +83,27 @@ fn sensitivities_equal_finite_differences() {
         // A strong prestress, so that its share cannot hide.
         contact.interference = 3e-4;
         let material = ElasticMaterial { formulation, ..POLYCARBONATE };
-        let model = CyclicModel {
-            specification: annulus(element, 24, 6),
-            material: material.into(),
-            options,
-            contact,
-        };
-        let friction = 0.35;
-        let request = SweepRequest {
-            friction_coefficients: &[0.0, friction],
-            limit: ModeLimit::MaxFrequency(12000.0),
-            shapes_at: &[],
-            count_modes: false,
-        };
-        let found =
-            sweep(&model.specification, &model.material, &model.options, &model.contact, &request)
-                .unwrap();
-        for s in sensitivities(&found, friction).unwrap() {
-            let difference = |step: f64, change: &dyn Fn(&mut CyclicModel, f64)| {
-                let at = |offset: f64| {
-                    let mut changed = model;
-                    change(&mut changed, offset);
-                    eigenvalue_of(&changed, &s, friction)
-                };
-                // Fourth order, so that the step may stay far above round-off.
-                ((at(step) - at(-step)) * 8.0 - (at(2.0 * step) - at(-2.0 * step))) / (12.0 * step)
-            };
-            let k_n = options.contact.normal_stiffness.unwrap_or(1.0);
-            let checks = [
-                (
-                    "nu",
-                    1.0,
-                    s.poisson_ratio.unwrap(),
-                    difference(1e-3, &|m, h| m.material.annulus.poisson_ratio += h),
-                ),
-                (
-                    "E",
-                    2.5e9,
-                    s.young_modulus.unwrap(),
-                    difference(2e7, &|m, h| m.material.annulus.young_modulus += h),
-                ),
-                (
-                    "rho",
-                    1228.0,
-                    s.density,
-                    difference(10.0, &|m, h| m.material.annulus.density += h),
-                ),
-                (
-                    "alpha",
-                    40.0,
-                    s.mass_coefficient,
-                    difference(1.0, &|m, h| m.options.damping.mass_coefficient += h),
-                ),
-                (
-                    "beta",
-                    4.5e-7,
-                    s.stiffness_coefficient,
-                    difference(1e-8, &|m, h| m.options.damping.stiffness_coefficient += h),
-                ),
-                (
-                    "k_n",
-                    k_n,
-                    s.normal_stiffness.unwrap_or(c64::new(0.0, 0.0)),
-                    difference(k_n * 0.01, &|m, h| {
-                        if let Some(k) = &mut m.options.contact.normal_stiffness {
-                            *k += h;
-                        }
-                    }),
-                ),
-            ];
-            for (name, scale, analytic, numeric) in checks {
-                // Relative to the change over the parameter's own size, and to |lambda| where that is tiny.
-                let error = (analytic - numeric).norm() * scale;
-                let size = (numeric * scale).norm() + 1e-3 * s.eigenvalue.norm();
-                assert!(
-                    error < 2e-7 * size,
-                    "{element:?} {name} {s:?} {numeric} {:e}",
-                    error / size
-                );
-            }
-            let at = |mu: f64| eigenvalue_of(&model, &s, mu);
-            let h = 1e-3;
-            let numeric = ((at(friction + h) - at(friction - h)) * 8.0
-                - (at(friction + 2.0 * h) - at(friction - 2.0 * h)))
-                / (12.0 * h);
-            assert!((numeric - s.friction).norm() < 1e-9 * s.eigenvalue.norm());
+        let specification = annulus(element, 24, 6);
+        let model = CyclicModel { specification, material: material.into(), options, contact };
+        let own = POLYCARBONATE;
+        let damping = options.damping;
+        let mut checks: Vec<Check<'_>> = vec![
+            ("nu", own.poisson_ratio, 2e-3, &|m, x| m.material.annulus.poisson_ratio *= 1.0 + x),
+            ("E", own.young_modulus, 1e-2, &|m, x| m.material.annulus.young_modulus *= 1.0 + x),
+            ("rho", own.density, 1e-2, &|m, x| m.material.annulus.density *= 1.0 + x),
+            ("alpha", damping.mass_coefficient, 2e-2, &|m, x| {
+                m.options.damping.mass_coefficient *= 1.0 + x;
+            }),
+            ("beta", damping.stiffness_coefficient, 2e-2, &|m, x| {
+                m.options.damping.stiffness_coefficient *= 1.0 + x;
+            }),
+        ];
+        if let Some(stiffness) = options.contact.normal_stiffness {
+            checks.push(("k_n", stiffness, 1e-2, &|m, x| {
+                *m.options.contact.normal_stiffness.as_mut().unwrap() *= 1.0 + x;
+            }));
         }
+        compare(&model, &checks, 2e-7);
     }
 }
 
@@ -140,14 +114,14 @@ fn sensitivities_of_stiffening_contact_equal_finite_differences() {
         NormalLaw::Exponential { reference_pressure: 2e5, height: 4e-6 },
         NormalLaw::Cubic { stiffness: 8e11, cubic_stiffness: 5e22 },
     ];
-    let moved = |law: NormalLaw, number: usize, share: f64| match law {
-        NormalLaw::Exponential { reference_pressure: p, height: h } => NormalLaw::Exponential {
-            reference_pressure: if number == 0 { p * (1.0 + share) } else { p },
-            height: if number == 1 { h * (1.0 + share) } else { h },
+    let moved = |law: NormalLaw, [first, second]: [f64; 2]| match law {
+        NormalLaw::Exponential { reference_pressure, height } => NormalLaw::Exponential {
+            reference_pressure: reference_pressure * (1.0 + first),
+            height: height * (1.0 + second),
         },
-        NormalLaw::Cubic { stiffness: k, cubic_stiffness: c } => NormalLaw::Cubic {
-            stiffness: if number == 0 { k * (1.0 + share) } else { k },
-            cubic_stiffness: if number == 1 { c * (1.0 + share) } else { c },
+        NormalLaw::Cubic { stiffness, cubic_stiffness } => NormalLaw::Cubic {
+            stiffness: stiffness * (1.0 + first),
+            cubic_stiffness: cubic_stiffness * (1.0 + second),
         },
     };
     let of = |law: NormalLaw| ContactStiffness {
@@ -160,58 +134,15 @@ fn sensitivities_of_stiffening_contact_equal_finite_differences() {
         contact.interference = 3e-4;
         let mut options = paper_options();
         options.contact = of(law);
-        let model = CyclicModel {
-            specification: annulus(element, 24, 6),
-            material: POLYCARBONATE.into(),
-            options,
-            contact,
-        };
-        let friction = 0.35;
-        let request = SweepRequest {
-            friction_coefficients: &[0.0, friction],
-            limit: ModeLimit::MaxFrequency(12000.0),
-            shapes_at: &[],
-            count_modes: false,
-        };
-        let (specification, material) = (&model.specification, &model.material);
-        let found = sweep(specification, material, &options, &contact, &request).unwrap();
-        let sensitivities = sensitivities(&found, friction).unwrap();
-        assert!(sensitivities.len() > 5);
-        for s in &sensitivities {
-            let difference = |change: &dyn Fn(&mut CyclicModel, f64)| {
-                let at = |share: f64| {
-                    let mut changed = model;
-                    change(&mut changed, share);
-                    eigenvalue_of(&changed, s, friction)
-                };
-                let h = 1e-3;
-                ((at(h) - at(-h)) * 8.0 - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h)
-            };
-            let by_law =
-                |number: usize| difference(&|m, x| m.options.contact = of(moved(law, number, x)));
-            let [cubic, pressure, height] = s.normal_law;
-            let own = match law {
-                NormalLaw::Exponential { reference_pressure: p, height: h } => {
-                    [pressure.unwrap() * p, height.unwrap() * h]
-                }
-                NormalLaw::Cubic { stiffness: k, cubic_stiffness: c } => {
-                    [s.normal_stiffness.unwrap() * k, cubic.unwrap() * c]
-                }
-            };
-            let modulus = POLYCARBONATE.young_modulus;
-            let by_modulus = difference(&|m, x| m.material.annulus.young_modulus *= 1.0 + x);
-            let ratio = POLYCARBONATE.poisson_ratio;
-            let by_ratio = difference(&|m, x| m.material.annulus.poisson_ratio *= 1.0 + x);
-            for (name, analytic, numeric) in [
-                ("first number of the law", own[0], by_law(0)),
-                ("second number of the law", own[1], by_law(1)),
-                ("E", s.young_modulus.unwrap() * modulus, by_modulus),
-                ("nu", s.poisson_ratio.unwrap() * ratio, by_ratio),
-            ] {
-                let error = (analytic - numeric).norm();
-                let size = numeric.norm() + 1e-3 * s.eigenvalue.norm();
-                assert!(error < 1e-6 * size, "{law:?} {name} {s:?} {numeric} {:e}", error / size);
-            }
-        }
+        let specification = annulus(element, 24, 6);
+        let model = CyclicModel { specification, material: POLYCARBONATE.into(), options, contact };
+        // Shares of the values.
+        let checks: [Check<'_>; 4] = [
+            ("first number", 1.0, 1e-3, &|m, x| m.options.contact = of(moved(law, [x, 0.0]))),
+            ("second number", 1.0, 1e-3, &|m, x| m.options.contact = of(moved(law, [0.0, x]))),
+            ("E", 1.0, 1e-3, &|m, x| m.material.annulus.young_modulus *= 1.0 + x),
+            ("nu", 1.0, 1e-3, &|m, x| m.material.annulus.poisson_ratio *= 1.0 + x),
+        ];
+        assert!(compare(&model, &checks, 1e-6) > 5);
     }
 }

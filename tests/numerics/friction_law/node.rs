@@ -63,29 +63,12 @@ fn a_law_too_steep_for_the_inertia_is_reported_and_keeps_stick_and_slip_apart() 
     }
 }
 
-/// Finite differences of the law's share and slope.
+/// Finite differences of the law's share.
 #[test]
-fn derivatives_of_the_law_equal_finite_differences() {
+fn the_slope_of_the_law_equals_finite_differences() {
     let step = 1e-5;
     for speed in [0.0, 0.05, 0.3, 1.0] {
         let slope = (DECAY.share(speed + step) - DECAY.share(speed)) / step;
         assert!((slope - DECAY.slope(speed + 0.5 * step)).abs() < 1e-8);
-        let of = |ratio: f64, decay: f64| {
-            let changed = FrictionDecay {
-                static_ratio: DECAY.static_ratio + ratio,
-                decay_speed: DECAY.decay_speed + decay,
-            };
-            [changed.share(speed), changed.slope(speed)]
-        };
-        for (rate, [up, down]) in DECAY
-            .rates(speed)
-            .into_iter()
-            .zip([[of(step, 0.0), of(-step, 0.0)], [of(0.0, step), of(0.0, -step)]])
-        {
-            for part in 0..2 {
-                let numeric = (up[part] - down[part]) / (2.0 * step);
-                assert!((numeric - rate[part]).abs() < 1e-6, "{speed} {part}");
-            }
-        }
     }
 }

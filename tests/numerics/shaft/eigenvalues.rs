@@ -2,15 +2,16 @@
 
 use crate::disc::{POLYCARBONATE, annulus, contact};
 use crate::shaft::model::{STEEL, on, rigid_contact, spectrum, stiffer, with_shaft};
-use faer::c64;
-use frictionsim::cea::cyclic::sensitivities;
+use crate::waves::{STEP, is_of, pairs, rates};
 use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest, sparse};
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::{
     AnnulusMaterials, MassKind, RayleighDamping, RegionMaterial, assemble_stiffness,
 };
-use frictionsim::mesh::{AnnulusMesh, BoundaryCondition, ElasticSupport, ElementKind};
-use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
+use frictionsim::mesh::{AnnulusMesh, BoundaryCondition, ElasticSupport, ElementKind, SectorMesh};
+use frictionsim::prestress::{
+    DampingModel, SectorTangent, SlidingTangent, SteadySliding, TangentOptions, WaveTangent,
+};
 
 fn nearest(mode: &ComplexMode, others: &[ComplexMode]) -> f64 {
     let same = others.iter().filter(|m| {
@@ -130,61 +131,57 @@ fn sensitivities_of_two_bodies_are_those_of_each_bodys_own_parameters() {
     let solve = |materials: &AnnulusMaterials, options: &TangentOptions| {
         spectrum(&specification, materials, options, &[0.0, 0.3], limit)
     };
-    let found = sensitivities(&solve(&materials(&|_| {}), &options), 0.3).unwrap();
-    let eigenvalue = |materials: &AnnulusMaterials, options: &TangentOptions, like: usize| {
-        let modes = solve(materials, options).sweep.points.pop().unwrap().modes;
-        let of = &found[like];
-        let is_same = |m: &&ComplexMode| {
-            (m.harmonic, m.branch, m.direction) == (of.harmonic, of.branch, of.direction)
-        };
-        modes.iter().find(is_same).unwrap().eigenvalue
+    let tangent = |materials: &AnnulusMaterials, options: &TangentOptions| {
+        let sector = SectorMesh::generate(&specification).unwrap();
+        let tangent = SectorTangent::linearize(&sector, materials, options, &contact(610.0));
+        WaveTangent::Plane(Box::new(tangent.unwrap()))
     };
-    let check = |like: usize, name: &str, expected: c64, by: &dyn Fn(f64) -> c64, value: f64| {
-        // As far as eigenvalues are straight: the less they change, the longer.
-        let h = match name {
-            "shaft alpha" => 0.5,
-            "shaft beta" => 0.01,
-            _ => 1e-5,
-        };
-        let difference = (by(1.0 + h) - by(1.0 - h)) / (2.0 * h * value);
-        let error = (difference - expected).norm() / expected.norm().max(1e-12);
-        println!("{name} of {like}: {error:e}");
-        // Differences of eigenvalues that are converged to 1e-12.
-        assert!(error < 1e-5, "{name} of {like}: {difference} {expected}");
+    let own = materials(&|_| {});
+    let found = pairs(&tangent(&own, &options), &solve(&own, &options).branches, 0.3);
+    let damping = |shaft: &mut RegionMaterial, factors: [f64; 2]| {
+        let own = shaft.damping.as_mut().unwrap();
+        own.mass_coefficient *= factors[0];
+        own.stiffness_coefficient *= factors[1];
     };
-    for like in [1, 4] {
-        let own = &found[like];
-        let modulus =
-            |f: f64| eigenvalue(&materials(&|m| m.annulus.young_modulus *= f), &options, like);
-        check(like, "E", own.young_modulus.unwrap(), &modulus, 2.5e9);
-        let density = |f: f64| eigenvalue(&materials(&|m| m.annulus.density *= f), &options, like);
-        check(like, "rho", own.density, &density, 1228.0);
-        let ratio =
-            |f: f64| eigenvalue(&materials(&|m| m.annulus.poisson_ratio *= f), &options, like);
-        check(like, "nu", own.poisson_ratio.unwrap(), &ratio, 0.3805);
-        let beta = |f: f64| {
-            let mut options = options;
-            options.damping.stiffness_coefficient *= f;
-            eigenvalue(&materials(&|_| {}), &options, like)
+    type Change<'a> = &'a dyn Fn(&mut AnnulusMaterials, &mut TangentOptions, f64);
+    let shaft = |m: &mut AnnulusMaterials, change: &dyn Fn(&mut RegionMaterial)| {
+        change(m.shaft.as_mut().unwrap());
+    };
+    // Differences of eigenvalues as far as these are straight: the less they change, the longer.
+    let checks: [(&str, f64, Change<'_>); 9] = [
+        ("E", 1e-5, &|m, _, f| m.annulus.young_modulus *= f),
+        ("rho", 1e-5, &|m, _, f| m.annulus.density *= f),
+        ("nu", 1e-5, &|m, _, f| m.annulus.poisson_ratio *= f),
+        ("beta", 1e-5, &|_, options, f| options.damping.stiffness_coefficient *= f),
+        ("shaft E", 1e-5, &|m, _, f| shaft(m, &|own| own.elastic.young_modulus *= f)),
+        ("shaft nu", 1e-5, &|m, _, f| shaft(m, &|own| own.elastic.poisson_ratio *= f)),
+        ("shaft rho", 1e-5, &|m, _, f| shaft(m, &|own| own.elastic.density *= f)),
+        ("shaft alpha", 0.5, &|m, _, f| shaft(m, &|own| damping(own, [f, 1.0]))),
+        ("shaft beta", 0.01, &|m, _, f| shaft(m, &|own| damping(own, [1.0, f]))),
+    ];
+    for (name, h, change) in checks {
+        let moved = |factor: f64| {
+            let (mut materials, mut options) = (own, options);
+            change(&mut materials, &mut options, factor);
+            (materials, options)
         };
-        check(like, "beta", own.stiffness_coefficient, &beta, 4.5e-7);
-        let shaft = |change: &dyn Fn(&mut RegionMaterial)| {
-            let changed = materials(&|m| change(m.shaft.as_mut().unwrap()));
-            eigenvalue(&changed, &options, like)
-        };
-        let damping = |shaft: &mut RegionMaterial, factors: [f64; 2]| {
-            let own = shaft.damping.as_mut().unwrap();
-            own.mass_coefficient *= factors[0];
-            own.stiffness_coefficient *= factors[1];
-        };
-        let by = |name: &str, i: usize, value: f64, change: &dyn Fn(&mut RegionMaterial, f64)| {
-            let changed = |f: f64| shaft(&|region| change(region, f));
-            check(like, name, own.shaft[i].unwrap(), &changed, value);
-        };
-        by("shaft E", 0, STEEL.young_modulus, &|m, f| m.elastic.young_modulus *= f);
-        by("shaft nu", 1, STEEL.poisson_ratio, &|m, f| m.elastic.poisson_ratio *= f);
-        by("shaft rho", 2, STEEL.density, &|m, f| m.elastic.density *= f);
-        by("shaft alpha", 3, 5e3, &|m, f| damping(m, [f, 1.0]));
-        by("shaft beta", 4, 1e-6, &|m, f| damping(m, [1.0, f]));
+        let rates = rates(&found, STEP, &|share| {
+            let (materials, options) = moved(1.0 + share);
+            tangent(&materials, &options)
+        });
+        let sides = [1.0 + h, 1.0 - h].map(|factor| {
+            let (materials, options) = moved(factor);
+            solve(&materials, &options).branches
+        });
+        for like in [1, 4] {
+            let [above, below] = sides.each_ref().map(|branches| {
+                let branch = branches.iter().find(is_of(&found[like])).unwrap();
+                branch.interpolate(0.3).unwrap()
+            });
+            let difference = (above - below) / (2.0 * h);
+            let error = (difference - rates[like]).norm() / rates[like].norm().max(1e-12);
+            // Differences of eigenvalues that are converged to 1e-12.
+            assert!(error < 1e-5, "{name} of {like}: {difference} {} {error:e}", rates[like]);
+        }
     }
 }

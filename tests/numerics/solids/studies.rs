@@ -1,8 +1,11 @@
 //! Studies and files of bodies of revolution.
 
+use crate::waves::pairs;
 use assert_cmd::Command;
 use frictionsim::case::Case;
-use frictionsim::study::eigenvalues::{modes_and_onsets, modes_below, unstable_intervals};
+use frictionsim::study::eigenvalues::{
+    modes_and_onsets, modes_below, modes_with_waves_below, unstable_intervals,
+};
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
@@ -31,8 +34,7 @@ fn modes_for_a_fit_and_onsets_of_a_sample_are_those_of_the_body_with_its_thickne
         let apart = (found.critical_friction - known.critical_friction).abs();
         assert!(apart < 1e-8, "{found:?} {known:?}");
     }
-    let (modes, rates) = modes_below(&case, 10e3, false).unwrap();
-    assert!(rates.is_empty());
+    let modes = modes_below(&case, 10e3).unwrap();
     let mut points = known.points.iter();
     let point = points.find(|point| point.friction_coefficient == 0.3);
     let solved = &point.unwrap().modes;
@@ -47,11 +49,13 @@ fn modes_for_a_fit_and_onsets_of_a_sample_are_those_of_the_body_with_its_thickne
         assert!(mode.axial_share.is_some());
     }
     // Every mode of a fit has its derivatives.
-    let (modes, rates) = modes_below(&case, 6e3, true).unwrap();
+    let (modes, waves) = modes_with_waves_below(&case, 6e3, &[]).unwrap();
+    let waves = waves.unwrap();
+    let pairs = pairs(&waves.tangent, &waves.branches, 0.3);
     for mode in modes {
         let name = (mode.harmonic, mode.branch, mode.direction);
-        let mut own = rates.iter();
-        let own = own.find(|s| (s.harmonic, s.branch, s.direction) == name);
+        let mut own = pairs.iter();
+        let own = own.find(|pair| (pair.harmonic, pair.branch, pair.direction) == name);
         assert!((own.unwrap().eigenvalue - mode.eigenvalue).norm() < 1e-6 * mode.eigenvalue.norm());
     }
 }

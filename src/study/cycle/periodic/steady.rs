@@ -164,6 +164,6 @@ fn sweep_in_time(
         count_modes: false,
     };
     let model = Model::with_solver(case, solver, options_in_time(case), frictions)?;
-    let found = model.spectrum(case, &request, false, &Unwatched)?;
+    let found = model.spectrum(case, &request, &Unwatched)?;
     Ok((model, found.sweep))
 }

@@ -18,10 +18,11 @@ mod parts;
 mod shapes;
 mod waves;
 
-use super::model::{Model, WaveTangent};
+use super::model::Model;
 use super::sliding::SlidingModel;
 use crate::case::Case;
 use crate::cea::{FrictionPoint, FrictionSweep};
+use crate::prestress::WaveTangent;
 use crate::results::cea::Reading;
 use parts::Parts;
 use shapes::Shapes;

@@ -7,11 +7,11 @@ use crate::case::Case;
 use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep, ModeWave};
 use crate::linalg::c64;
 use crate::mesh::SolidSector;
+use crate::prestress::WaveTangent;
 use crate::prestress::{HarmonicParts, PartForms, SectorParts, SolidParts};
 use crate::results::cea::{
     Contribution, Coupling, Feed, FeedPlace, ModeFeed, ModeName, Reading, Source,
 };
-use crate::study::eigenvalues::model::WaveTangent;
 use crate::study::eigenvalues::sliding::{SlidingModel, SteadyState};
 use std::collections::BTreeMap;
 

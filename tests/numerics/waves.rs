@@ -1,0 +1,37 @@
+//! Derivatives of the branches of bodies that are solved harmonic by harmonic.
+
+use frictionsim::cea::ModeBranch;
+use frictionsim::cea::cyclic::{Beside, WavePair, wave_pairs, wave_responses};
+use frictionsim::linalg::c64;
+use frictionsim::prestress::WaveTangent;
+
+/// Step of a parameter relative to its value.
+pub const STEP: f64 = 1e-4;
+
+/// The eigenpairs of the branches that oscillate at a friction coefficient.
+pub fn pairs(tangent: &WaveTangent, branches: &[ModeBranch], friction: f64) -> Vec<WavePair> {
+    let there = branches.iter().filter(|branch| branch.interpolate(friction).is_some());
+    let wanted: Vec<_> = there.map(|branch| (branch, friction)).collect();
+    wave_pairs(tangent, &wanted).into_iter().map(Option::unwrap).collect()
+}
+
+/// Their derivatives by a parameter, of which `at` has the model where it is so much more.
+pub fn rates(pairs: &[WavePair], step: f64, at: &dyn Fn(f64) -> WaveTangent) -> Vec<c64> {
+    let sides = [1.0, -1.0].map(|sign| Beside {
+        weight: sign * 0.5 / step,
+        tangent: at(sign * step),
+        friction_shift: 0.0,
+    });
+    wave_responses(&pairs.iter().collect::<Vec<_>>(), &sides).unwrap()
+}
+
+/// Whether a branch is that of a pair.
+pub fn is_of(pair: &WavePair) -> impl Fn(&&ModeBranch) -> bool {
+    let name = (pair.harmonic, pair.branch, pair.direction);
+    move |branch| (branch.harmonic, branch.branch, branch.direction) == name
+}
+
+/// The central difference of a function, of fourth order, so that the step may stay far above round-off.
+pub fn difference(step: f64, at: &dyn Fn(f64) -> c64) -> c64 {
+    ((at(step) - at(-step)) * 8.0 - (at(2.0 * step) - at(-2.0 * step))) / (12.0 * step)
+}
