@@ -48,3 +48,4 @@ mod structural_damping;
 mod tabled;
 mod tabled_disc;
 mod two_bodies;
+mod verification;
