@@ -1,22 +1,40 @@
-//! Finite-element stability and transient analysis of frictional contact.
+//! Friction-induced vibration by finite elements: from a case to a result.
 //!
-//! Deformable bodies are pressed against each other or against a rigid counterface, and slide. One model serves a prestressed
-//! complex eigenvalue analysis ([`cea`]), an explicit transient ([`transient`]), frequency responses ([`frf`]) and limit cycles
-//! found directly ([`cycle`]). The [`guide`] is for users of the program; this page is for readers of the code.
+//! Deformable bodies are pressed against each other or against a rigid counterface, and slide. A *case* describes them, in a
+//! text file or a string. The shortest way from a case to a result:
 //!
-//! # From a case to a result
+//! ```
+//! use frictionsim::case::Case;
+//! use frictionsim::study::eigenvalues;
 //!
-//! A run goes down this list; each step has one module, and its equations stand there.
+//! let text = std::fs::read("cases/polycarbonate-disc.toml")?;
+//! // A coarser mesh than the shipped one, as on the command line with `--set`.
+//! let coarse = ["mesh.circumferential_elements=24", "mesh.radial_elements=4"].map(String::from);
+//! let case = Case::parse("polycarbonate-disc.toml", &text, &coarse)?;
+//! // Complex eigenvalues around steady sliding, over the friction coefficients of the case.
+//! let sweep = eigenvalues::modes_and_onsets(&case)?;
+//! let onsets = sweep.intervals.iter().map(|interval| interval.critical_friction);
+//! let critical = onsets.fold(f64::INFINITY, f64::min);
+//! assert!((critical - 0.122).abs() < 0.01, "steady sliding is lost at {critical}");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 //!
-//! 1. [`case`]: a TOML file becomes a [`case::Case`]; every key is declared once, every mistake has its line.
+//! The [`guide`] is for users of the program, [`study`] has every analysis as a handful of calls, and the rest of this page is
+//! for readers of the code.
+//!
+//! # How a run goes
+//!
+//! Each step has one module, and its equations stand there.
+//!
+//! 1. [`case`]: a TOML file becomes a [`case::Case`]. Every key is declared once, every mistake has its line.
 //! 2. [`mesh`]: the body as elements, regions and boundaries, built in or read from a file.
 //! 3. [`fem`]: `M`, `C = alpha_R M + beta_R K` and `K` of its elements, with supports and pressures.
 //! 4. [`contact`]: points with gap, normal and sliding direction; the friction law; pairs of meshes that do not match.
-//! 5. [`prestress`]: steady sliding, `K u = G_n^T N + s mu G_t^T N` with `gap >= 0`, `N >= 0`, `gap N = 0`, and the matrices of
-//!    small motions around it, polynomials in `mu`.
-//! 6. [`cea`], [`transient`], [`frf`], [`cycle`]: what these matrices do, each for itself.
+//! 5. [`prestress`]: steady sliding, `K u = G_n^T N + s mu G_t^T N` with `gap >= 0`, `N >= 0`, `gap N = 0`, and the
+//!    matrices of small motions around it.
+//! 6. [`cea`], [`transient`], [`frf`], [`cycle`]: eigenvalues, the time loop, responses and limit cycles, each for itself.
 //! 7. [`study`]: an analysis of a case from beginning to end, and what repeats analyses: sweeps, fits, probabilities.
-//! 8. [`results`] and [`chart`]: tables, fields, figures, reports; [`app`]: the command line.
+//! 8. [`results`] and [`chart`]: tables, fields, figures, reports. [`app`]: the command line.
 //!
 //! # From equation to item
 //!

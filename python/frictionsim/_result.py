@@ -294,6 +294,42 @@ class IdentifyResult(Result):
         return self.table("modes")
 
 
+class ImproveResult(Result):
+    """Changes that silence the unstable modes."""
+
+    @cached_property
+    def candidates(self) -> Table:
+        """One row for each change, the best first, predicted and run again."""
+        return self.table("candidates")
+
+
+class MacResult(Result):
+    """Measured shapes beside the modes of a case."""
+
+    @cached_property
+    def mac(self) -> Table:
+        """One row for each measured shape and mode."""
+        return self.table("mac")
+
+
+class SignalResult(Result):
+    """The lines of a sound or vibration."""
+
+    @cached_property
+    def peaks(self) -> Table:
+        """One row for each line, with the mode that it may be."""
+        return self.table("peaks")
+
+
+class CompareResult(Result):
+    """Finished runs side by side."""
+
+    @cached_property
+    def differences(self) -> Table:
+        """One row for each number that the runs share."""
+        return self.table("compare")
+
+
 class UncertaintyResult(Result):
     """How likely squeal is."""
 

@@ -7,7 +7,7 @@ import tempfile
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Protocol, TypeVar
 
 from . import _native
 from ._case import Case, PathOrText, as_case
@@ -15,18 +15,23 @@ from ._errors import FrictionsimWarning, in_python, translate
 from ._progress import ProgressChoice, Teller
 from ._result import (
     CeaResult,
+    CompareResult,
     CycleResult,
     FitResult,
     FrfResult,
     IdentifyResult,
+    ImproveResult,
+    MacResult,
     MatricesResult,
     Result,
+    SignalResult,
     SweepResult,
     TransientResult,
     UncertaintyResult,
 )
 
 _R = TypeVar("_R", bound=Result)
+_R_co = TypeVar("_R_co", bound=Result, covariant=True)
 
 # Commands whose interrupted folders are worth keeping.
 _RESUMABLE = {"transient", "sweep", "uncertainty"}
@@ -97,30 +102,35 @@ def _tell_interruption(
     raise KeyboardInterrupt(in_python(message)) from None
 
 
-def _resumed(resume: bool) -> list[str]:
-    return ["--resume"] if resume else []
+class Analysis(Protocol[_R_co]):
+    """A command that runs a case."""
+
+    def __call__(
+        self,
+        case: Case | PathOrText,
+        *,
+        folder: PathOrText | None = None,
+        resume: bool = False,
+        figures: bool = True,
+        force: bool = False,
+        threads: int = 0,
+        progress: ProgressChoice = None,
+        **changes: Any,
+    ) -> _R_co:
+        """Run it."""
 
 
-def cea(
-    case: Case | PathOrText,
-    *,
-    folder: PathOrText | None = None,
-    figures: bool = True,
-    force: bool = False,
-    threads: int = 0,
-    progress: ProgressChoice = None,
-    **changes: Any,
-) -> CeaResult:
-    """Complex eigenvalues of steady sliding over the friction coefficient.
+_ARGUMENTS = """
 
     Args:
         case: a :class:`Case` or the path of a case file.
         folder: where the results go; ``None`` for a temporary folder that goes with the result.
+        resume: continue a stopped run in ``folder`` (cea, transient, cycle, sweep, uncertainty).
         figures: whether figures and report are drawn.
         force: replace the results of another case in the folder.
         threads: worker threads; 0 for all cores. Results do not depend on it.
-        progress: ``None`` shows a line where somebody looks, in a terminal or a notebook, ``False`` nothing; or a function
-            of message, done and total.
+        progress: ``None`` shows a line in a terminal or a notebook, ``False`` nothing; or a function of message, done and
+            total.
         **changes: keys of the case with new values, ``**{"contact.friction_coefficient": 0.3}``; ``None`` takes one away.
 
     Raises:
@@ -129,87 +139,45 @@ def cea(
         RunError: the analysis failed.
         KeyboardInterrupt: within a second of Ctrl-C.
     """
-    return _run(
-        CeaResult, "cea", case, changes,
-        folder=folder, figures=figures, force=force, threads=threads, progress=progress,
-    )  # fmt: skip
 
 
-def transient(
-    case: Case | PathOrText,
-    *,
-    folder: PathOrText | None = None,
-    resume: bool = False,
-    figures: bool = True,
-    force: bool = False,
-    threads: int = 0,
-    progress: ProgressChoice = None,
-    **changes: Any,
-) -> TransientResult:
-    """Explicit contact transient. Ctrl-C keeps what is computed; ``resume=True`` with the same ``folder`` goes on from there
-    to the same bytes.
+def _analysis(kind: type[_R], command: str, meaning: str) -> Analysis[_R]:
+    """The function of a command that needs nothing but a case."""
 
-    Arguments and exceptions as of :func:`cea`.
-    """
-    return _run(
-        TransientResult, "transient", case, changes, options=_resumed(resume),
-        folder=folder, figures=figures, force=force, threads=threads, progress=progress,
-    )  # fmt: skip
+    def run(
+        case: Case | PathOrText,
+        *,
+        folder: PathOrText | None = None,
+        resume: bool = False,
+        figures: bool = True,
+        force: bool = False,
+        threads: int = 0,
+        progress: ProgressChoice = None,
+        **changes: Any,
+    ) -> _R:
+        return _run(
+            kind, command, case, changes, options=["--resume"] if resume else [],
+            folder=folder, figures=figures, force=force, threads=threads, progress=progress,
+        )  # fmt: skip
 
-
-def cycle(
-    case: Case | PathOrText,
-    *,
-    folder: PathOrText | None = None,
-    figures: bool = True,
-    force: bool = False,
-    threads: int = 0,
-    progress: ProgressChoice = None,
-    **changes: Any,
-) -> CycleResult:
-    """Limit cycles without time stepping. Arguments and exceptions as of :func:`cea`."""
-    return _run(
-        CycleResult, "cycle", case, changes,
-        folder=folder, figures=figures, force=force, threads=threads, progress=progress,
-    )  # fmt: skip
+    run.__name__ = run.__qualname__ = command
+    run.__doc__ = meaning + _ARGUMENTS
+    return run
 
 
-def frf(
-    case: Case | PathOrText,
-    *,
-    folder: PathOrText | None = None,
-    figures: bool = True,
-    force: bool = False,
-    threads: int = 0,
-    progress: ProgressChoice = None,
-    **changes: Any,
-) -> FrfResult:
-    """Frequency response. Arguments and exceptions as of :func:`cea`."""
-    return _run(
-        FrfResult, "frf", case, changes,
-        folder=folder, figures=figures, force=force, threads=threads, progress=progress,
-    )  # fmt: skip
-
-
-def sweep(
-    case: Case | PathOrText,
-    *,
-    folder: PathOrText | None = None,
-    resume: bool = False,
-    figures: bool = True,
-    force: bool = False,
-    threads: int = 0,
-    progress: ProgressChoice = None,
-    **changes: Any,
-) -> SweepResult:
-    """Analyses on a grid of parameters. ``resume=True`` with the same ``folder`` runs the points that are missing.
-
-    Arguments and exceptions as of :func:`cea`.
-    """
-    return _run(
-        SweepResult, "sweep", case, changes, options=_resumed(resume),
-        folder=folder, figures=figures, force=force, threads=threads, progress=progress,
-    )  # fmt: skip
+cea = _analysis(CeaResult, "cea", "Complex eigenvalues of steady sliding over the friction coefficient.")
+transient = _analysis(TransientResult, "transient", "Growth and saturation of the vibration, step by step in time.")
+cycle = _analysis(CycleResult, "cycle", "Limit cycles without time stepping.")
+frf = _analysis(FrfResult, "frf", "Frequency response between two nodes.")
+sweep = _analysis(SweepResult, "sweep", "Analyses on a grid of parameters.")
+uncertainty = _analysis(UncertaintyResult, "uncertainty", "How likely squeal is, and which parameter decides it.")
+convergence = _analysis(Result, "convergence", "Analyses over mesh and time step, with limits and observed orders.")
+basin = _analysis(Result, "basin", "Which of two limit cycles wins.")
+improve = _analysis(ImproveResult, "improve", "Changes that silence the unstable modes, the best of them run again.")
+mesh = _analysis(Result, "mesh", "The mesh of a case and its statistics.")
+matrices = _analysis(
+    MatricesResult, "matrices", "Mass, damping and stiffness of small motions around steady sliding as SciPy matrices."
+)
 
 
 def fit(
@@ -237,6 +205,33 @@ def fit(
     )  # fmt: skip
 
 
+def mac(
+    case: Case | PathOrText,
+    shapes: PathOrText,
+    *,
+    scale: float = 1.0,
+    folder: PathOrText | None = None,
+    figures: bool = True,
+    force: bool = False,
+    threads: int = 0,
+    progress: ProgressChoice = None,
+    **changes: Any,
+) -> MacResult:
+    """Modal assurance criterion of measured shapes with the modes of a case.
+
+    Args:
+        case: a :class:`Case` or the path of a case file, with a ``[cea]`` section.
+        shapes: a universal file with datasets 55, or a table x, y, z, ux, uy, uz with ``mode`` and ``frequency_hz``.
+        scale: factor that takes the coordinates of the shapes to metres.
+
+    The other arguments and exceptions as of :func:`cea`.
+    """
+    return _run(
+        MacResult, "mac", case, changes, inputs=[os.fspath(shapes)], options=["--scale", repr(float(scale))],
+        folder=folder, figures=figures, force=force, threads=threads, progress=progress,
+    )  # fmt: skip
+
+
 def identify(
     response: PathOrText,
     *,
@@ -257,92 +252,66 @@ def identify(
     return _execute(IdentifyResult, "identify", words, folder, figures, force, 0, False)
 
 
-def uncertainty(
-    case: Case | PathOrText,
+def signal(
+    record: PathOrText,
     *,
-    folder: PathOrText | None = None,
-    resume: bool = False,
-    figures: bool = True,
-    force: bool = False,
-    threads: int = 0,
-    progress: ProgressChoice = None,
-    **changes: Any,
-) -> UncertaintyResult:
-    """How likely squeal is where parameters scatter, and which one decides it. Arguments and exceptions as of :func:`cea`."""
-    return _run(
-        UncertaintyResult, "uncertainty", case, changes, options=_resumed(resume),
-        folder=folder, figures=figures, force=force, threads=threads, progress=progress,
-    )  # fmt: skip
-
-
-def convergence(
-    case: Case | PathOrText,
-    *,
+    case: Case | PathOrText | None = None,
     folder: PathOrText | None = None,
     figures: bool = True,
     force: bool = False,
-    threads: int = 0,
-    progress: ProgressChoice = None,
+    options: Sequence[str] = (),
     **changes: Any,
-) -> Result:
-    """Analyses over mesh and time step, with limits and observed orders. Arguments and exceptions as of :func:`cea`."""
-    return _run(
-        Result, "convergence", case, changes,
-        folder=folder, figures=figures, force=force, threads=threads, progress=progress,
-    )  # fmt: skip
+) -> SignalResult:
+    """Spectrum of a sound or vibration, beside the modes of a case.
 
+    Args:
+        record: a text table, a universal file (UFF 58), a WAV or a MATLAB file.
+        case: a case whose modes stand beside the lines; ``changes`` are changes of it.
+        options: further options of ``frictionsim signal``, such as ``["--resolution", "20"]``.
 
-def basin(
-    case: Case | PathOrText,
-    *,
-    folder: PathOrText | None = None,
-    figures: bool = True,
-    force: bool = False,
-    threads: int = 0,
-    progress: ProgressChoice = None,
-    **changes: Any,
-) -> Result:
-    """Which of two limit cycles a transient ends on. Arguments and exceptions as of :func:`cea`."""
-    return _run(
-        Result, "basin", case, changes,
-        folder=folder, figures=figures, force=force, threads=threads, progress=progress,
-    )  # fmt: skip
-
-
-def mesh(
-    case: Case | PathOrText,
-    *,
-    folder: PathOrText | None = None,
-    figures: bool = True,
-    force: bool = False,
-    threads: int = 0,
-    progress: ProgressChoice = None,
-    **changes: Any,
-) -> Result:
-    """The mesh of a case and its statistics. Arguments and exceptions as of :func:`cea`."""
-    return _run(
-        Result, "mesh", case, changes,
-        folder=folder, figures=figures, force=force, threads=threads, progress=progress,
-    )  # fmt: skip
-
-
-def matrices(
-    case: Case | PathOrText,
-    *,
-    folder: PathOrText | None = None,
-    force: bool = False,
-    threads: int = 0,
-    progress: ProgressChoice = None,
-    **changes: Any,
-) -> MatricesResult:
-    """Mass, damping and stiffness of small motions around steady sliding as SciPy matrices.
-
-    Arguments and exceptions as of :func:`cea`.
+    The other arguments and exceptions as of :func:`cea`.
     """
-    return _run(
-        MatricesResult, "matrices", case, changes,
-        folder=folder, figures=False, force=force, threads=threads, progress=progress,
-    )  # fmt: skip
+    words = [os.fspath(record), *options]
+    if case is not None:
+        effective = as_case(case, changes)
+        words += ["--case", os.fspath(effective.path)]
+        words += [word for change in effective.changes for word in ("--set", change)]
+    elif changes:
+        raise TypeError("changes need a case: signal(record, case=...)")
+    return _execute(SignalResult, "signal", words, folder, figures, force, 0, False)
+
+
+def compare(
+    first: PathOrText | Result,
+    *others: PathOrText | Result,
+    folder: PathOrText | None = None,
+    figures: bool = True,
+    force: bool = False,
+) -> CompareResult:
+    """Finished runs side by side: every number that they share, with its difference from the first.
+
+    Args:
+        first: a results folder, or a result of this module.
+        others: those that are compared with it.
+
+    The other arguments and exceptions as of :func:`cea`.
+    """
+    words = [os.fspath(run.folder if isinstance(run, Result) else run) for run in (first, *others)]
+    return _execute(CompareResult, "compare", words, folder, figures, force, 0, False)
+
+
+def collect(folder: PathOrText, *, figures: bool = True) -> SweepResult:
+    """Gather the finished points of a sweep that several processes share.
+
+    Raises:
+        RunError: points are missing; the table has the others.
+    """
+    words = ["collect", os.fspath(folder), "-qq", *([] if figures else ["--no-figures"])]
+    try:
+        _native.run(words, 0, None)
+    except _native.NativeFailure as failure:
+        translate(failure)
+    return SweepResult(Path(folder), None)
 
 
 def check(case: Case | PathOrText, **changes: Any) -> dict[str, Any]:
@@ -358,11 +327,15 @@ def open_results(folder: PathOrText) -> Result:
     """The results in a folder, whether Python or the command line has written them."""
     kinds: dict[str, type[Result]] = {
         "cea": CeaResult,
+        "compare": CompareResult,
         "cycle": CycleResult,
         "fit": FitResult,
         "frf": FrfResult,
         "identify": IdentifyResult,
+        "improve": ImproveResult,
+        "mac": MacResult,
         "matrices": MatricesResult,
+        "signal": SignalResult,
         "sweep": SweepResult,
         "transient": TransientResult,
         "uncertainty": UncertaintyResult,

@@ -7,12 +7,11 @@ use crate::results::{DrawingOptions, OutputFolder, read_summary, write_summary};
 use crate::study::basin::summary;
 use clap::Args;
 
-/// Which of two limit cycles wins: the amplitude ratio at saturation that decides
+/// Which of two limit cycles wins
 ///
-/// Transients from steady sliding with two waves seeded, on a body without rotating waves two modes, the ratio of the seeds bisected
-/// until the amplitude ratio is known above which the second one wins; with one mode, the kick that tips stable sliding into its
-/// limit cycle. Needs a basin section in the case. A map over speed and friction is a sweep with
-/// analyses = ["basin"].
+/// Runs transients with two seeds: two waves on the built-in disc, two modes on any other body. Bisects the ratio of the seeds
+/// above which the second one wins. With one mode it finds the kick that tips stable sliding into its limit cycle. Needs a
+/// [basin] section. A map over speed and friction is a sweep with analyses = ["basin"].
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]

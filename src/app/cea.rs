@@ -11,10 +11,10 @@ use clap::Args;
 use indicatif::ProgressBar;
 use serde_json::Value;
 
-/// Complex eigenvalue sweep over the friction coefficient
+/// Which modes turn unstable, at which friction and why
 ///
-/// For a body that is solved on its whole mesh, Ctrl-C and SIGTERM keep the finished friction values in the output folder,
-/// and --resume continues to the same tables as an uninterrupted run.
+/// Solves complex eigenvalues over the friction coefficient. For a body that is solved on its whole mesh, Ctrl-C keeps
+/// finished friction values; --resume continues. Needs a [cea] section.
 #[derive(Args)]
 pub struct Arguments {
     /// The case and how to run it.

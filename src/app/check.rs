@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 /// Time beyond which a run is hardly meant, s: 30 days.
 const LONGEST_RUN: f64 = 30.0 * 86_400.0;
 
-/// Validate without running; estimate unknowns, steps, memory and time
+/// Validate a case without running it; estimate memory and time
 #[derive(Args)]
 pub struct Arguments {
     /// Case files

@@ -11,9 +11,9 @@ use clap::{ArgAction, Args, ValueHint};
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// Gather a sharded sweep's points: points.csv and summary.json
+/// Gather the points of a sweep that several processes share
 ///
-/// Says which points are missing and exits with 1 if there are any; the table then has the others.
+/// Writes points.csv and summary.json. Names missing points and exits with 1 if there are any; the table has the others.
 #[derive(Args)]
 pub struct Arguments {
     /// Output folder of the sweep

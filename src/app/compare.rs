@@ -14,10 +14,10 @@ use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-/// Finished runs side by side: every number they share, curve over curve
+/// Set finished runs side by side: numbers and curves
 ///
-/// Reads summary.json and report.html of each results folder; nothing is computed again. The first folder is what the others
-/// are compared with. Without --out the results are in results/compare, in a folder named after the runs.
+/// Reads summary.json and report.html of each results folder; nothing is computed again. The other folders are compared with
+/// the first one. Without --out the results are in results/compare, in a folder named after the runs.
 #[derive(Args)]
 pub struct Arguments {
     /// Results folders, the first of which the others are compared with

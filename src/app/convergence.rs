@@ -8,11 +8,10 @@ use crate::results::{DrawingOptions, OutputFolder, read_record};
 use crate::study::convergence::{Levels, levels, solve};
 use clap::Args;
 
-/// Convergence over mesh and time step
+/// Show that results have converged over mesh and time step
 ///
-/// Runs the eigenvalue analysis, the transient and the limit cycles of a case on refined meshes, and the
-/// transient with shorter time steps; reads the observed order off the three finest, extrapolates after Richardson, and
-/// says where a quantity does not converge. Needs a [convergence] section in the case.
+/// Runs the analyses of a case on refined meshes, and its transient with shorter time steps. Reads the observed order off the
+/// three finest runs, extrapolates after Richardson, and marks what does not converge. Needs a [convergence] section.
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]

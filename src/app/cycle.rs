@@ -12,14 +12,12 @@ use crate::results::cycle::{doubt, print, write};
 use crate::study::cycle::CycleStudy;
 use clap::Args;
 
-/// Limit cycles without time stepping
+/// The vibration that each unstable mode saturates to
 ///
-/// On the built-in annulus: finds the rotating wave that steady sliding gives way to, for each harmonic asked for, as a
-/// steady contact problem along its phase; follows it over a parameter (cycle.continuation). On any other body, plane or solid: finds
-/// the periodic motion that each growing mode ends in, as a fixed point of the transient's own steps over one period. Says
-/// whether it is stable, and lets a short transient confirm it. Needs a cycle section in the case. On these bodies Ctrl-C and
-/// SIGTERM keep the cycles and the points of branches that are done, on the annulus the motions of two frequencies, and --resume
-/// continues to the same tables as an uninterrupted run.
+/// Finds limit cycles without time stepping. On the built-in disc a limit cycle is a rotating wave, solved along its phase. On
+/// any other body it is the periodic motion that a growing mode saturates to, solved over one period of the transient.
+/// cycle.continuation follows it over a parameter. Its stability is computed, and a short transient confirms it. Ctrl-C
+/// keeps finished cycles and branch points; --resume continues. Needs a [cycle] section.
 #[derive(Args)]
 pub struct Arguments {
     /// The case and how to run it.

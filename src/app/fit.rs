@@ -12,11 +12,11 @@ use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-/// Parameters of a case from measured modes or squeal frequencies
+/// Find parameters of a case from measured modes or squeal frequencies
 ///
-/// Fits the keys of fit.parameters, each between its bounds, to a table of frequencies, real parts or damping factors;
-/// gives the confidence interval of each value, the mode of each line, and what the data cannot tell apart. Needs a fit
-/// section in the case.
+/// Fits the keys of fit.parameters, each between its bounds, to a table of frequencies, real parts or damping factors.
+/// Gives the confidence interval of each value, the mode of each line, and the parameters that the data cannot tell apart.
+/// Needs a [fit] section.
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]

@@ -13,10 +13,10 @@ use crate::signal::reader::{ResponseOptions, read_response};
 use crate::study::response::{FrequencyStudy, Response};
 use clap::Args;
 
-/// Frequency response of the model between two nodes
+/// Frequency response between two nodes
 ///
-/// Writes frf.csv, which `frictionsim identify` reads: identification checked against known damping,
-/// or a model held against a hammer test. Needs a [frf] section in the case.
+/// Writes frf.csv, which `frictionsim identify` reads. Compare it with a hammer test, or check identification against a
+/// known damping. Needs a [frf] section.
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]

@@ -13,11 +13,11 @@ use crate::signal::{FrequencyResponse, IdentificationOptions, ResponseQuantity, 
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::PathBuf;
 
-/// Rayleigh coefficients from a measured frequency response
+/// Find damping from a measured frequency response
 ///
-/// Reads frequency with real and imaginary part, magnitude and phase (linear or dB), or magnitude alone,
-/// once or several times, from a text table, a universal file (UFF 58) or a MATLAB file; finds the resonances; estimates each damping factor by the half-power method and
-/// by a fit of the whole response; fits alpha_R and beta_R of C = alpha_R M + beta_R K.
+/// Reads a text table, a universal file (UFF 58) or a MATLAB file with one or several responses: real and imaginary part, or
+/// magnitude (linear or dB) with or without phase. Finds the resonances and the damping of each by a fit of the whole
+/// response. Fits alpha_R and beta_R of C = alpha_R M + beta_R K.
 #[derive(Args)]
 pub struct Arguments {
     /// Table of one or more frequency responses, UFF or MATLAB file

@@ -9,11 +9,11 @@ use crate::study::extent_of;
 use crate::study::improve::{Improvement, improve};
 use clap::Args;
 
-/// Where a mass, a support, damping or less material silences unstable modes
+/// Find changes that silence the unstable modes
 ///
-/// Derivatives of the growth rates of the modes that are unstable at the case's friction coefficient, by a modification at
-/// every place of the bodies; the best places looked at with all modes together; the best of those run again as cases of their
-/// own, and confirmed or struck off. The section improve of the case says what may be changed and by how much.
+/// Computes the derivatives of growth rates by a mass, spring, dashpot, damping layer or removed patch at every place.
+/// Predicts the best places with all modes together. Runs the best candidates again as cases of their own. The [improve]
+/// section limits what may be changed and by how much.
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]

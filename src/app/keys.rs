@@ -7,7 +7,7 @@ use clap::Args;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
-/// List the keys of a case file with unit, default and meaning
+/// List the keys of a case with unit, default and meaning
 #[derive(Args)]
 pub struct Arguments {
     /// Only keys whose name or meaning holds this word

@@ -10,11 +10,11 @@ use crate::study::mac::assurance;
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
-/// Modal assurance criterion of measured shapes against the modes of a case
+/// Compare measured shapes with the modes of a case
 ///
-/// Compares every shape of the file with every mode at the case's friction coefficient, over the measured points (at their
-/// nearest nodes) and directions, and pairs them. Shapes come from a universal file (dataset 55) or a table with the columns
-/// x, y, z, ux, uy, uz (complex, or ux_re, ux_im ...), mode, frequency_hz.
+/// Computes the modal assurance criterion of every measured shape with every mode at the case's friction coefficient, and
+/// pairs them. A measured point is compared at its nearest node. Shapes come from a universal file (dataset 55) or a table
+/// with the columns x, y, z, ux, uy, uz (complex, or ux_re, ux_im ...), mode, frequency_hz.
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]

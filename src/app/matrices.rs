@@ -7,11 +7,11 @@ use crate::results::write_summary;
 use crate::study::matrices::matrices;
 use clap::Args;
 
-/// Mass, damping, stiffness and friction matrices of a case, for other programs
+/// Export the matrices of a case to other programs
 ///
-/// Writes what the eigenvalue analysis solves: M, C and K without friction, the coefficients of the powers of the friction
-/// coefficient, and the contact rows, each as Matrix Market and as NPZ for scipy.sparse.load_npz; matrices.json says what
-/// multiplies what, unknowns.csv which node and direction each unknown is. Needs a [cea] section in the case.
+/// Writes the matrices of the eigenvalue analysis as Matrix Market and as NPZ for scipy.sparse.load_npz: M, C and K, their
+/// friction terms, and the contact rows. matrices.json lists what multiplies what, unknowns.csv the node and direction of
+/// each unknown. Needs a [cea] section.
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]

@@ -12,7 +12,7 @@ use crate::results::{DrawingOptions, OutputFolder, read_summary, write_summary};
 use clap::Args;
 use std::collections::BTreeMap;
 
-/// Mesh only: statistics, VTU, picture
+/// Draw and measure the mesh alone
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]

@@ -48,10 +48,10 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-/// Stability and transient analysis of frictional contact by finite elements.
+/// Predicts friction-induced vibration, such as brake squeal, by finite elements.
 ///
-/// A deformable body, by default a disc on a rotating cylinder, is pressed against a moving counterface.
-/// `frictionsim init` writes a case to start from.
+/// A case is a text file that describes a body, what presses and drags it, and the analyses wanted.
+/// `frictionsim init cea` writes one, `frictionsim cea cea.toml` runs it.
 #[derive(Parser)]
 #[command(name = "frictionsim", version, max_term_width = 100, arg_required_else_help = true)]
 #[command(after_help = "Options may stand before or after the command.\n\
@@ -114,9 +114,37 @@ fn profile(command: &str) -> Option<&'static Profile> {
     found.map(|(_, profile)| profile)
 }
 
-/// The command line with what its declarations cannot say: each command's own default folder.
+/// Commands by what they are for, in the order of the help; all others are under "Help".
+const GROUPS: &[(&str, &[&str])] = &[
+    ("Analyse", &["cea", "transient", "cycle", "frf"]),
+    ("Study", &["sweep", "collect", "convergence", "uncertainty", "basin"]),
+    ("Design", &["improve"]),
+    ("Measure", &["identify", "fit", "mac", "signal"]),
+    ("Inspect", &["check", "mesh", "plot", "compare", "matrices"]),
+];
+
+/// The help of the whole program, with the commands in groups.
+fn help_template(command: &clap::Command) -> String {
+    let named = |name: &str| GROUPS.iter().any(|(_, names)| names.contains(&name));
+    let all: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
+    let others: Vec<&str> = all.into_iter().filter(|name| !named(name)).collect();
+    let mut text = "{before-help}{about-with-newline}\n{usage-heading} {usage}\n".to_owned();
+    let groups = GROUPS.iter().map(|&(title, names)| (title, names));
+    for (title, names) in groups.chain([("Help", &others[..])]) {
+        text.push_str(&format!("\n{title}:\n"));
+        for sub in names.iter().filter_map(|name| command.find_subcommand(name)) {
+            let about = sub.get_about().map(ToString::to_string).unwrap_or_default();
+            text.push_str(&format!("  {:<11}  {about}\n", sub.get_name()));
+        }
+    }
+    text + "  help         Print this message or the help of a command\n\nOptions:\n{options}{after-help}"
+}
+
+/// The command line with what its declarations cannot say: its help in groups, each command's own default folder.
 pub fn command_line() -> clap::Command {
     let mut command = CommandLine::command();
+    let template = help_template(&command);
+    command = command.help_template(template);
     let names = command.get_subcommands().map(|sub| sub.get_name().to_owned());
     for name in names.collect::<Vec<String>>() {
         command = command.mut_subcommand(&name, |sub| {
@@ -187,6 +215,19 @@ pub fn run_arguments(given: Vec<OsString>) -> u8 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_help_names_every_command_once_within_100_columns() {
+        let help = command_line().render_long_help().to_string();
+        for sub in command_line().get_subcommands() {
+            let line = format!("\n  {} ", sub.get_name());
+            assert_eq!(help.matches(&line).count(), 1, "{}\n{help}", sub.get_name());
+        }
+        assert!(help.lines().all(|line| line.chars().count() <= 100), "{help}");
+        let titles = ["Analyse:", "Study:", "Design:", "Measure:", "Inspect:", "Help:"];
+        let places: Vec<_> = titles.map(|title| help.find(title).expect(title)).into();
+        assert!(places.is_sorted(), "{help}");
+    }
 
     #[test]
     fn options_may_stand_before_the_subcommand() {

@@ -14,9 +14,9 @@ use std::path::{Path, PathBuf};
 
 /// Draw the figures of a results folder again
 ///
-/// Writes figures/*.svg, figures/*.png and report.html, the same bytes that the run itself draws, and
-/// leaves every other file as it is. A sweep is drawn from its points, an frf from its table, all others
-/// from their record.bin; the eigenvalues of a cea are solved again from the case in manifest.json.
+/// Writes the figures and report.html to the same bytes as the run, and leaves every other file as it is. A sweep is drawn
+/// from its points, an frf from its table, all others from their record.bin. A cea is solved again from the case in
+/// manifest.json.
 #[derive(Args)]
 pub struct Arguments {
     /// Results folder

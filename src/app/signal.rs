@@ -29,11 +29,10 @@ const MOST_LINES: usize = 12;
 /// Share of a growing record, at its end, from which the lines are taken: the limit cycle.
 const LAST_SHARE: f64 = 0.2;
 
-/// Spectrum and spectrogram of a measured or computed signal, beside CEA frequencies
+/// Spectrum of a sound or vibration beside the modes of a case
 ///
-/// Reads a time column with one or more channels, or channels with a sampling rate, from a text table, a
-/// universal file (UFF 58), a WAV or a MATLAB file; lists the peaks that stand out of the noise with their
-/// superharmonics, the rate of the exponential stage, and the modes of a case beside them.
+/// Reads one or more channels from a text table, a universal file (UFF 58), a WAV or a MATLAB file. Lists the peaks that
+/// stand out of the noise, their superharmonics, the growth rate, and the modes of a case beside them.
 #[derive(Args)]
 pub struct Arguments {
     /// Table of the signal, UFF, WAV or MATLAB file

@@ -21,10 +21,10 @@ use clap::Args;
 use serde_json::Value;
 use std::path::Path;
 
-/// Grid of transients, eigenvalue analyses, limit cycles
+/// Run any analysis on a grid of parameters
 ///
-/// Every finished point is a file of its own in the output folder: a sweep that is killed goes on
-/// with --resume, and several processes may work on one folder.
+/// Every finished point is a file of its own in the output folder. A sweep that is killed continues with --resume, and
+/// several processes may work on one folder. Needs a [sweep] section.
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]

@@ -21,10 +21,9 @@ use std::path::Path;
 use std::time::Instant;
 use watch::{Checkpoints, Watch};
 
-/// Explicit contact transient
+/// How the vibration grows and saturates, step by step in time
 ///
-/// Ctrl-C and SIGTERM stop the run cleanly: the results so far are written, and --resume continues to the same bytes as an
-/// uninterrupted run.
+/// Ctrl-C keeps the results so far; --resume continues to the same bytes. Needs a [transient] section.
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]

@@ -16,12 +16,12 @@ use std::time::Instant;
 /// Name of the samples in the file of a block.
 const SAMPLES: &str = "samples";
 
-/// How likely is squeal, and which parameter decides it
+/// How likely squeal is, and which parameter decides it
 ///
-/// Draws the keys of uncertainty.distributions from their distributions, locates the onsets of each sample up to the
-/// largest of cea.friction_coefficients, and says how probable an unstable mode is at the friction coefficient of the
-/// case, how the lowest critical friction is distributed, and which parameter its variance comes from. Finished blocks
-/// of samples are kept: a killed run continues with --resume, and several processes may work on one folder.
+/// Draws samples of the keys of uncertainty.distributions and finds the critical frictions of each. Gives the probability of
+/// an unstable mode at the case's friction coefficient, the distribution of the lowest critical friction, and the share of
+/// each parameter in its variance. Finished blocks of samples are kept: a killed run continues with --resume, and several
+/// processes may work on one folder.
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]

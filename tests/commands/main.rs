@@ -18,6 +18,7 @@ mod case_files;
 mod cli;
 mod convergence_command;
 mod cycle_command;
+mod documentation;
 mod embedded;
 mod examples;
 mod figures;

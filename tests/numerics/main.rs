@@ -48,4 +48,5 @@ mod structural_damping;
 mod tabled;
 mod tabled_disc;
 mod two_bodies;
+mod verification;
 mod waves;

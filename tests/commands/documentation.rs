@@ -1,0 +1,184 @@
+//! README and guide: every command that they show runs, every printed result that they show is printed, and sentences and
+//! lines have the length of the house.
+
+use assert_cmd::Command;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// README, instructions and guide; the page of keys is made from the declarations.
+fn pages() -> Vec<(String, String)> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let guide = fs::read_dir(root.join("src/guide")).unwrap().map(|entry| entry.unwrap().path());
+    let is_written = |path: &PathBuf| {
+        path.extension().is_some_and(|end| end == "md") && !path.ends_with("keys.md")
+    };
+    let mut paths: Vec<PathBuf> = guide.filter(is_written).collect();
+    paths.extend(["README.md", "CONTRIBUTING.md"].map(|name| root.join(name)));
+    paths.sort();
+    let page = |path: &PathBuf| {
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        (name, fs::read_to_string(path).unwrap())
+    };
+    paths.iter().map(page).collect()
+}
+
+/// A block between fences: its language and its lines.
+struct Block {
+    language: String,
+    lines: Vec<String>,
+}
+
+/// The blocks of a page, and its paragraphs and items of lists, each in one line.
+fn parts(text: &str) -> (Vec<Block>, Vec<String>) {
+    let (mut blocks, mut paragraphs) = (Vec::new(), vec![String::new()]);
+    let mut open: Option<Block> = None;
+    for line in text.lines() {
+        let trimmed = line.trim();
+        if let Some(language) = trimmed.strip_prefix("```") {
+            match open.take() {
+                Some(block) => blocks.push(block),
+                None => open = Some(Block { language: language.to_owned(), lines: Vec::new() }),
+            }
+            paragraphs.push(String::new());
+        } else if let Some(block) = &mut open {
+            block.lines.push(trimmed.to_owned());
+        } else if trimmed.is_empty() || trimmed.starts_with(['|', '#', '<', '!']) {
+            paragraphs.push(String::new());
+        } else {
+            let number = trimmed.split_once(". ").filter(|(start, _)| start.parse::<u8>().is_ok());
+            let item = trimmed.strip_prefix("- ").or(number.map(|(_, rest)| rest));
+            if item.is_some() {
+                paragraphs.push(String::new());
+            }
+            let paragraph = paragraphs.last_mut().unwrap();
+            paragraph.push_str(item.unwrap_or(trimmed));
+            paragraph.push(' ');
+        }
+    }
+    (blocks, paragraphs)
+}
+
+/// The words of a line, so that columns may be set closer.
+fn words(line: &str) -> String {
+    line.split_whitespace().collect::<Vec<&str>>().join(" ")
+}
+
+/// The program's command lines of a block, continued lines joined, comments left out.
+fn commands(block: &Block) -> Vec<String> {
+    let joined = block.lines.join("\n").replace("\\\n", " ");
+    let lines = joined.lines().map(|line| line.split(" #").next().unwrap_or(line).trim());
+    lines.filter(|line| line.starts_with("frictionsim ")).map(words).collect()
+}
+
+/// Runs the commands of a page one after the other in a folder with the shipped cases, those of a block that begins with
+/// `# dry run` with `--dry-run`. Every line of a block of printed text is part of what a command before it has printed.
+fn run_page(name: &str) {
+    let (_, text) = pages().into_iter().find(|(page, _)| page == name).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let program = || {
+        let mut command = Command::cargo_bin("frictionsim").unwrap();
+        command.current_dir(folder.path());
+        command
+    };
+    program().args(["init", "--all"]).assert().success();
+    let mut printed = String::new();
+    for block in parts(&text).0 {
+        if block.language == "sh" {
+            let is_dry = block.lines.first().is_some_and(|line| line.starts_with("# dry run"));
+            let commands = commands(&block);
+            if !commands.is_empty() {
+                printed.clear();
+            }
+            for line in commands {
+                let dry: &[&str] = if is_dry { &["--dry-run"] } else { &[] };
+                let shipped = line.starts_with("frictionsim init --all");
+                let force: &[&str] = if shipped { &["--force"] } else { &[] };
+                let given: Vec<&str> = line.split(' ').skip(1).collect();
+                let ran = program().args(given).args(dry).args(force).output().unwrap();
+                let said = String::from_utf8_lossy(&ran.stderr).into_owned();
+                assert!(ran.status.success(), "{name}: {line}\n{said}");
+                printed.push_str(&String::from_utf8_lossy(&ran.stdout));
+                printed.push('\n');
+            }
+        } else if block.language == "text" && !printed.is_empty() {
+            let printed: Vec<String> = printed.lines().map(words).collect();
+            for line in block.lines.iter().map(|line| words(line)) {
+                let is_there = printed.iter().any(|own| own.contains(&line));
+                assert!(is_there, "{name}: \"{line}\" is not in\n{}", printed.join("\n"));
+            }
+        }
+    }
+}
+
+#[test]
+fn the_readme_shows_what_its_commands_print() {
+    run_page("README.md");
+}
+
+#[test]
+fn the_page_for_a_start_shows_what_its_commands_print() {
+    run_page("start.md");
+}
+
+#[test]
+fn the_page_for_an_own_part_shows_what_its_commands_print() {
+    run_page("part.md");
+}
+
+#[test]
+fn the_page_for_a_brake_shows_what_its_commands_print() {
+    run_page("brake.md");
+}
+
+#[test]
+fn the_pages_of_reference_show_what_their_commands_print() {
+    let told = ["README.md", "CONTRIBUTING.md", "start.md", "part.md", "brake.md"];
+    for (name, _) in pages() {
+        if !told.contains(&&*name) {
+            run_page(&name);
+        }
+    }
+}
+
+#[test]
+fn the_readme_is_short_and_pages_keep_within_100_columns() {
+    for (name, text) in pages() {
+        let most = if name == "README.md" { 180 } else { 250 };
+        assert!(text.lines().count() <= most, "{name}");
+        for line in text.lines() {
+            assert!(line.chars().count() <= 100, "{name}: {line}");
+        }
+    }
+}
+
+/// A sentence ends at a full stop, a colon or a question mark before a space; what stands as code is one word.
+#[test]
+fn sentences_of_readme_and_guide_have_25_words_at_most() {
+    for (name, text) in pages() {
+        for paragraph in parts(&text).1 {
+            let code = paragraph.split('`').enumerate();
+            let plain: Vec<&str> =
+                code.map(|(k, part)| if k % 2 == 1 { "code" } else { part }).collect();
+            let plain = plain.concat();
+            for sentence in plain.split(". ").flat_map(|part| part.split([':', '?'])) {
+                let count = sentence.split_whitespace().count();
+                assert!(count <= 25, "{name}: {count} words: {sentence}");
+            }
+        }
+    }
+}
+
+/// Pages that the README and the instructions link to are there.
+#[test]
+fn links_of_readme_and_instructions_lead_somewhere() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for name in ["README.md", "CONTRIBUTING.md"] {
+        let text = fs::read_to_string(root.join(name)).unwrap();
+        let inline = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+        let listed = text.lines().filter_map(|line| line.strip_prefix('[')?.split_once("]: "));
+        for link in inline.chain(listed.map(|(_, link)| link)) {
+            let path = link.split('#').next().unwrap_or(link);
+            assert!(link.starts_with("http") || root.join(path).exists(), "{name}: {link}");
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! Waves on a ring that turns. Independent check: closed form over a radial Ritz shape.
+//!
+//! Source: G. H. Bryan, On the beats in the vibrations of a revolving cylinder or bell, Proc. Camb. Phil. Soc. 7 (1890) 101.
+//! In the frame that turns with it the two waves of `n` nodal diameters, `U cos n theta`, `V sin n theta`, part:
+//!
+//! ```text
+//! omega = omega_0 +- Omega eta,    eta = 2 int U V r dr / int (U^2 + V^2) r dr
+//! ```
+//!
+//! A ring of 80 to 120 mm radius in plane strain, steel, on springs of 1e8 Pa/m along its bore, which hold it and are part of
+//! the shape; 600 rpm.
+
+use super::{folder, integral, order, ritz, table};
+use crate::bricks::{Block, file_of};
+use nalgebra::DMatrix;
+use std::f64::consts::TAU;
+
+const RADII: [f64; 2] = [0.08, 0.12];
+const YOUNG: f64 = 2.1e11;
+const POISSON: f64 = 0.3;
+const DENSITY: f64 = 7850.0;
+const SPRING: f64 = 1e8;
+
+/// Frequency (Hz) and `eta` of the lowest wave of `n` nodal diameters, with polynomials of degree 7 for `U` and `V`.
+fn closed_form(n: f64) -> [f64; 2] {
+    const TERMS: usize = 8;
+    let [inner, outer] = RADII;
+    let at = |r: f64| (r - inner) / (outer - inner);
+    let value = |j: usize, r: f64| at(r).powi(j as i32);
+    let slope = |j: usize, r: f64| match j {
+        0 => 0.0,
+        j => j as f64 * at(r).powi(j as i32 - 1) / (outer - inner),
+    };
+    let shear = YOUNG / (2.0 * (1.0 + POISSON));
+    let lame = shear * 2.0 * POISSON / (1.0 - 2.0 * POISSON);
+    // Strains rr, tt, rt of U alone or V alone.
+    let strains = |k: usize, r: f64| {
+        let (j, f) = (k % TERMS, value(k % TERMS, r));
+        match k < TERMS {
+            true => [slope(j, r), f / r, -n * f / r],
+            false => [0.0, n * f / r, slope(j, r) - f / r],
+        }
+    };
+    let stiffness = DMatrix::from_fn(2 * TERMS, 2 * TERMS, |a, b| {
+        let energy = |r: f64| {
+            let ([ar, at, ag], [br, bt, bg]) = (strains(a, r), strains(b, r));
+            r * (lame * (ar + at) * (br + bt) + shear * (2.0 * (ar * br + at * bt) + ag * bg))
+        };
+        let is_same = (a < TERMS) == (b < TERMS);
+        let held = value(a % TERMS, inner) * value(b % TERMS, inner) * inner * SPRING;
+        integral(inner, outer, energy) + if is_same { held } else { 0.0 }
+    });
+    let mass = DMatrix::from_fn(2 * TERMS, 2 * TERMS, |a, b| match (a < TERMS) == (b < TERMS) {
+        true => integral(inner, outer, |r| DENSITY * r * value(a % TERMS, r) * value(b % TERMS, r)),
+        false => 0.0,
+    });
+    let (square, shape) = ritz(&stiffness, &mass);
+    let part =
+        |first: usize, r: f64| -> f64 { (0..TERMS).map(|j| shape[first + j] * value(j, r)).sum() };
+    let [u, v] = [0, TERMS].map(|first| move |r: f64| part(first, r));
+    let coupled = integral(inner, outer, |r| 2.0 * r * u(r) * v(r));
+    let whole = integral(inner, outer, |r| r * (u(r).powi(2) + v(r).powi(2)));
+    [square.sqrt() / TAU, (coupled / whole).abs()]
+}
+
+/// The same of a ring of so many equal sectors, for two and three nodal diameters: half the distance of the two waves over the
+/// speed.
+fn ring(sectors: usize) -> [[f64; 2]; 2] {
+    let [inner, outer] = RADII;
+    let block = Block {
+        name: "ring",
+        origin: [inner, 0.0, 0.0],
+        size: [outer - inner, TAU / sectors as f64, 0.01],
+        counts: [sectors / 12, 1, 1],
+    };
+    let mesh = file_of(&[block], |[r, angle, z]| [r * angle.cos(), r * angle.sin(), z]);
+    let case = format!(
+        "[mesh]\nfile = \"body.msh\"\nsectors = {sectors}\n[material]\nyoung_modulus = {YOUNG:e}\n\
+         poisson_ratio = {POISSON}\ndensity = {DENSITY:?}\n[boundaries.ring_x0]\ncondition = \"support\"\n\
+         normal_stiffness = {SPRING:e}\ntangential_stiffness = {SPRING:e}\n[boundaries.ring_z0]\n\
+         condition = \"guide\"\n[boundaries.ring_z1]\ncondition = \"guide\"\n[motion.ring]\n\
+         axis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = 600.0\nrotation_terms = true\nframe = \"turning\"\n\
+         [cea]\nmodes = 7\nfriction_coefficients = [0.0]\n"
+    );
+    let modes = table(&folder("bryan_1890", &mesh), "cea", &case, "eigenvalues.csv");
+    [2.0, 3.0].map(|n| {
+        let own = modes.iter().filter(|mode| mode["harmonic"] == n);
+        let found: Vec<f64> = own.map(|mode| mode["frequency_hz"]).collect();
+        [0.5 * (found[0] + found[1]), (found[1] - found[0]) / 20.0]
+    })
+}
+
+#[test]
+fn bryan_1890_the_waves_of_a_turning_ring_part() {
+    let meshes = [24, 48, 96].map(ring);
+    for (k, n) in [2.0, 3.0].into_iter().enumerate() {
+        let expected = closed_form(n);
+        let errors = meshes.map(|found| [0, 1].map(|what| found[k][what] / expected[what] - 1.0));
+        println!("n = {n}: {expected:?}, errors {errors:?}");
+        assert!(errors[2][0].abs() < 6e-3 && errors[2][1].abs() < 3e-3, "{errors:?}");
+        for what in 0..2 {
+            let order = order(errors[1][what], errors[2][what], 2.0);
+            assert!((order - 2.0).abs() < 0.1, "{what}: {order}");
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! Mode coupling of two degrees of freedom. Independent check: closed form.
+//!
+//! Source: J. Hulten, Drum brake squeal, a self-exciting mechanism with constant friction, SAE 932965 (1993). A mass between
+//! two sliding planes with the springs `k_1`, `k_2`, whose friction couples the two directions with opposite signs:
+//!
+//! ```text
+//! m x'' + k_1 x + mu k_2 y = 0,    m y'' - mu k_1 x + k_2 y = 0
+//! mu_c = |w_1^2 - w_2^2| / (2 w_1 w_2),   f = sqrt((w_1^2 + w_2^2) / 2) / 2 pi
+//! ```
+//!
+//! Here the mass is a block of bricks that slides on a wall and a floor at once. It turns, too, but its rotation takes no net
+//! force from either plane. What is left is its elasticity: errors fall with one over Young's modulus.
+
+use super::{folder, order, table};
+use crate::bricks::{Block, file_of};
+use std::f64::consts::TAU;
+
+/// Frequencies on the two springs, Hz.
+const OWN: [f64; 2] = [1000.0, 750.0];
+
+/// Critical friction, frequency there, and growth at friction 0.4 of a block of that modulus.
+fn block(young_modulus: f64) -> [f64; 3] {
+    let size = [0.02, 0.06, 0.01];
+    let block = Block { name: "block", origin: [0.0; 3], size, counts: [2, 4, 2] };
+    let folder = folder("hulten_1993", &file_of(&[block], |point| point));
+    let mass = 7850.0 * size[0] * size[1] * size[2];
+    let [wall, floor] = [OWN[0] / size[1], OWN[1] / size[0]]
+        .map(|ratio| ratio / size[2] * mass * TAU * TAU)
+        .into_iter()
+        .zip(OWN)
+        .map(|(stiffness, own)| stiffness * own)
+        .collect::<Vec<f64>>()
+        .try_into()
+        .unwrap();
+    let contact = |name: &str, surface: &str, direction: &str, stiffness: f64| {
+        format!(
+            "[contacts.{name}]\nsurface = \"{surface}\"\ncounterface = \"plane\"\ndirection = {direction}\n\
+             speed = 1.0\nfriction_coefficient = 0.4\nnormal_stiffness = {stiffness:?}\nstate = \"closed\"\n"
+        )
+    };
+    let case = format!(
+        "[mesh]\nfile = \"body.msh\"\n[material]\nyoung_modulus = {young_modulus:e}\npoisson_ratio = 0.3\n\
+         density = 7850.0\n[boundaries.block_z0]\ncondition = \"guide\"\n[boundaries.block_z1]\n\
+         condition = \"guide\"\n{}{}[cea]\nfriction_coefficients = [0.0, 0.1, 0.2, 0.3, 0.4]\nmodes = 3\n\
+         geometric_stiffness = false\n",
+        contact("wall", "block_x0", "[0.0, -1.0, 0.0]", wall),
+        contact("floor", "block_y0", "[1.0, 0.0, 0.0]", floor),
+    );
+    let onsets = table(&folder, "cea", &case, "stability.csv");
+    assert_eq!(onsets.len(), 1);
+    let growth = super::rows(&folder.join("cea/eigenvalues.csv"));
+    let growth = growth.iter().map(|row| row["growth_rate_per_s"]).fold(0.0, f64::max);
+    [onsets[0]["critical_friction"], onsets[0]["frequency_hz"], growth]
+}
+
+#[test]
+fn hulten_1993_a_block_in_a_corner_flutters_where_two_degrees_of_freedom_do() {
+    let [w1, w2] = OWN.map(|frequency| TAU * frequency);
+    let critical = (w1 * w1 - w2 * w2) / (2.0 * w1 * w2);
+    let frequency = (0.5 * (w1 * w1 + w2 * w2)).sqrt() / TAU;
+    // kappa = -lambda^2 has the imaginary part w_1 w_2 sqrt(mu^2 - mu_c^2).
+    let growth = {
+        let imaginary = w1 * w2 * (0.4_f64.powi(2) - critical * critical).sqrt();
+        let kappa = faer::c64::new(0.5 * (w1 * w1 + w2 * w2), imaginary);
+        kappa.sqrt().im
+    };
+    let expected = [critical, frequency, growth];
+    let errors = [2.1e11, 2.1e12].map(|modulus| {
+        let found = block(modulus);
+        println!("E {modulus:e}: {found:?}, expected {expected:?}");
+        [0, 1, 2].map(|k| found[k] / expected[k] - 1.0)
+    });
+    for k in 0..3 {
+        assert!(errors[1][k].abs() < 3e-4, "{errors:?}");
+        let order = order(errors[0][k], errors[1][k], 10.0);
+        assert!((order - 1.0).abs() < 0.1, "{k}: {order}");
+    }
+}

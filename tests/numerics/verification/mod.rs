@@ -1,0 +1,124 @@
+//! The verification room: closed forms that were not made for this program, each against a case as a user writes one.
+//!
+//! A test has the name of its source, and its header has formula, data and what is found; the guide's page
+//! `src/guide/verification.md` shows them side by side. One command runs them all:
+//! `cargo test --release --test numerics verification::`.
+
+mod brener_2016_layer;
+mod bryan_1890;
+mod duffour_woodhouse;
+mod hulten_1993;
+mod johnson_sliding_hertz;
+mod oberst;
+mod sector_pads;
+
+use nalgebra::{DMatrix, DVector};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A row of a table of results by the names of its columns; what is no number is not a number.
+type Row = BTreeMap<String, f64>;
+
+/// The folder of one verification, with the mesh of its case.
+fn folder(name: &str, mesh: &[u8]) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("verification").join(name);
+    fs::create_dir_all(&folder).unwrap();
+    fs::write(folder.join("body.msh"), mesh).unwrap();
+    folder
+}
+
+/// Runs a command of the program on a case in a folder, and reads one table of its results.
+fn table(folder: &Path, command: &str, case: &str, file: &str) -> Vec<Row> {
+    let path = folder.join("case.toml");
+    fs::write(&path, case).unwrap();
+    let results = folder.join(command);
+    let words = ["frictionsim", command, path.to_str().unwrap(), "--no-figures", "-qq", "--force"];
+    let mut words: Vec<_> = words.iter().map(std::ffi::OsString::from).collect();
+    words.extend(["--out".into(), results.clone().into()]);
+    assert_eq!(frictionsim::app::run_arguments(words), 0, "{}", path.display());
+    rows(&results.join(file))
+}
+
+/// The rows of a table of results.
+fn rows(path: &Path) -> Vec<Row> {
+    let mut reader = csv::Reader::from_path(path).unwrap();
+    let heads = reader.headers().unwrap().clone();
+    let row = |record: csv::StringRecord| -> Row {
+        let cells = heads.iter().zip(&record);
+        cells.map(|(head, cell)| (head.to_owned(), cell.parse().unwrap_or(f64::NAN))).collect()
+    };
+    reader.records().map(|record| row(record.unwrap())).collect()
+}
+
+/// A mesh file in MSH 2.2: groups by dimension and name, elements by kind, group from 0 and nodes from 0.
+fn msh(
+    points: &[[f64; 3]],
+    groups: &[(u32, &str)],
+    elements: &[(u32, usize, Vec<usize>)],
+) -> Vec<u8> {
+    let mut text =
+        format!("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{}\n", groups.len());
+    for (group, (dimension, name)) in groups.iter().enumerate() {
+        writeln!(text, "{dimension} {} \"{name}\"", group + 1).unwrap();
+    }
+    writeln!(text, "$EndPhysicalNames\n$Nodes\n{}", points.len()).unwrap();
+    for (node, [x, y, z]) in points.iter().enumerate() {
+        writeln!(text, "{} {x:?} {y:?} {z:?}", node + 1).unwrap();
+    }
+    writeln!(text, "$EndNodes\n$Elements\n{}", elements.len()).unwrap();
+    for (k, (kind, group, nodes)) in elements.iter().enumerate() {
+        let nodes: Vec<String> = nodes.iter().map(|node| (node + 1).to_string()).collect();
+        let (number, group) = (k + 1, group + 1);
+        writeln!(text, "{number} {kind} 2 {group} {group} {}", nodes.join(" ")).unwrap();
+    }
+    text.push_str("$EndElements\n");
+    text.into_bytes()
+}
+
+/// A plane mesh of quadrilaterals over a grid of lines, `place` taking a point of the grid to the body: region `body`, its
+/// lower edge `face`, its upper edge `top`.
+fn plane_block(xs: &[f64], ys: &[f64], place: impl Fn(f64, f64) -> [f64; 2]) -> Vec<u8> {
+    let node = |i: usize, j: usize| i + xs.len() * j;
+    let at = |(&x, &y): (&f64, &f64)| [place(x, y)[0], place(x, y)[1], 0.0];
+    let points: Vec<[f64; 3]> =
+        ys.iter().flat_map(|y| xs.iter().map(move |x| (x, y))).map(at).collect();
+    let mut elements = Vec::new();
+    let last = ys.len() - 1;
+    for i in 0..xs.len() - 1 {
+        elements.push((1, 0, vec![node(i, 0), node(i + 1, 0)]));
+        elements.push((1, 1, vec![node(i + 1, last), node(i, last)]));
+        for j in 0..last {
+            let corners = [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
+            elements.push((3, 2, corners.to_vec()));
+        }
+    }
+    msh(&points, &[(1, "face"), (1, "top"), (2, "body")], &elements)
+}
+
+/// Integral of a smooth function by Simpson's rule on 400 intervals.
+fn integral(from: f64, to: f64, value: impl Fn(f64) -> f64) -> f64 {
+    let step = (to - from) / 400.0;
+    let weight = |k: usize| match k {
+        0 | 400 => 1.0,
+        k => 2.0 + 2.0 * (k % 2) as f64,
+    };
+    (0..=400).map(|k| weight(k) * value(from + k as f64 * step)).sum::<f64>() * step / 3.0
+}
+
+/// The lowest eigenvalue of `K x = kappa M x` and its vector: Ritz's method, the closed form's radial shape.
+fn ritz(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> (f64, DVector<f64>) {
+    let factor = mass.clone().cholesky().unwrap().l();
+    let half = factor.solve_lower_triangular(stiffness).unwrap();
+    let scaled = factor.solve_lower_triangular(&half.transpose()).unwrap();
+    let eigen = ((&scaled + scaled.transpose()) * 0.5).symmetric_eigen();
+    let lowest = eigen.eigenvalues.imin();
+    let vector = eigen.eigenvectors.column(lowest).into_owned();
+    (eigen.eigenvalues[lowest], factor.transpose().solve_upper_triangular(&vector).unwrap())
+}
+
+/// Observed order between two meshes, the second finer by `ratio`.
+fn order(coarse: f64, fine: f64, ratio: f64) -> f64 {
+    (coarse / fine).abs().ln() / ratio.ln()
+}
