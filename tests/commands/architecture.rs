@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 /// Modules by floor, lowest first.
 const FLOORS: [&[&str]; 10] = [
-    &["linalg", "mesh", "signal", "chart"],
+    &["linalg", "mesh"],
     &["fem"],
     &["contact"],
     &["prestress"],
@@ -37,10 +37,11 @@ fn rust_files(folder: &Path, files: &mut Vec<PathBuf>) {
 /// Lines of Rust that each room may have, tests not counted: budgets only fall. A change that makes a room smaller lowers its line;
 /// after a merge that conflicts here, the failure names the numbers to write.
 const BUDGETS: &[(&str, usize)] = &[
+    ("crates/chart", 4_845),
+    ("crates/signal", 6_530),
     ("src/app", 5_864),
     ("src/case", 12_133),
     ("src/cea", 11_905),
-    ("src/chart", 4_845),
     ("src/contact", 2_708),
     ("src/cycle", 8_512),
     ("src/fem", 5_369),
@@ -52,7 +53,6 @@ const BUDGETS: &[(&str, usize)] = &[
     ("src/mesh", 10_743),
     ("src/prestress", 6_466),
     ("src/results", 23_558),
-    ("src/signal", 6_530),
     ("src/study", 12_698),
     ("src/transient", 5_836),
 ];
