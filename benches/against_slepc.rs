@@ -8,7 +8,7 @@
 use frictionsim::case::Case;
 use frictionsim::cea::sparse::sweep;
 use frictionsim::cea::{FrictionSweep, ModeLimit, SweepRequest};
-use frictionsim::linalg::{MatrixPolynomial, factorize_on_one_thread};
+use frictionsim::linalg::MatrixPolynomial;
 use frictionsim::prestress::SlidingTangent;
 use frictionsim::study::eigenvalues::{WholeMesh, mode_limit};
 use frictionsim::study::tangent_options;
@@ -21,7 +21,6 @@ fn main() {
     let [folder, file, overrides @ ..] = given.as_slice() else {
         return println!("run benches/against_slepc.py");
     };
-    factorize_on_one_thread();
     let bytes = std::fs::read(file).expect("a case file");
     let case = Case::parse(file, &bytes, overrides).expect("a valid case");
     let cea = case.require_cea().expect("a section [cea]").clone();

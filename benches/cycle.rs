@@ -17,8 +17,6 @@ use std::f64::consts::TAU;
 use std::time::{Duration, Instant};
 
 fn main() {
-    // As the program has it: factorizations are small.
-    faer::set_global_parallelism(faer::Par::Seq);
     let specification = AnnulusSpecification {
         inner_radius: 0.0205,
         outer_radius: 0.0905,

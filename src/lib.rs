@@ -70,12 +70,12 @@
 //!
 //! # Floors
 //!
-//! Each module names only those below it: [`linalg`], [`mesh`], [`signal`], [`chart`]; [`fem`]; [`contact`]; [`prestress`];
-//! [`cea`], [`transient`], [`frf`], [`cycle`]; [`case`], [`results`]; [`study`]; [`app`].
+//! [`chart`] and [`signal`] are crates of their own in `crates/`, which name nothing of this one. Each module here names only
+//! those below it: [`linalg`], [`mesh`]; [`fem`]; [`contact`]; [`prestress`]; [`cea`], [`transient`], [`frf`], [`cycle`];
+//! [`case`], [`results`]; [`study`]; [`app`].
 
 pub mod case;
 pub mod cea;
-pub mod chart;
 pub mod contact;
 pub mod cycle;
 pub mod fem;
@@ -85,8 +85,12 @@ pub mod linalg;
 pub mod mesh;
 pub mod prestress;
 pub mod results;
-pub mod signal;
 pub mod study;
 pub mod transient;
 
 pub mod app;
+
+#[doc(inline)]
+pub use frictionsim_chart as chart;
+#[doc(inline)]
+pub use frictionsim_signal as signal;

@@ -37,8 +37,6 @@ impl Measurement {
     ) -> Result<Self, Failure> {
         let start = Instant::now();
         terminal::start_log(options.quiet, options.verbose);
-        // The matrices here are small, and the bytes must not depend on the number of threads.
-        crate::linalg::factorize_on_one_thread();
         let bytes = read_input(path, LARGEST_MEASUREMENT)?;
         let mut hash = Sha256::new();
         hash.update(&bytes);

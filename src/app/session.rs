@@ -136,9 +136,6 @@ pub fn read_case(path: &Path, overrides: &[String]) -> Result<Case, Failure> {
 
 /// Fixes the number of worker threads of the whole process and returns it.
 pub fn start_threads(asked: Option<u16>) -> usize {
-    // Threads belong to the outer loops (friction values, harmonics); inside them more of them would only
-    // make small factorizations slower.
-    crate::linalg::factorize_on_one_thread();
     if embedded::current().is_some() {
         // The threads of an embedded run are its own.
         return rayon::current_num_threads();

@@ -43,8 +43,3 @@ pub use sparse_cholesky::SparseCholesky;
 pub use sparse_determinant::DeterminantAnalysis;
 pub use sparse_ldl::{LdlAnalysis, SparseLdl};
 pub use sparse_lu::{ComplexSparseLu, LuAnalysis, SparseLu};
-
-/// Keeps the dense and sparse factorizations of the whole process on the thread that calls them.
-pub fn factorize_on_one_thread() {
-    faer::set_global_parallelism(faer::Par::Seq);
-}

@@ -1,6 +1,6 @@
 //! Normal equations of weighted least squares, equilibrated and damped.
 
-use crate::signal::SignalError;
+use crate::SignalError;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::{Accum, Mat, Par};
 use nalgebra::{DMatrix, DVector};

@@ -1,14 +1,14 @@
 //! Charts: a figure is a grid of panels, a panel two axes and the layers drawn between them.
 //!
 //! ```
-//! use frictionsim::chart::{Axis, Figure, Line, Panel, Rule};
+//! use frictionsim_chart::{Axis, Figure, Line, Panel, Rule};
 //! let (time, power) = ([0.0, 0.01, 0.02], [0.0, 900.0, 1300.0]);
 //! let panel = Panel::new(Axis::new("time *t*", "s").prefixed(), Axis::new("power", "W").prefixed())
 //!     .layer(Line::new(&time, &power).name("external"))
 //!     .layer(Rule::horizontal(1000.0).name("limit"));
 //! let svg = Figure::new("power", "Power of the drive.").panel(panel).to_svg(None)?;
 //! assert!(svg.contains("power (kW)"));
-//! # Ok::<(), frictionsim::chart::ChartError>(())
+//! # Ok::<(), frictionsim_chart::ChartError>(())
 //! ```
 //!
 //! Layers hold data in the units of the program; axes bring them to the unit shown. Frames, clips, letters, legends of what is

@@ -1,7 +1,7 @@
 //! Resonances of a frequency response and their half-power bandwidths.
 
 use super::NoiseModel;
-use crate::signal::{FrequencyResponse, ResponseQuantity, SignalError};
+use crate::{FrequencyResponse, ResponseQuantity, SignalError};
 
 /// Frequency lines a half-power band must hold: a parabola through the top and two crossings.
 pub(super) const LINES_NEEDED: usize = 5;

@@ -234,7 +234,7 @@ fn longest_line(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::signal::statistics::gaussian_sequence;
+    use crate::statistics::gaussian_sequence;
     use std::f64::consts::TAU;
 
     /// Rate and frequency over the whole record, without search or cut.

@@ -188,7 +188,7 @@ impl Layer for Field {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::chart::svg::Rect;
+    use crate::svg::Rect;
 
     /// A disc of radius 1 around a hole of radius 0.5, in quadratic cells.
     fn annulus(around: u32) -> (Mesh, Vec<[f64; 2]>) {

@@ -85,7 +85,7 @@ pub fn write_wav(file: &SignalFile, slower: u32) -> Result<Vec<u8>, SignalError>
         return Err(refused(rate));
     }
     let centred: Vec<Vec<f64>> =
-        file.channels.iter().map(|c| crate::signal::spectrum::centred(&c.samples)).collect();
+        file.channels.iter().map(|c| crate::spectrum::centred(&c.samples)).collect();
     let largest = centred.iter().flatten().fold(0.0f64, |m, v| m.max(v.abs()));
     let gain = if largest > 0.0 { PEAK * f64::from(i16::MAX) / largest } else { 0.0 };
     let spec = WavSpec {

@@ -212,7 +212,7 @@ fn name_superharmonics(lines: &mut [SpectralLine], bin: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::signal::statistics::gaussian_sequence;
+    use crate::statistics::gaussian_sequence;
     use std::f64::consts::TAU;
 
     fn lines(samples: &[f64], rate: f64, asked_hz: Option<f64>) -> Vec<SpectralLine> {

@@ -4,7 +4,7 @@ use super::basis::Pole;
 use super::fit::{FittedMode, ModalFit, fit_modes};
 use super::half_power::{HalfPowerBand, LINES_NEEDED, ResonanceNote, half_power};
 use super::rayleigh::{DampingSample, RayleighFit, fit_rayleigh};
-use crate::signal::{FrequencyResponse, SignalError};
+use crate::{FrequencyResponse, SignalError};
 use faer::Mat;
 
 /// Largest relative standard error of a damping factor that still enters the Rayleigh fit.
@@ -163,7 +163,7 @@ fn starts(bands: &[HalfPowerBand]) -> Vec<Pole> {
     let width =
         |b: &HalfPowerBand| b.band_hz.map(|(low, high)| 0.5 * (high - low) / b.frequency_hz);
     let known: Vec<f64> = bands.iter().filter_map(width).collect();
-    let typical = if known.is_empty() { 0.01 } else { crate::signal::statistics::median(&known) };
+    let typical = if known.is_empty() { 0.01 } else { crate::statistics::median(&known) };
     bands
         .iter()
         .map(|b| Pole {

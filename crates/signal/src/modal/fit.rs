@@ -3,8 +3,8 @@
 use super::basis::{ModalModel, Pole};
 use super::least_squares::{Fitted, Problem};
 use super::{Estimate, NoiseModel};
-use crate::signal::statistics::{NORMAL_95, median};
-use crate::signal::{FrequencyResponse, SignalError};
+use crate::statistics::{NORMAL_95, median};
+use crate::{FrequencyResponse, SignalError};
 use faer::{Mat, c64};
 
 /// Remainder terms to begin with: `s^-3 .. s^0`.

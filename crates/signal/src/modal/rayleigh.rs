@@ -1,7 +1,7 @@
 //! Rayleigh coefficients from modal damping factors (equation (3)).
 
-use crate::signal::SignalError;
-use crate::signal::statistics::{NORMAL_95, student_95};
+use crate::SignalError;
+use crate::statistics::{NORMAL_95, student_95};
 use faer::Mat;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
@@ -59,7 +59,7 @@ pub fn fit_rayleigh(
         return Err(SignalError::TooFewModes { count: m });
     }
     for s in samples {
-        crate::signal::error::check_positive("modal frequency", s.frequency_hz, " (Hz)")?;
+        crate::error::check_positive("modal frequency", s.frequency_hz, " (Hz)")?;
     }
     // Unknowns scaled to the geometric mean frequency, where both terms are comparable.
     let mean_log = samples.iter().map(|s| s.frequency_hz.ln()).sum::<f64>() / m as f64;

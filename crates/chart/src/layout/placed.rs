@@ -1,11 +1,11 @@
 //! What stands above the data area of a panel, and the room that it takes.
 
 use super::Placed;
-use crate::chart::frame::{LABEL_SIZE, on_sheet};
-use crate::chart::legend::LINE_HEIGHT;
-use crate::chart::ruler::Ruler;
-use crate::chart::svg::Svg;
-use crate::chart::text::{self, Anchor, TextStyle};
+use crate::frame::{LABEL_SIZE, on_sheet};
+use crate::legend::LINE_HEIGHT;
+use crate::ruler::Ruler;
+use crate::svg::Svg;
+use crate::text::{self, Anchor, TextStyle};
 
 /// Height of a line of caption, points.
 const CAPTION_STEP: f64 = 8.5;

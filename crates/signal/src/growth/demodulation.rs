@@ -1,8 +1,8 @@
 //! Envelope and phase of a vibration around one frequency, and the exponential through them.
 
 use super::{ExponentialStage, NoGrowth};
-use crate::signal::Estimate;
-use crate::signal::statistics::student_95;
+use crate::Estimate;
+use crate::statistics::student_95;
 use faer::c64;
 use std::f64::consts::TAU;
 use std::ops::Mul;

@@ -1,6 +1,6 @@
 //! A frequency response as a sum of modes and a smooth remainder.
 
-use crate::signal::ResponseQuantity;
+use crate::ResponseQuantity;
 use faer::{Mat, c64};
 
 /// Lowest power of `s` in the remainder: damped rigid-body motion, `1/(s^2 + alpha s)`, expanded.

@@ -3,7 +3,7 @@
 use super::NoiseModel;
 use super::basis::{Lines, ModalModel, ModalShare, Pole};
 use super::normal_equations::{damped_step, gram, inverse};
-use crate::signal::{FrequencyResponse, SignalError};
+use crate::{FrequencyResponse, SignalError};
 use faer::{Mat, c64};
 use nalgebra::{DMatrix, DVector};
 

@@ -2,7 +2,7 @@
 
 use super::contents::{NamedResponse, SignalFile};
 use super::uff::{FREQUENCY_RESPONSE, TIME, TIME_AXIS};
-use crate::signal::ResponseQuantity;
+use crate::ResponseQuantity;
 use faer::c64;
 use std::fmt::Write as _;
 
