@@ -45,6 +45,7 @@ mod solid_elements;
 mod solid_refinement;
 mod solids;
 mod structural_damping;
+mod supported_bodies;
 mod tabled;
 mod tabled_disc;
 mod two_bodies;

@@ -1,0 +1,134 @@
+//! Bodies held in any way: random blocks on springs from 1e3 to 1e13 Pa/m, held in some directions, or free.
+//!
+//! Independent check: a dense decomposition of the exported matrices. What both leave is round-off of the stiffest waves of the mesh:
+//! that much a frequency may differ.
+
+use crate::bricks::{Block, file_of};
+use frictionsim::case::Case;
+use frictionsim::results::matrices::{ExportedSystem, MatrixRole};
+use frictionsim::study::eigenvalues::modes_and_onsets;
+use frictionsim::study::matrices::matrices;
+use nalgebra::DMatrix;
+use proptest::prelude::*;
+use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::PathBuf;
+
+/// How a block is held.
+#[derive(Clone, Debug)]
+enum Hold {
+    Springs { normal: f64, tangential: f64 },
+    Directions(Vec<&'static str>),
+    Nothing,
+}
+
+#[derive(Clone, Debug)]
+struct Body {
+    counts: [usize; 3],
+    size: [f64; 3],
+    young_modulus: f64,
+    hold: Hold,
+    modes: usize,
+}
+
+fn bodies() -> impl Strategy<Value = Body> {
+    let springs = (3.0..13.0_f64, -3.0..0.0_f64).prop_map(|(normal, ratio)| {
+        let normal = 10_f64.powf(normal);
+        Hold::Springs { normal, tangential: normal * 10_f64.powf(ratio) }
+    });
+    let directions = prop::sample::subsequence(vec!["x", "y", "z"], 1..=2);
+    let hold = prop_oneof![
+        6 => springs,
+        2 => directions.prop_map(Hold::Directions),
+        1 => Just(Hold::Nothing),
+    ];
+    let counts = [2_usize..4, 2..4, 2..4];
+    let size = [5e-3..0.1, 5e-3..0.1, 5e-3..0.1];
+    (counts, size, 7.0..13.0_f64, hold, 1_usize..24).prop_map(
+        |(counts, size, modulus, hold, modes)| Body {
+            counts,
+            size,
+            young_modulus: 10_f64.powf(modulus),
+            hold,
+            modes,
+        },
+    )
+}
+
+fn case_of(body: &Body, folder: &str) -> Case {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(folder);
+    fs::create_dir_all(&folder).unwrap();
+    let block = Block { name: "part", origin: [0.0; 3], size: body.size, counts: body.counts };
+    fs::write(folder.join("part.msh"), file_of(&[block], |point| point)).unwrap();
+    let mut text = format!(
+        "[mesh]\nfile = \"part.msh\"\n[material]\nyoung_modulus = {:e}\npoisson_ratio = 0.3\ndensity = 7850.0\n\
+         [cea]\nfriction_coefficients = [0.0]\nmodes = {}\n",
+        body.young_modulus, body.modes
+    );
+    match &body.hold {
+        Hold::Springs { normal, tangential } => write!(
+            text,
+            "[boundaries.part_z0]\ncondition = \"support\"\nnormal_stiffness = {normal:e}\n\
+             tangential_stiffness = {tangential:e}\n"
+        ),
+        Hold::Directions(held) => write!(
+            text,
+            "[boundaries.part_z0]\ncondition = \"fixed\"\ndirections = {held:?}\n"
+        ),
+        Hold::Nothing => Ok(()),
+    }
+    .unwrap();
+    let path = folder.join("part.toml");
+    let parsed = Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]);
+    parsed.unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+/// Squares of all angular frequencies by a dense decomposition, ascending.
+fn dense(system: &ExportedSystem) -> Vec<f64> {
+    let full = |role: MatrixRole| {
+        let own = system.matrices.iter().find(|own| own.role == role).unwrap();
+        let mut matrix = DMatrix::zeros(own.matrix.rows, own.matrix.columns);
+        for &(row, column, value) in &own.matrix.entries {
+            matrix[(row, column)] += value;
+        }
+        matrix
+    };
+    let mass = full(MatrixRole::Mass { friction_power: 0 });
+    let stiffness = full(MatrixRole::Stiffness { friction_power: 0 });
+    let factor = mass.cholesky().unwrap().l();
+    let half = factor.solve_lower_triangular(&stiffness).unwrap();
+    let scaled = factor.solve_lower_triangular(&half.transpose()).unwrap();
+    let symmetric = (&scaled + scaled.transpose()) * 0.5;
+    let mut squares: Vec<f64> = symmetric.symmetric_eigenvalues().iter().copied().collect();
+    squares.sort_by(f64::total_cmp);
+    squares
+}
+
+#[test]
+fn bodies_held_in_any_way_have_the_modes_of_a_dense_decomposition() {
+    let count = if std::env::var_os("FRICTIONSIM_LONG").is_some() { 200 } else { 12 };
+    let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[7; 32]);
+    let config = Config { cases: count, failure_persistence: None, ..Config::default() };
+    let mut runner = TestRunner::new_with_rng(config, rng);
+    let outcome = runner.run(&bodies(), |body| {
+        let case = case_of(&body, "supported-body");
+        let expected = dense(&matrices(&case).unwrap());
+        let found = modes_and_onsets(&case).map_err(|error| TestCaseError::fail(error.to_string()))?;
+        let modes = &found.points[0].modes;
+        prop_assert!(modes.len() >= body.modes);
+        // A few roundings of the stiffest wave, on either side.
+        let rounding = 64.0 * f64::EPSILON * expected[expected.len() - 1];
+        for (mode, square) in modes.iter().zip(&expected[found.rigid_motions..]) {
+            let own = (TAU * mode.frequency_hz()).powi(2);
+            prop_assert!((own - square).abs() <= 1e-9 * square + rounding, "{own} {square}");
+            prop_assert!(mode.residual <= 1e-9);
+        }
+        for square in &expected[..found.rigid_motions] {
+            prop_assert!(square.abs() <= rounding, "{square} is no rigid motion");
+        }
+        Ok(())
+    });
+    outcome.unwrap_or_else(|error| panic!("{error}"));
+}
