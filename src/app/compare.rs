@@ -10,6 +10,7 @@ use crate::results::{
     DrawingError, Manifest, REPORT, read_manifest, read_summary, write_report, write_summary,
 };
 use clap::{Args, ValueHint};
+use frictionsim_bounds::{RESULT, read_text};
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -42,7 +43,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     terminal::start_log(arguments.output.quiet, arguments.output.verbose);
     let names = names_of(&arguments.folders);
     let runs = arguments.folders.iter().zip(names).map(|(path, name)| {
-        let page = std::fs::read_to_string(path.join(REPORT)).ok();
+        let page = read_text(&path.join(REPORT), RESULT).ok();
         Ok(ComparedRun { name, manifest: read_manifest(path)?, summary: read_summary(path)?, page })
     });
     let runs: Vec<ComparedRun> = runs.collect::<Result<_, Failure>>()?;

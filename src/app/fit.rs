@@ -1,6 +1,6 @@
 //! `frictionsim fit`: parameters of a case from measured modes.
 
-use super::limits::{LARGEST_MEASUREMENT, input_name, read_input};
+use super::limits::{input_name, read_input};
 use super::profile::{Profile, Redraw};
 use super::{Failure, RunOptions, Session, terminal};
 use crate::results::fit::{FitSummary, draw_report, write};
@@ -8,6 +8,7 @@ use crate::results::{DrawingOptions, OutputFolder, read_summary};
 use crate::signal::reader::{MeasuredShape, read_modes, read_shapes};
 use crate::study::fit::{MeasuredShapes, fit_case_with_shapes, refuse_too_few, summarize};
 use clap::{Args, ValueHint};
+use frictionsim_bounds::MEASUREMENT;
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -56,7 +57,7 @@ pub const PROFILE: Profile = Profile {
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut session = Session::start("fit", &arguments.options)?;
     session.case.require_fit()?;
-    let bytes = read_input(&arguments.modes, LARGEST_MEASUREMENT)?;
+    let bytes = read_input(&arguments.modes, MEASUREMENT)?;
     let lines = read_modes(&bytes, &input_name(&arguments.modes))?;
     session.manifest.case_hash = joint_hash(&session.manifest.case_hash, &bytes);
     let shapes = read_measured(arguments, &mut session)?;
@@ -91,7 +92,7 @@ fn read_measured(
         return Ok(None);
     };
     scale_of_shapes(arguments.scale)?;
-    let bytes = read_input(path, LARGEST_MEASUREMENT)?;
+    let bytes = read_input(path, MEASUREMENT)?;
     let identity = format!("{} {:?}", session.manifest.case_hash, arguments.scale);
     session.manifest.case_hash = joint_hash(&identity, &bytes);
     Ok(Some(read_shapes(&bytes, &input_name(path))?))

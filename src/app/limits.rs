@@ -1,14 +1,10 @@
 //! Limits of the system and of this program on files: how large they may become, how much of one is read.
 
 use super::Failure;
+use frictionsim_bounds::{Budget, Limits, Refusal};
 use std::fs::File;
-use std::io::{self, Read};
+use std::io;
 use std::path::Path;
-
-/// Largest case file, bytes.
-pub const LARGEST_CASE: u64 = 16 << 20;
-/// Largest measurement or table, bytes.
-pub const LARGEST_MEASUREMENT: u64 = 1 << 30;
 
 /// Makes a write beyond the file size limit of the shell (`ulimit -f`) an error, as on a full disk, where the signal of
 /// it would end the process without a word.
@@ -24,31 +20,24 @@ pub fn refuse_writes_beyond_limit() {
 /// The name that stands for standard input.
 pub const STANDARD_INPUT: &str = "-";
 
-/// Reads a file or standard input of at most `most` bytes.
+/// Reads a file, a pipe or standard input within the limits of its kind.
 ///
 /// # Errors
 /// [`Failure::Usage`] with the file's name: it cannot be read, or has no end within the limit.
-pub fn read_input(path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
+pub fn read_input(path: &Path, limits: Limits) -> Result<Vec<u8>, Failure> {
+    let mut budget = Budget::new(limits);
     let read = match path == Path::new(STANDARD_INPUT) {
-        true => read_at_most(io::stdin().lock(), most),
-        false => File::open(path).and_then(|file| read_at_most(file, most)),
+        true => budget.read_all(io::stdin().lock()),
+        false => File::open(path).map_err(Refusal::from).and_then(|file| budget.read_all(file)),
     };
     let name = input_name(path);
-    match read {
-        Ok(Some(bytes)) => Ok(bytes),
-        Ok(None) => Err(Failure::usage(format!(
-            "{name} is larger than {} MiB, the limit for such files",
-            most >> 20
-        ))),
-        Err(error) => Err(Failure::usage(format!("cannot read {name}: {error}"))),
-    }
-}
-
-/// All bytes of a source; `None` if there are more than `most`.
-fn read_at_most(source: impl Read, most: u64) -> io::Result<Option<Vec<u8>>> {
-    let mut bytes = Vec::new();
-    source.take(most + 1).read_to_end(&mut bytes)?;
-    Ok((bytes.len() as u64 <= most).then_some(bytes))
+    read.map_err(|refusal| match refusal {
+        Refusal::Bytes { most, .. } => {
+            let most = most >> 20;
+            Failure::usage(format!("{name} is larger than {most} MiB, the limit for such files"))
+        }
+        other => Failure::usage(format!("cannot read {name}: {other}")),
+    })
 }
 
 /// What an input is called in messages.
@@ -57,17 +46,5 @@ pub fn input_name(path: &Path) -> String {
         "standard input".to_owned()
     } else {
         path.display().to_string()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn sources_without_end_are_refused_at_the_limit() {
-        assert_eq!(read_at_most(&b"abc"[..], 3).unwrap().unwrap(), b"abc");
-        assert!(read_at_most(&b"abcd"[..], 3).unwrap().is_none());
-        assert!(read_at_most(io::repeat(b'0'), 1 << 20).unwrap().is_none());
     }
 }

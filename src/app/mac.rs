@@ -1,6 +1,6 @@
 //! `frictionsim mac`: modal assurance of measured shapes.
 
-use super::limits::{LARGEST_MEASUREMENT, input_name, read_input};
+use super::limits::{input_name, read_input};
 use super::profile::{Profile, Redraw};
 use super::{Failure, RunOptions, Session, terminal};
 use crate::results::mac::{MacSummary, draw_mac, write_mac};
@@ -8,6 +8,7 @@ use crate::results::{DrawingOptions, OutputFolder, read_summary, write_summary};
 use crate::signal::reader::read_shapes;
 use crate::study::mac::assurance;
 use clap::{Args, ValueHint};
+use frictionsim_bounds::MEASUREMENT;
 use std::path::PathBuf;
 
 /// Compare measured shapes with the modes of a case
@@ -44,7 +45,7 @@ pub const PROFILE: Profile = Profile {
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     super::fit::scale_of_shapes(arguments.scale)?;
     let mut session = Session::start("mac", &arguments.options)?;
-    let bytes = read_input(&arguments.shapes, LARGEST_MEASUREMENT)?;
+    let bytes = read_input(&arguments.shapes, MEASUREMENT)?;
     let source = input_name(&arguments.shapes);
     let shapes = read_shapes(&bytes, &source)?;
     // Results belong to case, shapes and scale.

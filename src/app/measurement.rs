@@ -1,10 +1,11 @@
 //! Options, input and output folder that the commands on measured tables share.
 
-use super::limits::{LARGEST_MEASUREMENT, input_name, read_input};
+use super::limits::{input_name, read_input};
 use super::options::OutputOptions;
 use super::{Failure, terminal};
 use crate::results::{Manifest, OutputFolder};
 use crate::signal::reader::ReadError;
+use frictionsim_bounds::MEASUREMENT;
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -37,7 +38,7 @@ impl Measurement {
     ) -> Result<Self, Failure> {
         let start = Instant::now();
         terminal::start_log(options.quiet, options.verbose);
-        let bytes = read_input(path, LARGEST_MEASUREMENT)?;
+        let bytes = read_input(path, MEASUREMENT)?;
         let mut hash = Sha256::new();
         hash.update(&bytes);
         for choice in &choices {

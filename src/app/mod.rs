@@ -189,10 +189,22 @@ fn options_behind_subcommand(command: &clap::Command, mut given: Vec<OsString>) 
     given
 }
 
+/// Stack of the thread that runs a command, bytes.
+const STACK: usize = 16 << 20;
+/// Exit code of a process that panicked.
+const PANICKED: u8 = 101;
+
 /// Parses the command line, runs the subcommand and turns its outcome into an exit code: 0 done,
 /// 1 the run failed, 2 bad usage or case, 130 interrupted.
 pub fn main() -> ExitCode {
-    ExitCode::from(run_arguments(std::env::args_os().collect()))
+    // A thread of its own, as its stack does not depend on the shell's `ulimit -s`.
+    let run = || run_arguments(std::env::args_os().collect());
+    let thread = std::thread::Builder::new().name("main".to_owned()).stack_size(STACK);
+    let code = match thread.spawn(run) {
+        Ok(running) => running.join().unwrap_or(PANICKED),
+        Err(_) => run(),
+    };
+    ExitCode::from(code)
 }
 
 /// As [`main`], for arguments given by another program, the name of the program first; gives the exit code.

@@ -4,7 +4,7 @@ use super::Failure;
 use super::session::MESH;
 use crate::case::{Case, MeshBytes, RawCase, RawValue, TableBytes};
 use crate::results::Manifest;
-use std::fs;
+use frictionsim_bounds::{RESULT, read_file};
 use std::path::Path;
 
 /// The case that the manifest of a folder records, overrides included, with the mesh file that the folder holds.
@@ -15,11 +15,12 @@ pub fn recorded_case(folder: &Path, manifest: &Manifest) -> Result<Case, Failure
     let text = manifest.case_text.as_bytes();
     let mut raw = RawCase::parse(&manifest.case_file, text, &manifest.overrides)?;
     let file = raw.find("mesh.file").map(|item| &item.value);
-    if let (Some(RawValue::String(file)), Ok(bytes)) = (file, fs::read(folder.join(MESH))) {
+    if let (Some(RawValue::String(file)), Ok(bytes)) = (file, read_file(&folder.join(MESH), RESULT))
+    {
         raw.mesh = Some(MeshBytes::new(file.clone(), bytes));
     }
     for (name, file) in raw.table_files() {
-        if let Ok(bytes) = fs::read(folder.join(&name)) {
+        if let Ok(bytes) = read_file(&folder.join(&name), RESULT) {
             let bytes = bytes.into();
             raw.tables.push(TableBytes { file, bytes });
         }

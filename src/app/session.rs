@@ -1,12 +1,13 @@
 //! Steps of every run before and after its analysis: read the case, take the output folder, report the results.
 
-use super::limits::{LARGEST_CASE, input_name, read_input};
+use super::limits::{input_name, read_input};
 use super::terminal;
 use super::{Failure, RunOptions, embedded};
 use crate::case::{Case, RawCase};
 use crate::fem::operator::SimdLevel;
 use crate::results::{Manifest, OutputFolder};
 use crate::study::refuse_memory;
+use frictionsim_bounds::CASE;
 use std::path::Path;
 use std::time::Instant;
 
@@ -129,7 +130,7 @@ impl Session {
 /// # Errors
 /// [`Failure::Usage`] if it cannot be read, [`Failure::Case`] if it is not valid.
 pub fn read_case(path: &Path, overrides: &[String]) -> Result<Case, Failure> {
-    let bytes = read_input(path, LARGEST_CASE)?;
+    let bytes = read_input(path, CASE)?;
     let raw = RawCase::parse(&input_name(path), &bytes, overrides)?;
     Ok(Case::from_raw(raw)?)
 }

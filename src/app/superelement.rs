@@ -1,11 +1,12 @@
 //! `frictionsim cea` of a superelement that stands free.
 
-use super::limits::{LARGEST_CASE, STANDARD_INPUT, input_name, read_input};
+use super::limits::{STANDARD_INPUT, input_name, read_input};
 use super::session::start_threads;
 use super::{Failure, RunOptions, terminal};
 use crate::case::{FreeSystem, RawCase};
 use crate::results::Manifest;
 use crate::study::superelement::free_spectrum;
+use frictionsim_bounds::CASE;
 use std::path::Path;
 use std::time::Instant;
 
@@ -18,7 +19,7 @@ pub fn described(options: &RunOptions) -> Result<Option<FreeSystem>, Failure> {
     if options.case == Path::new(STANDARD_INPUT) {
         return Ok(None);
     }
-    let bytes = read_input(&options.case, LARGEST_CASE)?;
+    let bytes = read_input(&options.case, CASE)?;
     let raw = RawCase::parse(&input_name(&options.case), &bytes, &options.changes.overrides())?;
     match FreeSystem::is_described_by(&raw) {
         true => Ok(Some(FreeSystem::read(raw)?)),

@@ -9,6 +9,7 @@ use crate::results::uncertainty::{Sample, UncertaintySummary, draw_report, write
 use crate::results::{DrawingOptions, Manifest, object};
 use crate::study::uncertainty::{BLOCK, Design, Sampler, curves, summarize};
 use clap::Args;
+use frictionsim_bounds::{RESULT, read_file};
 use serde_json::{Map, Value};
 use std::path::Path;
 use std::time::Instant;
@@ -124,7 +125,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// A folder without a whole summary; those of the folder.
 pub fn redraw(path: &Path, options: &DrawingOptions) -> Result<(), Failure> {
     let folder = SweepFolder::find_of(path, "uncertainty")?.0;
-    let bytes = std::fs::read(path.join("summary.json"))?;
+    let bytes = read_file(&path.join("summary.json"), RESULT)?;
     let summary: UncertaintySummary = serde_json::from_slice(&bytes).map_err(|error| {
         Failure::usage(format!("{}: its summary.json is damaged: {error}", path.display()))
     })?;

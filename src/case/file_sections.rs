@@ -117,6 +117,7 @@ fn refuse_in_plane(model: &ModelData, left_out: &mut Vec<LeftOut>) {
             place: place.to_owned(),
             count: 1,
             reason: reason.to_owned(),
+            is_part: what == "tie",
         });
     };
     for tie in &model.ties {
@@ -164,6 +165,7 @@ fn material_section(
                         place: material.place.clone(),
                         count: 1,
                         reason: format!("axes are about the motion's axis here, there through {from:?} and {to:?}: check it"),
+                        is_part: false,
                     });
                     text("cylindrical")
                 }
@@ -187,6 +189,7 @@ fn material_section(
                 place: material.place.clone(),
                 count: 1,
                 reason: "no material has it here".to_owned(),
+                is_part: false,
             }),
         }
     }

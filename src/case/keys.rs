@@ -61,6 +61,7 @@ pub const KEYS: &[CaseKey] = &[
     key("mesh.file", Text, "", Otherwise("an annulus is generated"), "\"rig.msh\"", "a mesh of the body, relative to the case, in place of radii and element counts: Gmsh (MSH 2.2 or 4.1), an input file of Abaqus or CalculiX (.inp), Nastran bulk data (.bdf) or a universal file (.unv)"),
     key("mesh.units", Choice(words::<UnitsWord>), "", Value("\"m-kg-s\""), "\"mm-t-s\"", "the units of that file: of its coordinates, materials, pressures and stiffnesses"),
     key("mesh.take", Choices(words::<FilePart>), "", Otherwise("all"), "[\"materials\", \"ties\"]", "what is taken from that file beside the mesh (sections of the case win)"),
+    key("mesh.drop", Texts, "", Otherwise("nothing"), "[\"*COUPLING\", \"RBE2\"]", "what of that file holds, loads or joins parts, is not understood and may be left out: without it such a keyword or card is an error, as the answer would be that of another structure"),
     key("mesh.sectors", Count(2), "", Otherwise("the file has the whole body"), "21", "the number of equal sectors of which that file has one: the body is made of its copies, turned about the axis of the contact or of the motion (else z), and `cea` solves it harmonic by harmonic"),
     key("mesh.scale", Number(Positive), "", Value("1.0"), "0.001", "the factor on the coordinates of that file alone, in place of mesh.units"),
 

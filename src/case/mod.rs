@@ -202,7 +202,16 @@ impl Case {
         root.close();
         let (mut errors, mut warnings) = findings.into_parts();
         taken.name_places(&mut errors);
-        warnings.extend(taken.warning(&raw.place("mesh.file")));
+        if taken.is_unread {
+            // What cannot be read comes first: others follow from it.
+            let file = raw.place("mesh.file");
+            errors.sort_by_key(|error| error.at != file);
+        }
+        let at_file = raw.place("mesh.file");
+        if let Some(lack) = taken.lack(&at_file) {
+            errors.insert(0, lack);
+        }
+        warnings.extend(taken.warning(&at_file));
         raw.mesh = mesh;
         raw.tables = tables;
         let Some(body) = body.filter(|_| errors.is_empty()) else {

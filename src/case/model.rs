@@ -173,6 +173,7 @@ fn assembly_model(
 fn length_factor(mesh: &Section<'_>) -> f64 {
     let units: UnitsWord = mesh.choice("units");
     let _: Vec<FilePart> = mesh.choices("take");
+    let _ = mesh.texts("drop");
     let scale = mesh.number("scale");
     if !mesh.has("units") {
         return scale;

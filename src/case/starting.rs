@@ -2,9 +2,10 @@
 
 use super::file_sections::{FileSection, sections};
 use super::inclusion;
+use super::taken::drop_key;
 use super::value::{RawValue, quote};
 use super::words::UnitsWord;
-use crate::mesh::{FileElasticity, GmshFile, SurfaceFace};
+use crate::mesh::{FileElasticity, GmshFile, LeftOut, SurfaceFace};
 use nalgebra::Vector3;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -44,6 +45,15 @@ pub fn case_from(path: &Path, shown: &str) -> Result<String, String> {
          title = {title}\n\n[mesh]\nfile = {}\nunits = \"{word}\"    # of the file: {reason}\n",
         RawValue::String(shown.to_owned())
     );
+    let lost: Vec<LeftOut> = left_out.iter().filter(|own| own.is_part).cloned().collect();
+    if !lost.is_empty() {
+        let _ = writeln!(
+            out,
+            "# CHOOSE: the file holds, loads or joins parts by what is not understood (below). Without it the answer is that of\n\
+             # another structure: say it in this case in other words, or leave it out:\n# {}",
+            drop_key(&lost)
+        );
+    }
     missing_materials(&file, &sections, &mut out);
     for section in sections.iter().filter(|section| section.path.0 != "material") {
         write_section(section, shown, &mut out);

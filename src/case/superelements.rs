@@ -5,15 +5,13 @@ use super::diagnostic::{CaseErrors, Location};
 use super::raw::RawCase;
 use super::reader::{Findings, Section};
 use crate::linalg::MarketMatrix;
+use frictionsim_bounds::{MATRIX, SUPERELEMENT_UNKNOWNS};
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 use std::path::Path;
 
 /// The matrices of a superelement, in the order of their keys.
 const MATRICES: [&str; 3] = ["mass", "damping", "stiffness"];
-
-/// Unknowns of a superelement at most: its problem is solved whole, by dense matrices of twice its size.
-const MOST_UNKNOWNS: usize = 2000;
 
 /// The matrices of a reduced system.
 #[derive(Clone, Debug, PartialEq)]
@@ -146,9 +144,9 @@ fn superelement(
             return None;
         }
     }
-    if size == 0 || size > MOST_UNKNOWNS {
+    if size == 0 || size > SUPERELEMENT_UNKNOWNS {
         let message = format!("{} has {size} unknowns", section.name("mass"));
-        let label = format!("1 to {MOST_UNKNOWNS} unknowns");
+        let label = format!("1 to {SUPERELEMENT_UNKNOWNS} unknowns");
         section.reject("mass", message, label, "reduce the system further");
         return None;
     }
@@ -190,15 +188,15 @@ fn matrix(
             "a real matrix in the Matrix Market format, as scipy.io.mmwrite writes it".to_owned();
         section.reject(key, message, label.to_owned(), Some(help));
     };
-    let text = match std::fs::read_to_string(path) {
-        Ok(text) => text,
-        Err(error) => {
-            reject(error.to_string(), "not readable");
+    let bytes = match frictionsim_bounds::read(path, MATRIX) {
+        Ok(bytes) => bytes,
+        Err(refusal) => {
+            reject(refusal.to_string(), "not readable");
             return None;
         }
     };
-    digest.update(&text);
-    match MarketMatrix::read(&text) {
+    digest.update(&bytes);
+    match MarketMatrix::read(&String::from_utf8_lossy(&bytes), SUPERELEMENT_UNKNOWNS) {
         Ok(matrix) => Some(matrix),
         Err(error) => {
             reject(error.to_string(), "no such matrix");

@@ -5,11 +5,12 @@ use super::reader::Section;
 use crate::contact::Topography;
 use crate::fem::ModulusTable;
 use crate::signal::reader::{ModulusRow, read_gaps, read_moduli};
+use frictionsim_bounds::TABLE;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Largest table, bytes.
-const LARGEST: u64 = 16 << 20;
+/// Softest material, Pa: with less the frequencies of a body spread over more decades than a table can follow.
+const SOFTEST: f64 = 100.0;
 /// A modulus that falls by more than this part of its largest value so far, beyond the scatter of measurements, is none of a passive
 /// material.
 const FALL: f64 = 0.05;
@@ -49,13 +50,9 @@ impl<'a> TableFiles<'a> {
 }
 
 fn read_file(path: &Path) -> Result<Arc<[u8]>, String> {
-    let fail = |reason: String| format!("cannot read the table {}: {reason}", path.display());
-    let size = std::fs::metadata(path).map_err(|error| fail(error.to_string()))?.len();
-    if size > LARGEST {
-        return Err(fail(format!("it is larger than {} MiB", LARGEST >> 20)));
-    }
-    let bytes = std::fs::read(path).map_err(|error| fail(error.to_string()))?;
-    Ok(bytes.into())
+    let bytes = frictionsim_bounds::read(path, TABLE);
+    let fail = |reason| format!("cannot read the table {}: {reason}", path.display());
+    bytes.map(Into::into).map_err(fail)
 }
 
 /// The table of `[material]` or of a section of `[materials.*]`, where it has one.
@@ -136,6 +133,10 @@ fn sound(rows: &[ModulusRow]) -> Result<(), (usize, String, &'static str)> {
                 "the frequency {frequency_hz} Hz does not lie above the {before} Hz before it"
             );
             return Err((line, what, "sort the rows by frequency and leave repeated ones out"));
+        }
+        if young_modulus > 0.0 && young_modulus < SOFTEST {
+            let what = format!("the modulus {young_modulus} Pa is below that of any solid");
+            return Err((line, what, "at least 100 Pa; a soft gel has 1000. Is it in GPa?"));
         }
         if young_modulus <= 0.0 {
             let what = format!("the modulus {young_modulus} Pa is not above zero");

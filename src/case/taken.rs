@@ -17,6 +17,9 @@ use std::fmt::Write as _;
 /// Entries that a warning names.
 const MOST_NAMED: usize = 8;
 
+/// Why something is not used that the case does without.
+const DROPPED: &str = "mesh.drop leaves it out";
+
 /// What a case takes from its mesh file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Taken {
@@ -30,6 +33,8 @@ pub struct Taken {
     pub notes: Vec<String>,
     /// What is not used.
     pub left_out: Vec<LeftOut>,
+    /// What would hold, load or join parts and is not understood, and `mesh.drop` does not name.
+    pub missing_parts: Vec<LeftOut>,
 }
 
 /// The case with all that it takes from its mesh file, and what that is.
@@ -73,13 +78,25 @@ pub(super) fn effective(raw: &mut RawCase) -> (RawTable, Taken) {
                 place: section.place,
                 count: 1,
                 reason: "mesh.take leaves it out".to_owned(),
+                is_part: false,
             });
         } else if let Some(section) = merge(&mut merged, section, &at) {
             taken.sections.push(section);
         }
     }
+    taken.drop_parts(&texts(raw, "mesh.drop"));
     taken.notes.extend(summary(&taken));
     (merged, taken)
+}
+
+/// The texts of a key: one, or a list.
+fn texts(raw: &RawCase, key: &str) -> Vec<String> {
+    let items = raw.find(key).map_or(&[][..], RawItem::listed);
+    let text = |item: &RawItem| match &item.value {
+        RawValue::String(text) => Some(text.clone()),
+        _ => None,
+    };
+    items.iter().filter_map(text).collect()
 }
 
 /// Which parts of the file the case takes: `mesh.take`, or all.
@@ -225,15 +242,65 @@ fn summary(taken: &Taken) -> Vec<String> {
     groups.into_iter().map(taken_of).collect()
 }
 
+/// The key that leaves out parts of a file, as a line of a case.
+pub(super) fn drop_key(parts: &[LeftOut]) -> String {
+    let mut cards: Vec<&str> = parts.iter().map(LeftOut::card).collect();
+    cards.sort_unstable();
+    cards.dedup();
+    let cards = cards.into_iter().map(|card| RawValue::String(card.to_owned()).to_string());
+    format!("drop = [{}]", cards.collect::<Vec<_>>().join(", "))
+}
+
 impl Taken {
     /// What of the file is not used, one line each.
     pub fn not_used(&self) -> Vec<String> {
         self.left_out.iter().map(ToString::to_string).collect()
     }
 
+    /// Tells the parts that `mesh.drop` names from those that the answer would lack in silence.
+    fn drop_parts(&mut self, entries: &[String]) {
+        let lost = self.left_out.iter_mut().filter(|left_out| left_out.is_part);
+        for left_out in lost {
+            if !entries.iter().any(|entry| left_out.is_named(entry)) {
+                self.missing_parts.push(left_out.clone());
+                continue;
+            }
+            self.notes.push(format!("mesh.drop leaves out of {}: {left_out}", self.file));
+            let reason = std::mem::take(&mut left_out.reason);
+            left_out.reason = match reason.is_empty() {
+                true => DROPPED.to_owned(),
+                false => format!("{DROPPED} ({reason})"),
+            };
+        }
+    }
+
+    /// An error that names the parts which the file has and the answer would lack.
+    pub(super) fn lack(&self, at: &Location) -> Option<Diagnostic> {
+        if self.missing_parts.is_empty() {
+            return None;
+        }
+        let named = self.missing_parts.iter().take(MOST_NAMED).map(ToString::to_string);
+        let mut named = named.collect::<Vec<_>>().join("; ");
+        if let more @ 1.. = self.missing_parts.len().saturating_sub(MOST_NAMED) {
+            let _ = write!(named, "; {more} more");
+        }
+        let message = format!(
+            "{} holds, loads or joins parts by what is not understood: {named}; the answer would be that of another structure",
+            self.file
+        );
+        let help = format!(
+            "say the same in the case (boundaries, ties, contacts, modifications), and what may be left out in [mesh]: {}",
+            drop_key(&self.missing_parts)
+        );
+        Some(Diagnostic::error(message, "parts would be missing", at.clone(), Some(help)))
+    }
+
     /// A warning that names what of the file is not used; none where all is.
     pub(super) fn warning(&self, at: &Location) -> Option<Diagnostic> {
-        let harmless = |left_out: &&LeftOut| left_out.reason.starts_with("the case says what");
+        // What `mesh.drop` leaves out is known to the user, what is missing is an error.
+        let harmless = |left_out: &&LeftOut| {
+            left_out.is_part || left_out.reason.starts_with("the case says what")
+        };
         let (quiet, loud): (Vec<&LeftOut>, Vec<&LeftOut>) =
             self.left_out.iter().partition(harmless);
         if loud.is_empty() {

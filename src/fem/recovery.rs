@@ -119,6 +119,10 @@ const UNDETERMINED: f64 = 1e-6;
 /// out.
 fn weights_at(origin: [f64; 3], places: &[[f64; 3]], degree: Degree) -> Vec<f64> {
     let count = places.len() as f64;
+    // One sample, of a body or region of one element, is the value everywhere.
+    if places.len() == 1 {
+        return vec![1.0];
+    }
     let centre = places.iter().map(|p| Vector3::from(*p)).sum::<Vector3<f64>>() / count;
     // In the principal axes of the samples, scaled by how far they spread.
     let offsets = places.iter().map(|p| Vector3::from(*p) - centre);

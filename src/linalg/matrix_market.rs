@@ -58,6 +58,18 @@ pub enum MatrixMarketError {
         /// Columns of the matrix.
         columns: usize,
     },
+    /// More rows or columns than may be read.
+    #[error("line {line}: a matrix of {rows} x {columns} is larger than {most} x {most}")]
+    TooLarge {
+        /// Counted from 1.
+        line: usize,
+        /// Rows of the matrix.
+        rows: usize,
+        /// Columns of the matrix.
+        columns: usize,
+        /// Rows and columns at most.
+        most: usize,
+    },
     /// Too few or too many entries.
     #[error("the size line promises {promised} entries, the file has {found}")]
     Count {
@@ -77,11 +89,12 @@ enum Symmetry {
 }
 
 impl MarketMatrix {
-    /// Reads `coordinate` and `array` matrices of real or integer entries, general, symmetric or skew-symmetric.
+    /// Reads `coordinate` and `array` matrices of real or integer entries, general, symmetric or skew-symmetric, of at most so
+    /// many rows and columns.
     ///
     /// # Errors
     /// [`MatrixMarketError`] with the line.
-    pub fn read(text: &str) -> Result<Self, MatrixMarketError> {
+    pub fn read(text: &str, most: usize) -> Result<Self, MatrixMarketError> {
         let banner = text.lines().next().unwrap_or_default();
         let (is_coordinate, symmetry) = read_banner(banner)?;
         let mut lines = text
@@ -99,7 +112,11 @@ impl MarketMatrix {
         let Some(whole) = whole else {
             return Err(wrong_line(at, size, expected));
         };
-        let mut matrix = Self { rows: whole[0], columns: whole[1], entries: Vec::new() };
+        let (rows, columns) = (whole[0], whole[1]);
+        if rows.max(columns) > most {
+            return Err(MatrixMarketError::TooLarge { line: at, rows, columns, most });
+        }
+        let mut matrix = Self { rows, columns, entries: Vec::new() };
         match is_coordinate {
             true => matrix.read_coordinates(lines, symmetry, whole[2])?,
             false => matrix.read_array(lines, symmetry)?,
@@ -153,23 +170,23 @@ impl MarketMatrix {
             Symmetry::Symmetric => column,
             Symmetry::Skew => column + 1,
         };
-        let rows = self.rows;
-        let places: Vec<(usize, usize)> = (0..self.columns)
-            .flat_map(|column| (first(column)..rows).map(move |row| (row, column)))
-            .collect();
+        let (rows, columns) = (self.rows, self.columns);
+        let mut places =
+            (0..columns).flat_map(|column| (first(column)..rows).map(move |row| (row, column)));
         let mut found = 0;
         for (line, text) in lines {
             for word in text.split_whitespace() {
                 let value = finite(line, word)?;
-                if let Some(&place) = places.get(found) {
+                if let Some(place) = places.next() {
                     self.add(place, value, symmetry);
                 }
                 found += 1;
             }
         }
-        match found == places.len() {
+        let promised = (0..columns).map(|column| rows.saturating_sub(first(column))).sum();
+        match found == promised && places.next().is_none() {
             true => Ok(()),
-            false => Err(MatrixMarketError::Count { promised: places.len(), found }),
+            false => Err(MatrixMarketError::Count { promised, found }),
         }
     }
 
@@ -277,17 +294,17 @@ mod tests {
         let mut text = Vec::new();
         matrix.write("K\nN/m", &mut text).unwrap();
         let text = String::from_utf8(text).unwrap();
-        assert_eq!(MarketMatrix::read(&text), Ok(matrix));
+        assert_eq!(MarketMatrix::read(&text, 3), Ok(matrix));
     }
 
     #[test]
     fn triangles_and_arrays_are_completed() {
         let symmetric =
             "%%MatrixMarket matrix coordinate real symmetric\n% c\n2 2 2\n1 1 4\n2 1 -1\n";
-        let read = MarketMatrix::read(symmetric).unwrap();
+        let read = MarketMatrix::read(symmetric, 2).unwrap();
         assert_eq!(read.entries, [(0, 0, 4.0), (1, 0, -1.0), (0, 1, -1.0)]);
         let array = "%%MatrixMarket matrix array integer skew-symmetric\n2 2\n7\n";
-        let read = MarketMatrix::read(array).unwrap();
+        let read = MarketMatrix::read(array, 2).unwrap();
         assert_eq!(read.entries, [(1, 0, 7.0), (0, 1, -7.0)]);
         assert_eq!(read.compressed_rows(), (vec![0, 1, 2], vec![1, 0], vec![-7.0, 7.0]));
     }
@@ -302,9 +319,11 @@ mod tests {
             ("2 2 1\n3 1 1.0\n", "line 3: entry (3, 1) lies outside a matrix of 2 x 2"),
             ("2 2 2\n1 1 1.0\n", "the size line promises 2 entries, the file has 1"),
         ] {
-            let error = MarketMatrix::read(&format!("{banner}{body}")).unwrap_err();
+            let error = MarketMatrix::read(&format!("{banner}{body}"), 2).unwrap_err();
             assert_eq!(error.to_string(), message);
         }
-        assert!(MarketMatrix::read("%%MatrixMarket matrix coordinate complex general\n").is_err());
+        assert!(
+            MarketMatrix::read("%%MatrixMarket matrix coordinate complex general\n", 2).is_err()
+        );
     }
 }

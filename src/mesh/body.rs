@@ -64,6 +64,7 @@ impl Mesh {
                     .to_owned(),
             ));
         }
+        file.refuse_far(specification.scale)?;
         let mut mesh = plane_body(file, specification.scale)?;
         let index_of = used_nodes(file)?;
         let outline: BTreeMap<(u32, u32), (u32, u32, Option<u32>)> = mesh

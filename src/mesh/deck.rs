@@ -1,6 +1,7 @@
 //! Lines of a text file with their places, the files that it includes among them.
 
 use super::gmsh::MeshFileError;
+use frictionsim_bounds::{Budget, MESH, MESSAGE, Refusal, shortened};
 
 /// What marks the begin and the end of included text, behind the sign of a comment.
 const BEGIN: &str = " >>> included: ";
@@ -19,6 +20,8 @@ pub(super) struct Deck<'a> {
     pub lines: Vec<(Place, &'a str)>,
     /// Names of included files; number 0 is the file itself.
     names: Vec<&'a str>,
+    /// What may be read yet.
+    pub budget: Budget,
 }
 
 /// Text that stands in the place of the line that included it; `comment` begins comments of the format.
@@ -28,9 +31,17 @@ pub fn included_text(comment: &str, name: &str, text: &str) -> String {
 }
 
 impl<'a> Deck<'a> {
-    /// Splits a text into lines; `comment` begins comments of the format.
-    pub fn new(text: &'a str, comment: &str) -> Self {
-        let mut deck = Self { lines: Vec::new(), names: vec![""] };
+    /// Splits a text into lines; `comment` begins comments of the format. Lines without anything are left out where
+    /// `keeps_empty` does not keep them.
+    ///
+    /// # Errors
+    /// More lines than may be read.
+    pub fn new(text: &'a str, comment: &str, keeps_empty: bool) -> Result<Self, MeshFileError> {
+        let is_kept = |line: &&str| keeps_empty || !line.trim().is_empty();
+        let mut budget = Budget::new(MESH);
+        let count = text.lines().filter(is_kept).count();
+        budget.take_members(count).map_err(|refusal| too_much(&refusal))?;
+        let mut deck = Self { lines: Vec::with_capacity(count), names: vec![""], budget };
         let mut stack = Vec::new();
         let mut place = Place { file: 0, line: 0 };
         for line in text.lines() {
@@ -48,30 +59,40 @@ impl<'a> Deck<'a> {
                 }
                 _ => {
                     place.line += 1;
-                    deck.lines.push((place, line));
+                    if is_kept(&line) {
+                        deck.lines.push((place, line));
+                    }
                 }
             }
         }
-        deck
+        Ok(deck)
     }
 
     /// A place in words.
     pub fn name(&self, place: Place) -> String {
         match self.names.get(place.file as usize) {
-            Some(&name) if !name.is_empty() => format!("{name}, line {}", place.line),
+            Some(&name) if !name.is_empty() => {
+                format!("{}, line {}", shortened(name, MESSAGE), place.line)
+            }
             _ => format!("line {}", place.line),
         }
     }
 
     /// An error at a place.
     pub fn error(&self, place: Place, message: impl Into<String>) -> MeshFileError {
-        MeshFileError::Syntax { place: self.name(place), message: message.into() }
+        let message = shortened(&message.into(), MESSAGE);
+        MeshFileError::Syntax { place: self.name(place), message }
     }
 
     /// The place of the last line.
     pub fn end(&self) -> Place {
         self.lines.last().map_or(Place { file: 0, line: 1 }, |l| l.0)
     }
+}
+
+/// An error of a file that holds more than is read.
+pub(super) fn too_much(refusal: &Refusal) -> MeshFileError {
+    MeshFileError::Syntax { place: "the whole file".to_owned(), message: refusal.to_string() }
 }
 
 /// A number as programs in Fortran write it, `1.0D+3` included; finite.

@@ -1,7 +1,8 @@
 //! Formats of mesh files, told by their content and their names.
 
-use super::gmsh::{GmshFile, MeshFileError};
+use super::gmsh::{BodyPart, GmshFile, MeshFileError};
 use super::{abaqus, nastran, universal};
+use frictionsim_bounds::LARGEST_COORDINATE;
 
 /// A format of mesh files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,11 +86,34 @@ impl GmshFile {
     /// # Errors
     /// [`MeshFileError::Syntax`] with the line, or the byte of a binary file.
     pub fn read_as(name: &str, bytes: &[u8]) -> Result<Self, MeshFileError> {
-        match MeshFormat::of(name, bytes) {
+        let file = match MeshFormat::of(name, bytes) {
             MeshFormat::Gmsh => Self::read(bytes),
             MeshFormat::Abaqus => abaqus::read(bytes),
             MeshFormat::Nastran => nastran::read(bytes),
             MeshFormat::Universal => universal::read(bytes),
+        }?;
+        match file.far_node(1.0) {
+            Some(far) => Err(MeshFileError::Body(far)),
+            None => Ok(file),
         }
+    }
+
+    /// Refuses a scale that takes a node beyond reason.
+    pub(super) fn refuse_far(&self, scale: f64) -> Result<(), MeshFileError> {
+        match self.far_node(scale) {
+            Some(message) => Err(MeshFileError::Request { part: BodyPart::Scale, message }),
+            None => Ok(()),
+        }
+    }
+
+    /// A node beyond [`LARGEST_COORDINATE`] once its coordinates have a factor, in words.
+    fn far_node(&self, scale: f64) -> Option<String> {
+        let is_far = |x: &f64| !((scale * x).abs() <= LARGEST_COORDINATE);
+        let node = self.points.iter().position(|point| point.iter().any(is_far))?;
+        let [x, y, z] = self.points[node].map(|x| scale * x);
+        Some(format!(
+            "node {} lies at [{x:e}, {y:e}, {z:e}]: no coordinate may be beyond {LARGEST_COORDINATE:e}",
+            self.labels[node]
+        ))
     }
 }

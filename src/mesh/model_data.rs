@@ -3,6 +3,10 @@
 //!
 //! Values are in the units of the file, whatever those are.
 
+use frictionsim_bounds::shortened;
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+
 /// Everything beside the mesh.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ModelData {
@@ -22,6 +26,8 @@ pub struct ModelData {
     pub is_plane_strain: Option<bool>,
     /// What is not used, and why.
     pub left_out: Vec<LeftOut>,
+    /// Where each keyword with its reason stands in that list.
+    listed: BTreeMap<(String, String), usize>,
     /// What a user should know of how the file was read.
     pub remarks: Vec<String>,
 }
@@ -159,24 +165,56 @@ pub struct LeftOut {
     pub count: usize,
     /// Why it is not used; empty where it is simply not known here.
     pub reason: String,
+    /// Whether it would hold, load or join parts: without it the answer is that of another structure.
+    pub is_part: bool,
 }
+
+/// Characters of a keyword that is listed.
+const LONGEST_KEYWORD: usize = 100;
 
 impl ModelData {
     /// Notes that something is not used; what is left out for the same reason is counted together.
     pub(super) fn leave_out(&mut self, keyword: &str, place: impl Fn() -> String, reason: &str) {
-        let known = self
-            .left_out
-            .iter_mut()
-            .find(|known| known.keyword == keyword && known.reason == reason);
+        self.list(keyword, place, reason, false);
+    }
+
+    /// As [`Self::leave_out`], of what would hold, load or join parts.
+    pub(super) fn lose_part(&mut self, keyword: &str, place: impl Fn() -> String, reason: &str) {
+        self.list(keyword, place, reason, true);
+    }
+
+    fn list(&mut self, keyword: &str, place: impl Fn() -> String, reason: &str, is_part: bool) {
+        let keyword = shortened(keyword, LONGEST_KEYWORD);
+        let known = self.listed.entry((keyword.clone(), reason.to_owned()));
         match known {
-            Some(known) => known.count += 1,
-            None => self.left_out.push(LeftOut {
-                keyword: keyword.to_owned(),
-                place: place(),
-                count: 1,
-                reason: reason.to_owned(),
-            }),
+            Entry::Occupied(known) => {
+                let known = &mut self.left_out[*known.get()];
+                known.count += 1;
+                known.is_part |= is_part;
+            }
+            Entry::Vacant(free) => {
+                free.insert(self.left_out.len());
+                let (place, reason) = (place(), reason.to_owned());
+                self.left_out.push(LeftOut { keyword, place, count: 1, reason, is_part });
+            }
         }
+    }
+}
+
+impl LeftOut {
+    /// The keyword or card alone, as `mesh.drop` names it.
+    pub fn card(&self) -> &str {
+        let ends = [" of ", " with ", " without "].into_iter();
+        let end = ends.filter_map(|word| self.keyword.find(word)).min();
+        &self.keyword[..end.unwrap_or(self.keyword.len())]
+    }
+
+    /// Whether an entry of `mesh.drop` names it: its keyword, with or without parameters.
+    pub fn is_named(&self, entry: &str) -> bool {
+        let (own, entry) = (self.keyword.to_uppercase(), entry.trim().to_uppercase());
+        let rest = own.strip_prefix(entry.as_str());
+        rest.is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric()))
+            && !entry.is_empty()
     }
 }
 

@@ -25,6 +25,7 @@ impl Mesh {
         scale: f64,
         conditions: &[(String, BoundaryCondition)],
     ) -> Result<Self, MeshFileError> {
+        file.refuse_far(scale)?;
         let index_of = used_nodes(file)?;
         let mut mesh = solid_elements(file, scale, &index_of)?;
         let outer: BTreeMap<FaceKey, BoundaryFace> = mesh

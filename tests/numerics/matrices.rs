@@ -29,7 +29,7 @@ fn the_public_disk_brake_problem_has_its_eigenvalues_of_every_size() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/numerics/nlevp");
     let [mass, damping, stiffness] = ["M", "C", "K"].map(|name| {
         let text = fs::read_to_string(folder.join(format!("disk_brake100_{name}.mtx"))).unwrap();
-        dense(&MarketMatrix::read(&text).unwrap())
+        dense(&MarketMatrix::read(&text, usize::MAX).unwrap())
     });
     let text = fs::read_to_string(folder.join("disk_brake100_eigenvalues.csv")).unwrap();
     let exact = text.lines().skip(1).map(|line| {
@@ -103,7 +103,8 @@ fn assembled(folder: &Path, friction: f64) -> [Mat<f64>; 4] {
     let mut sums = [0, 1, 2, 3].map(|_| Mat::<f64>::zeros(size, size));
     for entry in description["matrices"].as_array().unwrap() {
         let file = folder.join(entry["matrix_market"].as_str().unwrap());
-        let matrix = dense(&MarketMatrix::read(&fs::read_to_string(file).unwrap()).unwrap());
+        let matrix =
+            dense(&MarketMatrix::read(&fs::read_to_string(file).unwrap(), usize::MAX).unwrap());
         let roles = ["mass", "damping", "stiffness", "structural"];
         for (sum, role) in sums.iter_mut().zip(roles) {
             if let Some(power) = entry["role"][role]["friction_power"].as_i64() {
@@ -236,7 +237,7 @@ fn exported_matrices_of_solid_bodies_have_the_eigenvalues_of_the_analysis() {
         // Each point parts by one where the upper block is lifted by one; pressed rigid points do not part.
         let out = folder.path().join("matrices");
         let text = fs::read_to_string(out.join("contact_normal.mtx")).unwrap();
-        let normal = MarketMatrix::read(&text).unwrap();
+        let normal = MarketMatrix::read(&text, usize::MAX).unwrap();
         let mut parted = vec![0.0; normal.rows];
         for &(point, unknown, share) in &normal.entries {
             parted[point] += share * lifted(&out, unknown);
@@ -352,7 +353,7 @@ fn archives_hold_compressed_rows_as_scipy_reads_them() {
     assert!(run(&folder, "matrices", &[]).status.success());
     let out = folder.path().join("matrices");
     let matrix = fs::read_to_string(out.join("K.mtx")).unwrap();
-    let (pointers, columns, _) = MarketMatrix::read(&matrix).unwrap().compressed_rows();
+    let (pointers, columns, _) = MarketMatrix::read(&matrix, usize::MAX).unwrap().compressed_rows();
     let mut archive = zip::ZipArchive::new(fs::File::open(out.join("K.npz")).unwrap()).unwrap();
     let mut entry = |name: &str| {
         let mut bytes = Vec::new();

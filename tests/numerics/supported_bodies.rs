@@ -73,10 +73,9 @@ fn case_of(body: &Body, folder: &str) -> Case {
             "[boundaries.part_z0]\ncondition = \"support\"\nnormal_stiffness = {normal:e}\n\
              tangential_stiffness = {tangential:e}\n"
         ),
-        Hold::Directions(held) => write!(
-            text,
-            "[boundaries.part_z0]\ncondition = \"fixed\"\ndirections = {held:?}\n"
-        ),
+        Hold::Directions(held) => {
+            write!(text, "[boundaries.part_z0]\ncondition = \"fixed\"\ndirections = {held:?}\n")
+        }
         Hold::Nothing => Ok(()),
     }
     .unwrap();
@@ -115,7 +114,8 @@ fn bodies_held_in_any_way_have_the_modes_of_a_dense_decomposition() {
     let outcome = runner.run(&bodies(), |body| {
         let case = case_of(&body, "supported-body");
         let expected = dense(&matrices(&case).unwrap());
-        let found = modes_and_onsets(&case).map_err(|error| TestCaseError::fail(error.to_string()))?;
+        let found =
+            modes_and_onsets(&case).map_err(|error| TestCaseError::fail(error.to_string()))?;
         let modes = &found.points[0].modes;
         prop_assert!(modes.len() >= body.modes);
         // A few roundings of the stiffest wave, on either side.

@@ -45,7 +45,7 @@ impl Reader<'_, '_> {
                     }
                     let own = block.parameter("TYPE").unwrap_or("DISPLACEMENT").to_uppercase();
                     if own != "DISPLACEMENT" || block.has("SUBMODEL") || block.has("BASE MOTION") {
-                        self.leave_out(&format!("*BOUNDARY, TYPE={own}"), block.place, "");
+                        self.lose_part(&format!("*BOUNDARY, TYPE={own}"), block.place, "");
                         continue;
                     }
                     self.boundary(scope, block, &mut held)?;
@@ -125,7 +125,7 @@ impl Reader<'_, '_> {
                     if value != 0.0 && !block.has("FIXED") {
                         let reason =
                             "only displacements of zero are taken: these directions stay free";
-                        self.leave_out("*BOUNDARY with a displacement", place, reason);
+                        self.lose_part("*BOUNDARY with a displacement", place, reason);
                         continue;
                     }
                     [1, 2, 3].map(|axis| (first..=last).contains(&axis))
@@ -194,7 +194,7 @@ impl Reader<'_, '_> {
                 );
             } else if !is_whole && nodes.iter().any(|node| transformed.contains(node)) {
                 let reason = "its directions are those of *TRANSFORM: hold it in the case (condition = \"guide\" or \"fixed\")";
-                self.leave_out(&keyword, place, reason);
+                self.lose_part(&keyword, place, reason);
             } else {
                 let taken = &self.collection;
                 let is_other = |name: &str| taken.surfaces.contains_key(name);
@@ -230,7 +230,7 @@ impl Reader<'_, '_> {
                 && kind.strip_prefix('P').is_some_and(|n| n.parse::<usize>().is_ok());
             if !is_surface && !is_face {
                 let reason = "pressures on surfaces and faces are taken, other loads are not";
-                self.leave_out(&format!("*{keyword}, {kind}"), place, reason);
+                self.lose_part(&format!("*{keyword}, {kind}"), place, reason);
                 continue;
             }
             let value = entry.get(2).and_then(|value| real(value)).ok_or_else(|| {
@@ -345,7 +345,7 @@ impl Reader<'_, '_> {
             place: self.deck.name(place),
         };
         if !self.turn_regions(&is_inside, &turning) {
-            self.leave_out("*DLOAD, CENTRIF", place, "its elements are not those of whole regions");
+            self.lose_part("*DLOAD, CENTRIF", place, "its elements are not those of whole regions");
         }
         Ok(())
     }

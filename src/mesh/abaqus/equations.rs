@@ -59,7 +59,7 @@ impl Reader<'_, '_> {
             self.collection.equations.clear();
             let first = blocks.iter().find(|(_, b)| b.keyword == "EQUATION");
             let place = first.map_or_else(|| self.deck.end(), |(_, block)| block.place);
-            self.leave_out("*EQUATION", place, "plane bodies have no equations of nodes");
+            self.lose_part("*EQUATION", place, "plane bodies have no equations of nodes");
         }
         Ok(referred)
     }

@@ -52,7 +52,13 @@ impl Reader<'_, '_> {
             };
             for parameter in ["ADJUST", "TIED", "TRACKING", "EXTENSION ZONE", "CPSET"] {
                 if block.has(parameter) {
-                    self.leave_out(&format!("*CONTACT PAIR, {parameter}"), block.place, "");
+                    let keyword = format!("*CONTACT PAIR, {parameter}");
+                    match parameter {
+                        "TIED" => {
+                            self.lose_part(&keyword, block.place, "glue the surfaces by *TIE")
+                        }
+                        _ => self.leave_out(&keyword, block.place, ""),
+                    }
                 }
             }
             for (place, [surface, counter]) in self.pairs(scope, block)? {
@@ -107,7 +113,7 @@ impl Reader<'_, '_> {
                         return Err(self.unknown(place, "surface", missing));
                     }
                     let keyword = format!("*{} of {missing}", block.keyword);
-                    self.leave_out(&keyword, place, "that surface is not used");
+                    self.lose_part(&keyword, place, "that surface is not used");
                 }
             }
         }

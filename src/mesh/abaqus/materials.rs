@@ -61,6 +61,10 @@ impl Reader<'_, '_> {
                 },
             };
             // Without an orientation the axes are the global ones, which an instance does not turn.
+            if set.items.is_empty() && !self.skipped.is_empty() {
+                let keyword = format!("*SOLID SECTION of {name}");
+                self.lose_part(&keyword, block.place, "its elements are not read");
+            }
             if !set.items.is_empty() {
                 let material = self.taken(definition, &set.name, axes);
                 self.model.materials.push(material);

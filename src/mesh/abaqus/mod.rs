@@ -23,8 +23,10 @@ use super::deck::{Deck, Place};
 use super::gmsh::{GmshFile, MeshFileError};
 use super::model_data::ModelData;
 use block::{Block, blocks};
+use frictionsim_bounds::Budget;
 use scope::{Layout, Scope, layout};
 use std::collections::{BTreeMap, HashMap, HashSet};
+use std::hash::Hash;
 
 /// Blocks with the scopes that they belong to.
 type Placed<'b, 'a> = [(usize, &'b Block<'a>)];
@@ -33,13 +35,24 @@ type Placed<'b, 'a> = [(usize, &'b Block<'a>)];
 #[derive(Clone, Debug, Default)]
 struct Set<T> {
     name: String,
+    /// Each member once, in the order in which they come first.
     items: Vec<T>,
     is_internal: bool,
+    known: HashSet<T>,
+}
+
+impl<T: Copy + Eq + Hash> Set<T> {
+    /// Adds those that are not members yet.
+    fn add(&mut self, items: Vec<T>) {
+        let known = &mut self.known;
+        self.items.extend(items.into_iter().filter(|&item| known.insert(item)));
+    }
 }
 
 /// What is read so far. Names are keyed by scope and capitals.
 struct Reader<'d, 'a> {
     deck: &'d Deck<'a>,
+    budget: Budget,
     scopes: Vec<Scope>,
     collection: Collection,
     model: ModelData,
@@ -74,6 +87,18 @@ const KNOWN: [&str; 26] = [
     "DLOAD", "DSLOAD", "STEP", "END STEP", "MOTION", "INCLUDE", "EQUATION",
 ];
 
+/// Keywords that hold, load or join parts, and are not read.
+#[rustfmt::skip]
+const PARTS: [&str; 45] = [
+    "COUPLING", "KINEMATIC", "KINEMATIC COUPLING", "DISTRIBUTING", "DISTRIBUTING COUPLING", "MPC", "RIGID BODY", "FASTENER",
+    "SHELL TO SOLID COUPLING", "EMBEDDED ELEMENT", "PRE-TENSION SECTION", "CONNECTOR SECTION", "CONNECTOR LOAD",
+    "CONNECTOR MOTION", "CONTACT", "CONTACT INCLUSIONS", "CLEARANCE", "CONTACT INTERFERENCE", "CYCLIC SYMMETRY MODEL",
+    "SPRING", "DASHPOT", "MASS", "ROTARY INERTIA", "NONSTRUCTURAL MASS", "GAP", "JOINT",
+    "BEAM SECTION", "BEAM GENERAL SECTION", "FRAME SECTION", "SHELL SECTION", "SHELL GENERAL SECTION", "MEMBRANE SECTION",
+    "SURFACE SECTION", "COHESIVE SECTION", "GASKET SECTION", "SUBSTRUCTURE PROPERTY", "MATRIX INPUT", "MATRIX ASSEMBLE",
+    "USER ELEMENT", "UEL PROPERTY", "CLOAD", "FOUNDATION", "BASE MOTION", "REBAR", "REBAR LAYER",
+];
+
 /// Keywords of analyses, which the case describes.
 #[rustfmt::skip]
 const ANALYSES: [&str; 9] = [
@@ -93,11 +118,12 @@ const OUTPUTS: [&str; 14] = [
 /// [`MeshFileError::Syntax`] with the line.
 pub(super) fn read(bytes: &[u8]) -> Result<GmshFile, MeshFileError> {
     let text = String::from_utf8_lossy(bytes);
-    let deck = Deck::new(&text, "**");
+    let deck = Deck::new(&text, "**", false)?;
     let all = blocks(&deck)?;
     let Layout { scopes, blocks, unused_parts } = layout(&deck, &all)?;
     let mut reader = Reader {
         deck: &deck,
+        budget: deck.budget.clone(),
         scopes,
         collection: Collection::default(),
         model: ModelData::default(),
@@ -136,6 +162,12 @@ impl Reader<'_, '_> {
         self.model.leave_out(keyword, || deck.name(place), reason);
     }
 
+    /// Leaves out what would hold, load or join parts.
+    fn lose_part(&mut self, keyword: &str, place: Place, reason: &str) {
+        let deck = self.deck;
+        self.model.lose_part(keyword, || deck.name(place), reason);
+    }
+
     /// Refuses what would change the mesh, and lists the keywords that are not used.
     fn refuse_and_list(&mut self, blocks: &Placed<'_, '_>) -> Result<(), MeshFileError> {
         for (_, block) in blocks {
@@ -149,6 +181,17 @@ impl Reader<'_, '_> {
             if keyword == "INCLUDE" {
                 let message = "*INCLUDE needs INPUT= and a file beside this one".to_owned();
                 return Err(self.deck.error(block.place, message));
+            }
+            let expands = || blocks.iter().any(|(_, other)| other.keyword == "EXPANSION");
+            let is_part = match keyword {
+                // Temperatures load what expands.
+                "TEMPERATURE" => expands(),
+                "INITIAL CONDITIONS" => block.is("TYPE", "STRESS"),
+                _ => PARTS.contains(&keyword),
+            };
+            if is_part {
+                self.lose_part(&format!("*{keyword}"), block.place, "");
+                continue;
             }
             let reason = match keyword {
                 _ if KNOWN.contains(&keyword) => continue,

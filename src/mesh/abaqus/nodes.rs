@@ -272,7 +272,7 @@ impl Reader<'_, '_> {
             .node_sets
             .entry(key.clone())
             .or_insert_with(|| Set { name: self.scopes[key.0].full_name(name), ..Set::default() });
-        set.items.extend(items);
+        set.add(items);
         set.is_internal |= internal;
     }
 
@@ -288,7 +288,7 @@ impl Reader<'_, '_> {
             .element_sets
             .entry(key.clone())
             .or_insert_with(|| Set { name: self.scopes[key.0].full_name(name), ..Set::default() });
-        set.items.extend(items);
+        set.add(items);
         set.is_internal |= internal;
     }
 }

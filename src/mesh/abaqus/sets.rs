@@ -15,7 +15,12 @@ impl Reader<'_, '_> {
         let is_set = |block: &Block<'_>| matches!(block.keyword.as_str(), "NSET" | "ELSET");
         let sets = blocks.iter().filter(|(_, block)| is_set(block));
         let mut open: Vec<(usize, &Block<'_>)> = sets.map(|&(s, block)| (s, block)).collect();
+        let mut depth = 0;
         while !open.is_empty() {
+            depth += 1;
+            let place = open[0].1.place;
+            let deep = self.budget.descend(depth, "sets defined after those that list them");
+            deep.map_err(|refusal| self.deck.error(place, refusal.to_string()))?;
             let mut later = Vec::new();
             let mut missing = None;
             for &(scope, block) in &open {
@@ -38,6 +43,12 @@ impl Reader<'_, '_> {
         Ok(())
     }
 
+    /// Members of a set, listed twice or not, count against what may be read.
+    fn take_members(&mut self, place: Place, count: usize) -> Result<(), MeshFileError> {
+        let taken = self.budget.take_members(count);
+        taken.map_err(|refusal| self.deck.error(place, refusal.to_string()))
+    }
+
     fn node_set(&mut self, scope: usize, block: &Block<'_>) -> Result<Missing, MeshFileError> {
         let name = block.required(self.deck, "NSET")?;
         let inside = self.scope_of(scope, block)?;
@@ -54,7 +65,10 @@ impl Reader<'_, '_> {
         } else {
             for (place, field) in entries(block) {
                 match self.node_entry(inside, place, field)? {
-                    Some(found) => items.extend(found),
+                    Some(found) => {
+                        self.take_members(place, found.len())?;
+                        items.extend(found);
+                    }
                     None => return Ok(Some((place, field.to_owned()))),
                 }
             }
@@ -93,7 +107,10 @@ impl Reader<'_, '_> {
         } else {
             for (place, field) in entries(block) {
                 match self.element_entry(inside, place, field)? {
-                    Some(found) => items.extend(found),
+                    Some(found) => {
+                        self.take_members(place, found.len())?;
+                        items.extend(found);
+                    }
                     None => return Ok(Some((place, field.to_owned()))),
                 }
             }

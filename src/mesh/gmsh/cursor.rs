@@ -1,6 +1,7 @@
 //! Numbers of a mesh file, from text or from bytes.
 
 use super::MeshFileError;
+use frictionsim_bounds::{MESSAGE, shortened};
 
 /// A position in the bytes of a file, with what it takes to name it.
 pub(super) struct Cursor<'a> {
@@ -25,7 +26,7 @@ impl<'a> Cursor<'a> {
         } else {
             format!("line {}", self.line)
         };
-        MeshFileError::Syntax { place, message: message.into() }
+        MeshFileError::Syntax { place, message: shortened(&message.into(), MESSAGE) }
     }
 
     /// Bytes that are left.

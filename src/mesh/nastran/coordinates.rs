@@ -23,6 +23,9 @@ enum Definition {
     Nodes([usize; 3]),
 }
 
+/// A point in a system, and the place that gives it.
+type Given = (usize, [f64; 3], Place);
+
 /// A coordinate system in basic coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct System {
@@ -60,7 +63,7 @@ pub(super) struct Coordinates<'d, 'a> {
     deck: &'d Deck<'a>,
     definitions: BTreeMap<usize, (Kind, Definition, Place)>,
     /// System and coordinates of each node.
-    pub grids: BTreeMap<usize, (usize, [f64; 3], Place)>,
+    pub grids: BTreeMap<usize, Given>,
     known: BTreeMap<usize, System>,
 }
 
@@ -110,63 +113,72 @@ impl<'d, 'a> Coordinates<'d, 'a> {
         point: [f64; 3],
         place: Place,
     ) -> Result<[f64; 3], MeshFileError> {
-        self.point_within(system, point, place, &mut BTreeSet::new())
-    }
-
-    /// A system by its number.
-    pub fn system(&mut self, number: usize, place: Place) -> Result<System, MeshFileError> {
-        self.system_within(number, place, &mut BTreeSet::new())
-    }
-
-    fn point_within(
-        &mut self,
-        system: usize,
-        point: [f64; 3],
-        place: Place,
-        open: &mut BTreeSet<usize>,
-    ) -> Result<[f64; 3], MeshFileError> {
         match system {
             0 => Ok(point),
-            _ => Ok(self.system_within(system, place, open)?.place(point)),
+            _ => Ok(self.system(system, place)?.place(point)),
         }
     }
 
-    fn system_within(
-        &mut self,
+    /// A system by its number, after those that define it: a chain of them is as long as the file likes.
+    pub fn system(&mut self, number: usize, place: Place) -> Result<System, MeshFileError> {
+        let (mut open, mut is_open) = (vec![(number, place)], BTreeSet::from([number]));
+        while let Some(&(number, place)) = open.last() {
+            if !self.known.contains_key(&number) {
+                let (defined, points) = self.defining_points(number, place)?;
+                let missing =
+                    points.iter().find(|point| point.0 != 0 && !self.known.contains_key(&point.0));
+                if let Some(&(other, _, there)) = missing {
+                    if !is_open.insert(other) {
+                        let message = format!("coordinate system {other} is defined by itself");
+                        return Err(self.deck.error(defined, message));
+                    }
+                    open.push((other, there));
+                    continue;
+                }
+                let basic = points.map(|(system, own, _)| match self.known.get(&system) {
+                    Some(known) => known.place(own),
+                    None => own,
+                });
+                let system = self.placed(number, basic)?;
+                self.known.insert(number, system);
+            }
+            is_open.remove(&number);
+            open.pop();
+        }
+        Ok(self.known[&number])
+    }
+
+    /// The three points of a system, each with the system that it is given in and the place that gives it.
+    fn defining_points(
+        &self,
         number: usize,
         place: Place,
-        open: &mut BTreeSet<usize>,
-    ) -> Result<System, MeshFileError> {
-        if let Some(&known) = self.known.get(&number) {
-            return Ok(known);
-        }
-        let Some(&(kind, definition, defined)) = self.definitions.get(&number) else {
+    ) -> Result<(Place, [Given; 3]), MeshFileError> {
+        let Some(&(_, definition, defined)) = self.definitions.get(&number) else {
             let message = format!("no coordinate system has the number {number}");
             return Err(self.deck.error(place, message));
         };
-        if !open.insert(number) {
-            let message = format!("coordinate system {number} is defined by itself");
-            return Err(self.deck.error(defined, message));
-        }
-        let mut points = [[0.0; 3]; 3];
-        match definition {
-            Definition::Points(reference, given) => {
-                for (point, own) in points.iter_mut().zip(given) {
-                    *point = self.point_within(reference, own, defined, open)?;
-                }
-            }
+        let points = match definition {
+            Definition::Points(reference, given) => given.map(|own| (reference, own, defined)),
             Definition::Nodes(nodes) => {
+                let mut points = [(0, [0.0; 3], defined); 3];
                 for (point, node) in points.iter_mut().zip(nodes) {
-                    let Some(&(system, own, there)) = self.grids.get(&node) else {
+                    *point = *self.grids.get(&node).ok_or_else(|| {
                         let message = format!(
                             "coordinate system {number} names node {node}, which the file does not have"
                         );
-                        return Err(self.deck.error(defined, message));
-                    };
-                    *point = self.point_within(system, own, there, open)?;
+                        self.deck.error(defined, message)
+                    })?;
                 }
+                points
             }
-        }
+        };
+        Ok((defined, points))
+    }
+
+    /// The system of three points in basic coordinates.
+    fn placed(&self, number: usize, points: [[f64; 3]; 3]) -> Result<System, MeshFileError> {
+        let (kind, _, defined) = self.definitions[&number];
         let [origin, on_axis, in_plane] = points.map(Vector3::from);
         let third = (on_axis - origin).try_normalize(0.0);
         let second = third.and_then(|z| z.cross(&(in_plane - origin)).try_normalize(0.0));
@@ -174,9 +186,6 @@ impl<'d, 'a> Coordinates<'d, 'a> {
             let message = format!("the three points of coordinate system {number} lie on one line");
             return Err(self.deck.error(defined, message));
         };
-        open.remove(&number);
-        let system = System { kind, origin, axes: Matrix3::from_columns(&[y.cross(&z), y, z]) };
-        self.known.insert(number, system);
-        Ok(system)
+        Ok(System { kind, origin, axes: Matrix3::from_columns(&[y.cross(&z), y, z]) })
     }
 }

@@ -103,14 +103,14 @@ impl Reader<'_, '_> {
                 corners.push(self.node(node, &format!("{} {label}", card.name), card.place)?);
             }
             corners.sort_unstable();
-            let reason = match faces.get(&corners) {
+            match faces.get(&corners) {
                 Some(face) => {
                     skins.entry(property).or_default().push(face.clone());
-                    "read as a surface of the solids, without stiffness and mass"
+                    let reason = "read as a surface of the solids, without stiffness and mass";
+                    self.leave_out(&card.name, card.place, reason);
                 }
-                None => "shells are not used",
-            };
-            self.leave_out(&card.name, card.place, reason);
+                None => self.lose_part(&card.name, card.place, "shells are not used"),
+            }
         }
         for (property, faces) in skins {
             let named = self.control.property_names.get(&property).cloned();

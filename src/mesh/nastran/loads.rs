@@ -62,7 +62,7 @@ impl Reader<'_, '_> {
             for first in [1, 4].into_iter().filter(|&first| !card.field(first).is_empty()) {
                 if card.real(self.deck, first + 2)? != 0.0 {
                     let reason = "only displacements of zero are taken: these directions stay free";
-                    self.leave_out("SPC with a displacement", card.place, reason);
+                    self.lose_part("SPC with a displacement", card.place, reason);
                     continue;
                 }
                 let node = card.number(self.deck, first)?;
@@ -113,7 +113,7 @@ impl Reader<'_, '_> {
         for ((set, directions), (nodes, place)) in held {
             let nodes: Vec<u32> = nodes.into_iter().filter(|node| used.contains(node)).collect();
             let name = format!("SPC_{set}_{directions}");
-            let keyword = format!("SPC1/SPC of set {set}, directions {directions}");
+            let keyword = format!("SPC of set {set}, directions {directions}");
             let reason = if directions.is_empty() {
                 "rotations of nodes have no meaning in solid elements"
             } else if nodes.is_empty() {
@@ -133,8 +133,13 @@ impl Reader<'_, '_> {
                 });
                 ""
             };
-            if !reason.is_empty() {
-                self.leave_out(&keyword, place, reason);
+            // A set that no subcase names holds nothing.
+            let is_meant = active.is_none_or(|active| active.contains(&set));
+            let is_held = is_meant && !directions.is_empty() && !nodes.is_empty();
+            match reason {
+                "" => {}
+                _ if is_held => self.lose_part(&keyword, place, reason),
+                _ => self.leave_out(&keyword, place, reason),
             }
             if !nodes.is_empty() {
                 self.collection.node_sets.insert(name, nodes);
@@ -157,7 +162,7 @@ impl Reader<'_, '_> {
             }
             if !is_plain {
                 let reason = "only one pressure for a face, along its normal, is taken";
-                self.leave_out("PLOAD4 of another kind", card.place, reason);
+                self.lose_part("PLOAD4 of another kind", card.place, reason);
                 continue;
             }
             let face = self.loaded_face(card, element)?;
@@ -189,7 +194,10 @@ impl Reader<'_, '_> {
                     _ => {
                         let keyword = format!("PLOAD4 of set {set}");
                         let reason = "the subcases do not say that this set acts, and no other";
-                        self.leave_out(&keyword, place, reason);
+                        match active {
+                            None => self.lose_part(&keyword, place, reason),
+                            Some(_) => self.leave_out(&keyword, place, reason),
+                        }
                     }
                 }
             }

@@ -28,6 +28,14 @@ const KNOWN: [&str; 26] = [
     "SPC", "SPC1", "SPCADD", "PLOAD4", "LOAD", "BSURFS", "INCLUDE",
 ];
 
+/// Beginnings of cards that hold, load or join parts, and are not read.
+#[rustfmt::skip]
+const PARTS: [&str; 40] = [
+    "RBE1", "RBE2", "RBE3", "RBAR", "RROD", "RSPLINE", "RTRPLT", "RJOINT", "RSSCON", "MPC", "CONM", "CMASS", "CELAS", "CDAMP",
+    "CBUSH", "CFAST", "CWELD", "CSEAM", "CGAP", "CVISC", "CROD", "CONROD", "CTUBE", "CBAR", "CBEAM", "CBEND", "CSHEAR",
+    "BCONP", "BCTSET", "BCTABLE", "BGSET", "BOLT", "FORCE", "MOMENT", "PLOAD", "GRAV", "RFORCE", "ACCEL", "SPCD", "DMIG",
+];
+
 /// What is read so far.
 struct Reader<'d, 'a> {
     deck: &'d Deck<'a>,
@@ -48,7 +56,7 @@ struct Reader<'d, 'a> {
 /// [`MeshFileError::Syntax`] with the line.
 pub(super) fn read(bytes: &[u8]) -> Result<GmshFile, MeshFileError> {
     let text = String::from_utf8_lossy(bytes);
-    let deck = Deck::new(&text, "$");
+    let deck = Deck::new(&text, "$", false)?;
     let (cards, control) = cards(&deck)?;
     let mut reader = Reader {
         deck: &deck,
@@ -99,11 +107,22 @@ impl<'d, 'a> Reader<'d, 'a> {
         self.model.leave_out(keyword, || deck.name(place), reason);
     }
 
+    /// Leaves out what would hold, load or join parts.
+    fn lose_part(&mut self, keyword: &str, place: Place, reason: &str) {
+        let deck = self.deck;
+        self.model.lose_part(keyword, || deck.name(place), reason);
+    }
+
     fn list_unknown(&mut self) {
         for card in self.cards {
+            if KNOWN.contains(&card.name.as_str()) {
+                continue;
+            }
             if card.name == "PARAM" || card.name.starts_with("EIG") {
                 self.leave_out(&card.name, card.place, "the case says what is computed");
-            } else if !KNOWN.contains(&card.name.as_str()) {
+            } else if PARTS.iter().any(|part| card.name.starts_with(part)) {
+                self.lose_part(&card.name, card.place, "");
+            } else {
                 self.leave_out(&card.name, card.place, "");
             }
         }
@@ -147,9 +166,9 @@ impl<'d, 'a> Reader<'d, 'a> {
             if is_turned {
                 self.turned.insert(node);
             }
-            if held.is_some() {
+            if held.is_some_and(|axes| axes.to_string().contains(['1', '2', '3'])) {
                 let reason = "permanent constraints of nodes are not taken: hold them by SPC1 or in the case";
-                self.leave_out("GRID with PS", place, reason);
+                self.lose_part("GRID with PS", place, reason);
             }
         }
         Ok(())

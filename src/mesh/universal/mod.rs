@@ -17,6 +17,12 @@ use std::collections::{BTreeSet, HashMap};
 /// Datasets of groups, by the entities that one line lists.
 const GROUPS: [usize; 9] = [2417, 2429, 2430, 2432, 2435, 2452, 2467, 2477, 752];
 
+/// Datasets of constraints and loads, which are not read.
+const PARTS: [&str; 6] = ["754", "755", "757", "782", "790", "791"];
+
+/// Elements that join nodes: rigid ones, springs, dampers, gaps and masses.
+const JOINTS: std::ops::Range<usize> = 121..200;
+
 /// Types of entities in groups.
 const NODE: usize = 7;
 const ELEMENT: usize = 8;
@@ -55,7 +61,7 @@ struct Group {
 /// [`MeshFileError::Syntax`] with the line.
 pub(super) fn read(bytes: &[u8]) -> Result<GmshFile, MeshFileError> {
     let text = String::from_utf8_lossy(bytes);
-    let deck = Deck::new(&text, "\0");
+    let deck = Deck::new(&text, "\0", true)?;
     let mut reader = Reader {
         deck: &deck,
         at: 0,
@@ -142,7 +148,11 @@ impl<'a> Reader<'_, 'a> {
                 _ => {
                     let deck = self.deck;
                     let shown: String = number.chars().take(20).collect();
-                    self.model.leave_out(&format!("dataset {shown}"), || deck.name(place), "");
+                    let keyword = format!("dataset {shown}");
+                    match PARTS.contains(&number) {
+                        true => self.model.lose_part(&keyword, || deck.name(place), ""),
+                        false => self.model.leave_out(&keyword, || deck.name(place), ""),
+                    }
                     while self.inner()?.is_some() {}
                 }
             }
@@ -282,7 +292,7 @@ impl<'a> Reader<'_, 'a> {
                 all.sort_unstable();
                 Entity::Skin(all)
             }
-            None if (101..200).contains(&descriptor) => {
+            None if (101..121).contains(&descriptor) => {
                 let message = format!(
                     "element {label} is of kind {descriptor}, which is not supported: tetrahedra, bricks and wedges are"
                 );
@@ -291,7 +301,11 @@ impl<'a> Reader<'_, 'a> {
             None => {
                 let deck = self.deck;
                 let keyword = format!("elements of kind {descriptor}");
-                self.model.leave_out(&keyword, || deck.name(place), "no solid or plane elements");
+                let reason = "no solid or plane elements";
+                match JOINTS.contains(&descriptor) {
+                    true => self.model.lose_part(&keyword, || deck.name(place), reason),
+                    false => self.model.leave_out(&keyword, || deck.name(place), reason),
+                }
                 Entity::Skin(Vec::new())
             }
         };

@@ -3,6 +3,7 @@
 use crate::cea::{SweepProgress, SweepWatch};
 use crate::results::OutputFolder;
 use crate::results::store::framed;
+use frictionsim_bounds::{RESULT, read_file};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::fs;
@@ -75,7 +76,7 @@ impl SweepWatch for KeptSteps<'_> {
     }
 
     fn recall(&self, name: &str) -> Option<Vec<Vec<f64>>> {
-        let bytes = fs::read(self.folder.path().join(Self::path(name))).ok()?;
+        let bytes = read_file(&self.folder.path().join(Self::path(name)), RESULT).ok()?;
         // A step that is damaged is taken again.
         let payload = framed::read(&bytes, MAGIC, VERSION).ok()?;
         let step: Step = postcard::from_bytes(payload).ok()?;

@@ -6,6 +6,7 @@ use super::manifest::Manifest;
 use super::reopening::{Contents, JOURNAL, MANIFEST, read_contents, read_manifest};
 use super::whole_file::{is_temporary, write_whole};
 use crate::results::drawing::{FIGURES, REPORT};
+use frictionsim_bounds::{RESULT, read_file, read_text};
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Write};
@@ -83,13 +84,13 @@ impl OutputFolder {
             if !is_sealed {
                 // Folders of versions without checksums get them now.
                 for (name, checksum) in &mut earlier {
-                    let bytes = fs::read(path.join(name));
+                    let bytes = read_file(&path.join(name), RESULT);
                     *checksum = bytes.ok().map(|bytes| crc32fast::hash(&bytes));
                 }
             }
         }
         // What a killed run left is known from its journal.
-        let unfinished = fs::read_to_string(&journal_path).unwrap_or_default();
+        let unfinished = read_text(&journal_path, RESULT).unwrap_or_default();
         earlier.extend(unfinished.lines().map(|name| (name.to_owned(), None)));
         let journal = OpenOptions::new()
             .create(true)
@@ -250,7 +251,7 @@ impl OutputFolder {
         let mut replaced = replaced.unwrap_or_default();
         // What a killed run left there is known from its journal.
         let journal_path = destination.join(JOURNAL);
-        let unfinished = fs::read_to_string(&journal_path).unwrap_or_default();
+        let unfinished = read_text(&journal_path, RESULT).unwrap_or_default();
         replaced.extend(unfinished.lines().map(|name| (name.to_owned(), None)));
         // A process that is killed from here on leaves a run of this case that has not ended.
         let names: String = written.keys().map(|name| format!("{name}\n")).collect();
@@ -364,7 +365,7 @@ fn remove_temporaries(path: &Path) {
 /// Whether a folder holds nobody's results: those of a run that ended before its first file.
 fn is_void(path: &Path, contents: &Contents) -> bool {
     let is_there = |name: &str| is_inside(name) && path.join(name).exists();
-    let unfinished = fs::read_to_string(path.join(JOURNAL)).unwrap_or_default();
+    let unfinished = read_text(&path.join(JOURNAL), RESULT).unwrap_or_default();
     let mut names = contents.files.iter().map(String::as_str);
     !names.any(is_there) && !unfinished.lines().any(is_there)
 }

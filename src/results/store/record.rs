@@ -3,9 +3,9 @@
 use super::error::FolderError;
 use super::folder::OutputFolder;
 use super::framed::{self, Defect};
+use frictionsim_bounds::{RESULT, read_file};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use std::fs;
 use std::io;
 use std::path::Path;
 
@@ -58,7 +58,7 @@ pub fn refuse_misfit(folder: &Path, fits: bool) -> Result<(), FolderError> {
 pub fn read_record<T: Record>(folder: &Path) -> Result<T, FolderError> {
     let path = folder.join(RECORD);
     let unusable = |reason: String| FolderError::NotResults { path: folder.to_owned(), reason };
-    let bytes = match fs::read(&path) {
+    let bytes = match read_file(&path, RESULT) {
         Ok(bytes) => bytes,
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
             return Err(unusable(format!("it has no {RECORD}: run it again")));

@@ -3,10 +3,10 @@
 use super::error::FolderError;
 use super::framed::{Defect, Sealed, read_sealed};
 use super::manifest::Manifest;
+use frictionsim_bounds::{RESULT, read_file, read_text};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
 use std::io;
 use std::path::Path;
 
@@ -72,7 +72,7 @@ impl Contents {
 /// The contents of a folder: `None` if it has no manifest, or none that is whole.
 pub(crate) fn read_contents(path: &Path) -> Result<Option<Contents>, FolderError> {
     let path = path.join(MANIFEST);
-    match fs::read(&path) {
+    match read_file(&path, RESULT) {
         Ok(bytes) => Ok(contents_of(&bytes).ok()),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(FolderError::io("read", &path, error)),
@@ -120,7 +120,7 @@ pub fn read_manifest(path: &Path) -> Result<Manifest, FolderError> {
 
 fn whole_contents(path: &Path) -> Result<Contents, FolderError> {
     let file = path.join(MANIFEST);
-    let bytes = match fs::read(&file) {
+    let bytes = match read_file(&file, RESULT) {
         Ok(bytes) => bytes,
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
             return Err(lacks(path, format!("it has no {MANIFEST}")));
@@ -144,12 +144,12 @@ pub(crate) fn read_own(path: &Path, name: &str) -> Result<Vec<u8>, FolderError> 
     let contents = whole_contents(path)?;
     let did_not_end = || lacks(path, format!("it has no {name}: the run did not end"));
     // A run that was killed may have replaced the file already.
-    let journal = fs::read_to_string(path.join(JOURNAL)).unwrap_or_default();
+    let journal = read_text(&path.join(JOURNAL), RESULT).unwrap_or_default();
     if contents.is_sealed && journal.lines().any(|written| written == name) {
         return Err(did_not_end());
     }
     let file = path.join(name);
-    let bytes = match fs::read(&file) {
+    let bytes = match read_file(&file, RESULT) {
         Ok(bytes) => bytes,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Err(did_not_end()),
         Err(error) => return Err(FolderError::io("read", &file, error)),

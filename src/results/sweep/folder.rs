@@ -9,6 +9,7 @@ use super::super::reopening::{Contents, MANIFEST, own_value, read_contents};
 use super::super::whole_file::{is_temporary, write_whole};
 use super::company::{Company, open_lock, share};
 use super::{PointClock, PointRecord};
+use frictionsim_bounds::{RESULT, read_file};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs::{self, File, TryLockError};
@@ -205,7 +206,7 @@ impl SweepFolder {
     /// Those of the file system.
     pub fn read(&self, point: usize) -> Result<Found, FolderError> {
         let path = self.point_path(point);
-        let bytes = match fs::read(&path) {
+        let bytes = match read_file(&path, RESULT) {
             Ok(bytes) => bytes,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Found::Nothing),
             Err(error) => return Err(FolderError::io("read", &path, error)),
@@ -224,7 +225,7 @@ impl SweepFolder {
 
     /// What the clock said of a finished point; nothing where its file is missing or damaged, which no result depends on.
     pub fn read_clock(&self, point: usize) -> PointClock {
-        let bytes = fs::read(self.path.join(clock_name(point))).unwrap_or_default();
+        let bytes = read_file(&self.path.join(clock_name(point)), RESULT).unwrap_or_default();
         let value = own_value(&bytes, false).ok();
         let clock = value.and_then(|value| serde_json::from_value(value).ok());
         clock.unwrap_or_default()

@@ -3,8 +3,8 @@
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::framed::{self, Defect};
 use crate::transient::{Recorder, TransientState};
+use frictionsim_bounds::{RESULT, read_file};
 use serde::{Deserialize, Serialize};
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -125,7 +125,7 @@ pub fn read_checkpoint(
     simd: &str,
 ) -> Result<Checkpoint, CheckpointError> {
     let path = folder.join(CHECKPOINT);
-    let bytes = match fs::read(&path) {
+    let bytes = match read_file(&path, RESULT) {
         Ok(bytes) => bytes,
         Err(source) if source.kind() == io::ErrorKind::NotFound => {
             return Err(CheckpointError::Missing { path });

@@ -7,6 +7,7 @@ use super::field::{Value, parse};
 use super::separator::{Separator, character, fields};
 use super::text::{comment, decode, first_of, lines, shortened};
 use faer::c64;
+use frictionsim_bounds::{LARGEST_COORDINATE, LARGEST_DISPLACEMENT};
 use std::collections::BTreeMap;
 
 /// A measured shape.
@@ -175,7 +176,7 @@ impl Row<'_> {
         if value.re.is_nan() {
             return Ok(None);
         }
-        match value.norm() < 1e100 {
+        match value.norm() < LARGEST_DISPLACEMENT {
             true => Ok(Some(value)),
             false => refuse(ReadProblem::NotFinite { field, name }),
         }
@@ -268,8 +269,8 @@ fn nodes_of<'r>(
             return Err(short);
         }
         let place = [last[from], last[from + 1], last[from + 2]];
-        if place.iter().any(|x| !x.is_finite()) {
-            return Err((k * lines, "a coordinate is not finite"));
+        if place.iter().any(|x| !(x.abs() <= LARGEST_COORDINATE)) {
+            return Err((k * lines, "a coordinate is not finite, or beyond 1e12"));
         }
         nodes.insert(*label as u64, place);
     }
@@ -319,6 +320,9 @@ fn shape_of<'r>(body: &[&str]) -> Result<Shape, (usize, &'r str)> {
             let more = numbers(line);
             if more.is_empty() {
                 return Err((at, "numbers are expected"));
+            }
+            if more.iter().any(|value| !(value.abs() < LARGEST_DISPLACEMENT)) {
+                return Err((at, "a displacement is not finite, or beyond 1e100"));
             }
             own.extend(more);
             at += 1;
