@@ -6,6 +6,8 @@ mod bricks;
 mod coarse_disc;
 #[path = "../common/disc.rs"]
 mod disc;
+#[path = "../common/long.rs"]
+mod long;
 #[path = "../common/msh.rs"]
 mod msh;
 #[path = "../common/table_1.rs"]

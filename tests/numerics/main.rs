@@ -6,6 +6,8 @@ mod block;
 mod bricks;
 #[path = "../common/disc.rs"]
 mod disc;
+#[path = "../common/long.rs"]
+mod long;
 #[path = "../common/msh.rs"]
 mod msh;
 #[path = "../common/table_1.rs"]
