@@ -388,7 +388,7 @@ pub(in crate::study) fn rates_of_waves(
         let tangent = tangent.map_err(|error| error.to_string())?;
         let tangent = tangent.ok_or_else(|| "the body loses its symmetry with it".to_owned())?;
         if tangent.pressed() != pressed {
-            return Err(format!("contact rings open or close near it"));
+            return Err("contact rings open or close near it".to_owned());
         }
         let friction_shift = moved.contact.sliding.friction_coefficient - friction;
         Ok(Beside { weight: 0.0, tangent, friction_shift })
