@@ -6,7 +6,7 @@ use frictionsim::linalg::c64;
 use frictionsim::prestress::WaveTangent;
 
 /// Step of a parameter relative to its value.
-pub const STEP: f64 = 1e-4;
+pub const STEP: f64 = 1e-3;
 
 /// The eigenpairs of the branches that oscillate at a friction coefficient.
 pub fn pairs(tangent: &WaveTangent, branches: &[ModeBranch], friction: f64) -> Vec<WavePair> {
@@ -17,9 +17,10 @@ pub fn pairs(tangent: &WaveTangent, branches: &[ModeBranch], friction: f64) -> V
 
 /// Their derivatives by a parameter, of which `at` has the model where it is so much more.
 pub fn rates(pairs: &[WavePair], step: f64, at: &dyn Fn(f64) -> WaveTangent) -> Vec<c64> {
-    let sides = [1.0, -1.0].map(|sign| Beside {
-        weight: sign * 0.5 / step,
-        tangent: at(sign * step),
+    let weights = [(1.0, 8.0), (-1.0, -8.0), (2.0, -1.0), (-2.0, 1.0)];
+    let sides = weights.map(|(steps, weight)| Beside {
+        weight: weight / (12.0 * step),
+        tangent: at(steps * step),
         friction_shift: 0.0,
     });
     wave_responses(&pairs.iter().collect::<Vec<_>>(), &sides).unwrap()
