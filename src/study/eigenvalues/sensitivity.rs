@@ -395,7 +395,7 @@ pub(in crate::study) fn rates_of_waves(
     };
     // Richardson's extrapolation: what is left is of fourth order, so that the step may stay far above round-off.
     let step = WIDER * step;
-    let [near, far] = [quotient(step, &beside)?, quotient(2.0 * step, &beside)?];
+    let [near, far] = [quotient(step, beside)?, quotient(2.0 * step, beside)?];
     let [near, far] = [(near, 4.0 / 3.0), (far, -1.0 / 3.0)].map(|(terms, share)| {
         terms.into_iter().map(move |(weight, own)| Beside { weight: share * weight, ..own })
     });
