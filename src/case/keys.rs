@@ -31,16 +31,7 @@ const fn key(
     example: &'static str,
     meaning: &'static str,
 ) -> CaseKey {
-    CaseKey {
-        name,
-        kind,
-        unit,
-        default,
-        example,
-        meaning,
-        of_waves: "",
-        since: "0.1",
-    }
+    CaseKey { name, kind, unit, default, example, meaning, of_waves: "", since: "0.1" }
 }
 
 impl CaseKey {

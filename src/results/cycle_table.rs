@@ -91,7 +91,10 @@ pub fn branch_sentence(cycle: &Value) -> Option<String> {
     };
     let [low, high] = [0, 1].map(|i| branch["range"][i].as_f64());
     let Some((low, high)) = low.zip(high) else {
-        return Some(format!("{name}: no cycle at the values of {key} that were asked for ({})", ends[1]));
+        return Some(format!(
+            "{name}: no cycle at the values of {key} that were asked for ({})",
+            ends[1]
+        ));
     };
     let values = |list: &str| -> Vec<String> {
         let of = |entry: &Value| match entry.as_f64() {

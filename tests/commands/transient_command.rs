@@ -10,8 +10,7 @@ use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
-const BRICK: Block =
-    Block { name: "brick", origin: [0.0; 3], size: [0.01; 3], counts: [2, 1, 1] };
+const BRICK: Block = Block { name: "brick", origin: [0.0; 3], size: [0.01; 3], counts: [2, 1, 1] };
 
 fn case(name: &str) -> String {
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");

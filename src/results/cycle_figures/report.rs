@@ -40,8 +40,9 @@ fn html_report(summary: &Value, manifest: &Manifest) -> Report {
     paragraphs.extend(extent.note().map(|note| format!("{note}.")));
     let pairs = entries(summary, "two_waves");
     let together = (!pairs.is_empty()).then(|| two_wave_table(pairs));
-    let figures = ReportSection::new("Limit cycles")
-        .with_tables(std::iter::once(cycle_table(cycles, extent, &COLUMNS, &absence)).chain(together));
+    let figures = ReportSection::new("Limit cycles").with_tables(
+        std::iter::once(cycle_table(cycles, extent, &COLUMNS, &absence)).chain(together),
+    );
     let rows = cycles.iter().flat_map(|cycle| results(cycle, extent));
     let rows = rows.collect();
     let mut sections = vec![ReportSection::results(paragraphs, rows), figures];

@@ -213,12 +213,16 @@ const fn parameter(
 const PARAMETERS: [Parameter; 17] = [
     parameter("friction_coefficient", |_| f64::NAN, |s| Some(s.friction)),
     parameter("normal_stiffness", normal_stiffness, |s| s.normal_stiffness),
-    parameter("mass_coefficient", |c| c.damping.rayleigh.mass_coefficient, |s| {
-        Some(s.mass_coefficient)
-    }),
-    parameter("stiffness_coefficient", |c| c.damping.rayleigh.stiffness_coefficient, |s| {
-        Some(s.stiffness_coefficient)
-    }),
+    parameter(
+        "mass_coefficient",
+        |c| c.damping.rayleigh.mass_coefficient,
+        |s| Some(s.mass_coefficient),
+    ),
+    parameter(
+        "stiffness_coefficient",
+        |c| c.damping.rayleigh.stiffness_coefficient,
+        |s| Some(s.stiffness_coefficient),
+    ),
     parameter("young_modulus", |c| c.material.young_modulus, |s| s.young_modulus),
     parameter("poisson_ratio", |c| c.material.poisson_ratio, |s| s.poisson_ratio),
     parameter("density", |c| c.material.density, |s| Some(s.density)),
@@ -236,9 +240,11 @@ const PARAMETERS: [Parameter; 17] = [
     parameter("shaft_poisson_ratio", |c| shaft(c).elastic.poisson_ratio, |s| s.shaft[1]),
     parameter("shaft_density", |c| shaft(c).elastic.density, |s| s.shaft[2]),
     parameter("shaft_mass_coefficient", |c| shaft_damping(c).mass_coefficient, |s| s.shaft[3]),
-    parameter("shaft_stiffness_coefficient", |c| shaft_damping(c).stiffness_coefficient, |s| {
-        s.shaft[4]
-    }),
+    parameter(
+        "shaft_stiffness_coefficient",
+        |c| shaft_damping(c).stiffness_coefficient,
+        |s| s.shaft[4],
+    ),
     parameter("cubic_stiffness", |c| of_law(c)[0], |s| s.normal_law[0]),
     parameter("reference_pressure", |c| of_law(c)[1], |s| s.normal_law[1]),
     parameter("height", |c| of_law(c)[2], |s| s.normal_law[2]),
