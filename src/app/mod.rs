@@ -44,7 +44,7 @@ pub use session::Session;
 
 use profile::Profile;
 
-use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::{Arg, ArgAction, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::ffi::OsString;
 use std::process::ExitCode;
 
@@ -148,6 +148,7 @@ pub fn command_line() -> clap::Command {
     let names = command.get_subcommands().map(|sub| sub.get_name().to_owned());
     for name in names.collect::<Vec<String>>() {
         command = command.mut_subcommand(&name, |sub| {
+            let sub = with_common_options(sub);
             let positional = sub.get_positionals().next();
             let input = positional.and_then(|arg| arg.get_value_names()?.first().cloned());
             let has_folder = sub.get_arguments().any(|arg| arg.get_id() == "dry_run");
@@ -161,6 +162,30 @@ pub fn command_line() -> clap::Command {
         });
     }
     command
+}
+
+/// A command with the options that every command takes: one that has no use for an option takes it all the same.
+fn with_common_options(command: clap::Command) -> clap::Command {
+    let count = |name: &'static str, short: char| {
+        Arg::new(name).long(name).short(short).action(ArgAction::Count)
+    };
+    let common = [
+        Arg::new("threads")
+            .long("threads")
+            .value_name("N")
+            .value_parser(clap::value_parser!(u16).range(1..))
+            .help("Worker threads [default: all cores]"),
+        Arg::new("simd")
+            .long("simd")
+            .value_name("LEVEL")
+            .value_parser(clap::builder::EnumValueParser::<SimdChoice>::new())
+            .help("SIMD level of the kernels"),
+        count("quiet", 'q').help("No progress bar and no information messages"),
+        count("verbose", 'v').conflicts_with("quiet").help("Full tables and progress messages"),
+    ];
+    let is_missing = |arg: &Arg| command.get_arguments().all(|own| own.get_id() != arg.get_id());
+    let missing: Vec<Arg> = common.into_iter().filter(is_missing).collect();
+    command.args(missing.into_iter().map(|arg| arg.hide_short_help(true)))
 }
 
 /// Moves options that stand before the subcommand behind it, where they are declared.
@@ -212,7 +237,14 @@ pub fn run_arguments(given: Vec<OsString>) -> u8 {
     let command = command_line();
     let given = options_behind_subcommand(&command, given);
     let matches = command.clone().try_get_matches_from(given);
-    let parsed = matches.and_then(|found| CommandLine::from_arg_matches(&found));
+    let parsed = matches.and_then(|found| {
+        let of_command = found.subcommand().map(|(_, own)| own);
+        let threads = of_command.and_then(|own| own.try_get_one::<u16>("threads").ok().flatten());
+        if threads.is_some() {
+            session::start_threads(threads.copied());
+        }
+        CommandLine::from_arg_matches(&found)
+    });
     let parsed = match parsed {
         Ok(parsed) => parsed,
         Err(error) => return terminal::report_usage(&error),
@@ -258,6 +290,19 @@ mod tests {
             ("f cea -q", "f cea -q"),
         ] {
             assert_eq!(moved(given), behind);
+        }
+    }
+
+    #[test]
+    fn every_command_takes_the_options_of_all() {
+        for command in command_line().get_subcommands() {
+            for option in ["threads", "simd", "quiet", "verbose"] {
+                let mut arguments = command.get_arguments();
+                assert!(
+                    arguments.any(|own| own.get_long() == Some(option)),
+                    "{command} --{option}"
+                );
+            }
         }
     }
 }

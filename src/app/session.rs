@@ -41,8 +41,9 @@ impl Session {
         if options.changes.deny_warnings {
             case.deny_warnings(&ignored)?;
         }
+        // `check` and `mesh` say what an input file has given.
         for note in &case.taken.notes {
-            tracing::info!("{note}");
+            tracing::debug!("{note}");
         }
         for warning in case.warnings.iter().chain(&ignored) {
             tracing::warn!("{warning}");

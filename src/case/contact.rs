@@ -79,12 +79,12 @@ pub(super) fn contact(
     }
     let interference = section.number("interference");
     // A pressure on a face may press a three-dimensional body; on a plane annulus it is an error of its own.
-    if is_annulus && !is_solid && interference == 0.0 && !is_pressed {
+    if !is_solid && interference == 0.0 && !is_pressed {
         section.reject(
             "interference",
             "contact.interference = 0.0 must be positive and finite",
             "must be positive and finite",
-            "without it nothing presses the disc",
+            "without it nothing presses the body",
         );
     }
     let rotation_speed = match place.plane_speed {

@@ -27,6 +27,10 @@ const SMALLEST_JACOBIAN: f64 = 0.1;
 const LARGEST_POISSON_RATIO: f64 = 0.49;
 /// Share of the speed of bar waves beyond which a seeded velocity is no small strain.
 const LARGEST_SEED: f64 = 0.01;
+/// Times the modulus over the radius below which a contact stiffness is as good as none.
+const SMALLEST_STIFFNESS_RATIO: f64 = 1e-5;
+/// Sliding speed of dry contacts, m/s: that of brakes of racing cars and trains lies below.
+const LARGEST_SPEED: f64 = 200.0;
 /// Times the modulus over the radius beyond which a contact stiffness drowns the body in round-off.
 const LARGEST_STIFFNESS_RATIO: f64 = 1e8;
 
@@ -37,11 +41,14 @@ pub(super) fn implausible(case: &Case) -> Vec<Diagnostic> {
         unmerged_nodes(case),
         element_shape(case),
         wave_speed(case),
+        density(case),
+        speed(case),
         seeds(case),
         poisson_ratio(case),
         friction(case),
         interference(case),
         contact_stiffness(case),
+        soft_contact(case),
         unresolved_springs(case),
         steep_friction(case),
         overdamping(case),
@@ -197,6 +204,42 @@ fn wave_speed(case: &Case) -> Option<Diagnostic> {
         if key == "material.density" { "kg/m3?" } else { "pascals?" },
         "a case is in SI: Pa, not MPa or GPa; kg/m3, not g/cm3 or t/mm3",
     ))
+}
+
+/// A density that no solid has, where the speed of waves does not give it away.
+fn density(case: &Case) -> Option<Diagnostic> {
+    let parameters = case.model_numbers();
+    let densities = parameters.into_iter().filter(|(key, _)| key.ends_with(".density"));
+    let (key, value) = densities.into_iter().find(|(_, value)| !DENSITIES.contains(value))?;
+    let is_said = wave_speed(case).is_some() && key == "material.density";
+    (!is_said).then(|| {
+        let [least, most] = [DENSITIES.start(), DENSITIES.end()];
+        let message = format!("{key} = {value:?} kg/m3 is outside {least} to {most} kg/m3");
+        warning(case, &key, message, "kg/m3?", "a case is in SI: kg/m3, not g/cm3 or t/mm3")
+    })
+}
+
+/// A sliding speed that no dry contact has.
+fn speed(case: &Case) -> Option<Diagnostic> {
+    let own = case.contact.sliding.rotation_speed.abs();
+    let radius = match (case.body.slides_straight(), case.body.grid()) {
+        (true, _) => 1.0,
+        (false, Some(grid)) => grid.inner_radius,
+        (false, None) => case.body.size(),
+    };
+    let speed = own * radius;
+    (speed > LARGEST_SPEED).then(|| {
+        let key = case.speed_key();
+        let message =
+            format!("{key}: the contact slides at {speed:.4} m/s, faster than {LARGEST_SPEED} m/s");
+        warning(
+            case,
+            key,
+            message,
+            "metres per second?",
+            "speeds are in m/s, rotation speeds in 1/min",
+        )
+    })
 }
 
 fn poisson_ratio(case: &Case) -> Option<Diagnostic> {
@@ -355,6 +398,23 @@ fn contact_stiffness(case: &Case) -> Option<Diagnostic> {
             "nearly rigid",
             "use \"rigid\", which is exact",
         )
+    })
+}
+
+/// Springs so soft that the contact hardly holds the body.
+fn soft_contact(case: &Case) -> Option<Diagnostic> {
+    let stiffness = case.contact.stiffness.normal_stiffness?;
+    let scale = case.material.young_modulus / case.body.contact_length();
+    let is_soft =
+        stiffness < SMALLEST_STIFFNESS_RATIO * scale && case.contact.stiffness.law.is_none();
+    is_soft.then(|| {
+        let name = case.contact.stiffness_name();
+        let message = format!(
+            "{name} = {stiffness:e} Pa/m is {:.1e} times the modulus over the size of the contact: the body hardly feels it",
+            stiffness / scale
+        );
+        let key = case.contact.stiffness_key();
+        warning(case, key, message, "nearly free", "stiffnesses are in Pa/m: N/mm3 are 1e9 Pa/m")
     })
 }
 

@@ -201,3 +201,22 @@ fn samples_of_solid_bodies_beyond_their_onset_have_the_onset_of_an_analysis() {
     }
     sweep.assert().success().stdout(predicates::str::contains("<=0.600000"));
 }
+
+/// Where friction itself is uncertain each sample has its own, and the answer names none.
+#[test]
+fn uncertain_friction_is_no_single_value() {
+    let folder = tempfile::tempdir().unwrap();
+    let set = [
+        "uncertainty.distributions={ \"contact.friction_coefficient\" = { uniform = [0.05, 0.3] } }",
+        "uncertainty.samples=8",
+        "uncertainty.index_samples=0",
+    ];
+    let found = run(&folder.path().join("out"), &set, &[]);
+    assert!(found["friction_coefficient"].is_null(), "{found}");
+    let known = run(
+        &folder.path().join("known"),
+        &["uncertainty.samples=2", "uncertainty.index_samples=0"],
+        &[],
+    );
+    assert!(known["friction_coefficient"].is_number(), "{known}");
+}

@@ -319,3 +319,26 @@ fn every_table_of_a_body_of_sectors_has_its_nodal_diameters_and_samples_have_its
         assert!(sample.is_unstable(0.4));
     }
 }
+
+/// A contact that nothing presses has no critical friction: refused, at its key.
+#[test]
+fn a_contact_without_pressure_is_refused() {
+    let text =
+        screwed_disc(4, "[cea]\nmodes = 4\n").replace("interference = 25e-6", "interference = 0.0");
+    let mesh = disc_sector(4, [8, 5], 0.0);
+    let refused = read("no-pressure", mesh.as_bytes(), &text, "auto").unwrap_err().to_string();
+    assert!(
+        refused.contains("contact.interference = 0.0") && refused.contains("nothing presses"),
+        "{refused}"
+    );
+    // Solid bodies may be pressed by what overlaps in their mesh: there the base state tells.
+    let block =
+        Block { name: "block", origin: [0.0; 3], size: [0.02, 0.02, 0.01], counts: [2, 2, 1] };
+    let text = "[mesh]\nfile = \"sector.msh\"\n[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n\
+        [boundaries.block_z1]\ncondition = \"clamped\"\n[contact]\nboundary = \"block_z0\"\ncounterface = \"plane\"\n\
+        direction = [1.0, 0.0, 0.0]\nspeed = 1.0\nfriction_coefficient = 0.3\ninterference = 0.0\n[cea]\nmodes = 2\n";
+    let case = read("no-pressure-solid", &file_of(&[block], |point| point), text, "auto");
+    let case = case.unwrap_or_else(|e| panic!("{e}"));
+    let refused = SlidingModel::new(&case, case.cea.as_ref().unwrap()).err().unwrap();
+    assert!(refused.to_string().contains("nothing presses the contact"), "{refused}");
+}

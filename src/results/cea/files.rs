@@ -2,7 +2,7 @@
 
 use super::base::write_base;
 use super::summary::summary;
-use super::{CeaReport, ComplexMode, UnstableInterval};
+use super::{CeaReport, ComplexMode, FrictionPoint, UnstableInterval};
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::pvd::{PvdEntry, write_pvd};
 use crate::results::summary::write_summary;
@@ -77,7 +77,13 @@ pub fn write_eigenvalues(out: &mut dyn Write, report: &CeaReport<'_>) -> io::Res
     ];
     let is_plane = report.solid.is_none();
     let columns = &columns[..columns.len() - usize::from(is_plane)];
-    let rows = report.tabulated().flat_map(|point| {
+    // The case's own friction beside those of the sweep.
+    let is_listed = |point: &&FrictionPoint| {
+        let friction = point.friction_coefficient;
+        report.friction_coefficients.contains(&friction)
+            || friction == report.base.friction_coefficient
+    };
+    let rows = report.sweep.points.iter().filter(is_listed).flat_map(|point| {
         let modes = point.modes.iter().enumerate();
         modes.map(|(index, mode)| (point.friction_coefficient, index, mode))
     });

@@ -272,7 +272,11 @@ pub(super) fn rows(report: &SweepReport<'_>) -> Vec<Vec<String>> {
         .filter(|(_, of)| summaries.iter().any(|point| number(point, *of).is_some()))
         .collect();
     let mut table = vec![vec!["point".to_owned()]];
-    table[0].extend(report.keys.iter().map(|key| short(key).to_owned()));
+    // Keys of one short name are told by their whole names.
+    let is_alone =
+        |key: &str| report.keys.iter().filter(|other| short(other) == short(key)).count() == 1;
+    let head = |key: &String| if is_alone(key) { short(key).to_owned() } else { key.clone() };
+    table[0].extend(report.keys.iter().map(head));
     table[0].extend(columns.iter().map(|(key, _)| quantity(key).label()));
     let end_of = |point: &[PointSummary]| point.iter().find_map(|s| s.end_state.clone());
     let has_ends = summaries.iter().any(|point| end_of(point).is_some());

@@ -19,22 +19,23 @@ pub fn uncertainty(summary: &UncertaintySummary) -> Figure {
             .name(family.name().replace("n =", "*n* ="))
     });
     let own = || {
-        Rule::vertical(summary.friction_coefficient)
-            .stroke(Stroke::dashed(INK, 0.8))
-            .name("friction of the case")
+        summary.friction_coefficient.map(|friction| {
+            let rule = Rule::vertical(friction).stroke(Stroke::dashed(INK, 0.8));
+            rule.name("friction of the case")
+        })
     };
     let over = &summary.probability_over_friction;
     let part = |k: usize| -> Vec<f64> { over.iter().map(|row| row[k]).collect() };
     let (at, value, low, high) = (part(0), part(1), part(2), part(3));
     let distribution = Panel::new(friction(), share("turned unstable below *μ*"))
         .height(150.0)
-        .layer(own())
+        .layers(own())
         .layers(families.collect::<Vec<_>>())
         .legend();
     let probability = Panel::new(friction(), share("probability of squeal"))
         .height(150.0)
         .layer(Fill::between(&at, &low, &high, SERIES[0]).opacity(0.25).name("95 % interval"))
-        .layer(own())
+        .layers(own())
         .layer(Line::new(&at, &value).solid(SERIES[0], 1.2).name("some mode unstable"))
         .legend();
     Figure::new(
@@ -56,7 +57,7 @@ fn shown_friction(summary: &UncertaintySummary) -> f64 {
     let last = over.last().map_or(0.0, |row| row[1]);
     let changes = over.iter().filter(|row| row[1] != last).map(|row| row[0]);
     let happens = onsets.filter_map(|onset| *onset).chain(changes);
-    let reach = happens.fold(summary.friction_coefficient, f64::max);
+    let reach = happens.fold(summary.friction_coefficient.unwrap_or(0.0), f64::max);
     (1.15 * reach).min(summary.largest_friction)
 }
 

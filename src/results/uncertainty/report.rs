@@ -107,7 +107,7 @@ fn results(summary: &UncertaintySummary) -> Vec<(String, String)> {
         |value: Option<f64>| value.map_or("beyond the range".to_owned(), |v| format!("{v:.4}"));
     let rows = [
         (
-            format!("probability of squeal at friction {}", summary.friction_coefficient),
+            format!("probability of squeal at {}", summary.friction_text()),
             format!("{:.4} (95 % {:.4} to {:.4})", p.value, p.low, p.high),
         ),
         ("lowest critical friction, median".into(), text(c.median)),
@@ -139,8 +139,11 @@ fn designs(summary: &UncertaintySummary) -> ReportTable {
     let robust = summary.robust.iter();
     let rows = robust.flat_map(|robust| robust.curves.iter().map(|curve| (robust.bound, curve)));
     let row = |(_, curve): (f64, &DesignCurve)| {
-        let reached =
-            curve.reaches_bound_at.map_or("not reached".to_owned(), |value| significant(value, 4));
+        let reached = match curve.reaches_bound_at {
+            Some(value) => significant(value, 4),
+            None if curve.has_effect => "not reached".to_owned(),
+            None => "without effect".to_owned(),
+        };
         let change = curve.change_percent;
         let change = change.map_or(String::new(), |change| format!("{change:+.1}"));
         vec![curve.key.clone(), reached, change]
@@ -171,11 +174,15 @@ fn families(summary: &UncertaintySummary) -> ReportTable {
             format!("{:.0}", family.frequency_hz),
         ]
     });
+    let at_friction = match summary.friction_coefficient {
+        Some(_) => "unstable at the friction of the case",
+        None => "unstable at the friction of each sample",
+    };
     ReportTable::new(
         "Families of modes, followed across samples by harmonic and rank",
         [
             "mode",
-            "unstable at the friction of the case",
+            at_friction,
             "turns unstable in the range",
             "median critical friction",
             "frequency (Hz)",

@@ -21,8 +21,8 @@ pub struct UncertaintySummary {
     pub failed: usize,
     /// Samples that the indices rest on.
     pub index_samples: usize,
-    /// Friction coefficient of the case.
-    pub friction_coefficient: f64,
+    /// Friction coefficient of the case; none where it is uncertain, and each sample has its own.
+    pub friction_coefficient: Option<f64>,
     /// Friction coefficients up to which onsets are sought.
     pub largest_friction: f64,
     /// Probability that some mode is unstable at the friction coefficient of the case (or at its own, where that is
@@ -171,14 +171,22 @@ fn with_interval(value: f64, interval: Option<[f64; 2]>) -> String {
 }
 
 impl UncertaintySummary {
+    /// Where the probability of squeal is that of.
+    pub(super) fn friction_text(&self) -> String {
+        match self.friction_coefficient {
+            Some(friction) => format!("friction {friction}"),
+            None => "the friction of each sample".to_owned(),
+        }
+    }
+
     /// As text.
     pub fn text(&self) -> String {
         let mut out = format!("{}\n", self.title);
         let p = self.probability_unstable;
         let _ = writeln!(
             out,
-            "  probability of squeal at friction {}: {:.4}  (95 % {:.4} to {:.4}, {} samples)",
-            self.friction_coefficient,
+            "  probability of squeal at {}: {:.4}  (95 % {:.4} to {:.4}, {} samples)",
+            self.friction_text(),
             p.value,
             p.low,
             p.high,

@@ -4,13 +4,16 @@ use super::StudyError;
 use super::assembly::base_state;
 use super::model::Model;
 use super::solid::SolidBody;
-use crate::case::{Case, Cea};
+use crate::case::{AssemblyBody, Case, Cea};
 use crate::fem::nodal_stress;
 use crate::mesh::{AnnulusMesh, Mesh, SectorMesh};
-use crate::prestress::{SectorTangent, SteadySliding};
+use crate::prestress::{BaseChoice, SectorTangent, SteadySliding};
 use crate::results::cea::{AssemblyReport, BaseField, BaseState};
 use crate::study::extent_of;
 use std::sync::Arc;
+
+/// Share of the modulus below which a contact pressure is round-off.
+const NO_PRESSURE: f64 = 1e-13;
 
 /// Steady sliding at the case's own friction coefficient.
 pub enum SteadyState {
@@ -65,7 +68,40 @@ impl SlidingModel {
                 (Arc::new(mesh.mesh), SteadyState::Plane(Box::new(base)))
             }
         };
-        Ok(Self { mesh, model, state })
+        let model = Self { mesh, model, state };
+        model.refuse_no_pressure(case)?;
+        Ok(model)
+    }
+
+    /// Refuses a contact that nothing presses: friction does nothing there, and critical frictions would be those of no contact.
+    fn refuse_no_pressure(&self, case: &Case) -> Result<(), StudyError> {
+        let assembly = case.body.assembly();
+        let is_free =
+            |body: &AssemblyBody| body.base == BaseChoice::Closed || body.contacts.is_empty();
+        let largest = self.base_state(case).pressure_pa[1];
+        if largest > NO_PRESSURE * case.material.young_modulus || assembly.is_some_and(is_free) {
+            return Ok(());
+        }
+        let named = assembly.and_then(|body| body.contacts.first());
+        let key = match named.filter(|_| case.raw.find("contact").is_none()) {
+            Some(contact) => format!("contacts.{}.surface", contact.name),
+            None => "contact.interference".to_owned(),
+        };
+        let friction = case.contact.sliding.friction_coefficient;
+        let message = format!(
+            "nothing presses the contact: its pressure is zero everywhere at friction {friction}"
+        );
+        Err(StudyError::Case(
+            case.error_at(
+                &key,
+                message,
+                "no pressure".to_owned(),
+                Some(
+                    "give an interference above zero, or a boundary with condition = \"pressure\""
+                        .to_owned(),
+                ),
+            ),
+        ))
     }
 
     /// The body in three dimensions and its base state, if it is one.

@@ -101,6 +101,7 @@ pub fn summarize(case: &Case, samples: &[Sample]) -> UncertaintySummary {
     let parameters = case.uncertainty.iter().flat_map(|u| &u.parameters);
     let keys: Vec<String> = parameters.map(|p| p.parameter.key.clone()).collect();
     let largest_friction = largest_friction(case);
+    let friction = case.contact.sliding.friction_coefficient;
     let solved: Vec<&Sample> = samples.iter().filter(|sample| sample.error.is_none()).collect();
     let count = solved.len();
     let hits = |friction: &dyn Fn(&Sample) -> f64| {
@@ -131,7 +132,10 @@ pub fn summarize(case: &Case, samples: &[Sample]) -> UncertaintySummary {
         samples: samples.len(),
         failed,
         index_samples,
-        friction_coefficient: case.contact.sliding.friction_coefficient,
+        friction_coefficient: solved
+            .iter()
+            .all(|own| own.friction_coefficient == friction)
+            .then_some(friction),
         largest_friction,
         probability_unstable: wilson(hits(&|sample| sample.friction_coefficient), count),
         critical_friction: critical_friction(&solved, largest_friction),

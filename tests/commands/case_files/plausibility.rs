@@ -138,3 +138,15 @@ fn an_annulus_under_a_pressure_is_refused_for_the_pressure_alone() {
     assert!(text.contains("nothing holds the disc"), "{text}");
     assert!(!text.contains("contact.interference = 0.0 must be positive"), "{text}");
 }
+
+#[test]
+fn slips_of_stiffness_density_and_speed_are_said_by_their_own_key() {
+    for (change, said) in [
+        ("contact.normal_stiffness=1e3", "the body hardly feels it"),
+        ("material.density=1.1", "material.density"),
+        ("contact.rotation_speed_rpm=3e6", "the contact slides at"),
+    ] {
+        let warnings = valid(RUN, &[change]).warnings;
+        assert!(warnings.iter().any(|own| own.message.contains(said)), "{change}: {warnings:?}");
+    }
+}
