@@ -157,7 +157,8 @@ fn sentences_of_readme_and_guide_have_25_words_at_most() {
     for (name, text) in pages() {
         for paragraph in parts(&text).1 {
             let code = paragraph.split('`').enumerate();
-            let plain: Vec<&str> = code.map(|(k, part)| if k % 2 == 1 { "code" } else { part }).collect();
+            let plain: Vec<&str> =
+                code.map(|(k, part)| if k % 2 == 1 { "code" } else { part }).collect();
             let plain = plain.concat();
             for sentence in plain.split(". ").flat_map(|part| part.split([':', '?'])) {
                 let count = sentence.split_whitespace().count();
