@@ -227,3 +227,29 @@ def test_a_folder_in_use_is_refused_with_the_remedy(long_transient: frictionsim.
     finally:
         stop.set()
         thread.join()
+
+
+def test_what_sets_runs_side_by_side_takes_folders_and_results(disc: frictionsim.Case, tmp_path: Path) -> None:
+    first, second = (frictionsim.cea(disc.changed({"contact.interference": value})) for value in (25e-6, 30e-6))
+    compared = frictionsim.compare(first, second.folder, folder=tmp_path / "compared")
+    assert len(compared.differences) > 0
+    points = frictionsim.sweep(
+        frictionsim.Case.shipped("polycarbonate-disc"), folder=tmp_path / "study", figures=False,
+        **{**COARSE, "cea.friction_coefficients": [0.1, 0.3], "sweep": {"analyses": ["cea"], "material.density": [1200.0, 1300.0]}},
+    ).points  # fmt: skip
+    gathered = frictionsim.collect(tmp_path / "study", figures=False).points
+    np.testing.assert_array_equal(gathered["material.density"], points["material.density"])
+
+
+def test_shapes_and_records_are_held_against_a_case(disc: frictionsim.Case, tmp_path: Path) -> None:
+    angles = np.linspace(0.0, 2 * np.pi, 16, endpoint=False)
+    rows = ["x,y,z,ux,uy,uz,mode,frequency_hz"]
+    rows += [f"{0.0205 * np.cos(a)},{0.0205 * np.sin(a)},0,{-np.sin(a)},{np.cos(a)},0,1,7000" for a in angles]
+    (tmp_path / "shapes.csv").write_text("\n".join(rows) + "\n")
+    whole = disc.changed({"cea.method": "sparse"})
+    assert len(frictionsim.mac(whole, tmp_path / "shapes.csv", figures=False).mac) > 0
+    time_s = np.arange(4000) / 40000.0
+    lines = ["time_s,pressure_pa", *(f"{t},{np.sin(2 * np.pi * 3000.0 * t)}" for t in time_s)]
+    (tmp_path / "sound.csv").write_text("\n".join(lines) + "\n")
+    peaks = frictionsim.signal(tmp_path / "sound.csv", figures=False).peaks
+    assert np.any(np.abs(peaks["frequency_hz"] - 3000.0) < 10.0)

@@ -132,7 +132,7 @@ pub(super) fn mode_selection(section: &Section<'_>, unknowns: u128) -> ModeSelec
             section.reject(
                 "max_frequency_hz",
                 "cea.max_frequency_hz (or cea.modes) is missing",
-                "says not which modes to find",
+                "does not say which modes to find",
                 "add `max_frequency_hz = 17500.0` (all modes below it) \
                      or `modes = 28` (the lowest ones)",
             );

@@ -199,7 +199,7 @@ pub const KEYS: &[CaseKey] = &[
     key("improve.forbidden", Texts, "", Otherwise("nothing; surfaces in contact are never touched"), "[\"outer\"]", "regions and boundaries that nothing may be attached to, damped or taken from"),
     key("improve.candidates", Count(1), "", Value("3"), "3", "how many places of each kind are listed"),
     key("improve.confirm", Count(0), "", Value("4"), "4", "how many of the best candidates are run again as cases of their own"),
-    key("improve.front", Count(0), "", Value("0"), "6", "how many sizes up to `mass` and `patch_radius` the front of mass against critical friction is looked for at, its points run again (0 = no front)"),
+    key("improve.front", Count(0), "", Value("0"), "6", "number of sizes on the mass/critical-friction front, up to `mass` and `patch_radius`, each run again; 0 = no front"),
 
     key("transient.duration", Number(Positive), "s", Required, "0.05", "the simulated time"),
     key("transient.time_step", NumberOr(Positive, "auto"), "s", Value("\"auto\""), "\"auto\"", "the time step (\"auto\" = 0.95 of the stability limit, at most)"),
@@ -264,7 +264,7 @@ pub const KEYS: &[CaseKey] = &[
     key("convergence.analyses", Choices(words::<Analysis>), "", Otherwise("every one that the case has a section for"), "[\"cea\", \"transient\"]", "what is studied"),
 
     key("fit.parameters", Table("table of case keys, each with its bounds [from, to] or { from, to, scale, also }"), "", Required, "{ \"material.poisson_ratio\" = [0.3, 0.45] }", "what is fitted to measured modes, and the bounds between which it is sought (scale \"log\" fits the logarithm; also: keys that take the same value)"),
-    key("fit.shape_weight", Number(Positive), "", Value("0.1"), "0.1", "with measured shapes (--shapes): a shape that has nothing of its line's mode (MAC 0) counts like a frequency that is off by this share"),
+    key("fit.shape_weight", Number(Positive), "", Value("0.1"), "0.1", "with measured shapes (--shapes): a shape with MAC 0 costs as much as a relative frequency error of this size"),
     key("fit.starts", Count(1), "", Value("16"), "16", "at how many points within the bounds the search looks first; it goes on from the best few"),
 
     key("uncertainty.samples", Count(2), "", Value("1024"), "4096", "the number of samples: points of a scrambled Sobol sequence, best a power of two"),

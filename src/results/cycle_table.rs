@@ -1,4 +1,4 @@
-//! What a limit cycle is in a line of print, a row of a table and the results of a report, whatever body it lives on.
+//! Columns of a limit cycle.
 
 use super::extent::Extent;
 use super::quantity::{quantity, significant};

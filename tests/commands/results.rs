@@ -304,8 +304,18 @@ fn shapes_come_as_real_and_imaginary_fields_in_a_collection() {
     let output = OutputFolder::open(folder.path(), &manifest("a"), Replace::SameCase).unwrap();
     write(&output, &report(&mesh, &sweep, &field(&mesh))).unwrap();
     let collection = fs::read_to_string(folder.path().join("modes.pvd")).unwrap();
-    let entry = collection.lines().find(|line| line.contains("<DataSet")).unwrap();
+    let mut entries = collection.lines().filter(|line| line.contains("<DataSet"));
+    let entry = entries.clone().next().unwrap();
     let bytes = fs::read(folder.path().join(attribute(entry, "file"))).unwrap();
+    // ParaView animates modes by time: the frequency, no two the same.
+    let times = entries.by_ref().map(|line| attribute(line, "timestep").parse().unwrap());
+    let mut times: Vec<f64> = times.collect();
+    let frequency = sweep.points[3].modes[1].frequency_hz();
+    assert!((times[0] - frequency).abs() <= 1e-10 * frequency, "{times:?} {frequency}");
+    let count = times.len();
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    assert_eq!(times.len(), count);
     let shape = sweep.points[3].modes[1].shape.as_ref().unwrap();
     let real: Vec<f64> = shape.iter().map(|value| value.re).collect();
     let written = floats(&decode(&bytes, "displacement_real"));

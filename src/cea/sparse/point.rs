@@ -86,7 +86,7 @@ impl SolvedPoint {
     /// Takes out the modes that have not converged; their frequencies, rad/s.
     pub fn drop_unconverged(&mut self) -> Vec<f64> {
         let mut dropped = Vec::new();
-        for i in (0..self.wanted).rev() {
+        for i in (0..self.wanted.min(self.checks.len())).rev() {
             if !(self.checks[i].residual <= RESIDUAL_BOUND) {
                 self.checks.remove(i);
                 dropped.push(self.modes.remove(i).eigenvalue.im);

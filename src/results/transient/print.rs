@@ -62,8 +62,8 @@ pub fn print(summary: &TransientSummary, state: EndState) -> String {
     if let Some(share) = summary.ambiguous_friction {
         let _ = writeln!(
             out,
-            "  friction falls faster with speed than the inertia of contact nodes allows in {} % of their steps: stick and \
-             slip jump there; a smaller transient.time_step or a larger contact.decay_speed removes it",
+            "  in {} % of the contact-node steps the friction law is too steep for the time step, and nodes jump between \
+             stick and slip: reduce transient.time_step or raise contact.decay_speed",
             fixed(100.0 * share, 3)
         );
     }

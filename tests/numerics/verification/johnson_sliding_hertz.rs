@@ -8,15 +8,16 @@
 //! ```
 //!
 //! with `s` from the middle of the patch, which lies `2 g a` against the friction on the body. R 0.1 m, steel, friction 0.5; the
-//! force is the computed one, as the block of 120 x 30 mm above the patch is pushed down.
+//! force is the computed one, as the block of 800 x 200 mm above the patch is pushed down.
 
 use super::{folder, order, plane_block, table};
 use std::f64::consts::PI;
 
 const RADIUS: f64 = 0.1;
 
-/// A higher block bends under the friction and turns the patch aside.
-const HEIGHT: f64 = 0.03;
+/// Half of the block's width and its height: in a smaller one friction bends the block and turns the patch aside.
+const HALF_WIDTH: f64 = 0.4;
+const HEIGHT: f64 = 0.2;
 
 /// Half of a line of points from 0: steps of `step` over `core`, then each a quarter longer.
 fn graded(length: f64, step: f64, core: f64) -> Vec<f64> {
@@ -32,18 +33,19 @@ fn graded(length: f64, step: f64, core: f64) -> Vec<f64> {
 
 /// Relative error of the pressures in the mean square and of the largest one, with steps of that size under the patch.
 fn errors(step: f64) -> [f64; 2] {
-    let right = graded(0.06, step, 1.2e-3);
+    let right = graded(HALF_WIDTH, step, 1.2e-3);
     let left = right[1..].iter().rev().map(|x| -x);
     let xs: Vec<f64> = left.chain(right.iter().copied()).collect();
     let ys = graded(HEIGHT, step, 0.6e-3);
     let mesh = plane_block(&xs, &ys, |x, y| {
-        let below = 0.5 * x * x / RADIUS;
+        // Round beside the patch, flat beyond.
+        let below = 0.5 * x.abs().min(6e-3).powi(2) / RADIUS;
         [x, below + (HEIGHT - below) * y / HEIGHT]
     });
     let case = "[mesh]\nfile = \"body.msh\"\n[material]\nyoung_modulus = 2.1e11\npoisson_ratio = 0.3\n\
                 density = 7850.0\nformulation = \"plane-strain\"\n[boundaries.top]\ncondition = \"clamped\"\n\
                 [contact]\nboundary = \"face\"\ncounterface = \"plane\"\ndirection = [1.0, 0.0]\nspeed = 1.0\n\
-                friction_coefficient = 0.5\ninterference = 1.5e-5\n[cea]\nmodes = 1\n\
+                friction_coefficient = 0.5\ninterference = 2e-5\n[cea]\nmodes = 1\n\
                 friction_coefficients = [0.5]\ngeometric_stiffness = false\n";
     let mut nodes = table(&folder("johnson_sliding_hertz", &mesh), "cea", case, "prestress.csv");
     nodes.sort_by(|a, b| a["x_m"].total_cmp(&b["x_m"]));
@@ -81,10 +83,10 @@ fn errors(step: f64) -> [f64; 2] {
 
 #[test]
 fn johnson_sliding_hertz_the_patch_shifts_against_friction() {
-    let found = [4e-4, 2e-4, 1e-4, 5e-5, 2.5e-5].map(errors);
+    let found = [2e-4, 1e-4, 5e-5].map(errors);
     println!("{found:?}");
-    assert!(found[4][0] < 0.01 && found[4][1].abs() < 2e-3, "{found:?}");
+    assert!(found[2][0] < 5e-3 && found[2][1].abs() < 1e-3, "{found:?}");
     // The nodes beside the edges of the patch, which pressure leaves nearly as a square root, decide.
-    let order = order(found[0][0], found[4][0], 16.0);
+    let order = order(found[0][0], found[2][0], 4.0);
     assert!(order > 1.0, "{order}");
 }
