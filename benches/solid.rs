@@ -21,7 +21,7 @@ use frictionsim::fem::operator::{
     AlignedVector, AssembledOperator, MotionFields, SimdLevel, StepCoefficients, StiffnessOperator,
 };
 use frictionsim::fem::{ElasticMaterial, PlaneFormulation, assemble_stiffness, lumped_masses};
-use frictionsim::mesh::{ElementKind, GmshFile, Mesh, SolidSector};
+use frictionsim::mesh::{ElementKind, FileMesh, Mesh, SolidSector};
 use frictionsim::transient::{
     CentralDifference, InitialState, Observer, OperatorChoice, Perturbation, Sample,
     SolidTransientModel, TimeStep, TransientSettings,
@@ -90,7 +90,7 @@ fn main() {
 fn assembled(divisions: usize, threads: usize) {
     let cube =
         bricks::Block { name: "cube", origin: [0.0; 3], size: [0.1; 3], counts: [divisions; 3] };
-    let file = GmshFile::read(&bricks::file_of(&[cube], |point| point)).expect("a mesh file");
+    let file = FileMesh::read(&bricks::file_of(&[cube], |point| point)).expect("a mesh file");
     let mesh = Mesh::from_solids(&file, 1.0, &[]).expect("a body");
     let stiffness = assemble_stiffness(&mesh, &STEEL);
     let masses = lumped_masses(&mesh, &STEEL);

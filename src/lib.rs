@@ -70,8 +70,8 @@
 //!
 //! # Floors
 //!
-//! [`chart`] and [`signal`] are crates of their own in `crates/`, which name nothing of this one. Each module here names only
-//! those below it: [`linalg`], [`mesh`]; [`fem`]; [`contact`]; [`prestress`]; [`cea`], [`transient`], [`frf`], [`cycle`];
+//! [`chart`], [`formats`] and [`signal`] are crates of their own in `crates/`, which name nothing of this one. Each module here
+//! names only those below it: [`linalg`], [`mesh`]; [`fem`]; [`contact`]; [`prestress`]; [`cea`], [`transient`], [`frf`], [`cycle`];
 //! [`case`], [`results`]; [`study`]; [`app`].
 
 pub mod case;
@@ -92,5 +92,7 @@ pub mod app;
 
 #[doc(inline)]
 pub use frictionsim_chart as chart;
+#[doc(inline)]
+pub use frictionsim_formats as formats;
 #[doc(inline)]
 pub use frictionsim_signal as signal;

@@ -15,7 +15,7 @@ use crate::contact::{
     ContactStiffness, Counterpart, Motion, RigidCounterface, RigidMotion, SlidingContact,
 };
 use crate::fem::{MaterialField, PlaneFormulation, RotationFrame, TabledMaterial};
-use crate::mesh::{CyclicSymmetry, Mesh, MeshFileError};
+use crate::mesh::{BodyError, CyclicSymmetry, Mesh};
 use crate::prestress::{Assembly, BaseChoice, PrestressError, SlidingSurfaces, TiedSurfaces};
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -193,7 +193,7 @@ pub(super) fn assemble(
     (common, own): (&TabledMaterial, &[(String, TabledMaterial)]),
     (parts, modifications): (AssemblyParts, &[Modification]),
 ) -> Result<AssemblyBody, ImportError> {
-    let unusable = |error: MeshFileError| ImportError::of(error, &bytes.file);
+    let unusable = |error: BodyError| ImportError::of(error, &bytes.file);
     let file = whole_body(bytes, parts.symmetry.as_ref(), scale).map_err(unusable)?;
     let misfit = ImportError::misfit;
     let (file, _) = reshaped(file, scale, "", modifications).map_err(misfit)?;

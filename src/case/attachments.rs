@@ -7,8 +7,7 @@ use super::node::Nodes;
 use super::reader::Section;
 use crate::fem::{RegionMaterial, TabledMaterial};
 use crate::mesh::{
-    Attachment, BodySpecification, CounterfaceSpecification, DampedPatch, GmshFile, Mesh,
-    MeshFileError,
+    Attachment, BodyError, BodySpecification, CounterfaceSpecification, DampedPatch, Mesh,
 };
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
@@ -28,7 +27,7 @@ pub(super) fn reshaped_annulus(
     let mesh = crate::mesh::AnnulusMesh::generate(spec);
     let mesh = mesh.map_err(|error| (key.clone(), error.to_string()))?.mesh;
     let contact = mesh.contact_edge().name.clone();
-    let file = Arc::new(GmshFile::of_mesh(&mesh));
+    let file = Arc::new(mesh.to_file());
     let (file, center) = reshaped(file, 1.0, &contact, modifications)?;
     let specification = BodySpecification {
         scale: 1.0,
@@ -38,7 +37,7 @@ pub(super) fn reshaped_annulus(
         conditions: vec![("outer".to_owned(), spec.outer)],
     };
     let body = Mesh::from_gmsh(&file, &specification);
-    let body = body.map_err(|error: MeshFileError| (key, error.to_string()))?;
+    let body = body.map_err(|error: BodyError| (key, error.to_string()))?;
     let own = RegionMaterial { elastic: annulus.materials.annulus, damping: None };
     let table = annulus.tables[0].clone();
     let materials = vec![TabledMaterial { own, table }];

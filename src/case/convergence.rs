@@ -3,9 +3,7 @@
 use super::body::{Body, Revolution, node_count};
 use super::reader::Section;
 use super::words::Analysis;
-use crate::mesh::{
-    AnnulusSpecification, Mesh, MeshFileError, ShaftSpecification, SolidSpecification,
-};
+use crate::mesh::{AnnulusSpecification, BodyError, Mesh, ShaftSpecification, SolidSpecification};
 use std::sync::Arc;
 
 /// Fewest refinements that an order can be observed from.
@@ -82,7 +80,7 @@ impl super::Case {
 }
 
 impl super::Case {
-    fn no_refinement(&self, factor: f64, error: &MeshFileError) -> super::CaseErrors {
+    fn no_refinement(&self, factor: f64, error: &BodyError) -> super::CaseErrors {
         let (key, label) = ("convergence.factors", "makes no body".to_owned());
         self.error_at(key, format!("{key} = {factor}: {error}"), label, None)
     }

@@ -5,7 +5,7 @@ use super::keys;
 use super::value::{RawItem, RawValue, quote};
 use super::words::UnitsWord;
 use crate::mesh::{
-    FileConditionKind, FileContact, FileElasticity, FileMaterial, GmshFile, LeftOut, MaterialAxes,
+    FileConditionKind, FileContact, FileElasticity, FileMaterial, FileMesh, LeftOut, MaterialAxes,
     ModelData,
 };
 use std::collections::BTreeMap;
@@ -25,7 +25,7 @@ pub struct FileSection {
 
 /// All that a file holds as sections of a case, in SI units.
 pub(super) fn sections(
-    file: &GmshFile,
+    file: &FileMesh,
     units: UnitsWord,
     left_out: &mut Vec<LeftOut>,
 ) -> Vec<FileSection> {
@@ -201,7 +201,7 @@ fn material_section(
 
 /// `[material]` where the file gives every region one of its own: that of the region with most elements, which no region uses.
 /// In the plane the formulation, too.
-fn common_material(file: &GmshFile, own: &[FileSection]) -> Option<FileSection> {
+fn common_material(file: &FileMesh, own: &[FileSection]) -> Option<FileSection> {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     file.elements.iter().for_each(|element| *counts.entry(&element.region).or_default() += 1);
     let of = |region: &str| own.iter().find(|section| section.path.1 == region);

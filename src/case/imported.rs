@@ -13,8 +13,8 @@ use super::tables::{TableFiles, modulus_table};
 use super::words::CounterfaceWord;
 use crate::fem::{ElasticMaterial, RayleighDamping, RegionMaterial, TabledMaterial};
 use crate::mesh::{
-    BodyPart, BodySpecification, CounterfaceSpecification, CyclicSymmetry, GmshFile, Mesh,
-    MeshFileError, SolidContact,
+    BodyError, BodyPart, BodySpecification, CounterfaceSpecification, CyclicSymmetry, FileMesh,
+    Mesh, SolidContact, refined_file, repeated_file,
 };
 use std::path::Path;
 use std::sync::Arc;
@@ -30,7 +30,7 @@ pub struct ImportedBody {
     /// The material of each of its regions.
     pub materials: Vec<TabledMaterial>,
     /// What the mesh was made of, for its refinements.
-    source: Arc<(Arc<GmshFile>, BodySpecification)>,
+    source: Arc<(Arc<FileMesh>, BodySpecification)>,
 }
 
 /// Where the counterface is, as `[contact]` says.
@@ -222,13 +222,13 @@ pub(super) fn whole_body(
     mesh: &MeshBytes,
     symmetry: Option<&CyclicSymmetry>,
     scale: f64,
-) -> Result<Arc<GmshFile>, MeshFileError> {
+) -> Result<Arc<FileMesh>, BodyError> {
     let read = mesh.read()?;
     let Some(symmetry) = symmetry else {
         return Ok(read);
     };
     let in_file = CyclicSymmetry { point: symmetry.point.map(|x| x / scale), ..*symmetry };
-    read.repeated(&in_file).map(Arc::new)
+    repeated_file(&read, &in_file).map(Arc::new)
 }
 
 /// Why a mesh file does not describe the body, and the key of the case to blame.
@@ -256,9 +256,9 @@ impl ImportError {
     }
 
     /// An error of the mesh file `file`, at the key that asked for what the mesh does not have.
-    pub(super) fn of(error: MeshFileError, file: &str) -> Self {
+    pub(super) fn of(error: BodyError, file: &str) -> Self {
         let message = format!("{file}: {error}");
-        let MeshFileError::Request { part, .. } = error else {
+        let BodyError::Request { part, .. } = error else {
             return Self::new("mesh.file", message, "cannot be used");
         };
         let (key, label) = match part {
@@ -284,7 +284,7 @@ pub(super) fn import(
     modifications: &[Modification],
 ) -> Result<ImportedBody, ImportError> {
     let shown = &mesh.file;
-    let unusable = |error: MeshFileError| ImportError::of(error, shown);
+    let unusable = |error: BodyError| ImportError::of(error, shown);
     let read = whole_body(mesh, parts.symmetry.as_ref(), parts.scale).map_err(unusable)?;
     let misfit = ImportError::misfit;
     let boundary = &parts.place.boundary;
@@ -311,7 +311,7 @@ pub(super) fn import(
             first_of(regions, MOST_NAMES)
         );
         let part = BodyPart::Material(name.clone());
-        return Err(unusable(MeshFileError::Request { part, message }));
+        return Err(unusable(BodyError::Request { part, message }));
     }
     let material = |region: &String| {
         let own = parts.materials.iter().find(|(name, _)| name == region);
@@ -342,7 +342,7 @@ impl ImportedBody {
     pub(super) fn new(
         mesh: Mesh,
         materials: Vec<TabledMaterial>,
-        file: Arc<GmshFile>,
+        file: Arc<FileMesh>,
         specification: BodySpecification,
     ) -> Self {
         Self { mesh: Arc::new(mesh), materials, source: Arc::new((file, specification)) }
@@ -352,14 +352,14 @@ impl ImportedBody {
     ///
     /// # Errors
     /// A mesh that would be too large, or that folds where it is refined.
-    pub fn refined(&self, times: u32) -> Result<Self, MeshFileError> {
+    pub fn refined(&self, times: u32) -> Result<Self, BodyError> {
         if times == 0 {
             return Ok(self.clone());
         }
         let (file, specification) = &*self.source;
-        let mut fine = file.refined()?;
+        let mut fine = refined_file(&file)?;
         for _ in 1..times {
-            fine = fine.refined()?;
+            fine = refined_file(&fine)?;
         }
         Ok(Self {
             mesh: Arc::new(Mesh::from_gmsh(&fine, specification)?),

@@ -2,7 +2,7 @@
 
 use super::diagnostic::Location;
 use super::reader::{NodePlace, Section};
-use crate::mesh::GmshFile;
+use crate::mesh::FileMesh;
 use nalgebra::Vector3;
 use std::sync::Arc;
 
@@ -120,11 +120,11 @@ fn check(section: &Section<'_>, own: &Modification) {
 
 /// The mesh file with what the modifications take away and move, and how far they move the counterface, m.
 pub(super) fn reshaped(
-    file: Arc<GmshFile>,
+    file: Arc<FileMesh>,
     scale: f64,
     contact: &str,
     modifications: &[Modification],
-) -> Result<(Arc<GmshFile>, [f64; 2]), Misfit> {
+) -> Result<(Arc<FileMesh>, [f64; 2]), Misfit> {
     let (mut file, mut way) = (file, [0.0; 2]);
     for own in modifications {
         if let Some([x, y]) = own.offset {

@@ -3,7 +3,7 @@
 use super::diagnostic::{CaseErrors, Diagnostic, Location, Source};
 use super::value::{RawItem, RawTable, RawValue, convert_table, quote};
 use super::{keys, overrides};
-use crate::mesh::{GmshFile, MeshFileError};
+use crate::mesh::{FileMesh, MeshFileError};
 use sha2::{Digest, Sha256};
 use std::collections::HashSet;
 use std::fmt::Write as _;
@@ -52,7 +52,7 @@ pub struct MeshBytes {
     /// What it holds, the text of files that it includes in their places.
     pub bytes: Arc<[u8]>,
     /// What its text says, once that is asked for.
-    parsed: Arc<OnceLock<Result<Arc<GmshFile>, MeshFileError>>>,
+    parsed: Arc<OnceLock<Result<Arc<FileMesh>, MeshFileError>>>,
 }
 
 impl PartialEq for MeshBytes {
@@ -70,9 +70,9 @@ impl MeshBytes {
     /// The mesh and what the file holds beside it; read once.
     ///
     /// # Errors
-    /// [`MeshFileError::Syntax`] with the line, or the byte of a binary file.
-    pub fn read(&self) -> Result<Arc<GmshFile>, MeshFileError> {
-        let read = || GmshFile::read_as(&self.file, &self.bytes).map(Arc::new);
+    /// [`MeshFileError`] with the line, or the byte of a binary file.
+    pub fn read(&self) -> Result<Arc<FileMesh>, MeshFileError> {
+        let read = || FileMesh::read_as(&self.file, &self.bytes).map(Arc::new);
         self.parsed.get_or_init(read).clone()
     }
 }

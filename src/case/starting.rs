@@ -5,7 +5,7 @@ use super::inclusion;
 use super::taken::drop_key;
 use super::value::{RawValue, quote};
 use super::words::UnitsWord;
-use crate::mesh::{FileElasticity, GmshFile, LeftOut, SurfaceFace};
+use crate::mesh::{FileElasticity, FileMesh, LeftOut, SurfaceFace};
 use nalgebra::Vector3;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -29,7 +29,7 @@ const STEEL: &str = "young_modulus = 2.1e11\npoisson_ratio = 0.3\ndensity = 7850
 /// What is wrong with the file, with its line.
 pub fn case_from(path: &Path, shown: &str) -> Result<String, String> {
     let bytes = inclusion::mesh_file(path)?;
-    let file = GmshFile::read_as(&path.to_string_lossy(), &bytes);
+    let file = FileMesh::read_as(&path.to_string_lossy(), &bytes);
     let file = file.map_err(|error| format!("{}: {error}", path.display()))?;
     let (units, reason) = units_of(&file);
     let mut left_out = file.model.left_out.clone();
@@ -70,7 +70,7 @@ pub fn case_from(path: &Path, shown: &str) -> Result<String, String> {
 }
 
 /// The units that the file seems to be in, and why.
-fn units_of(file: &GmshFile) -> (UnitsWord, String) {
+fn units_of(file: &FileMesh) -> (UnitsWord, String) {
     let densities = file.model.materials.iter().filter_map(|material| material.density);
     let lightest = densities.fold(f64::INFINITY, f64::min);
     if lightest.is_finite() {
@@ -103,7 +103,7 @@ fn units_of(file: &GmshFile) -> (UnitsWord, String) {
 }
 
 /// `[material]` of steel where some region has none in the file.
-fn missing_materials(file: &GmshFile, sections: &[FileSection], out: &mut String) {
+fn missing_materials(file: &FileMesh, sections: &[FileSection], out: &mut String) {
     let has = |region: &str| {
         let mut own = sections.iter().filter(|s| s.path.0 == "materials");
         own.any(|section| section.path.1 == region)
@@ -161,7 +161,7 @@ fn write_section(section: &FileSection, shown: &str, out: &mut String) {
 }
 
 /// A motion of the counter surface's region where the file has contacts and none turns: about the mean normal of that surface.
-fn proposed_motion(file: &GmshFile, units: UnitsWord, sections: &[FileSection], out: &mut String) {
+fn proposed_motion(file: &FileMesh, units: UnitsWord, sections: &[FileSection], out: &mut String) {
     let has = |group: &str| sections.iter().any(|section| section.path.0 == group);
     let Some(contact) = file.model.contacts.first() else {
         return;
@@ -198,21 +198,21 @@ fn proposed_motion(file: &GmshFile, units: UnitsWord, sections: &[FileSection], 
     );
 }
 
-fn region_of(file: &GmshFile, (_, nodes): &SurfaceFace) -> Option<String> {
+fn region_of(file: &FileMesh, (_, nodes): &SurfaceFace) -> Option<String> {
     let has_all =
         |element: &&crate::mesh::FileElement| nodes.iter().all(|node| element.nodes.contains(node));
     let element = file.elements.iter().find(has_all)?;
     Some(element.region.to_string())
 }
 
-fn area_of(file: &GmshFile, (kind, nodes): &SurfaceFace) -> Vector3<f64> {
+fn area_of(file: &FileMesh, (kind, nodes): &SurfaceFace) -> Vector3<f64> {
     let points: Vec<[f64; 3]> = nodes.iter().map(|&node| file.points[node as usize]).collect();
     let quadrature = kind.quadrature().into_iter();
     quadrature.map(|point| Vector3::from(kind.at(&points, point).area)).sum()
 }
 
 /// `[contact]` of a plane body, which has one.
-fn plane_contact(file: &GmshFile) -> String {
+fn plane_contact(file: &FileMesh) -> String {
     let names: Vec<&str> = file.curves.keys().map(String::as_str).collect();
     let friction = |given: Option<f64>| given.unwrap_or(FRICTION);
     match file.model.contacts.first() {
@@ -232,7 +232,7 @@ fn plane_contact(file: &GmshFile) -> String {
     }
 }
 
-fn analysis(file: &GmshFile, out: &mut String) {
+fn analysis(file: &FileMesh, out: &mut String) {
     let is_sliding = !file.model.contacts.is_empty() || file.dimension == 2;
     if is_sliding {
         let _ = write!(

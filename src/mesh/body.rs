@@ -1,9 +1,10 @@
 //! From a mesh file to a body: regions, boundaries with what holds them, and the contact edge.
 
 use super::curve::{Curve, EdgeWeights};
-use super::gmsh::{BodyPart, GmshFile, MeshFileError};
+use super::error::{BodyError, BodyPart, refuse_far};
 use super::plane_body::{plane_body, used_nodes};
 use super::{Boundary, BoundaryCondition, Counterface, Mesh, NodalFrames};
+use frictionsim_formats::FileMesh;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Relative distance from a circle up to which nodes lie on it.
@@ -52,19 +53,19 @@ impl Mesh {
     /// Frames are those of the counterface, but along guides, where they are those of the boundary's normal.
     ///
     /// # Errors
-    /// [`MeshFileError::Body`] says what is wrong with the mesh or with the names used, and what to do.
+    /// [`BodyError::Body`] says what is wrong with the mesh or with the names used, and what to do.
     pub fn from_gmsh(
-        file: &GmshFile,
+        file: &FileMesh,
         specification: &BodySpecification,
-    ) -> Result<Self, MeshFileError> {
+    ) -> Result<Self, BodyError> {
         if file.dimension == 3 {
-            return Err(MeshFileError::Body(
+            return Err(BodyError::Body(
                 "the mesh is of solid elements; a body on a rigid counterface must be plane: mesh its surface alone (gmsh -2), \
                  or name the contacts of solid bodies under [contacts.NAME]"
                     .to_owned(),
             ));
         }
-        file.refuse_far(specification.scale)?;
+        refuse_far(file, specification.scale)?;
         let mut mesh = plane_body(file, specification.scale)?;
         let index_of = used_nodes(file)?;
         let outline: BTreeMap<(u32, u32), (u32, u32, Option<u32>)> = mesh
@@ -107,7 +108,7 @@ impl Mesh {
                         "boundaries.{name} is the contact curve (contact.boundary): it can have no condition of its own"
                     );
                     let part = BodyPart::Boundary(name.clone());
-                    return Err(MeshFileError::Request { part, message });
+                    return Err(BodyError::Request { part, message });
                 }
                 continue;
             }
@@ -124,7 +125,7 @@ impl Mesh {
                      condition of its own"
                 );
                 let part = BodyPart::Boundary(name.clone());
-                return Err(MeshFileError::Request { part, message });
+                return Err(BodyError::Request { part, message });
             }
             let free = BoundaryCondition::Free;
             mesh.opposite = Some(place.unwrap_or(boundaries.len()));
@@ -145,8 +146,8 @@ impl Mesh {
     }
 }
 
-fn no_curve(file: &GmshFile, name: &str, part: BodyPart) -> MeshFileError {
-    let refuse = |message: String| MeshFileError::Request { part, message };
+fn no_curve(file: &FileMesh, name: &str, part: BodyPart) -> BodyError {
+    let refuse = |message: String| BodyError::Request { part, message };
     if file.node_sets.contains_key(name) {
         return refuse(format!(
             "node set \"{name}\" is not all nodes of some edges of the outline: a curve of a plane body consists of edges"
@@ -186,7 +187,7 @@ fn check_along(
     [x, y]: [f64; 2],
     chord: [f64; 2],
     specification: &BodySpecification,
-) -> Result<(), MeshFileError> {
+) -> Result<(), BodyError> {
     let length = chord[0].hypot(chord[1]);
     let off = (x * chord[1] - y * chord[0]).abs() / length;
     if length == 0.0 || off <= LARGEST_TILT.to_radians().sin() {
@@ -195,7 +196,7 @@ fn check_along(
     // Of the two ways along the curve the one with the body on its left-hand side: the chord runs so.
     // Rounded, and no minus sign before a zero.
     let [along_x, along_y] = chord.map(|part| (1e3 * part / length).round() / 1e3 + 0.0);
-    Err(MeshFileError::Request {
+    Err(BodyError::Request {
         part: BodyPart::Direction,
         message: format!(
             "contact.direction = [{x}, {y}] makes {:.0} degrees with the contact curve \"{}\": the plane would slide into \
@@ -213,7 +214,7 @@ fn counterface(
     mesh: &Mesh,
     contact: &Curve,
     specification: &BodySpecification,
-) -> Result<Counterface, MeshFileError> {
+) -> Result<Counterface, BodyError> {
     let nodes = contact.nodes.iter();
     let points = nodes.map(|&node| mesh.plane_node(node as usize));
     match specification.counterface {
@@ -248,7 +249,7 @@ fn counterface(
                     mesh.labels[contact.nodes[i] as usize]
                 );
                 let part = BodyPart::Center;
-                return Err(MeshFileError::Request { part, message });
+                return Err(BodyError::Request { part, message });
             }
             // Inside where the body's outward normals point towards the axis.
             let inward: f64 = contact
@@ -270,7 +271,7 @@ fn counterface(
 }
 
 /// The contact edge with its weights along the counterface's normal.
-fn contact_boundary(mesh: &Mesh, curve: &Curve, name: &str) -> Result<Boundary, MeshFileError> {
+fn contact_boundary(mesh: &Mesh, curve: &Curve, name: &str) -> Result<Boundary, BodyError> {
     let weights = EdgeWeights::of(mesh, curve);
     let mut lengths = Vec::new();
     for (&node, vector) in curve.nodes.iter().zip(&weights.normals) {
@@ -288,7 +289,7 @@ fn contact_boundary(mesh: &Mesh, curve: &Curve, name: &str) -> Result<Boundary, 
                  part out of the physical curve, or correct contact.counterface, center or direction",
                 mesh.labels[node as usize]
             );
-            return Err(MeshFileError::Request { part, message });
+            return Err(BodyError::Request { part, message });
         }
         lengths.push(length);
     }

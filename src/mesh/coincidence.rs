@@ -1,7 +1,8 @@
 //! Nodes in one place that are not one node, elements given twice, and free edges: parts that were not merged.
 
 use super::Mesh;
-use super::gmsh::{GmshFile, MeshFileError};
+use super::error::BodyError;
+use frictionsim_formats::FileMesh;
 use std::collections::HashMap;
 
 /// Distance up to which nodes coincide, over the shortest edge of the mesh.
@@ -49,7 +50,7 @@ pub fn coincident_nodes<const D: usize>(points: &[[f64; D]], distance: f64) -> V
 }
 
 /// Refuses elements with the same corners as others: their stiffness and mass would count twice.
-pub(super) fn refuse_doubled_elements(file: &GmshFile) -> Result<(), MeshFileError> {
+pub(super) fn refuse_doubled_elements(file: &FileMesh) -> Result<(), BodyError> {
     let mut first_of: HashMap<Vec<u32>, usize> = HashMap::with_capacity(file.elements.len());
     let mut doubled = Vec::new();
     for (e, element) in file.elements.iter().enumerate() {
@@ -70,7 +71,7 @@ pub(super) fn refuse_doubled_elements(file: &GmshFile) -> Result<(), MeshFileErr
         let [x, y, _] = file.points[first.nodes[0] as usize];
         format!("{} and {} at ({x:.6}, {y:.6})", first.label, e.label)
     });
-    Err(MeshFileError::Body(format!(
+    Err(BodyError::Body(format!(
         "{} given twice (elements {}{}): remove the copies (Coherence Mesh; in Gmsh), and put each surface in one physical \
          group",
         match doubled.len() {

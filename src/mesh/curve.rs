@@ -1,7 +1,8 @@
 //! Curves of element edges: their order and the lengths that belong to their nodes.
 
 use super::Mesh;
-use super::gmsh::{CurveEdge, MeshFileError};
+use super::error::BodyError;
+use frictionsim_formats::CurveEdge;
 use std::collections::BTreeMap;
 
 /// Edges in order along a curve, the body on their left; where it has several pieces, one after the other.
@@ -66,21 +67,21 @@ impl Curve {
     }
 
     /// A contact curve must be one piece that does not touch itself.
-    pub fn check_single(&self, name: &str, labels: &[usize]) -> Result<(), MeshFileError> {
+    pub fn check_single(&self, name: &str, labels: &[usize]) -> Result<(), BodyError> {
         if self.edges.is_empty() {
-            return Err(MeshFileError::Body(format!(
+            return Err(BodyError::Body(format!(
                 "the contact curve \"{name}\" has no edges: a contact needs some between its nodes; name another curve"
             )));
         }
         if let Some(node) = self.touching {
-            return Err(MeshFileError::Body(format!(
+            return Err(BodyError::Body(format!(
                 "the contact curve \"{name}\" touches itself at node {}: more than two of its edges meet there",
                 labels[node as usize]
             )));
         }
         if let [_, second, ..] = self.pieces[..] {
             let (end, start) = (self.edges[second - 1].1, self.edges[second].0);
-            return Err(MeshFileError::Body(format!(
+            return Err(BodyError::Body(format!(
                 "the contact curve \"{name}\" is open: it is in {} pieces, one ends at node {} and another begins at node \
                  {}; put every edge between them into the physical curve, or name a curve for each contact",
                 self.pieces.len(),
@@ -96,9 +97,9 @@ impl Curve {
         [contact, opposite]: [&Self; 2],
         [name, other]: [&str; 2],
         labels: &[usize],
-    ) -> Result<(), MeshFileError> {
+    ) -> Result<(), BodyError> {
         if name == other {
-            return Err(MeshFileError::Body(format!(
+            return Err(BodyError::Body(format!(
                 "contact.boundary and contact.counter_boundary are both \"{name}\": name the curve of the other body in \
                  contact.counter_boundary"
             )));
@@ -106,7 +107,7 @@ impl Curve {
         opposite.check_single(other, labels)?;
         match contact.nodes.iter().find(|node| opposite.nodes.contains(node)) {
             None => Ok(()),
-            Some(&node) => Err(MeshFileError::Body(format!(
+            Some(&node) => Err(BodyError::Body(format!(
                 "\"{name}\" (contact.boundary) and \"{other}\" (contact.counter_boundary) share node {}: mesh the bodies \
                  apart, each with a curve of its own (in Gmsh without Coherence or BooleanFragments)",
                 labels[node as usize]

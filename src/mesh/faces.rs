@@ -1,7 +1,7 @@
 //! Faces on the surface of a body, edges on the rim of a plane one.
 
-use super::gmsh::CurveEdge;
 use super::{BoundaryFace, FaceKind, Mesh};
+use frictionsim_formats::CurveEdge;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Corners of a face in ascending order: what names it whichever side it is seen from.

@@ -1,24 +1,16 @@
-//! Nodes, elements, regions and boundaries of plane and solid bodies, the generator of the annulus, and the readers of mesh
-//! files.
+//! Nodes, elements, regions and boundaries of plane and solid bodies, generated or made of a mesh file.
 
-mod abaqus;
 mod annulus;
 mod body;
 mod boundary;
 mod coincidence;
-mod collection;
 mod counterface;
 mod curve;
 mod cyclic_symmetry;
-mod deck;
-mod element;
+mod error;
 mod faces;
-mod format;
 mod frames;
-mod gmsh;
-mod model_data;
 mod modification;
-mod nastran;
 mod plane_body;
 mod quality;
 mod refinement;
@@ -30,25 +22,24 @@ mod solid;
 mod solid_body;
 mod solid_refinement;
 mod specification;
-mod universal;
 
 pub use annulus::AnnulusMesh;
 pub use body::{BodySpecification, CounterfaceSpecification};
 pub use boundary::{Boundary, BoundaryCondition, BoundaryFace, ElasticSupport, NodalSupport};
 pub use coincidence::{UnmergedNodes, coincident_nodes};
 pub use counterface::Counterface;
-pub use cyclic_symmetry::CyclicSymmetry;
-pub use deck::included_text;
-pub use element::{ElementKind, FaceKind, FacePoint, QuadraturePoint, Shape};
-pub use format::MeshFormat;
+pub use error::{BodyError, BodyPart};
 pub use frames::NodalFrames;
-pub use gmsh::{BodyPart, CurveEdge, FileElement, GmshFile, MeshFileError, SurfaceFace};
-pub use model_data::{
-    FileCondition, FileConditionKind, FileContact, FileElasticity, FileMaterial, FileMotion,
-    FileTie, LeftOut, MaterialAxes, ModelData,
+pub use frictionsim_formats::{
+    CurveEdge, CyclicSymmetry, ElementKind, Equation, FaceKind, FacePoint, FileCondition,
+    FileConditionKind, FileContact, FileElasticity, FileElement, FileMaterial, FileMesh,
+    FileMotion, FileTie, LeftOut, MaterialAxes, MeshFileError, MeshFormat, ModelData,
+    QuadraturePoint, Shape, SurfaceFace, included_text,
 };
 pub use modification::{Attachment, DampedPatch};
 pub use quality::MeshQuality;
+pub use refinement::refined_file;
+pub use repetition::repeated_file;
 pub use sector::SectorMesh;
 pub use solid::{
     ContactRing, FaceElement, SheetNode, SolidContact, SolidFace, SolidSector, SolidSpecification,
@@ -105,9 +96,6 @@ pub struct Mesh {
     /// Symmetry of a mesh that was made of one sector.
     pub symmetry: Option<CyclicSymmetry>,
 }
-
-/// A sum of displacements that vanishes: nodes with an axis and a coefficient.
-pub type Equation = Vec<(u32, usize, f64)>;
 
 /// A plane mesh without nodes.
 impl Default for Mesh {

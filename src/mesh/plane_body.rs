@@ -1,8 +1,9 @@
 //! Nodes and elements of a mesh file as a plane body.
 
 use super::coincidence::refuse_doubled_elements;
-use super::gmsh::{BodyPart, FileElement, GmshFile, MeshFileError};
+use super::error::{BodyError, BodyPart};
 use super::{Mesh, NodalFrames};
+use frictionsim_formats::{FileElement, FileMesh};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Distances of the farthest node from the origin within which a body lies, m.
@@ -10,13 +11,13 @@ const SMALLEST: f64 = 1e-9;
 const LARGEST: f64 = 1e6;
 
 /// Position among the nodes of plane elements of each node of the file.
-pub(super) fn used_nodes(file: &GmshFile) -> Result<Vec<Option<u32>>, MeshFileError> {
+pub(super) fn used_nodes(file: &FileMesh) -> Result<Vec<Option<u32>>, BodyError> {
     let mut is_plane = vec![false; file.points.len()];
     for element in &file.elements {
         element.nodes.iter().for_each(|&node| is_plane[node as usize] = true);
     }
     if let Some(node) = (0..is_plane.len()).find(|&node| !file.is_used[node]) {
-        return Err(MeshFileError::Body(format!(
+        return Err(BodyError::Body(format!(
             "node {} belongs to no element: the mesh has dangling nodes; remove them (Coherence Mesh; in Gmsh), or save \
              the physical groups alone (Mesh.SaveAll = 0)",
             file.labels[node]
@@ -33,7 +34,7 @@ pub(super) fn used_nodes(file: &GmshFile) -> Result<Vec<Option<u32>>, MeshFileEr
 }
 
 /// Nodes and elements, counter-clockwise, without boundaries.
-pub(super) fn plane_body(file: &GmshFile, scale: f64) -> Result<Mesh, MeshFileError> {
+pub(super) fn plane_body(file: &FileMesh, scale: f64) -> Result<Mesh, BodyError> {
     let index_of = used_nodes(file)?;
     let count = index_of.iter().flatten().count();
     let mut mesh = Mesh {
@@ -50,7 +51,7 @@ pub(super) fn plane_body(file: &GmshFile, scale: f64) -> Result<Mesh, MeshFileEr
     for (node, (&[x, y, z], index)) in file.points.iter().zip(&index_of).enumerate() {
         let Some(index) = *index else { continue };
         if (z - depth).abs() > 1e-9 * size {
-            return Err(MeshFileError::Body(format!(
+            return Err(BodyError::Body(format!(
                 "node {} lies at z = {z}, others at {depth}: the body must be plane, in the x-y plane",
                 file.labels[node]
             )));
@@ -61,7 +62,7 @@ pub(super) fn plane_body(file: &GmshFile, scale: f64) -> Result<Mesh, MeshFileEr
     let names: BTreeSet<&str> = file.elements.iter().map(|e| &*e.region).collect();
     let names: Vec<&str> = names.into_iter().collect();
     if names.len() > usize::from(u16::MAX) {
-        return Err(MeshFileError::Body(format!("{} physical surfaces are too many", names.len())));
+        return Err(BodyError::Body(format!("{} physical surfaces are too many", names.len())));
     }
     mesh.regions = names.iter().map(|name| (*name).to_owned()).collect();
     let is_reversed = reversed_surfaces(file)?;
@@ -90,7 +91,7 @@ pub(super) fn plane_body(file: &GmshFile, scale: f64) -> Result<Mesh, MeshFileEr
 }
 
 /// Refuses coordinates of which no length can be computed with: squares and products of them must be finite.
-fn check_size(file: &GmshFile, size: f64, scale: f64) -> Result<(), MeshFileError> {
+fn check_size(file: &FileMesh, size: f64, scale: f64) -> Result<(), BodyError> {
     let length = size * scale;
     if (SMALLEST..=LARGEST).contains(&length) {
         return Ok(());
@@ -98,7 +99,7 @@ fn check_size(file: &GmshFile, size: f64, scale: f64) -> Result<(), MeshFileErro
     let reaches = |p: &[f64; 3]| p[0].abs().max(p[1].abs()) == size;
     let node = file.points.iter().position(reaches);
     let label = node.map_or(0, |node| file.labels[node]);
-    Err(MeshFileError::Request {
+    Err(BodyError::Request {
         part: BodyPart::Scale,
         message: format!(
             "node {label} lies at {length:e} m, and no other one farther from the origin: a body of {SMALLEST:e} to \
@@ -108,7 +109,7 @@ fn check_size(file: &GmshFile, size: f64, scale: f64) -> Result<(), MeshFileErro
 }
 
 /// Surfaces whose elements run clockwise, all of them: the surface is turned over, its elements are sound.
-fn reversed_surfaces(file: &GmshFile) -> Result<BTreeSet<i64>, MeshFileError> {
+fn reversed_surfaces(file: &FileMesh) -> Result<BTreeSet<i64>, BodyError> {
     let area = |element: &FileElement| {
         let corners = element.kind.corner_count();
         let at = |i: usize| file.points[element.nodes[i % corners] as usize];
@@ -128,7 +129,7 @@ fn reversed_surfaces(file: &GmshFile) -> Result<BTreeSet<i64>, MeshFileError> {
         let (clockwise, counter) = balance[&element.entity];
         let is_minority = if area(element) < 0.0 { counter > 0 } else { clockwise > counter };
         if is_minority {
-            return Err(MeshFileError::Body(format!(
+            return Err(BodyError::Body(format!(
                 "element {} is inverted: its nodes run the other way round than those of the {} other elements of \
                  surface {}; mesh the surface again",
                 element.label,

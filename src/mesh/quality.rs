@@ -1,6 +1,6 @@
 //! Checks of element shape and of supports that hold the body.
 
-use super::gmsh::MeshFileError;
+use super::error::BodyError;
 use super::{BoundaryCondition, Mesh};
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
@@ -129,17 +129,14 @@ impl Mesh {
     }
 
     /// Refuses elements that fold or have no area; `label` gives the number in the file.
-    pub(super) fn check_elements(
-        &self,
-        label: impl Fn(usize) -> usize,
-    ) -> Result<(), MeshFileError> {
+    pub(super) fn check_elements(&self, label: impl Fn(usize) -> usize) -> Result<(), BodyError> {
         // A quadratic element may reach zero at a node that its quadrature does not see, but no further.
         match (0..self.element_count()).find(|&e| self.jacobian_ratio(e) <= 0.0) {
             Some(element) => {
                 let nodes = self.element_nodes(element).iter();
                 let nodes: Vec<String> =
                     nodes.map(|&node| self.labels[node as usize].to_string()).collect();
-                Err(MeshFileError::Body(format!(
+                Err(BodyError::Body(format!(
                     "element {} (nodes {}) is inverted or has no {}: its Jacobian is not positive everywhere; mesh the \
                      {} again, finer where it curves",
                     label(element),
@@ -155,7 +152,7 @@ impl Mesh {
     /// Refuses a body, or a part of it that is not connected to the rest, that can move as a rigid whole.
     ///
     /// Sliding friction holds nothing: contact counts along its normal only.
-    pub(super) fn check_held(&self) -> Result<(), MeshFileError> {
+    pub(super) fn check_held(&self) -> Result<(), BodyError> {
         let part = self.connected_parts();
         let parts = part.iter().max().map_or(0, |&last| last + 1);
         let size = self.nodes.iter().fold(0.0_f64, |m, p| m.max(p[0].abs()).max(p[1].abs()));
@@ -208,7 +205,7 @@ impl Mesh {
                     }
                     _ => String::new(),
                 };
-                return Err(MeshFileError::Body(format!(
+                return Err(BodyError::Body(format!(
                     "nothing holds {} (with node {} at {x:.4e}, {y:.4e} m): it can move as a rigid body (sliding \
                      friction holds nothing); give one of its boundaries ({}) condition = \"clamped\", \"support\" or \
                      \"guide\" under [boundaries.NAME]{unmerged}",

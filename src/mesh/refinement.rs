@@ -1,7 +1,8 @@
 //! Uniform refinement of a mesh file: every element into four.
 
-use super::gmsh::{CurveEdge, FileElement, GmshFile, MeshFileError};
+use super::error::BodyError;
 use super::rim::Rim;
+use frictionsim_formats::{CurveEdge, FileElement, FileMesh};
 use std::collections::BTreeMap;
 
 /// Most nodes of a mesh: indices are 32 bits wide, with room for two unknowns at each.
@@ -16,56 +17,54 @@ struct SplitEdge {
     halves: Option<[u32; 2]>,
 }
 
-impl GmshFile {
-    /// The same body with every element split into four alike; nodes keep their numbers, new ones count on from the
-    /// largest.
-    ///
-    /// Where an edge of the body, or between two of its regions, follows a smooth curve, the new nodes lie on the
-    /// circle through its neighbours: arcs stay arcs to round-off. Elsewhere they lie on the old edge, a parabola where
-    /// it is quadratic.
-    ///
-    /// # Errors
-    /// [`MeshFileError::Body`] for a mesh that would have too many nodes, or of solid elements.
-    pub fn refined(&self) -> Result<Self, MeshFileError> {
-        if self.dimension == 3 {
-            return Err(MeshFileError::Body(
-                "a file of solid elements is refined as the mesh that is made of it".to_owned(),
-            ));
-        }
-        if self.points.len().saturating_mul(4) > MOST_NODES {
-            return Err(MeshFileError::Body(format!(
-                "a refinement of {} nodes has more than {MOST_NODES}: refine less",
-                self.points.len()
-            )));
-        }
-        let mut refinement = Refinement::new(self);
-        for element in &self.elements {
-            refinement.split(element);
-        }
-        let curves = self.curves.iter().map(|(name, edges)| {
-            let halves = edges.iter().flat_map(|edge| refinement.split_curve(edge));
-            (name.clone(), halves.collect())
-        });
-        let curves = curves.collect();
-        Ok(Self { curves, ..refinement.fine })
+/// The same body with every element split into four alike; nodes keep their numbers, new ones count on from the
+/// largest.
+///
+/// Where an edge of the body, or between two of its regions, follows a smooth curve, the new nodes lie on the
+/// circle through its neighbours: arcs stay arcs to round-off. Elsewhere they lie on the old edge, a parabola where
+/// it is quadratic.
+///
+/// # Errors
+/// [`BodyError::Body`] for a mesh that would have too many nodes, or of solid elements.
+pub fn refined_file(file: &FileMesh) -> Result<FileMesh, BodyError> {
+    if file.dimension == 3 {
+        return Err(BodyError::Body(
+            "a file of solid elements is refined as the mesh that is made of it".to_owned(),
+        ));
     }
+    if file.points.len().saturating_mul(4) > MOST_NODES {
+        return Err(BodyError::Body(format!(
+            "a refinement of {} nodes has more than {MOST_NODES}: refine less",
+            file.points.len()
+        )));
+    }
+    let mut refinement = Refinement::new(file);
+    for element in &file.elements {
+        refinement.split(element);
+    }
+    let curves = file.curves.iter().map(|(name, edges)| {
+        let halves = edges.iter().flat_map(|edge| refinement.split_curve(edge));
+        (name.clone(), halves.collect())
+    });
+    let curves = curves.collect();
+    Ok(FileMesh { curves, ..refinement.fine })
 }
 
 struct Refinement<'a> {
-    coarse: &'a GmshFile,
-    fine: GmshFile,
+    coarse: &'a FileMesh,
+    fine: FileMesh,
     rim: Rim,
     edges: BTreeMap<(u32, u32), SplitEdge>,
     next_label: usize,
 }
 
 impl<'a> Refinement<'a> {
-    fn new(coarse: &'a GmshFile) -> Self {
+    fn new(coarse: &'a FileMesh) -> Self {
         Self {
             rim: Rim::of(coarse),
             edges: BTreeMap::new(),
             next_label: 1 + coarse.labels.iter().copied().max().unwrap_or(0),
-            fine: GmshFile {
+            fine: FileMesh {
                 elements: Vec::with_capacity(4 * coarse.elements.len()),
                 curves: BTreeMap::new(),
                 ..coarse.clone()

@@ -1,11 +1,12 @@
 //! A body of equal sectors from one of them.
 
 use super::coincidence::coincident_nodes;
+use super::error::{BodyError, BodyPart};
 use super::faces::{FaceKey, face_key};
-use super::gmsh::{BodyPart, CurveEdge, FileElement, GmshFile, MeshFileError};
 use super::plane_body::{plane_body, used_nodes};
 use super::solid_body::solid_elements;
 use super::{BoundaryFace, CyclicSymmetry, Mesh};
+use frictionsim_formats::{CurveEdge, FileElement, FileMesh};
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -16,113 +17,111 @@ const MOST_NODES: usize = (u32::MAX / 3) as usize;
 /// Nodes that a message names.
 const NAMED: usize = 4;
 
-fn misfit(message: String) -> MeshFileError {
+fn misfit(message: String) -> BodyError {
     let part = BodyPart::Sectors;
-    MeshFileError::Request { part, message }
+    BodyError::Request { part, message }
 }
 
-impl GmshFile {
-    /// The whole body whose sector is in the file: `symmetry.count` copies, each turned by `2 pi / count` against the one before and
-    /// joined to it where its first cut face meets the other's second. Coordinates and `symmetry.point` have one unit.
-    ///
-    /// The cut faces are found: faces that the turn by one sector brings onto another, node by node and in the same regions. Nodes
-    /// come sector by sector in equal order; those of the first keep their numbers, further ones add a multiple of a power of ten.
-    ///
-    /// # Errors
-    /// [`MeshFileError::Request`] where no faces meet, where they meet but their nodes do not, where a node lies on the axis.
-    pub fn repeated(&self, symmetry: &CyclicSymmetry) -> Result<Self, MeshFileError> {
-        let count = symmetry.count;
-        let index_of = used_nodes(self)?;
-        if index_of.len().saturating_mul(count) > MOST_NODES {
-            return Err(misfit(format!(
-                "{count} sectors of {} nodes have more than {MOST_NODES}",
-                index_of.len()
-            )));
-        }
-        let sector = match self.dimension {
-            3 => solid_elements(self, 1.0, &index_of)?,
-            _ => plane_body(self, 1.0)?,
-        };
-        let cut = Cut::of(&sector, symmetry)?;
-        cut.check_faces(&sector, symmetry)?;
-
-        // Nodes of the second cut face are those of the first of the next sector.
-        let own: Vec<usize> = (0..sector.node_count())
-            .filter(|node| !cut.first_of.contains_key(&(*node as u32)))
-            .collect();
-        let mut place = vec![0; sector.node_count()];
-        own.iter().enumerate().for_each(|(rank, &node)| place[node] = rank);
-        let moved = |node: u32, j: usize| -> u32 {
-            let (node, j) = match cut.first_of.get(&node) {
-                Some(&first) => (first, (j + 1) % count),
-                None => (node, j),
-            };
-            (j * own.len() + place[node as usize]) as u32
-        };
-        let of_file = |node: &u32, j: usize| {
-            let known = index_of[*node as usize].expect("every node has an element");
-            moved(known, j)
-        };
-        let largest = |labels: &mut dyn Iterator<Item = usize>| labels.max().unwrap_or(0);
-        let stride = |largest: usize| 10_usize.saturating_pow(largest.max(1).ilog10() + 1);
-        let node_stride = stride(largest(&mut sector.labels.iter().copied()));
-        let element_stride = stride(largest(&mut self.elements.iter().map(|e| e.label)));
-
-        let (mut points, mut labels, mut elements) = (Vec::new(), Vec::new(), Vec::new());
-        let mut equations = Vec::new();
-        for j in 0..count {
-            let turn = symmetry.turn(j);
-            for &node in &own {
-                points.push(symmetry.turned(&turn, sector.nodes[node]));
-                labels.push(sector.labels[node] + j * node_stride);
-            }
-            elements.extend(self.elements.iter().map(|element| FileElement {
-                label: element.label + j * element_stride,
-                nodes: element.nodes.iter().map(|node| of_file(node, j)).collect(),
-                ..element.clone()
-            }));
-            // Axes of equations turn with their sector.
-            equations.extend(self.equations.iter().map(|equation| {
-                let terms = equation.iter().flat_map(|&(node, axis, factor)| {
-                    let node = of_file(&node, j);
-                    (0..3).map(move |k| (node, k, factor * turn[(k, axis)]))
-                });
-                terms.filter(|term| term.2 != 0.0).collect()
-            }));
-        }
-        let curves = self.curves.iter().map(|(name, edges)| {
-            let copies = (0..count).flat_map(|j| {
-                let node = move |node: u32| of_file(&node, j);
-                edges.iter().map(move |&(p, q, middle)| (node(p), node(q), middle.map(node)))
-            });
-            (name.clone(), copies.collect::<Vec<CurveEdge>>())
-        });
-        let surfaces = self.surfaces.iter().map(|(name, faces)| {
-            let copies = (0..count).flat_map(|j| {
-                let face = move |nodes: &Vec<u32>| nodes.iter().map(|n| of_file(n, j)).collect();
-                faces.iter().map(move |(kind, nodes)| (*kind, face(nodes)))
-            });
-            (name.clone(), copies.collect::<Vec<_>>())
-        });
-        let node_sets = self.node_sets.iter().map(|(name, nodes)| {
-            let copies = (0..count).flat_map(|j| nodes.iter().map(move |node| of_file(node, j)));
-            let copies: BTreeSet<u32> = copies.collect();
-            (name.clone(), copies.into_iter().collect::<Vec<u32>>())
-        });
-        Ok(Self {
-            curves: curves.collect(),
-            surfaces: surfaces.collect(),
-            node_sets: node_sets.collect(),
-            is_used: vec![true; points.len()],
-            dimension: self.dimension,
-            model: self.model.clone(),
-            symmetry: Some(*symmetry),
-            points,
-            labels,
-            elements,
-            equations,
-        })
+/// The whole body whose sector is in the file: `symmetry.count` copies, each turned by `2 pi / count` against the one before and
+/// joined to it where its first cut face meets the other's second. Coordinates and `symmetry.point` have one unit.
+///
+/// The cut faces are found: faces that the turn by one sector brings onto another, node by node and in the same regions. Nodes
+/// come sector by sector in equal order; those of the first keep their numbers, further ones add a multiple of a power of ten.
+///
+/// # Errors
+/// [`BodyError::Request`] where no faces meet, where they meet but their nodes do not, where a node lies on the axis.
+pub fn repeated_file(file: &FileMesh, symmetry: &CyclicSymmetry) -> Result<FileMesh, BodyError> {
+    let count = symmetry.count;
+    let index_of = used_nodes(file)?;
+    if index_of.len().saturating_mul(count) > MOST_NODES {
+        return Err(misfit(format!(
+            "{count} sectors of {} nodes have more than {MOST_NODES}",
+            index_of.len()
+        )));
     }
+    let sector = match file.dimension {
+        3 => solid_elements(file, 1.0, &index_of)?,
+        _ => plane_body(file, 1.0)?,
+    };
+    let cut = Cut::of(&sector, symmetry)?;
+    cut.check_faces(&sector, symmetry)?;
+
+    // Nodes of the second cut face are those of the first of the next sector.
+    let own: Vec<usize> = (0..sector.node_count())
+        .filter(|node| !cut.first_of.contains_key(&(*node as u32)))
+        .collect();
+    let mut place = vec![0; sector.node_count()];
+    own.iter().enumerate().for_each(|(rank, &node)| place[node] = rank);
+    let moved = |node: u32, j: usize| -> u32 {
+        let (node, j) = match cut.first_of.get(&node) {
+            Some(&first) => (first, (j + 1) % count),
+            None => (node, j),
+        };
+        (j * own.len() + place[node as usize]) as u32
+    };
+    let of_file = |node: &u32, j: usize| {
+        let known = index_of[*node as usize].expect("every node has an element");
+        moved(known, j)
+    };
+    let largest = |labels: &mut dyn Iterator<Item = usize>| labels.max().unwrap_or(0);
+    let stride = |largest: usize| 10_usize.saturating_pow(largest.max(1).ilog10() + 1);
+    let node_stride = stride(largest(&mut sector.labels.iter().copied()));
+    let element_stride = stride(largest(&mut file.elements.iter().map(|e| e.label)));
+
+    let (mut points, mut labels, mut elements) = (Vec::new(), Vec::new(), Vec::new());
+    let mut equations = Vec::new();
+    for j in 0..count {
+        let turn = symmetry.turn(j);
+        for &node in &own {
+            points.push(symmetry.turned(&turn, sector.nodes[node]));
+            labels.push(sector.labels[node] + j * node_stride);
+        }
+        elements.extend(file.elements.iter().map(|element| FileElement {
+            label: element.label + j * element_stride,
+            nodes: element.nodes.iter().map(|node| of_file(node, j)).collect(),
+            ..element.clone()
+        }));
+        // Axes of equations turn with their sector.
+        equations.extend(file.equations.iter().map(|equation| {
+            let terms = equation.iter().flat_map(|&(node, axis, factor)| {
+                let node = of_file(&node, j);
+                (0..3).map(move |k| (node, k, factor * turn[(k, axis)]))
+            });
+            terms.filter(|term| term.2 != 0.0).collect()
+        }));
+    }
+    let curves = file.curves.iter().map(|(name, edges)| {
+        let copies = (0..count).flat_map(|j| {
+            let node = move |node: u32| of_file(&node, j);
+            edges.iter().map(move |&(p, q, middle)| (node(p), node(q), middle.map(node)))
+        });
+        (name.clone(), copies.collect::<Vec<CurveEdge>>())
+    });
+    let surfaces = file.surfaces.iter().map(|(name, faces)| {
+        let copies = (0..count).flat_map(|j| {
+            let face = move |nodes: &Vec<u32>| nodes.iter().map(|n| of_file(n, j)).collect();
+            faces.iter().map(move |(kind, nodes)| (*kind, face(nodes)))
+        });
+        (name.clone(), copies.collect::<Vec<_>>())
+    });
+    let node_sets = file.node_sets.iter().map(|(name, nodes)| {
+        let copies = (0..count).flat_map(|j| nodes.iter().map(move |node| of_file(node, j)));
+        let copies: BTreeSet<u32> = copies.collect();
+        (name.clone(), copies.into_iter().collect::<Vec<u32>>())
+    });
+    Ok(FileMesh {
+        curves: curves.collect(),
+        surfaces: surfaces.collect(),
+        node_sets: node_sets.collect(),
+        is_used: vec![true; points.len()],
+        dimension: file.dimension,
+        model: file.model.clone(),
+        symmetry: Some(*symmetry),
+        points,
+        labels,
+        elements,
+        equations,
+    })
 }
 
 /// The two cut faces of a sector.
@@ -137,7 +136,7 @@ struct Cut {
 
 impl Cut {
     /// Pairs the nodes of the outline that the turn by one sector brings onto each other.
-    fn of(sector: &Mesh, symmetry: &CyclicSymmetry) -> Result<Self, MeshFileError> {
+    fn of(sector: &Mesh, symmetry: &CyclicSymmetry) -> Result<Self, BodyError> {
         let outer = sector.outer_faces();
         let shortest = outer.iter().flat_map(|face| {
             let corners = &face.nodes[..face.kind.corner_count()];
@@ -188,7 +187,7 @@ impl Cut {
     }
 
     /// Refuses a sector that does not meet its copy, or meets it with other faces.
-    fn check_faces(&self, sector: &Mesh, symmetry: &CyclicSymmetry) -> Result<(), MeshFileError> {
+    fn check_faces(&self, sector: &Mesh, symmetry: &CyclicSymmetry) -> Result<(), BodyError> {
         let degrees = 360.0 / symmetry.count as f64;
         let key = |nodes: &[u32], face: &BoundaryFace| -> FaceKey {
             face_key(&nodes[..face.kind.corner_count()])

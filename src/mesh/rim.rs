@@ -1,6 +1,6 @@
 //! Edges of a body and between its regions as smooth curves: where a new node between two old ones belongs.
 
-use super::gmsh::GmshFile;
+use frictionsim_formats::FileMesh;
 use std::collections::BTreeMap;
 
 /// Relative difference of the curvatures at the two ends of an edge up to which it follows a smooth curve.
@@ -20,7 +20,7 @@ pub(super) struct Rim {
 
 impl Rim {
     /// The rim of the body of a file.
-    pub fn of(file: &GmshFile) -> Self {
+    pub fn of(file: &FileMesh) -> Self {
         type Edge<'a> = (Option<u32>, Vec<&'a str>);
         let mut edges: BTreeMap<(u32, u32), Edge<'_>> = BTreeMap::new();
         for element in &file.elements {

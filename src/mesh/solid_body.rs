@@ -1,10 +1,11 @@
 //! Solid bodies of a mesh file: regions, named surfaces, and what holds them.
 
 use super::coincidence::refuse_doubled_elements;
+use super::error::{BodyError, refuse_far};
 use super::faces::{FaceKey, face_key};
-use super::gmsh::{GmshFile, MeshFileError, SurfaceFace};
 use super::plane_body::used_nodes;
 use super::{Boundary, BoundaryCondition, BoundaryFace, Mesh, NodalFrames};
+use frictionsim_formats::{FileMesh, SurfaceFace};
 use nalgebra::{Matrix3, Vector3};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -19,13 +20,13 @@ impl Mesh {
     /// coordinates of the file.
     ///
     /// # Errors
-    /// [`MeshFileError::Body`] says what is wrong with the mesh or with the names used, and what to do.
+    /// [`BodyError::Body`] says what is wrong with the mesh or with the names used, and what to do.
     pub fn from_solids(
-        file: &GmshFile,
+        file: &FileMesh,
         scale: f64,
         conditions: &[(String, BoundaryCondition)],
-    ) -> Result<Self, MeshFileError> {
-        file.refuse_far(scale)?;
+    ) -> Result<Self, BodyError> {
+        refuse_far(file, scale)?;
         let index_of = used_nodes(file)?;
         let mut mesh = solid_elements(file, scale, &index_of)?;
         let outer: BTreeMap<FaceKey, BoundaryFace> = mesh
@@ -60,7 +61,7 @@ impl Mesh {
                 BoundaryCondition::Clamped | BoundaryCondition::Fixed(_) | BoundaryCondition::Free
             );
             if needs_faces && !boundary.is_covered() {
-                return Err(MeshFileError::Body(format!(
+                return Err(BodyError::Body(format!(
                     "boundaries.{name} is a set of nodes that are not all nodes of some faces: it can be \"clamped\" or \"fixed\"; \
                      name a surface of faces for anything else"
                 )));
@@ -82,7 +83,7 @@ impl Mesh {
     /// belong to them.
     fn add_node_sets(
         &mut self,
-        file: &GmshFile,
+        file: &FileMesh,
         index_of: &[Option<u32>],
         outer: &BTreeMap<FaceKey, BoundaryFace>,
     ) {
@@ -204,16 +205,16 @@ impl Mesh {
 
 /// Nodes, elements and regions of the solid elements of a file.
 pub(super) fn solid_elements(
-    file: &GmshFile,
+    file: &FileMesh,
     scale: f64,
     index_of: &[Option<u32>],
-) -> Result<Mesh, MeshFileError> {
+) -> Result<Mesh, BodyError> {
     let count = index_of.iter().flatten().count();
     refuse_doubled_elements(file)?;
     let names: BTreeSet<&str> = file.elements.iter().map(|e| &*e.region).collect();
     let names: Vec<&str> = names.into_iter().collect();
     if names.len() > usize::from(u16::MAX) {
-        return Err(MeshFileError::Body(format!(
+        return Err(BodyError::Body(format!(
             "{} physical volumes are more than can be told apart",
             names.len()
         )));
@@ -248,9 +249,9 @@ pub(super) fn solid_elements(
     Ok(mesh)
 }
 
-fn no_surface(surfaces: &BTreeMap<String, Vec<SurfaceFace>>, name: &str) -> MeshFileError {
+fn no_surface(surfaces: &BTreeMap<String, Vec<SurfaceFace>>, name: &str) -> BodyError {
     if surfaces.contains_key(name) {
-        return MeshFileError::Body(format!(
+        return BodyError::Body(format!(
             "physical surface \"{name}\" does not lie on the outside of the bodies: some of its faces are faces of two elements, \
              or of none"
         ));
@@ -270,5 +271,5 @@ fn no_surface(surfaces: &BTreeMap<String, Vec<SurfaceFace>>, name: &str) -> Mesh
     } else {
         format!("the file has {}", names.join(", "))
     };
-    MeshFileError::Body(format!("no physical surface is called \"{name}\"; {list}{hint}"))
+    BodyError::Body(format!("no physical surface is called \"{name}\"; {list}{hint}"))
 }

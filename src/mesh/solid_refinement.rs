@@ -1,7 +1,7 @@
 //! Uniform refinement of solid bodies: every element into eight alike, pyramids into six of them and four tetrahedra.
 
+use super::error::BodyError;
 use super::faces::{FaceKey, face_key};
-use super::gmsh::MeshFileError;
 use super::{Boundary, BoundaryFace, ElementKind, Mesh, NodalFrames};
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -23,10 +23,10 @@ impl Mesh {
     /// a set of nodes that is no surface takes the new nodes between its own.
     ///
     /// # Errors
-    /// [`MeshFileError::Body`] for a mesh that would have too many nodes, or parts of curved elements that are inverted.
-    pub fn refined_solids(&self) -> Result<Self, MeshFileError> {
+    /// [`BodyError::Body`] for a mesh that would have too many nodes, or parts of curved elements that are inverted.
+    pub fn refined_solids(&self) -> Result<Self, BodyError> {
         if self.node_count().saturating_mul(8) > MOST_NODES {
-            return Err(MeshFileError::Body(format!(
+            return Err(BodyError::Body(format!(
                 "a refinement of {} nodes has more than {MOST_NODES}: refine less",
                 self.node_count()
             )));

@@ -218,7 +218,7 @@ impl EncodedMesh {
     pub fn new(mesh: &Mesh) -> io::Result<Self> {
         let points = mesh.nodes.iter().flatten().copied();
         let ends = mesh.element_starts[1..].iter().map(|&end| i64::from(end));
-        let types: Vec<u8> = mesh.element_kinds.iter().map(|kind| kind.formats().vtk).collect();
+        let types: Vec<u8> = mesh.element_kinds.iter().map(|kind| kind.vtk_type()).collect();
         let connectivity = mesh.elements.iter().map(|node| i64::from(*node));
         Ok(Self {
             node_count: mesh.node_count(),

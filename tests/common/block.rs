@@ -1,6 +1,6 @@
 //! Blocks of solid elements of every kind, as a mesh file holds them.
 
-use frictionsim::mesh::{ElementKind, FileElement, GmshFile};
+use frictionsim::mesh::{ElementKind, FileElement, FileMesh};
 use std::collections::BTreeMap;
 
 /// Solid kinds.
@@ -42,7 +42,7 @@ fn parts(kind: ElementKind) -> &'static [&'static [usize]] {
 
 /// A block of cells on the unit cube, each cut into elements of a kind, taken to its shape by `map`; sides `x0`, `x1`, `y0`, `y1`,
 /// `z0` and `z1` are physical surfaces, `body` is the region. Mid-side nodes are mapped too: edges follow the map.
-pub fn block(kind: ElementKind, cells: [usize; 3], map: impl Fn([f64; 3]) -> [f64; 3]) -> GmshFile {
+pub fn block(kind: ElementKind, cells: [usize; 3], map: impl Fn([f64; 3]) -> [f64; 3]) -> FileMesh {
     let mut places: Vec<[f64; 3]> = Vec::new();
     for k in 0..=cells[2] {
         for j in 0..=cells[1] {
@@ -54,7 +54,7 @@ pub fn block(kind: ElementKind, cells: [usize; 3], map: impl Fn([f64; 3]) -> [f6
     }
     let corner =
         |i: usize, j: usize, k: usize| (i + (cells[0] + 1) * (j + (cells[1] + 1) * k)) as u32;
-    let mut file = GmshFile { dimension: 3, ..GmshFile::default() };
+    let mut file = FileMesh { dimension: 3, ..FileMesh::default() };
     let mut middles: BTreeMap<(u32, u32), u32> = BTreeMap::new();
     for (i, j, k) in (0..cells[2])
         .flat_map(|k| (0..cells[1]).flat_map(move |j| (0..cells[0]).map(move |i| (i, j, k))))

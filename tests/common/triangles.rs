@@ -2,7 +2,7 @@
 
 use frictionsim::mesh::{
     AnnulusMesh, AnnulusSpecification, BodySpecification, BoundaryCondition,
-    CounterfaceSpecification, ElementKind, GmshFile, Mesh,
+    CounterfaceSpecification, ElementKind, FileMesh, Mesh,
 };
 use std::collections::BTreeMap;
 
@@ -83,7 +83,7 @@ pub fn triangles(specification: &AnnulusSpecification, is_quadratic: bool) -> Me
 }
 
 /// The disc of a file, clamped at its rim.
-pub fn body(file: &GmshFile) -> Mesh {
+pub fn body(file: &FileMesh) -> Mesh {
     let specification = BodySpecification {
         scale: 1.0,
         contact: "inner".to_owned(),

@@ -13,7 +13,7 @@ use frictionsim::fem::{
     RayleighDamping, RegionMaterial, RelaxedMaterials, TabledMaterial,
 };
 use frictionsim::linalg::c64;
-use frictionsim::mesh::{BoundaryCondition, GmshFile, Mesh};
+use frictionsim::mesh::{BoundaryCondition, FileMesh, Mesh};
 use frictionsim::prestress::{
     Assembly, BaseChoice, DampingModel, SlidingSurfaces, TangentOptions, TiedSurfaces,
 };
@@ -66,7 +66,7 @@ fn mesh_of(plate: [usize; 3], with_lower: bool) -> Mesh {
     let conditions = conditions.iter();
     let conditions: Vec<_> = conditions.map(|&(name, own)| (name.to_owned(), own)).collect();
     let file = file_of(&blocks, |point| point);
-    Mesh::from_solids(&GmshFile::read(&file).unwrap(), 1.0, &conditions).unwrap()
+    Mesh::from_solids(&FileMesh::read(&file).unwrap(), 1.0, &conditions).unwrap()
 }
 
 /// The upper block and its plate on a rigid plane that turns as the lower block does, pushed in by twice what the load presses.

@@ -13,7 +13,7 @@ use frictionsim::fem::{
 };
 use frictionsim::mesh::{
     AnnulusMesh, BodySpecification, BoundaryCondition, CounterfaceSpecification, ElasticSupport,
-    ElementKind, GmshFile, Mesh,
+    ElementKind, FileMesh, Mesh,
 };
 use frictionsim::prestress::{
     DampingModel, SlidingRange, SlidingTangent, SteadySliding, TangentOptions,
@@ -45,7 +45,7 @@ fn disc_body(bytes: &[u8], scale: f64) -> Mesh {
         opposite: None,
         conditions: vec![("outer".to_owned(), BoundaryCondition::Clamped)],
     };
-    Mesh::from_gmsh(&GmshFile::read(bytes).unwrap(), &specification).unwrap()
+    Mesh::from_gmsh(&FileMesh::read(bytes).unwrap(), &specification).unwrap()
 }
 
 fn modes(mesh: &Mesh, options: &TangentOptions, contact: &SlidingContact) -> Vec<ComplexMode> {
@@ -76,7 +76,7 @@ fn every_form_of_the_file_reads_to_one_mesh() {
         let mesh = AnnulusMesh::generate(&annulus(element, 12, 3)).unwrap().mesh;
         let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
         let read =
-            FORMS.map(|form| GmshFile::read(&write_msh(&mesh, form, &numbers, |p| p)).unwrap());
+            FORMS.map(|form| FileMesh::read(&write_msh(&mesh, form, &numbers, |p| p)).unwrap());
         for file in &read {
             // Labels of elements differ between text and groups of bytes in nothing.
             assert_eq!(*file, read[0], "{element:?}");
@@ -256,7 +256,7 @@ fn plane(friction_coefficient: f64) -> SlidingContact {
 #[test]
 fn a_pressed_block_is_in_balance() {
     let (width, height) = (0.04, 0.06);
-    let file = GmshFile::read(&rectangle(width, height, 20, 30)).unwrap();
+    let file = FileMesh::read(&rectangle(width, height, 20, 30)).unwrap();
     let mesh = Mesh::from_gmsh(&file, &block_specification()).unwrap();
     let stiffness = assemble_stiffness(&mesh, &POLYCARBONATE);
     let frictions = [0.0, 0.1, 0.3, 0.6];
@@ -280,7 +280,7 @@ fn a_pressed_block_is_in_balance() {
 /// On an elastic mounting the drag tilts the block: nodes open one by one as friction rises.
 #[test]
 fn a_block_on_an_elastic_mounting_lifts_a_corner_as_friction_rises() {
-    let file = GmshFile::read(&rectangle(0.04, 0.06, 20, 30)).unwrap();
+    let file = FileMesh::read(&rectangle(0.04, 0.06, 20, 30)).unwrap();
     let mut specification = block_specification();
     let mounting = ElasticSupport {
         normal_stiffness: 1e12,
@@ -360,7 +360,7 @@ fn a_body_without_symmetry_grows_in_time_as_its_eigenvalue_says() {
 /// Energy closes to round-off with supports, dashpots, pressure and a contact that opens.
 #[test]
 fn energy_closes_with_supports_pressure_and_partial_contact() {
-    let file = GmshFile::read(&rectangle(0.04, 0.06, 8, 12)).unwrap();
+    let file = FileMesh::read(&rectangle(0.04, 0.06, 8, 12)).unwrap();
     let mut specification = block_specification();
     specification.conditions[0].1 = BoundaryCondition::Support(ElasticSupport {
         loss_factor: 0.0,
@@ -400,7 +400,7 @@ fn energy_closes_with_supports_pressure_and_partial_contact() {
 fn bad_files_and_names_are_refused_with_a_remedy() {
     let good = String::from_utf8(rectangle(0.04, 0.03, 4, 3)).unwrap();
     let body = |text: &str, specification: &BodySpecification| {
-        let file = GmshFile::read(text.as_bytes()).map_err(|e| e.to_string())?;
+        let file = FileMesh::read(text.as_bytes()).map_err(|e| e.to_string())?;
         Mesh::from_gmsh(&file, specification).map_err(|e| e.to_string())
     };
     let plain = block_specification();
@@ -487,7 +487,7 @@ fn mutated_files_are_read_or_refused() {
                 break;
             }
         }
-        if let Ok(file) = GmshFile::read(&bytes) {
+        if let Ok(file) = FileMesh::read(&bytes) {
             assert!(file.points.len() <= bytes.len() && file.elements.len() <= bytes.len());
             let _ = Mesh::from_gmsh(&file, &specification);
         }

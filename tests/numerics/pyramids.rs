@@ -1,7 +1,7 @@
 //! Pyramids between bricks and tetrahedra (theory: the patch test), and as Gmsh and Nastran number them (independent: their manuals).
 
 use frictionsim::fem::{ElasticMaterial, PlaneFormulation, assemble_stiffness, solid_stress};
-use frictionsim::mesh::{ElementKind, FileElement, GmshFile, Mesh};
+use frictionsim::mesh::{ElementKind, FileElement, FileMesh, Mesh};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -14,7 +14,7 @@ const STEEL: ElasticMaterial = ElasticMaterial {
 };
 
 /// Three cells in a row: a brick, six pyramids, and tetrahedra with a pyramid on the side of the others.
-fn row(is_quadratic: bool) -> GmshFile {
+fn row(is_quadratic: bool) -> FileMesh {
     let corner = |i: u32, j: u32, k: u32| i + 4 * (j + 2 * k);
     let mut places: Vec<[f64; 3]> = Vec::new();
     for (k, j, i) in (0..2).flat_map(|k| (0..2).flat_map(move |j| (0..4).map(move |i| (k, j, i)))) {
@@ -38,7 +38,7 @@ fn row(is_quadratic: bool) -> GmshFile {
         }
     }
     // Middles of the edges, then a map of all that is linear, so that edges stay straight.
-    let mut file = GmshFile { dimension: 3, ..GmshFile::default() };
+    let mut file = FileMesh { dimension: 3, ..FileMesh::default() };
     let mut middles: BTreeMap<[u32; 2], u32> = BTreeMap::new();
     for (number, mut nodes) in elements.into_iter().enumerate() {
         let kind = ElementKind::Tet4.with_corners(nodes.len(), is_quadratic);
@@ -141,7 +141,7 @@ fn pyramids_of_gmsh_are_read_in_the_order_of_its_manual() {
             labels.join(" ")
         )
         .unwrap();
-        let mesh = Mesh::from_solids(&GmshFile::read(text.as_bytes()).unwrap(), 1.0, &[]).unwrap();
+        let mesh = Mesh::from_solids(&FileMesh::read(text.as_bytes()).unwrap(), 1.0, &[]).unwrap();
         let kind = mesh.element_kind(0);
         assert_eq!(kind.node_count(), count);
         let nodes = mesh.element_nodes(0);

@@ -9,7 +9,7 @@ use frictionsim::fem::{
     assemble_mass, assemble_pressures, assemble_stiffness, assemble_supports, lumped_masses,
     solid_stress,
 };
-use frictionsim::mesh::{BoundaryCondition, ElasticSupport, ElementKind, GmshFile, Mesh};
+use frictionsim::mesh::{BoundaryCondition, ElasticSupport, ElementKind, FileMesh, Mesh};
 use nalgebra::{DMatrix, Matrix3, Rotation3, SymmetricEigen, Vector3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -37,7 +37,7 @@ fn draws() -> impl FnMut() -> f64 {
 }
 
 /// The skewed block with inner nodes out of place; edges stay straight unless `bend` moves the middles of inner edges too.
-fn distorted(kind: ElementKind, bend: f64) -> GmshFile {
+fn distorted(kind: ElementKind, bend: f64) -> FileMesh {
     let mut file = block(kind, [3, 2, 2], |place| place);
     let is_inner = |p: &[f64; 3]| p.iter().all(|&x| x > 1e-9 && x < 1.0 - 1e-9);
     let mut draw = draws();
@@ -437,7 +437,7 @@ fn a_turned_block_has_the_same_frequencies() {
 
 /// Volumes of the regions and areas of the surfaces of a mesh file.
 fn measures(bytes: &[u8]) -> Vec<(String, f64)> {
-    let mesh = Mesh::from_solids(&GmshFile::read(bytes).unwrap(), 1.0, &[]).unwrap();
+    let mesh = Mesh::from_solids(&FileMesh::read(bytes).unwrap(), 1.0, &[]).unwrap();
     let regions = mesh.regions.iter().cloned().zip(mesh.region_measures());
     let surfaces = mesh.boundaries.iter();
     let surfaces = surfaces.map(|b| (b.name.clone(), mesh.face_area(&b.faces)));

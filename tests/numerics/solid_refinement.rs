@@ -2,7 +2,7 @@
 
 use crate::block::{SOLIDS, block};
 use frictionsim::fem::{ElasticMaterial, PlaneFormulation, lumped_masses};
-use frictionsim::mesh::{BoundaryCondition, ElementKind, GmshFile, Mesh};
+use frictionsim::mesh::{BoundaryCondition, ElementKind, FileMesh, Mesh};
 
 const STEEL: ElasticMaterial = ElasticMaterial {
     young_modulus: 2e11,
@@ -18,7 +18,7 @@ fn barrel([x, y, z]: [f64; 3]) -> [f64; 3] {
     [0.1 * bulge * (x - 0.5), 0.08 * bulge * (y - 0.4), 0.06 * z + 0.01 * x * y]
 }
 
-fn mesh(file: &GmshFile) -> Mesh {
+fn mesh(file: &FileMesh) -> Mesh {
     let conditions = [
         ("x0", BoundaryCondition::Clamped),
         ("y0", BoundaryCondition::Guide),

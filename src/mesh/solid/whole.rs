@@ -1,13 +1,13 @@
 //! The whole mesh of a body of revolution.
 
 use super::SolidSector;
-use crate::mesh::{BoundaryFace, CyclicSymmetry, GmshFile, SolidContact, SolidFace};
+use crate::mesh::{BoundaryFace, CyclicSymmetry, FileMesh, SolidContact, SolidFace};
 use std::collections::BTreeMap;
 
 impl SolidSector {
     /// The whole body as a mesh file would have it, made of equal sectors: surfaces `inner`, `outer`, `top` and `bottom`, and that
     /// under a ring on the top ([`Self::contact_surface`]).
-    pub fn file(&self) -> GmshFile {
+    pub fn file(&self) -> FileMesh {
         let mut mesh = self.part(self.sector_count());
         mesh.regions = vec!["disc".to_owned()];
         let mut surfaces: BTreeMap<String, Vec<_>> = BTreeMap::new();
@@ -18,14 +18,14 @@ impl SolidSector {
                 own.push((face.kind, face.nodes.clone()));
             }
         }
-        GmshFile {
+        FileMesh {
             surfaces,
             symmetry: Some(CyclicSymmetry {
                 count: self.sector_count(),
                 point: [0.0; 3],
                 direction: [0.0, 0.0, 1.0],
             }),
-            ..GmshFile::of_mesh(&mesh)
+            ..mesh.to_file()
         }
     }
 

@@ -51,7 +51,7 @@ fn text_boxes(svg: &str) -> (Vec<TextBox>, [f64; 2]) {
     }
     let mut options = Options::default();
     for face in ["DejaVuSans", "DejaVuSans-Bold", "DejaVuSans-Oblique"] {
-        let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("src/chart/font");
+        let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("crates/chart/src/font");
         let font = std::fs::read(folder.join(format!("{face}.ttf"))).unwrap();
         options.fontdb_mut().load_font_data(font);
     }

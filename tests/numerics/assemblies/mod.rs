@@ -14,7 +14,7 @@ use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::contact::{ContactStiffness, Counterpart, Motion, PairError, PairFriction};
 use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping};
 use frictionsim::linalg::c64;
-use frictionsim::mesh::{BoundaryCondition, GmshFile, Mesh};
+use frictionsim::mesh::{BoundaryCondition, FileMesh, Mesh};
 use frictionsim::prestress::{
     Assembly, BaseChoice, DampingModel, PrestressError, SlidingSurfaces, SlidingTangent,
     TangentOptions, TiedSurfaces,
@@ -47,7 +47,7 @@ const OPTIONS: TangentOptions = TangentOptions {
 fn mesh_of(bytes: &[u8], conditions: &[(&str, BoundaryCondition)]) -> Mesh {
     let conditions: Vec<_> =
         conditions.iter().map(|&(name, condition)| (name.to_owned(), condition)).collect();
-    Mesh::from_solids(&GmshFile::read(bytes).unwrap(), 1.0, &conditions).unwrap()
+    Mesh::from_solids(&FileMesh::read(bytes).unwrap(), 1.0, &conditions).unwrap()
 }
 
 fn boundary(mesh: &Mesh, name: &str) -> usize {

@@ -10,7 +10,7 @@ use frictionsim::fem::{
     ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
 };
 use frictionsim::mesh::{
-    BodySpecification, BoundaryCondition, CounterfaceSpecification, ElasticSupport, GmshFile, Mesh,
+    BodySpecification, BoundaryCondition, CounterfaceSpecification, ElasticSupport, FileMesh, Mesh,
 };
 use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
 use frictionsim::transient::{
@@ -92,7 +92,7 @@ pub fn block(pressure: f64) -> Mesh {
             ("top".to_owned(), BoundaryCondition::Pressure(pressure)),
         ],
     };
-    Mesh::from_gmsh(&GmshFile::read(text.as_bytes()).unwrap(), &specification).unwrap()
+    Mesh::from_gmsh(&FileMesh::read(text.as_bytes()).unwrap(), &specification).unwrap()
 }
 
 /// Growth rate of the block on its spring by the eigenvalue analysis, 1/s.

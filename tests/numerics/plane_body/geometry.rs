@@ -3,26 +3,26 @@
 use crate::disc::annulus;
 use crate::msh::{FORMS, write_msh};
 use crate::triangles::{body, triangles};
-use frictionsim::mesh::{AnnulusMesh, ElementKind, GmshFile, Mesh};
+use frictionsim::mesh::{AnnulusMesh, ElementKind, FileMesh, Mesh, refined_file};
 
 const KINDS: [ElementKind; 4] =
     [ElementKind::Quad4, ElementKind::Quad8, ElementKind::Tri3, ElementKind::Tri6];
 
-fn file(kind: ElementKind, around: usize, radial: usize) -> GmshFile {
+fn file(kind: ElementKind, around: usize, radial: usize) -> FileMesh {
     let is_quadratic = kind.is_quadratic();
     let mesh = match kind.corner_count() {
         3 => triangles(&annulus(ElementKind::Quad4, around, radial), is_quadratic),
         _ => AnnulusMesh::generate(&annulus(kind, around, radial)).unwrap().mesh,
     };
     let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
-    GmshFile::read(&write_msh(&mesh, FORMS[3], &numbers, |p| p)).unwrap()
+    FileMesh::read(&write_msh(&mesh, FORMS[3], &numbers, |p| p)).unwrap()
 }
 
 #[test]
 fn refined_arcs_stay_on_their_circles_and_old_nodes_stay_where_they_are() {
     for kind in KINDS {
         let coarse = file(kind, 24, 3);
-        let fine = coarse.refined().unwrap().refined().unwrap();
+        let fine = refined_file(&refined_file(&coarse).unwrap()).unwrap();
         assert_eq!(fine.elements.len(), 16 * coarse.elements.len());
         assert_eq!(fine.points[..coarse.points.len()], coarse.points);
         let mesh: Mesh = body(&fine);

@@ -10,7 +10,7 @@ use frictionsim::contact::ContactInterface;
 use frictionsim::fem::{DofMap, MassKind, Triplets, assemble_mass, assemble_stiffness};
 use frictionsim::linalg::{MatrixPolynomial, SparsityPattern};
 use frictionsim::mesh::{
-    BodySpecification, BoundaryCondition, CounterfaceSpecification, ElementKind, GmshFile, Mesh,
+    BodySpecification, BoundaryCondition, CounterfaceSpecification, ElementKind, FileMesh, Mesh,
 };
 use frictionsim::prestress::SlidingTangent;
 use std::collections::BTreeMap;
@@ -156,7 +156,7 @@ fn blocks(along: [usize; 2]) -> Mesh {
             .map(|name| (name.to_owned(), BoundaryCondition::Clamped))
             .to_vec(),
     };
-    Mesh::from_gmsh(&GmshFile::read(&file_of(&parts)).unwrap(), &specification).unwrap()
+    Mesh::from_gmsh(&FileMesh::read(&file_of(&parts)).unwrap(), &specification).unwrap()
 }
 
 /// Patch test: every state of constant strain passes glue between any two meshes: it is continuous, and with what it

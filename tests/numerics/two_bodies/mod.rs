@@ -14,8 +14,8 @@ use frictionsim::contact::{ContactInterface, ContactStiffness, SlidingContact};
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::fem::{ElasticMaterial, MassKind, assemble_stiffness};
 use frictionsim::mesh::{
-    AnnulusSpecification, BodySpecification, BoundaryCondition, CounterfaceSpecification,
-    ElasticSupport, ElementKind, GmshFile, Mesh, MeshFileError, ShaftSpecification,
+    AnnulusSpecification, BodyError, BodySpecification, BoundaryCondition,
+    CounterfaceSpecification, ElasticSupport, ElementKind, FileMesh, Mesh, ShaftSpecification,
 };
 use frictionsim::prestress::SteadySliding;
 use frictionsim::transient::{
@@ -108,7 +108,7 @@ fn mounting() -> ElasticSupport {
 }
 
 /// A block pressed on another by the springs on its top; the lower one, wider on both sides, is clamped below.
-fn blocks(along: [usize; 2]) -> Result<Mesh, MeshFileError> {
+fn blocks(along: [usize; 2]) -> Result<Mesh, BodyError> {
     let lower = rectangle([-0.01, -0.02], [0.06, 0.02], [along[0], 3]);
     let upper = rectangle([0.0, 0.0], [0.04, 0.03], [along[1], 4]);
     let parts = [
@@ -125,7 +125,7 @@ fn blocks(along: [usize; 2]) -> Result<Mesh, MeshFileError> {
             ("top".to_owned(), BoundaryCondition::Support(mounting())),
         ],
     };
-    Mesh::from_gmsh(&GmshFile::read(&file_of(&parts)).unwrap(), &specification)
+    Mesh::from_gmsh(&FileMesh::read(&file_of(&parts)).unwrap(), &specification)
 }
 
 /// Patch test: through meshes of any two fineness a constant pressure passes as it is.

@@ -7,7 +7,7 @@ use frictionsim::contact::{ContactStiffness, SlidingContact};
 use frictionsim::fem::{MassKind, MaterialField, assemble_stiffness};
 use frictionsim::mesh::{
     AnnulusMesh, AnnulusSpecification, BodySpecification, Boundary, BoundaryCondition,
-    CounterfaceSpecification, ElementKind, GmshFile, Mesh,
+    CounterfaceSpecification, ElementKind, FileMesh, Mesh,
 };
 use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
 
@@ -96,7 +96,7 @@ pub fn rings_of(
         opposite: Some("journal".to_owned()),
         conditions: vec![clamped("outer"), clamped("bore")],
     };
-    Mesh::from_gmsh(&GmshFile::read(&file_of(&parts)).unwrap(), &specification).unwrap()
+    Mesh::from_gmsh(&FileMesh::read(&file_of(&parts)).unwrap(), &specification).unwrap()
 }
 
 /// One ring of even elements.

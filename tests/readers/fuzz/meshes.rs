@@ -5,7 +5,7 @@ use crate::fuzz::mutation::{Random, binary, text};
 use crate::msh::{FORMS, write_msh};
 use frictionsim::mesh::{
     AnnulusMesh, AnnulusSpecification, BodySpecification, BoundaryCondition,
-    CounterfaceSpecification, ElementKind, GmshFile, Mesh,
+    CounterfaceSpecification, ElementKind, FileMesh, Mesh,
 };
 
 fn ring(element: ElementKind) -> Mesh {
@@ -49,7 +49,7 @@ fn no_mesh_file_makes_its_reader_panic() {
             }
         },
         |bytes| {
-            if let Ok(file) = GmshFile::read(bytes) {
+            if let Ok(file) = FileMesh::read(bytes) {
                 // Counts that a file only claims take no room.
                 assert!(file.points.len() <= bytes.len() && file.elements.len() <= bytes.len());
                 drop(Mesh::from_gmsh(&file, &specification));
@@ -86,7 +86,7 @@ fn no_file_of_another_program_makes_its_reader_panic() {
         |bytes| {
             let (name, _) = OTHERS[usize::from(bytes[0])];
             let bytes = &bytes[1..];
-            match GmshFile::read_as(name, bytes) {
+            match FileMesh::read_as(name, bytes) {
                 Ok(file) => {
                     assert!(file.points.len() <= 3 * bytes.len());
                     assert!(file.elements.len() <= 3 * bytes.len());

@@ -10,11 +10,11 @@ pub use abaqus::ASSEMBLY;
 pub use nastran::BRICK as BULK_DATA;
 pub use universal::BRICK as UNIVERSAL;
 
-use frictionsim::mesh::{GmshFile, Mesh, MeshFileError};
+use frictionsim::mesh::{FileMesh, Mesh, MeshFileError};
 
 /// A file of the given name and text.
-fn read(name: &str, text: &str) -> Result<GmshFile, MeshFileError> {
-    GmshFile::read_as(name, text.as_bytes())
+fn read(name: &str, text: &str) -> Result<FileMesh, MeshFileError> {
+    FileMesh::read_as(name, text.as_bytes())
 }
 
 /// Its solid bodies.

@@ -2,7 +2,7 @@
 
 use super::{area, body};
 use crate::block::{SOLIDS, block};
-use frictionsim::mesh::{ElementKind, GmshFile, Mesh};
+use frictionsim::mesh::{ElementKind, FileMesh, Mesh};
 use std::f64::consts::PI;
 use std::fmt::Write;
 
@@ -14,7 +14,7 @@ fn bent([x, y, z]: [f64; 3]) -> [f64; 3] {
 }
 
 /// Element number (from 1), local face and nodes of every face of a side.
-fn faces_of(file: &GmshFile, side: &str) -> Vec<(usize, Vec<usize>, Vec<u32>)> {
+fn faces_of(file: &FileMesh, side: &str) -> Vec<(usize, Vec<usize>, Vec<u32>)> {
     let mut found = Vec::new();
     for (kind, nodes) in &file.surfaces[side] {
         let corners = &nodes[..kind.corner_count()];
@@ -51,7 +51,7 @@ fn abaqus_face(kind: ElementKind, corners: &[usize]) -> usize {
     1 + faces.iter().position(is_same).unwrap()
 }
 
-fn inp(file: &GmshFile) -> String {
+fn inp(file: &FileMesh) -> String {
     let mut out = String::from("*Heading\n a block\n*NODE, NSET=Nall\n");
     for (label, [x, y, z]) in file.labels.iter().zip(&file.points) {
         writeln!(out, "{label}, {x:?}, {y:?}, {z:?}").unwrap();
@@ -98,7 +98,7 @@ fn nastran_order(kind: ElementKind) -> Vec<usize> {
     }
 }
 
-fn bdf(file: &GmshFile) -> String {
+fn bdf(file: &FileMesh) -> String {
     let mut out = String::from(
         "SOL 103\nCEND\nLOAD = 1\nBEGIN BULK\n$HMNAME PROP        7\"body\" 4\nPSOLID,7,1\nMAT1,1,2.+11,,.3,7850.\n",
     );
@@ -154,7 +154,7 @@ fn unv_order(kind: ElementKind) -> Vec<usize> {
     }
 }
 
-fn unv(file: &GmshFile) -> String {
+fn unv(file: &FileMesh) -> String {
     let mut out = String::from("    -1\n  2411\n");
     for (label, [x, y, z]) in file.labels.iter().zip(&file.points) {
         let exponent = |value: &f64| format!("{value:.17e}").replace('e', "D");

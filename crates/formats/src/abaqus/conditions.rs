@@ -1,0 +1,352 @@
+//! `*BOUNDARY`, `*DLOAD`, `*DSLOAD` and `*MOTION`, as the last step leaves them.
+
+use super::block::{Block, fields};
+use super::interactions::unique;
+use super::{Placed, Reader};
+use crate::deck::{Place, quoted, real};
+use crate::file_mesh::MeshFileError;
+use crate::model_data::{FileCondition, FileConditionKind, FileMotion};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// Directions that words of `*BOUNDARY` hold; rotations mean nothing to solid elements.
+const WORDS: [(&str, [bool; 3]); 8] = [
+    ("ENCASTRE", [true, true, true]),
+    ("PINNED", [true, true, true]),
+    ("XSYMM", [true, false, false]),
+    ("YSYMM", [false, true, false]),
+    ("ZSYMM", [false, false, true]),
+    ("XASYMM", [false, true, true]),
+    ("YASYMM", [true, false, true]),
+    ("ZASYMM", [true, true, false]),
+];
+
+/// Name of the boundary of single nodes that are held alike.
+const SINGLE_NODES: &str = "held_nodes";
+
+/// What a set of nodes bears: held axes, and where that is said.
+pub(super) type Held = BTreeMap<(usize, String), ([bool; 3], Place)>;
+
+/// Pressures by surface.
+type Pressures = BTreeMap<String, (f64, Place)>;
+
+impl Reader<'_, '_> {
+    /// Reads what holds, loads and turns the bodies. Steps follow each other: each changes what is there, `OP=NEW` begins anew.
+    pub(super) fn read_conditions(&mut self, blocks: &Placed<'_, '_>) -> Result<(), MeshFileError> {
+        let (mut held, mut pressures) = (Held::new(), Pressures::new());
+        let transformed = self.transformed(blocks)?;
+        let mut step = 0;
+        for &(scope, block) in blocks {
+            match block.keyword.as_str() {
+                "STEP" => step += 1,
+                "BOUNDARY" => {
+                    if block.is("OP", "NEW") {
+                        held.clear();
+                    }
+                    let own = block.parameter("TYPE").unwrap_or("DISPLACEMENT").to_uppercase();
+                    if own != "DISPLACEMENT" || block.has("SUBMODEL") || block.has("BASE MOTION") {
+                        self.lose_part(&format!("*BOUNDARY, TYPE={own}"), block.place, "");
+                        continue;
+                    }
+                    self.boundary(scope, block, &mut held)?;
+                }
+                keyword @ ("DLOAD" | "DSLOAD") => {
+                    if block.is("OP", "NEW") {
+                        pressures.clear();
+                    }
+                    self.load(scope, block, keyword, &mut pressures)?;
+                }
+                "MOTION" => self.motion(scope, block)?,
+                _ => {}
+            }
+        }
+        if step > 0 {
+            let plural = if step == 1 { "step" } else { "steps" };
+            self.model.remarks.push(format!(
+                "conditions, pressures and friction are those at the end of {step} {plural}"
+            ));
+        }
+        let referred = self.read_equations(blocks, &held)?;
+        self.take_held(held, &transformed, &referred);
+        for (boundary, (pressure, place)) in pressures {
+            let place = self.deck.name(place);
+            let kind = FileConditionKind::Pressure(pressure);
+            self.model.conditions.push(FileCondition { boundary, kind, place });
+        }
+        Ok(())
+    }
+
+    /// Nodes whose degrees of freedom are along axes of their own.
+    fn transformed(&mut self, blocks: &Placed<'_, '_>) -> Result<BTreeSet<u32>, MeshFileError> {
+        let mut nodes = BTreeSet::new();
+        for &(scope, block) in blocks.iter().filter(|(_, b)| b.keyword == "TRANSFORM") {
+            let name = block.required(self.deck, "NSET")?;
+            let Some(set) = self.node_sets.get(&self.key(scope, name)) else {
+                return Err(self.unknown(block.place, "node set", name));
+            };
+            nodes.extend(set.items.iter().copied());
+        }
+        Ok(nodes)
+    }
+
+    fn boundary(
+        &mut self,
+        scope: usize,
+        block: &Block<'_>,
+        held: &mut Held,
+    ) -> Result<(), MeshFileError> {
+        for &(place, line) in &block.data {
+            let entry: Vec<&str> = fields(line).collect();
+            let (target, what) = (entry[0], entry.get(1).copied().unwrap_or_default());
+            let word = WORDS.iter().find(|(word, _)| word.eq_ignore_ascii_case(what));
+            let axes = match word {
+                Some((_, axes)) => *axes,
+                None => {
+                    let number = |i: usize| {
+                        entry.get(i).filter(|f| !f.is_empty()).map(|f| f.parse::<usize>())
+                    };
+                    let (Some(Ok(first)), last) = (number(1), number(2)) else {
+                        let message = format!(
+                            "a direction 1 to 6 or a word such as ENCASTRE expected, found {}",
+                            quoted(what)
+                        );
+                        return Err(self.deck.error(place, message));
+                    };
+                    let last = match last {
+                        None => first,
+                        Some(Ok(last)) => last,
+                        Some(Err(_)) => {
+                            let message =
+                                format!("a last direction expected, found {}", quoted(entry[2]));
+                            return Err(self.deck.error(place, message));
+                        }
+                    };
+                    let value = entry.get(3).and_then(|value| real(value)).unwrap_or(0.0);
+                    if value != 0.0 && !block.has("FIXED") {
+                        let reason =
+                            "only displacements of zero are taken: these directions stay free";
+                        self.lose_part("*BOUNDARY with a displacement", place, reason);
+                        continue;
+                    }
+                    [1, 2, 3].map(|axis| (first..=last).contains(&axis))
+                }
+            };
+            let key = self.target(scope, place, target, axes)?;
+            let known = held.entry(key).or_insert(([false; 3], place));
+            (0..3).for_each(|axis| known.0[axis] |= axes[axis]);
+        }
+        Ok(())
+    }
+
+    /// The node set that a line of `*BOUNDARY` is about; nodes by their numbers are gathered by the directions held.
+    fn target(
+        &mut self,
+        scope: usize,
+        place: Place,
+        target: &str,
+        axes: [bool; 3],
+    ) -> Result<(usize, String), MeshFileError> {
+        let key = self.key(scope, target);
+        if self.node_sets.contains_key(&key) {
+            return Ok(key);
+        }
+        let (there, name) = self.resolved(scope, target);
+        if name.parse::<usize>().is_err() {
+            return Err(self.unknown(place, "node set", target));
+        }
+        let nodes = self.node_entry(there, place, name)?.unwrap_or_default();
+        let letters = ["_1", "_2", "_3"].into_iter().zip(axes);
+        let letters: String = letters.filter(|(_, is_held)| *is_held).map(|l| l.0).collect();
+        let single = format!("{SINGLE_NODES}{letters}");
+        self.add_node_set(0, &single, nodes, false);
+        Ok((0, single.to_uppercase()))
+    }
+
+    /// Conditions of the sets that are held; what has no meaning here is left out.
+    fn take_held(&mut self, held: Held, transformed: &BTreeSet<u32>, referred: &BTreeSet<u32>) {
+        let in_plane = self.collection.dimension() == 2;
+        let used: BTreeSet<u32> =
+            self.collection.elements.iter().flat_map(|e| e.nodes.iter().copied()).collect();
+        for (key, (mut axes, place)) in held {
+            let Some(set) = self.node_sets.get(&key).cloned() else {
+                continue;
+            };
+            if in_plane {
+                axes[2] = false;
+            }
+            let keyword = format!("*BOUNDARY of {}", set.name);
+            let nodes: Vec<u32> =
+                set.items.iter().copied().filter(|node| used.contains(node)).collect();
+            let is_whole = axes == [true, true, !in_plane];
+            if !axes.contains(&true) {
+                self.leave_out(
+                    &keyword,
+                    place,
+                    "rotations of nodes have no meaning in solid elements",
+                );
+            } else if nodes.is_empty() && set.items.iter().all(|node| referred.contains(node)) {
+                // Its part is played in the equations.
+            } else if nodes.is_empty() {
+                self.leave_out(
+                    &keyword,
+                    place,
+                    "none of its nodes belongs to a solid (plane) element",
+                );
+            } else if !is_whole && nodes.iter().any(|node| transformed.contains(node)) {
+                let reason = "its directions are those of *TRANSFORM: hold it in the case (condition = \"guide\" or \"fixed\")";
+                self.lose_part(&keyword, place, reason);
+            } else {
+                let taken = &self.collection;
+                let is_other = |name: &str| taken.surfaces.contains_key(name);
+                let boundary = match is_other(&set.name) {
+                    true => unique(&format!("{}_nodes", set.name), is_other),
+                    false => set.name.clone(),
+                };
+                self.collection.node_sets.insert(boundary.clone(), nodes);
+                let place = self.deck.name(place);
+                let kind = FileConditionKind::Fixed(axes);
+                self.model.conditions.push(FileCondition { boundary, kind, place });
+            }
+        }
+    }
+
+    /// Pressures on surfaces and on faces of elements.
+    fn load(
+        &mut self,
+        scope: usize,
+        block: &Block<'_>,
+        keyword: &str,
+        pressures: &mut Pressures,
+    ) -> Result<(), MeshFileError> {
+        for &(place, line) in &block.data {
+            let entry: Vec<&str> = fields(line).collect();
+            let kind = entry.get(1).copied().unwrap_or_default().to_uppercase();
+            if keyword == "DLOAD" && kind == "CENTRIF" {
+                self.centrifugal(scope, place, line)?;
+                continue;
+            }
+            let is_surface = keyword == "DSLOAD" && kind == "P";
+            let is_face = keyword == "DLOAD"
+                && kind.strip_prefix('P').is_some_and(|n| n.parse::<usize>().is_ok());
+            if !is_surface && !is_face {
+                let reason = "pressures on surfaces and faces are taken, other loads are not";
+                self.lose_part(&format!("*{keyword}, {kind}"), place, reason);
+                continue;
+            }
+            let value = entry.get(2).and_then(|value| real(value)).ok_or_else(|| {
+                let message = format!("*{keyword}: a pressure expected, found {}", quoted(line));
+                self.deck.error(place, message)
+            })?;
+            let surface = match is_surface {
+                true => self
+                    .surface_name(scope, entry[0])
+                    .ok_or_else(|| self.unknown(place, "surface", entry[0]))?,
+                false => self.loaded_faces(scope, place, entry[0], &kind)?,
+            };
+            pressures.insert(surface, (value, place));
+        }
+        Ok(())
+    }
+
+    /// The surface of face `P<number>` of an element or of a set of them.
+    fn loaded_faces(
+        &mut self,
+        scope: usize,
+        place: Place,
+        set: &str,
+        side: &str,
+    ) -> Result<String, MeshFileError> {
+        let elements = self.element_entry(scope, place, set)?;
+        let elements = elements.ok_or_else(|| self.unknown(place, "element set", set))?;
+        let (there, name) = self.resolved(scope, set);
+        let full = match self.element_sets.get(&self.key(scope, set)) {
+            Some(known) => format!("{}_{side}", known.name),
+            None => format!("{}_{side}", self.scopes[there].full_name(&format!("element_{name}"))),
+        };
+        let faces: Result<Vec<_>, _> =
+            elements.iter().map(|&e| self.side(e, side, place)).collect();
+        self.collection.surfaces.insert(full.clone(), faces?);
+        Ok(full)
+    }
+
+    /// `*MOTION, ROTATION`: the speed at which nodes pass, of the regions that it covers.
+    fn motion(&mut self, scope: usize, block: &Block<'_>) -> Result<(), MeshFileError> {
+        if !block.has("ROTATION") {
+            self.leave_out("*MOTION without ROTATION", block.place, "");
+            return Ok(());
+        }
+        for &(place, line) in &block.data {
+            let mut entry = fields(line);
+            let target = entry.next().unwrap_or_default();
+            let numbers: Option<Vec<f64>> = entry.map(real).collect();
+            let Some(&[speed, a, b, c, d, e, f]) = numbers.as_deref() else {
+                let message = "a speed and two points of the axis (3 + 3 numbers) expected";
+                return Err(self.deck.error(place, message));
+            };
+            let nodes = self.node_entry(scope, place, target)?;
+            let nodes = nodes.ok_or_else(|| self.unknown(place, "node set", target))?;
+            let nodes: BTreeSet<u32> = nodes.into_iter().collect();
+            let elements = self.collection.elements.iter();
+            let is_inside = elements.map(|e| e.nodes.iter().all(|node| nodes.contains(node)));
+            let is_inside: Vec<bool> = is_inside.collect();
+            let turning = FileMotion {
+                region: String::new(),
+                axis: [[a, b, c], [d, e, f]],
+                angular_velocity: speed,
+                is_load: false,
+                place: self.deck.name(place),
+            };
+            if !self.turn_regions(&is_inside, &turning) {
+                let reason = "its nodes are not those of whole regions";
+                self.leave_out("*MOTION, ROTATION", place, reason);
+            }
+        }
+        Ok(())
+    }
+
+    /// Gives the motion to the regions whose elements are all among those marked; whether there is one.
+    fn turn_regions(&mut self, is_inside: &[bool], turning: &FileMotion) -> bool {
+        let mut covers: BTreeMap<Option<Arc<str>>, bool> = BTreeMap::new();
+        for (element, is_inside) in self.collection.elements.iter().zip(is_inside) {
+            *covers.entry(element.region.clone()).or_insert(true) &= is_inside;
+        }
+        let regions = covers.into_iter().filter(|c| c.1).filter_map(|c| c.0);
+        let regions: Vec<Arc<str>> = regions.collect();
+        for region in &regions {
+            let motions = &mut self.model.motions;
+            motions.retain(|motion| *motion.region != **region);
+            motions.push(FileMotion { region: region.to_string(), ..turning.clone() });
+        }
+        !regions.is_empty()
+    }
+
+    /// `*DLOAD`, `CENTRIF`: the squared speed at which elements turn, a point of the axis and its direction.
+    fn centrifugal(&mut self, scope: usize, place: Place, line: &str) -> Result<(), MeshFileError> {
+        let mut entry = fields(line);
+        let target = entry.next().unwrap_or_default();
+        let numbers: Option<Vec<f64>> = entry.skip(1).map(real).collect();
+        let Some(&[square, a, b, c, d, e, f]) = numbers.as_deref() else {
+            let message = "CENTRIF: the square of a speed, a point of the axis and its direction (1 + 3 + 3 numbers) expected";
+            return Err(self.deck.error(place, message));
+        };
+        if square < 0.0 {
+            let message = "CENTRIF: the square of a speed is not negative";
+            return Err(self.deck.error(place, message));
+        }
+        let elements = self.element_entry(scope, place, target)?;
+        let elements = elements.ok_or_else(|| self.unknown(place, "element set", target))?;
+        let mut is_inside = vec![false; self.collection.elements.len()];
+        elements.into_iter().for_each(|e| is_inside[e] = true);
+        let turning = FileMotion {
+            region: String::new(),
+            axis: [[a, b, c], [a + d, b + e, c + f]],
+            angular_velocity: square.sqrt(),
+            is_load: true,
+            place: self.deck.name(place),
+        };
+        if !self.turn_regions(&is_inside, &turning) {
+            self.lose_part("*DLOAD, CENTRIF", place, "its elements are not those of whole regions");
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,121 @@
+//! `*EQUATION`: sums of displacements that vanish.
+
+use super::block::{Block, fields};
+use super::conditions::Held;
+use super::{Placed, Reader};
+use crate::deck::{Place, real};
+use crate::file_mesh::MeshFileError;
+use std::collections::BTreeSet;
+
+/// A term: its nodes, an axis, a coefficient.
+type Term = (Vec<u32>, usize, f64);
+
+impl Reader<'_, '_> {
+    /// Reads the equations, and returns the nodes without elements that are part of them: such a node must be held, and takes no
+    /// part then.
+    pub(super) fn read_equations(
+        &mut self,
+        blocks: &Placed<'_, '_>,
+        held: &Held,
+    ) -> Result<BTreeSet<u32>, MeshFileError> {
+        let elements = self.collection.elements.iter();
+        let used: BTreeSet<u32> = elements.flat_map(|e| e.nodes.iter().copied()).collect();
+        let is_held = |reader: &Self, node: u32, axis: usize| {
+            let mut sets = held.iter().filter(|(_, (axes, _))| axes[axis]);
+            sets.any(|(key, _)| reader.node_sets[key].items.contains(&node))
+        };
+        let mut referred = BTreeSet::new();
+        for &(scope, block) in blocks.iter().filter(|(_, b)| b.keyword == "EQUATION") {
+            for (place, terms) in self.equation_terms(scope, block)? {
+                // Sets of as many nodes stand for as many equations; a single node is part of each.
+                let count = terms.iter().map(|term| term.0.len()).max().unwrap_or(0);
+                if terms.iter().any(|term| ![1, count].contains(&term.0.len())) {
+                    let message = "*EQUATION: node sets of one equation have as many nodes each";
+                    return Err(self.deck.error(place, message));
+                }
+                for i in 0..count {
+                    let all = terms.iter().map(|(nodes, axis, factor)| {
+                        let node = nodes[if nodes.len() == 1 { 0 } else { i }];
+                        (node, *axis, *factor)
+                    });
+                    let (own, beside): (Vec<_>, Vec<_>) = all.partition(|t| used.contains(&t.0));
+                    for (node, axis, _) in beside {
+                        if !is_held(self, node, axis) {
+                            let label = self.collection.labels[node as usize];
+                            let message = format!(
+                                "*EQUATION: node {label} belongs to no element, and nothing holds it along {}: a node that moves \
+                                 others freely is not supported",
+                                ["x", "y", "z"][axis]
+                            );
+                            return Err(self.deck.error(place, message));
+                        }
+                        referred.insert(node);
+                    }
+                    self.collection.equations.push(own);
+                }
+            }
+        }
+        if self.collection.dimension() == 2 && !self.collection.equations.is_empty() {
+            self.collection.equations.clear();
+            let first = blocks.iter().find(|(_, b)| b.keyword == "EQUATION");
+            let place = first.map_or_else(|| self.deck.end(), |(_, block)| block.place);
+            self.lose_part("*EQUATION", place, "plane bodies have no equations of nodes");
+        }
+        Ok(referred)
+    }
+
+    /// The equations of a block: the number of terms, then node or set, axis and coefficient of each, over any lines.
+    fn equation_terms(
+        &self,
+        scope: usize,
+        block: &Block<'_>,
+    ) -> Result<Vec<(Place, Vec<Term>)>, MeshFileError> {
+        let mut equations = Vec::new();
+        let mut lines = block.data.iter();
+        while let Some(&(place, line)) = lines.next() {
+            let count = line.trim().trim_end_matches(',').parse::<usize>().ok();
+            let count = count.filter(|count| (1..=1_000_000).contains(count));
+            let count = count.ok_or_else(|| {
+                let message = "*EQUATION: the number of terms expected";
+                self.deck.error(place, message)
+            })?;
+            let mut terms: Vec<Term> = Vec::new();
+            while terms.len() < count {
+                let Some(&(place, line)) = lines.next() else {
+                    let message =
+                        format!("*EQUATION: {count} terms expected, found {}", terms.len());
+                    return Err(self.deck.error(place, message));
+                };
+                let entry: Vec<&str> = fields(line).collect();
+                for term in entry.chunks(3) {
+                    terms.push(self.equation_term(scope, place, term)?);
+                }
+            }
+            equations.push((place, terms));
+        }
+        Ok(equations)
+    }
+
+    fn equation_term(
+        &self,
+        scope: usize,
+        place: Place,
+        term: &[&str],
+    ) -> Result<Term, MeshFileError> {
+        let wrong = || {
+            let message =
+                "*EQUATION: a node or node set, a direction 1 to 3 and a coefficient expected";
+            self.deck.error(place, message)
+        };
+        let &[target, axis, factor] = term else {
+            return Err(wrong());
+        };
+        let axis = axis.parse::<usize>().ok().filter(|axis| (1..=3).contains(axis));
+        let (Some(axis), Some(factor)) = (axis, real(factor)) else {
+            return Err(wrong());
+        };
+        let nodes = self.node_entry(scope, place, target)?;
+        let nodes = nodes.ok_or_else(|| self.unknown(place, "node set", target))?;
+        Ok((nodes, axis - 1, factor))
+    }
+}

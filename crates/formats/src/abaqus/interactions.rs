@@ -1,0 +1,231 @@
+//! `*TIE`, `*CONTACT PAIR` and the friction of `*SURFACE INTERACTION`.
+
+use super::block::{Block, fields};
+use super::{Placed, Reader};
+use crate::deck::{Place, quoted};
+use crate::file_mesh::MeshFileError;
+use crate::model_data::{FileContact, FileTie};
+use std::collections::BTreeMap;
+
+/// Friction and stiffness of a contact.
+#[derive(Clone, Debug, Default)]
+struct Interaction {
+    friction: Option<f64>,
+    /// Static over kinetic friction, and the slip speed over which it falls.
+    decay: Option<(f64, f64)>,
+    normal_stiffness: Option<f64>,
+}
+
+impl Reader<'_, '_> {
+    /// Reads ties and contact pairs.
+    pub(super) fn read_interactions(
+        &mut self,
+        blocks: &Placed<'_, '_>,
+    ) -> Result<(), MeshFileError> {
+        let interactions = self.interactions(blocks)?;
+        for &(scope, block) in blocks.iter().filter(|(_, b)| b.keyword == "TIE") {
+            let name = block.parameter("NAME").filter(|name| !name.is_empty());
+            if block.parameter("ADJUST").is_some_and(|value| !value.eq_ignore_ascii_case("NO")) {
+                let reason = "nodes stay where the file has them; a tie bridges a small gap";
+                self.leave_out("*TIE, ADJUST", block.place, reason);
+            }
+            for (place, [surface, counter]) in self.pairs(scope, block)? {
+                let wanted = name.map_or_else(|| surface.clone(), str::to_owned);
+                let name = unique(&wanted, |name| self.model.ties.iter().any(|t| t.name == name));
+                let place = self.deck.name(place);
+                self.model.ties.push(FileTie { name, surface, counter, place });
+            }
+        }
+        self.read_pairs(blocks, &interactions)
+    }
+
+    /// Contact pairs.
+    fn read_pairs(
+        &mut self,
+        blocks: &Placed<'_, '_>,
+        interactions: &BTreeMap<String, Interaction>,
+    ) -> Result<(), MeshFileError> {
+        for &(scope, block) in blocks.iter().filter(|(_, b)| b.keyword == "CONTACT PAIR") {
+            let name = block.required(self.deck, "INTERACTION")?;
+            let Some(interaction) = interactions.get(&name.to_uppercase()).cloned() else {
+                return Err(self.unknown(block.place, "surface interaction", name));
+            };
+            for parameter in ["ADJUST", "TIED", "TRACKING", "EXTENSION ZONE", "CPSET"] {
+                if block.has(parameter) {
+                    let keyword = format!("*CONTACT PAIR, {parameter}");
+                    match parameter {
+                        "TIED" => {
+                            self.lose_part(&keyword, block.place, "glue the surfaces by *TIE")
+                        }
+                        _ => self.leave_out(&keyword, block.place, ""),
+                    }
+                }
+            }
+            for (place, [surface, counter]) in self.pairs(scope, block)? {
+                let contacts = &self.model.contacts;
+                let is_known = |c: &FileContact| c.surface == surface && c.counter == counter;
+                if contacts.iter().any(is_known) {
+                    continue;
+                }
+                let name = unique(&surface, |name| contacts.iter().any(|c| c.name == name));
+                let Interaction { friction, decay, normal_stiffness } = interaction;
+                self.model.contacts.push(FileContact {
+                    name,
+                    surface,
+                    counter,
+                    friction_coefficient: friction,
+                    decay,
+                    normal_stiffness,
+                    place: self.deck.name(place),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Pairs of surfaces of all data lines; those of which one was left out are left out too.
+    fn pairs(
+        &mut self,
+        scope: usize,
+        block: &Block<'_>,
+    ) -> Result<Vec<(Place, [String; 2])>, MeshFileError> {
+        let mut pairs = Vec::new();
+        for &(place, line) in &block.data {
+            let names: Vec<&str> = fields(line).filter(|name| !name.is_empty()).collect();
+            let &[first, second, ..] = names.as_slice() else {
+                let message =
+                    format!("*{}: two surfaces expected, found {}", block.keyword, quoted(line));
+                return Err(self.deck.error(place, message));
+            };
+            let found = [first, second].map(|name| self.surface_name(scope, name));
+            match found {
+                [Some(first), Some(second)] => pairs.push((place, [first, second])),
+                _ => {
+                    let missing = if found[0].is_none() { first } else { second };
+                    let is_left_out = self.model.left_out.iter().any(|left_out| {
+                        let named = left_out.keyword.strip_prefix("*SURFACE, NAME=");
+                        named.is_some_and(|named| {
+                            let named = named.split(',').next().unwrap_or_default();
+                            named.eq_ignore_ascii_case(missing)
+                        })
+                    });
+                    if !is_left_out {
+                        return Err(self.unknown(place, "surface", missing));
+                    }
+                    let keyword = format!("*{} of {missing}", block.keyword);
+                    self.lose_part(&keyword, place, "that surface is not used");
+                }
+            }
+        }
+        Ok(pairs)
+    }
+
+    /// The name among all surfaces of one that is named in a scope; a node or element set may stand for a surface.
+    pub(super) fn surface_name(&mut self, scope: usize, name: &str) -> Option<String> {
+        let key = self.key(scope, name);
+        if let Some(found) = self.surfaces.get(&key) {
+            return Some(found.clone());
+        }
+        let set = self.node_sets.get(&key)?;
+        let items = set.items.clone();
+        let known = self.collection.node_sets.entry(set.name.clone());
+        known.or_insert(items);
+        Some(set.name.clone())
+    }
+
+    /// Surface interactions by name, as the last step leaves them.
+    fn interactions(
+        &mut self,
+        blocks: &Placed<'_, '_>,
+    ) -> Result<BTreeMap<String, Interaction>, MeshFileError> {
+        let mut found: BTreeMap<String, Interaction> = BTreeMap::new();
+        let mut current = None;
+        for &(_, block) in blocks {
+            match block.keyword.as_str() {
+                "SURFACE INTERACTION" => {
+                    let name = block.required(self.deck, "NAME")?.to_uppercase();
+                    found.entry(name.clone()).or_default();
+                    current = Some(name);
+                }
+                "CHANGE FRICTION" => {
+                    current = Some(block.required(self.deck, "INTERACTION")?.to_uppercase());
+                }
+                keyword @ ("FRICTION" | "SURFACE BEHAVIOR") => {
+                    let known = current.as_ref().and_then(|name| found.get(name)).cloned();
+                    let (Some(known), Some(name)) = (known, current.clone()) else {
+                        let message = format!("*{keyword} stands behind no *SURFACE INTERACTION");
+                        return Err(self.deck.error(block.place, message));
+                    };
+                    let changed = match keyword {
+                        "FRICTION" => self.friction(block, known)?,
+                        _ => self.behavior(block, known)?,
+                    };
+                    found.insert(name, changed);
+                }
+                _ => {}
+            }
+        }
+        Ok(found)
+    }
+
+    fn friction(
+        &mut self,
+        block: &Block<'_>,
+        mut interaction: Interaction,
+    ) -> Result<Interaction, MeshFileError> {
+        let numbers = block.first_numbers(self.deck)?;
+        let is_other = ["ROUGH", "USER", "ANISOTROPIC"].into_iter().any(|kind| block.has(kind));
+        if is_other || block.data.len() > 1 {
+            let reason =
+                "Coulomb's friction with one coefficient, or with EXPONENTIAL DECAY, is read";
+            self.leave_out("*FRICTION of another kind", block.place, reason);
+            if is_other {
+                return Ok(interaction);
+            }
+        }
+        if block.has("EXPONENTIAL DECAY") {
+            // mu = mu_k + (mu_s - mu_k) exp(-d v)
+            let &[high, low, decay, ..] = numbers.as_slice() else {
+                let message = "*FRICTION, EXPONENTIAL DECAY needs three numbers";
+                return Err(self.deck.error(block.place, message));
+            };
+            interaction.friction = Some(low);
+            let falls = low > 0.0 && decay > 0.0 && high > low;
+            interaction.decay = falls.then(|| (high / low, 1.0 / decay));
+        } else {
+            interaction.friction = Some(numbers.first().copied().unwrap_or(0.0));
+            interaction.decay = None;
+        }
+        Ok(interaction)
+    }
+
+    fn behavior(
+        &mut self,
+        block: &Block<'_>,
+        mut interaction: Interaction,
+    ) -> Result<Interaction, MeshFileError> {
+        let kind = block.parameter("PRESSURE-OVERCLOSURE").unwrap_or("HARD").to_uppercase();
+        match kind.as_str() {
+            "LINEAR" => {
+                interaction.normal_stiffness = block.first_numbers(self.deck)?.first().copied()
+            }
+            "HARD" => interaction.normal_stiffness = None,
+            _ => {
+                let keyword = format!("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE={kind}");
+                let reason = "the contact is rigid unless the case gives its stiffness or law";
+                self.leave_out(&keyword, block.place, reason);
+            }
+        }
+        Ok(interaction)
+    }
+}
+
+/// `wanted`, with a number behind it where it is taken.
+pub(super) fn unique(wanted: &str, is_taken: impl Fn(&str) -> bool) -> String {
+    if !is_taken(wanted) {
+        return wanted.to_owned();
+    }
+    let numbered = (2..).map(|number| format!("{wanted}_{number}"));
+    let mut free = numbered.filter(|name| !is_taken(name));
+    free.next().unwrap_or_default()
+}

@@ -1,0 +1,309 @@
+//! `*MATERIAL`, `*SOLID SECTION` and `*ORIENTATION`: the material of each region.
+
+use super::block::{Block, fields};
+use super::{Placed, Reader};
+use crate::deck::Place;
+use crate::file_mesh::MeshFileError;
+use crate::model_data::{FileElasticity, FileMaterial, MaterialAxes};
+use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// A material as it is defined, before a region takes it.
+struct Definition {
+    name: String,
+    place: Place,
+    elasticity: Option<FileElasticity>,
+    density: Option<f64>,
+    alpha: Option<f64>,
+    beta: Option<f64>,
+    structural: Option<f64>,
+}
+
+impl Reader<'_, '_> {
+    /// Reads materials and sections: each element gets its region, each region its material.
+    pub(super) fn read_materials(&mut self, blocks: &Placed<'_, '_>) -> Result<(), MeshFileError> {
+        let definitions = self.definitions(blocks)?;
+        let orientations = self.orientations(blocks)?;
+        let mut is_sectioned = vec![false; self.collection.elements.len()];
+        for &(scope, block) in blocks.iter().filter(|(_, b)| b.keyword == "SOLID SECTION") {
+            let name = block.required(self.deck, "ELSET")?;
+            let Some(set) = self.element_sets.get(&self.key(scope, name)).cloned() else {
+                return Err(self.unknown(block.place, "element set", name));
+            };
+            let region: Arc<str> = set.name.as_str().into();
+            for &element in &set.items.iter().copied().collect::<BTreeSet<usize>>() {
+                let known = &mut self.collection.elements[element];
+                if std::mem::replace(&mut is_sectioned[element], true) {
+                    let label = known.label;
+                    let message = format!(
+                        "element {label} has two sections, the second by element set {name}"
+                    );
+                    return Err(self.deck.error(block.place, message));
+                }
+                known.region = Some(Arc::clone(&region));
+            }
+            let Some(material) = block.parameter("MATERIAL") else {
+                self.leave_out("*SOLID SECTION without MATERIAL", block.place, "");
+                continue;
+            };
+            let Some(definition) = definitions.get(&material.to_uppercase()) else {
+                return Err(self.unknown(block.place, "material", material));
+            };
+            let axes = match block.parameter("ORIENTATION").filter(|name| !name.is_empty()) {
+                None => MaterialAxes::Global,
+                Some(name) => match orientations.get(&self.key(scope, name)) {
+                    Some(&axes) => axes,
+                    None => match orientations.get(&(0, name.to_uppercase())) {
+                        Some(&axes) => axes,
+                        None => return Err(self.unknown(block.place, "orientation", name)),
+                    },
+                },
+            };
+            // Without an orientation the axes are the global ones, which an instance does not turn.
+            if set.items.is_empty() && !self.skipped.is_empty() {
+                let keyword = format!("*SOLID SECTION of {name}");
+                self.lose_part(&keyword, block.place, "its elements are not read");
+            }
+            if !set.items.is_empty() {
+                let material = self.taken(definition, &set.name, axes);
+                self.model.materials.push(material);
+            }
+        }
+        Ok(())
+    }
+
+    fn taken(&self, definition: &Definition, region: &str, own: MaterialAxes) -> FileMaterial {
+        let mut elasticity = definition.elasticity.clone();
+        if let Some(FileElasticity::Orthotropic { axes, .. }) = &mut elasticity {
+            *axes = own;
+        }
+        FileMaterial {
+            region: region.to_owned(),
+            name: definition.name.clone(),
+            elasticity,
+            density: definition.density,
+            mass_coefficient: definition.alpha,
+            stiffness_coefficient: definition.beta,
+            loss_factor: definition.structural,
+            place: self.deck.name(definition.place),
+        }
+    }
+
+    /// Materials by name.
+    fn definitions(
+        &mut self,
+        blocks: &Placed<'_, '_>,
+    ) -> Result<BTreeMap<String, Definition>, MeshFileError> {
+        let mut definitions: BTreeMap<String, Definition> = BTreeMap::new();
+        let mut current: Option<String> = None;
+        for &(_, block) in blocks {
+            let keyword = block.keyword.as_str();
+            if keyword == "MATERIAL" {
+                let name = block.required(self.deck, "NAME")?;
+                let definition = Definition {
+                    name: name.to_owned(),
+                    place: block.place,
+                    elasticity: None,
+                    density: None,
+                    alpha: None,
+                    beta: None,
+                    structural: None,
+                };
+                if definitions.insert(name.to_uppercase(), definition).is_some() {
+                    let message = format!("material {name} is defined twice");
+                    return Err(self.deck.error(block.place, message));
+                }
+                current = Some(name.to_uppercase());
+                continue;
+            }
+            if !matches!(keyword, "ELASTIC" | "DENSITY" | "DAMPING") {
+                continue;
+            }
+            let known = current.as_ref().and_then(|name| definitions.get_mut(name));
+            let Some(definition) = known else {
+                let message = format!("*{keyword} stands behind no *MATERIAL");
+                return Err(self.deck.error(block.place, message));
+            };
+            match keyword {
+                "ELASTIC" => {
+                    let is_table = elastic(self.deck, block, definition)?;
+                    if is_table {
+                        let reason = "the first line is taken, others (temperatures) are not";
+                        self.leave_out("*ELASTIC with more than one line", block.place, reason);
+                    }
+                }
+                "DENSITY" => definition.density = block.first_numbers(self.deck)?.first().copied(),
+                _ => damping(self.deck, block, definition)?,
+            }
+        }
+        Ok(definitions)
+    }
+
+    /// `*ORIENTATION` by scope and name.
+    fn orientations(
+        &mut self,
+        blocks: &Placed<'_, '_>,
+    ) -> Result<BTreeMap<(usize, String), MaterialAxes>, MeshFileError> {
+        let mut found = BTreeMap::new();
+        for &(scope, block) in blocks.iter().filter(|(_, b)| b.keyword == "ORIENTATION") {
+            let name = block.required(self.deck, "NAME")?;
+            let wrong = |message: &str| {
+                self.deck.error(block.place, format!("*ORIENTATION {name}: {message}"))
+            };
+            if block.parameter("DEFINITION").is_some_and(|d| !d.eq_ignore_ascii_case("COORDINATES"))
+            {
+                return Err(wrong("only DEFINITION=COORDINATES is supported"));
+            }
+            let numbers = block.first_numbers(self.deck)?;
+            let Some(&[a, b, c, d, e, f]) = numbers.get(..6).and_then(|n| n.first_chunk::<6>())
+            else {
+                return Err(wrong("six numbers expected: two points"));
+            };
+            let [p, q] = [Vector3::new(a, b, c), Vector3::new(d, e, f)];
+            let system = block.parameter("SYSTEM").unwrap_or("RECTANGULAR").to_uppercase();
+            let extra = match block.data.get(1) {
+                Some(&(_, line)) => fields(line).filter_map(crate::deck::real).collect(),
+                None => Vec::new(),
+            };
+            let scope_of = &self.scopes[scope];
+            let turned = |v: Vector3<f64>| -> [f64; 3] {
+                let [from, to] =
+                    [[0.0; 3], v.into()].map(|point| Vector3::from(scope_of.place(point)));
+                (to - from).into()
+            };
+            let axes = match system.as_str() {
+                "RECTANGULAR" | "R" => {
+                    let Some([first, second]) = turned_axes(p, q, &extra) else {
+                        return Err(wrong("its points lie on one line"));
+                    };
+                    MaterialAxes::Vectors([turned(first), turned(second)])
+                }
+                "CYLINDRICAL" | "C" if extra.get(1).is_none_or(|angle| *angle == 0.0) => {
+                    if p == q {
+                        return Err(wrong("the two points of its axis are one"));
+                    }
+                    MaterialAxes::Cylindrical([p, q].map(|point| scope_of.place(point.into())))
+                }
+                _ => {
+                    return Err(wrong("only rectangular and cylindrical systems are supported"));
+                }
+            };
+            found.insert((scope, name.to_uppercase()), axes);
+        }
+        Ok(found)
+    }
+}
+
+/// First and second axis of a rectangular system: the first along `a`, the second in its plane with `b`; then turned about axis
+/// `extra[0]` by `extra[1]` degrees.
+fn turned_axes(a: Vector3<f64>, b: Vector3<f64>, extra: &[f64]) -> Option<[Vector3<f64>; 2]> {
+    let first = a.try_normalize(0.0)?;
+    let third = first.cross(&b).try_normalize(1e-12 * b.norm())?;
+    let axes = Matrix3::from_columns(&[first, third.cross(&first), third]);
+    let turn = match extra {
+        [axis @ (1.0 | 2.0 | 3.0), angle, ..] => {
+            let about = axes.column(*axis as usize - 1).into_owned();
+            Rotation3::from_axis_angle(&Unit::new_normalize(about), angle.to_radians())
+        }
+        _ => Rotation3::identity(),
+    };
+    Some([turn * axes.column(0), turn * axes.column(1)])
+}
+
+/// `*ELASTIC`; whether it has lines for other temperatures.
+fn elastic(
+    deck: &crate::deck::Deck<'_>,
+    block: &Block<'_>,
+    definition: &mut Definition,
+) -> Result<bool, MeshFileError> {
+    let kind = block.parameter("TYPE").unwrap_or("ISOTROPIC").to_uppercase();
+    let numbers = block.numbers(deck)?;
+    let few = |count: usize| {
+        let name = &definition.name;
+        let message = format!("*ELASTIC, TYPE={kind} of material {name} needs {count} numbers");
+        deck.error(block.place, message)
+    };
+    let (elasticity, lines) = match kind.as_str() {
+        "ISOTROPIC" | "ISO" => {
+            let &[young_modulus, poisson_ratio, ..] = numbers.as_slice() else {
+                return Err(few(2));
+            };
+            (FileElasticity::Isotropic { young_modulus, poisson_ratio }, 1)
+        }
+        "ENGINEERING CONSTANTS" => {
+            let &[e1, e2, e3, n12, n13, n23, g12, g13, g23, ..] = numbers.as_slice() else {
+                return Err(few(9));
+            };
+            let constants = FileElasticity::Orthotropic {
+                young_moduli: [e1, e2, e3],
+                poisson_ratios: [n12, n13, n23],
+                shear_moduli: [g12, g13, g23],
+                axes: MaterialAxes::Global,
+            };
+            (constants, 2)
+        }
+        "ORTHOTROPIC" | "ORTHO" => {
+            let Some(&stiffness) = numbers.first_chunk::<9>() else {
+                return Err(few(9));
+            };
+            let name = &definition.name;
+            let constants = engineering_constants(stiffness).ok_or_else(|| {
+                let message = format!(
+                    "*ELASTIC, TYPE={kind} of material {name} is no stiffness: it is singular"
+                );
+                deck.error(block.place, message)
+            })?;
+            (constants, 2)
+        }
+        _ => {
+            let name = &definition.name;
+            let message = format!(
+                "*ELASTIC, TYPE={kind} of material {name} is not supported: give ENGINEERING CONSTANTS"
+            );
+            return Err(deck.error(block.place, message));
+        }
+    };
+    definition.elasticity = Some(elasticity);
+    Ok(block.data.len() > lines)
+}
+
+/// Engineering constants of the stiffness `D1111, D1122, D2222, D1133, D2233, D3333, D1212, D1313, D2323`.
+fn engineering_constants(stiffness: [f64; 9]) -> Option<FileElasticity> {
+    let [d11, d12, d22, d13, d23, d33, g12, g13, g23] = stiffness;
+    let s = Matrix3::new(d11, d12, d13, d12, d22, d23, d13, d23, d33).try_inverse()?;
+    let young_moduli = [0, 1, 2].map(|i| 1.0 / s[(i, i)]);
+    Some(FileElasticity::Orthotropic {
+        young_moduli,
+        poisson_ratios: [(0, 1), (0, 2), (1, 2)].map(|(i, j)| -s[(j, i)] * young_moduli[i]),
+        shear_moduli: [g12, g13, g23],
+        axes: MaterialAxes::Global,
+    })
+}
+
+/// `*DAMPING`, its values parameters.
+fn damping(
+    deck: &crate::deck::Deck<'_>,
+    block: &Block<'_>,
+    definition: &mut Definition,
+) -> Result<(), MeshFileError> {
+    for (name, value) in &block.parameters {
+        let number = crate::deck::real(value);
+        let slot = match name.as_str() {
+            "ALPHA" => &mut definition.alpha,
+            "BETA" => &mut definition.beta,
+            "STRUCTURAL" => &mut definition.structural,
+            _ => {
+                let message =
+                    format!("*DAMPING, {name} is not supported: ALPHA, BETA and STRUCTURAL are");
+                return Err(deck.error(block.place, message));
+            }
+        };
+        if number.is_none() {
+            let message = format!("*DAMPING, {name}= needs a number");
+            return Err(deck.error(block.place, message));
+        }
+        *slot = number;
+    }
+    Ok(())
+}

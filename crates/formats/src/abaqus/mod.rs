@@ -1,0 +1,262 @@
+//! Reader of the input files of Abaqus and CalculiX.
+//!
+//! Solid and plane elements of first and second order, parts and instances, sets, surfaces, and the model data around them
+//! ([`ModelData`]). A region is the element set of a `*SOLID SECTION`. Names of what lies in an instance get its name in front,
+//! `PAD-1_LINING`; names are the same in any case of letters, as those programs have it, and keep the spelling of their
+//! definition. What has no meaning here is listed in [`ModelData::left_out`]; what would change the mesh is refused.
+//!
+//! Source: Abaqus Keywords Reference Guide; CalculiX CrunchiX USER'S MANUAL.
+
+mod block;
+mod conditions;
+mod element;
+mod equations;
+mod interactions;
+mod materials;
+mod nodes;
+mod scope;
+mod sets;
+mod surfaces;
+
+use super::collection::Collection;
+use super::deck::{Deck, Place};
+use super::file_mesh::{FileMesh, MeshFileError};
+use super::model_data::ModelData;
+use block::{Block, blocks};
+use frictionsim_bounds::Budget;
+use scope::{Layout, Scope, layout};
+use std::collections::{BTreeMap, HashMap, HashSet};
+use std::hash::Hash;
+
+/// Blocks with the scopes that they belong to.
+type Placed<'b, 'a> = [(usize, &'b Block<'a>)];
+
+/// A set under the name with which it was defined.
+#[derive(Clone, Debug, Default)]
+struct Set<T> {
+    name: String,
+    /// Each member once, in the order in which they come first.
+    items: Vec<T>,
+    is_internal: bool,
+    known: HashSet<T>,
+}
+
+impl<T: Copy + Eq + Hash> Set<T> {
+    /// Adds those that are not members yet.
+    fn add(&mut self, items: Vec<T>) {
+        let known = &mut self.known;
+        self.items.extend(items.into_iter().filter(|&item| known.insert(item)));
+    }
+}
+
+/// What is read so far. Names are keyed by scope and capitals.
+struct Reader<'d, 'a> {
+    deck: &'d Deck<'a>,
+    budget: Budget,
+    scopes: Vec<Scope>,
+    collection: Collection,
+    model: ModelData,
+    nodes: HashMap<(usize, usize), u32>,
+    elements: HashMap<(usize, usize), usize>,
+    /// Elements of types that are not used.
+    skipped: HashSet<(usize, usize)>,
+    node_sets: BTreeMap<(usize, String), Set<u32>>,
+    element_sets: BTreeMap<(usize, String), Set<usize>>,
+    /// Names of surfaces among those of the collection.
+    surfaces: BTreeMap<(usize, String), String>,
+}
+
+/// Keywords that make nodes or elements which are not written out.
+const GENERATORS: [&str; 9] = [
+    "NGEN",
+    "NFILL",
+    "NCOPY",
+    "NMAP",
+    "ELGEN",
+    "ELCOPY",
+    "SYSTEM",
+    "SUBMODEL",
+    "SYMMETRIC MODEL GENERATION",
+];
+
+/// Keywords that are read.
+#[rustfmt::skip]
+const KNOWN: [&str; 26] = [
+    "HEADING", "NODE", "ELEMENT", "NSET", "ELSET", "SURFACE", "SOLID SECTION", "MATERIAL", "ELASTIC", "DENSITY", "DAMPING",
+    "ORIENTATION", "TIE", "CONTACT PAIR", "SURFACE INTERACTION", "SURFACE BEHAVIOR", "FRICTION", "CHANGE FRICTION", "BOUNDARY",
+    "DLOAD", "DSLOAD", "STEP", "END STEP", "MOTION", "INCLUDE", "EQUATION",
+];
+
+/// Keywords that hold, load or join parts, and are not read.
+#[rustfmt::skip]
+const PARTS: [&str; 45] = [
+    "COUPLING", "KINEMATIC", "KINEMATIC COUPLING", "DISTRIBUTING", "DISTRIBUTING COUPLING", "MPC", "RIGID BODY", "FASTENER",
+    "SHELL TO SOLID COUPLING", "EMBEDDED ELEMENT", "PRE-TENSION SECTION", "CONNECTOR SECTION", "CONNECTOR LOAD",
+    "CONNECTOR MOTION", "CONTACT", "CONTACT INCLUSIONS", "CLEARANCE", "CONTACT INTERFERENCE", "CYCLIC SYMMETRY MODEL",
+    "SPRING", "DASHPOT", "MASS", "ROTARY INERTIA", "NONSTRUCTURAL MASS", "GAP", "JOINT",
+    "BEAM SECTION", "BEAM GENERAL SECTION", "FRAME SECTION", "SHELL SECTION", "SHELL GENERAL SECTION", "MEMBRANE SECTION",
+    "SURFACE SECTION", "COHESIVE SECTION", "GASKET SECTION", "SUBSTRUCTURE PROPERTY", "MATRIX INPUT", "MATRIX ASSEMBLE",
+    "USER ELEMENT", "UEL PROPERTY", "CLOAD", "FOUNDATION", "BASE MOTION", "REBAR", "REBAR LAYER",
+];
+
+/// Keywords of analyses, which the case describes.
+#[rustfmt::skip]
+const ANALYSES: [&str; 9] = [
+    "STATIC", "FREQUENCY", "COMPLEX FREQUENCY", "DYNAMIC", "MODAL DYNAMIC", "STEADY STATE DYNAMICS", "BUCKLE", "VISCO", "CONTROLS",
+];
+
+/// Keywords of what is written.
+#[rustfmt::skip]
+const OUTPUTS: [&str; 14] = [
+    "PREPRINT", "RESTART", "OUTPUT", "NODE OUTPUT", "ELEMENT OUTPUT", "CONTACT OUTPUT", "NODE FILE", "EL FILE", "NODE PRINT",
+    "EL PRINT", "CONTACT FILE", "CONTACT PRINT", "FILE FORMAT", "MONITOR",
+];
+
+/// Reads an input file; the files that it includes stand in it ([`included_text`](super::included_text)).
+///
+/// # Errors
+/// [`MeshFileError`] with the line.
+pub(super) fn read(bytes: &[u8]) -> Result<FileMesh, MeshFileError> {
+    let text = String::from_utf8_lossy(bytes);
+    let deck = Deck::new(&text, "**", false)?;
+    let all = blocks(&deck)?;
+    let Layout { scopes, blocks, unused_parts } = layout(&deck, &all)?;
+    let mut reader = Reader {
+        deck: &deck,
+        budget: deck.budget.clone(),
+        scopes,
+        collection: Collection::default(),
+        model: ModelData::default(),
+        nodes: HashMap::new(),
+        elements: HashMap::new(),
+        skipped: HashSet::new(),
+        node_sets: BTreeMap::new(),
+        element_sets: BTreeMap::new(),
+        surfaces: BTreeMap::new(),
+    };
+    for (name, place) in unused_parts {
+        let keyword = format!("PART {name}");
+        reader.leave_out(&keyword, place, "no instance of it is in the assembly");
+    }
+    reader.refuse_and_list(&blocks)?;
+    reader.read_nodes(&blocks)?;
+    reader.read_elements(&blocks)?;
+    reader.read_sets(&blocks)?;
+    reader.read_surfaces(&blocks)?;
+    reader.read_materials(&blocks)?;
+    reader.read_interactions(&blocks)?;
+    reader.read_conditions(&blocks)?;
+    if reader.collection.elements.is_empty() {
+        return Err(deck.error(
+            deck.end(),
+            "the file has no solid or plane elements (*ELEMENT, TYPE=C3D10, C3D8, CPE4, ...)",
+        ));
+    }
+    reader.keep_node_sets();
+    Ok(reader.collection.finish(reader.model))
+}
+
+impl Reader<'_, '_> {
+    fn leave_out(&mut self, keyword: &str, place: Place, reason: &str) {
+        let deck = self.deck;
+        self.model.leave_out(keyword, || deck.name(place), reason);
+    }
+
+    /// Leaves out what would hold, load or join parts.
+    fn lose_part(&mut self, keyword: &str, place: Place, reason: &str) {
+        let deck = self.deck;
+        self.model.lose_part(keyword, || deck.name(place), reason);
+    }
+
+    /// Refuses what would change the mesh, and lists the keywords that are not used.
+    fn refuse_and_list(&mut self, blocks: &Placed<'_, '_>) -> Result<(), MeshFileError> {
+        for (_, block) in blocks {
+            let keyword = block.keyword.as_str();
+            if GENERATORS.contains(&keyword) {
+                let message = format!(
+                    "*{keyword} is not supported: have the program write the mesh out with every node and element"
+                );
+                return Err(self.deck.error(block.place, message));
+            }
+            if keyword == "INCLUDE" {
+                let message = "*INCLUDE needs INPUT= and a file beside this one".to_owned();
+                return Err(self.deck.error(block.place, message));
+            }
+            let expands = || blocks.iter().any(|(_, other)| other.keyword == "EXPANSION");
+            let is_part = match keyword {
+                // Temperatures load what expands.
+                "TEMPERATURE" => expands(),
+                "INITIAL CONDITIONS" => block.is("TYPE", "STRESS"),
+                _ => PARTS.contains(&keyword),
+            };
+            if is_part {
+                self.lose_part(&format!("*{keyword}"), block.place, "");
+                continue;
+            }
+            let reason = match keyword {
+                _ if KNOWN.contains(&keyword) => continue,
+                _ if ANALYSES.contains(&keyword) => "the case says what is computed",
+                _ if OUTPUTS.contains(&keyword) => "the case says what is written",
+                _ => "",
+            };
+            self.leave_out(&format!("*{keyword}"), block.place, reason);
+        }
+        let heading = blocks.iter().find(|(_, block)| block.keyword == "HEADING");
+        let title = heading.and_then(|(_, block)| block.data.first());
+        self.model.title = title.map(|(_, line)| line.trim().to_owned());
+        Ok(())
+    }
+
+    /// The scope and the name that a reference means, seen from a scope: `INSTANCE.NAME` or `NAME`.
+    fn resolved<'n>(&self, scope: usize, name: &'n str) -> (usize, &'n str) {
+        let Some((instance, rest)) = name.split_once('.') else {
+            return (scope, name);
+        };
+        let is_meant = |scope: &Scope| scope.name.eq_ignore_ascii_case(instance);
+        match self.scopes.iter().position(is_meant) {
+            Some(scope) if scope > 0 => (scope, rest),
+            _ => (scope, name),
+        }
+    }
+
+    /// The key of a name seen from a scope.
+    fn key(&self, scope: usize, name: &str) -> (usize, String) {
+        let (scope, name) = self.resolved(scope, name.trim().trim_matches('"'));
+        (scope, name.to_uppercase())
+    }
+
+    /// The scope of a block of sets: that of the parameter `INSTANCE`, or its own.
+    fn scope_of(&self, scope: usize, block: &Block<'_>) -> Result<usize, MeshFileError> {
+        let Some(name) = block.parameter("INSTANCE") else {
+            return Ok(scope);
+        };
+        let is_meant = |scope: &Scope| scope.name.eq_ignore_ascii_case(name);
+        let found = self.scopes.iter().position(is_meant).filter(|&scope| scope > 0);
+        found.ok_or_else(|| {
+            let message = format!("*{}: no instance is called \"{name}\"", block.keyword);
+            self.deck.error(block.place, message)
+        })
+    }
+
+    /// An error that a name is not defined.
+    fn unknown(&self, place: Place, what: &str, name: &str) -> MeshFileError {
+        let shown: String = name.chars().take(80).collect();
+        let message = format!("no {what} is called \"{shown}\"");
+        self.deck.error(place, message)
+    }
+}
+
+/// The file that a line includes, `*INCLUDE, INPUT=` or `INPUT=` of nodes and elements, whose own line stays.
+pub(super) fn included(line: &str) -> Option<(&str, bool)> {
+    let upper = line.to_ascii_uppercase();
+    let keyword = upper.split(',').next()?.trim().strip_prefix('*')?.trim();
+    let stays = match keyword {
+        "INCLUDE" => false,
+        "NODE" | "ELEMENT" | "NSET" | "ELSET" => true,
+        _ => return None,
+    };
+    let value = upper.find("INPUT")?;
+    let rest = line[value + "INPUT".len()..].trim_start().strip_prefix('=')?;
+    let name = rest.split(',').next()?.trim().trim_matches('"');
+    (!name.is_empty()).then_some((name, stays))
+}

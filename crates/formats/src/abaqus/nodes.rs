@@ -1,0 +1,294 @@
+//! `*NODE` and `*ELEMENT`.
+
+use super::block::{Block, fields};
+use super::element::{ElementType, element_type};
+use super::{Placed, Reader, Set};
+use crate::ElementKind;
+use crate::collection::CollectedElement;
+use crate::deck::{Place, quoted, real};
+use crate::file_mesh::MeshFileError;
+use std::sync::Arc;
+
+impl Reader<'_, '_> {
+    /// Scopes in the order in which their nodes are numbered: instances first.
+    fn numbering(&self) -> Vec<usize> {
+        (1..self.scopes.len()).chain([0]).collect()
+    }
+
+    fn label(&self, place: Place, field: &str, what: &str) -> Result<usize, MeshFileError> {
+        let number = field.trim().parse::<usize>().ok();
+        number.filter(|&number| number > 0).ok_or_else(|| {
+            let message = format!("{what} expected, found {}", quoted(field));
+            self.deck.error(place, message)
+        })
+    }
+
+    /// Reads all nodes. Numbers of each instance follow those of the instances before.
+    pub(super) fn read_nodes(&mut self, blocks: &Placed<'_, '_>) -> Result<(), MeshFileError> {
+        let mut offset = 0;
+        for scope in self.numbering() {
+            let mut largest = 0;
+            for (_, block) in blocks.iter().filter(|(s, b)| *s == scope && b.keyword == "NODE") {
+                if block.parameter("SYSTEM").is_some_and(|system| !system.eq_ignore_ascii_case("R"))
+                {
+                    let message =
+                        "*NODE, SYSTEM= other than R is not supported: write Cartesian coordinates";
+                    return Err(self.deck.error(block.place, message));
+                }
+                let first = self.collection.points.len();
+                for &(place, line) in &block.data {
+                    let label = self.node(scope, place, line, offset)?;
+                    largest = largest.max(label);
+                }
+                if let Some(name) = block.parameter("NSET") {
+                    let items = (first..self.collection.points.len()).map(|node| node as u32);
+                    let set = items.collect();
+                    self.add_node_set(scope, name, set, false);
+                }
+            }
+            if largest > 0 && offset > 0 && scope > 0 {
+                self.model.remarks.push(format!(
+                    "nodes of instance {} are numbered from {} on: its node 1 is {}",
+                    self.scopes[scope].name,
+                    offset + 1,
+                    offset + 1
+                ));
+            }
+            offset = offset.saturating_add(largest);
+        }
+        Ok(())
+    }
+
+    fn node(
+        &mut self,
+        scope: usize,
+        place: Place,
+        line: &str,
+        offset: usize,
+    ) -> Result<usize, MeshFileError> {
+        let mut fields = fields(line);
+        let label = self.label(place, fields.next().unwrap_or_default(), "a node number")?;
+        let mut point = [0.0; 3];
+        for (coordinate, field) in point.iter_mut().zip(fields) {
+            *coordinate = match field {
+                "" => 0.0,
+                _ => real(field).ok_or_else(|| {
+                    let message = format!("a coordinate expected, found {}", quoted(field));
+                    self.deck.error(place, message)
+                })?,
+            };
+        }
+        let point = self.scopes[scope].place(point);
+        let next = self.collection.points.len() as u32;
+        if let Some(&known) = self.nodes.get(&(scope, label)) {
+            if self.collection.points[known as usize] != point {
+                let message = format!("node {label} is given twice, at different places");
+                return Err(self.deck.error(place, message));
+            }
+            return Ok(label);
+        }
+        self.nodes.insert((scope, label), next);
+        self.collection.points.push(point);
+        self.collection.labels.push(label.saturating_add(offset));
+        Ok(label)
+    }
+
+    /// Reads all elements; of types that have no counterpart here the numbers alone.
+    pub(super) fn read_elements(&mut self, blocks: &Placed<'_, '_>) -> Result<(), MeshFileError> {
+        let types = blocks.iter().filter(|(_, block)| block.keyword == "ELEMENT");
+        let known =
+            types.filter_map(|(_, block)| element_type(&block.parameter("TYPE")?.to_uppercase()));
+        let dimension = known.map(|known| known.kind.dimension()).max();
+        let mut offset = 0;
+        for scope in self.numbering() {
+            let mut largest = 0;
+            for (_, block) in blocks.iter().filter(|(s, b)| *s == scope && b.keyword == "ELEMENT") {
+                let name = block.required(self.deck, "TYPE")?.to_uppercase();
+                let known = element_type(&name);
+                if known.is_none()
+                    && ["C3D", "CPE", "CPS"].iter().any(|solid| name.starts_with(solid))
+                {
+                    let message = format!(
+                        "elements of type {name} are not supported: {} (C3D4, C3D10, C3D8, C3D20, C3D6, C3D15, C3D5, \
+                         C3D13), and of plane bodies CPE and CPS with 3, 4, 6 or 8 nodes are",
+                        ElementKind::SOLID_SHAPES
+                    );
+                    return Err(self.deck.error(block.place, message));
+                }
+                let found = match known.filter(|known| Some(known.kind.dimension()) == dimension) {
+                    Some(known) => self.element_block(scope, block, &known, offset)?,
+                    None => self.skipped_block(scope, block, &name)?,
+                };
+                largest = largest.max(found);
+            }
+            offset = offset.saturating_add(largest);
+        }
+        Ok(())
+    }
+
+    /// Elements of a type that is not used.
+    fn skipped_block(
+        &mut self,
+        scope: usize,
+        block: &Block<'_>,
+        name: &str,
+    ) -> Result<usize, MeshFileError> {
+        let mut largest = 0;
+        let mut goes_on = false;
+        for &(place, line) in &block.data {
+            let is_continued = std::mem::replace(&mut goes_on, line.trim_end().ends_with(','));
+            if is_continued {
+                continue;
+            }
+            let label = fields(line).next().unwrap_or_default();
+            let label = self.label(place, label, "an element number")?;
+            self.skipped.insert((scope, label));
+            largest = largest.max(label);
+            let keyword = format!("*ELEMENT, TYPE={name}");
+            let reason = "elements other than solids (of plane bodies CPE and CPS) are not used";
+            self.leave_out(&keyword, place, reason);
+        }
+        if let Some(name) = block.parameter("ELSET") {
+            self.add_element_set(scope, name, Vec::new(), false);
+        }
+        Ok(largest)
+    }
+
+    /// Keeps what a type of elements says: what is different here, plane strain or plane stress.
+    fn note_type(
+        &mut self,
+        block: &Block<'_>,
+        name: &str,
+        known: &ElementType,
+    ) -> Result<(), MeshFileError> {
+        if !known.difference.is_empty() {
+            let remark = format!("elements {name} are {}", known.difference);
+            if !self.model.remarks.contains(&remark) {
+                self.model.remarks.push(remark);
+            }
+        }
+        if let Some(is_strain) = known.is_plane_strain {
+            if self.model.is_plane_strain.is_some_and(|other| other != is_strain) {
+                let message =
+                    "elements of plane strain (CPE) and of plane stress (CPS) in one file";
+                return Err(self.deck.error(block.place, message));
+            }
+            self.model.is_plane_strain = Some(is_strain);
+        }
+        Ok(())
+    }
+
+    /// Elements of a type that is known; the largest number.
+    fn element_block(
+        &mut self,
+        scope: usize,
+        block: &Block<'_>,
+        known: &ElementType,
+        offset: usize,
+    ) -> Result<usize, MeshFileError> {
+        let name = block.parameter("TYPE").unwrap_or_default().to_uppercase();
+        self.note_type(block, &name, known)?;
+        let region = block.parameter("ELSET");
+        let region: Option<Arc<str>> = region.map(|name| self.scopes[scope].full_name(name).into());
+        let first = self.collection.elements.len();
+        let count = 1 + known.kind.node_count();
+        let mut largest = 0;
+        let mut numbers = Vec::with_capacity(count);
+        let mut start = block.place;
+        for &(place, line) in &block.data {
+            for field in fields(line) {
+                if numbers.is_empty() {
+                    start = place;
+                }
+                numbers.push(self.label(place, field, "the number of an element or node")?);
+            }
+            if numbers.len() > count {
+                let message = format!(
+                    "element {} has {} nodes, {name} has {}",
+                    numbers[0],
+                    numbers.len() - 1,
+                    count - 1
+                );
+                return Err(self.deck.error(start, message));
+            }
+            if numbers.len() == count {
+                largest = largest.max(numbers[0]);
+                self.element((scope, start), known, &numbers, (offset, region.as_ref()))?;
+                numbers.clear();
+            }
+        }
+        if let Some(label) = numbers.first() {
+            let message =
+                format!("element {label} has too few nodes for {name}, which has {}", count - 1);
+            return Err(self.deck.error(start, message));
+        }
+        if let Some(name) = block.parameter("ELSET") {
+            let items = (first..self.collection.elements.len()).collect();
+            self.add_element_set(scope, name, items, false);
+        }
+        Ok(largest)
+    }
+
+    fn element(
+        &mut self,
+        (scope, place): (usize, Place),
+        known: &ElementType,
+        numbers: &[usize],
+        (offset, region): (usize, Option<&Arc<str>>),
+    ) -> Result<(), MeshFileError> {
+        let label = numbers[0];
+        let mut nodes = Vec::with_capacity(numbers.len() - 1);
+        for node in &numbers[1..] {
+            let Some(&index) = self.nodes.get(&(scope, *node)) else {
+                let message =
+                    format!("element {label} names node {node}, which the file does not have");
+                return Err(self.deck.error(place, message));
+            };
+            nodes.push(index);
+        }
+        let next = self.collection.elements.len();
+        if self.elements.insert((scope, label), next).is_some() {
+            let message = format!("element {label} is given twice");
+            return Err(self.deck.error(place, message));
+        }
+        self.collection.elements.push(CollectedElement {
+            label: label.saturating_add(offset),
+            kind: known.kind,
+            nodes,
+            region: region.cloned(),
+        });
+        Ok(())
+    }
+
+    pub(super) fn add_node_set(
+        &mut self,
+        scope: usize,
+        name: &str,
+        items: Vec<u32>,
+        internal: bool,
+    ) {
+        let key = self.key(scope, name);
+        let set = self
+            .node_sets
+            .entry(key.clone())
+            .or_insert_with(|| Set { name: self.scopes[key.0].full_name(name), ..Set::default() });
+        set.add(items);
+        set.is_internal |= internal;
+    }
+
+    pub(super) fn add_element_set(
+        &mut self,
+        scope: usize,
+        name: &str,
+        items: Vec<usize>,
+        internal: bool,
+    ) {
+        let key = self.key(scope, name);
+        let set = self
+            .element_sets
+            .entry(key.clone())
+            .or_insert_with(|| Set { name: self.scopes[key.0].full_name(name), ..Set::default() });
+        set.add(items);
+        set.is_internal |= internal;
+    }
+}

@@ -1,0 +1,123 @@
+//! `*SURFACE`, and node sets as boundaries.
+
+use super::block::{Block, fields};
+use super::element::face_corners;
+use super::{Placed, Reader};
+use crate::SurfaceFace;
+use crate::deck::{Place, quoted};
+use crate::file_mesh::MeshFileError;
+
+impl Reader<'_, '_> {
+    /// Reads all surfaces: faces of elements, and sets of nodes.
+    pub(super) fn read_surfaces(&mut self, blocks: &Placed<'_, '_>) -> Result<(), MeshFileError> {
+        for &(scope, block) in blocks.iter().filter(|(_, block)| block.keyword == "SURFACE") {
+            let name = block.required(self.deck, "NAME")?.to_owned();
+            let key = self.key(scope, &name);
+            let full = self.scopes[key.0].full_name(&name);
+            let kind = block.parameter("TYPE").unwrap_or("ELEMENT").to_uppercase();
+            match kind.as_str() {
+                "ELEMENT" => {
+                    if block.has("COMBINE") || block.has("CROP") {
+                        let message =
+                            "*SURFACE with COMBINE or CROP is not supported: list its faces";
+                        return Err(self.deck.error(block.place, message));
+                    }
+                    let faces = self.element_faces(scope, block)?;
+                    if faces.is_empty() {
+                        let keyword = format!("*SURFACE, NAME={name}");
+                        let reason = "it has no face of a solid (plane) element";
+                        self.leave_out(&keyword, block.place, reason);
+                        continue;
+                    }
+                    self.collection.surfaces.entry(full.clone()).or_default().extend(faces);
+                }
+                "NODE" => {
+                    let nodes = self.surface_nodes(scope, block)?;
+                    self.collection.node_sets.entry(full.clone()).or_default().extend(nodes);
+                }
+                _ => {
+                    let keyword = format!("*SURFACE, NAME={name}, TYPE={kind}");
+                    let reason = "a rigid surface: model it by elements, or take a rigid counterface of the case";
+                    self.leave_out(&keyword, block.place, reason);
+                    continue;
+                }
+            }
+            self.surfaces.insert(key, full);
+        }
+        Ok(())
+    }
+
+    fn surface_nodes(&self, scope: usize, block: &Block<'_>) -> Result<Vec<u32>, MeshFileError> {
+        let mut nodes = Vec::new();
+        for &(place, line) in &block.data {
+            let field = fields(line).next().unwrap_or_default();
+            let found = self.node_entry(scope, place, field)?;
+            nodes.extend(found.ok_or_else(|| self.unknown(place, "node set", field))?);
+        }
+        Ok(nodes)
+    }
+
+    fn element_faces(
+        &mut self,
+        scope: usize,
+        block: &Block<'_>,
+    ) -> Result<Vec<SurfaceFace>, MeshFileError> {
+        let mut faces = Vec::new();
+        for &(place, line) in &block.data {
+            let mut entry = fields(line);
+            let set = entry.next().unwrap_or_default();
+            let side = entry.next().unwrap_or_default().to_uppercase();
+            let elements = match set {
+                "" => (0..self.collection.elements.len()).collect(),
+                _ => {
+                    let found = self.element_entry(scope, place, set)?;
+                    found.ok_or_else(|| self.unknown(place, "element set", set))?
+                }
+            };
+            match side.as_str() {
+                "" if elements.is_empty() => {}
+                "" => faces.extend(self.collection.free_faces(&elements)),
+                "SPOS" | "SNEG" if elements.is_empty() => {}
+                _ => {
+                    for &element in &elements {
+                        faces.push(self.side(element, &side, place)?);
+                    }
+                }
+            }
+        }
+        Ok(faces)
+    }
+
+    /// Face `S<number>` of an element (`P<number>` in loads).
+    pub(super) fn side(
+        &self,
+        element: usize,
+        side: &str,
+        place: Place,
+    ) -> Result<SurfaceFace, MeshFileError> {
+        let element = &self.collection.elements[element];
+        let number = side.strip_prefix(['S', 'P']).and_then(|n| n.parse().ok());
+        let corners = number.and_then(|number| face_corners(element.kind, number));
+        corners.and_then(|corners| element.face_of(corners)).ok_or_else(|| {
+            let message = format!(
+                "element {} ({}) has no face {}",
+                element.label,
+                element.kind.name(),
+                quoted(side)
+            );
+            self.deck.error(place, message)
+        })
+    }
+
+    /// Keeps sets of nodes that the user named as boundaries, where no surface has their name.
+    pub(super) fn keep_node_sets(&mut self) {
+        let total = self.collection.points.len();
+        for set in self.node_sets.values() {
+            let is_kept = !set.is_internal && !set.items.is_empty() && set.items.len() < total;
+            if is_kept && !self.collection.surfaces.contains_key(&set.name) {
+                let kept = self.collection.node_sets.entry(set.name.clone());
+                kept.or_insert_with(|| set.items.clone());
+            }
+        }
+    }
+}

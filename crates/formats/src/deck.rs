@@ -1,0 +1,112 @@
+//! Lines of a text file with their places, the files that it includes among them.
+
+use super::file_mesh::MeshFileError;
+use frictionsim_bounds::{Budget, MESH, MESSAGE, Refusal, shortened};
+
+/// What marks the begin and the end of included text, behind the sign of a comment.
+const BEGIN: &str = " >>> included: ";
+const END: &str = " <<< end of included text";
+
+/// A line of one of the files.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Place {
+    file: u32,
+    line: u32,
+}
+
+/// Text of a file and of those that it includes.
+pub(super) struct Deck<'a> {
+    /// All lines but the marks of includes.
+    pub lines: Vec<(Place, &'a str)>,
+    /// Names of included files; number 0 is the file itself.
+    names: Vec<&'a str>,
+    /// What may be read yet.
+    pub budget: Budget,
+}
+
+/// Text that stands in the place of the line that included it; `comment` begins comments of the format.
+pub fn included_text(comment: &str, name: &str, text: &str) -> String {
+    let newline = if text.ends_with('\n') { "" } else { "\n" };
+    format!("{comment}{BEGIN}{name}\n{text}{newline}{comment}{END}\n")
+}
+
+impl<'a> Deck<'a> {
+    /// Splits a text into lines; `comment` begins comments of the format. Lines without anything are left out where
+    /// `keeps_empty` does not keep them.
+    ///
+    /// # Errors
+    /// More lines than may be read.
+    pub fn new(text: &'a str, comment: &str, keeps_empty: bool) -> Result<Self, MeshFileError> {
+        let is_kept = |line: &&str| keeps_empty || !line.trim().is_empty();
+        let mut budget = Budget::new(MESH);
+        let count = text.lines().filter(is_kept).count();
+        budget.take_members(count).map_err(|refusal| too_much(&refusal))?;
+        let mut deck = Self { lines: Vec::with_capacity(count), names: vec![""], budget };
+        let mut stack = Vec::new();
+        let mut place = Place { file: 0, line: 0 };
+        for line in text.lines() {
+            let mark = line.strip_prefix(comment);
+            match (mark.and_then(|mark| mark.strip_prefix(BEGIN)), mark) {
+                (Some(name), _) => {
+                    place.line += 1;
+                    stack.push(place);
+                    let file = deck.names.len() as u32;
+                    deck.names.push(name);
+                    place = Place { file, line: 0 };
+                }
+                (None, Some(mark)) if mark == END && !stack.is_empty() => {
+                    place = stack.pop().unwrap_or_default();
+                }
+                _ => {
+                    place.line += 1;
+                    if is_kept(&line) {
+                        deck.lines.push((place, line));
+                    }
+                }
+            }
+        }
+        Ok(deck)
+    }
+
+    /// A place in words.
+    pub fn name(&self, place: Place) -> String {
+        match self.names.get(place.file as usize) {
+            Some(&name) if !name.is_empty() => {
+                format!("{}, line {}", shortened(name, MESSAGE), place.line)
+            }
+            _ => format!("line {}", place.line),
+        }
+    }
+
+    /// An error at a place.
+    pub fn error(&self, place: Place, message: impl Into<String>) -> MeshFileError {
+        let message = shortened(&message.into(), MESSAGE);
+        MeshFileError { place: self.name(place), message }
+    }
+
+    /// The place of the last line.
+    pub fn end(&self) -> Place {
+        self.lines.last().map_or(Place { file: 0, line: 1 }, |l| l.0)
+    }
+}
+
+/// An error of a file that holds more than is read.
+pub(super) fn too_much(refusal: &Refusal) -> MeshFileError {
+    MeshFileError { place: "the whole file".to_owned(), message: refusal.to_string() }
+}
+
+/// A number as programs in Fortran write it, `1.0D+3` included; finite.
+pub(super) fn real(text: &str) -> Option<f64> {
+    let text = text.trim();
+    let value: f64 = match text.parse() {
+        Ok(value) => value,
+        Err(_) => text.replace(['d', 'D'], "e").parse().ok()?,
+    };
+    value.is_finite().then_some(value)
+}
+
+/// A field as messages quote it.
+pub(super) fn quoted(field: &str) -> String {
+    let shown: String = field.trim().chars().take(40).collect();
+    format!("{shown:?}")
+}

@@ -1,0 +1,111 @@
+//! Formats of mesh files, told by their content and their names.
+
+use super::file_mesh::{FileMesh, MeshFileError};
+use super::{abaqus, nastran, universal};
+use frictionsim_bounds::LARGEST_COORDINATE;
+
+/// A format of mesh files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MeshFormat {
+    /// Gmsh's MSH.
+    Gmsh,
+    /// Input files of Abaqus and CalculiX.
+    Abaqus,
+    /// Bulk data of Nastran.
+    Nastran,
+    /// Universal files.
+    Universal,
+}
+
+/// Names that end so where the content does not tell.
+const EXTENSIONS: [(&str, MeshFormat); 7] = [
+    ("msh", MeshFormat::Gmsh),
+    ("inp", MeshFormat::Abaqus),
+    ("bdf", MeshFormat::Nastran),
+    ("nas", MeshFormat::Nastran),
+    ("fem", MeshFormat::Nastran),
+    ("unv", MeshFormat::Universal),
+    ("uff", MeshFormat::Universal),
+];
+
+impl MeshFormat {
+    /// The format of a file: its first lines decide where they can, else its name.
+    pub fn of(name: &str, bytes: &[u8]) -> Self {
+        let start = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]).to_uppercase();
+        let lines = start.lines().map(str::trim).filter(|line| !line.is_empty());
+        let is_comment = |line: &str| line.starts_with('$') && !line.starts_with("$MESHFORMAT");
+        let mut lines = lines.filter(|line| !is_comment(line));
+        let first = lines.next().unwrap_or_default();
+        let is_keyword = |line: &str| {
+            let rest = line.strip_prefix('*');
+            rest.is_some_and(|rest| rest.starts_with(|c: char| c == '*' || c.is_ascii_alphabetic()))
+        };
+        let nastran = ["SOL ", "SOL,", "CEND", "BEGIN BULK", "GRID", "ID ", "INIT MASTER", "CORD2"];
+        if first.starts_with("$MESHFORMAT") {
+            return Self::Gmsh;
+        }
+        if is_keyword(first) {
+            return Self::Abaqus;
+        }
+        if first == "-1" {
+            return Self::Universal;
+        }
+        if nastran.iter().any(|begin| first.starts_with(begin)) {
+            return Self::Nastran;
+        }
+        let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension);
+        let extension = extension.to_lowercase();
+        let known = EXTENSIONS.iter().find(|known| known.0 == extension);
+        known.map_or(Self::Gmsh, |known| known.1)
+    }
+
+    /// What begins a comment of the format, if it is one that includes other files.
+    pub fn comment(self) -> Option<&'static str> {
+        match self {
+            Self::Gmsh | Self::Universal => None,
+            Self::Abaqus => Some("**"),
+            Self::Nastran => Some("$"),
+        }
+    }
+
+    /// The file that a line includes, and whether its own line stays before the included text.
+    pub fn included(self, line: &str) -> Option<(&str, bool)> {
+        match self {
+            Self::Gmsh | Self::Universal => None,
+            Self::Abaqus => abaqus::included(line),
+            Self::Nastran => nastran::included(line),
+        }
+    }
+}
+
+impl FileMesh {
+    /// Reads a mesh file of any format; `name` tells the format where its content does not.
+    ///
+    /// Memory stays below a constant times the size of the file, whatever it says.
+    ///
+    /// # Errors
+    /// [`MeshFileError`] with the line, or the byte of a binary file.
+    pub fn read_as(name: &str, bytes: &[u8]) -> Result<Self, MeshFileError> {
+        let file = match MeshFormat::of(name, bytes) {
+            MeshFormat::Gmsh => Self::read(bytes),
+            MeshFormat::Abaqus => abaqus::read(bytes),
+            MeshFormat::Nastran => nastran::read(bytes),
+            MeshFormat::Universal => universal::read(bytes),
+        }?;
+        match file.far_node(1.0) {
+            Some(message) => Err(MeshFileError { place: "coordinates".to_owned(), message }),
+            None => Ok(file),
+        }
+    }
+
+    /// A node beyond [`LARGEST_COORDINATE`] once its coordinates have a factor, in words.
+    pub fn far_node(&self, scale: f64) -> Option<String> {
+        let is_far = |x: &f64| !((scale * x).abs() <= LARGEST_COORDINATE);
+        let node = self.points.iter().position(|point| point.iter().any(is_far))?;
+        let [x, y, z] = self.points[node].map(|x| scale * x);
+        Some(format!(
+            "node {} lies at [{x:e}, {y:e}, {z:e}]: no coordinate may be beyond {LARGEST_COORDINATE:e}",
+            self.labels[node]
+        ))
+    }
+}

@@ -1,0 +1,193 @@
+//! Numbers of a mesh file, from text or from bytes.
+
+use super::MeshFileError;
+use frictionsim_bounds::{MESSAGE, shortened};
+
+/// A position in the bytes of a file, with what it takes to name it.
+pub(super) struct Cursor<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    line: usize,
+    /// Whether numbers are bytes rather than text.
+    pub is_binary: bool,
+    /// Whether numbers have the other byte order than this machine.
+    pub is_swapped: bool,
+}
+
+impl<'a> Cursor<'a> {
+    pub fn new(bytes: &'a [u8]) -> Self {
+        Self { bytes, at: 0, line: 1, is_binary: false, is_swapped: false }
+    }
+
+    /// An error here.
+    pub fn error(&self, message: impl Into<String>) -> MeshFileError {
+        let place = if self.is_binary {
+            format!("byte {}", self.at)
+        } else {
+            format!("line {}", self.line)
+        };
+        MeshFileError { place, message: shortened(&message.into(), MESSAGE) }
+    }
+
+    /// Bytes that are left.
+    pub fn remaining(&self) -> usize {
+        self.bytes.len() - self.at
+    }
+
+    /// Refuses a file that ends here.
+    pub fn refuse_end(&self) -> Result<(), MeshFileError> {
+        match self.bytes[self.at..].iter().all(u8::is_ascii_whitespace) {
+            false => Ok(()),
+            true => Err(self.error(
+                "the file ends here: it is truncated. meshio leaves such files when it cannot write MSH 4.1 for want of \
+                 entities: use file_format=\"gmsh22\"",
+            )),
+        }
+    }
+
+    /// A count of things that take at least `smallest` bytes each: more than the file can hold is an error, so
+    /// that nothing is reserved for what is not there.
+    pub fn count(&mut self, what: &str, smallest: usize) -> Result<usize, MeshFileError> {
+        let count = self.size(what)?;
+        if count > self.remaining() / smallest.max(1) {
+            return Err(self.error(format!(
+                "{count} {what} are announced, which the rest of the file cannot hold: the file is truncated or damaged"
+            )));
+        }
+        Ok(count)
+    }
+
+    /// The rest of the line, without its end.
+    pub fn text_line(&mut self) -> Option<String> {
+        if self.at >= self.bytes.len() {
+            return None;
+        }
+        let rest = &self.bytes[self.at..];
+        let length = rest.iter().position(|&b| b == b'\n').unwrap_or(rest.len());
+        self.at += (length + 1).min(rest.len());
+        self.line += 1;
+        Some(String::from_utf8_lossy(&rest[..length]).trim().to_owned())
+    }
+
+    /// The next section name, without its `$`; text between sections is passed over.
+    pub fn section(&mut self) -> Option<String> {
+        loop {
+            let line = self.text_line()?;
+            if let Some(name) = line.strip_prefix('$') {
+                return Some(name.to_owned());
+            }
+        }
+    }
+
+    /// Passes over a section that is not read.
+    pub fn skip_section(&mut self, name: &str) -> Result<(), MeshFileError> {
+        let end = format!("$End{name}");
+        let found =
+            self.bytes[self.at..].windows(end.len()).position(|window| window == end.as_bytes());
+        let Some(offset) = found else {
+            return Err(
+                self.error(format!("section ${name} has no $End{name}: the file is truncated"))
+            );
+        };
+        self.line += self.bytes[self.at..self.at + offset].iter().filter(|&&b| b == b'\n').count();
+        self.at += offset;
+        self.text_line();
+        Ok(())
+    }
+
+    /// Checks the end of a section that was read.
+    pub fn end(&mut self, name: &str) -> Result<(), MeshFileError> {
+        let expected = format!("$End{name}");
+        loop {
+            let Some(line) = self.text_line() else {
+                return Err(self.error(format!("{expected} is missing: the file is truncated")));
+            };
+            if line == expected {
+                return Ok(());
+            }
+            if !line.is_empty() {
+                let shown: String = line.chars().take(40).collect();
+                return Err(self.error(format!("{expected} expected, found {shown:?}")));
+            }
+        }
+    }
+
+    fn word(&mut self, what: &str) -> Result<&'a str, MeshFileError> {
+        while let Some(byte) = self.bytes.get(self.at).filter(|b| b.is_ascii_whitespace()) {
+            self.line += usize::from(*byte == b'\n');
+            self.at += 1;
+        }
+        let rest = &self.bytes[self.at..];
+        let length = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
+        let word = std::str::from_utf8(&rest[..length]).ok().filter(|word| !word.is_empty());
+        let Some(word) = word else {
+            return Err(self.error(format!("{what} expected: the file is truncated or damaged")));
+        };
+        if word.starts_with('$') {
+            return Err(
+                self.error(format!("{what} expected, found {word}: the section is too short"))
+            );
+        }
+        self.at += length;
+        Ok(word)
+    }
+
+    fn parsed<T: std::str::FromStr>(&mut self, what: &str) -> Result<T, MeshFileError> {
+        let word = self.word(what)?;
+        word.parse().map_err(|_| {
+            let shown: String = word.chars().take(40).collect();
+            self.error(format!("{what} expected, found {shown:?}"))
+        })
+    }
+
+    fn raw<const N: usize>(&mut self, what: &str) -> Result<[u8; N], MeshFileError> {
+        let found = self.bytes.get(self.at..self.at + N).and_then(|b| b.try_into().ok());
+        let Some(mut bytes): Option<[u8; N]> = found else {
+            return Err(self.error(format!("{what} expected: the file is truncated")));
+        };
+        self.at += N;
+        if self.is_swapped {
+            bytes.reverse();
+        }
+        Ok(bytes)
+    }
+
+    /// An integer of 32 bits.
+    pub fn int(&mut self, what: &str) -> Result<i64, MeshFileError> {
+        if self.is_binary {
+            return Ok(i64::from(i32::from_le_bytes(self.raw(what)?)));
+        }
+        self.parsed(what)
+    }
+
+    /// A count or a tag of 64 bits.
+    pub fn size(&mut self, what: &str) -> Result<usize, MeshFileError> {
+        if self.is_binary {
+            let value = u64::from_le_bytes(self.raw(what)?);
+            return usize::try_from(value)
+                .map_err(|_| self.error(format!("{what} {value} is too large")));
+        }
+        self.parsed(what)
+    }
+
+    /// A count that MSH 2.2 writes as text even in binary files.
+    pub fn text_count(&mut self, what: &str, smallest: usize) -> Result<usize, MeshFileError> {
+        let is_binary = std::mem::replace(&mut self.is_binary, false);
+        let count = self.count(what, smallest);
+        if is_binary && count.is_ok() {
+            self.text_line();
+        }
+        self.is_binary = is_binary;
+        count
+    }
+
+    /// A finite coordinate.
+    pub fn number(&mut self, what: &str) -> Result<f64, MeshFileError> {
+        let value =
+            if self.is_binary { f64::from_le_bytes(self.raw(what)?) } else { self.parsed(what)? };
+        if !value.is_finite() {
+            return Err(self.error(format!("{what} {value} is not finite")));
+        }
+        Ok(value)
+    }
+}

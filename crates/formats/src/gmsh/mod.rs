@@ -1,0 +1,307 @@
+//! Reader of Gmsh's MSH files, versions 2.2 and 4.1, text and binary.
+//!
+//! Source: Gmsh reference manual, chapter "File formats".
+
+mod cursor;
+mod version2;
+mod version4;
+
+use super::ElementKind;
+use super::file_mesh::{FileElement, FileMesh, MeshFileError, SurfaceFace};
+use cursor::Cursor;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+impl FileMesh {
+    /// Reads a file.
+    ///
+    /// Memory stays below a constant times the size of the file, whatever it says.
+    ///
+    /// # Errors
+    /// [`MeshFileError`] with the line, or the byte of a binary file.
+    pub fn read(bytes: &[u8]) -> Result<Self, MeshFileError> {
+        let mut cursor = Cursor::new(bytes);
+        if !bytes.starts_with(b"$MeshFormat") {
+            return Err(cursor.error(foreign(bytes)));
+        }
+        cursor.text_line();
+        let version = cursor.text_line().unwrap_or_default();
+        let words: Vec<&str> = version.split_whitespace().collect();
+        let is_binary = match words[..] {
+            ["2.2" | "2" | "4.1", kind @ ("0" | "1"), "8"] => kind == "1",
+            [number, ..] if !["2.2", "2", "4.1"].contains(&number) => {
+                return Err(cursor.error(format!(
+                    "MSH version {number} is not supported: save the mesh as version 4.1 or 2.2 (Mesh.MshFileVersion)"
+                )));
+            }
+            _ => return Err(cursor.error("format line expected, such as \"4.1 0 8\"")),
+        };
+        if is_binary {
+            cursor.is_binary = true;
+            cursor.is_swapped = match cursor.int("byte order")? {
+                1 => false,
+                0x0100_0000 => true,
+                _ => {
+                    return Err(
+                        cursor.error("the number 1, which gives the byte order, was expected")
+                    );
+                }
+            };
+        }
+        cursor.end("MeshFormat")?;
+        let mut reader = Reader::default();
+        let is_new = words[0] == "4.1";
+        while let Some(section) = cursor.section() {
+            cursor.refuse_end()?;
+            match section.as_str() {
+                "PhysicalNames" => reader.physical_names(&mut cursor)?,
+                "Entities" if is_new => reader.entities(&mut cursor)?,
+                "Nodes" if is_new => reader.nodes_4(&mut cursor)?,
+                "Nodes" => reader.nodes_2(&mut cursor)?,
+                "Elements" if is_new => reader.elements_4(&mut cursor)?,
+                "Elements" => reader.elements_2(&mut cursor)?,
+                _ => {
+                    cursor.skip_section(&section)?;
+                    continue;
+                }
+            }
+            cursor.end(&section)?;
+        }
+        if reader.file.points.is_empty() {
+            return Err(cursor.error("the file has no $Nodes"));
+        }
+        let file = reader.finished();
+        if file.elements.is_empty() {
+            return Err(cursor.error(
+                "the file has no triangles or quadrilaterals: mesh the surfaces (gmsh -2), and put them in a physical \
+                 group if the file has any",
+            ));
+        }
+        Ok(file)
+    }
+}
+
+/// What a file is that does not begin like one of ours, and how it becomes one.
+fn foreign(bytes: &[u8]) -> String {
+    /// For formats that Gmsh does not open with the names of their sets.
+    const MESHIO: &str = "convert it with Python's meshio: cell sets become the cell data \"gmsh:physical\" with names in \
+                          field_data, then mesh.write(\"part.msh\", file_format=\"gmsh22\", binary=False)";
+    const GMSH: &str = "save the mesh as MSH 4.1 or 2.2 (gmsh -2 -format msh41)";
+    let start = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]).into_owned();
+    let (what, remedy) = if bytes.is_empty() {
+        ("the file is empty", GMSH)
+    } else if start.contains("VTK") || start.contains("vtk") {
+        ("this looks like a VTK file", MESHIO)
+    } else if start.starts_with("solid") || start.starts_with("ISO-10303") {
+        ("this is a geometry, not a mesh", GMSH)
+    } else if start.contains("Point(") || start.contains("//") || start.contains("SetFactory") {
+        ("this looks like a Gmsh geometry (.geo), not a mesh", "run gmsh -2 on it")
+    } else {
+        (
+            "this is no Gmsh mesh, which begins with $MeshFormat, nor does its name end in .inp, .bdf or .unv",
+            GMSH,
+        )
+    };
+    format!("{what}; {remedy}")
+}
+
+/// Stands for the physical tag of an element without one.
+const NO_GROUP: i64 = i64::MIN;
+/// Longest name of a physical group, bytes.
+const LONGEST_NAME: usize = 4096;
+
+/// What is gathered on the way through the file.
+#[derive(Default)]
+struct Reader {
+    file: FileMesh,
+    /// Names by dimension and tag.
+    names: BTreeMap<(i64, i64), Arc<str>>,
+    /// Physical tags of each entity, by dimension and tag.
+    physical: BTreeMap<(i64, i64), Vec<i64>>,
+    /// Index of each node number.
+    index_of: BTreeMap<usize, u32>,
+    /// Solid elements.
+    solids: Vec<FileElement>,
+    /// Plane elements and the physical surfaces that each belongs to: faces of a body if there are solid elements.
+    surfaces: BTreeMap<String, Vec<SurfaceFace>>,
+}
+
+/// Dimension, node count and, for plane and solid elements, the kind of Gmsh's element types.
+fn element_type(number: i64) -> Option<(i64, usize, Option<ElementKind>)> {
+    let known = ElementKind::listed(|formats| {
+        let mut types = formats.gmsh.names.iter();
+        types.any(|&kind| i64::from(kind) == number)
+    });
+    if let Some(kind) = known {
+        return Some((kind.dimension() as i64, kind.node_count(), Some(kind)));
+    }
+    let (dimension, nodes) = match number {
+        1 => (1, 2),
+        8 => (1, 3),
+        15 => (0, 1),
+        10 => (2, 9),
+        12 => (3, 27),
+        13 => (3, 18),
+        14 => (3, 14),
+        _ => return None,
+    };
+    Some((dimension, nodes, None))
+}
+
+impl Reader {
+    /// The file, of solid elements where there are any: plane ones are then faces of its physical surfaces.
+    fn finished(self) -> FileMesh {
+        let mut file = self.file;
+        file.dimension = 2;
+        if !self.solids.is_empty() {
+            file.dimension = 3;
+            file.elements = self.solids;
+            file.surfaces = self.surfaces;
+        }
+        file
+    }
+
+    fn physical_names(&mut self, cursor: &mut Cursor<'_>) -> Result<(), MeshFileError> {
+        // Text in binary files too.
+        let is_binary = std::mem::replace(&mut cursor.is_binary, false);
+        let count = cursor.count("physical names", 5)?;
+        cursor.text_line();
+        for _ in 0..count {
+            let line = cursor.text_line().unwrap_or_default();
+            let mut parts = line.splitn(3, char::is_whitespace);
+            let mut number = || parts.next().and_then(|word| word.parse::<i64>().ok());
+            let (dimension, tag) = (number(), number());
+            let name = parts.next().map(|name| name.trim().trim_matches('"').to_owned());
+            let (Some(dimension), Some(tag), Some(name)) = (dimension, tag, name) else {
+                return Err(
+                    cursor.error("dimension, tag and \"name\" of a physical group expected")
+                );
+            };
+            if name.len() > LONGEST_NAME {
+                return Err(cursor.error(format!(
+                    "the name of a physical group has {} bytes, more than {LONGEST_NAME}",
+                    name.len()
+                )));
+            }
+            self.names.insert((dimension, tag), name.into());
+        }
+        cursor.is_binary = is_binary;
+        Ok(())
+    }
+
+    fn node(
+        &mut self,
+        cursor: &Cursor<'_>,
+        label: usize,
+        point: [f64; 3],
+    ) -> Result<(), MeshFileError> {
+        let index = self.file.points.len() as u32;
+        if self.index_of.insert(label, index).is_some() {
+            return Err(cursor.error(format!("node {label} is given twice")));
+        }
+        self.file.labels.push(label);
+        self.file.points.push(point);
+        self.file.is_used.push(false);
+        Ok(())
+    }
+
+    /// Name of a physical group; one without gets its number for a name.
+    fn name(&mut self, dimension: i64, tag: i64) -> Arc<str> {
+        let plain = || match (dimension, tag) {
+            (1, tag) => format!("curve {tag}").into(),
+            (_, NO_GROUP) => "body".into(),
+            (_, tag) => format!("surface {tag}").into(),
+        };
+        let known = self.names.entry((dimension, tag)).or_insert_with(plain);
+        Arc::clone(known)
+    }
+
+    /// Takes one element in; `groups` are its physical tags.
+    fn element(
+        &mut self,
+        cursor: &Cursor<'_>,
+        number: i64,
+        label: usize,
+        entity: i64,
+        groups: &[i64],
+        labels: &[usize],
+    ) -> Result<(), MeshFileError> {
+        let (dimension, _, kind) = shape_of(cursor, number, label)?;
+        let mut nodes = Vec::with_capacity(labels.len());
+        for node in labels {
+            let Some(&index) = self.index_of.get(node) else {
+                return Err(cursor.error(format!(
+                    "element {label} names node {node}, which the file does not have"
+                )));
+            };
+            self.file.is_used[index as usize] = true;
+            nodes.push(index);
+        }
+        match (dimension, kind) {
+            (_, Some(kind)) => {
+                // A face of a solid belongs to every physical surface that names it, an element to its first group.
+                if let Some(face) = kind.as_face() {
+                    for &tag in groups {
+                        let name = self.name(dimension, tag).to_string();
+                        let faces = self.surfaces.entry(name).or_default();
+                        faces.push((face, nodes.clone()));
+                    }
+                }
+                let region = match groups.first() {
+                    Some(&tag) => self.name(dimension, tag),
+                    None => self.name(dimension, NO_GROUP),
+                };
+                let element = FileElement {
+                    label,
+                    kind,
+                    region,
+                    entity,
+                    nodes: kind.formats().gmsh.arranged(&nodes),
+                };
+                if kind.dimension() == 3 {
+                    self.solids.push(element);
+                } else {
+                    self.file.elements.push(element);
+                }
+            }
+            (1, _) => {
+                let edge = (nodes[0], nodes[1], nodes.get(2).copied());
+                for &tag in groups {
+                    let name = self.name(dimension, tag);
+                    match self.file.curves.get_mut(&*name) {
+                        Some(edges) => edges.push(edge),
+                        None => {
+                            self.file.curves.insert(name.to_string(), vec![edge]);
+                        }
+                    }
+                }
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+/// Dimension, node count and kind of an element type that can be used.
+fn shape_of(
+    cursor: &Cursor<'_>,
+    number: i64,
+    label: usize,
+) -> Result<(i64, usize, Option<ElementKind>), MeshFileError> {
+    match element_type(number) {
+        Some((2, _, None)) => Err(cursor.error(format!(
+            "element {label} is a quadrilateral of nine nodes (type 10), which is not supported: set \
+             Mesh.SecondOrderIncomplete = 1 for eight"
+        ))),
+        Some((3, _, None)) => Err(cursor.error(format!(
+            "element {label} has nodes inside its faces (type {number}), which is not supported: set \
+             Mesh.SecondOrderIncomplete = 1 for bricks of 20, wedges of 15 and pyramids of 13 nodes"
+        ))),
+        Some(known) => Ok(known),
+        None => Err(cursor.error(format!(
+            "element {label} has type {number}, which is not supported: triangles, quadrilaterals, {} of first and second \
+             order are",
+            ElementKind::SOLID_SHAPES
+        ))),
+    }
+}

@@ -1,0 +1,90 @@
+//! What changes a mesh file before it becomes a body: elements taken away, a curve moved.
+
+use super::file_mesh::{CurveEdge, FileElement, FileMesh};
+use std::collections::{BTreeMap, BTreeSet};
+
+impl FileMesh {
+    /// Mean of an element's corners, in the unit of the file.
+    pub fn element_middle(&self, element: &FileElement) -> [f64; 3] {
+        let corners = element.nodes[..element.kind.corner_count()].iter();
+        middle(corners.map(|&node| self.points[node as usize]))
+    }
+
+    /// The file without some elements, and without the edges and faces of its curves and surfaces that bounded these alone.
+    pub fn without(&self, is_removed: impl Fn(&FileElement) -> bool) -> Self {
+        let kept = self.elements.iter().filter(|element| !is_removed(element));
+        let elements: Vec<FileElement> = kept.cloned().collect();
+        let mut elements_of: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+        for (e, element) in elements.iter().enumerate() {
+            for &node in &element.nodes {
+                elements_of.entry(node).or_default().push(e);
+            }
+        }
+        let has_element = |nodes: &[u32]| {
+            let around = elements_of.get(&nodes[0]).into_iter().flatten();
+            let mut around = around.map(|&e| &elements[e].nodes);
+            around.any(|own| nodes.iter().all(|node| own.contains(node)))
+        };
+        let curves = self.curves.iter().map(|(name, edges)| {
+            let edges = edges.iter().filter(|edge| has_element(&[edge.0, edge.1]));
+            (name.clone(), edges.copied().collect::<Vec<CurveEdge>>())
+        });
+        let surfaces = self.surfaces.iter().map(|(name, faces)| {
+            let faces = faces.iter().filter(|(_, nodes)| has_element(nodes));
+            (name.clone(), faces.cloned().collect::<Vec<_>>())
+        });
+        let node_sets = self.node_sets.iter().map(|(name, nodes)| {
+            let nodes = nodes.iter().filter(|&node| elements_of.contains_key(node));
+            (name.clone(), nodes.copied().collect::<Vec<u32>>())
+        });
+        Self {
+            curves: curves.filter(|(_, edges)| !edges.is_empty()).collect(),
+            surfaces: surfaces.filter(|(_, faces)| !faces.is_empty()).collect(),
+            node_sets: node_sets.filter(|(_, nodes)| !nodes.is_empty()).collect(),
+            elements,
+            symmetry: None,
+            ..self.clone()
+        }
+    }
+
+    /// The plane file with one of its curves moved by a vector, in the unit of the file: nodes between it and the other curves
+    /// follow in the ratio of their distances from both. `None` where it has no such curve or no other one.
+    pub fn with_curve_moved(&self, name: &str, [dx, dy]: [f64; 2]) -> Option<Self> {
+        let nodes_of = |edges: &[CurveEdge]| -> BTreeSet<u32> {
+            let ends = edges.iter().flat_map(|edge| [Some(edge.0), Some(edge.1), edge.2]);
+            ends.flatten().collect()
+        };
+        let moved = nodes_of(self.curves.get(name)?);
+        let others = self.curves.iter().filter(|(other, _)| *other != name);
+        let held: BTreeSet<u32> = others.flat_map(|(_, edges)| nodes_of(edges)).collect();
+        if held.is_empty() {
+            return None;
+        }
+        let nearest = |point: [f64; 3], nodes: &BTreeSet<u32>| {
+            let away = nodes.iter();
+            let away = away.map(|&node| distance(point, self.points[node as usize]));
+            away.fold(f64::INFINITY, f64::min)
+        };
+        let place = |&point: &[f64; 3]| {
+            let [from, to] = [&moved, &held].map(|nodes| nearest(point, nodes));
+            let share = to / (from + to);
+            [point[0] + share * dx, point[1] + share * dy, point[2]]
+        };
+        Some(Self {
+            points: self.points.iter().map(place).collect(),
+            symmetry: None,
+            ..self.clone()
+        })
+    }
+}
+
+/// Mean of some points.
+fn middle(points: impl ExactSizeIterator<Item = [f64; 3]>) -> [f64; 3] {
+    let count = points.len() as f64;
+    let sum = points.fold([0.0; 3], |sum, p| [0, 1, 2].map(|k| sum[k] + p[k]));
+    sum.map(|x| x / count)
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
+}

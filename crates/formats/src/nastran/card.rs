@@ -1,0 +1,212 @@
+//! Cards of bulk data in small, large and free fields, and the case control before them.
+
+use crate::deck::{Deck, Place, quoted, real};
+use crate::file_mesh::MeshFileError;
+use std::collections::BTreeMap;
+
+/// One card: its name in capitals and its fields behind it, eight for each of its lines.
+#[derive(Debug)]
+pub(super) struct Card<'a> {
+    pub name: String,
+    pub fields: Vec<&'a str>,
+    pub place: Place,
+}
+
+/// What stands before and around the bulk data.
+#[derive(Debug, Default)]
+pub(super) struct Control {
+    pub title: Option<String>,
+    /// Sets of constraints and of loads that subcases name.
+    pub spc: Vec<usize>,
+    pub load: Vec<usize>,
+    /// Names that preprocessors keep in comments, by number of the property.
+    pub property_names: BTreeMap<usize, String>,
+}
+
+impl<'a> Card<'a> {
+    /// A field, empty where the card ends before it; the one behind the name is number 0.
+    pub fn field(&self, number: usize) -> &'a str {
+        self.fields.get(number).copied().unwrap_or_default()
+    }
+
+    /// A whole number; none where the field is empty.
+    pub fn optional_int(
+        &self,
+        deck: &Deck<'_>,
+        number: usize,
+    ) -> Result<Option<i64>, MeshFileError> {
+        match self.field(number) {
+            "" => Ok(None),
+            field => field.parse().map(Some).map_err(|_| {
+                let message = format!(
+                    "{}: a whole number expected in field {}, found {}",
+                    self.name,
+                    number + 2,
+                    quoted(field)
+                );
+                deck.error(self.place, message)
+            }),
+        }
+    }
+
+    /// The number of something, above 0.
+    pub fn number(&self, deck: &Deck<'_>, field: usize) -> Result<usize, MeshFileError> {
+        let value = self.optional_int(deck, field)?;
+        let value = value.and_then(|value| usize::try_from(value).ok());
+        value.filter(|&value| value > 0).ok_or_else(|| {
+            let message =
+                format!("{}: a number above 0 expected in field {}", self.name, field + 2);
+            deck.error(self.place, message)
+        })
+    }
+
+    /// A real number; none where the field is empty.
+    pub fn optional_real(
+        &self,
+        deck: &Deck<'_>,
+        number: usize,
+    ) -> Result<Option<f64>, MeshFileError> {
+        let field = self.field(number);
+        if field.is_empty() {
+            return Ok(None);
+        }
+        short_real(field).map(Some).ok_or_else(|| {
+            let message = format!(
+                "{}: a number expected in field {}, found {}",
+                self.name,
+                number + 2,
+                quoted(field)
+            );
+            deck.error(self.place, message)
+        })
+    }
+
+    /// A real number, 0 where the field is empty.
+    pub fn real(&self, deck: &Deck<'_>, number: usize) -> Result<f64, MeshFileError> {
+        Ok(self.optional_real(deck, number)?.unwrap_or(0.0))
+    }
+}
+
+/// A number whose exponent may lack its letter, `1.5-3`.
+fn short_real(field: &str) -> Option<f64> {
+    if let Some(value) = real(field) {
+        return Some(value);
+    }
+    let sign = field.rfind(['+', '-']).filter(|&at| at > 0)?;
+    let (digits, exponent) = field.split_at(sign);
+    digits.ends_with(|c: char| c.is_ascii_digit() || c == '.').then_some(())?;
+    real(&format!("{digits}e{exponent}"))
+}
+
+/// A line as a card or the continuation of one: its first field, and its others.
+struct Line<'a> {
+    head: &'a str,
+    fields: Vec<&'a str>,
+    is_large: bool,
+}
+
+fn line_of(line: &str) -> Line<'_> {
+    if line.contains(',') {
+        let mut fields = line.split(',').map(str::trim);
+        let head = fields.next().unwrap_or_default();
+        let is_large = head.ends_with('*') || head.starts_with('*');
+        let count = if is_large { 4 } else { 8 };
+        return Line { head, fields: fields.take(count).collect(), is_large };
+    }
+    let column = |from: usize, to: usize| {
+        let to = to.min(line.len());
+        line.get(from.min(to)..to).unwrap_or_default().trim()
+    };
+    let head = column(0, 8);
+    let is_large = head.ends_with('*') || head.starts_with('*');
+    let fields = match is_large {
+        true => (0..4).map(|i| column(8 + 16 * i, 24 + 16 * i)).collect(),
+        false => (0..8).map(|i| column(8 + 8 * i, 16 + 8 * i)).collect(),
+    };
+    Line { head, fields, is_large }
+}
+
+/// The cards of a file and its case control.
+pub(super) fn cards<'a>(deck: &Deck<'a>) -> Result<(Vec<Card<'a>>, Control), MeshFileError> {
+    let is_bulk = |line: &str| {
+        let line = line.trim_start();
+        line.get(..10).is_some_and(|start| start.eq_ignore_ascii_case("BEGIN BULK"))
+    };
+    let begin = deck.lines.iter().position(|(_, line)| is_bulk(line));
+    let mut control = Control::default();
+    let (before, bulk) = deck.lines.split_at(begin.map_or(0, |begin| begin + 1));
+    before.iter().for_each(|(_, line)| control.line(line));
+    let mut cards: Vec<Card<'a>> = Vec::new();
+    for &(place, line) in bulk {
+        if let Some(comment) = line.strip_prefix('$') {
+            control.comment(comment);
+            continue;
+        }
+        let line = line.split('$').next().unwrap_or_default().trim_end();
+        if line.contains('\t') {
+            return Err(
+                deck.error(place, "a tab stop: replace tabs by blanks or write free fields")
+            );
+        }
+        if line.is_empty() {
+            continue;
+        }
+        let Line { head, mut fields, is_large } = line_of(line);
+        if head.eq_ignore_ascii_case("ENDDATA") {
+            break;
+        }
+        // Every line has eight fields, one of large fields four.
+        fields.resize(if is_large { 4 } else { 8 }, "");
+        if head.is_empty() || head.starts_with(['+', '*']) {
+            let Some(card) = cards.last_mut() else {
+                return Err(deck.error(place, "this line continues no card"));
+            };
+            card.fields.extend(fields);
+            continue;
+        }
+        let name = head.trim_end_matches('*').to_uppercase();
+        if !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
+            let message = format!("the name of a card expected, found {}", quoted(head));
+            return Err(deck.error(place, message));
+        }
+        cards.push(Card { name, fields, place });
+    }
+    Ok((cards, control))
+}
+
+impl Control {
+    /// A line of the case control.
+    fn line(&mut self, line: &str) {
+        let Some((name, value)) = line.split_once('=') else {
+            return;
+        };
+        let (name, value) = (name.trim().to_uppercase(), value.trim());
+        let number = value.parse::<usize>().ok();
+        match name.as_str() {
+            "TITLE" => self.title = Some(value.to_owned()),
+            "SPC" => self.spc.extend(number),
+            "LOAD" => self.load.extend(number),
+            _ => {}
+        }
+    }
+
+    /// Names of properties that HyperMesh and ANSA keep in comments.
+    fn comment(&mut self, comment: &str) {
+        let named = if let Some(rest) = comment.strip_prefix("HMNAME PROP") {
+            let mut parts = rest.splitn(3, '"');
+            parts.next().zip(parts.next())
+        } else if let Some(rest) = comment.strip_prefix("ANSA_NAME_COMMENT;") {
+            let mut parts = rest.split(';');
+            match (parts.next(), parts.next(), parts.next()) {
+                (Some(number), Some("PSOLID" | "PSHELL"), Some(name)) => Some((number, name)),
+                _ => None,
+            }
+        } else {
+            None
+        };
+        let Some((number, name)) = named else { return };
+        if let (Ok(number), false) = (number.trim().parse(), name.trim().is_empty()) {
+            self.property_names.insert(number, name.trim().to_owned());
+        }
+    }
+}

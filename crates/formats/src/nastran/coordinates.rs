@@ -1,0 +1,191 @@
+//! Coordinate systems: `CORD1R`, `CORD1C`, `CORD1S`, `CORD2R`, `CORD2C`, `CORD2S`.
+
+use super::card::Card;
+use crate::deck::{Deck, Place};
+use crate::file_mesh::MeshFileError;
+use nalgebra::{Matrix3, Vector3};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// How a system measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Rectangular,
+    Cylindrical,
+    Spherical,
+}
+
+/// How a system is placed.
+#[derive(Clone, Copy, Debug)]
+enum Definition {
+    /// Three points in another system: origin, on its z axis, in its x-z plane.
+    Points(usize, [[f64; 3]; 3]),
+    /// Three nodes that lie there.
+    Nodes([usize; 3]),
+}
+
+/// A point in a system, and the place that gives it.
+type Given = (usize, [f64; 3], Place);
+
+/// A coordinate system in basic coordinates.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct System {
+    kind: Kind,
+    origin: Vector3<f64>,
+    /// Its axes as columns.
+    pub axes: Matrix3<f64>,
+}
+
+impl System {
+    /// A point in basic coordinates.
+    fn place(&self, [a, b, c]: [f64; 3]) -> [f64; 3] {
+        let local = match self.kind {
+            Kind::Rectangular => Vector3::new(a, b, c),
+            Kind::Cylindrical => {
+                let (sin, cos) = b.to_radians().sin_cos();
+                Vector3::new(a * cos, a * sin, c)
+            }
+            Kind::Spherical => {
+                let ((st, ct), (sp, cp)) = (b.to_radians().sin_cos(), c.to_radians().sin_cos());
+                Vector3::new(a * st * cp, a * st * sp, a * ct)
+            }
+        };
+        (self.origin + self.axes * local).into()
+    }
+
+    /// Whether its coordinates are straight.
+    pub fn is_rectangular(&self) -> bool {
+        self.kind == Kind::Rectangular
+    }
+}
+
+/// Systems and nodes of a file, each found where it is needed.
+pub(super) struct Coordinates<'d, 'a> {
+    deck: &'d Deck<'a>,
+    definitions: BTreeMap<usize, (Kind, Definition, Place)>,
+    /// System and coordinates of each node.
+    pub grids: BTreeMap<usize, Given>,
+    known: BTreeMap<usize, System>,
+}
+
+impl<'d, 'a> Coordinates<'d, 'a> {
+    /// The systems that cards define.
+    pub fn new(deck: &'d Deck<'a>, cards: &[Card<'_>]) -> Result<Self, MeshFileError> {
+        let mut definitions = BTreeMap::new();
+        for card in cards {
+            let Some(rest) = card.name.strip_prefix("CORD") else {
+                continue;
+            };
+            let kind = match rest.get(1..) {
+                Some("R") => Kind::Rectangular,
+                Some("C") => Kind::Cylindrical,
+                Some("S") => Kind::Spherical,
+                _ => continue,
+            };
+            let starts: &[usize] = if rest.starts_with('1') { &[0, 4] } else { &[0] };
+            for &start in starts.iter().filter(|&&start| !card.field(start).is_empty()) {
+                let number = card.number(deck, start)?;
+                let definition = if rest.starts_with('1') {
+                    let node = |i: usize| card.number(deck, start + 1 + i);
+                    Definition::Nodes([node(0)?, node(1)?, node(2)?])
+                } else {
+                    let reference = card.optional_int(deck, 1)?.unwrap_or(0);
+                    let mut points = [[0.0; 3]; 3];
+                    for (i, point) in points.iter_mut().enumerate() {
+                        for (axis, value) in point.iter_mut().enumerate() {
+                            *value = card.real(deck, 2 + 3 * i + axis)?;
+                        }
+                    }
+                    Definition::Points(usize::try_from(reference).unwrap_or(0), points)
+                };
+                if definitions.insert(number, (kind, definition, card.place)).is_some() {
+                    let message = format!("coordinate system {number} is defined twice");
+                    return Err(deck.error(card.place, message));
+                }
+            }
+        }
+        Ok(Self { deck, definitions, grids: BTreeMap::new(), known: BTreeMap::new() })
+    }
+
+    /// A point of a system in basic coordinates; system 0 is the basic one. `place` asks for it.
+    pub fn point(
+        &mut self,
+        system: usize,
+        point: [f64; 3],
+        place: Place,
+    ) -> Result<[f64; 3], MeshFileError> {
+        match system {
+            0 => Ok(point),
+            _ => Ok(self.system(system, place)?.place(point)),
+        }
+    }
+
+    /// A system by its number, after those that define it: a chain of them is as long as the file likes.
+    pub fn system(&mut self, number: usize, place: Place) -> Result<System, MeshFileError> {
+        let (mut open, mut is_open) = (vec![(number, place)], BTreeSet::from([number]));
+        while let Some(&(number, place)) = open.last() {
+            if !self.known.contains_key(&number) {
+                let (defined, points) = self.defining_points(number, place)?;
+                let missing =
+                    points.iter().find(|point| point.0 != 0 && !self.known.contains_key(&point.0));
+                if let Some(&(other, _, there)) = missing {
+                    if !is_open.insert(other) {
+                        let message = format!("coordinate system {other} is defined by itself");
+                        return Err(self.deck.error(defined, message));
+                    }
+                    open.push((other, there));
+                    continue;
+                }
+                let basic = points.map(|(system, own, _)| match self.known.get(&system) {
+                    Some(known) => known.place(own),
+                    None => own,
+                });
+                let system = self.placed(number, basic)?;
+                self.known.insert(number, system);
+            }
+            is_open.remove(&number);
+            open.pop();
+        }
+        Ok(self.known[&number])
+    }
+
+    /// The three points of a system, each with the system that it is given in and the place that gives it.
+    fn defining_points(
+        &self,
+        number: usize,
+        place: Place,
+    ) -> Result<(Place, [Given; 3]), MeshFileError> {
+        let Some(&(_, definition, defined)) = self.definitions.get(&number) else {
+            let message = format!("no coordinate system has the number {number}");
+            return Err(self.deck.error(place, message));
+        };
+        let points = match definition {
+            Definition::Points(reference, given) => given.map(|own| (reference, own, defined)),
+            Definition::Nodes(nodes) => {
+                let mut points = [(0, [0.0; 3], defined); 3];
+                for (point, node) in points.iter_mut().zip(nodes) {
+                    *point = *self.grids.get(&node).ok_or_else(|| {
+                        let message = format!(
+                            "coordinate system {number} names node {node}, which the file does not have"
+                        );
+                        self.deck.error(defined, message)
+                    })?;
+                }
+                points
+            }
+        };
+        Ok((defined, points))
+    }
+
+    /// The system of three points in basic coordinates.
+    fn placed(&self, number: usize, points: [[f64; 3]; 3]) -> Result<System, MeshFileError> {
+        let (kind, _, defined) = self.definitions[&number];
+        let [origin, on_axis, in_plane] = points.map(Vector3::from);
+        let third = (on_axis - origin).try_normalize(0.0);
+        let second = third.and_then(|z| z.cross(&(in_plane - origin)).try_normalize(0.0));
+        let (Some(z), Some(y)) = (third, second) else {
+            let message = format!("the three points of coordinate system {number} lie on one line");
+            return Err(self.deck.error(defined, message));
+        };
+        Ok(System { kind, origin, axes: Matrix3::from_columns(&[y.cross(&z), y, z]) })
+    }
+}

@@ -1,0 +1,166 @@
+//! `CTETRA`, `CHEXA`, `CPENTA`, `CPYRAM`, and the shells that cover their faces.
+
+use super::Reader;
+use super::card::Card;
+use crate::collection::CollectedElement;
+use crate::file_mesh::{MeshFileError, SurfaceFace};
+use crate::{ElementKind, FaceKind};
+use std::collections::{BTreeMap, HashMap};
+
+/// Elements that are no solids and change the body where they are left out: refused, not listed.
+const REFUSED: [(&str, &str); 1] = [("CHACAB", "acoustic elements are not supported")];
+
+impl Reader<'_, '_> {
+    pub(super) fn read_elements(&mut self) -> Result<(), MeshFileError> {
+        for card in self.cards {
+            if let Some((name, reason)) = REFUSED.iter().find(|refused| refused.0 == card.name) {
+                return Err(self.deck.error(card.place, format!("{name}: {reason}")));
+            }
+            let of_order = |is_quadratic: bool| {
+                let mut kinds = ElementKind::ALL.into_iter();
+                kinds.find(|kind| {
+                    let cards = kind.formats().nastran.names;
+                    cards.contains(&&*card.name) && kind.is_quadratic() == is_quadratic
+                })
+            };
+            if let (Some(linear), Some(quadratic)) = (of_order(false), of_order(true)) {
+                self.element(card, [linear, quadratic])?;
+            }
+        }
+        Ok(())
+    }
+
+    fn element(
+        &mut self,
+        card: &Card<'_>,
+        [linear, quadratic]: [ElementKind; 2],
+    ) -> Result<(), MeshFileError> {
+        let deck = self.deck;
+        let label = card.number(deck, 0)?;
+        let property = card.optional_int(deck, 1)?.unwrap_or(label as i64);
+        let fields = &card.fields[2..card.fields.len().max(2)];
+        let has_middles =
+            fields.iter().skip(linear.node_count()).any(|field| !["", "0"].contains(field));
+        let kind = if has_middles { quadratic } else { linear };
+        let mut listed = Vec::with_capacity(kind.node_count());
+        for place in 0..kind.node_count() {
+            let node = card.optional_int(deck, 2 + place)?.unwrap_or(0);
+            let Some(node) = usize::try_from(node).ok().filter(|&node| node > 0) else {
+                let message = format!(
+                    "{} {label} lacks node {}: give every node of the element, or its corners alone",
+                    card.name,
+                    place + 1
+                );
+                return Err(deck.error(card.place, message));
+            };
+            listed.push(self.node(node, &format!("{} {label}", card.name), card.place)?);
+        }
+        let beyond = fields.iter().skip(kind.node_count()).any(|field| !field.is_empty());
+        if beyond {
+            let message =
+                format!("{} {label} has more than {} nodes", card.name, kind.node_count());
+            return Err(deck.error(card.place, message));
+        }
+        let index = self.collection.elements.len();
+        if self.elements.insert(label, index).is_some() {
+            return Err(deck.error(card.place, format!("element {label} is given twice")));
+        }
+        let region = self.region(property.unsigned_abs() as usize);
+        self.collection.elements.push(CollectedElement {
+            label,
+            kind,
+            nodes: kind.formats().nastran.arranged(&listed),
+            region: Some(region.into()),
+        });
+        Ok(())
+    }
+
+    /// Name of the region of a property.
+    pub(super) fn region(&self, property: usize) -> String {
+        let name = self.control.property_names.get(&property).cloned();
+        name.unwrap_or_else(|| format!("PSOLID_{property}"))
+    }
+
+    /// Shells and `BSURFS` that cover faces of solids become surfaces.
+    pub(super) fn read_skins(&mut self) -> Result<(), MeshFileError> {
+        let mut faces: HashMap<Vec<u32>, SurfaceFace> = HashMap::new();
+        let is_skin =
+            |card: &&Card<'_>| card.name.starts_with("CTRIA") || card.name.starts_with("CQUAD");
+        if self.cards.iter().any(|card| is_skin(&card)) {
+            for face in self.collection.free_faces(&[]) {
+                faces.insert(corners_of(&face), face);
+            }
+        }
+        let deck = self.deck;
+        let mut skins: BTreeMap<usize, Vec<SurfaceFace>> = BTreeMap::new();
+        for card in self.cards.iter().filter(is_skin) {
+            let label = card.number(deck, 0)?;
+            let property = card.number(deck, 1)?;
+            let count = if card.name.starts_with("CTRIA") { 3 } else { 4 };
+            let mut corners = Vec::new();
+            for place in 0..count {
+                let node = card.number(deck, 2 + place)?;
+                corners.push(self.node(node, &format!("{} {label}", card.name), card.place)?);
+            }
+            corners.sort_unstable();
+            match faces.get(&corners) {
+                Some(face) => {
+                    skins.entry(property).or_default().push(face.clone());
+                    let reason = "read as a surface of the solids, without stiffness and mass";
+                    self.leave_out(&card.name, card.place, reason);
+                }
+                None => self.lose_part(&card.name, card.place, "shells are not used"),
+            }
+        }
+        for (property, faces) in skins {
+            let named = self.control.property_names.get(&property).cloned();
+            let name = named.unwrap_or_else(|| format!("PSHELL_{property}"));
+            self.collection.surfaces.entry(name).or_default().extend(faces);
+        }
+        self.read_bsurfs()
+    }
+
+    /// Faces of solids by three of their nodes.
+    fn read_bsurfs(&mut self) -> Result<(), MeshFileError> {
+        let deck = self.deck;
+        for card in self.cards_of("BSURFS") {
+            let name = format!("BSURFS_{}", card.number(deck, 0)?);
+            // Element and three of its nodes in turns, from the fifth field on.
+            let entries = card.fields.get(4..).unwrap_or_default().chunks(4);
+            for (i, _) in entries.enumerate().filter(|(_, entry)| !entry[0].is_empty()) {
+                let first = 4 + 4 * i;
+                let element = self.solid(card.number(deck, first)?, card)?;
+                let mut nodes = [0; 3];
+                for (k, node) in nodes.iter_mut().enumerate() {
+                    let label = card.number(deck, first + 1 + k)?;
+                    *node = self.node(label, &name, card.place)?;
+                }
+                let face = self.collection.elements[element].face_with(&nodes);
+                let face = face.ok_or_else(|| {
+                    let message = format!("{name}: its nodes are on no face of the element");
+                    deck.error(card.place, message)
+                })?;
+                self.collection.surfaces.entry(name.clone()).or_default().push(face);
+            }
+        }
+        Ok(())
+    }
+
+    /// The place of a solid element by its number.
+    pub(super) fn solid(&self, label: usize, card: &Card<'_>) -> Result<usize, MeshFileError> {
+        self.elements.get(&label).copied().ok_or_else(|| {
+            let message = format!(
+                "{} names element {label}, which is no solid element of the file",
+                card.name
+            );
+            self.deck.error(card.place, message)
+        })
+    }
+}
+
+/// Corners of a face in ascending order.
+fn corners_of((kind, nodes): &(FaceKind, Vec<u32>)) -> Vec<u32> {
+    let mut corners = nodes[..kind.corner_count()].to_vec();
+    corners.sort_unstable();
+    corners
+}

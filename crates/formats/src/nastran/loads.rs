@@ -1,0 +1,263 @@
+//! `SPC`, `SPC1` and `PLOAD4`: what holds and loads boundaries.
+
+use super::Reader;
+use super::card::Card;
+use crate::collection::CollectedElement;
+use crate::deck::{Place, quoted};
+use crate::file_mesh::{MeshFileError, SurfaceFace};
+use crate::model_data::{FileCondition, FileConditionKind};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Nodes by set of constraints and directions.
+type Held = BTreeMap<(usize, String), (BTreeSet<u32>, Place)>;
+
+/// Faces under each pressure, by its bits, in the order of the cards.
+type Pressed = Vec<(f64, Vec<SurfaceFace>, Place)>;
+
+impl Reader<'_, '_> {
+    /// Sets that act: those that subcases name, with what they consist of; all where nothing is named and there is but one.
+    fn active(
+        &mut self,
+        named: &[usize],
+        known: &BTreeSet<usize>,
+        combined: &'static str,
+    ) -> Result<Option<BTreeSet<usize>>, MeshFileError> {
+        let mut active: BTreeSet<usize> = named.iter().copied().collect();
+        for card in self.cards_of(combined) {
+            let own = card.number(self.deck, 0)?;
+            if active.remove(&own) {
+                // LOAD has a factor before each set, and one before all.
+                let step = if combined == "LOAD" { 2 } else { 1 };
+                for field in (step..card.fields.len()).step_by(step) {
+                    let factor = |field| card.optional_real(self.deck, field);
+                    if card.field(field + step - 1).is_empty() {
+                        continue;
+                    }
+                    let is_one = combined != "LOAD"
+                        || factor(1)? == Some(1.0) && factor(field)? == Some(1.0);
+                    if !is_one {
+                        let message =
+                            "LOAD: only factors of 1 are supported: write the pressures themselves";
+                        return Err(self.deck.error(card.place, message));
+                    }
+                    active.insert(card.number(self.deck, field + step - 1)?);
+                }
+            }
+        }
+        if active.is_empty() && known.len() <= 1 {
+            return Ok(Some(known.clone()));
+        }
+        let is_one_case = named.windows(2).all(|pair| pair[0] == pair[1]);
+        Ok((is_one_case && !active.is_empty()).then_some(active))
+    }
+
+    /// Supports.
+    pub(super) fn read_supports(&mut self) -> Result<(), MeshFileError> {
+        let mut held = Held::new();
+        for card in self.cards_of("SPC1") {
+            self.nodes_of_spc1(card, &mut held)?;
+        }
+        for card in self.cards_of("SPC") {
+            let set = card.number(self.deck, 0)?;
+            for first in [1, 4].into_iter().filter(|&first| !card.field(first).is_empty()) {
+                if card.real(self.deck, first + 2)? != 0.0 {
+                    let reason = "only displacements of zero are taken: these directions stay free";
+                    self.lose_part("SPC with a displacement", card.place, reason);
+                    continue;
+                }
+                let node = card.number(self.deck, first)?;
+                let node = self.node(node, "SPC", card.place)?;
+                let directions = self.directions(card, first + 1)?;
+                let entry = held.entry((set, directions)).or_insert((BTreeSet::new(), card.place));
+                entry.0.insert(node);
+            }
+        }
+        let known = held.keys().map(|key| key.0).collect();
+        let named = self.control.spc.clone();
+        let active = self.active(&named, &known, "SPCADD")?;
+        self.take_held(held, active.as_ref());
+        Ok(())
+    }
+
+    fn directions(&self, card: &Card<'_>, field: usize) -> Result<String, MeshFileError> {
+        let text = card.field(field);
+        let is_right = |c: char| ('0'..='6').contains(&c);
+        if text.is_empty() || !text.chars().all(is_right) {
+            let message =
+                format!("{}: directions 1 to 6 expected, found {}", card.name, quoted(text));
+            return Err(self.deck.error(card.place, message));
+        }
+        Ok(text.chars().filter(|c| ('1'..='3').contains(c)).collect())
+    }
+
+    fn nodes_of_spc1(&self, card: &Card<'_>, held: &mut Held) -> Result<(), MeshFileError> {
+        let set = card.number(self.deck, 0)?;
+        let directions = self.directions(card, 1)?;
+        let (nodes, _) = held.entry((set, directions)).or_insert((BTreeSet::new(), card.place));
+        if card.field(3).eq_ignore_ascii_case("THRU") {
+            let (first, last) = (card.number(self.deck, 2)?, card.number(self.deck, 4)?);
+            let inside = self.nodes.iter().filter(|(label, _)| (first..=last).contains(label));
+            nodes.extend(inside.map(|(_, &node)| node));
+            return Ok(());
+        }
+        for field in (2..card.fields.len()).filter(|&field| !card.field(field).is_empty()) {
+            let label = card.number(self.deck, field)?;
+            nodes.insert(self.node(label, "SPC1", card.place)?);
+        }
+        Ok(())
+    }
+
+    fn take_held(&mut self, held: Held, active: Option<&BTreeSet<usize>>) {
+        let elements = self.collection.elements.iter();
+        let used: BTreeSet<u32> = elements.flat_map(|e| e.nodes.iter().copied()).collect();
+        for ((set, directions), (nodes, place)) in held {
+            let nodes: Vec<u32> = nodes.into_iter().filter(|node| used.contains(node)).collect();
+            let name = format!("SPC_{set}_{directions}");
+            let keyword = format!("SPC of set {set}, directions {directions}");
+            let reason = if directions.is_empty() {
+                "rotations of nodes have no meaning in solid elements"
+            } else if nodes.is_empty() {
+                "none of its nodes belongs to a solid element"
+            } else if active.is_none() {
+                "several sets or subcases: give [boundaries.SPC_...] in the case the one that is meant"
+            } else if !active.is_some_and(|active| active.contains(&set)) {
+                "no subcase names this set"
+            } else if directions != "123" && nodes.iter().any(|node| self.turned.contains(node)) {
+                "its directions are those of the nodes' own systems: hold it in the case"
+            } else {
+                let axes = ['1', '2', '3'].map(|axis| directions.contains(axis));
+                self.model.conditions.push(FileCondition {
+                    boundary: name.clone(),
+                    kind: FileConditionKind::Fixed(axes),
+                    place: self.deck.name(place),
+                });
+                ""
+            };
+            // A set that no subcase names holds nothing.
+            let is_meant = active.is_none_or(|active| active.contains(&set));
+            let is_held = is_meant && !directions.is_empty() && !nodes.is_empty();
+            match reason {
+                "" => {}
+                _ if is_held => self.lose_part(&keyword, place, reason),
+                _ => self.leave_out(&keyword, place, reason),
+            }
+            if !nodes.is_empty() {
+                self.collection.node_sets.insert(name, nodes);
+            }
+        }
+    }
+
+    /// Pressures on faces.
+    pub(super) fn read_pressures(&mut self) -> Result<(), MeshFileError> {
+        let mut sets: BTreeMap<usize, Pressed> = BTreeMap::new();
+        for card in self.cards_of("PLOAD4") {
+            let set = card.number(self.deck, 0)?;
+            let element = self.solid(card.number(self.deck, 1)?, card)?;
+            let pressure = card.real(self.deck, 2)?;
+            let others = [3, 4, 5].map(|field| card.optional_real(self.deck, field));
+            let mut is_plain =
+                card.fields.get(8..).unwrap_or_default().iter().all(|field| field.is_empty());
+            for other in others {
+                is_plain &= other?.is_none_or(|other| other == pressure);
+            }
+            if !is_plain {
+                let reason = "only one pressure for a face, along its normal, is taken";
+                self.lose_part("PLOAD4 of another kind", card.place, reason);
+                continue;
+            }
+            let face = self.loaded_face(card, element)?;
+            let known = sets.entry(set).or_default();
+            match known.iter_mut().find(|known| known.0 == pressure) {
+                Some(known) => known.1.push(face),
+                None => known.push((pressure, vec![face], card.place)),
+            }
+        }
+        let known = sets.keys().copied().collect();
+        let named = self.control.load.clone();
+        let active = self.active(&named, &known, "LOAD")?;
+        for (set, pressed) in sets {
+            let count = pressed.len();
+            for (number, (pressure, faces, place)) in pressed.into_iter().enumerate() {
+                let name = match count {
+                    1 => format!("PLOAD4_{set}"),
+                    _ => format!("PLOAD4_{set}_{}", number + 1),
+                };
+                self.collection.surfaces.insert(name.clone(), faces);
+                match &active {
+                    Some(active) if active.contains(&set) => {
+                        self.model.conditions.push(FileCondition {
+                            boundary: name,
+                            kind: FileConditionKind::Pressure(pressure),
+                            place: self.deck.name(place),
+                        })
+                    }
+                    _ => {
+                        let keyword = format!("PLOAD4 of set {set}");
+                        let reason = "the subcases do not say that this set acts, and no other";
+                        match active {
+                            None => self.lose_part(&keyword, place, reason),
+                            Some(_) => self.leave_out(&keyword, place, reason),
+                        }
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The face that `G1` and `G3` or `G4` name: opposite corners of a quadrilateral; of a triangular face of a wedge `G1` alone,
+    /// of a pyramid its two corners on the base; of a tetrahedron a corner of the face and the corner that is not on it.
+    fn loaded_face(&self, card: &Card<'_>, element: usize) -> Result<SurfaceFace, MeshFileError> {
+        let element = &self.collection.elements[element];
+        let first = self.node(card.number(self.deck, 6)?, "PLOAD4", card.place)?;
+        let second = match card.optional_int(self.deck, 7)? {
+            None => None,
+            Some(_) => Some(self.node(card.number(self.deck, 7)?, "PLOAD4", card.place)?),
+        };
+        let found = match (element.kind.corner_count(), second) {
+            (4, Some(apex)) => opposite(element, apex).filter(|_| first != apex),
+            (6, None) => triangle(element, first),
+            (5, Some(second)) => sloping(element, [first, second])
+                .or_else(|| with_diagonal(element, [first, second])),
+            (_, Some(second)) => with_diagonal(element, [first, second]),
+            _ => None,
+        };
+        found.ok_or_else(|| {
+            let message =
+                format!("PLOAD4: G1 and G3 (G4) name no face of element {}", element.label);
+            self.deck.error(card.place, message)
+        })
+    }
+}
+
+/// The face on which two nodes are opposite corners.
+fn with_diagonal(element: &CollectedElement, ends: [u32; 2]) -> Option<SurfaceFace> {
+    element.face_with(&ends).filter(|face| {
+        let corners = &face.1[..face.0.corner_count()];
+        let place = |node| corners.iter().position(|&corner| corner == node);
+        let [a, b] = ends.map(place);
+        a.zip(b).is_some_and(|(a, b)| a.abs_diff(b) == 2)
+    })
+}
+
+/// The triangular face of a pyramid that stands on an edge of its base.
+fn sloping(element: &CollectedElement, ends: [u32; 2]) -> Option<SurfaceFace> {
+    let apex = element.nodes[4];
+    let face = element.face_with(&[ends[0], ends[1], apex]);
+    face.filter(|_| ends[0] != ends[1] && !ends.contains(&apex))
+}
+
+/// The face of a tetrahedron that lies opposite a corner.
+fn opposite(element: &CollectedElement, apex: u32) -> Option<SurfaceFace> {
+    let corners = element.nodes[..4].iter().copied();
+    let others: Vec<u32> = corners.filter(|&node| node != apex).collect();
+    (others.len() == 3).then(|| element.face_with(&others)).flatten()
+}
+
+/// The triangular face of a wedge on which a corner lies.
+fn triangle(element: &CollectedElement, corner: u32) -> Option<SurfaceFace> {
+    let nodes = &element.nodes;
+    let ends = [&nodes[..3], &nodes[3..6]];
+    let end = ends.into_iter().find(|end| end.contains(&corner))?;
+    element.face_with(end)
+}

@@ -1,0 +1,184 @@
+//! Reader of Nastran bulk data.
+//!
+//! `CTETRA`, `CHEXA` and `CPENTA` with corner nodes alone or with every mid-side node; a region is a property, called by its name
+//! in the comments of HyperMesh and ANSA, else `PSOLID_<number>`. Nastran has few named surfaces: the faces of `PLOAD4`
+//! (`PLOAD4_<set>`), of `BSURFS` (`BSURFS_<number>`), shells that cover faces (`PSHELL_<number>`), and the nodes of `SPC`
+//! (`SPC_<set>_<directions>`) become boundaries.
+//!
+//! Source: MSC Nastran Quick Reference Guide.
+
+mod card;
+mod coordinates;
+mod elements;
+mod loads;
+mod properties;
+
+use super::collection::Collection;
+use super::deck::{Deck, Place};
+use super::file_mesh::{FileMesh, MeshFileError};
+use super::model_data::ModelData;
+use card::{Card, Control, cards};
+use coordinates::Coordinates;
+use std::collections::{BTreeSet, HashMap};
+
+/// Cards that are read here, and those that say nothing about the model.
+const KNOWN: [&str; 26] = [
+    "GRID", "GRDSET", "CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "CORD2S", "CTETRA",
+    "CHEXA", "CPENTA", "CTRIA3", "CTRIA6", "CQUAD4", "CQUAD8", "PSOLID", "PSHELL", "MAT1", "MAT9",
+    "SPC", "SPC1", "SPCADD", "PLOAD4", "LOAD", "BSURFS", "INCLUDE",
+];
+
+/// Beginnings of cards that hold, load or join parts, and are not read.
+#[rustfmt::skip]
+const PARTS: [&str; 40] = [
+    "RBE1", "RBE2", "RBE3", "RBAR", "RROD", "RSPLINE", "RTRPLT", "RJOINT", "RSSCON", "MPC", "CONM", "CMASS", "CELAS", "CDAMP",
+    "CBUSH", "CFAST", "CWELD", "CSEAM", "CGAP", "CVISC", "CROD", "CONROD", "CTUBE", "CBAR", "CBEAM", "CBEND", "CSHEAR",
+    "BCONP", "BCTSET", "BCTABLE", "BGSET", "BOLT", "FORCE", "MOMENT", "PLOAD", "GRAV", "RFORCE", "ACCEL", "SPCD", "DMIG",
+];
+
+/// What is read so far.
+struct Reader<'d, 'a> {
+    deck: &'d Deck<'a>,
+    cards: &'d [Card<'a>],
+    control: Control,
+    coordinates: Coordinates<'d, 'a>,
+    collection: Collection,
+    model: ModelData,
+    nodes: HashMap<usize, u32>,
+    elements: HashMap<usize, usize>,
+    /// Nodes whose degrees of freedom are along axes of their own.
+    turned: BTreeSet<u32>,
+}
+
+/// Reads bulk data; the files that it includes stand in it ([`included_text`](super::included_text)).
+///
+/// # Errors
+/// [`MeshFileError`] with the line.
+pub(super) fn read(bytes: &[u8]) -> Result<FileMesh, MeshFileError> {
+    let text = String::from_utf8_lossy(bytes);
+    let deck = Deck::new(&text, "$", false)?;
+    let (cards, control) = cards(&deck)?;
+    let mut reader = Reader {
+        deck: &deck,
+        cards: &cards,
+        control,
+        coordinates: Coordinates::new(&deck, &cards)?,
+        collection: Collection::default(),
+        model: ModelData::default(),
+        nodes: HashMap::new(),
+        elements: HashMap::new(),
+        turned: BTreeSet::new(),
+    };
+    reader.model.title = reader.control.title.clone();
+    reader.list_unknown();
+    reader.read_nodes()?;
+    reader.read_elements()?;
+    if reader.collection.elements.is_empty() {
+        return Err(
+            deck.error(deck.end(), "the file has no solid elements (CTETRA, CHEXA, CPENTA)")
+        );
+    }
+    reader.read_properties()?;
+    reader.read_skins()?;
+    reader.read_supports()?;
+    reader.read_pressures()?;
+    Ok(reader.collection.finish(reader.model))
+}
+
+/// The file that a line includes.
+pub(super) fn included(line: &str) -> Option<(&str, bool)> {
+    let line = line.trim();
+    let start = line.get(..7)?;
+    if !start.eq_ignore_ascii_case("INCLUDE") {
+        return None;
+    }
+    let name = line[7..].trim().trim_matches(['\'', '"']);
+    (!name.is_empty()).then_some((name, false))
+}
+
+impl<'d, 'a> Reader<'d, 'a> {
+    /// Cards of a name.
+    fn cards_of(&self, name: &'static str) -> impl Iterator<Item = &'d Card<'a>> + use<'d, 'a> {
+        self.cards.iter().filter(move |card| card.name == name)
+    }
+
+    fn leave_out(&mut self, keyword: &str, place: Place, reason: &str) {
+        let deck = self.deck;
+        self.model.leave_out(keyword, || deck.name(place), reason);
+    }
+
+    /// Leaves out what would hold, load or join parts.
+    fn lose_part(&mut self, keyword: &str, place: Place, reason: &str) {
+        let deck = self.deck;
+        self.model.lose_part(keyword, || deck.name(place), reason);
+    }
+
+    fn list_unknown(&mut self) {
+        for card in self.cards {
+            if KNOWN.contains(&card.name.as_str()) {
+                continue;
+            }
+            if card.name == "PARAM" || card.name.starts_with("EIG") {
+                self.leave_out(&card.name, card.place, "the case says what is computed");
+            } else if PARTS.iter().any(|part| card.name.starts_with(part)) {
+                self.lose_part(&card.name, card.place, "");
+            } else {
+                self.leave_out(&card.name, card.place, "");
+            }
+        }
+    }
+
+    /// Nodes in basic coordinates.
+    fn read_nodes(&mut self) -> Result<(), MeshFileError> {
+        let deck = self.deck;
+        let default = self.cards_of("GRDSET").next();
+        let of_default = |field: usize| match default {
+            Some(card) => card.optional_int(deck, field),
+            None => Ok(None),
+        };
+        let [system, turned, held] = [of_default(1)?, of_default(5)?, of_default(6)?];
+        let mut held_nodes = Vec::new();
+        for card in self.cards_of("GRID") {
+            let label = card.number(deck, 0)?;
+            let system = card.optional_int(deck, 1)?.or(system).unwrap_or(0);
+            let point = [card.real(deck, 2)?, card.real(deck, 3)?, card.real(deck, 4)?];
+            let system = usize::try_from(system).unwrap_or(0);
+            let known = self.coordinates.grids.insert(label, (system, point, card.place));
+            if known.is_some_and(|known| known.1 != point || known.0 != system) {
+                let message = format!("node {label} is given twice, at different places");
+                return Err(deck.error(card.place, message));
+            }
+            let is_turned = card.optional_int(deck, 5)?.or(turned).is_some_and(|cd| cd != 0);
+            let held = card.optional_int(deck, 6)?.or(held).filter(|&held| held > 0);
+            held_nodes.push((label, is_turned, held, card.place));
+        }
+        let grids: Vec<_> =
+            self.coordinates.grids.iter().map(|(&label, &grid)| (label, grid)).collect();
+        for (label, (system, point, place)) in grids {
+            let index = self.collection.points.len() as u32;
+            let point = self.coordinates.point(system, point, place)?;
+            self.nodes.insert(label, index);
+            self.collection.points.push(point);
+            self.collection.labels.push(label);
+        }
+        for (label, is_turned, held, place) in held_nodes {
+            let node = self.nodes[&label];
+            if is_turned {
+                self.turned.insert(node);
+            }
+            if held.is_some_and(|axes| axes.to_string().contains(['1', '2', '3'])) {
+                let reason = "permanent constraints of nodes are not taken: hold them by SPC1 or in the case";
+                self.lose_part("GRID with PS", place, reason);
+            }
+        }
+        Ok(())
+    }
+
+    /// The place of a node by its number; `owner` names it.
+    fn node(&self, label: usize, owner: &str, place: Place) -> Result<u32, MeshFileError> {
+        self.nodes.get(&label).copied().ok_or_else(|| {
+            let message = format!("{owner} names node {label}, which the file does not have");
+            self.deck.error(place, message)
+        })
+    }
+}

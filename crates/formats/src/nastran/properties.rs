@@ -1,0 +1,140 @@
+//! `PSOLID`, `MAT1` and `MAT9`: the material of each region.
+
+use super::Reader;
+use super::card::Card;
+use crate::file_mesh::MeshFileError;
+use crate::model_data::{FileElasticity, FileMaterial, MaterialAxes};
+use nalgebra::Matrix3;
+
+impl Reader<'_, '_> {
+    /// Materials of the regions that have elements.
+    pub(super) fn read_properties(&mut self) -> Result<(), MeshFileError> {
+        let deck = self.deck;
+        for card in self.cards_of("PSOLID") {
+            let property = card.number(deck, 0)?;
+            let number = card.number(deck, 1)?;
+            let region = self.region(property);
+            let elements = self.collection.elements.iter();
+            if !elements.filter_map(|e| e.region.as_deref()).any(|other| other == region) {
+                continue;
+            }
+            let axes = match card.optional_int(deck, 2)?.unwrap_or(0) {
+                0 => MaterialAxes::Global,
+                system if system > 0 => {
+                    let system = self.coordinates.system(system as usize, card.place)?;
+                    if !system.is_rectangular() {
+                        let reason = "a material system that is not rectangular: give axes = \"cylindrical\" in the case";
+                        self.leave_out("PSOLID with CORDM", card.place, reason);
+                    }
+                    let column = |axis: usize| system.axes.column(axis).into_owned().into();
+                    MaterialAxes::Vectors([column(0), column(1)])
+                }
+                _ => {
+                    self.leave_out(
+                        "PSOLID with CORDM = -1",
+                        card.place,
+                        "axes along the edges of elements",
+                    );
+                    MaterialAxes::Global
+                }
+            };
+            let is_meant = |card: &&Card<'_>| {
+                matches!(card.name.as_str(), "MAT1" | "MAT9") && card.field(0).parse() == Ok(number)
+            };
+            let Some(material) = self.cards.iter().find(is_meant) else {
+                let message = format!(
+                    "PSOLID {property} names material {number}, which is no MAT1 or MAT9 of the file"
+                );
+                return Err(deck.error(card.place, message));
+            };
+            let material = match material.name.as_str() {
+                "MAT1" => self.isotropic(material, region)?,
+                _ => self.anisotropic(material, region, axes)?,
+            };
+            self.model.materials.push(material);
+        }
+        Ok(())
+    }
+
+    fn isotropic(&self, card: &Card<'_>, region: String) -> Result<FileMaterial, MeshFileError> {
+        let deck = self.deck;
+        let [e, g, nu] = [
+            card.optional_real(deck, 1)?,
+            card.optional_real(deck, 2)?,
+            card.optional_real(deck, 3)?,
+        ];
+        // Two of the three give the third: E = 2 G (1 + nu).
+        let (young_modulus, poisson_ratio) = match (e, g, nu) {
+            (Some(e), _, Some(nu)) => (e, nu),
+            (Some(e), Some(g), None) if g != 0.0 => (e, e / (2.0 * g) - 1.0),
+            (None, Some(g), Some(nu)) => (2.0 * g * (1.0 + nu), nu),
+            _ => {
+                let message = format!("MAT1 {}: two of E, G and NU are needed", card.field(0));
+                return Err(deck.error(card.place, message));
+            }
+        };
+        let elasticity = FileElasticity::Isotropic { young_modulus, poisson_ratio };
+        self.material(card, region, elasticity, (4, 7))
+    }
+
+    fn anisotropic(
+        &self,
+        card: &Card<'_>,
+        region: String,
+        axes: MaterialAxes,
+    ) -> Result<FileMaterial, MeshFileError> {
+        let deck = self.deck;
+        // The upper triangle by rows, over x, y, z, xy, yz, zx.
+        let mut stiffness = [[0.0; 6]; 6];
+        let mut field = 1;
+        for row in 0..6 {
+            for column in row..6 {
+                stiffness[row][column] = card.real(deck, field)?;
+                field += 1;
+            }
+        }
+        let wrong =
+            |message: &str| deck.error(card.place, format!("MAT9 {}: {message}", card.field(0)));
+        let is_coupled = (0..6).any(|row| {
+            (row.max(2) + 1..6).any(|column| column > row && stiffness[row][column] != 0.0)
+        });
+        if is_coupled {
+            return Err(wrong(
+                "only orthotropic materials are supported, their axes those of the material",
+            ));
+        }
+        let [a, b, c] = [stiffness[0], stiffness[1], stiffness[2]];
+        let normal = Matrix3::new(a[0], a[1], a[2], a[1], b[1], b[2], a[2], b[2], c[2]);
+        let compliance = normal.try_inverse().ok_or_else(|| wrong("its stiffness is singular"))?;
+        let young_moduli = [0, 1, 2].map(|i| 1.0 / compliance[(i, i)]);
+        let elasticity = FileElasticity::Orthotropic {
+            young_moduli,
+            poisson_ratios: [(0, 1), (0, 2), (1, 2)]
+                .map(|(i, j)| -compliance[(j, i)] * young_moduli[i]),
+            shear_moduli: [stiffness[3][3], stiffness[5][5], stiffness[4][4]],
+            axes,
+        };
+        self.material(card, region, elasticity, (22, 30))
+    }
+
+    /// A material whose density and structural damping stand in the given fields.
+    fn material(
+        &self,
+        card: &Card<'_>,
+        region: String,
+        elasticity: FileElasticity,
+        (density, damping): (usize, usize),
+    ) -> Result<FileMaterial, MeshFileError> {
+        let damping = card.optional_real(self.deck, damping)?;
+        Ok(FileMaterial {
+            region,
+            name: format!("{}_{}", card.name, card.field(0)),
+            elasticity: Some(elasticity),
+            density: card.optional_real(self.deck, density)?,
+            mass_coefficient: None,
+            stiffness_coefficient: None,
+            loss_factor: damping.filter(|&damping| damping != 0.0),
+            place: self.deck.name(card.place),
+        })
+    }
+}

@@ -1,0 +1,341 @@
+//! Reader of universal files: nodes (datasets 2411, 781, 15), elements (2412), groups (2467, 2477 and their forerunners).
+//!
+//! A region is a group of solid elements, a surface a group of shells that cover faces of solids or of nodes. Nodes of quadratic
+//! elements run around each face from corner to middle to corner. In a plane file groups of beams are curves.
+//!
+//! Source: Siemens SDRC, universal file format, datasets 164, 2411, 2412, 2467.
+
+mod groups;
+
+use super::ElementKind;
+use super::collection::{CollectedElement, Collection};
+use super::deck::{Deck, Place, quoted, real};
+use super::file_mesh::{FileMesh, MeshFileError};
+use super::model_data::ModelData;
+use std::collections::{BTreeSet, HashMap};
+
+/// Datasets of groups, by the entities that one line lists.
+const GROUPS: [usize; 9] = [2417, 2429, 2430, 2432, 2435, 2452, 2467, 2477, 752];
+
+/// Datasets of constraints and loads, which are not read.
+const PARTS: [&str; 6] = ["754", "755", "757", "782", "790", "791"];
+
+/// Elements that join nodes: rigid ones, springs, dampers, gaps and masses.
+const JOINTS: std::ops::Range<usize> = 121..200;
+
+/// Types of entities in groups.
+const NODE: usize = 7;
+const ELEMENT: usize = 8;
+
+/// What an element of the file is here.
+#[derive(Clone, Debug)]
+enum Entity {
+    Element(usize),
+    /// A shell or a beam by its corners, ascending.
+    Skin(Vec<u32>),
+}
+
+struct Reader<'d, 'a> {
+    deck: &'d Deck<'a>,
+    /// Position of the next line.
+    at: usize,
+    collection: Collection,
+    model: ModelData,
+    nodes: HashMap<usize, u32>,
+    entities: HashMap<usize, Entity>,
+    /// Elements whose first group is known.
+    is_grouped: BTreeSet<usize>,
+    groups: Vec<Group>,
+}
+
+/// A group with its entities: type, number and place of each.
+struct Group {
+    name: String,
+    items: Vec<(usize, usize)>,
+    place: Place,
+}
+
+/// Reads a universal file.
+///
+/// # Errors
+/// [`MeshFileError`] with the line.
+pub(super) fn read(bytes: &[u8]) -> Result<FileMesh, MeshFileError> {
+    let text = String::from_utf8_lossy(bytes);
+    let deck = Deck::new(&text, "\0", true)?;
+    let mut reader = Reader {
+        deck: &deck,
+        at: 0,
+        collection: Collection::default(),
+        model: ModelData::default(),
+        nodes: HashMap::new(),
+        entities: HashMap::new(),
+        is_grouped: BTreeSet::new(),
+        groups: Vec::new(),
+    };
+    reader.datasets()?;
+    let has_solids = reader.collection.dimension() == 3;
+    if reader.collection.elements.is_empty() {
+        let message = "the file has no solid or plane elements (dataset 2412)";
+        return Err(deck.error(deck.end(), message));
+    }
+    if has_solids {
+        reader.shells_to_skins();
+    }
+    let outer = reader.outer_faces();
+    for group in std::mem::take(&mut reader.groups) {
+        reader.group(&group, &outer)?;
+    }
+    Ok(reader.collection.finish(reader.model))
+}
+
+impl<'a> Reader<'_, 'a> {
+    fn line(&mut self) -> Option<(Place, &'a str)> {
+        let line = self.deck.lines.get(self.at).copied();
+        self.at += 1;
+        line
+    }
+
+    /// The next line inside a dataset; none at its end.
+    fn inner(&mut self) -> Result<Option<(Place, &'a str)>, MeshFileError> {
+        match self.line() {
+            Some((_, line)) if line.trim() == "-1" => Ok(None),
+            Some(line) => Ok(Some(line)),
+            None => {
+                let message = "the file ends inside a dataset: it is truncated (-1 expected)";
+                Err(self.deck.error(self.deck.end(), message))
+            }
+        }
+    }
+
+    /// Whole numbers of a line.
+    fn ints(&self, (place, line): (Place, &str)) -> Result<Vec<usize>, MeshFileError> {
+        let numbers = line.split_whitespace().map(|word| {
+            let number = word.parse::<i64>().ok();
+            // Colours and tags may be negative; they are not used.
+            number.map(|n| usize::try_from(n).unwrap_or(0)).ok_or_else(|| {
+                let message = format!("whole numbers expected, found {}", quoted(word));
+                self.deck.error(place, message)
+            })
+        });
+        numbers.collect()
+    }
+
+    fn must<T>(&self, value: Option<T>) -> Result<T, MeshFileError> {
+        let place = self.deck.lines.get(self.at.saturating_sub(1)).map_or(self.deck.end(), |l| l.0);
+        value.ok_or_else(|| self.deck.error(place, "the dataset is too short here"))
+    }
+
+    fn datasets(&mut self) -> Result<(), MeshFileError> {
+        while let Some((place, line)) = self.line() {
+            if line.trim().is_empty() {
+                continue;
+            }
+            if line.trim() != "-1" {
+                let message =
+                    format!("-1, which begins a dataset, expected, found {}", quoted(line));
+                return Err(self.deck.error(place, message));
+            }
+            let Some((place, number)) = self.line() else {
+                break;
+            };
+            let number = number.trim();
+            match number.parse::<usize>() {
+                Ok(15) => self.nodes_on_one_line()?,
+                Ok(781 | 2411) => self.nodes()?,
+                Ok(2412) => self.elements()?,
+                Ok(number) if GROUPS.contains(&number) => self.groups(number)?,
+                Ok(164) => self.units()?,
+                _ => {
+                    let deck = self.deck;
+                    let shown: String = number.chars().take(20).collect();
+                    let keyword = format!("dataset {shown}");
+                    match PARTS.contains(&number) {
+                        true => self.model.lose_part(&keyword, || deck.name(place), ""),
+                        false => self.model.leave_out(&keyword, || deck.name(place), ""),
+                    }
+                    while self.inner()?.is_some() {}
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Dataset 164: units, whose factor of lengths is said where it is not 1.
+    fn units(&mut self) -> Result<(), MeshFileError> {
+        let _ = self.inner()?;
+        if let Some((_, line)) = self.inner()? {
+            let factor = line.split_whitespace().next().and_then(real);
+            if let Some(factor) = factor.filter(|factor| *factor != 1.0) {
+                self.model.remarks.push(format!(
+                    "the file says that its lengths are to be divided by {factor} for metres (dataset 164): mesh.scale does that"
+                ));
+            }
+        }
+        while self.inner()?.is_some() {}
+        Ok(())
+    }
+
+    fn node(&mut self, place: Place, label: usize, point: &[f64]) -> Result<(), MeshFileError> {
+        let Some(&point) = point.first_chunk::<3>() else {
+            return Err(self.deck.error(place, format!("node {label} needs three coordinates")));
+        };
+        let next = self.collection.points.len() as u32;
+        if self.nodes.insert(label, next).is_some() {
+            return Err(self.deck.error(place, format!("node {label} is given twice")));
+        }
+        self.collection.points.push(point);
+        self.collection.labels.push(label);
+        Ok(())
+    }
+
+    fn coordinates(&self, place: Place, words: &[&str]) -> Result<Vec<f64>, MeshFileError> {
+        let parsed = words.iter().map(|word| {
+            real(word).ok_or_else(|| {
+                let message = format!("a coordinate expected, found {}", quoted(word));
+                self.deck.error(place, message)
+            })
+        });
+        parsed.collect()
+    }
+
+    fn nodes(&mut self) -> Result<(), MeshFileError> {
+        while let Some(head) = self.inner()? {
+            let numbers = self.ints(head)?;
+            let label = self.must(numbers.first().copied())?;
+            let next = self.inner()?;
+            let (place, line) = self.must(next)?;
+            let words: Vec<&str> = line.split_whitespace().collect();
+            let point = self.coordinates(place, &words)?;
+            self.node(place, label, &point)?;
+        }
+        Ok(())
+    }
+
+    fn nodes_on_one_line(&mut self) -> Result<(), MeshFileError> {
+        while let Some((place, line)) = self.inner()? {
+            let words: Vec<&str> = line.split_whitespace().collect();
+            let label = words.first().and_then(|word| word.parse().ok());
+            let label = self.must(label)?;
+            let point = self.coordinates(place, words.get(4..).unwrap_or_default())?;
+            self.node(place, label, &point)?;
+        }
+        Ok(())
+    }
+
+    fn elements(&mut self) -> Result<(), MeshFileError> {
+        while let Some(head) = self.inner()? {
+            let numbers = self.ints(head)?;
+            let (Some(&label), Some(&descriptor), Some(&count)) =
+                (numbers.first(), numbers.get(1), numbers.get(5))
+            else {
+                let message = "six numbers of an element expected";
+                return Err(self.deck.error(head.0, message));
+            };
+            // Beams have a line for their orientation and ends.
+            if (11..=32).contains(&descriptor) {
+                let _ = self.inner()?;
+            }
+            let mut nodes = Vec::new();
+            while nodes.len() < count {
+                let next = self.inner()?;
+                let line = self.must(next)?;
+                let numbers = self.ints(line)?;
+                if numbers.is_empty() {
+                    return Err(self
+                        .deck
+                        .error(line.0, format!("nodes of element {label} expected")));
+                }
+                for node in numbers {
+                    let known = self.nodes.get(&node).copied();
+                    nodes.push(known.ok_or_else(|| {
+                        let message = format!(
+                            "element {label} names node {node}, which the file does not have"
+                        );
+                        self.deck.error(line.0, message)
+                    })?);
+                }
+            }
+            self.element(head.0, (label, descriptor), &nodes)?;
+        }
+        Ok(())
+    }
+
+    fn element(
+        &mut self,
+        place: Place,
+        (label, descriptor): (usize, usize),
+        nodes: &[u32],
+    ) -> Result<(), MeshFileError> {
+        let entity = match ElementKind::listed(|formats| {
+            formats.universal.names.contains(&descriptor)
+        }) {
+            Some(kind) => {
+                if nodes.len() != kind.node_count() {
+                    let message = format!(
+                        "element {label} has {} nodes, its kind {descriptor} ({}) has {}",
+                        nodes.len(),
+                        kind.name(),
+                        kind.node_count()
+                    );
+                    return Err(self.deck.error(place, message));
+                }
+                self.collection.elements.push(CollectedElement {
+                    label,
+                    kind,
+                    nodes: kind.formats().universal.arranged(nodes),
+                    region: None,
+                });
+                Entity::Element(self.collection.elements.len() - 1)
+            }
+            None if (11..=32).contains(&descriptor) && nodes.len() >= 2 => {
+                let mut all = nodes.to_vec();
+                all.sort_unstable();
+                Entity::Skin(all)
+            }
+            None if (101..121).contains(&descriptor) => {
+                let message = format!(
+                    "element {label} is of kind {descriptor}, which is not supported: tetrahedra, bricks and wedges are"
+                );
+                return Err(self.deck.error(place, message));
+            }
+            None => {
+                let deck = self.deck;
+                let keyword = format!("elements of kind {descriptor}");
+                let reason = "no solid or plane elements";
+                match JOINTS.contains(&descriptor) {
+                    true => self.model.lose_part(&keyword, || deck.name(place), reason),
+                    false => self.model.leave_out(&keyword, || deck.name(place), reason),
+                }
+                Entity::Skin(Vec::new())
+            }
+        };
+        if self.entities.insert(label, entity).is_some() {
+            return Err(self.deck.error(place, format!("element {label} is given twice")));
+        }
+        Ok(())
+    }
+
+    /// Beside solids, shells are faces only.
+    fn shells_to_skins(&mut self) {
+        let mut moved = HashMap::new();
+        let mut kept = Vec::new();
+        for (place, element) in
+            std::mem::take(&mut self.collection.elements).into_iter().enumerate()
+        {
+            if element.kind.dimension() == 3 {
+                moved.insert(place, kept.len());
+                kept.push(element);
+            } else {
+                let mut corners = element.nodes[..element.kind.corner_count()].to_vec();
+                corners.sort_unstable();
+                self.entities.insert(element.label, Entity::Skin(corners));
+            }
+        }
+        self.collection.elements = kept;
+        for entity in self.entities.values_mut() {
+            if let Entity::Element(place) = entity {
+                *place = moved.get(place).copied().unwrap_or(*place);
+            }
+        }
+    }
+}
