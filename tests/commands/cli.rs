@@ -437,9 +437,9 @@ fn completions_and_manual_name_every_subcommand() {
     let text = String::from_utf8(help.get_output().stdout.clone()).unwrap();
     let names: Vec<&str> = text
         .lines()
-        .skip_while(|line| !line.starts_with("Commands:"))
-        .skip(1)
-        .take_while(|line| line.starts_with("  "))
+        .skip_while(|line| !line.starts_with("Analyse:"))
+        .take_while(|line| !line.starts_with("Options:"))
+        .filter(|line| line.starts_with("  "))
         .filter_map(|line| line.split_whitespace().next())
         .collect();
     assert!(names.contains(&"check"), "{names:?}");

@@ -173,7 +173,7 @@ fn samples_of_solid_bodies_beyond_their_onset_have_the_onset_of_an_analysis() {
     let uncertain = [
         "cea.friction_coefficients=[0.0, 0.4, 0.5, 0.6]",
         "cea.modes=3",
-        "uncertainty={ samples = 1, seed = 1, index_samples = 0 }",
+        "uncertainty={ samples = 2, seed = 1, index_samples = 0 }",
         "uncertainty.distributions={ \"material.density\" = { uniform = [1149.9999999, 1150.0000001] } }",
     ];
     let case = Case::parse(path.to_str().unwrap(), &text, &uncertain.map(str::to_owned)).unwrap();

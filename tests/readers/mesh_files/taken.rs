@@ -147,7 +147,10 @@ fn sections_of_the_case_win_over_those_of_the_file() {
 #[test]
 fn what_is_not_used_is_a_warning_and_what_is_wrong_has_its_line() {
     let folder = folder_with(&BRICKS.replace("*STEP", "*CLOAD\n1, 1, 5.\n*STEP"));
-    let case = case_of(folder.path(), CASE).unwrap_or_else(|errors| panic!("{errors}"));
+    let said = case_of(folder.path(), CASE).unwrap_err().messages().join("\n");
+    assert!(said.contains("*CLOAD (line "), "{said}");
+    let dropped = CASE.replace("[mesh]", "[mesh]\ndrop = [\"*CLOAD\"]");
+    let case = case_of(folder.path(), &dropped).unwrap_or_else(|errors| panic!("{errors}"));
     let warnings: Vec<String> = case.warnings.iter().map(ToString::to_string).collect();
     assert!(warnings.iter().any(|w| w.contains("*CLOAD (line ")), "{warnings:?}");
     let folder = folder_with(&BRICKS.replace("6000., 0.25", "6000., 0.75"));
