@@ -357,7 +357,7 @@ impl ImportedBody {
             return Ok(self.clone());
         }
         let (file, specification) = &*self.source;
-        let mut fine = refined_file(&file)?;
+        let mut fine = refined_file(file)?;
         for _ in 1..times {
             fine = refined_file(&fine)?;
         }
