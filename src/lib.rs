@@ -50,7 +50,7 @@
 //! | small motions around it, `M(mu) q'' + C(mu) q' + K_t(mu) q = 0` | [`prestress::SlidingTangent`], [`prestress::SectorTangent`] |
 //! | `(lambda^2 M + lambda C + K_t) phi = 0` | [`cea::sparse`], [`cea::cyclic`] |
 //! | `Re lambda(mu) = 0` | [`cea::UnstableInterval`] |
-//! | `d lambda / d parameter` | [`cea::cyclic::Sensitivity`] |
+//! | `d lambda / d parameter` | [`study::eigenvalues`] |
 //! | (6) forward-increment Lagrange multipliers | [`transient::LagrangeContact`] |
 //! | (7) central differences | [`transient::CentralDifference`] |
 //! | (8) to (12) energy and powers | [`transient::Sample`] |

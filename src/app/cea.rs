@@ -14,7 +14,7 @@ use serde_json::Value;
 /// Which modes turn unstable, at which friction and why
 ///
 /// Solves complex eigenvalues over the friction coefficient. For a body that is solved on its whole mesh, Ctrl-C keeps
-/// finished friction values; --resume continues. Needs a [cea] section.
+/// finished friction values; --resume continues. Needs a section `[cea]`.
 #[derive(Args)]
 pub struct Arguments {
     /// The case and how to run it.

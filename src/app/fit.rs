@@ -17,7 +17,7 @@ use std::path::PathBuf;
 ///
 /// Fits the keys of fit.parameters, each between its bounds, to a table of frequencies, real parts or damping factors.
 /// Gives the confidence interval of each value, the mode of each line, and the parameters that the data cannot tell apart.
-/// Needs a [fit] section.
+/// Needs a section `[fit]`.
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]

@@ -16,7 +16,7 @@ use clap::Args;
 /// Frequency response between two nodes
 ///
 /// Writes frf.csv, which `frictionsim identify` reads. Compare it with a hammer test, or check identification against a
-/// known damping. Needs a [frf] section.
+/// known damping. Needs a section `[frf]`.
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]

@@ -11,7 +11,7 @@ use clap::Args;
 ///
 /// Writes the matrices of the eigenvalue analysis as Matrix Market and as NPZ for scipy.sparse.load_npz: M, C and K, their
 /// friction terms, and the contact rows. matrices.json lists what multiplies what, unknowns.csv the node and direction of
-/// each unknown. Needs a [cea] section.
+/// each unknown. Needs a section `[cea]`.
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]

@@ -24,7 +24,7 @@ use std::path::Path;
 /// Run any analysis on a grid of parameters
 ///
 /// Every finished point is a file of its own in the output folder. A sweep that is killed continues with --resume, and
-/// several processes may work on one folder. Needs a [sweep] section.
+/// several processes may work on one folder. Needs a section `[sweep]`.
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]

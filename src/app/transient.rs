@@ -23,7 +23,7 @@ use watch::{Checkpoints, Watch};
 
 /// How the vibration grows and saturates, step by step in time
 ///
-/// Ctrl-C keeps the results so far; --resume continues to the same bytes. Needs a [transient] section.
+/// Ctrl-C keeps the results so far; --resume continues to the same bytes. Needs a section `[transient]`.
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]
