@@ -110,7 +110,10 @@ fn a_pipe_in_place_of_a_file_is_refused() {
     fs::write(folder.path().join("b.inp"), "*INCLUDE, INPUT=a.inp\n").unwrap();
     let said = said_of(folder.path(), &MESH.replace("a.inp", "b.inp"));
     assert!(said.contains("b.inp, line 1: cannot include a.inp: it is not a regular"), "{said}");
-    assert!(frictionsim::results::read_manifest(folder.path()).is_err());
+    // Among results, too.
+    fs::rename(&pipe, folder.path().join("manifest.json")).unwrap();
+    let said = frictionsim::results::read_manifest(folder.path()).unwrap_err().to_string();
+    assert!(said.contains("manifest.json"), "{said}");
 }
 
 #[test]
