@@ -146,10 +146,10 @@ fn sections_of_the_case_win_over_those_of_the_file() {
 
 #[test]
 fn what_is_not_used_is_a_warning_and_what_is_wrong_has_its_line() {
-    let folder = folder_with(&BRICKS.replace("*STEP", "*CLOAD\n1, 1, 5.\n*STEP"));
+    let folder = folder_with(&BRICKS.replace("*STEP", "*AMPLITUDE, NAME=A\n0., 1.\n*STEP"));
     let case = case_of(folder.path(), CASE).unwrap_or_else(|errors| panic!("{errors}"));
     let warnings: Vec<String> = case.warnings.iter().map(ToString::to_string).collect();
-    assert!(warnings.iter().any(|w| w.contains("*CLOAD (line ")), "{warnings:?}");
+    assert!(warnings.iter().any(|w| w.contains("*AMPLITUDE (line ")), "{warnings:?}");
     let folder = folder_with(&BRICKS.replace("6000., 0.25", "6000., 0.75"));
     let said = case_of(folder.path(), CASE).unwrap_err().messages().join("\n");
     assert!(
