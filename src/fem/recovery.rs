@@ -165,3 +165,15 @@ fn weights_at(origin: [f64; 3], places: &[[f64; 3]], degree: Degree) -> Vec<f64>
     }
     weights
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_one_sample_of_a_body_of_one_brick_is_the_value_everywhere() {
+        for degree in [Degree::Linear, Degree::Quadratic] {
+            assert_eq!(weights_at([1.0, 2.0, 3.0], &[[0.5; 3]], degree), [1.0]);
+        }
+    }
+}

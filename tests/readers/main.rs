@@ -5,6 +5,7 @@ mod block;
 #[path = "../common/msh.rs"]
 mod msh;
 
+mod bounds;
 mod fuzz;
 mod mesh_files;
 mod signal_reader;

@@ -97,3 +97,108 @@ fn no_file_of_another_program_makes_its_reader_panic() {
         },
     );
 }
+
+/// Text of a deck with sets that name each other, includes in place, and systems in systems.
+fn references(random: &mut Random) -> (&'static str, String) {
+    let mut more = String::new();
+    let count = 1 + random.below(40);
+    for k in 0..count {
+        let [other, again] = [0, 1].map(|_| random.below(count));
+        more += &match random.below(4) {
+            0 => format!("CORD2R,{},{},1.,0.,0.,1.,0.,1.,\n,2.,0.,0.\n", 10 + k, 10 + other),
+            1 => format!(
+                "CORD1R,{},{},2,3\nGRID,{},{},1.,0.,0.\n",
+                10 + k,
+                50 + other,
+                50 + k,
+                10 + again
+            ),
+            2 => format!("*NSET, NSET=s{k}\ns{other}, s{again}, One.Foot\n"),
+            _ => format!("*ELSET, ELSET=e{k}\ne{other}, e{again}, One.All\n"),
+        };
+    }
+    // Lines that the other format does not know are no lines of this one.
+    let is_deck = random.below(2) == 0;
+    let own = |line: &&str| line.starts_with(['*', 's', 'e']) == is_deck;
+    let own: String = more.lines().filter(own).flat_map(|line| [line, "\n"]).collect();
+    match is_deck {
+        true => {
+            let text =
+                crate::mesh_files::ASSEMBLY.replace("*TIE, NAME", &format!("{own}*TIE, NAME"));
+            ("bricks.inp", text)
+        }
+        false => {
+            let text =
+                crate::mesh_files::BULK_DATA.replace("CORD2C,2,1", &format!("{own}CORD2C,2,1"));
+            ("brick.bdf", text)
+        }
+    }
+}
+
+#[test]
+fn no_sets_or_systems_that_name_each_other_make_their_reader_panic() {
+    hold(
+        "references",
+        |random: &mut Random| {
+            let (name, whole) = references(random);
+            let changed = match random.below(2) {
+                0 => whole.into_bytes(),
+                _ => text(random, &[whole.into_bytes()]),
+            };
+            [vec![u8::from(name.ends_with("bdf"))], changed].concat()
+        },
+        |bytes| drop(FileMesh::read_as(["a.inp", "a.bdf"][usize::from(bytes[0])], &bytes[1..])),
+    );
+}
+
+/// Three files that include each other in changed ways, as a case reads them.
+#[test]
+fn no_includes_make_a_case_panic() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("case.toml").display().to_string();
+    let case = "[mesh]\nfile = \"a.inp\"\n[cea]\nmodes = 3\n";
+    let brick = crate::mesh_files::ASSEMBLY.as_bytes().to_vec();
+    let originals = ["b", "c", "a"].map(|name| {
+        format!("*INCLUDE, INPUT={name}.inp\n*NODE, INPUT=c.inp\n*INCLUDE, INPUT=c.inp\n")
+            .into_bytes()
+    });
+    let corpus = [originals.to_vec(), vec![b"1, 0., 0., 0.\n".to_vec(), brick]].concat();
+    hold(
+        "includes",
+        |random: &mut Random| {
+            let files = [0, 1, 2].map(|_| text(random, &corpus));
+            files.join(&b'\x01')
+        },
+        |bytes| {
+            for (name, part) in ["a", "b", "c"].iter().zip(bytes.split(|byte| *byte == 1)) {
+                std::fs::write(folder.path().join(format!("{name}.inp")), part).unwrap();
+            }
+            if let Err(errors) = frictionsim::case::Case::parse(&path, case.as_bytes(), &[]) {
+                assert!(!errors.to_string().is_empty());
+            }
+        },
+    );
+}
+
+/// Size lines and entries of matrices.
+#[test]
+fn no_matrix_makes_its_reader_panic() {
+    let banner = "%%MatrixMarket matrix";
+    let corpus = [
+        format!("{banner} coordinate real symmetric\n% c\n2 2 2\n1 1 4\n2 1 -1\n"),
+        format!("{banner} array real general\n2 2\n1\n2\n3\n4\n"),
+        format!("{banner} array integer skew-symmetric\n3 3\n7\n8\n9\n"),
+    ]
+    .map(String::into_bytes);
+    hold(
+        "matrix",
+        |random: &mut Random| text(random, &corpus),
+        |bytes| {
+            let read =
+                frictionsim::linalg::MarketMatrix::read(&String::from_utf8_lossy(bytes), 2000);
+            if let Ok(matrix) = read {
+                assert!(matrix.entries.len() <= 2 * bytes.len());
+            }
+        },
+    );
+}

@@ -153,6 +153,10 @@ fn what_is_not_used_is_a_warning_and_what_is_wrong_has_its_line() {
     let case = case_of(folder.path(), &dropped).unwrap_or_else(|errors| panic!("{errors}"));
     let left_out = &case.taken.left_out;
     assert!(left_out.iter().any(|own| format!("{own:?}").contains("CLOAD")), "{left_out:?}");
+    let folder = folder_with(&BRICKS.replace("*STEP", "*AMPLITUDE, NAME=A\n0., 1.\n*STEP"));
+    let case = case_of(folder.path(), CASE).unwrap_or_else(|errors| panic!("{errors}"));
+    let warnings: Vec<String> = case.warnings.iter().map(ToString::to_string).collect();
+    assert!(warnings.iter().any(|w| w.contains("*AMPLITUDE (line ")), "{warnings:?}");
     let folder = folder_with(&BRICKS.replace("6000., 0.25", "6000., 0.75"));
     let said = case_of(folder.path(), CASE).unwrap_err().messages().join("\n");
     assert!(

@@ -248,6 +248,9 @@ impl Reader<'_, '_> {
 
 /// The file that a line includes, `*INCLUDE, INPUT=` or `INPUT=` of nodes and elements, whose own line stays.
 pub(super) fn included(line: &str) -> Option<(&str, bool)> {
+    if !line.trim_start().starts_with('*') {
+        return None;
+    }
     let upper = line.to_ascii_uppercase();
     let keyword = upper.split(',').next()?.trim().strip_prefix('*')?.trim();
     let stays = match keyword {
