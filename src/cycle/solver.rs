@@ -24,6 +24,11 @@ const MOST_STEPS_FROM_BIRTH: usize = 2_000;
 /// Friction coefficient beyond which no branch is followed.
 const HIGHEST_FRICTION: f64 = 10.0;
 
+/// Phases of the grid on which a fold must be found again, over those of its own, and how far apart the two folds may be, in
+/// units of the value that a point of its own grid is worth.
+const FINER: usize = 2;
+const FOLD_APART: f64 = 4.0;
+
 /// Where the wave lies on the grid of phases, in steps: where one curve closes on itself near its birth, because the
 /// grid pins the wave, another leads away.
 const ORIGINS: [f64; 4] = [0.0, 0.5, 0.25, 0.75];
@@ -235,7 +240,39 @@ impl CycleSolver {
 
     /// The whole branch through `cycle` over `parameter` between the smallest and the largest of `values` (SI), with a
     /// cycle at every crossing of a value.
+    ///
+    /// A fold is one that the branch on a finer grid of phases has too: where many points of a coarse grid change their contact at
+    /// once it turns back for a while.
     pub fn follow(&self, cycle: &LimitCycle, parameter: Parameter, values: &[f64]) -> CycleBranch {
+        let mut branch = self.both_ways(cycle, parameter, values);
+        if !branch.folds.is_empty()
+            && let Some(finer) = self.on_finer_grid(cycle, parameter, values)
+        {
+            let near = FOLD_APART / self.grid.points as f64;
+            let is_there = |fold: &f64| {
+                finer.folds.iter().any(|other| (other - fold).abs() <= near * fold.abs())
+            };
+            branch.folds.retain(is_there);
+            branch.factorizations += finer.factorizations;
+        }
+        branch
+    }
+
+    /// The branch through the same cycle on a grid of more phases; none where that has no such cycle.
+    fn on_finer_grid(
+        &self,
+        cycle: &LimitCycle,
+        parameter: Parameter,
+        values: &[f64],
+    ) -> Option<CycleBranch> {
+        let points = FINER * self.grid.points;
+        let model = self.model();
+        let finer = Self::born_at(&model, self.family, &self.onset, Some(points)).ok()?;
+        let own = finer.find(&cycle.state.point).ok()?;
+        Some(finer.both_ways(&own, parameter, values))
+    }
+
+    fn both_ways(&self, cycle: &LimitCycle, parameter: Parameter, values: &[f64]) -> CycleBranch {
         let mut samples = values.to_vec();
         samples.sort_by(f64::total_cmp);
         samples.dedup();

@@ -172,6 +172,18 @@ fn branch_over_friction_is_born_at_the_onset_of_the_linear_theory() {
     assert!((first.state.frequency / onset.frequency - 1.0).abs() < 5e-3);
 }
 
+/// The branch of the coarse disc turned back between 288 and 277 rpm on its own 91 phases; on 181 it does not.
+#[test]
+fn a_fold_that_a_finer_grid_of_phases_does_not_have_is_none() {
+    let coarse = annulus(ElementKind::Quad4, 72, 14);
+    let solver = CycleSolver::new(&coarse, &POLYCARBONATE, &DAMPING, 1, None).unwrap();
+    let cycle = solver.find(&operating(610.0)).unwrap();
+    let values = [200.0, 260.0, 300.0, 500.0].map(|rpm: f64| rpm * TAU / 60.0);
+    let branch = solver.follow(&cycle, Parameter::RotationSpeed, &values);
+    assert!(branch.folds.is_empty(), "{:?}", branch.folds);
+    assert!(branch.cycles.len() >= values.len());
+}
+
 #[test]
 fn branch_visits_every_value_and_meets_the_cycle_found_from_birth() {
     let solver = solver(2);

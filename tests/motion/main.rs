@@ -12,6 +12,7 @@ mod cycle_branch;
 mod cycle_discs;
 mod cycle_periodic;
 mod cycle_solids;
+mod cycle_steps;
 mod cycle_transient;
 mod cycle_two_waves;
 mod oscillator;

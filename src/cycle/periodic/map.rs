@@ -12,6 +12,9 @@ use crate::transient::{
 /// Share of the longest step that a period begins with: it may grow by the rest before it takes another number of steps.
 const FILLED: f64 = 0.97;
 
+/// Steps of a period, at least, where no step is given: with so many the frequency of a cycle is known to a few thousandths.
+const FEWEST_STEPS: usize = 100;
+
 /// Looks at the kinetic energy within a period.
 const LOOKS: usize = 32;
 
@@ -75,13 +78,14 @@ pub struct PeriodMap<'a> {
     /// `omega`, rad/s, that weighs displacements.
     frequency: f64,
     longest_step: f64,
+    fewest_steps: usize,
     steps: usize,
     periods: usize,
 }
 
 impl<'a> PeriodMap<'a> {
     /// The map of a body for motions of about so high a frequency, rad/s, with steps no longer than `longest_step`, s, where one
-    /// is given.
+    /// is given, else with no fewer than 100 in a period.
     ///
     /// # Errors
     /// A body that the time loop cannot take.
@@ -111,6 +115,7 @@ impl<'a> PeriodMap<'a> {
             moving: moving.collect(),
             frequency,
             longest_step: longest_step.map_or(longest, |given| given.min(longest)),
+            fewest_steps: longest_step.map_or(FEWEST_STEPS, |_| 1),
             steps: 1,
             periods: 0,
             run,
@@ -119,13 +124,15 @@ impl<'a> PeriodMap<'a> {
         Ok(map)
     }
 
-    /// Chooses the number of steps where those of a period would be too long, and says whether it has changed.
+    /// Chooses the number of steps where those of a period would be too long or too few, and says whether it has changed.
     pub fn fit(&mut self, period: f64) -> bool {
+        let is_short = self.steps < self.fewest_steps;
         let is_long = period / self.steps as f64 > self.longest_step;
-        if is_long {
-            self.steps = (period / (FILLED * self.longest_step)).ceil() as usize;
+        if is_long || is_short {
+            let own = (period / (FILLED * self.longest_step)).ceil() as usize;
+            self.steps = own.max(self.fewest_steps);
         }
-        is_long
+        is_long || is_short
     }
 
     /// Takes a number of steps that a motion was found with.

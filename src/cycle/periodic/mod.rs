@@ -13,6 +13,7 @@
 //! continuous but with a kink wherever a node changes its status, needs no derivative. It starts on the shape of a growing
 //! mode, at the amplitude at which friction stops to feed it ([`balanced_start`]). Floquet multipliers come from Arnoldi's
 //! process on differences of the map ([`FloquetMultipliers`]).
+//! What is tried where the first start leads nowhere or to the cycle of another mode says [`find_from`].
 //!
 //! Along a parameter `p` ([`BranchRequest`]) motion, period and `p` are found together, `P(x, T, p) = x` with a closure that ties
 //! the point down: a value of `p`, or a length along the tangent in the plane of `p` and of the amplitude (H. B. Keller's
@@ -29,6 +30,7 @@ mod corrector;
 mod error;
 mod folds;
 mod follower;
+mod ladder;
 mod map;
 mod motion;
 mod multipliers;
@@ -44,6 +46,7 @@ pub use branch::{BranchMotion, BranchRequest, KeptMotion, PeriodicBranch};
 pub use confirmation::MotionConfirmation;
 pub use contest::ModeContest;
 pub use error::PeriodicError;
+pub use ladder::{ASTRAY, find_from};
 pub use map::{PeriodImage, PeriodMap, PeriodicState};
 pub use motion::{
     ContactInstant, MotionFrame, MotionRequest, PeriodicMotion, PeriodicPowers, REFERENCE_VELOCITY,
@@ -55,4 +58,3 @@ pub use secants::{Change, SecantSpace};
 pub use sound::{AIR, FlatFace, REFERENCE_POWER, Sound};
 pub use spectrum::MotionHarmonic;
 pub use start::{GrowingMode, balanced_start};
-pub use two_frequencies::two_frequencies;

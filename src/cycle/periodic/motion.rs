@@ -10,6 +10,11 @@ use crate::transient::ContactPowers;
 /// Share of the motion that the harmonics in which it is told may leave, where nobody says how many.
 pub const REMAINDER: f64 = 1e-3;
 
+/// Largest differences of two motions that are one and the same where their periods have [`SAME_STEPS`] steps or more: of
+/// frequency, amplitude and external power, relative, and of the fractions of contact nodes.
+const SAME: [f64; 4] = [1e-3, 0.01, 5e-3, 0.01];
+const SAME_STEPS: f64 = 100.0;
+
 /// Reference of velocity levels, m/s.
 pub const REFERENCE_VELOCITY: f64 = 5e-8;
 
@@ -210,14 +215,17 @@ impl PeriodicMotion {
         found.map_or(self.harmonics.len(), |place| place + 1)
     }
 
-    /// Whether another motion is this one: frequency, statuses, powers and amplitude agree.
+    /// Whether another motion is this one, each in steps of its own: frequency, statuses, powers and amplitude agree but for what
+    /// the time step makes of them.
     pub fn is(&self, other: &Self) -> bool {
-        let near = |a: f64, b: f64, share: f64| (a - b).abs() <= share * b.abs();
+        let coarse = (SAME_STEPS / self.steps.min(other.steps) as f64).max(1.0);
+        let near = |a: f64, b: f64, share: f64| (a - b).abs() <= coarse * share * b.abs();
         let mut fractions = self.fractions.iter().zip(other.fractions);
-        near(self.frequency_hz, other.frequency_hz, 1e-5)
-            && near(self.amplitude, other.amplitude, 1e-3)
-            && near(self.powers.contact.external, other.powers.contact.external, 1e-3)
-            && fractions.all(|(a, b)| (a - b).abs() < 1e-3)
+        let [frequency, amplitude, power, status] = SAME;
+        near(self.frequency_hz, other.frequency_hz, frequency)
+            && near(self.amplitude, other.amplitude, amplitude)
+            && near(self.powers.contact.external, other.powers.contact.external, power)
+            && fractions.all(|(a, b)| (a - b).abs() < coarse * status)
     }
 }
 

@@ -29,6 +29,11 @@ const ASTRAY: f64 = 50.0;
 const RETURNS: usize = 3;
 /// Share of the largest amplitude below which a vibration has died.
 const DEAD: f64 = 1e-3;
+/// Ratio of a period to the first one beyond which a search has left its mode: after no time at all every motion repeats itself.
+const WIDEST: f64 = 4.0;
+/// Residual of a motion that more steps may bring below [`ACCEPTED`], and how often they are doubled.
+const NEARLY: f64 = 1e-2;
+const REFINEMENTS: usize = 3;
 /// Times the first amplitude above which a motion is out of all bounds.
 const UNBOUNDED: f64 = 1e4;
 
@@ -46,6 +51,19 @@ pub struct Found {
 }
 
 impl Found {
+    /// Whether it repeats itself.
+    pub(super) fn is_accepted(&self) -> bool {
+        self.residual <= ACCEPTED
+    }
+
+    fn not_converged(&self) -> PeriodicError {
+        PeriodicError::NotConverged {
+            periods: self.periods,
+            residual: self.residual,
+            frequency_hz: 1.0 / self.state.period,
+        }
+    }
+
     /// What it is found again from, with the steps of its period: the motion, and its numbers.
     pub fn columns(&self, steps: usize) -> Vec<Vec<f64>> {
         let [steps, periods] = [steps as f64, self.periods as f64];
@@ -72,15 +90,44 @@ impl Found {
 
 /// A periodic motion near a state.
 ///
+/// A motion that nearly repeats itself is stepped more finely: what a status of the contact that changes at whole steps leaves of
+/// the residual falls with the step.
+///
 /// # Errors
 /// A motion that dies, leaves its counterface, grows without bound or does not repeat itself.
 pub fn find(map: &mut PeriodMap<'_>, start: PeriodicState) -> Result<Found, PeriodicError> {
-    let first = map.periods();
+    let (first, steps) = (map.periods(), map.steps());
     let result = match attempt(map, start.clone(), PLAIN) {
-        Err(PeriodicError::NotConverged { .. }) => attempt(map, start, [LONG; 2]),
-        result => result,
+        Ok(found) if found.is_accepted() => Ok(found),
+        Ok(_) | Err(PeriodicError::NotConverged { .. }) => attempt(map, start, [LONG; 2]),
+        other => other,
     };
-    let periods = map.periods() - first;
+    let mut best = counted(result, map.periods() - first)?;
+    for _ in 0..REFINEMENTS {
+        if best.is_accepted() || best.residual > NEARLY {
+            break;
+        }
+        map.step_in(2 * map.steps());
+        best = counted(attempt(map, best.state, PLAIN), map.periods() - first)?;
+    }
+    if best.is_accepted() {
+        return Ok(best);
+    }
+    map.step_in(steps);
+    Err(best.not_converged())
+}
+
+/// A periodic motion near a state that may be far from it: what a transient of so many plain periods leads to.
+///
+/// # Errors
+/// As [`find`].
+pub fn find_settled(map: &mut PeriodMap<'_>, start: PeriodicState) -> Result<Found, PeriodicError> {
+    let found = attempt(map, start, [LONG; 2])?;
+    if found.is_accepted() { Ok(found) } else { Err(found.not_converged()) }
+}
+
+/// A result with the periods of the whole search.
+fn counted(result: Result<Found, PeriodicError>, periods: usize) -> Result<Found, PeriodicError> {
     match result {
         Ok(found) => Ok(Found { periods, ..found }),
         Err(PeriodicError::NotConverged { residual, frequency_hz, .. }) => {
@@ -90,7 +137,7 @@ pub fn find(map: &mut PeriodMap<'_>, start: PeriodicState) -> Result<Found, Peri
     }
 }
 
-/// A search with so many plain periods first, at least and at most.
+/// The best motion of a search with so many plain periods first, at least and at most.
 fn attempt(
     map: &mut PeriodMap<'_>,
     start: PeriodicState,
@@ -99,6 +146,7 @@ fn attempt(
     let first = map.periods();
     let mut search = Search {
         spent: 0,
+        first_period: start.period,
         secants: SecantSpace::new(map.unknowns()),
         state: start,
         last: None,
@@ -133,6 +181,7 @@ fn attempt(
 /// Where a search is.
 struct Search {
     spent: usize,
+    first_period: f64,
     secants: SecantSpace,
     state: PeriodicState,
     /// The iterate before, with its residual.
@@ -173,6 +222,14 @@ impl Search {
             return Err(PeriodicError::Separated);
         }
         let residual = image.relative_residual();
+        let period = self.state.period;
+        if !(WIDEST.recip()..=WIDEST).contains(&(period / self.first_period)) {
+            return Err(PeriodicError::NotConverged {
+                periods,
+                residual,
+                frequency_hz: 1.0 / period,
+            });
+        }
         if residual < 0.5 * self.improved.1 {
             self.improved = (self.spent, residual);
         }
@@ -226,13 +283,6 @@ impl Search {
         let Some(best) = self.best else {
             return Err(PeriodicError::Unbounded { periods });
         };
-        match best.residual <= ACCEPTED {
-            true => Ok(Found { periods, ..best }),
-            false => Err(PeriodicError::NotConverged {
-                periods,
-                residual: best.residual,
-                frequency_hz: 1.0 / best.state.period,
-            }),
-        }
+        Ok(Found { periods, ..best })
     }
 }

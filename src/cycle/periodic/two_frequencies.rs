@@ -1,5 +1,6 @@
-//! Whether a motion that does not repeat itself has two frequencies.
+//! Where a transient leads whose motion does not repeat itself at first: to one frequency or to two.
 
+use super::error::PeriodicError;
 use super::map::{PeriodMap, PeriodicState};
 use crate::linalg::{c64, interruption};
 use crate::signal::{RotatingLine, rotating_lines};
@@ -15,13 +16,31 @@ const LONGEST_REPETITION: usize = 3;
 /// Distance of two frequencies that are one and the same, in lines of the spectrum and relative.
 const APART: [f64; 2] = [0.3, 1e-3];
 
-/// The frequencies, Hz, of the strongest vibration of a contact node along the counterface and of the strongest one that is
-/// neither a multiple of it nor of its half or third, in a transient of 500 periods from a state; none where there is no second.
-pub fn two_frequencies(map: &mut PeriodMap<'_>, start: &PeriodicState) -> Option<[f64; 2]> {
+/// The end of a transient of 500 periods from a state, with the period of its vibration; none where it has come to no vibration.
+///
+/// # Errors
+/// A transient of two frequencies.
+pub fn transient_from(
+    map: &mut PeriodMap<'_>,
+    start: &PeriodicState,
+) -> Result<Option<PeriodicState>, PeriodicError> {
     let (samples, rate) = sampled(map, start);
-    let series = strongest_node(&samples)?;
+    let motion = map.motion();
+    let lines = strongest_node(&samples).and_then(|series| frequencies(&series, rate));
+    match lines {
+        Some((first, Some(second))) => {
+            Err(PeriodicError::TwoFrequencies { frequencies_hz: [first, second] })
+        }
+        Some((first, None)) => Ok(Some(PeriodicState { motion, period: first.recip() })),
+        None => Ok(None),
+    }
+}
+
+/// The frequencies, Hz, of the strongest vibration of a contact node along the counterface and of the strongest one that is
+/// neither a multiple of it nor of its half or third, if there is one.
+fn frequencies(series: &[c64], rate: f64) -> Option<(f64, Option<f64>)> {
     let size = series.iter().map(|value| value.norm_sqr()).sum::<f64>() / series.len() as f64;
-    let lines = rotating_lines(&series, rate, SHARES[0] * size.sqrt());
+    let lines = rotating_lines(series, rate, SHARES[0] * size.sqrt());
     let lines: Vec<RotatingLine> =
         lines.into_iter().filter(|line| line.frequency_hz > 0.0).collect();
     let strongest = |lines: &mut dyn Iterator<Item = &RotatingLine>| {
@@ -40,7 +59,8 @@ pub fn two_frequencies(map: &mut PeriodMap<'_>, start: &PeriodicState) -> Option
         strongest(&mut own)
     };
     let found: Option<Vec<RotatingLine>> = (1..=LONGEST_REPETITION).map(foreign).collect();
-    Some([first.frequency_hz, found?.first()?.frequency_hz])
+    let second = found.and_then(|lines| Some(lines.first()?.frequency_hz));
+    Some((first.frequency_hz, second))
 }
 
 /// Displacements of the contact nodes along the counterface, m, sample by sample, and the samples of a second.

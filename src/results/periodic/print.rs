@@ -2,7 +2,7 @@
 
 use super::{FoundCycle, PeriodicReport, PeriodicResult, summary_of};
 use crate::cycle::Verdict;
-use crate::cycle::periodic::{FloquetMultiplier, FloquetMultipliers, REMAINDER};
+use crate::cycle::periodic::{ASTRAY, FloquetMultiplier, FloquetMultipliers, REMAINDER};
 use crate::results::cycle_table::{branch_sentence, printed_cycle, printed_heading};
 use std::fmt::Write as _;
 
@@ -90,6 +90,15 @@ fn found_lines(
         motion.amplitude,
         motion.velocity_level(),
     );
+    let off = motion.frequency_hz / mode.frequency_hz - 1.0;
+    if off.abs() > ASTRAY {
+        let side = if off > 0.0 { "above" } else { "below" };
+        let _ = writeln!(
+            out,
+            "{mode}: the frequency of this cycle is {:.1} % {side} that of the mode: what grows from it may end in the motion of another",
+            100.0 * off.abs(),
+        );
+    }
     if let Some(sound) = &found.sound {
         let _ = writeln!(
             out,

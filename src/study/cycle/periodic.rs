@@ -14,7 +14,7 @@ use crate::cea::{ComplexMode, PartWatch, SweepWatch};
 use crate::cycle::periodic::{
     BranchRequest, FloquetMultipliers, Found, GrowingMode, KeptMotion, MotionConfirmation,
     MotionRequest, PeriodMap, PeriodicBranch, PeriodicError, PeriodicMotion, REMAINDER, Sound,
-    balanced_start, find, two_frequencies,
+    find_from,
 };
 use crate::cycle::{CriticalValue, Parameter};
 use crate::fem::operator::{SimdLevel, StiffnessOperator};
@@ -251,14 +251,7 @@ impl<'a> PeriodicStudy<'a> {
             None => None,
         };
         if found.is_none() {
-            let start = balanced_start(&mut map, &growing);
-            let result = find(&mut map, start.clone());
-            if let Err(PeriodicError::NotConverged { .. }) = result
-                && let Some(frequencies_hz) = two_frequencies(&mut map, &start)
-            {
-                return Err(PeriodicError::TwoFrequencies { frequencies_hz });
-            }
-            found = Some(result?);
+            found = Some(find_from(&mut map, &growing)?);
         }
         let mut found = found.ok_or(PeriodicError::Died { periods: 0 })?;
         watch.keep("cycle", &found.columns(map.steps()));

@@ -136,8 +136,8 @@ impl TransientStudy<'_> {
 
 /// That the time step costs accuracy.
 ///
-/// A node that comes to rest or leaves it does so at a step, half a step late on average. Where the nodes of a wave
-/// do so one after the other that averages out; where all do at once, twice a period, the period is one step longer.
+/// Central differences vibrate a little too fast, and nodes that come to rest or leave it do so at whole steps. Where the nodes of
+/// a wave do so one after the other that averages out; where all do at once, the period may be too short by up to a step.
 fn coarse_step(record: &Recorder, analysis: &TransientAnalysis, time_step: f64) -> Option<String> {
     let frequency = analysis.last_fifth.main_frequency_hz?;
     let start = record.rows.len() - record.rows.len().div_ceil(5);
@@ -147,7 +147,7 @@ fn coarse_step(record: &Recorder, analysis: &TransientAnalysis, time_step: f64) 
     let error = (high - low) * frequency * time_step;
     (error > STEP_ERROR).then(|| {
         format!(
-            "the contact nodes stick and slip together, and the time step makes the period longer by about {:.2} %: a \
+            "the contact nodes stick and slip together, and the time step makes the period shorter by up to {:.2} %: a \
              smaller transient.time_step is more accurate",
             100.0 * error
         )

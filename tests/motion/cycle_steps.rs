@@ -1,0 +1,160 @@
+//! Limit cycles of bodies without symmetry: the same from every time step, each named once.
+//!
+//! Independent: the frequency of a transient. The others hold the search to itself.
+
+use crate::bricks::{Block, file_of};
+use frictionsim::case::Case;
+use frictionsim::cea::Unwatched;
+use frictionsim::fem::operator::SimdLevel;
+use frictionsim::results::periodic::PeriodicResult;
+use frictionsim::study::cycle::PeriodicStudy;
+use std::fmt::Write;
+
+/// What all cases share.
+const MATERIAL: &str = "young_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n";
+const CYCLE: &str = "[cycle]\nonsets = \"all\"\nconfirmation_periods = 0\nstability = \"none\"\n";
+
+/// A plane block of so many squares, held at its back by springs `[normal, tangential]` (Pa/m) and pressed on a moving plane.
+struct PlaneBlock {
+    size: [f64; 2],
+    counts: [usize; 2],
+    springs: [f64; 2],
+    stiffness_damping: f64,
+    speed: f64,
+    interference: f64,
+}
+
+impl PlaneBlock {
+    fn mesh(&self) -> String {
+        let [nx, ny] = self.counts;
+        let node = |i: usize, j: usize| 1 + i + (nx + 1) * j;
+        let (mut nodes, mut elements, mut count) = (String::new(), String::new(), 0);
+        for j in 0..=ny {
+            for i in 0..=nx {
+                let x = self.size[0] * i as f64 / nx as f64;
+                let y = self.size[1] * j as f64 / ny as f64;
+                writeln!(nodes, "{} {x:?} {y:?} 0", node(i, j)).unwrap();
+            }
+        }
+        let mut element = |text: String| {
+            count += 1;
+            writeln!(elements, "{count} {text}").unwrap();
+        };
+        for i in 0..nx {
+            element(format!("1 2 1 1 {} {}", node(i, 0), node(i + 1, 0)));
+            element(format!("1 2 2 2 {} {}", node(i, ny), node(i + 1, ny)));
+            for j in 0..ny {
+                let [a, b, c, d] = [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
+                element(format!("3 2 3 3 {a} {b} {c} {d}"));
+            }
+        }
+        format!(
+            "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"face\"\n1 2 \"back\"\n2 3 \"block\"\n\
+             $EndPhysicalNames\n$Nodes\n{}\n{nodes}$EndNodes\n$Elements\n{count}\n{elements}$EndElements\n",
+            (nx + 1) * (ny + 1)
+        )
+    }
+
+    fn text(&self) -> String {
+        let [normal, tangential] = self.springs;
+        format!(
+            "[mesh]\nfile = \"body.msh\"\n[boundaries.back]\ncondition = \"support\"\nnormal_stiffness = {normal:?}\n\
+             tangential_stiffness = {tangential:?}\n[material]\nformulation = \"plane-strain\"\n{MATERIAL}[damping]\n\
+             mass_coefficient = 40.0\nstiffness_coefficient = {:?}\n[contact]\nboundary = \"face\"\n\
+             counterface = \"plane\"\ndirection = [1.0, 0.0]\nspeed = {:?}\nfriction_coefficient = 0.45\n\
+             interference = {:?}\n[cea]\nmodes = 12\n{CYCLE}[transient]\nduration = 0.01\n",
+            self.stiffness_damping, self.speed, self.interference
+        )
+    }
+
+    fn cycles(&self, overrides: &[&str]) -> Vec<PeriodicResult> {
+        cycles(self.mesh().as_bytes(), &self.text(), overrides)
+    }
+}
+
+fn cycles(mesh: &[u8], text: &str, overrides: &[&str]) -> Vec<PeriodicResult> {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("body.msh"), mesh).unwrap();
+    let overrides: Vec<String> = overrides.iter().map(|text| text.to_string()).collect();
+    let path = folder.path().join("case.toml");
+    let case = Case::parse(path.to_str().unwrap(), text.as_bytes(), &overrides).unwrap();
+    let study = PeriodicStudy::new(&case, SimdLevel::detect()).unwrap();
+    study.run(0, &Unwatched, &|_| {}).unwrap()
+}
+
+/// Frequency of the cycle that a mode has led to, Hz.
+fn frequency(results: &[PeriodicResult], mode: usize) -> f64 {
+    let own = results.iter().find(|result| result.mode.number == mode).unwrap();
+    own.outcome.as_ref().unwrap().motion.frequency_hz
+}
+
+/// Mode 8 grows into the cycle of mode 5, in steps of its own.
+#[test]
+fn a_motion_that_two_modes_lead_to_is_listed_once_at_every_time_step() {
+    let block = PlaneBlock {
+        size: [0.2, 0.08],
+        counts: [17, 7],
+        springs: [154_441_363_118.673_68, 77_087_331_589.532_04],
+        stiffness_damping: 1e-6,
+        speed: 1.0,
+        interference: 3e-5,
+    };
+    let steps: [&[&str]; 3] = [&[], &["transient.time_step=2e-6"], &["transient.time_step=1e-6"]];
+    for step in steps {
+        let results = block.cycles(step);
+        let listed: Vec<_> = results.iter().map(|own| (own.mode.number, own.same_as)).collect();
+        assert_eq!(listed, [(5, None), (8, Some(5)), (11, None)], "{step:?}");
+    }
+}
+
+/// After no time at all every motion repeats itself: mode 11 ended at 2.8e10 Hz.
+#[test]
+fn a_period_of_no_time_is_no_limit_cycle() {
+    let block = PlaneBlock {
+        size: [0.3, 0.2],
+        counts: [20, 13],
+        springs: [438_689_779_033.696_66, 697_676_614_630.444_1],
+        stiffness_damping: 4.5e-7,
+        speed: 0.5,
+        interference: 1e-5,
+    };
+    for result in block.cycles(&[]) {
+        let ratio = result.outcome.unwrap().motion.frequency_hz / result.mode.frequency_hz;
+        assert!((0.25..4.0).contains(&ratio), "{}: {ratio}", result.mode);
+    }
+}
+
+/// The automatic step led mode 5 to 7404 Hz, the cycle of mode 6; finer ones to 10,065 Hz.
+#[test]
+fn the_cycle_of_a_mode_does_not_depend_on_the_time_step() {
+    let block = PlaneBlock {
+        size: [0.3, 0.08],
+        counts: [20, 5],
+        springs: [214_913_034_420.552_76, 116_363_535_283.640_61],
+        stiffness_damping: 1e-7,
+        speed: 0.3,
+        interference: 1e-5,
+    };
+    let [automatic, fine]: [Vec<_>; 2] =
+        [&[][..], &["transient.time_step=1e-6"]].map(|step| block.cycles(step));
+    for mode in [5, 6] {
+        let [own, other] = [&automatic, &fine].map(|results| frequency(results, mode));
+        assert!((own / other - 1.0).abs() < 2e-3, "{own} {other}");
+    }
+}
+
+/// The transient of 0.1 s in steps of 1e-6 s from noise settles at 7037.17 Hz.
+#[test]
+fn a_cycle_under_falling_friction_is_found_at_the_automatic_step_where_the_transient_has_it() {
+    let block =
+        Block { name: "block", origin: [0.0; 3], size: [0.06, 0.04, 0.02], counts: [6, 2, 2] };
+    let text = format!(
+        "[mesh]\nfile = \"body.msh\"\n[boundaries.block_z1]\ncondition = \"support\"\nnormal_stiffness = 1e11\n\
+         tangential_stiffness = 1e11\n[material]\n{MATERIAL}[damping]\nmass_coefficient = 40.0\n\
+         stiffness_coefficient = 4.5e-7\n[contact]\nboundary = \"block_z0\"\ncounterface = \"plane\"\n\
+         direction = [1.0, 0.0, 0.0]\nspeed = 1.0\nfriction_coefficient = 0.3\nstatic_friction_ratio = 1.3\n\
+         decay_speed = 0.5\ninterference = 1e-5\n[cea]\nmodes = 12\n{CYCLE}"
+    );
+    let found = frequency(&cycles(&file_of(&[block], |point| point), &text, &[]), 2);
+    assert!((found / 7037.17 - 1.0).abs() < 1e-3, "{found}");
+}
