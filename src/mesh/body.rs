@@ -50,7 +50,8 @@ pub enum CounterfaceSpecification {
 impl Mesh {
     /// The body that `specification` makes of a mesh file.
     ///
-    /// Frames are those of the counterface, but along guides, where they are those of the boundary's normal.
+    /// Frames are those of the counterface, but along guides, where they are those of the boundary's normal. Whether it is held is for
+    /// [`Self::check_held`] to say, once springs are attached.
     ///
     /// # Errors
     /// [`MeshFileError::Body`] says what is wrong with the mesh or with the names used, and what to do.
@@ -139,7 +140,6 @@ impl Mesh {
             }
         }
         mesh.boundaries = boundaries;
-        mesh.check_held()?;
         mesh.take_symmetry(file.symmetry, specification.scale);
         Ok(mesh)
     }
