@@ -329,18 +329,21 @@ def mesh(
 def matrices(
     case: Case | PathOrText,
     *,
+    friction: float | None = None,
     folder: PathOrText | None = None,
     force: bool = False,
     threads: int = 0,
     progress: ProgressChoice = None,
     **changes: Any,
 ) -> MatricesResult:
-    """Mass, damping and stiffness of small motions around steady sliding as SciPy matrices.
+    """Mass, damping and stiffness of small motions around steady sliding as SciPy matrices, over the friction coefficient or at
+    ``friction`` alone.
 
     Arguments and exceptions as of :func:`cea`.
     """
     return _run(
         MatricesResult, "matrices", case, changes,
+        options=[] if friction is None else ["--friction", repr(float(friction))],
         folder=folder, figures=False, force=force, threads=threads, progress=progress,
     )  # fmt: skip
 
