@@ -358,18 +358,20 @@ class CycleResult(Result):
 class MatricesResult(Result):
     """The matrices of small motions around steady sliding, `(lambda^2 M + lambda C + K) x = 0`, in SciPy's compressed rows.
 
-    Each is a polynomial in the friction coefficient, valid within ``friction_range``.
+    Each is a polynomial in the distance from ``friction_coefficient``, valid within ``friction_range``; of
+    ``matrices(case, friction=...)`` its value there alone.
     """
 
     @cached_property
     def description(self) -> dict[str, Any]:
-        """``matrices.json``: what multiplies what."""
-        found: dict[str, Any] = json.loads((self.folder / "matrices.json").read_bytes())
+        """What multiplies what: ``matrices.json``, or the summary of matrices at one friction coefficient."""
+        path = self.folder / "matrices.json"
+        found: dict[str, Any] = json.loads(path.read_bytes()) if path.exists() else self.summary
         return found
 
     @property
     def friction_coefficient(self) -> float:
-        """Friction coefficient of the case."""
+        """Friction coefficient about which the matrices are given: that of the case, or the one asked for."""
         return float(self.description["friction_coefficient"])
 
     @property
@@ -380,9 +382,9 @@ class MatricesResult(Result):
 
     @cached_property
     def coefficients(self) -> dict[str, dict[int, scipy.sparse.csr_array]]:
-        """The coefficient of each power of the friction coefficient in ``M``, ``C`` and ``K``."""
-        found: dict[str, dict[int, scipy.sparse.csr_array]] = {"M": {}, "C": {}, "K": {}}
-        letters = {"mass": "M", "damping": "C", "stiffness": "K"}
+        """The coefficient of each power of the distance from ``friction_coefficient`` in ``M``, ``C``, ``K`` and the losses ``H``."""
+        found: dict[str, dict[int, scipy.sparse.csr_array]] = {"M": {}, "C": {}, "K": {}, "H": {}}
+        letters = {"mass": "M", "damping": "C", "stiffness": "K", "structural": "H"}
         for entry in self.description["matrices"]:
             if isinstance(entry["role"], dict):
                 ((role, power),) = entry["role"].items()
@@ -397,8 +399,9 @@ class MatricesResult(Result):
                 f"friction coefficient {friction_coefficient}: other contact points are pressed outside [{low}, {high}]; "
                 'ask for the matrices with **{"contact.friction_coefficient": ...}'
             )
+        away = friction_coefficient - self.friction_coefficient
         mass, damping, stiffness = (
-            sum(matrix * friction_coefficient**power for power, matrix in self.coefficients[letter].items())
+            sum(matrix * away**power for power, matrix in self.coefficients[letter].items())
             for letter in "MCK"
         )
         return mass, damping, stiffness
@@ -445,6 +448,10 @@ class MatricesResult(Result):
             raise ImportError(
                 f"the matrices are SciPy's: pip install scipy, or read the Matrix Market files in {self.folder}"
             ) from None
+        if not (self.folder / f"{name}.npz").exists():
+            import scipy.io
+
+            return scipy.sparse.csr_array(scipy.io.mmread(self.folder / f"{name}.mtx"))
         return scipy.sparse.csr_array(scipy.sparse.load_npz(self.folder / f"{name}.npz"))
 
 

@@ -175,9 +175,31 @@ convergence = _analysis(Result, "convergence", "Analyses over mesh and time step
 basin = _analysis(Result, "basin", "Which of two limit cycles wins.")
 improve = _analysis(ImproveResult, "improve", "Changes that silence the unstable modes, the best of them run again.")
 mesh = _analysis(Result, "mesh", "The mesh of a case and its statistics.")
-matrices = _analysis(
-    MatricesResult, "matrices", "Mass, damping and stiffness of small motions around steady sliding as SciPy matrices."
-)
+
+
+def matrices(
+    case: Case | PathOrText,
+    *,
+    friction: float | None = None,
+    folder: PathOrText | None = None,
+    force: bool = False,
+    threads: int = 0,
+    progress: ProgressChoice = None,
+    **changes: Any,
+) -> MatricesResult:
+    """Mass, damping and stiffness of small motions around steady sliding as SciPy matrices.
+
+    Args:
+        case: a :class:`Case` or the path of a case file, with a ``[cea]`` section.
+        friction: the matrices at this friction coefficient alone; left out, over the friction coefficient.
+
+    The other arguments and exceptions as of :func:`cea`.
+    """
+    return _run(
+        MatricesResult, "matrices", case, changes,
+        options=[] if friction is None else ["--friction", repr(float(friction))],
+        folder=folder, figures=False, force=force, threads=threads, progress=progress,
+    )  # fmt: skip
 
 
 def fit(

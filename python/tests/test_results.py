@@ -136,6 +136,8 @@ def test_the_matrices_have_the_eigenvalues_of_the_analysis() -> None:
         assert np.abs(values - eigenvalue).min() < 1e-7 * abs(eigenvalue), scipy.__version__
     with pytest.raises(ValueError, match="pressed"):
         matrices.at(0.0)
+    alone = frictionsim.matrices(case, friction=0.5)
+    assert abs(alone.K - K).max() <= 1e-12 * abs(K).max() and alone.friction_range == (0.5, 0.5)
     # Friction coefficients that the analysis has not looked at are not claimed.
     assert frictionsim.matrices(case).friction_range == (0.5, 0.5)
 

@@ -9,20 +9,34 @@ use clap::Args;
 
 /// Export the matrices of a case to other programs
 ///
-/// Writes the matrices of the eigenvalue analysis as Matrix Market and as NPZ for scipy.sparse.load_npz: M, C and K, their
-/// friction terms, and the contact rows. matrices.json lists what multiplies what, unknowns.csv the node and direction of
-/// each unknown. Needs a section `[cea]`.
+/// Writes what the eigenvalue analysis solves, as Matrix Market and as NPZ for scipy.sparse.load_npz: M, C and K at the friction
+/// coefficient of the case, coefficients of the powers of the distance from it, and the contact rows. matrices.json lists what
+/// multiplies what, unknowns.csv the node and direction of each unknown. Needs a section `[cea]`.
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]
     options: RunOptions,
+    /// Write M.mtx, C.mtx and K.mtx at this friction coefficient, and nothing else (and H.mtx of a lossy body)
+    #[arg(long, value_name = "MU", value_parser = friction_coefficient)]
+    friction: Option<f64>,
+}
+
+fn friction_coefficient(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    match value.is_finite() && value >= 0.0 {
+        true => Ok(value),
+        false => Err("a friction coefficient is zero or positive".to_owned()),
+    }
 }
 
 /// What the rest of the program asks of this command.
 pub const PROFILE: Profile = Profile {
     files: &[
         ("matrices.json", "what multiplies what, and the files of each matrix"),
-        ("M.mtx, M.npz", "mass without friction; C, K alike; _mu1, _mu2: coefficients of mu, mu^2"),
+        (
+            "M.mtx, M.npz",
+            "mass at the case's friction mu_0; C, K alike; K_mu1: what mu - mu_0 multiplies",
+        ),
         (
             "contact_slip.mtx",
             "motion of the contact points along the sliding; contact_normal: along the normal",
@@ -30,7 +44,13 @@ pub const PROFILE: Profile = Profile {
         ("unknowns.csv", "node, direction and place of each unknown"),
         ("contact.csv", "node, status, length and normal force of each contact point"),
     ],
-    examples: &[("frictionsim matrices block.toml", "solve the same problem with another program")],
+    examples: &[
+        ("frictionsim matrices block.toml", "solve the same problem with another program"),
+        (
+            "frictionsim matrices block.toml --friction 0.5",
+            "M, C and K at one friction coefficient",
+        ),
+    ],
     redraw: Redraw::Nothing,
 };
 
@@ -43,7 +63,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let case = &session.case;
     session.check_memory(case.cost().mesh_memory_bytes)?;
     let folder = session.open_folder()?;
-    let system = matrices(case)?;
+    let system = matrices(case, arguments.friction)?;
+    let system = match arguments.friction {
+        Some(_) => system.at_one_friction(),
+        None => system,
+    };
     let wall_s = session.wall_seconds();
     let summary = MatricesSummary::new(&system, &case.title, wall_s, &session.manifest);
     write_matrices(&folder, &system, &summary)?;

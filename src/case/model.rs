@@ -7,7 +7,7 @@ use super::boundaries::{self, NamedCondition};
 use super::contact::{Contact, contact};
 use super::elastic::{Surroundings, elastic, place_axes};
 use super::generated::generated;
-use super::imported::{self, BodyParts};
+use super::imported::{self, BodyParts, ImportError};
 use super::modifications::{self, Modification};
 use super::raw::{MeshBytes, RawCase};
 use super::reader::Section;
@@ -47,6 +47,12 @@ pub(super) fn model(
     let mut model = unmodified(root, raw, (material, tables), &changes);
     if let Some(body) = &mut model.body {
         attachments::attach(root, &changes, body, model.thickness);
+        let held = body.imported().map_or(Ok(()), |own| own.mesh.check_held());
+        if let Err(error) = held {
+            let mesh = root.section("mesh", true);
+            let file = model.mesh.as_ref().map_or("", |mesh| mesh.file.as_str());
+            ImportError::of(error, file).report(raw, &mesh);
+        }
     }
     model
 }

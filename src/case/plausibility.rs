@@ -6,6 +6,7 @@ use super::keys::KEYS;
 use super::shown::first_of;
 use super::{Body, Case};
 use crate::fem::PlaneFormulation;
+use crate::prestress::{BaseChoice, SlidingSurfaces};
 
 /// Share of the radius beyond which an interference is no small displacement.
 const LARGEST_INTERFERENCE: f64 = 0.05;
@@ -34,6 +35,9 @@ const LARGEST_SPEED: f64 = 200.0;
 /// Times the modulus over the radius beyond which a contact stiffness drowns the body in round-off.
 const LARGEST_STIFFNESS_RATIO: f64 = 1e8;
 
+/// Part of the body's size that a surface may stand inside its counterface where nothing is pushed in: round-off of the file.
+const ROUND_OFF: f64 = 1e-5;
+
 /// What of a case is hardly meant.
 pub(super) fn implausible(case: &Case) -> Vec<Diagnostic> {
     [
@@ -47,6 +51,7 @@ pub(super) fn implausible(case: &Case) -> Vec<Diagnostic> {
         poisson_ratio(case),
         friction(case),
         interference(case),
+        overlap(case),
         contact_stiffness(case),
         soft_contact(case),
         unresolved_springs(case),
@@ -381,6 +386,44 @@ fn interference(case: &Case) -> Option<Diagnostic> {
         );
         warning(case, key, message, "a large pressure", help)
     })
+}
+
+/// A surface that stands deeper inside its rigid counterface than this is pushed in.
+fn overlap(case: &Case) -> Option<Diagnostic> {
+    let found: Vec<(String, f64, f64)> = match &case.body {
+        Body::Imported(body) if body.mesh.opposite.is_none() => {
+            let distances = body.mesh.distances_from_counterface(body.mesh.contact_edge());
+            let depth = distances.into_values().map(|distance| -distance).reduce(f64::max)?;
+            let pushed = case.contact.sliding.interference;
+            vec![("contact.interference".to_owned(), depth, pushed)]
+        }
+        Body::Assembly(body) if body.base == BaseChoice::Solved => {
+            let overlap = |own: &SlidingSurfaces| {
+                let rigid = own.counter.rigid()?;
+                let depth = rigid.overlap(&body.mesh, &body.mesh.boundaries[own.surface])?;
+                let key = match own.is_short_form() {
+                    true => "contact.interference".to_owned(),
+                    false => format!("contacts.{}.interference", own.name),
+                };
+                Some((key, depth, rigid.interference))
+            };
+            body.contacts.iter().filter_map(overlap).collect()
+        }
+        _ => return None,
+    };
+    let least = ROUND_OFF * case.body.size();
+    let (key, depth, pushed) =
+        found.into_iter().find(|(_, depth, pushed)| *depth > pushed.max(least))?;
+    let times = match pushed > 0.0 {
+        true => format!(", {:.1} times {key}", depth / pushed),
+        false => String::new(),
+    };
+    let message = format!(
+        "the surface enters its counterface by {:.2e} m{times}, before this is pushed in: the overlap is loaded as pressure",
+        depth
+    );
+    let help = "correct the radius or the center of the counterface, or mesh the round surface finer;                 an overlap that is meant belongs into interference";
+    Some(warning(case, &key, message, "less than the mesh's own overlap", help))
 }
 
 fn contact_stiffness(case: &Case) -> Option<Diagnostic> {

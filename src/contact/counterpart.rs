@@ -1,7 +1,7 @@
 //! What a surface of solid bodies slides on: another of their surfaces, or a rigid counterface.
 
 use super::PairError;
-use crate::mesh::{Boundary, BoundaryFace, Mesh};
+use crate::mesh::{Boundary, BoundaryFace, Chord, Mesh};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
@@ -160,14 +160,24 @@ impl RigidCounterface {
         };
         let facing = outward.iter().map(|(at, normal)| self.arm(at).dot(normal));
         placed.sense = if facing.sum::<f64>() < 0.0 { 1.0 } else { -1.0 };
-        let radii: Vec<f64> = nodes.iter().map(|&node| self.arm(&position(node)).norm()).collect();
+        let radial = |point: [f64; 3]| self.arm(&point.into()).normalize();
+        let chords = mesh.chords(&surface.faces, radial);
+        let radii = nodes.iter().map(|&node| (node, self.arm(&position(node)).norm()));
+        let mut radii: BTreeMap<u32, f64> = radii.collect();
+        Chord::bridge(&chords, &mut radii);
         let radius = match radius {
             Some(radius) => radius,
-            None => self.common_radius(mesh, surface, (&nodes, &radii))?,
+            None => self.common_radius(mesh, surface, &radii)?,
         };
-        let heights = radii.iter().map(|own| placed.sense * (own - radius));
-        placed.heights = nodes.iter().copied().zip(heights).collect();
+        let heights = radii.into_iter().map(|(node, own)| (node, placed.sense * (own - radius)));
+        placed.heights = heights.collect();
         Ok(placed)
+    }
+
+    /// How far the surface stands inside it before it is pushed in, m; `None` where it does not fit.
+    pub fn overlap(&self, mesh: &Mesh, surface: &Boundary) -> Option<f64> {
+        let heights = self.placed(mesh, surface).ok()?.heights.into_values();
+        heights.map(|height| -height).reduce(f64::max)
     }
 
     /// From the axis or the centre to a point, m.
@@ -185,12 +195,11 @@ impl RigidCounterface {
         &self,
         mesh: &Mesh,
         surface: &Boundary,
-        (nodes, radii): (&[u32], &[f64]),
+        radii: &BTreeMap<u32, f64>,
     ) -> Result<f64, PairError> {
-        let mean = radii.iter().sum::<f64>() / radii.len() as f64;
+        let mean = radii.values().sum::<f64>() / radii.len() as f64;
         let off = |&(_, radius): &(&u32, &f64)| (radius - mean).abs();
-        let pairs = nodes.iter().zip(radii);
-        let farthest = pairs.max_by(|a, b| off(a).total_cmp(&off(b)));
+        let farthest = radii.iter().max_by(|a, b| off(a).total_cmp(&off(b)));
         match farthest {
             Some((&node, &distance)) if (distance - mean).abs() > ROUND * mean => {
                 Err(PairError::NotRound {
@@ -229,14 +238,9 @@ impl RigidCounterface {
 /// Middle of each face of a surface and its outward normal times its area.
 fn mean_normals(mesh: &Mesh, surface: &Boundary) -> Vec<(Vector3<f64>, Vector3<f64>)> {
     let of_face = |face: &BoundaryFace| {
-        let corners = face.nodes[..face.kind.corner_count()].iter();
-        let corners: Vec<Vector3<f64>> =
-            corners.map(|&node| Vector3::from(mesh.nodes[node as usize])).collect();
-        let middle = corners.iter().sum::<Vector3<f64>>() / corners.len() as f64;
-        let next = corners.iter().cycle().skip(1);
-        let fan = corners.iter().zip(next);
-        let twice: Vector3<f64> = fan.map(|(a, b)| (a - middle).cross(&(b - middle))).sum();
-        (middle, 0.5 * twice)
+        let corners = &face.nodes[..face.kind.corner_count()];
+        let points = corners.iter().map(|&node| Vector3::from(mesh.nodes[node as usize]));
+        (points.sum::<Vector3<f64>>() / corners.len() as f64, mesh.area_vector(face))
     };
     surface.faces.iter().map(of_face).collect()
 }

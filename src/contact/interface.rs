@@ -46,7 +46,8 @@ impl ContactInterface {
             (frames.collect(), vec![0.0; nodes.len()])
         } else {
             let places = nodes.iter().map(|node| counterface.place(point(node)));
-            let gaps = nodes.iter().map(|node| counterface.gap(point(node)));
+            let distances = mesh.distances_from_counterface(edge);
+            let gaps = nodes.iter().map(|node| distances[node]);
             (phases(&counterface, places.collect()), gaps.collect())
         };
         let mut lengths: Vec<f64> = kept.iter().map(|&i| edge.tributary_lengths[i]).collect();

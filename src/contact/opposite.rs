@@ -43,7 +43,8 @@ pub(super) fn meetings(mesh: &Mesh) -> Option<Vec<Meeting>> {
     }
     let edges = Edge::of(mesh, mesh.contact);
     let others = Edge::of(mesh, opposite);
-    Some(mortar(mesh, &edges, &others))
+    let heights = mesh.distances_from_counterface(&mesh.boundaries[opposite]);
+    Some(mortar(mesh, &edges, (&others, &heights)))
 }
 
 fn pairs(mesh: &Mesh, nodes: &[u32]) -> Vec<Meeting> {
@@ -190,7 +191,11 @@ struct Sums {
     opposite: BTreeMap<usize, [f64; 2]>,
 }
 
-fn mortar(mesh: &Mesh, edges: &[Edge], others: &[Edge]) -> Vec<Meeting> {
+fn mortar(
+    mesh: &Mesh,
+    edges: &[Edge],
+    (others, heights): (&[Edge], &BTreeMap<u32, f64>),
+) -> Vec<Meeting> {
     let surface = &mesh.counterface;
     let mut sums: BTreeMap<usize, Sums> = BTreeMap::new();
     for edge in edges {
@@ -233,7 +238,7 @@ fn mortar(mesh: &Mesh, edges: &[Edge], others: &[Edge]) -> Vec<Meeting> {
     nodes
         .map(|&node| {
             let sum = sums.get(&(node as usize)).cloned().unwrap_or_default();
-            meeting(mesh, node as usize, &sum)
+            meeting(mesh, node as usize, &sum, heights)
         })
         .collect()
 }
@@ -258,17 +263,16 @@ fn dual_basis(edge: &Edge, points: &[(&Edge, f64, f64)]) -> Option<Vec<Vec<f64>>
     Some((0..count).map(row).collect())
 }
 
-fn meeting(mesh: &Mesh, node: usize, sums: &Sums) -> Meeting {
+fn meeting(mesh: &Mesh, node: usize, sums: &Sums, heights: &BTreeMap<u32, f64>) -> Meeting {
     let is_met = sums.covered > 1e-6 * sums.whole && sums.whole > 0.0;
     if !is_met {
         return Meeting::default();
     }
-    let surface = &mesh.counterface;
-    let normal = surface.normal_angle(mesh.plane_node(node));
+    let normal = mesh.counterface.normal_angle(mesh.plane_node(node));
     let mut meeting = Meeting { covered: sums.covered / sums.whole, ..Meeting::default() };
     for (&opposite, integrals) in &sums.opposite {
         let [share, slope] = integrals.map(|value| value / sums.covered);
-        meeting.height += share * surface.gap(mesh.plane_node(opposite));
+        meeting.height += share * heights[&(opposite as u32)];
         // Axes of the opposite node's frame along the contact node's.
         let (sin, cos) = (mesh.frame_angles()[opposite] - normal).sin_cos();
         for (c, [along, across]) in [[cos, sin], [-sin, cos]].into_iter().enumerate() {

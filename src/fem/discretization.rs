@@ -47,14 +47,14 @@ impl<'a> DiscretizationError<'a> {
 
     fn forms_of(&self, pairs: &[[&[c64]; 2]]) -> Vec<Vec<c64>> {
         let elements: Vec<usize> = (0..self.mesh.element_count()).collect();
-        // Strains at the superconvergent points, a row each component, element by element.
+        // Strains at the samples of the recovery, a row each component, element by element.
         let sampled: Vec<DMatrix<f64>> = elements
             .par_iter()
             .map(|&e| {
                 let geometry = ElementGeometry::new(self.mesh, e);
-                let places = self.mesh.element_kind(e).superconvergent_points();
-                let places = places.into_iter().map(|place| geometry.at((place, 1.0)));
-                let points: Vec<IntegrationPoint> = places.collect();
+                let places = self.recovery.places(e).iter();
+                let points: Vec<IntegrationPoint> =
+                    places.map(|place| geometry.at((*place, 1.0))).collect();
                 geometry.strain_operator(self.material(e), &points) * self.nodal(e, pairs)
             })
             .collect();

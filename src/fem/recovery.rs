@@ -1,7 +1,7 @@
 //! Values at nodes from superconvergent points, by patches of elements.
 
 use super::element::ElementGeometry;
-use crate::mesh::Mesh;
+use crate::mesh::{ElementKind, Mesh};
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
 /// Degree of the polynomial that is fitted over a patch.
@@ -18,10 +18,14 @@ pub enum Degree {
 ///
 /// A node on an edge has elements on one side only; its patch takes in their neighbours too, so that the recovered field is of second
 /// order there as well. A patch lies in one region, as stress and strain jump from one material to the next.
+///
+/// Bricks with 8 nodes have one superconvergent point, and those of a single layer all lie on a plane: they say nothing of the change
+/// across it. Their incompatible modes make strains linear in the element, so that there they are sampled off the middle, too.
 pub struct Recovery {
-    /// First sample of each element, and their number at last: samples are those of
-    /// [`crate::mesh::ElementKind::superconvergent_points`], element by element.
+    /// First sample of each element, and their number at last: samples are those of [`Self::places`], element by element.
     pub first_sample: Vec<usize>,
+    /// Places of the samples in the parent element.
+    places: Vec<[f64; 3]>,
     /// What every element of a region takes at its nodes.
     nodes: Vec<Vec<RecoveredNode>>,
 }
@@ -36,14 +40,6 @@ struct RecoveredNode {
 impl Recovery {
     /// The weights of every node; in each of the regions that meet there, or in that of its first element alone.
     pub fn new(mesh: &Mesh, degree: Degree, in_each_region: bool) -> Self {
-        let mut first_sample = vec![0];
-        let mut positions: Vec<[f64; 3]> = Vec::new();
-        for e in 0..mesh.element_count() {
-            let geometry = ElementGeometry::new(mesh, e);
-            let places = mesh.element_kind(e).superconvergent_points().into_iter();
-            positions.extend(places.map(|place| geometry.position(&geometry.at((place, 1.0)))));
-            first_sample.push(positions.len());
-        }
         let around = elements_around(mesh);
         let mut on_edge = vec![false; mesh.node_count()];
         for node in mesh.outer_faces().into_iter().flat_map(|face| face.nodes) {
@@ -65,26 +61,56 @@ impl Recovery {
             patch.dedup();
             patch
         };
-        let recovered = |node: usize, region: usize| {
-            let elements = patch_of(node, region).into_iter().map(|e| e as usize);
-            let samples: Vec<usize> =
-                elements.flat_map(|e| first_sample[e]..first_sample[e + 1]).collect();
-            let places: Vec<[f64; 3]> = samples.iter().map(|&s| positions[s]).collect();
-            let weights = weights_at(mesh.nodes[node], &places, degree);
-            RecoveredNode { region, weights: samples.into_iter().zip(weights).collect() }
-        };
-        let nodes = (0..mesh.node_count()).map(|node| {
-            let mut regions: Vec<usize> = Vec::new();
-            for &e in &around[node] {
-                let region = mesh.region(e as usize);
-                if !regions.contains(&region) && (in_each_region || regions.is_empty()) {
-                    regions.push(region);
+        let patches: Vec<Vec<(usize, Vec<u32>)>> = (0..mesh.node_count())
+            .map(|node| {
+                let mut regions: Vec<usize> = Vec::new();
+                for &e in &around[node] {
+                    let region = mesh.region(e as usize);
+                    if !regions.contains(&region) && (in_each_region || regions.is_empty()) {
+                        regions.push(region);
+                    }
                 }
-            }
-            regions.into_iter().map(|r| recovered(node, r)).collect()
+                regions.into_iter().map(|region| (region, patch_of(node, region))).collect()
+            })
+            .collect();
+        // Bricks of patches in one layer have samples off their middle.
+        let middles = Samples::of(mesh, &vec![false; mesh.element_count()]);
+        let is_brick = |e: u32| mesh.element_kind(e as usize) == ElementKind::Hex8;
+        let is_layer = |patch: &[u32]| {
+            patch.iter().any(|&e| is_brick(e)) && is_flat(&middles.positions_in(patch))
+        };
+        let mut is_thin = vec![false; mesh.element_count()];
+        for (_, patch) in patches.iter().flatten().filter(|(_, patch)| is_layer(patch)) {
+            let bricks = patch.iter().filter(|e| is_brick(**e));
+            bricks.for_each(|&e| is_thin[e as usize] = true);
+        }
+        let samples = Samples::of(mesh, &is_thin);
+        let recovered = |node: usize, region: usize, patch: &[u32]| {
+            let is_layer = is_layer(patch);
+            // Patches beside a layer keep to the middles of its bricks.
+            let of_element = |&e: &u32| {
+                let all = samples.first[e as usize]..samples.first[e as usize + 1];
+                match is_thin[e as usize] && !is_layer {
+                    true => all.start..all.start + 1,
+                    false => all,
+                }
+            };
+            let own: Vec<usize> = patch.iter().flat_map(of_element).collect();
+            let places: Vec<[f64; 3]> = own.iter().map(|&s| samples.positions[s]).collect();
+            let thinnest = if is_layer { ROUND_OFF } else { FLAT };
+            let weights = weights_at(mesh.nodes[node], &places, degree, thinnest);
+            RecoveredNode { region, weights: own.into_iter().zip(weights).collect() }
+        };
+        let nodes = patches.iter().enumerate().map(|(node, patches)| {
+            patches.iter().map(|(region, patch)| recovered(node, *region, patch)).collect()
         });
         let nodes = nodes.collect();
-        Self { first_sample, nodes }
+        Self { nodes, first_sample: samples.first, places: samples.places }
+    }
+
+    /// Where the samples of an element are, in its parent element.
+    pub fn places(&self, element: usize) -> &[[f64; 3]] {
+        &self.places[self.first_sample[element]..self.first_sample[element + 1]]
     }
 
     /// Region of the first element around a node and its weights; `None` for a node without elements.
@@ -100,6 +126,37 @@ impl Recovery {
     }
 }
 
+/// Samples element by element.
+struct Samples {
+    first: Vec<usize>,
+    places: Vec<[f64; 3]>,
+    positions: Vec<[f64; 3]>,
+}
+
+impl Samples {
+    /// The superconvergent points, and points off the middle along each axis where elements are `thin`.
+    fn of(mesh: &Mesh, is_thin: &[bool]) -> Self {
+        let mut all = Self { first: vec![0], places: Vec::new(), positions: Vec::new() };
+        for (e, is_thin) in is_thin.iter().enumerate() {
+            let geometry = ElementGeometry::new(mesh, e);
+            all.places.extend(mesh.element_kind(e).superconvergent_points());
+            if *is_thin {
+                all.places.extend(OFF_MIDDLE);
+            }
+            let own = all.places[all.positions.len()..].iter();
+            let own = own.map(|place| geometry.position(&geometry.at((*place, 1.0))));
+            all.positions.extend(own);
+            all.first.push(all.positions.len());
+        }
+        all
+    }
+
+    fn positions_in(&self, patch: &[u32]) -> Vec<[f64; 3]> {
+        let elements = patch.iter().map(|&e| e as usize);
+        elements.flat_map(|e| &self.positions[self.first[e]..self.first[e + 1]]).copied().collect()
+    }
+}
+
 fn elements_around(mesh: &Mesh) -> Vec<Vec<u32>> {
     let mut around = vec![Vec::new(); mesh.node_count()];
     for e in 0..mesh.element_count() {
@@ -112,26 +169,51 @@ fn elements_around(mesh: &Mesh) -> Vec<Vec<u32>> {
 
 /// Squared thickness over width below which the samples of a patch lie on a plane or a line: across it the field is constant.
 const FLAT: f64 = 1e-4;
+/// The same where elements are sampled across their thickness: what lies below is round-off.
+const ROUND_OFF: f64 = 1e-12;
+/// Samples of a brick beside its middle, two along each axis of the parent element: they hold slopes apart from products of two
+/// coordinates, which vanish there.
+const OFF_MIDDLE: [[f64; 3]; 6] = [
+    [-0.5, 0.0, 0.0],
+    [0.5, 0.0, 0.0],
+    [0.0, -0.5, 0.0],
+    [0.0, 0.5, 0.0],
+    [0.0, 0.0, -0.5],
+    [0.0, 0.0, 0.5],
+];
 /// Eigenvalue of the normal equations, relative to the largest, below which the samples do not determine a term.
 const UNDETERMINED: f64 = 1e-6;
 
+/// Whether places lie on a plane or a line.
+fn is_flat(places: &[[f64; 3]]) -> bool {
+    let (_, spread) = spread_of(places);
+    let spreads = spread.symmetric_eigenvalues();
+    spreads.min() <= FLAT * spreads.max()
+}
+
+/// Mean of some places and their second moments about it.
+fn spread_of(places: &[[f64; 3]]) -> (Vector3<f64>, Matrix3<f64>) {
+    let count = places.len() as f64;
+    let centre = places.iter().map(|p| Vector3::from(*p)).sum::<Vector3<f64>>() / count;
+    let offsets = places.iter().map(|p| Vector3::from(*p) - centre);
+    (centre, offsets.map(|o| o * o.transpose() / count).sum())
+}
+
 /// Weights of the samples in the value at `origin` of the polynomial that fits them best; terms that they do not determine are left
-/// out.
-fn weights_at(origin: [f64; 3], places: &[[f64; 3]], degree: Degree) -> Vec<f64> {
+/// out, and directions whose squared spread, over the largest, is below `thinnest`.
+fn weights_at(origin: [f64; 3], places: &[[f64; 3]], degree: Degree, thinnest: f64) -> Vec<f64> {
     let count = places.len() as f64;
     // One sample, of a body or region of one element, is the value everywhere.
     if places.len() == 1 {
         return vec![1.0];
     }
-    let centre = places.iter().map(|p| Vector3::from(*p)).sum::<Vector3<f64>>() / count;
     // In the principal axes of the samples, scaled by how far they spread.
-    let offsets = places.iter().map(|p| Vector3::from(*p) - centre);
-    let spread: Matrix3<f64> = offsets.map(|o| o * o.transpose() / count).sum();
+    let (centre, spread) = spread_of(places);
     let eigen = spread.symmetric_eigen();
     let widest = eigen.eigenvalues.max();
     let axes = eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter());
     let axes: Vec<Vector3<f64>> = axes
-        .filter(|(spread, _)| **spread > FLAT * widest)
+        .filter(|(spread, _)| **spread > thinnest * widest)
         .map(|(spread, axis)| axis / spread.sqrt())
         .collect();
     let terms = |place: &[f64; 3]| -> Vec<f64> {
@@ -173,7 +255,7 @@ mod tests {
     #[test]
     fn the_one_sample_of_a_body_of_one_brick_is_the_value_everywhere() {
         for degree in [Degree::Linear, Degree::Quadratic] {
-            assert_eq!(weights_at([1.0, 2.0, 3.0], &[[0.5; 3]], degree), [1.0]);
+            assert_eq!(weights_at([1.0, 2.0, 3.0], &[[0.5; 3]], degree, FLAT), [1.0]);
         }
     }
 }

@@ -144,16 +144,16 @@ fn recovered_stress(
     material: &dyn MaterialField,
     displacement: &[f64],
 ) -> Vec<Option<(Voigt, usize)>> {
+    let recovery = Recovery::new(mesh, Degree::Linear, false);
     let samples: Vec<Voigt> = (0..mesh.element_count())
         .flat_map(|e| {
             let geometry = ElementGeometry::new(mesh, e);
-            let places = mesh.element_kind(e).superconvergent_points().into_iter();
-            let points: Vec<_> = places.map(|place| geometry.at((place, 1.0))).collect();
+            let places = recovery.places(e).iter();
+            let points: Vec<_> = places.map(|place| geometry.at((*place, 1.0))).collect();
             let values = nodal_values(mesh, e, displacement);
             geometry.stresses(&points, material.of(mesh.region(e)), &values)
         })
         .collect();
-    let recovery = Recovery::new(mesh, Degree::Linear, false);
     let value = |weights: &[(usize, f64)]| {
         let mut sum = [0.0; 6];
         for (sample, weight) in weights {

@@ -140,33 +140,28 @@ impl MatrixPolynomial {
         FrictionWeights { origin: self.origin }
     }
 
-    /// Coefficients of the powers of `mu`, of the polynomial that it is above [`Self::frozen_below`].
-    pub fn by_powers(&self) -> Vec<Vec<f64>> {
-        if self.origin == 0.0 {
-            return self.coefficients.clone();
-        }
-        // By powers of the distance from the origin, lowest first, then Horner's scheme.
+    /// Coefficients of the powers of `mu - a`, of the polynomial that it is above [`Self::frozen_below`].
+    ///
+    /// Near `a` they are of the size of the matrix. Powers about a place far away from where the polynomial was made cancel each
+    /// other.
+    pub fn about(&self, a: f64) -> Vec<Vec<f64>> {
         let mut terms = self.coefficients.clone();
-        if terms.len() > 1 {
+        // What does not change above the origin is one term.
+        if self.origin > 0.0 && terms.len() > 1 {
             let linear = terms.remove(1);
             let pairs = terms[0].iter_mut().zip(&linear);
             pairs.for_each(|(constant, value)| *constant += self.origin * value);
         }
-        let mut powers: Vec<Vec<f64>> = Vec::new();
-        for term in terms.iter().rev() {
-            powers.insert(0, vec![0.0; term.len()]);
-            for p in 0..powers.len() {
-                let (lower, upper) = powers.split_at_mut(p + 1);
-                let Some(above) = upper.first() else {
-                    continue;
-                };
-                let pairs = lower[p].iter_mut().zip(above);
-                pairs.for_each(|(value, above)| *value -= self.origin * above);
+        // Taylor's shift by repeated Horner steps: mu - origin = (mu - a) + shift.
+        let shift = a - self.origin;
+        for first in 0..terms.len() {
+            for p in (first..terms.len() - 1).rev() {
+                let (lower, upper) = terms.split_at_mut(p + 1);
+                let pairs = lower[p].iter_mut().zip(&upper[0]);
+                pairs.for_each(|(value, above)| *value += shift * above);
             }
-            let pairs = powers[0].iter_mut().zip(term);
-            pairs.for_each(|(value, own)| *value += own);
         }
-        powers
+        terms
     }
 
     /// The shared pattern.
@@ -295,7 +290,7 @@ mod tests {
         }
     }
 
-    /// Closed form: linear below the origin, a polynomial above, which the powers of `mu` say too, and no jump between.
+    /// Closed form: linear below the origin, a polynomial above, which powers about another place say too, and no jump between.
     #[test]
     fn a_frozen_polynomial_is_linear_below_its_origin_and_given_by_powers_above() {
         let pattern = Arc::new(SparsityPattern::from_positions(1, [(0, 0)]));
@@ -305,7 +300,7 @@ mod tests {
             true => 2.0 + 3.0 * mu,
             false => 2.0 + 3.0 * 0.4 - 4.0 * (mu - 0.4) + 5.0 * (mu - 0.4).powi(2),
         };
-        let powers = frozen.by_powers();
+        let powers = frozen.about(0.5);
         for mu in [0.0, 0.1, 0.4, 0.7] {
             assert!((frozen.evaluate(mu)[0] - exact(mu)).abs() < 1e-15);
             let step = 1e-6;
@@ -314,7 +309,7 @@ mod tests {
         }
         for mu in [0.4_f64, 0.7, 1.1] {
             let terms = powers.iter().enumerate();
-            let sum: f64 = terms.map(|(p, values)| values[0] * mu.powi(p as i32)).sum();
+            let sum: f64 = terms.map(|(p, values)| values[0] * (mu - 0.5).powi(p as i32)).sum();
             assert!((sum - exact(mu)).abs() < 1e-14);
         }
     }

@@ -3,8 +3,9 @@
 use super::curve::{Curve, EdgeWeights};
 use super::error::{BodyError, BodyPart, refuse_far};
 use super::plane_body::{plane_body, used_nodes};
-use super::{Boundary, BoundaryCondition, Counterface, Mesh, NodalFrames};
+use super::{Boundary, BoundaryCondition, Chord, Counterface, Mesh, NodalFrames};
 use frictionsim_formats::FileMesh;
+use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Relative distance from a circle up to which nodes lie on it.
@@ -50,7 +51,8 @@ pub enum CounterfaceSpecification {
 impl Mesh {
     /// The body that `specification` makes of a mesh file.
     ///
-    /// Frames are those of the counterface, but along guides, where they are those of the boundary's normal.
+    /// Frames are those of the counterface, but along guides, where they are those of the boundary's normal. Whether it is held is for
+    /// [`Self::check_held`] to say, once springs are attached.
     ///
     /// # Errors
     /// [`BodyError::Body`] says what is wrong with the mesh or with the names used, and what to do.
@@ -140,7 +142,6 @@ impl Mesh {
             }
         }
         mesh.boundaries = boundaries;
-        mesh.check_held()?;
         mesh.take_symmetry(file.symmetry, specification.scale);
         Ok(mesh)
     }
@@ -215,8 +216,7 @@ fn counterface(
     contact: &Curve,
     specification: &BodySpecification,
 ) -> Result<Counterface, BodyError> {
-    let nodes = contact.nodes.iter();
-    let points = nodes.map(|&node| mesh.plane_node(node as usize));
+    let points = contact.nodes.iter().map(|&node| mesh.plane_node(node as usize));
     match specification.counterface {
         CounterfaceSpecification::Plane { direction } => {
             let last = contact.edges.len() - 1;
@@ -232,21 +232,22 @@ fn counterface(
         }
         CounterfaceSpecification::Cylinder { center, radius } => {
             let distance = |p: [f64; 2]| (p[0] - center[0]).hypot(p[1] - center[1]);
-            let distances: Vec<f64> = points.map(distance).collect();
-            let mean = distances.iter().sum::<f64>() / distances.len() as f64;
-            let off = |&(_, d): &(usize, f64)| (d - mean).abs();
-            let worst =
-                distances.iter().copied().enumerate().max_by(|a, b| off(a).total_cmp(&off(b)));
-            if let (None, Some((i, d))) = (radius, worst)
+            let faces = mesh.edge_faces(&contact.edges);
+            let chords = mesh.chords(&faces, |[x, y, _]| {
+                Vector3::new(x - center[0], y - center[1], 0.0).normalize()
+            });
+            let mut distances = contact.nodes.iter().copied().zip(points.map(distance)).collect();
+            Chord::bridge(&chords, &mut distances);
+            let mean = distances.values().sum::<f64>() / distances.len() as f64;
+            let off = |&(_, d): &(&u32, &f64)| (d - mean).abs();
+            let worst = distances.iter().max_by(|a, b| off(a).total_cmp(&off(b)));
+            if let (None, Some((&node, &d))) = (radius, worst)
                 && (d - mean).abs() > ROUND * mean
             {
                 let message = format!(
                     "the contact curve \"{}\" is not a circle about contact.center = [{}, {}]: node {} lies {d:.6e} m from \
                      it, the mean is {mean:.6e} m; correct contact.center, or give the cylinder's contact.radius",
-                    specification.contact,
-                    center[0],
-                    center[1],
-                    mesh.labels[contact.nodes[i] as usize]
+                    specification.contact, center[0], center[1], mesh.labels[node as usize]
                 );
                 let part = BodyPart::Center;
                 return Err(BodyError::Request { part, message });

@@ -3,6 +3,7 @@
 mod annulus;
 mod body;
 mod boundary;
+mod chord;
 mod coincidence;
 mod counterface;
 mod curve;
@@ -26,6 +27,7 @@ mod specification;
 pub use annulus::AnnulusMesh;
 pub use body::{BodySpecification, CounterfaceSpecification};
 pub use boundary::{Boundary, BoundaryCondition, BoundaryFace, ElasticSupport, NodalSupport};
+pub use chord::Chord;
 pub use coincidence::{UnmergedNodes, coincident_nodes};
 pub use counterface::Counterface;
 pub use error::{BodyError, BodyPart};

@@ -149,10 +149,13 @@ impl Mesh {
         }
     }
 
-    /// Refuses a body, or a part of it that is not connected to the rest, that can move as a rigid whole.
+    /// Refuses a plane body, or a part of it that is not connected to the rest, that can move as a rigid whole.
     ///
-    /// Sliding friction holds nothing: contact counts along its normal only.
-    pub(super) fn check_held(&self) -> Result<(), BodyError> {
+    /// Boundaries and springs at nodes hold it. Sliding friction holds nothing: contact counts along its normal only.
+    ///
+    /// # Errors
+    /// [`BodyError::Body`] names the part.
+    pub fn check_held(&self) -> Result<(), BodyError> {
         let part = self.connected_parts();
         let parts = part.iter().max().map_or(0, |&last| last + 1);
         let size = self.nodes.iter().fold(0.0_f64, |m, p| m.max(p[0].abs()).max(p[1].abs()));
@@ -189,6 +192,15 @@ impl Mesh {
                 }
             }
         }
+        for attachment in &self.attachments {
+            let largest = attachment.stiffness.amax();
+            if largest > 0.0 {
+                let [x, y] = self.plane_node(attachment.node).map(|at| at / size);
+                let moves = Matrix3::new(1.0, 0.0, -y, 0.0, 1.0, x, 0.0, 0.0, 0.0);
+                let stiffness = attachment.stiffness / largest;
+                held[part[attachment.node]] += moves.transpose() * stiffness * moves;
+            }
+        }
         for (k, held) in held.into_iter().enumerate() {
             let eigen = SymmetricEigen::new(held);
             let (low, high) = (eigen.eigenvalues.min(), eigen.eigenvalues.max());
@@ -208,7 +220,7 @@ impl Mesh {
                 return Err(BodyError::Body(format!(
                     "nothing holds {} (with node {} at {x:.4e}, {y:.4e} m): it can move as a rigid body (sliding \
                      friction holds nothing); give one of its boundaries ({}) condition = \"clamped\", \"support\" or \
-                     \"guide\" under [boundaries.NAME]{unmerged}",
+                     \"guide\" under [boundaries.NAME], or springs under [modifications.NAME]{unmerged}",
                     if parts > 1 { "a part of the body that touches no other" } else { "the body" },
                     self.labels.get(node).copied().unwrap_or(node + 1),
                     names.join(", ")

@@ -1,4 +1,4 @@
-//! The matrices that the eigenvalue analysis of a case solves, by power of the friction coefficient.
+//! The matrices that the eigenvalue analysis of a case solves, over the friction coefficient.
 
 use super::StudyError;
 use super::eigenvalues::{Model, Solver};
@@ -14,12 +14,21 @@ use crate::results::matrices::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Mass, damping, stiffness and contact rows of a case's body around steady sliding at its own friction coefficient.
+/// Mass, damping, stiffness and contact rows of a case's body around steady sliding, by power of the distance from the case's own
+/// friction coefficient, or from another one in its place. The base states are those of the eigenvalue analysis.
 ///
 /// # Errors
 /// A case without `[cea]`, a body of revolution, whose problem is one of complex matrices for each harmonic; no steady sliding.
-pub fn matrices(case: &Case) -> Result<ExportedSystem, StudyError> {
+pub fn matrices(case: &Case, friction: Option<f64>) -> Result<ExportedSystem, StudyError> {
     let cea = case.require_cea()?;
+    let own = case.contact.sliding.friction_coefficient;
+    let mut frictions = cea.solved_friction_coefficients();
+    let mut case = case.clone();
+    if let Some(friction) = friction {
+        case.contact.sliding.friction_coefficient = friction;
+        frictions.push(own);
+    }
+    let case = &case;
     if case.body.revolution().is_some() {
         return Err(StudyError::Case(case.error_at(
             "material.formulation",
@@ -44,7 +53,6 @@ pub fn matrices(case: &Case) -> Result<ExportedSystem, StudyError> {
         Solver::Assembly => Solver::Assembly,
         _ => Solver::WholeMesh,
     };
-    let frictions = cea.solved_friction_coefficients();
     let options = tangent_options(case, cea.mass);
     let model = Model::with_solver(case, solver, options, &frictions)?;
     let body = SlidingBody::of(case, &model)?;
@@ -67,24 +75,28 @@ pub fn matrices(case: &Case) -> Result<ExportedSystem, StudyError> {
         matrices: Vec::new(),
         unknowns: unknowns(body.mesh, tangent),
         contact: Vec::new(),
+        is_at_one_friction: false,
     };
     let matrices = &mut system.matrices;
-    matrices
-        .extend(powers("M", &tangent.mass, |friction_power| MatrixRole::Mass { friction_power }));
-    matrices.extend(powers("C", &tangent.damping, |friction_power| MatrixRole::Damping {
-        friction_power,
-    }));
-    matrices.extend(powers("K", &tangent.stiffness, |friction_power| MatrixRole::Stiffness {
-        friction_power,
-    }));
-    if let Some(losses) = &tangent.structural {
-        matrices.extend(powers("H", losses, |friction_power| MatrixRole::Structural {
+    let parts: [Part; 4] = [
+        ("M", Some(&tangent.mass), |friction_power| MatrixRole::Mass { friction_power }),
+        ("C", Some(&tangent.damping), |friction_power| MatrixRole::Damping { friction_power }),
+        ("K", Some(&tangent.stiffness), |friction_power| MatrixRole::Stiffness { friction_power }),
+        ("H", tangent.structural.as_ref(), |friction_power| MatrixRole::Structural {
             friction_power,
-        }));
+        }),
+    ];
+    for (name, polynomial, role) in parts {
+        if let Some(polynomial) = polynomial {
+            matrices.extend(powers(name, polynomial, friction, role));
+        }
     }
     contact_rows(&body, &mut system);
     Ok(system)
 }
+
+/// Name, matrix by powers of friction, and what the matrix of a power is.
+type Part<'a> = (&'static str, Option<&'a MatrixPolynomial>, fn(usize) -> MatrixRole);
 
 /// A body or an assembly that slides, at the case's own friction coefficient.
 struct SlidingBody<'a> {
@@ -160,14 +172,15 @@ impl<'a> SlidingBody<'a> {
     }
 }
 
-/// The coefficients of a polynomial that are not zero, and always the one without friction.
+/// The coefficients of a polynomial about a friction coefficient that are not zero, and always its value there.
 fn powers<'a>(
     name: &'a str,
     polynomial: &'a MatrixPolynomial,
+    friction: f64,
     role: fn(usize) -> MatrixRole,
 ) -> impl Iterator<Item = ExportedMatrix> + 'a {
     let (size, pattern) = (polynomial.dimension(), polynomial.pattern());
-    let coefficients = polynomial.by_powers().into_iter().enumerate();
+    let coefficients = polynomial.about(friction).into_iter().enumerate();
     coefficients.filter_map(move |(power, values)| {
         let columns = (0..size).flat_map(|column| {
             let nonzeros = pattern.column(column);

@@ -401,7 +401,8 @@ fn bad_files_and_names_are_refused_with_a_remedy() {
     let good = String::from_utf8(rectangle(0.04, 0.03, 4, 3)).unwrap();
     let body = |text: &str, specification: &BodySpecification| {
         let file = FileMesh::read(text.as_bytes()).map_err(|e| e.to_string())?;
-        Mesh::from_gmsh(&file, specification).map_err(|e| e.to_string())
+        let mesh = Mesh::from_gmsh(&file, specification).map_err(|e| e.to_string())?;
+        mesh.check_held().map_err(|e| e.to_string())
     };
     let plain = block_specification();
     assert!(body(&good, &plain).is_ok());

@@ -20,6 +20,7 @@ mod body;
 mod body_sensitivity;
 mod cea_cyclic;
 mod cea_sparse;
+mod chords;
 mod continuum;
 mod continuum_reference;
 mod convergence;

@@ -100,6 +100,7 @@ fn assembled(folder: &Path, friction: f64) -> [Mat<f64>; 4] {
     let text = fs::read(folder.join("matrices.json")).unwrap();
     let description: Value = serde_json::from_slice(&text).unwrap();
     let size = description["dofs"].as_u64().unwrap() as usize;
+    let away = friction - description["friction_coefficient"].as_f64().unwrap();
     let mut sums = [0, 1, 2, 3].map(|_| Mat::<f64>::zeros(size, size));
     for entry in description["matrices"].as_array().unwrap() {
         let file = folder.join(entry["matrix_market"].as_str().unwrap());
@@ -108,7 +109,7 @@ fn assembled(folder: &Path, friction: f64) -> [Mat<f64>; 4] {
         let roles = ["mass", "damping", "stiffness", "structural"];
         for (sum, role) in sums.iter_mut().zip(roles) {
             if let Some(power) = entry["role"][role]["friction_power"].as_i64() {
-                let factor = friction.powi(power as i32);
+                let factor = away.powi(power as i32);
                 for j in 0..size {
                     for i in 0..size {
                         sum[(i, j)] += factor * matrix[(i, j)];
@@ -174,9 +175,14 @@ fn exported_structural_damping_has_the_eigenvalues_of_the_analysis() {
 
 /// How many modes `cea` lists at a friction coefficient, all of them among the dense ones of the exported matrices.
 fn listed_modes_found(folder: &TempDir, friction: f64) -> usize {
-    let [mass, damping, stiffness, losses] = assembled(&folder.path().join("matrices"), friction);
+    modes_among(folder, friction, &assembled(&folder.path().join("matrices"), friction))
+}
+
+/// The same for matrices at that friction coefficient.
+fn modes_among(folder: &TempDir, friction: f64, matrices: &[Mat<f64>; 4]) -> usize {
+    let [mass, damping, stiffness, losses] = matrices;
     let found: Vec<c64> = if losses.norm_max() > 0.0 {
-        lossy_eigenvalues([&mass, &damping, &stiffness, &losses])
+        lossy_eigenvalues([mass, damping, stiffness, losses])
     } else {
         let found = quadratic_modes(mass.as_ref(), damping.as_ref(), stiffness.as_ref()).unwrap();
         found.iter().map(|mode| mode.eigenvalue).collect()
@@ -274,6 +280,79 @@ fn tall_block(folder: &TempDir, contact: &str, frictions: &str) {
     );
     fs::write(folder.path().join("block.msh"), file_of(&blocks, |p| p)).unwrap();
     fs::write(folder.path().join("block.toml"), text).unwrap();
+}
+
+/// Consistency check: the same problem leaves the program as the analysis has it, at each friction coefficient alone, and by powers of the
+/// distance from the case's own over the range that they hold in. Powers of friction itself had terms of 4e22 whose sum was 1e12.
+#[test]
+fn exported_matrices_have_the_eigenvalues_of_the_analysis_where_contact_opens_or_stiffens() {
+    let law = ["normal_law=\"exponential\"", "reference_pressure=1e5", "height=1e-6"];
+    let frictions = [0.1, 0.4, 0.7, 0.9];
+    let of = |section: &str| law.map(|key| format!("{section}.{key}"));
+    for (is_solid, contact) in [
+        (false, Vec::new()),
+        (false, of("contact").to_vec()),
+        (true, vec!["contacts.face.normal_stiffness=1e13".to_owned()]),
+        (true, of("contacts.face").to_vec()),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        match is_solid {
+            true => tall_block(&folder, "", "[0.7]"),
+            false => block(&folder),
+        }
+        let mut set: Vec<&str> = contact.iter().map(String::as_str).collect();
+        set.push("cea.friction_coefficients=[0.1,0.4,0.7,0.9]");
+        set.push(match is_solid {
+            true => "contacts.face.friction_coefficient=0.7",
+            false => "contact.friction_coefficient=0.7",
+        });
+        for command in ["cea", "matrices"] {
+            let output = run(&folder, command, &set);
+            assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        }
+        let out = folder.path().join("matrices");
+        let text = fs::read(out.join("matrices.json")).unwrap();
+        let description: Value = serde_json::from_slice(&text).unwrap();
+        let [low, high] = [0, 1].map(|end| description["friction_range"][end].as_f64().unwrap());
+        let mut held = 0;
+        for friction in frictions.into_iter().filter(|own| (low..=high).contains(own)) {
+            held += listed_modes_found(&folder, friction);
+        }
+        // Of the plane block two friction coefficients have the contact state of the case's own.
+        let least = if is_solid { 6 } else { 12 };
+        assert!(held >= least, "{contact:?}: {held} in {low} to {high}");
+        // Dense problems of solid bodies take a second each.
+        for friction in frictions.into_iter().step_by(1 + usize::from(is_solid)) {
+            let matrices = at_friction(&folder, friction, &set);
+            let found = modes_among(&folder, friction, &matrices);
+            assert!(found >= 6, "{contact:?} {friction}: {found}");
+        }
+    }
+}
+
+/// What `frictionsim matrices --friction` writes, without losses.
+fn at_friction(folder: &TempDir, friction: f64, set: &[&str]) -> [Mat<f64>; 4] {
+    let mut program = Command::cargo_bin("frictionsim").unwrap();
+    program.current_dir(folder.path()).args(["matrices", "block.toml", "--quiet", "--force"]);
+    program.args(["--out", "alone", "--friction", &friction.to_string()]);
+    set.iter().for_each(|text| {
+        program.args(["--set", text]);
+    });
+    let output = program.output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let out = folder.path().join("alone");
+    let files = fs::read_dir(&out).unwrap().map(|file| file.unwrap().file_name());
+    let files = files.map(|name| name.to_string_lossy().into_owned());
+    let mut files: Vec<String> = files.filter(|name| !name.starts_with('.')).collect();
+    files.sort();
+    let beside = ["manifest.json", "mesh.msh", "summary.json"];
+    assert_eq!(files, [&["C.mtx", "K.mtx", "M.mtx"][..], &beside].concat());
+    let [mass, damping, stiffness] = ["M", "C", "K"].map(|name| {
+        let text = fs::read_to_string(out.join(format!("{name}.mtx"))).unwrap();
+        dense(&MarketMatrix::read(&text).unwrap())
+    });
+    let none = Mat::zeros(mass.nrows(), mass.nrows());
+    [mass, damping, stiffness, none]
 }
 
 /// Independent: contact that stiffens, whose points open within the sweep. The polynomials of each state hold in its own range only: the

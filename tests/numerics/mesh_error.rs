@@ -80,6 +80,32 @@ fn estimates_of_frequencies_are_within_a_factor_of_two_of_the_error_by_refinemen
     }
 }
 
+/// Independent check: the same plate on bricks of half the size. The strains of a single layer change across it, where the middles of the
+/// bricks say nothing: all of the energy of bending was taken for an error. Bricks with incompatible modes do not fit together exactly,
+/// so that errors of a thousandth may have either sign.
+#[test]
+fn estimates_of_one_layer_of_bricks_in_bending_are_of_the_size_of_the_error() {
+    let plate = |fineness: usize| {
+        let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("plate-{fineness}"));
+        fs::create_dir_all(&folder).unwrap();
+        let counts = [16 * fineness, 8 * fineness, fineness];
+        let block = Block { name: "part", origin: [0.0; 3], size: [0.16, 0.08, 0.006], counts };
+        fs::write(folder.join("part.msh"), file_of(&[block], |point| point)).unwrap();
+        let text = "[mesh]\nfile = \"part.msh\"\n[material]\nyoung_modulus = 2e11\npoisson_ratio = 0.3\n\
+                    density = 7800.0\n[boundaries.part_x0]\ncondition = \"clamped\"\n[cea]\nmodes = 5\n";
+        let path = folder.join("part.toml");
+        Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]).unwrap()
+    };
+    let [coarse, fine] = [plate(1), plate(2)].map(|case| estimates(&solved(&case)));
+    let found = effectivities(&coarse, &fine);
+    println!("{found:.3?} of {coarse:.3?} {fine:.3?}");
+    for ((found, coarse), fine) in found.iter().zip(&coarse).zip(&fine) {
+        let is_large = (coarse[0] / fine[0] - 1.0).abs() > 3e-3;
+        assert!(!is_large || (0.5..2.0).contains(found), "{found} {coarse:?} {fine:?}");
+        assert!(is_large || coarse[1].abs() < 6e-3 * coarse[0], "{coarse:?} {fine:?}");
+    }
+}
+
 /// Independent check: the same body on elements of half the size. A critical friction is where a growth rate vanishes, a difference of
 /// large parts: errors of 1e-4 and more are estimated within a factor of two on this body.
 #[test]

@@ -26,7 +26,7 @@ const LOSSLESS: &str = "(lambda^2 M + lambda C + K) x = 0,";
 /// The same with structural damping.
 const LOSSY: &str = "(lambda^2 M + lambda C + K + i H) x = 0 where Im lambda > 0,";
 /// What each matrix is.
-const SUMS: &str = "each the sum over its entries in matrices of mu^friction_power times the file";
+const SUMS: &str = "each the sum over its entries in matrices of (mu - friction_coefficient)^friction_power times the file";
 
 /// One exported matrix.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,24 +49,24 @@ impl ExportedMatrix {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum MatrixRole {
-    /// Coefficient of `mu^power` in the mass `M`, kg/m; of solid bodies kg.
+    /// Coefficient of `(mu - mu_0)^power`, `mu_0` the friction coefficient of the export, in the mass `M`, kg/m; of solid bodies kg.
     Mass {
-        /// Power of the friction coefficient.
+        /// Power of the distance from that friction coefficient.
         friction_power: usize,
     },
     /// In the damping `C`, Pa s; N s/m.
     Damping {
-        /// Power of the friction coefficient.
+        /// Power of the distance from that friction coefficient.
         friction_power: usize,
     },
     /// In the stiffness `K`, Pa; N/m.
     Stiffness {
-        /// Power of the friction coefficient.
+        /// Power of the distance from that friction coefficient.
         friction_power: usize,
     },
     /// In the imaginary part `H` of the stiffness, from structural damping: `K + i H` where `Im lambda > 0`, Pa; N/m.
     Structural {
-        /// Power of the friction coefficient.
+        /// Power of the distance from that friction coefficient.
         friction_power: usize,
     },
     /// Motion of each contact point along the normal of the counterface, out of the unknowns.
@@ -110,7 +110,7 @@ pub struct ExportedContactPoint {
 pub struct ExportedSystem {
     /// 2 of plane bodies, whose matrices are for each metre of thickness; 3 of solid ones.
     pub dimension: usize,
-    /// Friction coefficient of the case.
+    /// Friction coefficient about which the matrices are given: that of the case, or another one that was asked for.
     pub friction_coefficient: f64,
     /// Friction coefficients between which the same contact points are pressed, so that the matrices hold.
     pub friction_range: [f64; 2],
@@ -122,6 +122,17 @@ pub struct ExportedSystem {
     pub unknowns: Vec<ExportedUnknown>,
     /// The contact points, in the order of the rows of the contact matrices.
     pub contact: Vec<ExportedContactPoint>,
+    /// Whether it is the sums at its friction coefficient alone.
+    pub is_at_one_friction: bool,
+}
+
+impl ExportedSystem {
+    /// Mass, damping and stiffness at its friction coefficient, without what friction changes and without the contact rows.
+    #[must_use]
+    pub fn at_one_friction(mut self) -> Self {
+        self.matrices.retain(|own| own.role.friction_power() == Some(0));
+        Self { is_at_one_friction: true, friction_range: [self.friction_coefficient; 2], ..self }
+    }
 }
 
 /// Where a matrix is written, and how large it is.
@@ -141,8 +152,8 @@ pub struct MatrixEntry {
     pub entries: usize,
     /// Matrix Market file.
     pub matrix_market: String,
-    /// File for `scipy.sparse.load_npz`.
-    pub npz: String,
+    /// File for `scipy.sparse.load_npz`; none of matrices at one friction coefficient.
+    pub npz: Option<String>,
 }
 
 /// `summary.json` of `frictionsim matrices`.
@@ -160,7 +171,7 @@ pub struct MatricesSummary {
     pub equation: String,
     /// What `lambda` is measured in, and what all of this is measured for.
     pub units: String,
-    /// Friction coefficient of the case.
+    /// Friction coefficient about which the matrices are given.
     pub friction_coefficient: f64,
     /// Friction coefficients between which the matrices hold.
     pub friction_range: [f64; 2],
@@ -168,10 +179,10 @@ pub struct MatricesSummary {
     pub proportional_damping: Option<[f64; 2]>,
     /// The files.
     pub matrices: Vec<MatrixEntry>,
-    /// Table of the unknowns.
-    pub unknowns: String,
-    /// Table of the contact points.
-    pub contact: String,
+    /// Table of the unknowns; none of matrices at one friction coefficient.
+    pub unknowns: Option<String>,
+    /// Table of the contact points; none of matrices at one friction coefficient.
+    pub contact: Option<String>,
     /// What it was made from.
     pub manifest: Manifest,
 }
@@ -195,11 +206,22 @@ impl MatrixRole {
         }
     }
 
-    /// What it is, in words.
-    fn meaning(self) -> String {
+    /// The power that a part of the problem belongs to; none of contact rows.
+    fn friction_power(self) -> Option<usize> {
+        match self {
+            Self::Mass { friction_power }
+            | Self::Damping { friction_power }
+            | Self::Stiffness { friction_power }
+            | Self::Structural { friction_power } => Some(friction_power),
+            Self::ContactNormal | Self::ContactSlip => None,
+        }
+    }
+
+    /// What it is, in words, about a friction coefficient.
+    fn meaning(self, friction: f64) -> String {
         let power = |what: &str, power: usize| match power {
-            0 => format!("{what} without friction"),
-            power => format!("{what}: coefficient of mu^{power}"),
+            0 => format!("{what} at friction {friction}"),
+            power => format!("{what}: coefficient of (mu - {friction})^{power}"),
         };
         match self {
             Self::Mass { friction_power } => power("mass", friction_power),
@@ -223,16 +245,19 @@ impl MatricesSummary {
             columns: own.matrix.columns,
             entries: own.matrix.entries.len(),
             matrix_market: format!("{}.mtx", own.name),
-            npz: format!("{}.npz", own.name),
+            npz: (!system.is_at_one_friction).then(|| format!("{}.npz", own.name)),
         };
+        let beside = |file: &str| (!system.is_at_one_friction).then(|| file.to_owned());
+        let is_lossy = system.matrices.iter().any(ExportedMatrix::is_structural);
+        let equation = if is_lossy { LOSSY } else { LOSSLESS };
         Self {
             command: "matrices".to_owned(),
             title: title.to_owned(),
             wall_s,
             dofs: system.unknowns.len(),
-            equation: match system.matrices.iter().any(ExportedMatrix::is_structural) {
-                true => format!("{LOSSY} {SUMS}"),
-                false => format!("{LOSSLESS} {SUMS}"),
+            equation: match system.is_at_one_friction {
+                true => format!("{equation} at mu = friction_coefficient"),
+                false => format!("{equation} {SUMS}"),
             },
             units: match system.dimension {
                 3 => "SI; lambda in rad/s".to_owned(),
@@ -242,14 +267,15 @@ impl MatricesSummary {
             friction_range: system.friction_range,
             proportional_damping: system.proportional_damping,
             matrices: system.matrices.iter().map(entry).collect(),
-            unknowns: UNKNOWNS.to_owned(),
-            contact: CONTACT.to_owned(),
+            unknowns: beside(UNKNOWNS),
+            contact: beside(CONTACT),
             manifest: manifest.clone(),
         }
     }
 }
 
-/// Writes every matrix in both formats, the two tables and what multiplies what.
+/// Writes every matrix in both formats, the two tables and what multiplies what; at one friction coefficient the Matrix Market
+/// files alone.
 ///
 /// # Errors
 /// Those of the folder.
@@ -259,11 +285,18 @@ pub fn write_matrices(
     summary: &MatricesSummary,
 ) -> Result<(), FolderError> {
     for own in &system.matrices {
-        let comment = format!("{}, {}", own.role.meaning(), own.role.unit(system.dimension));
+        let meaning = own.role.meaning(system.friction_coefficient);
+        let comment = format!("{meaning}, {}", own.role.unit(system.dimension));
         folder.write_bulk(&format!("{}.mtx", own.name), |out| own.matrix.write(&comment, out))?;
+        if system.is_at_one_friction {
+            continue;
+        }
         folder.write_bulk(&format!("{}.npz", own.name), |out| {
             out.write_all(&compressed_rows(&own.matrix)?)
         })?;
+    }
+    if system.is_at_one_friction {
+        return Ok(());
     }
     write_unknowns(folder, system)?;
     write_contact(folder, system)?;
@@ -343,15 +376,14 @@ pub fn print(summary: &MatricesSummary) -> String {
             "  {:<16} {size:>15} {:>9} entries  {} ({})",
             entry.name,
             entry.entries,
-            entry.role.meaning(),
+            entry.role.meaning(summary.friction_coefficient),
             entry.unit,
         );
     }
+    let _ = writeln!(text, "\n{}", summary.equation);
     let [from, to] = summary.friction_range;
-    let _ = writeln!(
-        text,
-        "\n{}\nThey hold for friction coefficients from {from} to {to}.",
-        summary.equation
-    );
+    if from < to {
+        let _ = writeln!(text, "They hold for friction coefficients from {from} to {to}.");
+    }
     text
 }

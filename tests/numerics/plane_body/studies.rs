@@ -263,6 +263,22 @@ fn keys_that_have_no_effect_beside_a_mesh_file_are_said() {
     }
 }
 
+/// Contact around a hole holds a disc but for its turning, which sliding friction does not stop: a spring at a node of the rim does.
+#[test]
+fn a_spring_at_a_node_holds_a_body_that_no_boundary_holds() {
+    let folder = folder();
+    let free = "boundaries={ outer = { condition = \"free\" } }";
+    let held = |stiffness: &str| {
+        let spring = "at = { radius = 0.0905, angle_deg = 20 }";
+        let spring = format!("modifications.stop={{ {spring}, {stiffness} }}");
+        read(&folder, "disc.msh", &[free, &spring])
+    };
+    let error = held("damping = 1e3").unwrap_err();
+    assert!(error.contains("nothing holds the body"), "{error}");
+    let sweep = modes_and_onsets(&held("stiffness = 1e9").unwrap()).unwrap();
+    assert_eq!(sweep.points[0].modes.len(), 6);
+}
+
 /// A contact at rest sticks: no study takes it for one that slides.
 #[test]
 fn no_study_takes_a_contact_at_rest_for_one_that_slides() {

@@ -1,0 +1,179 @@
+//! Quadratic elements with straight edges on round counterfaces (independent: curved edges, linear elements, exact distances).
+
+use crate::block::block;
+use crate::bricks::{Block, file_of};
+use crate::disc::{POLYCARBONATE, annulus, contact};
+use crate::triangles::body;
+use frictionsim::case::Case;
+use frictionsim::contact::{
+    ContactInterface, ContactStiffness, Counterpart, PairFriction, RigidCounterface, RigidMotion,
+    RigidShape, SurfacePair,
+};
+use frictionsim::fem::{ElasticMaterial, PlaneFormulation, assemble_stiffness};
+use frictionsim::mesh::{AnnulusMesh, BoundaryCondition, ElementKind, GmshFile, Mesh};
+use frictionsim::prestress::{Assembly, BaseChoice, SlidingSurfaces, SteadySliding};
+
+const RUBBER: ElasticMaterial =
+    ElasticMaterial { formulation: PlaneFormulation::ThreeDimensional, ..POLYCARBONATE };
+
+/// Radius of a ball, m.
+const BALL: f64 = 0.016;
+
+fn ball(interference: f64) -> RigidCounterface {
+    RigidCounterface {
+        shape: RigidShape::Sphere(Some(BALL)),
+        center: [0.0; 3],
+        axis: [0.0, 0.0, 1.0],
+        motion: RigidMotion::Turning(10.0),
+        interference,
+    }
+}
+
+/// A cup of 4 mm on the ball, wide open.
+fn cup([u, v, w]: [f64; 3]) -> [f64; 3] {
+    let arm = [1.2 * (u - 0.5), 1.2 * (v - 0.5), 1.0];
+    let length = arm.iter().map(|x| x * x).sum::<f64>().sqrt();
+    arm.map(|x| x / length * (BALL + 0.004 * w))
+}
+
+/// Puts the middles of all edges onto the straight lines between their ends.
+fn straighten(file: &mut GmshFile) {
+    for element in &file.elements {
+        for edge in 0..element.kind.edges().len() {
+            let (a, b, middle) = element.kind.edge(edge);
+            let [a, b] = [a, b].map(|local| file.points[element.nodes[local] as usize]);
+            if let Some(middle) = middle {
+                let place = [0, 1, 2].map(|axis| 0.5 * (a[axis] + b[axis]));
+                file.points[element.nodes[middle] as usize] = place;
+            }
+        }
+    }
+}
+
+fn solid(file: &GmshFile) -> Mesh {
+    let conditions = [("z1".to_owned(), BoundaryCondition::Clamped)];
+    Mesh::from_solids(file, 1.0, &conditions).unwrap()
+}
+
+/// Largest pressure of a cup on the ball, and the force between them.
+fn pressed(file: &GmshFile, interference: f64) -> [f64; 2] {
+    let mesh = solid(file);
+    let contact = SlidingSurfaces {
+        name: "ball".to_owned(),
+        surface: mesh.boundaries.iter().position(|boundary| boundary.name == "z0").unwrap(),
+        counter: Counterpart::Rigid(ball(interference)),
+        friction: PairFriction { ratio: 1.0, decay: None },
+        stiffness: ContactStiffness { normal_stiffness: Some(1e13), ..ContactStiffness::default() },
+        law: None,
+        topography: None,
+    };
+    let assembly = Assembly::new(&mesh, &RUBBER, &[], &[contact], &[], BaseChoice::Solved).unwrap();
+    let range = assembly.range(&[0.0]).unwrap();
+    let forces = range.states[0].normal_forces(0.0);
+    let points = &assembly.contacts()[0].1.points;
+    let pressures = forces.iter().zip(points).map(|(force, point)| force / point.weight);
+    [pressures.fold(0.0, f64::max), forces.iter().sum()]
+}
+
+/// The chords of these edges lie up to 0.3 mm inside the ball, fifteen times the interference.
+#[test]
+fn a_cup_with_straight_edges_is_pressed_like_one_with_curved_edges() {
+    for (kind, linear) in
+        [(ElementKind::Tet10, ElementKind::Tet4), (ElementKind::Hex20, ElementKind::Hex8)]
+    {
+        let cells = [4, 4, 1];
+        let curved = block(kind, cells, cup);
+        let mut straight = curved.clone();
+        straighten(&mut straight);
+        let [_, expected] = pressed(&curved, 2e-5);
+        let [largest, force] = pressed(&straight, 2e-5);
+        let [of_linear, _] = pressed(&block(linear, cells, cup), 2e-5);
+        println!(
+            "{kind:?}: {largest:e} Pa, linear {of_linear:e} Pa; {force} N, curved {expected} N"
+        );
+        assert!((force / expected - 1.0).abs() < 0.05, "{kind:?} {force} {expected}");
+        assert!(largest < 1.5 * of_linear, "{kind:?} {largest} {of_linear}");
+    }
+}
+
+/// A flat face has straight edges because it is flat: its distance from a ball stays that of its nodes.
+#[test]
+fn a_flat_face_keeps_its_distance_from_a_ball() {
+    let flat = |[u, v, w]: [f64; 3]| [0.008 * (u - 0.5), 0.008 * (v - 0.5), BALL + 0.004 * w];
+    let mesh = solid(&block(ElementKind::Hex20, [3, 3, 1], flat));
+    let surface = mesh.boundary("z0").unwrap();
+    let pair = SurfacePair::on_rigid(&mesh, surface, &ball(0.0)).unwrap();
+    for point in &pair.points {
+        let exact = point.position.iter().map(|x| x * x).sum::<f64>().sqrt() - BALL;
+        // The means of the ends of edges are wrong by up to 6e-5 m.
+        assert!((point.gap - exact).abs() < 1e-6, "{} {exact}", point.gap);
+    }
+    // A real overlap is one, whatever the edges: this cup has the radius of a smaller ball.
+    let mut small = block(ElementKind::Tet10, [4, 4, 1], |at| cup(at).map(|x| 0.99 * x));
+    straighten(&mut small);
+    let small = solid(&small);
+    let overlap = ball(0.0).overlap(&small, small.boundary("z0").unwrap()).unwrap();
+    assert!((overlap / (0.01 * BALL) - 1.0).abs() < 1e-9, "{overlap}");
+}
+
+/// The chords stand 44 um inside a shaft that is pushed in by 25 um. Pressures at corners and middles of straight edges differ, as the
+/// body has corners there; their mean is that of the round hole.
+#[test]
+fn a_plane_ring_with_straight_edges_is_pressed_like_one_with_curved_edges() {
+    let force = |is_straight: bool| {
+        let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad8, 48, 3)).unwrap().mesh;
+        let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
+        let bytes = crate::msh::write_msh(&mesh, crate::msh::FORMS[3], &numbers, |p| p);
+        let mut file = GmshFile::read(&bytes).unwrap();
+        if is_straight {
+            straighten(&mut file);
+        }
+        let mesh = body(&file);
+        let interface = ContactInterface::of(&mesh);
+        let widest = interface.gaps.iter().fold(0.0_f64, |widest, gap| widest.max(gap.abs()));
+        assert!(widest < 1e-12, "{widest:e}");
+        let stiffness = assemble_stiffness(&mesh, &POLYCARBONATE);
+        let state = SteadySliding::solve(&mesh, &stiffness, &contact(610.0)).unwrap();
+        state.normal_forces(0.3).iter().sum::<f64>()
+    };
+    let [straight, curved] = [true, false].map(force);
+    println!("{straight} {curved}");
+    assert!((straight / curved - 1.0).abs() < 0.01, "{straight} {curved}");
+}
+
+/// A shaft of 20.6 mm in a hole of 20.5 mm, and a cup of 16 mm on a ball of 16.2 mm, both pushed in by 20 um.
+#[test]
+fn an_overlap_beyond_the_interference_is_told_with_its_depth() {
+    let folder = tempfile::tempdir().unwrap();
+    let ring = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 36, 3)).unwrap().mesh;
+    let numbers: Vec<usize> = (1..=ring.node_count()).collect();
+    let ring = crate::msh::write_msh(&ring, crate::msh::FORMS[2], &numbers, |p| p);
+    let block = Block { name: "cup", origin: [0.0; 3], size: [1.0; 3], counts: [3, 3, 1] };
+    for (mesh, held, contact, said) in [
+        (ring, "outer", "radius = 0.0206\n", "by 1.00e-4 m, 5.0 times contact.interference"),
+        (
+            file_of(&[block], cup),
+            "cup_z1",
+            "boundary = \"cup_z0\"\ncounterface = \"sphere\"\nradius = 0.0162\n",
+            "by 2.00e-4 m, 10.0 times contact.interference",
+        ),
+    ] {
+        std::fs::write(folder.path().join("body.msh"), mesh).unwrap();
+        let warnings = |contact: &str| -> Vec<String> {
+            let text = format!(
+                "[mesh]\nfile = \"body.msh\"\n[boundaries.{held}]\ncondition = \"clamped\"\n[material]\n\
+                 young_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n[contact]\n{contact}\
+                 friction_coefficient = 0.3\ninterference = 2e-5\nrotation_speed_rpm = 100.0\n"
+            );
+            let name = folder.path().join("case.toml").display().to_string();
+            let case = Case::parse(&name, text.as_bytes(), &[]);
+            let case = case.unwrap_or_else(|errors| panic!("{errors}"));
+            case.warnings.iter().map(ToString::to_string).collect()
+        };
+        let told = warnings(contact);
+        assert!(told.iter().any(|text| text.contains(said)), "{told:?}");
+        let fits =
+            warnings(&contact.replace("radius = 0.0162\n", "").replace("radius = 0.0206\n", ""));
+        assert!(!fits.iter().any(|text| text.contains("enters")), "{fits:?}");
+    }
+}
