@@ -399,7 +399,8 @@ fn overlap(case: &Case) -> Option<Diagnostic> {
         }
         Body::Assembly(body) if body.base == BaseChoice::Solved => {
             let overlap = |own: &SlidingSurfaces| {
-                let rigid = own.counter.rigid()?;
+                // A measured surface says itself where it stands.
+                let rigid = own.counter.rigid().filter(|_| own.topography.is_none())?;
                 let depth = rigid.overlap(&body.mesh, &body.mesh.boundaries[own.surface])?;
                 let key = match own.is_short_form() {
                     true => "contact.interference".to_owned(),
@@ -419,10 +420,11 @@ fn overlap(case: &Case) -> Option<Diagnostic> {
         false => String::new(),
     };
     let message = format!(
-        "the surface enters its counterface by {:.2e} m{times}, before this is pushed in: the overlap is loaded as pressure",
-        depth
+        "the surface enters its counterface by {depth:.2e} m{times}, before this is pushed in: \
+         the overlap is loaded as pressure"
     );
-    let help = "correct the radius or the center of the counterface, or mesh the round surface finer;                 an overlap that is meant belongs into interference";
+    let help = "correct the radius or the center of the counterface, or mesh the round surface \
+                finer; an overlap that is meant belongs into interference";
     Some(warning(case, &key, message, "less than the mesh's own overlap", help))
 }
 

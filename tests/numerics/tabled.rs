@@ -369,7 +369,7 @@ density = 7850.0
 [materials.rubber]
 table = "rubber.csv"
 poisson_ratio = 0.0
-density = 10.0
+density = 25.0
 [boundaries.rubber_z0]
 condition = "clamped"
 [ties.glue]
@@ -392,7 +392,7 @@ fn a_rubber_mounted_mass_moves_at_the_modulus_of_its_own_frequency() {
     let table = case.materials().table(case.body.region_count() - 1);
     let table = table.or_else(|| case.materials().table(0)).unwrap();
     let area = 0.02_f64.powi(2);
-    let mass = 7850.0 * area * 0.02 + 10.0 * area * 0.01 / 3.0;
+    let mass = 7850.0 * area * 0.02 + 25.0 * area * 0.01 / 3.0;
     let mut lambda = c64::new(0.0, 1e3);
     for _ in 0..200 {
         let [modulus, loss_factor] = table.at(lambda.im / TAU);
