@@ -10,7 +10,7 @@ use frictionsim::contact::{
     RigidShape, SurfacePair,
 };
 use frictionsim::fem::{ElasticMaterial, PlaneFormulation, assemble_stiffness};
-use frictionsim::mesh::{AnnulusMesh, BoundaryCondition, ElementKind, GmshFile, Mesh};
+use frictionsim::mesh::{AnnulusMesh, BoundaryCondition, ElementKind, FileMesh, Mesh};
 use frictionsim::prestress::{Assembly, BaseChoice, SlidingSurfaces, SteadySliding};
 
 const RUBBER: ElasticMaterial =
@@ -37,7 +37,7 @@ fn cup([u, v, w]: [f64; 3]) -> [f64; 3] {
 }
 
 /// Puts the middles of all edges onto the straight lines between their ends.
-fn straighten(file: &mut GmshFile) {
+fn straighten(file: &mut FileMesh) {
     for element in &file.elements {
         for edge in 0..element.kind.edges().len() {
             let (a, b, middle) = element.kind.edge(edge);
@@ -50,13 +50,13 @@ fn straighten(file: &mut GmshFile) {
     }
 }
 
-fn solid(file: &GmshFile) -> Mesh {
+fn solid(file: &FileMesh) -> Mesh {
     let conditions = [("z1".to_owned(), BoundaryCondition::Clamped)];
     Mesh::from_solids(file, 1.0, &conditions).unwrap()
 }
 
 /// Largest pressure of a cup on the ball, and the force between them.
-fn pressed(file: &GmshFile, interference: f64) -> [f64; 2] {
+fn pressed(file: &FileMesh, interference: f64) -> [f64; 2] {
     let mesh = solid(file);
     let contact = SlidingSurfaces {
         name: "ball".to_owned(),
@@ -124,7 +124,7 @@ fn a_plane_ring_with_straight_edges_is_pressed_like_one_with_curved_edges() {
         let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad8, 48, 3)).unwrap().mesh;
         let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
         let bytes = crate::msh::write_msh(&mesh, crate::msh::FORMS[3], &numbers, |p| p);
-        let mut file = GmshFile::read(&bytes).unwrap();
+        let mut file = FileMesh::read(&bytes).unwrap();
         if is_straight {
             straighten(&mut file);
         }

@@ -114,7 +114,7 @@ fn bodies_held_in_any_way_have_the_modes_of_a_dense_decomposition() {
     let mut runner = TestRunner::new_with_rng(config, rng);
     let outcome = runner.run(&bodies(), |body| {
         let case = case_of(&body, "supported-body");
-        let expected = dense(&matrices(&case).unwrap());
+        let expected = dense(&matrices(&case, None).unwrap());
         let found =
             modes_and_onsets(&case).map_err(|error| TestCaseError::fail(error.to_string()))?;
         let modes = &found.points[0].modes;
