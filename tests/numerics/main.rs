@@ -10,6 +10,8 @@ mod disc;
 mod msh;
 #[path = "../common/table_1.rs"]
 mod table_1;
+#[path = "../common/tier.rs"]
+mod tier;
 #[path = "../common/triangles.rs"]
 mod triangles;
 

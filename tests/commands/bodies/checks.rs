@@ -119,24 +119,24 @@ fn lowest_onset(summary: &Value) -> Option<f64> {
 }
 
 fn check(bench: &Bench, _: Option<&Bench>) -> Cell {
-    done!(bench.run("check", &[], &[]));
+    done!(bench.run("check", &[]));
     Cell::Right
 }
 
 fn mesh(bench: &Bench, twin: Option<&Bench>) -> Cell {
-    let (own, _) = done!(bench.run("mesh", &[], &[]));
+    let (own, _) = done!(bench.run("mesh", &[]));
     let area = own["mesh"]["area_m2"].as_f64().or(own["mesh"]["volume_m3"].as_f64());
     let Some(twin) = twin else {
         return verdict(area.is_some_and(|area| area > 0.0), || format!("{}", own["mesh"]));
     };
-    let (other, _) = needed!(twin.run("mesh", &[], &[]));
+    let (other, _) = needed!(twin.run("mesh", &[]));
     let (area, other) = (area.unwrap(), other["mesh"]["area_m2"].as_f64().unwrap());
     verdict(is_close(area, other, 1e-12), || format!("area {area} and {other}"))
 }
 
 /// Against the other description of the body, else against a full solution's residual.
 fn cea(bench: &Bench, twin: Option<&Bench>) -> Cell {
-    let (summary, own) = done!(bench.run("cea", &[], &[]));
+    let (summary, own) = done!(bench.run("cea", &[]));
     let residual = summary["largest_residual"].as_f64().unwrap();
     if residual > 1e-8 {
         return Cell::Wrong(format!("residual {residual:e}"));
@@ -144,14 +144,14 @@ fn cea(bench: &Bench, twin: Option<&Bench>) -> Cell {
     let Some(twin) = twin else {
         return Cell::Right;
     };
-    let (_, other) = needed!(twin.run("cea", &[], &[]));
+    let (_, other) = needed!(twin.run("cea", &[]));
     agree(&spectrum(&own), &spectrum(&other), 1e-8)
 }
 
 fn by_method(bench: &Bench, method: &str) -> Cell {
     let method = format!("cea.method=\"{method}\"");
-    let (_, own) = done!(bench.run("cea", &[&method], &[]));
-    let (_, other) = needed!(bench.run("cea", &[], &[]));
+    let (_, own) = done!(bench.run("cea", &[&method]));
+    let (_, other) = needed!(bench.run("cea", &[]));
     agree(&spectrum(&own), &spectrum(&other), 1e-8)
 }
 
@@ -167,11 +167,11 @@ fn cea_sparse(bench: &Bench, _: Option<&Bench>) -> Cell {
 fn map(bench: &Bench, _: Option<&Bench>) -> Cell {
     let key = "damping.stiffness_coefficient";
     let map = format!("cea.map={{key=\"{key}\",values=[3e-7,4.5e-7]}}");
-    let (_, folder) = done!(bench.run("cea", &[&map], &[]));
+    let (_, folder) = done!(bench.run("cea", &[&map]));
     let (values, onsets) =
         (column(&folder, "map.csv", key), column(&folder, "map.csv", "critical_friction"));
     for value in [3e-7, 4.5e-7] {
-        let (summary, _) = needed!(bench.run("cea", &[&format!("{key}={value:?}")], &[]));
+        let (summary, _) = needed!(bench.run("cea", &[&format!("{key}={value:?}")]));
         let own = values.iter().zip(&onsets).filter(|(v, _)| **v == value).map(|(_, onset)| *onset);
         let own = own.filter(|onset| onset.is_finite()).min_by(f64::total_cmp);
         let single = lowest_onset(&summary);
@@ -191,7 +191,7 @@ const SMALL_CHANGE: f64 = 1e-6;
 
 /// The derivative by Young's modulus is the difference of two analyses.
 fn sensitivities(bench: &Bench, _: Option<&Bench>) -> Cell {
-    let (_, folder) = done!(bench.run("cea", &["cea.sensitivities=true"], &[]));
+    let (_, folder) = done!(bench.run("cea", &["cea.sensitivities=true"]));
     if !folder.join("sensitivities.csv").exists() {
         return Cell::Refused("not computed for this body yet".to_owned());
     }
@@ -213,7 +213,7 @@ fn sensitivities(bench: &Bench, _: Option<&Bench>) -> Cell {
         None => ("density", 1700.0, slopes_by("density").expect("a density")),
     };
     let step = SMALL_CHANGE * value;
-    let at = |value: f64| bench.run("cea", &[&format!("material.{name}={value:?}")], &[]);
+    let at = |value: f64| bench.run("cea", &[&format!("material.{name}={value:?}")]);
     let ((_, low), (_, high)) = (needed!(at(value - step)), needed!(at(value + step)));
     let (low, high) = (spectrum(&low), spectrum(&high));
     // Both waves of a pair have nearly one frequency: the growth rate tells them apart.
@@ -253,12 +253,12 @@ fn sensitivities(bench: &Bench, _: Option<&Bench>) -> Cell {
 /// Energy closes, and both operators tell the same.
 fn transient(bench: &Bench, operator: &str) -> Cell {
     let operator = format!("transient.operator=\"{operator}\"");
-    let (own, folder) = done!(bench.run("transient", &[&operator], &[]));
+    let (own, folder) = done!(bench.run("transient", &[&operator]));
     let residual = own["max_balance_residual"].as_f64().unwrap();
     if residual > 1e-10 {
         return Cell::Wrong(format!("energy balance {residual:e}"));
     }
-    let (_, other) = needed!(bench.run("transient", &[], &[]));
+    let (_, other) = needed!(bench.run("transient", &[]));
     let strain = |folder: &Path| *column(folder, "energy.csv", "strain_j").last().unwrap();
     let (own, other) = (strain(&folder), strain(&other));
     verdict(is_close(own, other, 1e-8), || format!("strain energy {own} and {other}"))
@@ -281,7 +281,7 @@ fn response(bench: &Bench, boundary: &str, terminals: [[f64; 2]; 2], method: &st
         place(terminals[0]),
         place(terminals[1]),
     );
-    bench.run("frf", &[&frf], &[])
+    bench.run("frf", &[&frf])
 }
 
 /// Two places within every body.
@@ -332,9 +332,9 @@ fn frf_sliding(bench: &Bench, twin: Option<&Bench>) -> Cell {
 fn cycle(bench: &Bench, _: Option<&Bench>) -> Cell {
     // The wave of the lowest onset may be none on a mesh as coarse as this one: others are.
     let lowest = "cycle={harmonics=[1],onsets=\"lowest\"}";
-    let answer = match bench.run("cycle", &[lowest], &[]) {
+    let answer = match bench.run("cycle", &[lowest]) {
         Answer::Refused(reason) if reason.starts_with("no limit cycle found") => {
-            bench.run("cycle", &["cycle={harmonics=[1]}"], &[])
+            bench.run("cycle", &["cycle={harmonics=[1]}"])
         }
         answer => answer,
     };
@@ -349,7 +349,7 @@ fn cycle(bench: &Bench, _: Option<&Bench>) -> Cell {
             "cea.mass=\"lumped\"",
             "cea.geometric_stiffness=false",
         ];
-        let (_, folder) = needed!(bench.run("cea", &lumped, &[]));
+        let (_, folder) = needed!(bench.run("cea", &lumped));
         let growth = column(&folder, "eigenvalues.csv", "growth_rate_per_s");
         return verdict(growth.iter().all(|rate| *rate <= 0.0), || text.clone());
     }
@@ -362,11 +362,11 @@ fn cycle(bench: &Bench, _: Option<&Bench>) -> Cell {
 fn basin(bench: &Bench, _: Option<&Bench>) -> Cell {
     let request =
         "basin={harmonics=[1,2],seed_ratio_from=0.5,seed_ratio_to=2.0,tolerance=3.0,periods=50}";
-    let answer = match bench.run("basin", &[request], &[]) {
+    let answer = match bench.run("basin", &[request]) {
         // Of a body without rotating waves two modes compete, or one with steady sliding.
         Answer::Refused(reason) if reason.starts_with("basin.harmonics is not used") => {
             let request = "basin={seed_ratio_from=0.5,seed_ratio_to=2.0,tolerance=3.0,periods=50}";
-            bench.run("basin", &[request], &[])
+            bench.run("basin", &[request])
         }
         answer => answer,
     };
@@ -418,8 +418,8 @@ fn is_boundary(summary: &Value) -> bool {
 /// A point of the sweep is the analysis alone.
 fn sweep(bench: &Bench, _: Option<&Bench>) -> Cell {
     let sweep = "sweep={\"damping.stiffness_coefficient\"=[3e-7,4.5e-7],analyses=[\"cea\"]}";
-    let (_, folder) = done!(bench.run("sweep", &[sweep], &[]));
-    let (alone, _) = needed!(bench.run("cea", &[], &[]));
+    let (_, folder) = done!(bench.run("sweep", &[sweep]));
+    let (alone, _) = needed!(bench.run("cea", &[]));
     let modes = column(&folder, "points.csv", "modes");
     let residual = column(&folder, "points.csv", "largest_residual");
     let own = [alone["modes"].as_f64().unwrap(), alone["largest_residual"].as_f64().unwrap()];
@@ -430,7 +430,7 @@ fn sweep(bench: &Bench, _: Option<&Bench>) -> Cell {
 
 /// Fitted to its own frequencies, the body gives its modulus back.
 fn fit(bench: &Bench, _: Option<&Bench>) -> Cell {
-    let (_, folder) = needed!(bench.run("cea", &[], &[]));
+    let (_, folder) = needed!(bench.run("cea", &[]));
     let modes = spectrum(&folder);
     let lines: Vec<String> = modes.iter().take(3).map(|mode| format!("{:?}\n", mode[0])).collect();
     let lines = bench.write("lines.csv", &format!("frequency_hz\n{}", lines.concat()));
@@ -438,7 +438,7 @@ fn fit(bench: &Bench, _: Option<&Bench>) -> Cell {
         "fit.parameters={\"material.young_modulus\"=[2.3e9,2.7e9]}",
         "material.young_modulus=2.45e9",
     ];
-    let (summary, _) = done!(bench.run("fit", &overrides, &[&lines]));
+    let (summary, _) = done!(bench.run_with("fit", &overrides, &[&lines]));
     let value = summary["parameters"]["material.young_modulus"]["value"].as_f64().unwrap();
     verdict(is_close(value, 2.5e9, 1e-4), || format!("modulus {value}"))
 }
@@ -449,8 +449,8 @@ fn uncertainty(bench: &Bench, _: Option<&Bench>) -> Cell {
         "uncertainty={samples=4,seed=1}",
         "uncertainty.distributions={\"damping.stiffness_coefficient\"={uniform=[4.4999999e-7,4.5000001e-7]}}",
     ];
-    let (summary, _) = done!(bench.run("uncertainty", &overrides, &[]));
-    let (alone, _) = needed!(bench.run("cea", &[], &[]));
+    let (summary, _) = done!(bench.run("uncertainty", &overrides));
+    let (alone, _) = needed!(bench.run("cea", &[]));
     let (own, single) = (summary["critical_friction"]["median"].as_f64(), lowest_onset(&alone));
     let none = summary["critical_friction"]["without_onset"].as_f64();
     match single {
@@ -465,8 +465,8 @@ fn uncertainty(bench: &Bench, _: Option<&Bench>) -> Cell {
 fn convergence(bench: &Bench, _: Option<&Bench>) -> Cell {
     let factors = "convergence={factors=[1,2,4],analyses=[\"cea\"]}";
     let overrides = [factors, "cea.modes=2", "cea.friction_coefficients=[0.3]"];
-    let (_, folder) = done!(bench.run("convergence", &overrides, &[]));
-    let (_, alone) = needed!(bench.run("cea", &overrides[1..], &[]));
+    let (_, folder) = done!(bench.run("convergence", &overrides));
+    let (_, alone) = needed!(bench.run("cea", &overrides[1..]));
     let values = column(&folder, "convergence.csv", "value");
     let lowest = spectrum(&alone)[0][0];
     let found = values.iter().any(|value| is_close(*value, lowest, 1e-9));
@@ -475,7 +475,7 @@ fn convergence(bench: &Bench, _: Option<&Bench>) -> Cell {
 
 /// What is drawn again is there.
 fn plot(bench: &Bench, _: Option<&Bench>) -> Cell {
-    let (_, folder) = needed!(bench.run("cea", &["cea.friction_coefficients=[0.0,0.3]"], &[]));
+    let (_, folder) = needed!(bench.run("cea", &["cea.friction_coefficients=[0.0,0.3]"]));
     match bench.redraw(&folder) {
         Ok(()) => {
             verdict(folder.join("locus.svg").exists() || folder.join("figures").exists(), || {
@@ -488,7 +488,7 @@ fn plot(bench: &Bench, _: Option<&Bench>) -> Cell {
 
 /// A run differs from itself by nothing.
 fn compare(bench: &Bench, _: Option<&Bench>) -> Cell {
-    let runs = [bench.run("cea", &[], &[]), bench.run("cea", &[], &[])];
+    let runs = [bench.run("cea", &[]), bench.run_with("cea", &[], &[])];
     let [Answer::Done(_, a), Answer::Done(_, b)] = runs else {
         return Cell::Wrong("cea is refused".to_owned());
     };

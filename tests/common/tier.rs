@@ -1,0 +1,9 @@
+//! Two tiers: every claim at its smallest size, and at full size with `FRICTIONSIM_LONG=1`, as `.ci/long` runs it.
+
+/// A size of a test, a mesh, a count of seeds or a list of cases: `small`, or `full` in the long tier.
+pub fn sized<T>(small: T, full: T) -> T {
+    match std::env::var_os("FRICTIONSIM_LONG") {
+        Some(_) => full,
+        None => small,
+    }
+}
