@@ -3,7 +3,6 @@
 
 use crate::cycle_solids::Kept;
 use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
-use crate::tier::sized;
 use frictionsim::cea::Unwatched;
 use frictionsim::contact::{ContactStatus, SlidingContact};
 use frictionsim::cycle::{BranchEnd, CycleSolver, LimitCycle, OperatingPoint, Parameter};
@@ -65,7 +64,7 @@ fn two_waves_are_born_where_the_cycle_loses_its_stability() {
     let rpm = TAU / 60.0;
     let above = cycle(&solver, 700.0);
     let speed = Parameter::RotationSpeed;
-    let values = sized([500.0, 650.0, 710.0], [500.0, 650.0, 800.0]).map(|speed| speed * rpm);
+    let values = [500.0 * rpm, 650.0 * rpm, 800.0 * rpm];
     let run = |kept: &Kept| {
         let found = stepping.two_waves(&above, 2, Some(41), kept).unwrap();
         found.waves.follow(&found.motion, speed, &values, kept)
