@@ -15,14 +15,14 @@ pub struct Browser {
     session: String,
 }
 
-/// Whether there is a driver; says so where there is none, and refuses that where a browser is asked for.
+/// Whether there is a driver; refuses that there is none where a browser is asked for.
 pub fn is_there() -> bool {
     let found = Command::new("chromedriver").arg("--version").output().is_ok();
     let is_required = std::env::var_os("FRICTIONSIM_BROWSER").is_some();
     assert!(found || !is_required, "FRICTIONSIM_BROWSER is set, but there is no chromedriver");
     if !found {
         eprintln!(
-            "skipped: no chromedriver on this machine (Debian: apt-get install chromium chromium-driver)"
+            "no chromedriver on this machine (Debian: apt-get install chromium chromium-driver)"
         );
     }
     found

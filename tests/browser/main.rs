@@ -1,20 +1,46 @@
 //! Reports in a real browser: every control is used, and what it shows is held to the tables of the run.
 //!
-//! Skipped, with a word, only where there is no browser; `.ci/run` installs one.
+//! Where there is no browser all are reported as ignored, with the reason; `.ci/run` installs one.
 
 mod driver;
 mod page;
 
 use driver::Browser;
+use libtest_mimic::{Arguments, Trial};
 use page::*;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-#[test]
+/// Tests by their names. Whether there is a browser is known only when they run, so `#[ignore]` cannot say it.
+macro_rules! tests {
+    ($($name:ident),* $(,)?) => {
+        [$((stringify!($name), $name as fn())),*]
+    };
+}
+
+fn main() {
+    let is_there = driver::is_there();
+    let tests = tests![
+        eigenvalues_move_with_friction_and_modes_with_time,
+        solid_bodies_are_turned_and_their_modes_move,
+        tables_are_sorted_and_filtered,
+        a_run_is_zoomed_read_heard_and_taken_along,
+        a_click_on_a_point_of_a_study_shows_the_numbers_of_its_run,
+        without_scripts_numbers_and_pictures_are_there,
+        two_runs_are_compared_number_by_number_and_curve_over_curve,
+    ];
+    let trials = tests.map(|(name, test)| {
+        let trial = Trial::test(name, move || {
+            test();
+            Ok(())
+        });
+        let reason = if is_there { "" } else { "left out: no chromedriver" };
+        trial.with_kind(reason).with_ignored_flag(!is_there)
+    });
+    libtest_mimic::run(&Arguments::from_args(), trials.into()).exit()
+}
+
 fn eigenvalues_move_with_friction_and_modes_with_time() {
-    if !driver::is_there() {
-        return;
-    }
     let (folder, report) = eigenvalue_report();
     let browser = Browser::open(WIDE);
     browser.visit_ready(&report);
@@ -64,11 +90,7 @@ fn eigenvalues_move_with_friction_and_modes_with_time() {
     check_silence(&browser);
 }
 
-#[test]
 fn solid_bodies_are_turned_and_their_modes_move() {
-    if !driver::is_there() {
-        return;
-    }
     let browser = Browser::open(WIDE);
     let canvas = |figure: &str, what: &str| {
         let figure = figure.replace('.', "\\\\.");
@@ -133,11 +155,7 @@ fn solid_bodies_are_turned_and_their_modes_move() {
     }
 }
 
-#[test]
 fn tables_are_sorted_and_filtered() {
-    if !driver::is_there() {
-        return;
-    }
     let (_folder, report) = eigenvalue_report();
     let browser = Browser::open(PHONE);
     browser.visit_ready(&report);
@@ -179,11 +197,7 @@ fn tables_are_sorted_and_filtered() {
     check_silence(&browser);
 }
 
-#[test]
 fn a_run_is_zoomed_read_heard_and_taken_along() {
-    if !driver::is_there() {
-        return;
-    }
     let (folder, report) = transient_report("transient.duration=0.012");
     let browser = Browser::open(WIDE);
     browser.visit_ready(&report);
@@ -277,11 +291,7 @@ fn a_run_is_zoomed_read_heard_and_taken_along() {
     check_silence(&browser);
 }
 
-#[test]
 fn a_click_on_a_point_of_a_study_shows_the_numbers_of_its_run() {
-    if !driver::is_there() {
-        return;
-    }
     let set = [
         "mesh.circumferential_elements=36",
         "mesh.radial_elements=4",
@@ -313,11 +323,7 @@ fn a_click_on_a_point_of_a_study_shows_the_numbers_of_its_run() {
     check_silence(&browser);
 }
 
-#[test]
 fn without_scripts_numbers_and_pictures_are_there() {
-    if !driver::is_there() {
-        return;
-    }
     let (_folder, report) = eigenvalue_report();
     let html = std::fs::read_to_string(&report).unwrap();
     // The same page, its scripts as text.
@@ -334,11 +340,7 @@ fn without_scripts_numbers_and_pictures_are_there() {
     keep_screenshot(&browser, "without-scripts-1280.png");
 }
 
-#[test]
 fn two_runs_are_compared_number_by_number_and_curve_over_curve() {
-    if !driver::is_there() {
-        return;
-    }
     let (folder, _) = eigenvalue_report();
     let (other, _) = eigenvalue_report();
     let set = ["--set", "material.poisson_ratio=0.36", "--force", "--out", "out"];

@@ -1,13 +1,9 @@
-//! `frictionsim cycle` as a user runs it: the shipped case at full size, and what it says where there is no cycle.
+//! `frictionsim cycle` as a user runs it: the shipped case, at full size in the long tier, and what it says where there is no cycle.
 
-use crate::long::is_long;
+use crate::tier::sized;
 use serde_json::Value;
 use std::path::Path;
 use std::process::{Command, Output};
-
-/// A mesh with the same harmonics unstable.
-const COARSE: [&str; 4] =
-    ["--set", "mesh.circumferential_elements=72", "--set", "mesh.radial_elements=14"];
 
 fn run(arguments: &[&str], out: &Path) -> Output {
     let case = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/limit-cycle.toml");
@@ -18,6 +14,10 @@ fn run(arguments: &[&str], out: &Path) -> Output {
         .output()
         .unwrap()
 }
+
+/// Settings of the shipped case on half as many elements along each side.
+const COARSE: [&str; 4] =
+    ["--set", "mesh.circumferential_elements=90", "--set", "mesh.radial_elements=18"];
 
 fn error(arguments: &[&str]) -> (i32, String) {
     let folder = tempfile::tempdir().unwrap();
@@ -30,7 +30,9 @@ fn error(arguments: &[&str]) -> (i32, String) {
 fn shipped_case_follows_both_waves_over_the_speed_and_says_where_the_single_one_loses_stability() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("cycle");
-    let output = run(&["--set", "cycle.frames=3"], &out);
+    let (mesh, count) = sized((&COARSE[..], 31), (&[], 61));
+    let count_set = format!("cycle.continuation.count={count}");
+    let output = run(&[mesh, &["--set", "cycle.frames=3", "--set", &count_set]].concat(), &out);
     assert!(output.status.success(), "{output:?}");
     let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
     let [one, two] = summary["cycles"].as_array().unwrap().as_slice() else {
@@ -47,16 +49,18 @@ fn shipped_case_follows_both_waves_over_the_speed_and_says_where_the_single_one_
             assert!((a - b).abs() < 0.02, "{status}: {a} {b}");
         }
         let branch = &wave["branch"];
-        assert!(branch["cycles"].as_u64().unwrap() >= 61);
+        assert!(branch["cycles"].as_u64().unwrap() >= count);
         let ends = serde_json::json!(["the range ends", "the range ends"]);
         assert_eq!(branch["ends"], ends);
     }
     let changes = one["branch"]["stability_changes"].as_array().unwrap();
     assert_eq!(changes.len(), 1);
-    // Transients that start on the cycle stay at 1229 rpm and have left it at 1400.
+    // Transients on the full mesh that start on the cycle stay at 1229 rpm and have left it at 1400.
     let at = changes[0]["at"].as_f64().unwrap();
-    assert!((1229.0..1400.0).contains(&at), "{at}");
-    assert_eq!(changes[0]["harmonic"], 2);
+    if let Some(range) = sized(None, Some(1229.0..1400.0)) {
+        assert!(range.contains(&at), "{at}");
+        assert_eq!(changes[0]["harmonic"], 2);
+    }
     // The double wave loses stability where its last point ceases to stick: a transient of 4000 rpm leaves it.
     let changes = two["branch"]["stability_changes"].as_array().unwrap();
     assert_eq!(changes.len(), 1);
@@ -99,8 +103,8 @@ fn below_every_onset_steady_sliding_is_said_to_be_stable_once_and_that_is_no_fai
     let output = Command::new(env!("CARGO_BIN_EXE_frictionsim"))
         .args(["cycle", case, "--no-figures", "--out"])
         .arg(folder.path().join("cycle"))
+        .args(sized(&[&COARSE[..], &["--set", "cycle.harmonics=[1,3]"]].concat()[..], &[]))
         .args(["--set", "contact.friction_coefficient=0.1"])
-        .args(if is_long() { &[][..] } else { &COARSE })
         .output()
         .unwrap();
     assert_eq!(output.status.code(), Some(0), "{output:?}");
@@ -143,15 +147,17 @@ fn a_study_of_limit_cycles_has_the_same_table_for_any_threads() {
     let case = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/limit-cycle.toml");
     let table = |threads: &str| {
         let out = folder.path().join(threads);
+        let [stability, frictions] = sized(["none", "[0.3,0.4]"], ["branch", "[0.2,0.3,0.4]"]);
         let set = [
-            "mesh.circumferential_elements=90",
-            "mesh.radial_elements=18",
-            "cycle.continuation.count=3",
+            "cycle.continuation.count=3".to_owned(),
+            format!("cycle.stability={stability}"),
+            format!("sweep.\"contact.friction_coefficient\"={frictions}"),
         ];
         let run = Command::new(env!("CARGO_BIN_EXE_frictionsim"))
             .args(["sweep", case, "--quiet", "--no-figures", "--threads", threads, "--out"])
             .arg(&out)
-            .args(set.iter().flat_map(|set| ["--set", set]))
+            .args(COARSE)
+            .args(set.iter().flat_map(|set| ["--set", set.as_str()]))
             .output()
             .unwrap();
         assert!(run.status.success(), "{run:?}");
@@ -169,7 +175,7 @@ fn a_study_of_limit_cycles_has_the_same_table_for_any_threads() {
         assert!(header.contains(column), "{column}");
     }
     assert!(!header.contains("wall_s") && !header.contains("curves"));
-    assert_eq!(text.lines().count(), 4);
+    assert_eq!(text.lines().count(), sized(3, 4));
 }
 
 #[cfg(unix)]
@@ -182,6 +188,7 @@ fn an_interrupted_search_says_what_is_kept_and_can_be_started_again() {
     let child = Command::new(env!("CARGO_BIN_EXE_frictionsim"))
         .args(["cycle", case, "--no-figures", "--out"])
         .arg(&out)
+        .args(COARSE)
         .args(["--set", "cycle.continuation.count=100000"])
         .stderr(std::process::Stdio::piped())
         .spawn()
@@ -199,10 +206,8 @@ fn an_interrupted_search_says_what_is_kept_and_can_be_started_again() {
     let text = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(130), "{text}");
     assert!(text.contains("interrupted; nothing of this run is kept"), "{text}");
-    let again = run(
-        &["--force", "--set", "cycle.continuation.count=2", "--set", "cycle.stability=none"],
-        &out,
-    );
+    let short = ["--force", "--set", "cycle.continuation.count=2", "--set", "cycle.stability=none"];
+    let again = run(&[&COARSE[..], &short].concat(), &out);
     assert!(again.status.success(), "{again:?}");
 }
 

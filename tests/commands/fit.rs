@@ -5,6 +5,7 @@
 use crate::long::is_long;
 use crate::msh;
 use crate::table_1;
+use crate::tier::sized;
 use assert_cmd::Command;
 use frictionsim::case::Case;
 use frictionsim::linalg::GaussianNoise;
@@ -124,9 +125,8 @@ fn intervals_of_three_parameters_hold_the_truth_in_95_of_100_noisy_spectra() {
         .concat();
     let case = case("fit-table-1.toml", &set);
     // Real parts are known ten times worse than frequencies: the weight between them is found.
-    // Of 100 spectra 95 on the mean; of 20 fewer than 16 in one of four hundred trials.
-    let (spectra, expected) = if is_long() { (100, 90..=99) } else { (20, 16..=20) };
-    let hits = coverage(&case, 15_000.0, [1e-4, 1e-3], spectra);
+    let (seeds, expected) = sized((10, 8..=10), (100, 90..=99));
+    let hits = coverage(&case, 15_000.0, [1e-4, 1e-3], seeds);
     assert!(hits.iter().all(|hits| expected.contains(hits)), "{hits:?}");
 }
 
@@ -155,9 +155,9 @@ fn intervals_hold_on_an_imported_mesh() {
         \"material.poisson_ratio\" = [0.2, 0.45]\n";
     let name = folder.path().join("case.toml");
     let case = Case::parse(name.to_str().unwrap(), text.as_bytes(), &[]).unwrap();
-    // 19 of 20 on the mean; fewer than 16 in one of four hundred trials, and fewer than 3 of 5 in one of a thousand.
-    let (spectra, least) = if is_long() { (20, 16) } else { (5, 3) };
-    let hits = coverage(&case, 12_000.0, [1e-3, 1e-3], spectra);
+    // 19 of 20 on the mean; fewer than 16 in one of four hundred trials, none of two in four hundred.
+    let (seeds, least) = sized((2, 1), (20, 16));
+    let hits = coverage(&case, 12_000.0, [1e-3, 1e-3], seeds);
     assert!(hits.iter().all(|hits| *hits >= least), "{hits:?}");
 }
 

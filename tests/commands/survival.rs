@@ -3,6 +3,7 @@
 #![cfg(unix)]
 
 use crate::coarse_disc::coarse_disc;
+use crate::tier::sized;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -100,11 +101,8 @@ fn killed_sweeps_resume_to_identical_results() {
     assert_eq!(expected_points.len(), 30);
     assert!(!expected.contains("failed"));
 
-    // FRICTIONSIM_KILLS asks for more than a quick check does.
-    let wanted = std::env::var("FRICTIONSIM_KILLS").ok();
-    let wanted: usize = wanted.and_then(|text| text.parse().ok()).unwrap_or(4);
     let (mut seed, mut kills, mut round) = (2, 0, 0);
-    while kills < wanted {
+    while kills < sized(4, 40) {
         let name = format!("killed-{round}");
         let folder = study.folder(&name);
         let mut finished = 0;

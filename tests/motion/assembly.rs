@@ -1,6 +1,7 @@
 //! Transients of solid bodies that are tied together and slide on each other.
 
 use crate::bricks::{Block, file_of};
+use crate::tier::sized;
 use frictionsim::cea::sparse::sweep;
 use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest};
 use frictionsim::contact::{
@@ -284,7 +285,7 @@ fn a_vibration_of_an_assembly_grows_as_its_eigenvalue_says() {
     // Lumped masses are the same before and after the tie is eliminated where its meshes match.
     let mesh = mesh([5, 4, 1]);
     let decay = FrictionDecay { static_ratio: 4.0, decay_speed: 1.0 };
-    for springs in SPRINGS {
+    for springs in sized(&SPRINGS[..1], &SPRINGS).iter().copied() {
         let assembly = assembly(&mesh, &STEEL, springs, Some(decay), 10.0);
         let settings = settings(InitialState::SteadySliding, 4e-3, 1e-6);
         grows_as_one_of(&modes(&assembly), &run(&assembly, &settings).0);

@@ -5,6 +5,7 @@
 //! the element matrices. The others are theory.
 
 use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use crate::tier::sized;
 use frictionsim::case::Case;
 use frictionsim::contact::ContactStatus;
 use frictionsim::cycle::{
@@ -221,7 +222,9 @@ fn reference_cycles_of_the_fine_mesh_have_the_transients_frequencies_and_statuse
         (1, 70.0, 10641.7, 0.411, 0.0, 15_030.0, 0.431),
     ];
     let specification = annulus(ElementKind::Quad4, 180, 35);
-    for (harmonic, rpm, frequency, stick, open, external, share) in transients {
+    for &(harmonic, rpm, frequency, stick, open, external, share) in
+        sized(&transients[..2], &transients)
+    {
         let solver =
             CycleSolver::new(&specification, &POLYCARBONATE, &DAMPING, harmonic, None).unwrap();
         let cycle = solver.find(&operating(rpm)).unwrap();
@@ -297,7 +300,7 @@ fn number_of_phases_does_not_decide_what_is_found() {
             solver.find(&operating(rpm)).unwrap()
         };
         let reference = with(None);
-        for phases in [81, 101, 111, 121, 135] {
+        for phases in sized(&[81, 121][..], &[81, 101, 111, 121, 135]).iter().copied() {
             let cycle = with(Some(phases));
             // A few times what two ends of an arc can move within one phase of 81.
             for i in 0..3 {

@@ -4,6 +4,8 @@
 mod bricks;
 #[path = "../common/disc.rs"]
 mod disc;
+#[path = "../common/tier.rs"]
+mod tier;
 
 mod assembly;
 mod cycle;

@@ -6,12 +6,12 @@ mod block;
 mod bricks;
 #[path = "../common/disc.rs"]
 mod disc;
-#[path = "../common/long.rs"]
-mod long;
 #[path = "../common/msh.rs"]
 mod msh;
 #[path = "../common/table_1.rs"]
 mod table_1;
+#[path = "../common/tier.rs"]
+mod tier;
 #[path = "../common/triangles.rs"]
 mod triangles;
 

@@ -4,7 +4,7 @@
 //! that much a frequency may differ.
 
 use crate::bricks::{Block, file_of};
-use crate::long::is_long;
+use crate::tier::sized;
 use frictionsim::case::Case;
 use frictionsim::results::matrices::{ExportedSystem, MatrixRole};
 use frictionsim::study::eigenvalues::modes_and_onsets;
@@ -108,7 +108,7 @@ fn dense(system: &ExportedSystem) -> Vec<f64> {
 
 #[test]
 fn bodies_held_in_any_way_have_the_modes_of_a_dense_decomposition() {
-    let count = if is_long() { 200 } else { 12 };
+    let count = sized(12, 200);
     let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[7; 32]);
     let config = Config { cases: count, failure_persistence: None, ..Config::default() };
     let mut runner = TestRunner::new_with_rng(config, rng);

@@ -1,7 +1,7 @@
 //! Readers hold against changed inputs: no panic, no input that costs more than seconds, nothing damaged is used.
 //!
 //! Each target changes real inputs, made or read when the test starts, by a seeded generator for a number of seconds:
-//! `FRICTIONSIM_FUZZ_SECONDS`, 5 unless said otherwise; `FRICTIONSIM_FUZZ_SEED` chooses where the seeds begin. A failure names
+//! `FRICTIONSIM_FUZZ_SECONDS`, 1 unless said otherwise, 10 in the long tier; `FRICTIONSIM_FUZZ_SEED` chooses where the seeds begin. A failure names
 //! its seed and leaves the input in `target/tmp`.
 
 mod meshes;
@@ -9,6 +9,7 @@ mod mutation;
 mod readers;
 mod results;
 
+use crate::tier::sized;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -27,7 +28,7 @@ fn hold<T: AsRef<[u8]>>(
     make: impl Fn(&mut mutation::Random) -> T,
     try_one: impl Fn(&[u8]),
 ) {
-    let seconds = Duration::from_secs(variable("FRICTIONSIM_FUZZ_SECONDS", 5));
+    let seconds = Duration::from_secs(variable("FRICTIONSIM_FUZZ_SECONDS", sized(1, 10)));
     let (begin, first) = (Instant::now(), variable("FRICTIONSIM_FUZZ_SEED", 0));
     let mut seed = first;
     while begin.elapsed() < seconds {

@@ -3,6 +3,7 @@
 
 use super::formats::{matlab, wave};
 use super::{read_response, read_signal};
+use crate::tier::sized;
 use frictionsim::signal::reader::{
     Channel, NamedResponse, ResponseOptions, SignalFile, SignalOptions, write_response,
     write_signal,
@@ -129,7 +130,7 @@ fn mutate(bytes: &mut Vec<u8>, draw: &mut dyn FnMut(usize) -> usize) {
 fn no_mutation_of_a_file_makes_a_reader_or_an_analysis_panic() {
     // Seeded: the same mutations on every machine, as many as the time allows.
     let seconds = std::env::var("FRICTIONSIM_FUZZ_SECONDS").ok();
-    let seconds = seconds.and_then(|s| s.parse().ok()).unwrap_or(5);
+    let seconds = seconds.and_then(|s| s.parse().ok()).unwrap_or(sized(1, 10));
     let end = Instant::now() + Duration::from_secs(seconds);
     let corpus = corpus();
     for file in &corpus {
