@@ -70,7 +70,7 @@
 //!
 //! # Floors
 //!
-//! [`chart`], [`formats`] and [`signal`] are crates of their own in `crates/`, which name nothing of this one. Each module here
+//! [`chart`], [`formats`], [`linalg`] and [`signal`] are crates of their own in `crates/`, which name nothing of this one. Each module here
 //! names only those below it: [`linalg`], [`mesh`]; [`fem`]; [`contact`]; [`prestress`]; [`cea`], [`transient`], [`frf`], [`cycle`];
 //! [`case`], [`results`]; [`study`]; [`app`].
 
@@ -81,7 +81,11 @@ pub mod cycle;
 pub mod fem;
 pub mod frf;
 pub mod guide;
-pub mod linalg;
+/// Sparse, banded and dense linear algebra: a crate of its own, with the matrices of files.
+pub mod linalg {
+    pub use frictionsim_formats::{MarketMatrix, MatrixMarketError};
+    pub use frictionsim_linalg::*;
+}
 pub mod mesh;
 pub mod prestress;
 pub mod results;

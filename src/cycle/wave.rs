@@ -22,7 +22,7 @@ use super::parameter::Parameter;
 use super::state::WaveState;
 use crate::fem::RayleighDamping;
 use crate::linalg::c64;
-use rustfft::{Fft, FftPlanner};
+use crate::signal::{Fft, forward_transform, inverse_transform};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -58,15 +58,14 @@ impl<'a> Wave<'a> {
 
     /// Two waves on a grid of both phases, of about `ratio = omega_2 / omega_1`; `body` holds the harmonics [`orders`] of it.
     pub fn on(body: &'a WaveBody, sides: [usize; 2], landing_share: f64, ratio: f64) -> Self {
-        let mut planner = FftPlanner::new();
         Self {
             body,
             sides,
             landing_share,
             ratio,
             orders: orders(sides),
-            forward: sides.map(|side| planner.plan_fft_forward(side)),
-            inverse: sides.map(|side| planner.plan_fft_inverse(side)),
+            forward: sides.map(forward_transform),
+            inverse: sides.map(inverse_transform),
         }
     }
 

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 /// Modules by floor, lowest first.
 const FLOORS: [&[&str]; 10] = [
-    &["linalg", "mesh"],
+    &["mesh"],
     &["fem"],
     &["contact"],
     &["prestress"],
@@ -40,7 +40,8 @@ const BUDGETS: &[(&str, usize)] = &[
     ("crates/bounds", 196),
     ("crates/chart", 4_845),
     ("crates/formats", 6_805),
-    ("crates/signal", 6_534),
+    ("crates/linalg", 4_369),
+    ("crates/signal", 6_550),
     ("src/app", 5_944),
     ("src/case", 12_240),
     ("src/cea", 11_578),
@@ -50,7 +51,6 @@ const BUDGETS: &[(&str, usize)] = &[
     ("src/frf", 1_968),
     ("src/guide", 66),
     ("src/lib.rs", 98),
-    ("src/linalg", 4_369),
     ("src/main.rs", 5),
     ("src/mesh", 4_484),
     ("src/prestress", 5_541),

@@ -19,6 +19,7 @@ mod rotating;
 mod spectrogram;
 mod spectrum;
 mod statistics;
+mod transform;
 mod window;
 
 pub use error::SignalError;
@@ -37,4 +38,5 @@ pub use rotating::{RotatingLine, rotating_lines};
 pub use spectrogram::{Spectrogram, SpectrogramOptions, spectrogram};
 pub use spectrum::{AmplitudeSpectrum, amplitude_spectrum, averaged_spectrum};
 pub use statistics::student_95;
+pub use transform::{Fft, forward_transform, inverse_transform};
 pub use window::Window;

@@ -1,8 +1,8 @@
 //! Lines of a complex series, each with the sense in which it turns.
 
 use super::Window;
+use crate::forward_transform;
 use faer::c64;
-use rustfft::FftPlanner;
 
 const WINDOW: Window = Window::BlackmanHarris;
 
@@ -33,7 +33,7 @@ pub fn rotating_lines(series: &[c64], sampling_rate: f64, weakest: f64) -> Vec<R
     let mean = series.iter().sum::<c64>() / count as f64;
     let weighted = series.iter().zip(&taper);
     let mut spectrum: Vec<c64> = weighted.map(|(z, w)| (z - mean) * (w / sum)).collect();
-    FftPlanner::new().plan_fft_forward(count).process(&mut spectrum);
+    forward_transform(count).process(&mut spectrum);
     let size: Vec<f64> = spectrum.iter().map(|z| z.norm()).collect();
 
     // A peak is the largest value of a whole lobe to either side; the spectrum closes on itself.

@@ -1,6 +1,6 @@
 //! Harmonics in time of the motion of contact nodes.
 
-use rustfft::FftPlanner;
+use crate::signal::forward_transform;
 use rustfft::num_complex::Complex64;
 
 /// One harmonic of the motion of the contact nodes.
@@ -17,7 +17,7 @@ pub fn harmonics(samples: &[Vec<[f64; 2]>]) -> Vec<MotionHarmonic> {
     let (steps, nodes) = (samples.len(), samples.first().map_or(0, Vec::len));
     let highest = steps.saturating_sub(1) / 2;
     let mut squares = vec![[0.0; 2]; highest + 1];
-    let transform = FftPlanner::new().plan_fft_forward(steps);
+    let transform = forward_transform(steps);
     for node in 0..nodes {
         for component in 0..2 {
             let values = samples.iter().map(|sample| sample[node][component]);

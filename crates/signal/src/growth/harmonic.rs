@@ -2,8 +2,8 @@
 
 use super::demodulation::{Demodulated, demodulate};
 use super::{ExponentialStage, LARGEST_DEVIATION, NoGrowth, round_off_floor};
+use crate::forward_transform;
 use faer::c64;
-use rustfft::FftPlanner;
 use std::f64::consts::TAU;
 
 /// Fewest samples that a frequency is read from.
@@ -102,7 +102,7 @@ fn strongest_line(series: &[c64]) -> (f64, f64) {
     let count = series.len();
     let windowed = series.iter().enumerate();
     let mut spectrum: Vec<c64> = windowed.map(|(k, v)| v * hann(k, count)).collect();
-    FftPlanner::new().plan_fft_forward(count).process(&mut spectrum);
+    forward_transform(count).process(&mut spectrum);
     let lines = LOWEST_LINE..count + 1 - LOWEST_LINE;
     let best = lines.max_by(|&a, &b| spectrum[a].norm_sqr().total_cmp(&spectrum[b].norm_sqr()));
     let best = best.unwrap_or(0);

@@ -1,4 +1,6 @@
-//! Sparse factorizations and Krylov-Schur iteration over faer.
+//! Sparse factorizations and eigenvalue iterations over faer.
+//!
+//! The only crate that calls faer: its algorithms are compiled here once, for every crate above.
 
 pub mod banded;
 pub mod dense;
@@ -27,7 +29,6 @@ pub use faer::{Mat, MatMut, MatRef, Scale, c64};
 pub use dense_lu::{ComplexDenseLu, DenseLu};
 pub use distribution::Distribution;
 pub use error::LinalgError;
-pub use frictionsim_formats::{MarketMatrix, MatrixMarketError};
 pub use gaussian_noise::GaussianNoise;
 pub use gmres::gmres;
 pub use krylov_schur::{BlockOperator, KrylovSchurSettings, RealPairs, Wanted, krylov_schur};

@@ -128,7 +128,7 @@ fn inverse_of_upper(kept: &[usize], upper: &Mat<f64>) -> Mat<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linalg::dense::random_columns;
+    use crate::dense::random_columns;
 
     fn deviation_from_orthonormal(q: &Mat<f64>) -> f64 {
         let gram = transpose_product(q.as_ref(), q.as_ref());

@@ -169,7 +169,7 @@ impl SparseLdl {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linalg::MatrixPolynomial;
+    use crate::MatrixPolynomial;
 
     /// Exact: springs to the ground alone, one of which pushes; nothing is coupled.
     #[test]

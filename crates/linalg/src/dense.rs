@@ -353,7 +353,7 @@ mod tests {
         let none = Mat::zeros(50, 0);
         let basis = orthonormalize(none.as_ref(), random_columns(50, 20, 1), 1e-10).columns;
         let mut w = product(basis.as_ref(), random_columns(20, 6, 2).as_ref());
-        w += crate::linalg::Scale(1e-8) * random_columns(50, 6, 3);
+        w += crate::Scale(1e-8) * random_columns(50, 6, 3);
         let new = orthonormal_complement(basis.as_ref(), w, 1e-9);
         assert_eq!(new.ncols(), 6);
         let gram = transpose_product(new.as_ref(), new.as_ref());

@@ -328,8 +328,8 @@ fn length(vector: &[c64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linalg::DenseLu;
-    use crate::linalg::dense::transpose_product;
+    use crate::DenseLu;
+    use crate::dense::transpose_product;
 
     #[test]
     fn eigenvalues_of_a_complex_triangle_are_its_diagonal() {

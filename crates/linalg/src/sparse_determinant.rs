@@ -228,7 +228,7 @@ fn eliminate(matrix: &mut Mat<c64>, width: usize) -> c64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linalg::dense::random_columns;
+    use crate::dense::random_columns;
     use std::f64::consts::TAU;
 
     /// Exact: the determinant of a matrix without symmetry, in structure or in values, is that of dense elimination.

@@ -1,7 +1,7 @@
 //! Factorizations of symmetric and Hermitian banded matrices.
 
 use super::BandedMatrix;
-use crate::linalg::interruption;
+use crate::interruption;
 use faer::c64;
 
 /// `L D L^T` factorization without pivoting of a symmetric banded matrix `A - shift B`.

@@ -299,7 +299,7 @@ impl<'a> TwoLevelArnoldi<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linalg::dense::random_columns;
+    use crate::dense::random_columns;
 
     struct Dense([Mat<f64>; 2]);
 

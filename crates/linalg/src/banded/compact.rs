@@ -1,7 +1,7 @@
 //! The nonzero entries of a banded matrix alone.
 
 use super::BandedMatrix;
-use crate::linalg::dense::{column, column_mut};
+use crate::dense::{column, column_mut};
 use faer::{Mat, c64};
 
 /// A banded matrix by its nonzero entries, for products where most of the band is empty.

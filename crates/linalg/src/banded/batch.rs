@@ -1,6 +1,6 @@
 //! Several complex banded systems of one shape, solved side by side.
 
-use crate::linalg::interruption;
+use crate::interruption;
 use faer::c64;
 
 /// Systems solved side by side.

@@ -1,6 +1,6 @@
 //! LU factorization of complex banded matrices.
 
-use crate::linalg::interruption;
+use crate::interruption;
 use faer::c64;
 
 /// LU factorization with partial pivoting of a complex banded matrix.

@@ -176,8 +176,8 @@ impl SparsityPattern {
 
 #[cfg(test)]
 mod tests {
-    use crate::linalg::MatrixPolynomial;
-    use crate::linalg::dense::{product, random_columns};
+    use crate::MatrixPolynomial;
+    use crate::dense::{product, random_columns};
     use faer::Mat;
 
     #[test]

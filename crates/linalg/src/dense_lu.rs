@@ -92,7 +92,7 @@ dense_lu!(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linalg::dense::random_columns;
+    use crate::dense::random_columns;
 
     #[test]
     fn dense_factors_solve_with_the_matrix_and_its_transpose() {

@@ -1,7 +1,7 @@
 //! `L D L^T` of symmetric banded matrices, row by row over contiguous rows.
 
 use super::BandedMatrix;
-use crate::linalg::interruption;
+use crate::interruption;
 
 /// `L D L^T` factorization without pivoting of `a - shift b`, for bands too wide for [`super::BandedLdl`].
 ///
@@ -78,7 +78,7 @@ impl BandedFactor {
         }
         for k in (0..n).rev() {
             let row = &self.upper[k * width..][..width.min(n - k)];
-            let sum = crate::linalg::dense::dot(&row[1..], &x[k + 1..k + row.len()]);
+            let sum = crate::dense::dot(&row[1..], &x[k + 1..k + row.len()]);
             x[k] -= sum;
         }
     }
