@@ -2,7 +2,7 @@
 //!
 //! A test has the name of its source, and its header has formula, data and what is found; the guide's page
 //! `src/guide/verification.md` shows them side by side. One command runs them all:
-//! `cargo test --release --test numerics verification::`.
+//! `cargo test --profile iterate --test numerics verification::`.
 
 mod brener_2016_layer;
 mod bryan_1890;
