@@ -2,7 +2,6 @@
 //!
 //! Independent checks: the eigenvalues of Table 1 of the paper, and spectra of known parameters with noise.
 
-use crate::long::is_long;
 use crate::msh;
 use crate::table_1;
 use crate::tier::sized;
