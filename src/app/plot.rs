@@ -4,7 +4,7 @@ use super::figure_options::FigureOptions;
 use super::profile::{Profile, Redraw};
 use super::recorded_case::recorded_case;
 use super::session::start_threads;
-use super::{Failure, profile, terminal, transient};
+use super::{Failure, profile, terminal};
 use crate::results::{
     DrawingOptions, FolderError, Manifest, OutputFolder, read_manifest, read_summary,
 };
@@ -22,9 +22,6 @@ pub struct Arguments {
     /// Results folder
     #[arg(value_name = "DIR", value_hint = ValueHint::DirPath)]
     folder: PathBuf,
-    /// Draw the last shear stress of these transients beside that of DIR instead (repeatable)
-    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
-    beside: Vec<PathBuf>,
     #[command(flatten)]
     figures: FigureOptions,
     /// Worker threads [default: all cores]
@@ -59,10 +56,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         );
     }
     let options = arguments.figures.drawing();
-    match arguments.beside.is_empty() {
-        true => redraw(path, &manifest, &options)?,
-        false => draw_beside(path, &arguments.beside, &options)?,
-    }
+    redraw(path, &manifest, &options)?;
     let figures = path.join("figures");
     match arguments.quiet {
         0 | 1 => terminal::print(&format!("figures in {}\n", figures.display())),
@@ -95,25 +89,5 @@ pub fn redraw(path: &Path, manifest: &Manifest, options: &DrawingOptions) -> Res
         Redraw::OfCase(redraw) => redraw(&folder, &recorded_case(path, manifest)?, options)?,
         Redraw::Nothing | Redraw::OfPoints(_) => {}
     }
-    Ok(folder.finish()?)
-}
-
-/// Draws several transients side by side into the folder of the first.
-fn draw_beside(path: &Path, others: &[PathBuf], options: &DrawingOptions) -> Result<(), Failure> {
-    let mut runs = Vec::new();
-    for path in std::iter::once(path).chain(others.iter().map(PathBuf::as_path)) {
-        let manifest = read_manifest(path)?;
-        if manifest.command != "transient" {
-            let reason = format!(
-                "it belongs to frictionsim {}: --beside is for transients",
-                manifest.command
-            );
-            let path = path.to_owned();
-            return Err(FolderError::NotResults { path, reason }.into());
-        }
-        runs.push((path.to_owned(), recorded_case(path, &manifest)?));
-    }
-    let folder = OutputFolder::reopen(path)?;
-    transient::draw_beside(&folder, &runs, options)?;
     Ok(folder.finish()?)
 }

@@ -4,7 +4,7 @@ mod continuation;
 mod figures;
 mod watch;
 
-pub use figures::{draw_beside, linear_stage};
+pub use figures::linear_stage;
 
 use super::profile::{Profile, Redraw};
 use super::{Failure, RunOptions, Session};

@@ -1,6 +1,5 @@
 //! Results of an explicit transient: what is printed and what is written.
 
-mod beside;
 mod checkpoint;
 mod contact;
 mod energy;
@@ -15,7 +14,6 @@ mod solid;
 mod stages;
 mod summary;
 
-pub use beside::{RunEnd, shear_stress_beside};
 pub use checkpoint::{CHECKPOINT, Checkpoint, CheckpointError, read_checkpoint, write_checkpoint};
 pub use figures::draw_run;
 pub use files::write;
