@@ -4,7 +4,7 @@ use super::profile::{Profile, Redraw};
 use super::{Failure, RunOptions, Session, superelement, terminal};
 use crate::case::{Case, Cea};
 use crate::cea::{SweepProgress, SweepStage, Unwatched};
-use crate::results::cea::{CeaReport, KeptSteps, draw, print, write};
+use crate::results::cea::{CeaReport, KeptSteps, draw, print, write, write_universal};
 use crate::results::{DrawingOptions, OutputFolder, read_summary};
 use crate::study::eigenvalues::{self, Progress, SlidingModel, Solution, Solver, refuse_no_modes};
 use clap::Args;
@@ -41,6 +41,7 @@ pub const PROFILE: Profile = Profile {
         ("feed.csv, feed.vtu", "where on the contact surfaces unstable modes are fed"),
         ("prestress.csv, prestress.vtu", "steady sliding, node by node"),
         ("modes.pvd, modes/*.vtu", "mode shapes, real and imaginary part"),
+        ("modes.unv", "mesh and mode shapes as a universal file (output.universal)"),
         ("map.csv", "critical friction over a second parameter (cea.map)"),
     ],
     examples: &[
@@ -123,6 +124,9 @@ fn run_with(
         ..eigenvalues::report(case, cea, &model, &solution, &field, session.wall_seconds())
     };
     let summary = write(&folder, &report)?;
+    if case.output.universal {
+        write_universal(&folder, &report)?;
+    }
     if let Some(drawing) = session.options.output.drawing() {
         draw(&folder, &report, &eigenvalues::dampings(case, &model), &drawing)?;
     }

@@ -6,7 +6,7 @@ use crate::case::{Case, Frf};
 use crate::frf::Terminal;
 use crate::results::{
     DrawingOptions, OutputFolder, RESPONSE_TABLE, ResponseSummary, draw_response_report,
-    read_response_table, read_summary, write_response, write_summary,
+    read_response_table, read_summary, write_response, write_summary, write_universal_response,
 };
 use crate::signal::FrequencyResponse;
 use crate::signal::reader::{ResponseOptions, read_response};
@@ -25,7 +25,10 @@ pub struct Arguments {
 
 /// What the rest of the program asks of this command.
 pub const PROFILE: Profile = Profile {
-    files: &[("frf.csv", "frequency, real and imaginary part")],
+    files: &[
+        ("frf.csv", "frequency, real and imaginary part"),
+        ("frf.unv", "the response as a universal file (output.universal)"),
+    ],
     examples: &[("frictionsim frf hammer-test.toml", "response of the model between two nodes")],
     redraw: Redraw::OfFolder(redraw),
 };
@@ -49,6 +52,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     bar.finish_and_clear();
     let values = computed.observed(frf);
     write_response(&folder, frf.quantity, &frf.frequencies_hz, &values)?;
+    if case.output.universal {
+        write_universal_response(&folder, frf.quantity, &frf.frequencies_hz, &values)?;
+    }
     let summary = ResponseSummary {
         command: "frf".to_owned(),
         title: case.title.clone(),

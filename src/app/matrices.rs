@@ -3,7 +3,7 @@
 use super::profile::{Profile, Redraw};
 use super::{Failure, RunOptions, Session};
 use crate::results::matrices::{MatricesSummary, print, write_matrices};
-use crate::results::write_summary;
+use crate::results::{WholeMesh, write_summary};
 use crate::study::matrices::matrices;
 use clap::Args;
 
@@ -42,6 +42,7 @@ pub const PROFILE: Profile = Profile {
             "motion of the contact points along the sliding; contact_normal: along the normal",
         ),
         ("unknowns.csv", "node, direction and place of each unknown"),
+        ("mesh.unv", "the mesh as a universal file (output.universal)"),
         ("contact.csv", "node, status, length and normal force of each contact point"),
     ],
     examples: &[
@@ -71,6 +72,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let wall_s = session.wall_seconds();
     let summary = MatricesSummary::new(&system, &case.title, wall_s, &session.manifest);
     write_matrices(&folder, &system, &summary)?;
+    if case.output.universal {
+        let mesh = WholeMesh::of(&*case.body.mesh().map_err(Failure::run)?);
+        folder.write_bulk("mesh.unv", |out| mesh.write_universal(out))?;
+    }
     let object = write_summary(&folder, &summary)?;
     session.options.output.finish(folder, &print(&summary), &object)
 }

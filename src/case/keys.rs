@@ -222,6 +222,7 @@ pub const KEYS: &[CaseKey] = &[
     key("output.contact_interval", Number(Positive), "s", Otherwise("every sample of a short run, every second, fourth ... of a longer one"), "2e-6", "the time between two frames of contact.npz"),
     key("output.raw_acceleration", Flag, "", Value("false"), "true", "whether probes have the acceleration of the sampled step beside its mean over the sample interval"),
     key("output.snapshots", Numbers(NotNegative), "s", Otherwise("[]"), "[0.005, 0.03]", "the times of the field snapshots"),
+    key("output.universal", Flag, "", Value("false"), "true", "whether `cea`, `frf` and `matrices` write universal files, too: mesh (datasets 2411, 2412), complex mode shapes (55), responses (58)"),
     key("output.checkpoint_interval", Number(Positive), "s", Value("600.0"), "600", "the wall time between two checkpoints"),
 
     key("sweep.combine", Choice(words::<Combination>), "", Value("\"grid\""), "\"grid\"", "how several swept keys combine"),

@@ -52,6 +52,8 @@ pub struct Output {
     pub snapshots: Vec<f64>,
     /// Wall time between checkpoints, s.
     pub checkpoint_interval: f64,
+    /// Whether meshes, shapes and responses are written as universal files, too.
+    pub universal: bool,
 }
 
 impl Case {
@@ -374,6 +376,7 @@ pub(super) fn output(
         raw_acceleration: section.flag("raw_acceleration"),
         snapshots,
         checkpoint_interval: section.number("checkpoint_interval"),
+        universal: section.flag("universal"),
     };
     section.close();
     output

@@ -32,6 +32,7 @@ mod table;
 pub mod transient;
 pub mod uncertainty;
 mod vtu;
+mod whole_mesh;
 
 use store::{folder, framed, manifest, record, reopening, whole_file};
 
@@ -43,6 +44,7 @@ pub use extent::Extent;
 pub use pvd::{PvdEntry, write_pvd};
 pub use response::{
     RESPONSE_TABLE, ResponseSummary, draw_response_report, read_response_table, write_response,
+    write_universal_response,
 };
 pub use store::{
     FolderError, Manifest, OutputFolder, Record, Replace, is_result, read_manifest, read_record,
@@ -51,3 +53,4 @@ pub use store::{
 pub use summary::{Summary, object, read_summary, write_summary};
 pub use table::{Table, format_number};
 pub use vtu::{EncodedMesh, Field, cartesian_vectors, write_vtu};
+pub use whole_mesh::WholeMesh;

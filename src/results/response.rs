@@ -10,8 +10,10 @@ use super::summary::{Entry, Summary, present};
 use super::table::Table;
 use crate::chart::{Axis, Figure, INK, Line, Marker, Panel, Points, SERIES};
 use crate::linalg::c64;
+use crate::signal::reader::{self, NamedResponse};
 use crate::signal::{FrequencyResponse, ResponseQuantity};
 use serde::{Deserialize, Serialize};
+use std::io;
 
 /// `summary.json` of `frictionsim frf`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -80,6 +82,25 @@ pub fn write_response(
             table.numbers(&[*f, h.re, h.im])?;
         }
         table.finish()
+    })?;
+    Ok(())
+}
+
+/// Writes the response as a universal file, dataset 58.
+///
+/// # Errors
+/// Those of the folder.
+pub fn write_universal_response(
+    folder: &OutputFolder,
+    quantity: ResponseQuantity,
+    frequencies_hz: &[f64],
+    values: &[c64],
+) -> Result<(), FolderError> {
+    folder.write("frf.unv", |out| {
+        let response = FrequencyResponse::new(frequencies_hz.to_vec(), values.to_vec(), quantity);
+        let response = response.map_err(io::Error::other)?;
+        let named = NamedResponse { name: quantity.name().to_owned(), response };
+        out.write_all(reader::write_response(&named).as_bytes())
     })?;
     Ok(())
 }

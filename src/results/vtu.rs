@@ -1,5 +1,6 @@
 //! Fields on the mesh for ParaView: VTK XML unstructured grids, appended raw, zlib-compressed.
 
+use super::whole_mesh::WholeMesh;
 use crate::contact::ContactStatus;
 use crate::fem::{NodalStress, SolidStress};
 use crate::mesh::{Mesh, SolidSector};
@@ -216,53 +217,39 @@ impl EncodedMesh {
     /// # Errors
     /// Those of the compressor (out of memory).
     pub fn new(mesh: &Mesh) -> io::Result<Self> {
-        let points = mesh.nodes.iter().flatten().copied();
-        let ends = mesh.element_starts[1..].iter().map(|&end| i64::from(end));
-        let types: Vec<u8> = mesh.element_kinds.iter().map(|kind| kind.vtk_type()).collect();
-        let connectivity = mesh.elements.iter().map(|node| i64::from(*node));
-        Ok(Self {
-            node_count: mesh.node_count(),
-            element_count: mesh.element_count(),
-            points: compress(&points.flat_map(f64::to_le_bytes).collect::<Vec<u8>>())?,
-            connectivity: compress(&connectivity.flat_map(i64::to_le_bytes).collect::<Vec<u8>>())?,
-            offsets: compress(&ends.flat_map(i64::to_le_bytes).collect::<Vec<u8>>())?,
-            types: compress(&types)?,
-        })
+        Self::of(&WholeMesh::of(mesh))
     }
-}
 
-impl EncodedMesh {
     /// Compresses the bricks of a whole body of revolution, its nodes sector by sector.
     ///
     /// # Errors
     /// Those of the compressor (out of memory).
     pub fn solid(sector: &SolidSector) -> io::Result<Self> {
-        let (sectors, per_sector) = (sector.sector_count(), sector.node_count());
-        let bytes = |values: &mut dyn Iterator<Item = i64>| -> Vec<u8> {
+        Self::of(&WholeMesh::of_revolution(sector))
+    }
+
+    /// Compresses nodes and elements.
+    ///
+    /// # Errors
+    /// Those of the compressor (out of memory).
+    pub fn of(mesh: &WholeMesh) -> io::Result<Self> {
+        let integers = |values: &mut dyn Iterator<Item = i64>| -> Vec<u8> {
             values.flat_map(i64::to_le_bytes).collect()
         };
-        let mut points = Vec::with_capacity(24 * sectors * per_sector);
-        for j in 0..sectors {
-            for (k, node) in sector.nodes.iter().enumerate() {
-                let (sin, cos) = sector.angle(k, j).sin_cos();
-                let place = [node.radius * cos, node.radius * sin, node.height];
-                points.extend(place.into_iter().flat_map(f64::to_le_bytes));
-            }
-        }
-        let count = sectors * sector.elements.len();
-        let nodes = (0..sectors).flat_map(|j| {
-            let all = sector.elements.iter().flatten();
-            all.map(move |&(node, half)| ((j + half / 2) % sectors * per_sector + node) as i64)
+        let points = mesh.points.iter().flatten().copied();
+        let ends = mesh.kinds.iter().scan(0, |end, kind| {
+            *end += kind.node_count() as i64;
+            Some(*end)
         });
-        // VTK's hexahedra of 8 and of 20 nodes.
-        let (per_element, kind) = if sector.is_quadratic() { (20, 25) } else { (8, 12) };
+        let types: Vec<u8> = mesh.kinds.iter().map(|kind| kind.vtk_type()).collect();
+        let nodes = mesh.nodes.iter().map(|node| i64::from(*node));
         Ok(Self {
-            node_count: sectors * per_sector,
-            element_count: count,
-            points: compress(&points)?,
-            connectivity: compress(&bytes(&mut { nodes }))?,
-            offsets: compress(&bytes(&mut (1..=count).map(|e| (per_element * e) as i64)))?,
-            types: compress(&vec![kind; count])?,
+            node_count: mesh.points.len(),
+            element_count: mesh.kinds.len(),
+            points: compress(&points.flat_map(f64::to_le_bytes).collect::<Vec<u8>>())?,
+            connectivity: compress(&integers(&mut { nodes }))?,
+            offsets: compress(&integers(&mut { ends }))?,
+            types: compress(&types)?,
         })
     }
 }

@@ -4,7 +4,9 @@ use crate::coarse_disc::coarse_disc;
 use assert_cmd::Command;
 use frictionsim::case::Case;
 use frictionsim::linalg::c64;
-use frictionsim::signal::reader::read_shapes;
+use frictionsim::mesh::FileMesh;
+use frictionsim::results::WholeMesh;
+use frictionsim::signal::reader::{ResponseOptions, read_response, read_shapes};
 use frictionsim::study::eigenvalues::{SlidingModel, solve_modes};
 use serde_json::Value;
 use std::fmt::Write;
@@ -124,6 +126,51 @@ fn shapes_of_the_program_with_noise_find_their_modes() {
         let rows = std::fs::read_to_string(folder.path().join("out/mac.csv")).unwrap();
         assert_eq!(rows.lines().count(), 1 + shapes.len() * shapes.len());
         assert!(folder.path().join("out/figures/mac.svg").exists());
+    }
+}
+
+/// Six digits of each displacement leave a criterion of one to ten digits.
+#[test]
+fn shapes_and_responses_written_as_universal_files_are_read_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let frf = "[frf]\nforce_node = 40\nfrequencies_hz = { from = 1e3, to = 2e3, count = 11 }";
+    let case = coarse_disc(&format!("{CEA}\n[output]\nuniversal = true\n{frf}"));
+    std::fs::write(folder.path().join("case.toml"), &case).unwrap();
+    let run = |arguments: &[&str]| {
+        let mut program = Command::cargo_bin("frictionsim").unwrap();
+        let output = program.current_dir(folder.path()).args(arguments).output().unwrap();
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{arguments:?}: {errors}");
+        let out = folder.path().join(arguments[arguments.len() - 1]);
+        let summary = std::fs::read(out.join("summary.json")).unwrap();
+        serde_json::from_slice::<Value>(&summary).unwrap()
+    };
+    run(&["cea", "case.toml", "--no-figures", "--out", "cea"]);
+    let mac = run(&["mac", "case.toml", "cea/modes.unv", "--no-figures", "--out", "mac"]);
+    let pairs = mac["pairs"].as_array().unwrap();
+    assert_eq!(pairs.len(), 8);
+    for pair in pairs {
+        assert_eq!(pair["mode"], pair["shape"], "{pair}");
+        assert!(pair["mac"].as_f64().unwrap() > 1.0 - 1e-9, "{pair}");
+    }
+    // The mesh beside the shapes.
+    let file =
+        FileMesh::read(&std::fs::read(folder.path().join("cea/modes.unv")).unwrap()).unwrap();
+    let case = Case::parse("case.toml", case.as_bytes(), &[]).unwrap();
+    let mesh = case.body.mesh().unwrap();
+    assert_eq!(file.points.len(), mesh.node_count());
+    let whole = WholeMesh::of(&mesh);
+    let own = whole.elements().map(|(_, nodes)| nodes);
+    assert!(file.elements.iter().map(|element| &element.nodes[..]).eq(own));
+    // The response has the values of the table.
+    run(&["frf", "case.toml", "--no-figures", "--out", "frf"]);
+    let [table, universal] = ["frf/frf.csv", "frf/frf.unv"].map(|name| {
+        let bytes = std::fs::read(folder.path().join(name)).unwrap();
+        let file = read_response(&bytes, name, &ResponseOptions::default()).unwrap();
+        file.responses[0].response.values().to_vec()
+    });
+    for (a, b) in table.iter().zip(&universal) {
+        assert!((a - b).norm() < 1e-11 * a.norm(), "{a} {b}");
     }
 }
 

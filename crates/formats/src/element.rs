@@ -17,6 +17,18 @@ impl ElementKind {
     /// Shapes of the solid kinds, as messages name them.
     pub const SOLID_SHAPES: &str = "tetrahedra, bricks, wedges and pyramids";
 
+    /// Descriptor of dataset 2412 of universal files, plane elements in plane strain, and the nodes of an element in the order
+    /// there; none for a kind that these files do not have.
+    pub fn universal(self, nodes: &[u32]) -> Option<(usize, Vec<u32>)> {
+        let listing = &self.formats().universal;
+        let in_plane = usize::from(self.dimension() == 2);
+        let mut listed = nodes.to_vec();
+        for (node, &place) in nodes.iter().zip(listing.order) {
+            listed[place] = *node;
+        }
+        Some((*listing.names.get(in_plane)?, listed))
+    }
+
     /// 2 for plane elements, 3 for solid ones.
     pub fn dimension(self) -> usize {
         self.row().dimension

@@ -8,6 +8,7 @@ use crate::results::pvd::{PvdEntry, write_pvd};
 use crate::results::summary::write_summary;
 use crate::results::table::{Column, write_rows};
 use crate::results::vtu::{EncodedMesh, Field, rounded, write_vtu};
+use crate::results::whole_mesh::WholeMesh;
 use rayon::prelude::*;
 use serde_json::Value;
 use std::io::{self, Write};
@@ -120,19 +121,11 @@ pub fn write_stability(
 /// Writes the shapes that the modes carry: one VTU each with the real and the imaginary part of the
 /// displacement, so that `Re(phi e^{i omega t})` can be animated, and `modes.pvd` over them.
 fn write_shapes(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), FolderError> {
-    let numbered = report.sweep.points.iter().flat_map(|point| {
-        let modes = point.modes.iter().enumerate();
-        modes.map(move |(index, mode)| (point.friction_coefficient, index + 1, mode))
-    });
-    let shaped: Vec<(f64, usize, &ComplexMode)> =
-        numbered.filter(|(_, _, mode)| mode.shape.is_some()).collect();
+    let shaped = shaped(report);
     if shaped.is_empty() {
         return Ok(());
     }
-    let mesh = match report.solid {
-        Some(solid) => EncodedMesh::solid(&solid.sector),
-        None => EncodedMesh::new(report.mesh),
-    };
+    let mesh = EncodedMesh::of(&whole_mesh(report));
     let mut entries = Vec::new();
     // Compression takes the time: a batch of files side by side, written in order.
     for batch in shaped.chunks(rayon::current_num_threads().max(1)) {
@@ -151,6 +144,44 @@ fn write_shapes(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), Fol
         }
     }
     folder.write("modes.pvd", |out| write_pvd(out, &entries))?;
+    Ok(())
+}
+
+/// Modes with a shape: friction coefficient, number among those of that value, mode.
+fn shaped<'a>(report: &CeaReport<'a>) -> Vec<(f64, usize, &'a ComplexMode)> {
+    let numbered = report.sweep.points.iter().flat_map(|point| {
+        let modes = point.modes.iter().enumerate();
+        modes.map(move |(index, mode)| (point.friction_coefficient, index + 1, mode))
+    });
+    numbered.filter(|(_, _, mode)| mode.shape.is_some()).collect()
+}
+
+fn whole_mesh(report: &CeaReport<'_>) -> WholeMesh {
+    match report.solid {
+        Some(solid) => WholeMesh::of_revolution(&solid.sector),
+        None => WholeMesh::of(report.mesh),
+    }
+}
+
+/// Name of the universal file of the mode shapes.
+pub const UNIVERSAL_MODES: &str = "modes.unv";
+
+/// Writes the mesh and the shapes that the modes carry as a universal file.
+///
+/// # Errors
+/// Those of the folder; an element that universal files do not have.
+pub fn write_universal(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), FolderError> {
+    let mesh = whole_mesh(report);
+    folder.write_bulk(UNIVERSAL_MODES, |out| {
+        mesh.write_universal(out)?;
+        for (k, (friction, number, mode)) in shaped(report).into_iter().enumerate() {
+            let name = format!("friction {friction}, mode {number}, {:.2} Hz", mode.frequency_hz());
+            let [real, imaginary, _] = shape_fields(report, mode);
+            let parts = [&real, &imaginary];
+            mesh.write_universal_mode(out, (&name, k + 1), mode.eigenvalue, parts)?;
+        }
+        Ok(())
+    })?;
     Ok(())
 }
 

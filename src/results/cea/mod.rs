@@ -23,7 +23,7 @@ pub use assembly::{AssemblyPoint, AssemblyReport};
 pub use base::{BaseField, BaseState, write_base};
 pub use feed::{Feed, FeedPlace, ModeFeed};
 pub use figures::draw;
-pub use files::{write, write_eigenvalues, write_stability};
+pub use files::{write, write_eigenvalues, write_stability, write_universal};
 pub use kept::KeptSteps;
 pub use locus::NamedDamping;
 pub use map::MapReport;

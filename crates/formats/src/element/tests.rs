@@ -117,3 +117,18 @@ fn quadrature_of_pyramids_is_exact_to_its_degree() {
         }
     }
 }
+
+#[test]
+fn elements_written_to_universal_files_are_read_as_they_were() {
+    for kind in ElementKind::ALL {
+        let nodes: Vec<u32> = (10..).take(kind.node_count()).collect();
+        let Some((descriptor, listed)) = kind.universal(&nodes) else {
+            assert!(kind.name().starts_with("pyramid"), "{kind:?}");
+            continue;
+        };
+        let found = ElementKind::listed(|formats| formats.universal.names.contains(&descriptor));
+        let found = found.unwrap();
+        assert_eq!(found.node_count(), kind.node_count(), "{kind:?}");
+        assert_eq!(found.formats().universal.arranged(&listed), nodes, "{kind:?}");
+    }
+}

@@ -37,7 +37,7 @@ pub use moduli::{ModulusRow, read_moduli};
 pub use response::{ResponseOptions, read_response};
 pub use shapes::{MeasuredShape, read_shapes};
 pub use time_signal::{SignalOptions, read_signal};
-pub use uff_writing::{write_response, write_signal};
+pub use uff_writing::{ModeData, write_mesh, write_mode, write_response, write_signal};
 pub use wav::{slowdown, write_wav};
 
 /// Kind of a file, from its first bytes.

@@ -1,10 +1,14 @@
-//! Responses and signals as universal files, dataset 58 in text.
+//! Universal files: responses and signals (dataset 58 in text), meshes (164, 2411, 2412), complex
+//! mode shapes (55).
+//!
+//! Source: SDRC, "Universal file datasets", by their numbers.
 
 use super::contents::{NamedResponse, SignalFile};
 use super::uff::{FREQUENCY_RESPONSE, TIME, TIME_AXIS};
 use crate::ResponseQuantity;
 use faer::c64;
 use std::fmt::Write as _;
+use std::io::{self, Write};
 
 /// A frequency response as dataset 58 in text, complex double precision.
 pub fn write_response(named: &NamedResponse) -> String {
@@ -49,6 +53,77 @@ pub fn write_signal(file: &SignalFile) -> String {
         out += "    -1\n";
     }
     out
+}
+
+/// A mesh: units (164, SI), nodes (2411) by label and place (m), elements (2412) by descriptor and
+/// labels of nodes in the order of the descriptor, numbered from 1.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_mesh(
+    out: &mut dyn Write,
+    nodes: &mut dyn Iterator<Item = (usize, [f64; 3])>,
+    elements: &mut dyn Iterator<Item = (usize, Vec<usize>)>,
+) -> io::Result<()> {
+    let units = [1.0, 1.0, 1.0].map(|factor| fortran(factor, 25, 17)).concat();
+    writeln!(out, "    -1\n   164\n         1SI: metre (newton)           2\n{units}")?;
+    writeln!(out, "{}\n    -1\n    -1\n  2411", fortran(273.15, 25, 17))?;
+    for (label, place) in nodes {
+        writeln!(out, "{label:>10}{:>10}{:>10}{:>10}", 1, 1, 11)?;
+        writeln!(out, "{}", place.map(|x| fortran(x, 25, 16)).concat())?;
+    }
+    writeln!(out, "    -1\n    -1\n  2412")?;
+    for (number, (descriptor, labels)) in elements.enumerate() {
+        let count = labels.len();
+        writeln!(out, "{:>10}{descriptor:>10}{:>10}{:>10}{:>10}{count:>10}", number + 1, 1, 1, 7)?;
+        for eight in labels.chunks(8) {
+            writeln!(
+                out,
+                "{}",
+                eight.iter().map(|label| format!("{label:>10}")).collect::<String>()
+            )?;
+        }
+    }
+    writeln!(out, "    -1")
+}
+
+/// A complex mode for [`write_mode`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ModeData<'a> {
+    /// What it is called, up to 80 characters of ASCII.
+    pub name: &'a str,
+    /// Its number in the file, from 1.
+    pub number: usize,
+    /// Eigenvalue, 1/s.
+    pub eigenvalue: c64,
+    /// Labels of the nodes.
+    pub labels: &'a [usize],
+    /// Displacement of each node along x, y, z.
+    pub shape: &'a [[c64; 3]],
+}
+
+/// A complex mode as dataset 55: displacements at nodes in single precision, which is what its form
+/// `6E13.5` holds.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_mode(out: &mut dyn Write, mode: &ModeData<'_>) -> io::Result<()> {
+    let row = |values: &[c64]| -> String {
+        values.iter().map(|z| fortran(z.re, 13, 5) + &fortran(z.im, 13, 5)).collect()
+    };
+    let whole = |numbers: &[usize]| -> String {
+        numbers.iter().map(|number| format!("{number:>10}")).collect()
+    };
+    writeln!(out, "    -1\n    55\n{}\nNONE\nNONE\nNONE\nNONE", mode.name)?;
+    // Structural, complex eigenvalue, three translations, displacement, complex, three values a node.
+    writeln!(out, "{}\n{}", whole(&[1, 3, 2, 8, 5, 3]), whole(&[2, 6, 1, mode.number]))?;
+    // The eigenvalue; factors of modal mass and damping are not scaled.
+    let one = c64::new(1.0, 0.0);
+    writeln!(out, "{}", row(&[mode.eigenvalue, one, one]))?;
+    for (label, displacement) in mode.labels.iter().zip(mode.shape) {
+        writeln!(out, "{label:>10}\n{}", row(displacement))?;
+    }
+    writeln!(out, "    -1")
 }
 
 /// Opening lines and the eleven records of a dataset.
