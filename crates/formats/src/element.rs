@@ -19,6 +19,7 @@ impl ElementKind {
 
     /// Descriptor of dataset 2412 of universal files, plane elements in plane strain, and the nodes of an element in the order
     /// there; none for a kind that these files do not have.
+    #[inline]
     pub fn universal(self, nodes: &[u32]) -> Option<(usize, Vec<u32>)> {
         let listing = &self.formats().universal;
         let in_plane = usize::from(self.dimension() == 2);
@@ -30,26 +31,31 @@ impl ElementKind {
     }
 
     /// 2 for plane elements, 3 for solid ones.
+    #[inline]
     pub fn dimension(self) -> usize {
         self.row().dimension
     }
 
     /// Its name in messages and tables, such as `tet10`.
+    #[inline]
     pub fn name(self) -> &'static str {
         self.row().name
     }
 
     /// Corners of one element.
+    #[inline]
     pub fn corner_count(self) -> usize {
         self.row().corners.len()
     }
 
     /// Whether edges are parabolas with a node at their middle.
+    #[inline]
     pub fn is_quadratic(self) -> bool {
         self.row().is_quadratic
     }
 
     /// The kind of the same dimension with so many corners; where it has mid-side nodes or not as asked.
+    #[inline]
     pub fn with_corners(self, corners: usize, is_quadratic: bool) -> Self {
         let mut kinds = [self].into_iter().chain(Self::ALL);
         let found = kinds.find(|kind| {
@@ -61,17 +67,20 @@ impl ElementKind {
     }
 
     /// Nodes of one element.
+    #[inline]
     pub fn node_count(self) -> usize {
         let row = self.row();
         row.corners.len() + if row.is_quadratic { row.edges.len() } else { 0 }
     }
 
     /// Corners at the ends of each edge.
+    #[inline]
     pub fn edges(self) -> &'static [[usize; 2]] {
         self.row().edges
     }
 
     /// Local nodes of edge `edge`: its ends, counter-clockwise in the plane, then its middle where it has one.
+    #[inline]
     pub fn edge(self, edge: usize) -> (usize, usize, Option<usize>) {
         let row = self.row();
         let [start, end] = row.edges[edge];
@@ -80,11 +89,13 @@ impl ElementKind {
 
     /// Faces of a solid element, edges of a plane one, with their local nodes in the order of [`FaceKind`]; the outward normal
     /// follows from it by the right-hand rule, in the plane a quarter turn behind the direction of the edge.
+    #[inline]
     pub fn faces(self) -> &'static [(FaceKind, &'static [usize])] {
         self.row().faces
     }
 
     /// The face of a solid element that has the shape of this plane element; none for a solid element.
+    #[inline]
     pub fn as_face(self) -> Option<FaceKind> {
         self.row().as_face
     }
@@ -95,6 +106,7 @@ impl ElementKind {
     /// Quad4: `N_I = (1 + xi_I xi)(1 + eta_I eta) / 4`. Quad8: the serendipity functions. Tri3, Tet4: the area or volume
     /// coordinates `L`. Tri6, Tet10: `L (2 L - 1)` at corners, `4 L_I L_J` at the middle of an edge. Hex8, Hex20, Wedge6,
     /// Wedge15: trilinear and serendipity functions. Pyramid5, Pyramid13: rational ones.
+    #[inline]
     pub fn shape_functions(self, at: [f64; 3]) -> Vec<Shape> {
         (self.row().shapes)(at)
     }
@@ -102,23 +114,27 @@ impl ElementKind {
     /// Quadrature of the mass: full, exact for the mass of an undistorted element: 3 points for Tri3, 6 (degree 4, Dunavant 1985) for Tri6,
     /// 2 x 2 Gauss points for Quad4, 3 x 3 for Quad8; 4 for Tet4, 14 (degree 5, Walkington 2000) for Tet10; Gauss points on
     /// bricks, reduced ones for Hex20R, triangle times line on wedges, square times line to the apex on pyramids.
+    #[inline]
     pub fn quadrature(self) -> Vec<QuadraturePoint> {
         (self.row().quadrature)()
     }
 
     /// Quadrature of the stiffness: that of [`Self::quadrature`], but 1 point for Tet4 and 4 for Tet10, which are exact on
     /// straight edges.
+    #[inline]
     pub fn stiffness_quadrature(self) -> Vec<QuadraturePoint> {
         let row = self.row();
         row.stiffness_quadrature.unwrap_or(row.quadrature)()
     }
 
     /// Points at which the stress of a displacement element is most accurate (Zienkiewicz and Zhu 1992).
+    #[inline]
     pub fn superconvergent_points(self) -> Vec<[f64; 3]> {
         (self.row().superconvergent)()
     }
 
     /// Local nodes around the outline of a plane element, mid-side nodes between their corners.
+    #[inline]
     pub fn outline(self) -> Vec<usize> {
         (0..self.edges().len())
             .flat_map(|edge| {
@@ -129,6 +145,7 @@ impl ElementKind {
     }
 
     /// Parent coordinates of each node.
+    #[inline]
     pub fn node_places(self) -> Vec<[f64; 3]> {
         let corners = self.row().corners;
         let middle = |&[start, end]: &[usize; 2]| {

@@ -23,17 +23,20 @@ pub struct Stopped;
 
 impl Stop {
     /// Asks the computation to stop.
+    #[inline]
     pub fn ask(&self) {
         self.0.store(true, Ordering::SeqCst);
     }
 
     /// Makes the work of the calling thread from now on part of the computation.
+    #[inline]
     pub fn enter(&self) {
         OWN.with_borrow_mut(|own| *own = Some(self.clone()));
     }
 }
 
 /// Whether the computation of this thread is asked to stop.
+#[inline]
 pub fn is_asked() -> bool {
     OWN.with_borrow(|own| {
         let own = own.as_ref();
@@ -42,6 +45,7 @@ pub fn is_asked() -> bool {
 }
 
 /// Leaves a computation that is asked to stop, by unwinding with [`Stopped`]; the panic hook is not called.
+#[inline]
 pub fn check() {
     if is_asked() {
         resume_unwind(Box::new(Stopped));
@@ -49,6 +53,7 @@ pub fn check() {
 }
 
 /// Takes the request back where the computation ends in an order of its own, with its results so far.
+#[inline]
 pub fn acknowledge() {
     OWN.with_borrow(|own| {
         if let Some(stop) = own {

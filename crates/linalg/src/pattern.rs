@@ -61,32 +61,38 @@ impl SparsityPattern {
     }
 
     /// Number of rows and of columns.
+    #[inline]
     pub fn dimension(&self) -> usize {
         self.symbolic.ncols()
     }
 
     /// Number of structural nonzeros.
+    #[inline]
     pub fn nonzero_count(&self) -> usize {
         self.symbolic.row_idx().len()
     }
 
     /// Start of each column in [`Self::row_indices`], `dimension + 1` values.
+    #[inline]
     pub fn column_pointers(&self) -> &[usize] {
         self.symbolic.col_ptr()
     }
 
     /// Row of each nonzero.
+    #[inline]
     pub fn row_indices(&self) -> &[usize] {
         self.symbolic.row_idx()
     }
 
     /// The nonzeros of one column: `(index among the nonzeros, row)`.
+    #[inline]
     pub fn column(&self, column: usize) -> impl Iterator<Item = (usize, usize)> {
         let range = self.column_pointers()[column]..self.column_pointers()[column + 1];
         range.map(|position| (position, self.row_indices()[position]))
     }
 
     /// The nonzeros of one row: `(index among the nonzeros, column)`.
+    #[inline]
     pub fn row(&self, row: usize) -> impl Iterator<Item = (usize, usize)> {
         let range = self.row_range(row);
         let (positions, columns) = (&self.row_positions[range.clone()], &self.row_columns[range]);
@@ -95,22 +101,26 @@ impl SparsityPattern {
     }
 
     /// Where a row is among nonzeros sorted by rows.
+    #[inline]
     pub fn row_range(&self, row: usize) -> std::ops::Range<usize> {
         self.row_pointers[row]..self.row_pointers[row + 1]
     }
 
     /// Column of each nonzero, sorted by rows.
+    #[inline]
     pub(super) fn row_columns(&self) -> &[u32] {
         &self.row_columns
     }
 
     /// Values sorted by rows.
+    #[inline]
     pub fn by_rows(&self, values: &[f64]) -> Vec<f64> {
         let positions = self.row_positions.iter();
         positions.map(|&position| values[position as usize]).collect()
     }
 
     /// Values in the order of the pattern, of values sorted by rows.
+    #[inline]
     pub fn by_columns(&self, sorted: &[f64]) -> Vec<f64> {
         let mut values = vec![0.0; sorted.len()];
         for (&position, value) in self.row_positions.iter().zip(sorted) {
@@ -120,17 +130,20 @@ impl SparsityPattern {
     }
 
     /// Index of `(row, column)` among the nonzeros, if it is one.
+    #[inline]
     pub fn position(&self, row: usize, column: usize) -> Option<usize> {
         let (start, end) = (self.column_pointers()[column], self.column_pointers()[column + 1]);
         self.row_indices()[start..end].binary_search(&row).ok().map(|offset| start + offset)
     }
 
     /// The pattern as faer sees it.
+    #[inline]
     pub fn symbolic(&self) -> SymbolicSparseColMatRef<'_, usize> {
         self.symbolic.as_ref()
     }
 
     /// A matrix of this pattern with `values`, one for each nonzero.
+    #[inline]
     pub fn matrix<'a, T>(&'a self, values: &'a [T]) -> SparseColMatRef<'a, usize, T> {
         SparseColMatRef::new(self.symbolic.as_ref(), values)
     }

@@ -11,6 +11,7 @@ pub struct FrictionWeights {
 
 impl FrictionWeights {
     /// Those of [`MatrixPolynomial::frozen_below`], for `origin > 0`; of the powers of `mu` for 0.
+    #[inline]
     pub fn frozen_below(origin: f64) -> Self {
         Self { origin }
     }
@@ -22,6 +23,7 @@ impl FrictionWeights {
     /// ```
     ///
     /// above `a`; linear below it, where `mu min(mu, a)` is taken as `a mu`.
+    #[inline]
     pub fn times_mu(self, place: usize) -> impl Iterator<Item = (usize, f64)> + use<> {
         let a = self.origin;
         let pair = match (self.are_powers(), place) {
@@ -34,11 +36,13 @@ impl FrictionWeights {
     }
 
     /// Whether they are the powers of `mu`.
+    #[inline]
     pub fn are_powers(self) -> bool {
         self.origin == 0.0
     }
 
     /// Weight of the coefficient at `place`.
+    #[inline]
     pub fn at(self, place: usize, mu: f64) -> f64 {
         let beyond = (mu - self.origin).max(0.0);
         match place {
@@ -50,6 +54,7 @@ impl FrictionWeights {
     }
 
     /// Its derivative by `mu`, from above at the origin.
+    #[inline]
     pub fn slope(self, place: usize, mu: f64) -> f64 {
         let power = place as i32;
         match place {
@@ -101,6 +106,7 @@ impl MatrixPolynomial {
 
     /// Polynomial on its own pattern, the union of the positions of all triplets; see
     /// [`Self::on_pattern`].
+    #[inline]
     pub fn from_triplets(dimension: usize, triplets: &[Vec<(usize, usize, f64)>]) -> Self {
         let positions = triplets.iter().flatten().map(|&(row, col, _)| (row, col));
         let pattern = Arc::new(SparsityPattern::from_positions(dimension, positions));
@@ -112,6 +118,7 @@ impl MatrixPolynomial {
     ///
     /// # Panics
     /// If a coefficient does not have one value for each nonzero.
+    #[inline]
     pub fn from_coefficients(pattern: &Arc<SparsityPattern>, coefficients: Vec<Vec<f64>>) -> Self {
         for values in &coefficients {
             assert_eq!(values.len(), pattern.nonzero_count());
@@ -126,16 +133,19 @@ impl MatrixPolynomial {
     /// ```
     ///
     /// a polynomial above `origin`, linear below.
+    #[inline]
     pub fn frozen_below(self, origin: f64) -> Self {
         Self { origin, ..self }
     }
 
     /// See [`Self::frozen_below`]; 0 of powers of `mu`.
+    #[inline]
     pub fn origin(&self) -> f64 {
         self.origin
     }
 
     /// What each coefficient weighs.
+    #[inline]
     pub fn weights(&self) -> FrictionWeights {
         FrictionWeights { origin: self.origin }
     }
@@ -165,16 +175,19 @@ impl MatrixPolynomial {
     }
 
     /// The shared pattern.
+    #[inline]
     pub fn pattern(&self) -> &Arc<SparsityPattern> {
         &self.pattern
     }
 
     /// Nonzero values of each power's coefficient, lowest power first.
+    #[inline]
     pub fn coefficients(&self) -> &[Vec<f64>] {
         &self.coefficients
     }
 
     /// Number of rows and of columns.
+    #[inline]
     pub fn dimension(&self) -> usize {
         self.pattern.dimension()
     }
@@ -217,6 +230,7 @@ impl MatrixPolynomial {
     }
 
     /// Nonzero values of `P(mu)`.
+    #[inline]
     pub fn evaluate(&self, mu: f64) -> Vec<f64> {
         match self.origin > 0.0 {
             true => self.weighted(|place| self.weights().at(place, mu)),
@@ -225,6 +239,7 @@ impl MatrixPolynomial {
     }
 
     /// Nonzero values of `dP/dmu` at `mu`.
+    #[inline]
     pub fn derivative(&self, mu: f64) -> Vec<f64> {
         match self.origin > 0.0 {
             true => self.weighted(|place| self.weights().slope(place, mu)),

@@ -45,6 +45,7 @@ pub const STANDSTILL: f64 = 0.1;
 
 /// Whether an eigenvalue, `s` or `lambda = 1 / s`, has a positive imaginary part and is that of a motion that oscillates
 /// or grows.
+#[inline]
 pub fn is_vibration(value: c64) -> bool {
     value.im > 0.0 && (value.re > 0.0 || value.im > STANDSTILL * value.norm())
 }

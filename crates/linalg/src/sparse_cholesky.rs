@@ -33,6 +33,7 @@ impl SparseCholesky {
     }
 
     /// Solves `A x = b` for each column of `right_sides`, in place.
+    #[inline]
     pub fn solve_in_place(&self, right_sides: MatMut<'_, f64>) {
         self.factor.solve_in_place(right_sides);
     }

@@ -25,6 +25,7 @@ impl LuAnalysis {
     ///
     /// # Errors
     /// If the analysis runs out of memory or index range.
+    #[inline]
     pub fn new(pattern: &Arc<SparsityPattern>) -> Result<Self, LinalgError> {
         let symbolic = factorize_symbolic_lu(pattern.symbolic(), Default::default())
             .map_err(|error| failure(pattern.dimension(), error))?;
@@ -32,6 +33,7 @@ impl LuAnalysis {
     }
 
     /// The pattern analysed.
+    #[inline]
     pub fn pattern(&self) -> &Arc<SparsityPattern> {
         &self.pattern
     }
@@ -84,21 +86,25 @@ macro_rules! sparse_lu {
             }
 
             /// Number of unknowns.
+            #[inline]
             pub fn dimension(&self) -> usize {
                 self.analysis.pattern.dimension()
             }
 
             /// Solves `A x = b` for each column of `right_sides`, in place.
+            #[inline]
             pub fn solve_in_place(&self, right_sides: MatMut<'_, $scalar>) {
                 self.solve_blocks(right_sides, false);
             }
 
             /// Solves `A^T x = b` for each column of `right_sides`, in place.
+            #[inline]
             pub fn solve_transpose_in_place(&self, right_sides: MatMut<'_, $scalar>) {
                 self.solve_blocks(right_sides, true);
             }
 
             /// Solves `A x = b` with one step of iterative refinement.
+            #[inline]
             pub fn solve_refined(&self, right_side: &[$scalar]) -> Vec<$scalar> {
                 let n = right_side.len();
                 let mut x = Mat::from_fn(n, 1, |i, _| right_side[i]);

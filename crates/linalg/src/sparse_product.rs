@@ -59,12 +59,14 @@ fn gathered(
 
 impl SparsityPattern {
     /// `A x` for each column of `x`, with `A` given by its nonzero `values`.
+    #[inline]
     pub fn multiply(&self, values: &[f64], x: MatRef<'_, f64>) -> Mat<f64> {
         let [y] = self.multiply_each([values], x);
         y
     }
 
     /// `A x` for each column of `x` and each of several matrices of this pattern, given by their nonzero `values`.
+    #[inline]
     pub fn multiply_each<const N: usize>(
         &self,
         values: [&[f64]; N],
@@ -89,6 +91,7 @@ impl SparsityPattern {
     }
 
     /// `A^T x` for each column of `x` and each of several matrices, given by their nonzeros in the order of the pattern.
+    #[inline]
     pub fn multiply_transpose_each<const N: usize>(
         &self,
         values: [&[f64]; N],
@@ -99,6 +102,7 @@ impl SparsityPattern {
 
     /// `A x + B y` for each pair of columns, with `A` and `B` given by their nonzeros sorted by rows
     /// ([`Self::by_rows`]); for few columns, of which [`Self::multiply`] would interleave empty ones.
+    #[inline]
     pub fn multiply_sum(&self, values: [&[f64]; 2], x: [MatRef<'_, f64>; 2]) -> Mat<f64> {
         let columns = self.row_columns();
         gathered(self.dimension(), x, |row, [x, y]| {
@@ -111,6 +115,7 @@ impl SparsityPattern {
     }
 
     /// `A^T x + B^T y` for each pair of columns, as [`Self::multiply_sum`] but for nonzeros in the order of the pattern.
+    #[inline]
     pub fn multiply_transpose_sum(&self, values: [&[f64]; 2], x: [MatRef<'_, f64>; 2]) -> Mat<f64> {
         gathered(self.dimension(), x, |column, [x, y]| {
             let nonzeros = self.column(column);
@@ -120,6 +125,7 @@ impl SparsityPattern {
     }
 
     /// `A^T x` for each column of `x`, with `A` given by its nonzero `values`.
+    #[inline]
     pub fn multiply_transpose(&self, values: &[f64], x: MatRef<'_, f64>) -> Mat<f64> {
         let [y] = self.by_lanes(x, |input, index| {
             let mut sum = [0.0; LANES];

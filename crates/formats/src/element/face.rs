@@ -37,6 +37,7 @@ const TRIANGLE_EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 
 impl FaceKind {
     /// Corners of one face, ends of a line.
+    #[inline]
     pub fn corner_count(self) -> usize {
         match self {
             Self::Line2 | Self::Line3 => 2,
@@ -46,11 +47,13 @@ impl FaceKind {
     }
 
     /// Whether edges have a node at their middle.
+    #[inline]
     pub fn is_quadratic(self) -> bool {
         matches!(self, Self::Line3 | Self::Tri6 | Self::Quad8)
     }
 
     /// Nodes of one face.
+    #[inline]
     pub fn node_count(self) -> usize {
         match self {
             Self::Line2 => 2,
@@ -62,6 +65,7 @@ impl FaceKind {
     }
 
     /// Shape functions at a point of the face, in the order of its nodes.
+    #[inline]
     pub fn shape_functions(self, [xi, eta]: [f64; 2]) -> Vec<Shape> {
         match self {
             Self::Line2 => shapes::line(false, xi),
@@ -74,6 +78,7 @@ impl FaceKind {
     }
 
     /// Quadrature that is exact for products of two shape functions on a flat, undistorted face.
+    #[inline]
     pub fn quadrature(self) -> Vec<QuadraturePoint> {
         match self {
             Self::Line2 => rule::line(&rule::TWO),

@@ -27,12 +27,14 @@ pub(super) const THREE_TO_APEX: [(f64, f64); 3] = [
 ];
 
 /// Gauss points of a line.
+#[inline]
 pub(super) fn line(points: &[(f64, f64)]) -> Vec<QuadraturePoint> {
     let points = points.iter();
     points.map(|&(x, w)| ([x, 0.0, 0.0], w)).collect()
 }
 
 /// Gauss points of a square.
+#[inline]
 pub(super) fn square(points: &[(f64, f64)]) -> Vec<QuadraturePoint> {
     points
         .iter()
@@ -41,6 +43,7 @@ pub(super) fn square(points: &[(f64, f64)]) -> Vec<QuadraturePoint> {
 }
 
 /// Gauss points of a cube.
+#[inline]
 pub(super) fn cube(points: &[(f64, f64)]) -> Vec<QuadraturePoint> {
     let mut all = Vec::with_capacity(points.len().pow(3));
     for &(z, w) in points {
@@ -54,6 +57,7 @@ pub(super) fn cube(points: &[(f64, f64)]) -> Vec<QuadraturePoint> {
 }
 
 /// A rule of the triangle times one of the line.
+#[inline]
 pub(super) fn wedge(triangle: &[QuadraturePoint], line: &[(f64, f64)]) -> Vec<QuadraturePoint> {
     let along = line.iter();
     along
@@ -62,6 +66,7 @@ pub(super) fn wedge(triangle: &[QuadraturePoint], line: &[(f64, f64)]) -> Vec<Qu
 }
 
 /// A rule of the square in each section of a pyramid times one over the distance `c` to the apex, whose weight is `c^2`.
+#[inline]
 pub(super) fn pyramid(section: &[(f64, f64)], to_apex: &[(f64, f64)]) -> Vec<QuadraturePoint> {
     let heights = to_apex.iter();
     heights
@@ -73,17 +78,20 @@ pub(super) fn pyramid(section: &[(f64, f64)], to_apex: &[(f64, f64)]) -> Vec<Qua
 }
 
 /// The places of a rule.
+#[inline]
 pub(super) fn places(rule: Vec<QuadraturePoint>) -> Vec<[f64; 3]> {
     rule.into_iter().map(|point| point.0).collect()
 }
 
 /// Three points, exact for polynomials of degree 2.
+#[inline]
 pub(super) fn triangle_three() -> Vec<QuadraturePoint> {
     const SIX: f64 = 1.0 / 6.0;
     vec![([SIX, SIX, 0.0], SIX), ([4.0 * SIX, SIX, 0.0], SIX), ([SIX, 4.0 * SIX, 0.0], SIX)]
 }
 
 /// Two triples of points, each the orbit of one; exact for polynomials of degree 4 (Dunavant 1985).
+#[inline]
 pub(super) fn triangle_six() -> Vec<QuadraturePoint> {
     let root = 10.0_f64.sqrt();
     let spread = (38.0 - 44.0 * 0.4_f64.sqrt()).sqrt();
@@ -97,6 +105,7 @@ pub(super) fn triangle_six() -> Vec<QuadraturePoint> {
 }
 
 /// The centre, exact for degree 1.
+#[inline]
 pub(super) fn tetrahedron_one() -> Vec<QuadraturePoint> {
     vec![([0.25; 3], 1.0 / 6.0)]
 }
@@ -108,11 +117,13 @@ fn vertex_orbit(a: f64, weight: f64) -> [QuadraturePoint; 4] {
 }
 
 /// Four points, exact for degree 2.
+#[inline]
 pub(super) fn tetrahedron_four() -> Vec<QuadraturePoint> {
     vertex_orbit((5.0 - 5.0_f64.sqrt()) / 20.0, 1.0 / 24.0).to_vec()
 }
 
 /// Fourteen points with positive weights, exact for degree 5 (Walkington 2000, Grundmann and Moeller's count).
+#[inline]
 pub(super) fn tetrahedron_fourteen() -> Vec<QuadraturePoint> {
     const SIXTH: f64 = 1.0 / 6.0;
     let corners = vertex_orbit(0.092_735_250_310_891_23, SIXTH * 0.073_493_043_116_361_95);

@@ -56,6 +56,7 @@ const BRICK_MIDDLES: [[f64; 3]; 12] = [
 ];
 
 /// Linear and quadratic functions of a line, `-1 <= s <= 1`: its ends, then its middle.
+#[inline]
 pub(super) fn line(is_quadratic: bool, s: f64) -> Vec<Shape> {
     let shape = |value: f64, slope: f64| (value, [slope, 0.0, 0.0]);
     if is_quadratic {
@@ -69,11 +70,13 @@ pub(super) fn line(is_quadratic: bool, s: f64) -> Vec<Shape> {
 }
 
 /// Area coordinates.
+#[inline]
 pub(super) fn triangle(xi: f64, eta: f64) -> [Shape; 3] {
     [(1.0 - xi - eta, [-1.0, -1.0, 0.0]), (xi, [1.0, 0.0, 0.0]), (eta, [0.0, 1.0, 0.0])]
 }
 
 /// Volume coordinates.
+#[inline]
 pub(super) fn tetrahedron([xi, eta, zeta]: [f64; 3]) -> [Shape; 4] {
     [
         (1.0 - xi - eta - zeta, [-1.0, -1.0, -1.0]),
@@ -99,6 +102,7 @@ pub(super) fn quadratic_simplex(linear: &[Shape], edges: &[[usize; 2]]) -> Vec<S
 }
 
 /// Bilinear functions of the square.
+#[inline]
 pub(super) fn bilinear(xi: f64, eta: f64) -> Vec<Shape> {
     let shape = |[a, b, _]: [f64; 3]| {
         let (p, q) = (1.0 + a * xi, 1.0 + b * eta);
@@ -161,6 +165,7 @@ pub(super) fn brick(is_quadratic: bool, at: [f64; 3]) -> Vec<Shape> {
 }
 
 /// Linear functions of a wedge, `L_I (1 -+ zeta) / 2`.
+#[inline]
 pub(super) fn wedge([xi, eta, zeta]: [f64; 3]) -> Vec<Shape> {
     let layer = |sign: f64| {
         let along = 0.5 * (1.0 + sign * zeta);
@@ -203,6 +208,7 @@ const NEAR_APEX: f64 = 1e-100;
 ///
 /// Source: G. Bedrosian, Shape functions and integration formulas for three-dimensional finite element analysis, Int. J.
 /// Numer. Meth. Engng. 35 (1992).
+#[inline]
 pub(super) fn pyramid([xi, eta, zeta]: [f64; 3]) -> Vec<Shape> {
     let c = (1.0 - zeta).max(NEAR_APEX);
     let base = PYRAMID[..4].iter().map(|&[a, b, _]| {

@@ -325,6 +325,7 @@ impl ElementKind {
         Self::Pyramid13,
     ];
 
+    #[inline]
     pub(super) fn row(self) -> &'static Row {
         match self {
             Self::Tri3 => &TRI3,

@@ -34,6 +34,7 @@ impl CompactRows {
     ///
     /// # Panics
     /// If `x` is shorter than the matrix.
+    #[inline]
     pub fn multiply(&self, x: &[f64]) -> Vec<f64> {
         let rows = self.starts.windows(2).map(|ends| ends[0]..ends[1]);
         rows.map(|row| {
@@ -47,6 +48,7 @@ impl CompactRows {
     ///
     /// # Panics
     /// If a vector is shorter than the matrix.
+    #[inline]
     pub fn form(&self, y: &[c64], x: &[c64]) -> c64 {
         let rows = self.starts.windows(2).map(|ends| ends[0]..ends[1]);
         rows.zip(y)
@@ -62,6 +64,7 @@ impl CompactRows {
     ///
     /// # Panics
     /// If `x` is shorter than the matrix.
+    #[inline]
     pub fn add_product(&self, factor: c64, x: &[c64], sum: &mut [c64]) {
         let rows = self.starts.windows(2).map(|ends| ends[0]..ends[1]);
         for (row, sum) in rows.zip(sum) {
@@ -75,6 +78,7 @@ impl CompactRows {
     ///
     /// # Panics
     /// If the shapes do not fit.
+    #[inline]
     pub fn multiply_columns(&self, x: &Mat<f64>) -> Mat<f64> {
         let mut image = Mat::zeros(self.starts.len() - 1, x.ncols());
         for j in 0..x.ncols() {

@@ -56,11 +56,13 @@ impl BandedFactor {
     }
 
     /// Number of negative eigenvalues.
+    #[inline]
     pub fn negative_count(&self) -> usize {
         self.pivots().filter(|d| *d < 0.0).count()
     }
 
     /// Whether no pivot overflowed or vanished beside the largest, but for rounding.
+    #[inline]
     pub fn is_regular(&self) -> bool {
         let largest = self.pivots().fold(0.0_f64, |m, d| m.max(d.abs()));
         largest.is_finite() && self.pivots().all(|d| d.abs() > 1e-15 * largest)

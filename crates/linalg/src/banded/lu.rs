@@ -17,6 +17,7 @@ pub struct BandedLu {
 
 impl BandedLu {
     /// Space for a factorization.
+    #[inline]
     pub fn new(dimension: usize, half_bandwidth: usize) -> Self {
         let zero = c64::new(0.0, 0.0);
         Self {
@@ -128,6 +129,7 @@ impl BandedLu {
     }
 
     /// Argument of the determinant, rad, up to multiples of `2 pi`.
+    #[inline]
     pub fn determinant_argument(&self) -> f64 {
         let width = 3 * self.half_bandwidth + 1;
         // Unit phasors multiply without overflow.

@@ -45,21 +45,25 @@ pub struct BandedMatrix {
 
 impl BandedMatrix {
     /// The zero matrix with `half_bandwidth` off-diagonals on either side.
+    #[inline]
     pub fn zeros(dimension: usize, half_bandwidth: usize) -> Self {
         Self { dimension, half_bandwidth, values: vec![0.0; dimension * (2 * half_bandwidth + 1)] }
     }
 
     /// Number of rows and of columns.
+    #[inline]
     pub fn dimension(&self) -> usize {
         self.dimension
     }
 
     /// Off-diagonals on either side.
+    #[inline]
     pub fn half_bandwidth(&self) -> usize {
         self.half_bandwidth
     }
 
     /// All stored values, row by row, `2 h + 1` for each.
+    #[inline]
     pub fn values(&self) -> &[f64] {
         &self.values
     }
@@ -75,6 +79,7 @@ impl BandedMatrix {
     }
 
     /// Entry `(row, column)`, zero outside the band.
+    #[inline]
     pub fn get(&self, row: usize, column: usize) -> f64 {
         if row.abs_diff(column) > self.half_bandwidth {
             return 0.0;
@@ -86,24 +91,28 @@ impl BandedMatrix {
     ///
     /// # Panics
     /// If `(row, column)` lies outside the band.
+    #[inline]
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
         let place = self.place(row, column);
         self.values[place] += value;
     }
 
     /// Columns of the band in row `row`.
+    #[inline]
     pub fn columns(&self, row: usize) -> std::ops::Range<usize> {
         let h = self.half_bandwidth;
         row.saturating_sub(h)..(row + h + 1).min(self.dimension)
     }
 
     /// Stored values of row `row`, columns `row - h ..= row + h`.
+    #[inline]
     pub fn row(&self, row: usize) -> &[f64] {
         let width = 2 * self.half_bandwidth + 1;
         &self.values[row * width..][..width]
     }
 
     /// Stored values of row `row`, to be changed; places outside the matrix must stay zero.
+    #[inline]
     pub fn row_mut(&mut self, row: usize) -> &mut [f64] {
         let width = 2 * self.half_bandwidth + 1;
         &mut self.values[row * width..][..width]
@@ -113,6 +122,7 @@ impl BandedMatrix {
     ///
     /// # Panics
     /// If the shapes differ.
+    #[inline]
     pub fn add_scaled(&mut self, factor: f64, other: &Self) {
         assert_eq!((self.dimension, self.half_bandwidth), (other.dimension, other.half_bandwidth));
         for (sum, value) in self.values.iter_mut().zip(&other.values) {
@@ -121,11 +131,13 @@ impl BandedMatrix {
     }
 
     /// Multiplies every entry.
+    #[inline]
     pub fn scale(&mut self, factor: f64) {
         self.values.iter_mut().for_each(|value| *value *= factor);
     }
 
     /// Rows and columns `kept` (ascending) alone.
+    #[inline]
     pub fn restricted_to(&self, kept: &[usize]) -> Self {
         let mut result = Self::zeros(kept.len(), self.half_bandwidth);
         for (row, &old_row) in kept.iter().enumerate() {
@@ -139,6 +151,7 @@ impl BandedMatrix {
     }
 
     /// `A x`.
+    #[inline]
     pub fn multiply(&self, x: &[f64]) -> Vec<f64> {
         (0..self.dimension)
             .map(|row| {

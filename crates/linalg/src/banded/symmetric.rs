@@ -23,6 +23,7 @@ impl BandedLdl {
     ///
     /// # Panics
     /// If the shapes differ.
+    #[inline]
     pub fn new(a: &BandedMatrix, b: &BandedMatrix, shift: f64) -> Self {
         let mut factor = Self {
             dimension: a.dimension,
@@ -72,11 +73,13 @@ impl BandedLdl {
     }
 
     /// Number of negative eigenvalues.
+    #[inline]
     pub fn negative_count(&self) -> usize {
         self.diagonal.iter().filter(|d| **d < 0.0).count()
     }
 
     /// Whether no pivot overflowed.
+    #[inline]
     pub fn is_finite(&self) -> bool {
         self.diagonal.iter().all(|d| d.is_finite())
     }
@@ -111,6 +114,7 @@ pub struct BandedHermitian {
 
 impl BandedHermitian {
     /// The zero matrix.
+    #[inline]
     pub fn zeros(dimension: usize, half_bandwidth: usize) -> Self {
         Self {
             dimension,
@@ -123,6 +127,7 @@ impl BandedHermitian {
     ///
     /// # Panics
     /// If `(row, column)` lies outside the lower band.
+    #[inline]
     pub fn add(&mut self, row: usize, column: usize, value: c64) {
         let h = self.half_bandwidth;
         assert!(column <= row && column + h >= row);
