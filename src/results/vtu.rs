@@ -74,6 +74,14 @@ impl Field {
         Self { name: name.to_owned(), components: 1, values: Values::Integer(values) }
     }
 
+    /// Its quantities; none of whole numbers.
+    pub fn reals(&self) -> &[f64] {
+        match &self.values {
+            Values::Real(values) => values,
+            Values::Integer(_) => &[],
+        }
+    }
+
     /// One number of the whole file.
     pub fn number(name: &str, value: f64) -> Self {
         Self::scalars(name, vec![rounded(value)])

@@ -1,6 +1,5 @@
 //! Nodes and elements of a body as files list them.
 
-use super::vtu::{Field, Values};
 use crate::linalg::c64;
 use crate::mesh::{ElementKind, Mesh, SolidSector};
 use crate::signal::reader::{ModeData, write_mesh, write_mode};
@@ -80,7 +79,7 @@ impl WholeMesh {
         write_mesh(out, &mut { nodes }, &mut elements.into_iter())
     }
 
-    /// Writes a mode by its real and imaginary displacement along x, y, z.
+    /// Writes a mode by the real and imaginary displacements of its nodes, each along x, y and z.
     ///
     /// # Errors
     /// Those of the writer.
@@ -89,12 +88,8 @@ impl WholeMesh {
         out: &mut dyn Write,
         (name, number): (&str, usize),
         eigenvalue: c64,
-        [real, imaginary]: [&Field; 2],
+        [real, imaginary]: [&[f64]; 2],
     ) -> io::Result<()> {
-        let (Values::Real(real), Values::Real(imaginary)) = (&real.values, &imaginary.values)
-        else {
-            return Err(io::Error::other("a displacement is real"));
-        };
         let pairs = real.chunks_exact(3).zip(imaginary.chunks_exact(3));
         let shape: Vec<[c64; 3]> =
             pairs.map(|(re, im)| [0, 1, 2].map(|k| c64::new(re[k], im[k]))).collect();

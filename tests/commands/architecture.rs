@@ -39,8 +39,8 @@ fn rust_files(folder: &Path, files: &mut Vec<PathBuf>) {
 const BUDGETS: &[(&str, usize)] = &[
     ("crates/bounds", 196),
     ("crates/chart", 4_845),
-    ("crates/formats", 6_817),
-    ("crates/linalg", 4_365),
+    ("crates/formats", 6_857),
+    ("crates/linalg", 4_471),
     ("crates/signal", 6_632),
     ("src/app", 5_915),
     ("src/case", 12_295),
@@ -54,7 +54,7 @@ const BUDGETS: &[(&str, usize)] = &[
     ("src/main.rs", 5),
     ("src/mesh", 4_601),
     ("src/prestress", 5_541),
-    ("src/results", 23_772),
+    ("src/results", 23_775),
     ("src/study", 12_921),
     ("src/transient", 5_836),
 ];

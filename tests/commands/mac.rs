@@ -154,8 +154,11 @@ fn shapes_and_responses_written_as_universal_files_are_read_back() {
         assert!(pair["mac"].as_f64().unwrap() > 1.0 - 1e-9, "{pair}");
     }
     // The mesh beside the shapes.
-    let file =
-        FileMesh::read(&std::fs::read(folder.path().join("cea/modes.unv")).unwrap()).unwrap();
+    let file = FileMesh::read_as(
+        "modes.unv",
+        &std::fs::read(folder.path().join("cea/modes.unv")).unwrap(),
+    )
+    .unwrap();
     let case = Case::parse("case.toml", case.as_bytes(), &[]).unwrap();
     let mesh = case.body.mesh().unwrap();
     assert_eq!(file.points.len(), mesh.node_count());

@@ -177,7 +177,7 @@ pub fn write_universal(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<
         for (k, (friction, number, mode)) in shaped(report).into_iter().enumerate() {
             let name = format!("friction {friction}, mode {number}, {:.2} Hz", mode.frequency_hz());
             let [real, imaginary, _] = shape_fields(report, mode);
-            let parts = [&real, &imaginary];
+            let parts = [real.reals(), imaginary.reals()];
             mesh.write_universal_mode(out, (&name, k + 1), mode.eigenvalue, parts)?;
         }
         Ok(())
