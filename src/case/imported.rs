@@ -271,7 +271,8 @@ impl ImportError {
     pub(super) fn of(error: BodyError, file: &str) -> Self {
         let message = format!("{file}: {error}");
         let BodyError::Request { part, .. } = error else {
-            return Self::new("mesh.file", message, "cannot be used");
+            // What the key means is no remedy for what the file holds.
+            return Self { help: None, ..Self::new("mesh.file", message, "cannot be used") };
         };
         let (key, label) = match part {
             BodyPart::Contact => ("contact.boundary".to_owned(), "the contact curve"),

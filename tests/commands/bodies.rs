@@ -5,7 +5,7 @@
 //! difference of two whole analyses. What the program refuses stands in the table with its reason.
 
 mod checks;
-mod grid;
+pub mod grid;
 mod kinds;
 
 use kinds::{Kind, kinds};

@@ -1,8 +1,8 @@
 //! Steps of an eigenvalue sweep that an interrupted run leaves in its folder, for the run that goes on.
 
 use crate::cea::{SweepProgress, SweepWatch};
-use crate::results::{FolderError, OutputFolder};
 use crate::results::store::framed;
+use crate::results::{FolderError, OutputFolder};
 use frictionsim_bounds::{RESULT, read_file};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;

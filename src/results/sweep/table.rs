@@ -112,7 +112,7 @@ fn flatten(
             if items.len() <= LONGEST_LIST {
                 let mut names: Vec<String> = Vec::new();
                 for (index, item) in items.iter().enumerate() {
-                    let name = item_name(item).unwrap_or_else(|| index.to_string());
+                    let name = item_name(item).unwrap_or_else(|| (index + 1).to_string());
                     let earlier = names.iter().filter(|known| **known == name).count();
                     let again = match earlier {
                         0 => name.clone(),
@@ -127,9 +127,12 @@ fn flatten(
     }
 }
 
-/// Name of a list's item that is a mode: harmonic, branch (or onset) and direction.
+/// Name of a list's item: of a mode harmonic, branch (or onset) and direction, of what is known at one friction coefficient that.
 fn item_name(item: &Value) -> Option<String> {
     let number = |key: &str| item.get(key).and_then(Value::as_i64);
+    if let (None, Some(friction)) = (number("harmonic"), item.get("friction_coefficient")) {
+        return Some(format!("mu{friction}"));
+    }
     let mut name = format!("n{}", number("harmonic")?);
     for (key, letter) in [("branch", 'b'), ("onset", 'o')] {
         if let Some(rank) = number(key) {
