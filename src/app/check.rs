@@ -148,7 +148,7 @@ fn describe(name: &str, case: &Case, found: &Preflight) -> String {
     );
     let mut longest: f64 = 0.0;
     let mut line = |what: &str, text: String, bytes: f64, seconds: f64| {
-        let (size, time) = (size(bytes), duration(seconds));
+        let (size, time) = (size(bytes), magnitude(seconds));
         longest = longest.max(seconds);
         let _ = writeln!(out, "  {what}: {text}, {size}, {time} on one thread");
     };
@@ -295,14 +295,21 @@ fn size(bytes: f64) -> String {
     }
 }
 
+/// A time as it is estimated: to an order of magnitude.
+fn magnitude(seconds: f64) -> &'static str {
+    match seconds {
+        s if s < 60.0 => "seconds",
+        s if s < 3600.0 => "minutes",
+        s if s < 2.0 * 86_400.0 => "hours",
+        _ => "days",
+    }
+}
+
+/// A time that is hardly meant.
 fn duration(seconds: f64) -> String {
     const DAY: f64 = 86_400.0;
     const YEAR: f64 = 365.25 * DAY;
     match seconds {
-        s if s < 1.0 => "under 1 s".to_owned(),
-        s if s < 120.0 => format!("{s:.0} s"),
-        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
-        s if s < 2.0 * DAY => format!("{:.1} h", s / 3600.0),
         s if s < 2.0 * YEAR => format!("{:.0} days", s / DAY),
         s if s < 1000.0 * YEAR => format!("{:.0} years", s / YEAR),
         _ => "over 1000 years".to_owned(),
