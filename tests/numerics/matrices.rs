@@ -520,7 +520,7 @@ fn check_takes_a_superelement_as_cea_does() {
     let found = frictionsim::app::check::examine(&case, &[]).unwrap();
     assert_eq!((&found["valid"], &found["dofs"]), (&true.into(), &100.into()), "{found}");
     brake(&folder, "nowhere.mtx");
-    let refused = frictionsim::app::check::examine(&case, &[]).err().unwrap().to_string();
+    let refused = frictionsim::app::check::examine(&case, &[]).unwrap_err().messages().concat();
     assert!(refused.contains("superelements.brake.stiffness: "), "{refused}");
 }
 

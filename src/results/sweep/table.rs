@@ -112,7 +112,7 @@ fn flatten(
             if items.len() <= LONGEST_LIST {
                 let mut names: Vec<String> = Vec::new();
                 for (index, item) in items.iter().enumerate() {
-                    let name = item_name(item).unwrap_or_else(|| (index + 1).to_string());
+                    let name = item_name(item).unwrap_or_else(|| index.to_string());
                     let earlier = names.iter().filter(|known| **known == name).count();
                     let again = match earlier {
                         0 => name.clone(),
@@ -240,6 +240,16 @@ mod tests {
         };
         assert_eq!(column("onsets.n1_b0_against.critical_friction"), ["0.2", "0.15"]);
         assert_eq!(column("onsets.n1_b1_against.critical_friction"), ["0.1", ""]);
+    }
+
+    #[test]
+    fn what_is_known_at_one_friction_coefficient_is_named_by_it() {
+        let count = |friction: f64| json!({ "friction_coefficient": friction, "unstable": 1 });
+        let text = table(&[record(1, json!({ "counts": [count(0.0), count(0.25)] }))]);
+        assert!(
+            text.contains("counts.mu0.0.unstable") && text.contains("counts.mu0.25.unstable"),
+            "{text}"
+        );
     }
 
     #[test]

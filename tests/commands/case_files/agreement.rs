@@ -114,7 +114,7 @@ fn check_knows_what_runs_of_rings_blocks_and_pads_refuse() {
                response_direction = \"z\"\n";
     let lossy = pad.replace("density", "loss_factor = 0.01\ndensity");
     for (text, reason) in [
-        (format!("{pad}{cea}"), "nothing presses the contact"),
+        (format!("{pad}interference = 0.0\n{cea}"), "nothing presses the contact"),
         (format!("{ring}{cea}"), "none of them lies under the ring alone"),
         (format!("{pad}interference = 1e-6\n{frf}"), "cannot move in z direction"),
         (
