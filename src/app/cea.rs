@@ -59,8 +59,9 @@ pub const PROFILE: Profile = Profile {
 /// # Errors
 /// A bad case, contact that opens, a solver that fails, an output folder that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    if let Some(system) = superelement::described(&arguments.options)? {
-        return superelement::run(&arguments.options, &system);
+    let options = &arguments.options;
+    if let Some(system) = superelement::described(&options.case, &options.changes.overrides())? {
+        return superelement::run(options, &system);
     }
     run_with(arguments, |session, cea, model, watch| {
         Ok(eigenvalues::solve(&session.case, cea, model, watch)?)
@@ -105,7 +106,7 @@ fn run_with(
     };
     let bar = terminal::progress(session.options.output.is_quiet(), 0, "modes at rest");
     let heard = |progress| show(&bar, progress);
-    let steps = KeptSteps::new(&folder, arguments.resume, &heard);
+    let steps = KeptSteps::new(&folder, arguments.resume, &heard)?;
     terminal::catch_signals(match model_keeps(case, cea) {
         true => KEPT,
         false => terminal::NOTHING_KEPT,
@@ -130,7 +131,7 @@ fn run_with(
     if let Some(drawing) = session.options.output.drawing() {
         draw(&folder, &report, &eigenvalues::dampings(case, &model), &drawing)?;
     }
-    steps.discard();
+    steps.discard()?;
     let table = print(&report, session.options.output.verbose > 0);
     session.options.output.finish(folder, &table, &summary)
 }

@@ -3,8 +3,8 @@
 use super::options::CaseChanges;
 use super::profile::{Profile, Redraw};
 use super::session::{gibibytes, machine_memory, read_case};
-use super::{Failure, terminal};
-use crate::case::{Case, Convergence, Cost, StudyCost};
+use super::{Failure, superelement, terminal};
+use crate::case::{Case, Convergence, Cost, FreeSystem, StudyCost};
 use crate::study::{Preflight, preflight};
 use clap::{Args, ValueHint};
 use serde_json::{Value, json};
@@ -45,9 +45,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     for path in &arguments.cases {
         let name = path.display().to_string();
         match check(path, arguments) {
-            Ok((case, found)) => {
+            Ok(Checked::Bodies(case, found)) => {
                 text.push_str(&describe(&name, &case, &found));
                 reports.push(object(&name, &case, &found));
+            }
+            Ok(Checked::Superelement(system)) => {
+                text.push_str(&describe_superelement(&name, &system));
+                reports.push(superelement_object(&name, &system));
             }
             Err(failure) => {
                 bad += 1;
@@ -76,13 +80,26 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// # Errors
 /// Those of the case.
 pub fn examine(path: &Path, overrides: &[String]) -> Result<Value, Failure> {
+    if let Some(system) = superelement::described(path, overrides)? {
+        return Ok(superelement_object(&path.display().to_string(), &system));
+    }
     let case = read_case(path, overrides)?;
     let found = preflight(&case, machine_memory())?;
     Ok(object(&path.display().to_string(), &case, &found))
 }
 
-fn check(path: &Path, arguments: &Arguments) -> Result<(Case, Preflight), Failure> {
-    let case = read_case(path, &arguments.changes.overrides())?;
+/// A case that is valid.
+enum Checked {
+    Bodies(Box<Case>, Preflight),
+    Superelement(FreeSystem),
+}
+
+fn check(path: &Path, arguments: &Arguments) -> Result<Checked, Failure> {
+    let overrides = arguments.changes.overrides();
+    if let Some(system) = superelement::described(path, &overrides)? {
+        return Ok(Checked::Superelement(system));
+    }
+    let case = read_case(path, &overrides)?;
     let found = preflight(&case, machine_memory());
     if found.is_err() {
         // An implausible value is often the cause of what cannot run.
@@ -94,7 +111,28 @@ fn check(path: &Path, arguments: &Arguments) -> Result<(Case, Preflight), Failur
     if arguments.changes.deny_warnings {
         case.deny_warnings(&found.warnings)?;
     }
-    Ok((case, found))
+    Ok(Checked::Bodies(Box::new(case), found))
+}
+
+fn describe_superelement(name: &str, system: &FreeSystem) -> String {
+    let own = &system.superelement;
+    let mut out = format!("{name}: valid");
+    if !system.title.is_empty() {
+        let _ = write!(out, " ({})", system.title);
+    }
+    let _ = writeln!(out, "\n  superelement {}: {}", own.name, plural(own.mass.rows, "unknown"));
+    out
+}
+
+fn superelement_object(name: &str, system: &FreeSystem) -> Value {
+    json!({
+        "case": name,
+        "valid": true,
+        "title": system.title,
+        "case_hash": system.hash,
+        "dofs": system.superelement.mass.rows,
+        "warnings": [],
+    })
 }
 
 fn describe(name: &str, case: &Case, found: &Preflight) -> String {
@@ -110,7 +148,7 @@ fn describe(name: &str, case: &Case, found: &Preflight) -> String {
     );
     let mut longest: f64 = 0.0;
     let mut line = |what: &str, text: String, bytes: f64, seconds: f64| {
-        let (size, time) = (size(bytes), duration(seconds));
+        let (size, time) = (size(bytes), magnitude(seconds));
         longest = longest.max(seconds);
         let _ = writeln!(out, "  {what}: {text}, {size}, {time} on one thread");
     };
@@ -257,14 +295,21 @@ fn size(bytes: f64) -> String {
     }
 }
 
+/// A time as it is estimated: to an order of magnitude.
+fn magnitude(seconds: f64) -> &'static str {
+    match seconds {
+        s if s < 60.0 => "seconds",
+        s if s < 3600.0 => "minutes",
+        s if s < 2.0 * 86_400.0 => "hours",
+        _ => "days",
+    }
+}
+
+/// A time that is hardly meant.
 fn duration(seconds: f64) -> String {
     const DAY: f64 = 86_400.0;
     const YEAR: f64 = 365.25 * DAY;
     match seconds {
-        s if s < 1.0 => "under 1 s".to_owned(),
-        s if s < 120.0 => format!("{s:.0} s"),
-        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
-        s if s < 2.0 * DAY => format!("{:.1} h", s / 3600.0),
         s if s < 2.0 * YEAR => format!("{:.0} days", s / DAY),
         s if s < 1000.0 * YEAR => format!("{:.0} years", s / YEAR),
         _ => "over 1000 years".to_owned(),

@@ -79,7 +79,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let families = study.family_count() as u64;
     let bar = terminal::progress(session.options.output.is_quiet(), families, "families");
-    let steps = KeptSteps::new(&folder, arguments.resume, &|_| {});
+    let steps = KeptSteps::new(&folder, arguments.resume, &|_| {})?;
     terminal::catch_signals(match study.choices.two_frequencies {
         true => KEPT,
         false => terminal::NOTHING_KEPT,
@@ -99,7 +99,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(drawing) = session.options.output.drawing() {
         figures::draw_record(&folder, case, &summary, &drawing)?;
     }
-    steps.discard();
+    steps.discard()?;
     session.options.output.finish(folder, &print(&report), &summary)
 }
 

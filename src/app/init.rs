@@ -233,7 +233,13 @@ fn start_from(mesh: &Path, arguments: &Arguments) -> Result<(), Failure> {
         _ if is_stdout || folder.as_os_str().is_empty() => mesh.to_path_buf(),
         _ => std::path::absolute(mesh).unwrap_or_else(|_| mesh.to_path_buf()),
     };
-    let text = case_from(mesh, &shown.display().to_string()).map_err(Failure::usage)?;
+    let Some(name) = shown.to_str() else {
+        return Err(Failure::usage(format!(
+            "{}: the name is not UTF-8, as a case must name its mesh: rename the file or its folder",
+            shown.display()
+        )));
+    };
+    let text = case_from(mesh, name).map_err(Failure::usage)?;
     if is_stdout {
         return terminal::print(&text);
     }

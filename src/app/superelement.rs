@@ -10,17 +10,17 @@ use frictionsim_bounds::CASE;
 use std::path::Path;
 use std::time::Instant;
 
-/// The superelement that the case of a run describes, where it describes no body. Its files are relative to the case, so it cannot
+/// The superelement that a case describes, where it describes no body. Its files are relative to the case, so it cannot
 /// come from standard input.
 ///
 /// # Errors
 /// A case that cannot be read; matrices that are none.
-pub fn described(options: &RunOptions) -> Result<Option<FreeSystem>, Failure> {
-    if options.case == Path::new(STANDARD_INPUT) {
+pub fn described(case: &Path, overrides: &[String]) -> Result<Option<FreeSystem>, Failure> {
+    if case == Path::new(STANDARD_INPUT) {
         return Ok(None);
     }
-    let bytes = read_input(&options.case, CASE)?;
-    let raw = RawCase::parse(&input_name(&options.case), &bytes, &options.changes.overrides())?;
+    let bytes = read_input(case, CASE)?;
+    let raw = RawCase::parse(&input_name(case), &bytes, overrides)?;
     match FreeSystem::is_described_by(&raw) {
         true => Ok(Some(FreeSystem::read(raw)?)),
         false => Ok(None),

@@ -179,15 +179,28 @@ pub fn start_log(quiet: u8, verbose: u8) {
     let _ = subscriber.try_init();
 }
 
+/// Width of a progress bar.
+const BAR: u64 = 40;
+
 /// A progress bar on a terminal, nothing in a pipe or with `quiet`. `length` is 0 while it is not known.
 pub fn progress(quiet: bool, length: u64, message: &'static str) -> ProgressBar {
-    let bar = progress_in(quiet, length, "{msg} [{bar:40}] {count}  {elapsed_precise}{left}");
+    let bar = progress_in(quiet, length, "{msg} {track}{count}  {elapsed_precise}{left}");
     bar.set_message(message);
     bar
 }
 
-/// A progress bar with a template of its own, in which `{count}` is how many are done of how many, and `{left}` the time
-/// left; neither says anything before there is something to say.
+/// How far `done` of `length` pieces are, as a bar; nothing of a single piece, which would be empty to its end.
+fn track(done: u64, length: Option<u64>) -> String {
+    let Some(length) = length.filter(|length| *length > 1) else {
+        return String::new();
+    };
+    let filled = (BAR * done.min(length) / length) as usize;
+    let head = if filled < BAR as usize { ">" } else { "" };
+    format!("[{:<1$}] ", "=".repeat(filled) + head, BAR as usize)
+}
+
+/// A progress bar with a template of its own, in which `{track}` is the bar, `{count}` how many are done of how many, and `{left}`
+/// the time left; none says anything before there is something to say.
 pub fn progress_in(quiet: bool, length: u64, template: &str) -> ProgressBar {
     if let Some(run) = embedded::current() {
         return run.bar(length);
@@ -198,9 +211,12 @@ pub fn progress_in(quiet: bool, length: u64, template: &str) -> ProgressBar {
     let target = ProgressDrawTarget::stderr_with_hz(10);
     let bar = ProgressBar::with_draw_target((length > 0).then_some(length), target);
     if let Ok(style) = ProgressStyle::with_template(template) {
+        let shown = |state: &ProgressState, out: &mut dyn std::fmt::Write| {
+            let _ = out.write_str(&track(state.pos(), state.len()));
+        };
         let count = |state: &ProgressState, out: &mut dyn std::fmt::Write| {
             let _ = match state.len() {
-                Some(length) if length > 0 => write!(out, "{}/{length}", state.pos()),
+                Some(length) if length > 1 => write!(out, "{}/{length}", state.pos()),
                 _ => Ok(()),
             };
         };
@@ -211,10 +227,24 @@ pub fn progress_in(quiet: bool, length: u64, template: &str) -> ProgressBar {
                 false => Ok(()),
             };
         };
-        let style = style.with_key("count", count).with_key("left", left);
-        bar.set_style(style.progress_chars("=> "));
+        bar.set_style(
+            style.with_key("track", shown).with_key("count", count).with_key("left", left),
+        );
     }
     // The clock goes on while a long piece of work says nothing.
     bar.enable_steady_tick(std::time::Duration::from_millis(500));
     bar
+}
+
+#[cfg(test)]
+mod tests {
+    use super::track;
+
+    #[test]
+    fn a_single_piece_of_work_has_no_bar_that_stays_empty() {
+        assert_eq!(track(0, None), "");
+        assert_eq!(track(0, Some(1)), "");
+        assert_eq!(track(1, Some(2)).matches('=').count(), 20);
+        assert_eq!(track(2, Some(2)).matches('=').count(), 40);
+    }
 }

@@ -188,7 +188,7 @@ fn step(
 fn open(session: &Session) -> Result<OutputFolder, Failure> {
     let folder = session.open_folder()?;
     // A checkpoint of an earlier run must not outlive the results it belongs to.
-    folder.discard(CHECKPOINT);
+    folder.discard(CHECKPOINT)?;
     Ok(folder)
 }
 

@@ -190,7 +190,7 @@ pub(super) fn assemble(
     bytes: &MeshBytes,
     scale: f64,
     conditions: &[NamedCondition],
-    (common, own): (&TabledMaterial, &[(String, TabledMaterial)]),
+    (common, own): (Option<&TabledMaterial>, &[(String, TabledMaterial)]),
     (parts, modifications): (AssemblyParts, &[Modification]),
 ) -> Result<AssemblyBody, ImportError> {
     let unusable = |error: BodyError| ImportError::of(error, &bytes.file);
@@ -209,11 +209,15 @@ pub(super) fn assemble(
         solid.own.elastic.formulation = PlaneFormulation::ThreeDimensional;
         solid
     };
-    let mut materials = vec![solid(common); mesh.regions.len()];
+    let mut materials = vec![common.map(solid); mesh.regions.len()];
     for (name, material) in own {
         let place = region(name, &format!("materials.{name}"))?;
-        materials[place] = solid(material);
+        materials[place] = Some(solid(material));
     }
+    let given = materials.into_iter().zip(&mesh.regions).map(|(material, region)| {
+        material.ok_or_else(|| ImportError::without_material(&bytes.file, region))
+    });
+    let materials = given.collect::<Result<Vec<_>, _>>()?;
     let mut motions = Vec::new();
     for (name, motion) in parts.motions {
         motions.push(Motion { regions: vec![region(&name, &format!("motion.{name}"))?], ..motion });

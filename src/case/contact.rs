@@ -2,6 +2,7 @@
 
 use super::elastic::loss_factor;
 use super::imported::{self, ContactPlace};
+use super::normal_force;
 use super::normal_law::normal_law;
 use super::reader::Section;
 use super::solid;
@@ -77,7 +78,15 @@ pub(super) fn contact(
         }
         place.plane_speed = None;
     }
-    let interference = section.number("interference");
+    let interference = normal_force::interference(&section);
+    if is_pressed && section.has("normal_force") {
+        section.reject(
+            "normal_force",
+            "contact.normal_force beside a boundary with a pressure",
+            "one of the two presses",
+            "leave the force out, or the pressure",
+        );
+    }
     // A pressure on a face may press a three-dimensional body; on a plane annulus it is an error of its own.
     if !is_solid && interference == 0.0 && !is_pressed {
         section.reject(

@@ -114,11 +114,19 @@ fn refuse_idle(section: &Section<'_>) {
     for key in ["axis", "center", "direction"] {
         let _ = section.numbers(key);
     }
-    for key in ["radius", "speed", "rotation_speed_rpm", "interference"] {
+    for key in ["radius", "speed", "rotation_speed_rpm", "interference", "normal_force"] {
         let _ = section.optional_number(key);
     }
-    let idle =
-        ["axis", "center", "direction", "radius", "speed", "rotation_speed_rpm", "interference"];
+    let idle = [
+        "axis",
+        "center",
+        "direction",
+        "radius",
+        "speed",
+        "rotation_speed_rpm",
+        "interference",
+        "normal_force",
+    ];
     for key in idle.iter().filter(|key| section.has(key)) {
         section.reject(
             key,

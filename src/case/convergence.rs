@@ -63,6 +63,10 @@ impl super::Case {
                 specification.axial_elements =
                     (specification.axial_elements as f64 * factor).round() as usize;
             }
+            // A generated body on its whole mesh stays as round as it is.
+            Body::Assembly(_) if self.raw.find("mesh.file").is_none() => {
+                body = self.with_counts_times(factor)?.body;
+            }
             Body::Assembly(assembly) => {
                 for _ in 0..factor.log2() as u32 {
                     let finer = assembly.mesh.refined_solids();
@@ -80,6 +84,17 @@ impl super::Case {
 }
 
 impl super::Case {
+    /// The case of a generated body with so many times as many elements in every direction.
+    fn with_counts_times(&self, factor: f64) -> Result<Self, super::CaseErrors> {
+        let counts = ["circumferential_elements", "radial_elements", "axial_elements"];
+        let finer = counts.map(|count| {
+            let key = format!("mesh.{count}");
+            let own = self.number(&key).unwrap_or(1.0);
+            format!("{key}={:.0}", own * factor)
+        });
+        Self::read(self.raw.with_overrides(&finer)?)
+    }
+
     fn no_refinement(&self, factor: f64, error: &BodyError) -> super::CaseErrors {
         let (key, label) = ("convergence.factors", "makes no body".to_owned());
         self.error_at(key, format!("{key} = {factor}: {error}"), label, None)

@@ -10,6 +10,7 @@ use super::reader::Section;
 use super::shown::first_of;
 use super::suggestion;
 use super::tables::{TableFiles, modulus_table};
+use super::value::quote;
 use super::words::CounterfaceWord;
 use crate::fem::{ElasticMaterial, RayleighDamping, RegionMaterial, TabledMaterial};
 use crate::mesh::{
@@ -168,7 +169,8 @@ pub(super) struct BodyParts {
     pub interference: f64,
     pub boundaries: Vec<NamedCondition>,
     pub materials: Vec<(String, TabledMaterial)>,
-    pub common: TabledMaterial,
+    /// The material of regions that have none of their own.
+    pub common: Option<TabledMaterial>,
 }
 
 /// The mesh file that `mesh.file` names, relative to the case; read once. An error is a message and a label.
@@ -250,6 +252,16 @@ impl ImportError {
         Self { key: key.to_owned(), message, label: label.to_owned(), help: suggestion::usage(key) }
     }
 
+    /// A region of the mesh file that no section gives a material.
+    pub(super) fn without_material(file: &str, region: &str) -> Self {
+        let message = format!("{file}: the region \"{region}\" has no material");
+        let help = format!(
+            "give it a section [materials.{}], or [material] for all regions without one",
+            quote(region)
+        );
+        Self { help: Some(help), ..Self::new("materials", message, "no section for it") }
+    }
+
     /// Reports it at its key.
     pub(super) fn report(self, raw: &RawCase, mesh: &Section<'_>) {
         mesh.reject_placed(&raw.place(&self.key), self.message, self.label, self.help);
@@ -259,7 +271,8 @@ impl ImportError {
     pub(super) fn of(error: BodyError, file: &str) -> Self {
         let message = format!("{file}: {error}");
         let BodyError::Request { part, .. } = error else {
-            return Self::new("mesh.file", message, "cannot be used");
+            // What the key means is no remedy for what the file holds.
+            return Self { help: None, ..Self::new("mesh.file", message, "cannot be used") };
         };
         let (key, label) = match part {
             BodyPart::Contact => ("contact.boundary".to_owned(), "the contact curve"),
@@ -315,10 +328,10 @@ pub(super) fn import(
     }
     let material = |region: &String| {
         let own = parts.materials.iter().find(|(name, _)| name == region);
-        let own = own.map_or(&parts.common, |(_, material)| material);
-        own.clone()
+        let own = own.map(|(_, material)| material).or(parts.common.as_ref());
+        own.cloned().ok_or_else(|| ImportError::without_material(shown, region))
     };
-    let materials = mesh.regions.iter().map(material).collect();
+    let materials = mesh.regions.iter().map(material).collect::<Result<_, _>>()?;
     Ok(ImportedBody::new(mesh, materials, read, specification))
 }
 

@@ -29,6 +29,7 @@ mod keys;
 mod model;
 mod modifications;
 mod node;
+mod normal_force;
 mod normal_law;
 mod opposite;
 mod overrides;
@@ -242,6 +243,9 @@ impl Case {
         };
         case.relaxed = relaxed::relaxed(&case);
         let errors = rules::infeasible(&case);
+        if errors.is_empty() {
+            normal_force::press(&mut case)?;
+        }
         let implausible = plausibility::implausible(&case);
         if !errors.is_empty() {
             // A slip of units comes first: what cannot run is mostly its consequence.

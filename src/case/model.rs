@@ -133,7 +133,7 @@ fn unmodified(
         interference: contact.sliding.interference,
         boundaries: conditions,
         materials: materials(root, material, &plane, tables),
-        common: common.clone(),
+        common: has_common_constants(root).then(|| common.clone()),
     };
     let reject = |(message, label): (String, String)| mesh.reject("file", message, label, None);
     let bytes = imported::mesh_bytes(raw, &file).map_err(&reject).ok();
@@ -169,6 +169,7 @@ fn assembly_model(
     let reject = |(message, label): (String, String)| mesh.reject("file", message, label, None);
     let bytes = imported::mesh_bytes(raw, file).map_err(&reject).ok();
     let body = bytes.as_ref().and_then(|bytes| {
+        let common = has_common_constants(root).then_some(&*common);
         let body = assembly::assemble(bytes, scale, conditions, (common, &own), (parts, changes));
         body.map_err(|error| error.report(raw, mesh)).ok()
     });
@@ -195,7 +196,8 @@ fn length_factor(mesh: &Section<'_>) -> f64 {
     10f64.powi(units.length())
 }
 
-/// `[materials.*]` with their axes and those of `[material]` laid into the body.
+/// `[materials.*]` with their axes and those of `[material]` laid into the body. A case without `[material]` gets the constants
+/// of its first region for what asks for one.
 fn materials(
     root: &Section<'_>,
     common: &mut ElasticMaterial,
@@ -207,6 +209,9 @@ fn materials(
     for (name, material) in &mut own {
         let elastic = &mut material.own.elastic;
         place_axes(root, &["materials", name], elastic, body);
+    }
+    if let Some((_, first)) = own.first().filter(|_| !has_common_constants(root)) {
+        *common = first.own.elastic;
     }
     own
 }
@@ -231,14 +236,33 @@ fn ignore_generated(geometry: &Section<'_>, mesh: &Section<'_>) {
     }
 }
 
+/// Names of the regions of `[materials.*]`.
+fn region_names<'a>(root: &Section<'a>) -> Vec<&'a str> {
+    root.section("materials", false).remaining().into_iter().map(|(name, _)| name).collect()
+}
+
+/// Whether `[material]` has the constants of regions without a section of their own; a formulation alone gives them none.
+fn has_common_constants(root: &Section<'_>) -> bool {
+    let given = root.section("material", false).remaining();
+    given.iter().any(|(key, _)| *key != "formulation")
+}
+
+/// `[material]`. Where every region of a mesh file may have a section of its own, it can be left out: the constants are then
+/// those of the first region, once it is read.
 pub(super) fn material(root: &Section<'_>, tables: &mut TableFiles<'_>) -> TabledMaterial {
-    let section = root.section("material", true);
+    let has_regions = root.section("mesh", false).has("file") && !region_names(root).is_empty();
+    let is_needed = !has_regions || has_common_constants(root);
+    let section = root.section("material", is_needed);
     let formulation = section.choice("formulation");
-    let table = modulus_table(&section, tables);
-    let own =
-        RegionMaterial { elastic: elastic(&section, formulation, table.as_deref()), damping: None };
+    let (elastic, table) = match is_needed {
+        true => {
+            let table = modulus_table(&section, tables);
+            (elastic(&section, formulation, table.as_deref()), table)
+        }
+        false => (ElasticMaterial { formulation, ..ElasticMaterial::PLAIN }, None),
+    };
     section.close();
-    TabledMaterial { own, table }
+    TabledMaterial { own: RegionMaterial { elastic, damping: None }, table }
 }
 
 pub(super) fn damping(root: &Section<'_>) -> Damping {

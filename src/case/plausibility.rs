@@ -4,6 +4,7 @@ use super::diagnostic::Diagnostic;
 use super::key::CaseKey;
 use super::keys::KEYS;
 use super::shown::first_of;
+use super::value::RawValue;
 use super::{Body, Case};
 use crate::fem::PlaneFormulation;
 use crate::prestress::{BaseChoice, SlidingSurfaces};
@@ -177,11 +178,24 @@ pub(super) fn bar_wave_speed(case: &Case) -> f64 {
     (case.material.young_modulus / case.material.density).sqrt()
 }
 
-/// The key that sets the modulus of `[material]`: of an orthotropic one the list, of whose values the mean is judged.
-pub(super) fn modulus_key(case: &Case) -> &'static str {
+/// A key of `[material]`, or of the first region where every region has a section of its own.
+pub(super) fn material_key(case: &Case, key: &str) -> String {
+    let common = format!("material.{key}");
+    let regions = case.raw.find("materials").map(|item| &item.value);
+    match (case.raw.find(&common), regions) {
+        (None, Some(RawValue::Table(regions))) => {
+            let region = regions.keys().next().map(|name| format!("materials.{name}.{key}"));
+            region.filter(|own| case.raw.find(own).is_some()).unwrap_or(common)
+        }
+        _ => common,
+    }
+}
+
+/// The key that sets the modulus of that material: of an orthotropic one the list, of whose values the mean is judged.
+pub(super) fn modulus_key(case: &Case) -> String {
     match case.material.orthotropy {
-        Some(_) => "material.young_moduli",
-        None => "material.young_modulus",
+        Some(_) => material_key(case, "young_moduli"),
+        None => material_key(case, "young_modulus"),
     }
 }
 
@@ -194,19 +208,19 @@ fn wave_speed(case: &Case) -> Option<Diagnostic> {
         return None;
     }
     // The one that no solid has; rigid ones are within a factor of ten.
-    let modulus_key = modulus_key(case);
-    let key = match DENSITIES.contains(&density) {
-        true => modulus_key,
-        false => "material.density",
+    let [modulus_key, density_key] = [modulus_key(case), material_key(case, "density")];
+    let (key, label) = match DENSITIES.contains(&density) {
+        true => (&modulus_key, "pascals?"),
+        false => (&density_key, "kg/m3?"),
     };
     Some(warning(
         case,
         key,
         format!(
-            "{modulus_key} = {modulus:e} Pa and material.density = {density:e} kg/m3 give \
+            "{modulus_key} = {modulus:e} Pa and {density_key} = {density:e} kg/m3 give \
              waves of {speed:.3e} m/s, outside {least} to {most} m/s"
         ),
-        if key == "material.density" { "kg/m3?" } else { "pascals?" },
+        label,
         "a case is in SI: Pa, not MPa or GPa; kg/m3, not g/cm3 or t/mm3",
     ))
 }
@@ -216,7 +230,7 @@ fn density(case: &Case) -> Option<Diagnostic> {
     let parameters = case.model_numbers();
     let densities = parameters.into_iter().filter(|(key, _)| key.ends_with(".density"));
     let (key, value) = densities.into_iter().find(|(_, value)| !DENSITIES.contains(value))?;
-    let is_said = wave_speed(case).is_some() && key == "material.density";
+    let is_said = wave_speed(case).is_some() && key == material_key(case, "density");
     (!is_said).then(|| {
         let [least, most] = [DENSITIES.start(), DENSITIES.end()];
         let message = format!("{key} = {value:?} kg/m3 is outside {least} to {most} kg/m3");
@@ -254,11 +268,12 @@ fn poisson_ratio(case: &Case) -> Option<Diagnostic> {
     if ratio <= LARGEST_POISSON_RATIO || is_plane_stress || case.material.orthotropy.is_some() {
         return None;
     }
+    let key = material_key(case, "poisson_ratio");
     Some(warning(
         case,
-        "material.poisson_ratio",
+        &key,
         format!(
-            "material.poisson_ratio = {ratio} is nearly incompressible: the elements lock, and the \
+            "{key} = {ratio} is nearly incompressible: the elements lock, and the \
              time step of a transient shrinks by {:.3} against 0.45",
             // c_p grows with sqrt((1 - nu) / ((1 + nu) (1 - 2 nu))).
             (0.55 / (1.45 * 0.1) / ((1.0 - ratio) / ((1.0 + ratio) * (1.0 - 2.0 * ratio)))).sqrt()

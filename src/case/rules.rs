@@ -1,7 +1,7 @@
 //! Rules between sections.
 
 use super::diagnostic::Diagnostic;
-use super::plausibility::{bar_wave_speed, modulus_key};
+use super::plausibility::{bar_wave_speed, material_key, modulus_key};
 use super::{Case, InitialState, TimeStep};
 
 /// Steps beyond which no machine finishes a transient.
@@ -89,11 +89,13 @@ pub(super) fn infeasible(case: &Case) -> Vec<Diagnostic> {
     if !(SLOWEST_WAVES..=FASTEST_WAVES).contains(&speed) {
         let key = modulus_key(case);
         refuse(
-            key,
+            &key,
             format!(
-                "{key} = {:e} Pa and material.density = {:e} kg/m3 give waves of {speed:.1e} m/s, as no \
+                "{key} = {:e} Pa and {} = {:e} kg/m3 give waves of {speed:.1e} m/s, as no \
                  material has them",
-                case.material.young_modulus, case.material.density
+                case.material.young_modulus,
+                material_key(case, "density"),
+                case.material.density
             ),
             format!("waves of {SLOWEST_WAVES:e} to {FASTEST_WAVES:e} m/s"),
             "a case is in SI: Pa and kg/m3",

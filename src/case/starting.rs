@@ -112,15 +112,7 @@ fn missing_materials(file: &FileMesh, sections: &[FileSection], out: &mut String
         file.elements.iter().map(|e| &*e.region).filter(|r| !has(r)).collect();
     bare.sort_unstable();
     bare.dedup();
-    let is_common = |section: &FileSection| {
-        section.path.0 == "material" && section.keys.iter().any(|key| key.0 == "young_modulus")
-    };
-    if bare.is_empty() && !sections.iter().any(is_common) {
-        let _ = write!(
-            out,
-            "\n[material]    # of regions without a section of their own: there are none\n{STEEL}"
-        );
-    } else if !bare.is_empty() {
+    if !bare.is_empty() {
         let _ = write!(
             out,
             "\n[material]    # CHOOSE: the file gives no material to {}; this is steel\n{STEEL}",

@@ -24,7 +24,7 @@ pub struct BranchPoint {
 pub struct ModeBranch {
     /// Circumferential harmonic `n`.
     pub harmonic: usize,
-    /// Rank of its frequency among the harmonic's modes without friction, 0 = lowest; from 1000 on where it does not reach back there.
+    /// Rank of its frequency among the harmonic's modes without friction, 1 = lowest; from 1000 on where it does not reach back there.
     pub branch: usize,
     /// Direction of travel: +1 with the rotor, -1 against it, 0 standing.
     pub direction: i8,

@@ -11,7 +11,7 @@ pub struct ComplexMode {
     pub eigenvalue: c64,
     /// Circumferential harmonic `n` (nodal diameters).
     pub harmonic: usize,
-    /// Branch among the modes of that harmonic, 0 = lowest frequency.
+    /// Branch among the modes of that harmonic, 1 = lowest frequency.
     pub branch: usize,
     /// +1 travels with the rotor, -1 against it, 0 stands (`n = 0`, or degenerate at `mu = 0`).
     pub direction: i8,

@@ -203,10 +203,6 @@ fn spread_of(places: &[[f64; 3]]) -> (Vector3<f64>, Matrix3<f64>) {
 /// out, and directions whose squared spread, over the largest, is below `thinnest`.
 fn weights_at(origin: [f64; 3], places: &[[f64; 3]], degree: Degree, thinnest: f64) -> Vec<f64> {
     let count = places.len() as f64;
-    // One sample, of a body or region of one element, is the value everywhere.
-    if places.len() == 1 {
-        return vec![1.0];
-    }
     // In the principal axes of the samples, scaled by how far they spread.
     let (centre, spread) = spread_of(places);
     let eigen = spread.symmetric_eigen();
@@ -216,6 +212,10 @@ fn weights_at(origin: [f64; 3], places: &[[f64; 3]], degree: Degree, thinnest: f
         .filter(|(spread, _)| **spread > thinnest * widest)
         .map(|(spread, axis)| axis / spread.sqrt())
         .collect();
+    // Samples at one place, as the one of a body of one element, have their mean as value everywhere.
+    if axes.is_empty() {
+        return vec![1.0 / count; places.len()];
+    }
     let terms = |place: &[f64; 3]| -> Vec<f64> {
         let offset = Vector3::from(*place) - centre;
         let mut terms: Vec<f64> = axes.iter().map(|axis| axis.dot(&offset)).collect();
@@ -253,9 +253,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_one_sample_of_a_body_of_one_brick_is_the_value_everywhere() {
+    fn samples_at_one_place_have_their_mean_as_value_everywhere() {
         for degree in [Degree::Linear, Degree::Quadratic] {
             assert_eq!(weights_at([1.0, 2.0, 3.0], &[[0.5; 3]], degree, FLAT), [1.0]);
+            assert_eq!(weights_at([1.0, 2.0, 3.0], &[[0.5; 3]; 2], degree, FLAT), [0.5; 2]);
         }
     }
 }

@@ -1,15 +1,20 @@
 //! Checks of a case without running it, through the code paths of the run.
 
-use super::eigenvalues::Solver;
+use super::eigenvalues::{SlidingModel, Solver};
+use super::improve;
 use super::response::FrequencyStudy;
 use super::transient::TransientStudy;
 use super::{StudyError, eigenvalues};
-use crate::case::{Case, CaseErrors, Cea, CeaMethod, Cost, Diagnostic, Location, StudyCost};
+use crate::case::{Body, Case, CaseErrors, Cea, CeaMethod, Cost, Diagnostic, Location, StudyCost};
 use crate::fem::operator::SimdLevel;
+use crate::mesh::SolidSector;
 use crate::transient::StepPlan;
 
 /// Nodes up to which matrices are set up to find out.
 const MOST_NODES: u128 = 200_000;
+
+/// Nodes up to which the steady sliding is solved to find out.
+const MOST_SOLVED: u128 = 3_000;
 
 /// Unknowns of a sector, times modes, up to which one eigenvalue problem is solved to find out.
 const MOST_EIGENVALUE_WORK: usize = 100_000;
@@ -62,6 +67,15 @@ pub fn preflight(case: &Case, available: f64) -> Result<Preflight, StudyError> {
         case.require_cycle()?;
     }
     let is_small = found.cost.nodes <= MOST_NODES;
+    let is_solved = found.cost.nodes <= MOST_SOLVED;
+    if let Body::Revolution(revolution) = &case.body
+        && is_small
+    {
+        SolidSector::generate(&revolution.specification)?;
+    }
+    if case.raw.root.contains_key("improve") {
+        improve::refuse_bodies(case)?;
+    }
     if is_small && commands.contains(&"transient") {
         let plan = found.tolerate("transient", transient_plan(case))?;
         if let (Some(run), Some(plan)) = (&mut found.cost.transient, plan) {
@@ -89,7 +103,14 @@ pub fn preflight(case: &Case, available: f64) -> Result<Preflight, StudyError> {
             }
         }
     }
-    if case.frf.is_some() && is_small && case.body.has_sectors() {
+    // Whether something presses the contact, and whether it slides, is known once the base state is.
+    if let Some(cea) = &case.cea
+        && is_solved
+    {
+        let tried = SlidingModel::new(case, cea).map(|_| ());
+        found.tolerate("cea", tried)?;
+    }
+    if case.frf.is_some() && (is_solved || is_small && case.body.has_sectors()) {
         let tried = FrequencyStudy::new(case).map(|_| ());
         found.tolerate("frf", tried)?;
     }

@@ -212,3 +212,22 @@ fn limit_cycles_are_compared_harmonic_by_harmonic_and_doubtful_levels_are_named(
     let verdict = &quantities(&found["series"][0])[0]["verdict"];
     assert_eq!(verdict, "missing");
 }
+
+/// A body of revolution on its whole mesh is refined as it is generated: split elements have straight edges, and no cylinder fits
+/// into their bore.
+#[test]
+fn a_body_of_revolution_on_its_whole_mesh_stays_round_when_it_is_refined() {
+    use frictionsim::case::Case;
+    let text = DISC.replace(
+        "[material]\n",
+        "axial_elements = 1\n[material]\nformulation = \"three-dimensional\"\n",
+    ) + "[cea]\nmethod = \"sparse\"\nmodes = 4\n[convergence]\nfactors = [1, 2, 4]\n";
+    let read = |counts: [usize; 3]| {
+        let names = ["circumferential", "radial", "axial"];
+        let set = names.iter().zip(counts).map(|(n, count)| format!("mesh.{n}_elements={count}"));
+        let thickness = "geometry.thickness=0.009".to_owned();
+        let overrides: Vec<String> = set.chain([thickness]).collect();
+        Case::parse("disc.toml", text.as_bytes(), &overrides).unwrap()
+    };
+    assert_eq!(read([12, 2, 1]).refined(2.0).unwrap().body, read([24, 4, 2]).body);
+}

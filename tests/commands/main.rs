@@ -34,6 +34,7 @@ mod materials;
 mod measured_surface;
 mod mesh_files;
 mod mode_counts;
+mod normal_force;
 mod normal_law;
 mod plot;
 mod reading;

@@ -1,5 +1,6 @@
 //! Materials as a user meets them: results beside theory, keys that name one number of a list, refusals.
 
+use crate::bodies::grid::{Grid, Shape, msh};
 use frictionsim::case::{Case, CeaMethod};
 use frictionsim::contact::SlidingContact;
 use frictionsim::fem::sector;
@@ -122,4 +123,53 @@ fn structural_damping_has_its_meaning_or_is_refused() {
     assert!(matches!(Solver::of(&case, CeaMethod::Auto), Ok(Solver::WholeMesh)));
     let beyond = read(&["material.loss_factor=1.5"]).unwrap_err();
     assert!(beyond.contains("material.loss_factor = 1.5"), "{beyond}");
+}
+
+/// A ring whose layers are two regions, each with a section of its own.
+const TWO_REGIONS: &str = r#"
+[mesh]
+file = "ring.msh"
+[materials.disc]
+young_modulus = 2.5e9
+poisson_ratio = 0.3805
+density = 1228.0
+[materials.rim]
+young_modulus = 2.1e11
+poisson_ratio = 0.3
+density = 7850.0
+[boundaries.outer]
+condition = "clamped"
+[contact]
+friction_coefficient = 0.3
+interference = 25e-6
+rotation_speed_rpm = 610.0
+"#;
+
+#[test]
+fn a_common_material_is_asked_for_only_where_a_region_has_none() {
+    let ring = Grid {
+        shape: Shape::Ring { inner: 0.0205, outer: 0.0905 },
+        along: 16,
+        across: 4,
+        region_of_layer: &|layer| if layer < 2 { "disc" } else { "rim" },
+        names: ["inner", "outer"],
+        triangles: false,
+    };
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("ring.msh"), msh(&[ring])).unwrap();
+    let path = folder.path().join("case.toml");
+    let read = |text: &str| Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]);
+    let case = read(TWO_REGIONS).unwrap();
+    // What asks for one material gets that of the first region.
+    assert_eq!([case.material.young_modulus, case.material.density], [2.5e9, 1228.0]);
+    // A formulation alone is no material.
+    let formulation = format!("{TWO_REGIONS}[material]\nformulation = \"plane-stress\"\n");
+    read(&formulation).unwrap();
+
+    let (text, rest) = TWO_REGIONS.split_once("[materials.rim]").unwrap();
+    let (_, rest) = rest.split_once("[boundaries").unwrap();
+    let bare = read(&format!("{text}[boundaries{rest}")).unwrap_err().to_string();
+    for part in ["ring.msh: the region \"rim\" has no material", "[materials.rim]", "[material]"] {
+        assert!(bare.contains(part), "{part:?} is not in\n{bare}");
+    }
 }

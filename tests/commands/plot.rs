@@ -110,7 +110,7 @@ fn eigenvalue_figures_are_drawn_again_to_the_same_bytes() {
         "cea.shapes_at=[0.2,0.3]",
     ];
     run(&folder, "cea", "polycarbonate-disc.toml", &set, &[]);
-    let expected = ["locus", "pairs", "prestress", "modes-mu-0.3", "branch-n1-1-against"];
+    let expected = ["locus", "pairs", "prestress", "modes-mu-0.3", "branch-n1-2-against"];
     check_redrawn(&folder, &expected);
 }
 

@@ -362,6 +362,40 @@ fn a_folder_of_another_case_is_refused_until_forced() {
     assert!(!folder.path().join("modes/old.csv").exists());
 }
 
+#[cfg(unix)]
+#[test]
+fn files_beyond_a_linked_subfolder_stay_as_they_are() {
+    let (folder, elsewhere) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let first = open(folder.path(), "a", Replace::SameCase).unwrap();
+    first.write("a.csv", |out| out.write_all(b"1")).unwrap();
+    first.finish().unwrap();
+    fs::write(elsewhere.path().join("old.svg"), "mine").unwrap();
+    std::os::unix::fs::symlink(elsewhere.path(), folder.path().join("figures")).unwrap();
+    for replace in [Replace::SameCase, Replace::Continued, Replace::Anything] {
+        let refused = open(folder.path(), "a", replace).unwrap_err();
+        assert!(refused.is_usage() && refused.to_string().contains("figures"), "{refused}");
+    }
+    assert_eq!(fs::read(elsewhere.path().join("old.svg")).unwrap(), b"mine");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_file_that_cannot_be_removed_is_named() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    let output = open(folder.path(), "a", Replace::SameCase).unwrap();
+    output.write("steps/1.bin", |out| out.write_all(b"1")).unwrap();
+    let steps = folder.path().join("steps");
+    let allow = |mode| fs::set_permissions(&steps, fs::Permissions::from_mode(mode)).unwrap();
+    allow(0o555);
+    // Whoever may write everywhere removes it all the same.
+    let is_refused = fs::File::create(steps.join("probe")).is_err();
+    let found = output.discard("steps/1.bin");
+    allow(0o755);
+    assert_eq!(found.is_err(), is_refused);
+    assert!(found.map_or_else(|error| error.to_string().contains("steps/1.bin"), |()| true));
+}
+
 #[test]
 fn a_complete_run_leaves_no_file_of_an_earlier_one() {
     let folder = tempfile::tempdir().unwrap();

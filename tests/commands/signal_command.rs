@@ -69,7 +69,7 @@ fn a_squeal_is_named_by_its_mode_with_superharmonics_and_growth_rate() {
     assert!((rate / 600.0 - 1.0).abs() < 0.02, "{rate}");
     // The growing mode near 9.87 kHz is the lowest of n = 2 and travels against the rotor.
     assert_eq!(channel["mode"]["harmonic"], 2);
-    assert_eq!(channel["mode"]["branch"], 0);
+    assert_eq!(channel["mode"]["branch"], 1);
     assert_eq!(channel["mode"]["direction"], -1);
     let figures = folder.path().join("results/probe/signal/figures");
     assert!(figures.join("signal-1.svg").exists() && figures.join("spectrum-1.png").exists());

@@ -459,7 +459,7 @@ fn paper_disc_reproduces_table_1_and_the_critical_friction_coefficients() {
         assert_eq!(mode.direction, expected, "mode {}", i + 1);
     }
     // Onsets of the exact continuum; modes 7, 5, 3.
-    for (harmonic, branch, critical) in [(1, 1, 0.1224), (2, 0, 0.1382), (1, 0, 0.2121)] {
+    for (harmonic, branch, critical) in [(1, 2, 0.1224), (2, 1, 0.1382), (1, 1, 0.2121)] {
         let interval =
             result.intervals.iter().find(|i| (i.harmonic, i.branch) == (harmonic, branch)).unwrap();
         println!("{interval:?}");

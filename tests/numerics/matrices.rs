@@ -513,6 +513,18 @@ fn cea_of_a_superelement_lists_the_oscillating_modes_of_its_matrices() {
 }
 
 #[test]
+fn check_takes_a_superelement_as_cea_does() {
+    let folder = tempfile::tempdir().unwrap();
+    brake(&folder, "K.mtx");
+    let case = folder.path().join("block.toml");
+    let found = frictionsim::app::check::examine(&case, &[]).unwrap();
+    assert_eq!((&found["valid"], &found["dofs"]), (&true.into(), &100.into()), "{found}");
+    brake(&folder, "nowhere.mtx");
+    let refused = frictionsim::app::check::examine(&case, &[]).unwrap_err().messages().concat();
+    assert!(refused.contains("superelements.brake.stiffness: "), "{refused}");
+}
+
+#[test]
 fn superelements_that_cannot_be_solved_are_refused_with_matrix_and_reason() {
     let folder = tempfile::tempdir().unwrap();
     for (matrix, words) in [

@@ -44,7 +44,7 @@ pub fn run(session: &Session, is_continued: bool) -> Result<(), Failure> {
         true => session.reopen_folder()?,
         false => session.open_folder()?,
     };
-    let steps = KeptSteps::new(&folder, is_continued, &|_| {});
+    let steps = KeptSteps::new(&folder, is_continued, &|_| {})?;
     let sought = study.sought_count() as u64;
     let bar = terminal::progress(session.options.output.is_quiet(), sought, "modes");
     terminal::catch_signals(KEPT);
@@ -64,12 +64,12 @@ pub fn run(session: &Session, is_continued: bool) -> Result<(), Failure> {
         }
     }
     let summary = write(&folder, &report)?;
-    let kept = report.results.iter().map(kept_name);
-    kept.for_each(|name| folder.discard(&name));
+    let mut kept = report.results.iter().map(kept_name);
+    kept.try_for_each(|name| folder.discard(&name))?;
     if let Some(drawing) = session.options.output.drawing() {
         draw_record(&folder, case, &summary, &drawing)?;
     }
-    steps.discard();
+    steps.discard()?;
     let output = &session.options.output;
     output.finish(folder, &print(&report), &summary)
 }

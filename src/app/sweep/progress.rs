@@ -16,7 +16,7 @@ pub struct SweepProgress {
 impl SweepProgress {
     /// Progress over `points` points; with `quiet` only failures are told.
     pub fn new(quiet: bool, points: usize) -> Self {
-        let template = "sweep [{bar:40}] {count} points  {elapsed_precise}{left}\n{wide_msg}";
+        let template = "sweep {track}{count} points  {elapsed_precise}{left}\n{wide_msg}";
         Self { bar: progress_in(quiet, points as u64, template), in_flight: Mutex::default() }
     }
 

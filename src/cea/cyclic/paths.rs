@@ -71,7 +71,7 @@ fn follow_all(
     let lost = |friction: f64| CeaError::LostHarmonic { harmonic: problem.harmonic, friction };
     let at_rest = Rc::new(problem.at(0.0));
     let mut paths = Vec::new();
-    for (branch, (kappa, shape)) in pairs.iter().enumerate() {
+    for (branch, (kappa, shape)) in (1..).zip(pairs) {
         let started = start(follower, &at_rest, branch, *kappa, shape);
         paths.extend(started.ok_or_else(|| lost(0.0))?);
     }

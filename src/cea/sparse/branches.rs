@@ -23,7 +23,7 @@ const MAX_BISECTIONS: usize = 10;
 pub struct BranchLabel {
     /// Circumferential harmonic.
     pub harmonic: usize,
-    /// Rank by frequency within the harmonic without friction, 0 = lowest.
+    /// Rank by frequency within the harmonic without friction, 1 = lowest.
     pub branch: usize,
 }
 
@@ -102,7 +102,7 @@ pub fn label_frictionless(
             let harmonic = harmonics[i];
             let below = harmonics[..i].iter().filter(|&&n| n == harmonic).count();
             let branch = if edge.is_paired(harmonic) { below / 2 } else { below };
-            BranchLabel { harmonic, branch }
+            BranchLabel { harmonic, branch: branch + 1 }
         })
         .collect();
     split_degenerate(&mut point.modes, model, count)?;
@@ -292,7 +292,7 @@ fn adopt_newcomers(
         let branch = if edge.is_paired(harmonic) { below / 2 } else { below };
         let mut modes = vec![None; k];
         modes.push(Some(i));
-        let label = BranchLabel { harmonic, branch };
+        let label = BranchLabel { harmonic, branch: branch + 1 };
         branches.push(TrackedBranch { label, modes, end: None });
     }
 }

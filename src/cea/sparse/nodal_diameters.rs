@@ -234,7 +234,7 @@ fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
         begins.extend(first.iter().map(|(&branch, &(mu, omega))| (mu, omega, part, branch)));
     }
     begins.sort_by(|a, b| (a.0.total_cmp(&b.0)).then(a.1.total_cmp(&b.1)));
-    let ranks = begins.iter().enumerate();
+    let ranks = (1..).zip(&begins);
     let rank_of: BTreeMap<(usize, usize), usize> =
         ranks.map(|(rank, &(_, _, part, branch))| ((part, branch), rank)).collect();
     for (part, sweep) in parts.iter_mut().enumerate() {

@@ -262,9 +262,8 @@ fn branch_shapes(report: &CeaReport<'_>, branch: Branch) -> Figure {
             branch.0, branch.1
         ),
         false => format!(
-            "Branch {} at several friction coefficients: the mode that is number {} by frequency at the lowest.",
-            branch.1,
-            branch.1 + 1
+            "Branch {0} at several friction coefficients: the mode that is number {0} by frequency at the lowest.",
+            branch.1
         ),
     };
     let name = match report.has_harmonics {

@@ -1,8 +1,8 @@
 //! Steps of an eigenvalue sweep that an interrupted run leaves in its folder, for the run that goes on.
 
 use crate::cea::{SweepProgress, SweepWatch};
-use crate::results::OutputFolder;
 use crate::results::store::framed;
+use crate::results::{FolderError, OutputFolder};
 use frictionsim_bounds::{RESULT, read_file};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -40,7 +40,7 @@ impl<'a> KeptSteps<'a> {
         folder: &'a OutputFolder,
         is_continued: bool,
         heard: &'a (dyn Fn(SweepProgress) + Sync),
-    ) -> Self {
+    ) -> Result<Self, FolderError> {
         let entries = fs::read_dir(folder.path().join(FOLDER));
         let files = entries.into_iter().flatten().flatten();
         let names = files.filter_map(|entry| entry.file_name().into_string().ok());
@@ -51,18 +51,21 @@ impl<'a> KeptSteps<'a> {
             has_failed: AtomicBool::new(false),
         };
         if !is_continued {
-            steps.discard();
+            steps.discard()?;
         }
-        steps
+        Ok(steps)
     }
 
     /// Drops all steps: the run is complete, or starts anew.
-    pub fn discard(&self) {
+    ///
+    /// # Errors
+    /// A file that cannot be removed.
+    pub fn discard(&self) -> Result<(), FolderError> {
         let mut names = self.names.lock().unwrap_or_else(PoisonError::into_inner);
-        names.iter().for_each(|name| self.folder.discard(name));
-        names.clear();
+        std::mem::take(&mut *names).iter().try_for_each(|name| self.folder.discard(name))?;
         // Anything else in there is not ours.
         let _ = fs::remove_dir(self.folder.path().join(FOLDER));
+        Ok(())
     }
 
     fn path(name: &str) -> String {

@@ -266,8 +266,13 @@ fn totals(out: &mut String, report: &CeaReport<'_>) {
     let base = &report.base;
     let _ = write!(
         out,
-        "steady sliding at friction {}: {} contact nodes slipping, {} sticking, {} open; ",
-        base.friction_coefficient, base.slipping, base.sticking, base.open,
+        "steady sliding at friction {}: {} contact {} slipping, {} sticking, {} open; ",
+        base.friction_coefficient,
+        base.slipping,
+        // Solid bodies touch at points between their nodes.
+        if report.assembly.is_some() { "points" } else { "nodes" },
+        base.sticking,
+        base.open,
     );
     let _ = match report.assembly {
         Some(assembly) if assembly.is_free_of_stress() => writeln!(out, "free of stress"),

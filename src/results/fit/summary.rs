@@ -94,7 +94,7 @@ impl ModeSummary {
         };
         match self.harmonic {
             Some(n) => format!("n = {n}, branch {}{way}", self.branch),
-            None => format!("mode {}", self.branch + 1),
+            None => format!("mode {}", self.branch),
         }
     }
 }
@@ -149,7 +149,12 @@ impl FitSummary {
             for key in std::iter::once(key).chain(&fitted.also) {
                 let (section, name) = key.rsplit_once('.').unwrap_or(("", key));
                 let lines = sections.entry(section).or_default();
-                let _ = writeln!(lines, "{name} = {:?}  # {interval}", fitted.value);
+                // Digits beyond these are round-off of the search.
+                let _ = writeln!(
+                    lines,
+                    "{name} = {:?}  # {interval}",
+                    crate::results::vtu::rounded(fitted.value)
+                );
             }
         }
         let head = format!("# fitted to {}\n", self.measurement);

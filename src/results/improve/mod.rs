@@ -200,14 +200,17 @@ impl ImproveSummary {
         }
         let _ = writeln!(
             out,
-            "growth 1/s and critical friction: as it is {} and {}\n\n{:>4}  {:<8} {:<34} {:>21} {:>21}  verdict",
+            "as it is: growth {} 1/s, critical friction {}\n\n{:49}{:>21} {:>21}\n{:>4}  {:<8} {:<34} {:>21} {:>21}  verdict",
             growth(self.base.growth_rate_per_s),
             critical(self.base.critical_friction, friction),
+            "",
+            "predicted",
+            "run again",
             "rank",
             "kind",
             "where",
-            "predicted",
-            "run again",
+            "growth 1/s critical",
+            "growth 1/s critical",
         );
         let both = |state: &State| {
             format!(

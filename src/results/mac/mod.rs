@@ -6,6 +6,7 @@ use super::summary::{Entry, Summary};
 use super::table::{Column, write_rows};
 use super::{FolderError, Manifest, OutputFolder};
 use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 pub use report::draw_mac;
@@ -95,14 +96,14 @@ impl MacSummary {
     /// As text.
     pub fn text(&self) -> String {
         let mut out = format!(
-            "{}\n{}\n\n{:>10} {:>12} {:>6} {:>12} {:>9} {:>7}\n",
+            "{}\n{}\n\n{:>10} {:>12} {:>6} {:>12} {:>10} {:>7}\n",
             self.title,
             self.answer(),
             "shape",
             "measured Hz",
             "mode",
             "frequency Hz",
-            "real Hz",
+            "growth 1/s",
             "MAC"
         );
         for pair in &self.pairs {
@@ -110,8 +111,12 @@ impl MacSummary {
             let measured = shape.frequency_hz.map_or("-".to_owned(), |hz| format!("{hz:.2}"));
             let _ = writeln!(
                 out,
-                "{:>10} {measured:>12} {:>6} {:>12.2} {:>9.2} {:>7.4}",
-                shape.name, mode.mode, mode.frequency_hz, mode.real_hz, pair.mac
+                "{:>10} {measured:>12} {:>6} {:>12.2} {:>10.2} {:>7.4}",
+                shape.name,
+                mode.mode,
+                mode.frequency_hz,
+                TAU * mode.real_hz,
+                pair.mac
             );
         }
         for note in &self.notes {

@@ -6,6 +6,7 @@ use crate::results::drawing::{DrawingError, DrawingOptions, draw_all, write_repo
 use crate::results::folder::OutputFolder;
 use crate::results::quantity::significant;
 use crate::results::report::{Report, ReportSection, ReportTable};
+use std::f64::consts::TAU;
 
 /// Draws the matrix into `figures/` and writes `report.html`.
 ///
@@ -71,7 +72,7 @@ fn pairs_table(summary: &MacSummary) -> ReportTable {
             shape.frequency_hz.map_or(String::new(), |hz| significant(hz, 6)),
             mode.mode.to_string(),
             significant(mode.frequency_hz, 6),
-            significant(mode.real_hz, 4),
+            significant(TAU * mode.real_hz, 4),
             format!("{:.4}", pair.mac),
             shape.off_body.to_string(),
         ]
@@ -83,7 +84,7 @@ fn pairs_table(summary: &MacSummary) -> ReportTable {
             "measured (Hz)",
             "mode",
             "frequency (Hz)",
-            "real part (Hz)",
+            "growth rate (1/s)",
             "MAC",
             "points off the body",
         ],

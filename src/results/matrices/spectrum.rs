@@ -127,7 +127,7 @@ impl FreeSpectrum {
             self.unstable(),
             self.overdamped,
         );
-        let _ = writeln!(text, "  mode  frequency Hz       real Hz  damping factor");
+        let _ = writeln!(text, "  mode  frequency Hz    growth 1/s  damping factor");
         for (k, mode) in self.modes.iter().enumerate() {
             let lambda = mode.eigenvalue;
             let _ = writeln!(
@@ -135,7 +135,7 @@ impl FreeSpectrum {
                 "  {:>4} {:>13.6e} {:>13.5e} {:>15.6}",
                 k + 1,
                 lambda.im / TAU,
-                lambda.re / TAU,
+                lambda.re,
                 -lambda.re / lambda.norm(),
             );
         }

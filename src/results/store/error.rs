@@ -30,6 +30,16 @@ pub enum FolderError {
         /// One of the files.
         found: String,
     },
+    /// A subfolder of it is a link to a folder elsewhere.
+    #[error(
+        "{} is a link to another folder, whose files would be replaced: \
+         remove the link, or choose another folder with --out",
+        path.display()
+    )]
+    Linked {
+        /// The subfolder.
+        path: PathBuf,
+    },
     /// Another process writes it.
     #[error(
         "{} is being written by another process: wait for it, or choose another folder with --out",
@@ -108,6 +118,7 @@ impl FolderError {
             self,
             Self::OtherCase { .. }
                 | Self::Foreign { .. }
+                | Self::Linked { .. }
                 | Self::Started { .. }
                 | Self::NotASweep { .. }
                 | Self::NotResults { .. }

@@ -115,10 +115,11 @@ impl OutputFolder {
     /// # Errors
     /// Those of [`OutputFolder::open`] that the folder's contents decide.
     pub fn may_open(path: &Path, manifest: &Manifest, replace: Replace) -> Result<(), FolderError> {
-        match path.exists() {
-            true => replaces_others(path, manifest, replace).map(|_| ()),
-            false => Ok(()),
+        if !path.exists() {
+            return Ok(());
         }
+        refuse_links(path)?;
+        replaces_others(path, manifest, replace).map(|_| ())
     }
 
     /// Where this run was begun beside results that it is to replace, if it was, and interrupted.
@@ -205,9 +206,12 @@ impl OutputFolder {
     }
 
     /// Removes a file that has served its purpose, written by this run or an earlier one.
-    pub fn discard(&self, name: &str) {
+    ///
+    /// # Errors
+    /// A file that cannot be removed.
+    pub fn discard(&self, name: &str) -> Result<(), FolderError> {
         self.written().remove(name);
-        self.remove(std::iter::once(&name.to_owned()));
+        remove_files(&self.path, std::iter::once(&name.to_owned()))
     }
 
     /// Ends a complete run: removes what an earlier run of the same case left and this one did not
@@ -237,7 +241,7 @@ impl OutputFolder {
     fn seal(&self) -> Result<(), FolderError> {
         let written = self.written();
         let stale = self.earlier.keys().filter(|name| !written.contains_key(*name));
-        self.remove(stale);
+        remove_files(&self.path, stale)?;
         self.write_manifest(&written)?;
         let journal = self.path.join(JOURNAL);
         fs::remove_file(&journal).map_err(|e| FolderError::io("remove", &journal, e))
@@ -266,7 +270,7 @@ impl OutputFolder {
             fs::rename(&from, &to).map_err(|e| FolderError::io("write", &to, e))?;
         }
         let stale = replaced.keys().filter(|name| !written.contains_key(*name));
-        remove_files(destination, stale);
+        remove_files(destination, stale)?;
         write_contents(destination, &Contents::new(&self.manifest, &written))?;
         let _ = fs::remove_dir_all(&self.path);
         fs::remove_file(&journal_path).map_err(|e| FolderError::io("remove", &journal_path, e))
@@ -274,10 +278,6 @@ impl OutputFolder {
 
     fn write_manifest(&self, files: &BTreeMap<String, Option<u32>>) -> Result<(), FolderError> {
         write_contents(&self.path, &Contents::new(&self.manifest, files))
-    }
-
-    fn remove<'a>(&self, names: impl Iterator<Item = &'a String>) {
-        remove_files(&self.path, names);
     }
 }
 
@@ -289,10 +289,35 @@ pub(crate) fn write_contents(folder: &Path, contents: &Contents) -> Result<(), F
 }
 
 /// Removes files that a manifest lists.
-pub(crate) fn remove_files<'a>(folder: &Path, names: impl Iterator<Item = &'a String>) {
-    for name in names.filter(|name| is_inside(name)) {
-        // A file that is gone already is what we want.
-        let _ = fs::remove_file(folder.join(name));
+///
+/// # Errors
+/// A file that is there and cannot be removed.
+pub(crate) fn remove_files<'a>(
+    folder: &Path,
+    names: impl Iterator<Item = &'a String>,
+) -> Result<(), FolderError> {
+    use io::ErrorKind::{IsADirectory, NotADirectory, NotFound};
+    for path in names.filter(|name| is_inside(name)).map(|name| folder.join(name)) {
+        match fs::remove_file(&path) {
+            // A file that is gone already, or has made way for something of the user's, is what we want.
+            Err(error) if !matches!(error.kind(), NotFound | NotADirectory | IsADirectory) => {
+                return Err(FolderError::io("remove", &path, error));
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a folder with a subfolder that is a link: files beyond it belong to nobody here.
+fn refuse_links(path: &Path) -> Result<(), FolderError> {
+    let entries = fs::read_dir(path).map_err(|e| FolderError::io("read folder", path, e))?;
+    let mut links = entries.flatten().filter(|entry| {
+        entry.file_type().is_ok_and(|kind| kind.is_symlink()) && entry.path().is_dir()
+    });
+    match links.next() {
+        Some(link) => Err(FolderError::Linked { path: link.path() }),
+        None => Ok(()),
     }
 }
 

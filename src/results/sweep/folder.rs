@@ -332,7 +332,7 @@ fn take_over(
         return Err(FolderError::Busy { path });
     }
     if let Some(contents) = &contents {
-        remove_files(path, contents.files.iter());
+        remove_files(path, contents.files.iter())?;
     }
     let files: BTreeMap<String, Option<u32>> = (1..=count)
         .flat_map(|point| [point_name(point), clock_name(point)])
@@ -353,8 +353,7 @@ fn remove_points(path: &Path, points: &[usize], company: Company) -> Result<(), 
         .flat_map(|&point| [point_name(point), clock_name(point)])
         .chain(over_all())
         .collect();
-    remove_files(path, names.iter());
-    Ok(())
+    remove_files(path, names.iter())
 }
 
 /// Removes what killed processes left: files half written under temporary names, and claims.

@@ -127,9 +127,12 @@ fn flatten(
     }
 }
 
-/// Name of a list's item that is a mode: harmonic, branch (or onset) and direction.
+/// Name of a list's item: of a mode harmonic, branch (or onset) and direction, of what is known at one friction coefficient that.
 fn item_name(item: &Value) -> Option<String> {
     let number = |key: &str| item.get(key).and_then(Value::as_i64);
+    if let (None, Some(friction)) = (number("harmonic"), item.get("friction_coefficient")) {
+        return Some(format!("mu{friction}"));
+    }
     let mut name = format!("n{}", number("harmonic")?);
     for (key, letter) in [("branch", 'b'), ("onset", 'o')] {
         if let Some(rank) = number(key) {
@@ -237,6 +240,16 @@ mod tests {
         };
         assert_eq!(column("onsets.n1_b0_against.critical_friction"), ["0.2", "0.15"]);
         assert_eq!(column("onsets.n1_b1_against.critical_friction"), ["0.1", ""]);
+    }
+
+    #[test]
+    fn what_is_known_at_one_friction_coefficient_is_named_by_it() {
+        let count = |friction: f64| json!({ "friction_coefficient": friction, "unstable": 1 });
+        let text = table(&[record(1, json!({ "counts": [count(0.0), count(0.25)] }))]);
+        assert!(
+            text.contains("counts.mu0.0.unstable") && text.contains("counts.mu0.25.unstable"),
+            "{text}"
+        );
     }
 
     #[test]

@@ -5,6 +5,8 @@ use super::{MeasuredMode, ModelMode};
 /// Share of a line's own frequency that it costs to be matched by nothing, or by a stable mode where the line was heard:
 /// more than any difference that makes sense.
 const PENALTY: f64 = 1.0;
+/// Cost above which a match counts as one that is no number: sums of several would lose the others to round-off.
+const LARGEST_COST: f64 = 1e150;
 
 /// Weights of one line, 1/Hz.
 #[derive(Clone, Copy, Debug)]
@@ -75,12 +77,19 @@ pub(super) fn differences(line: &MeasuredMode, mode: &ModelMode) -> [f64; 2] {
     [line.frequency_hz - mode.frequency_hz(), real]
 }
 
-/// The column of each row, all different, at the smallest sum of costs; no more rows than columns.
+/// The column of each row, all different, at the smallest sum of costs; no more rows than columns. A cost that is no finite number
+/// is dearer than all the others together.
 ///
 /// Shortest augmenting paths with potentials: R. Jonker, A. Volgenant, "A shortest augmenting path algorithm for dense
 /// and sparse linear assignment problems", Computing 38 (1987) 325.
 pub(in crate::study) fn least_cost(costs: &[Vec<f64>]) -> Vec<usize> {
     let columns = costs.first().map_or(0, Vec::len);
+    let finite = costs.iter().flatten().copied().filter(|cost| cost.abs() <= LARGEST_COST);
+    let dearest = 1.0 + 2.0 * costs.len() as f64 * finite.fold(0.0, |m: f64, c| m.max(c.abs()));
+    let cost = |row: usize, column: usize| {
+        let own: f64 = costs[row - 1][column - 1];
+        if own.abs() <= LARGEST_COST { own } else { dearest }
+    };
     // Column 0 stands for "no column yet"; row 0 likewise.
     let (mut row_price, mut column_price) = (vec![0.0; costs.len() + 1], vec![0.0; columns + 1]);
     let mut row_of = vec![0; columns + 1];
@@ -96,7 +105,7 @@ pub(in crate::study) fn least_cost(costs: &[Vec<f64>]) -> Vec<usize> {
                 if is_used[column] {
                     continue;
                 }
-                let reduced = costs[own - 1][column - 1] - row_price[own] - column_price[column];
+                let reduced = cost(own, column) - row_price[own] - column_price[column];
                 if reduced < slack[column] {
                     (slack[column], way[column]) = (reduced, last);
                 }
@@ -131,6 +140,15 @@ pub(in crate::study) fn least_cost(costs: &[Vec<f64>]) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn costs_that_are_no_numbers_are_taken_last() {
+        let (no, far) = (f64::NAN, f64::INFINITY);
+        assert_eq!(least_cost(&[vec![no, 2.0, 1.0], vec![3.0, far, 1.0]]), [1, 2]);
+        let mut all = least_cost(&[vec![no; 2], vec![far; 2]]);
+        all.sort_unstable();
+        assert_eq!(all, [0, 1]);
+    }
 
     #[test]
     fn the_assignment_is_the_cheapest_of_all_permutations() {

@@ -222,7 +222,7 @@ pub(super) fn target_modes(base: &Base<'_>) -> Vec<TargetMode> {
 }
 
 /// Bodies whose changes break the symmetry that they are solved by, and damping without linear derivatives.
-fn refuse_bodies(case: &Case) -> Result<(), CaseErrors> {
+pub(in crate::study) fn refuse_bodies(case: &Case) -> Result<(), CaseErrors> {
     let refuse = |key: &str, message: &str, label: &str, help: &str| {
         let help = Some(help.to_owned());
         Err(case.error_at(key, message.to_owned(), label.to_owned(), help))

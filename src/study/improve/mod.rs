@@ -28,6 +28,7 @@ use crate::cea::CeaError;
 use crate::fem::lumped_masses;
 use crate::mesh::Mesh;
 use crate::results::improve::{Candidate, FrontPoint, Sizes, State, TargetFields, TargetMode};
+pub(super) use base::refuse_bodies;
 use base::{Base, Outlook, state, target_modes};
 use confirm::{keys_of, run_again, verdict};
 use fields::{Derivatives, element_dofs, element_terms, matrices};

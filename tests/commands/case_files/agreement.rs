@@ -1,6 +1,7 @@
 //! Consistency check: what `check` says of a case is what its runs say.
 
 use super::RUN;
+use crate::bricks::{Block, file_of};
 use frictionsim::case::{Analysis, Case};
 use frictionsim::results::Manifest;
 use frictionsim::study::{StudyError, preflight, summarize};
@@ -85,4 +86,45 @@ fn check_refuses_what_a_run_refuses_and_nothing_else() {
         counts[usize::from(run)] += 1;
     }
     assert!(counts.iter().all(|count| *count > 5), "{counts:?}");
+}
+
+/// What the run of a body refuses for a reason that its case has, `check` refuses in the same words.
+#[test]
+fn check_knows_what_runs_of_rings_blocks_and_pads_refuse() {
+    let folder = tempfile::tempdir().unwrap();
+    let block =
+        Block { name: "pad", origin: [0.0; 3], size: [0.03, 0.02, 0.01], counts: [2, 2, 1] };
+    std::fs::write(folder.path().join("pad.msh"), file_of(&[block], |point| point)).unwrap();
+    let path = folder.path().join("case.toml");
+    let steel = "young_modulus = 2.1e11\npoisson_ratio = 0.3\ndensity = 7850.0\n";
+    let pad = format!(
+        "[mesh]\nfile = \"pad.msh\"\n[material]\n{steel}[boundaries.pad_z1]\ncondition = \"clamped\"\n\
+         [contact]\nboundary = \"pad_z0\"\ncounterface = \"plane\"\ndirection = [1.0, 0.0, 0.0]\nspeed = 1.5\n\
+         friction_coefficient = 0.3\n"
+    );
+    let ring = format!(
+        "[geometry]\ninner_radius = 0.02\nouter_radius = 0.06\nthickness = 0.009\n\
+         [mesh]\ncircumferential_elements = 12\nradial_elements = 2\naxial_elements = 1\n\
+         [material]\nformulation = \"three-dimensional\"\n{steel}\
+         [contact]\nboundary = \"top\"\nring_inner_radius = 0.03\nring_outer_radius = 0.05\ninterference = 5e-6\n\
+         rotation_speed_rpm = 60.0\nfriction_coefficient = 0.3\n[boundaries.bottom]\ncondition = \"guide\"\n"
+    );
+    let cea = "[cea]\nmodes = 2\nfriction_coefficients = [0.3]\n";
+    let frf = "[frf]\nforce_node = 1\nboundary = \"sliding\"\nfrequencies_hz = [100.0]\nforce_direction = \"z\"\n\
+               response_direction = \"z\"\n";
+    let lossy = pad.replace("density", "loss_factor = 0.01\ndensity");
+    for (text, reason) in [
+        (format!("{pad}interference = 0.0\n{cea}"), "nothing presses the contact"),
+        (format!("{ring}{cea}"), "none of them lies under the ring alone"),
+        (format!("{pad}interference = 1e-6\n{frf}"), "cannot move in z direction"),
+        (
+            format!("{lossy}interference = 1e-6\n{cea}[improve]\nmass = 0.01\n"),
+            "improve takes derivatives",
+        ),
+    ] {
+        let case = Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]);
+        let case = case.unwrap_or_else(|errors| panic!("{errors}"));
+        let refused = preflight(&case, f64::INFINITY).unwrap_err();
+        assert!(refused.is_usage() && refused.to_string().contains(reason), "{refused}");
+    }
 }

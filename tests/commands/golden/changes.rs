@@ -44,9 +44,16 @@ const CHANGES: &[(&str, &str, &str, &str)] = &[
         "onsets are those below the case's friction, from the eigenvalue analysis",
     ),
     ("*", "*", "cycles[].branch.folds*", FOLDS),
+    ("*", "*", "branch", BRANCH),
+    ("*", "*", "critical_frictions[].branch", BRANCH),
+    ("*", "*", "friction[].modes[].branch", BRANCH),
+    ("*", "*", "summaries.cea.critical_frictions[].branch", BRANCH),
+    ("*", "*", "summaries.cea.friction[].modes[].branch", BRANCH),
     ("identify", "modes.csv", "used", "a flag is true or false in every table"),
     ("*", "*", "summaries.cycle.cycles[].branch.folds*", FOLDS),
 ];
+
+const BRANCH: &str = "branches are counted from 1, as modes are";
 
 const FOLDS: &str = "a fold is a turn back by more than the phases of the wave resolve";
 

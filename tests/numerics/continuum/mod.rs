@@ -227,7 +227,7 @@ impl Annulus {
         all
     }
 
-    /// Eigenvalue of one branch (0 = lowest of its harmonic) and travelling direction.
+    /// Eigenvalue of one branch (1 = lowest of its harmonic) and travelling direction.
     ///
     /// The branch is counted by frequency among the waves of that direction, which follows it from
     /// `mu = 0` as long as no two branches of the harmonic cross.
@@ -242,7 +242,7 @@ impl Annulus {
         self.eigenvalues(harmonic, contact, rayleigh)
             .into_iter()
             .filter(|mode| mode.direction == direction)
-            .nth(branch)
+            .nth(branch - 1)
             .expect("the spectral element has far more branches than any test asks for")
     }
 

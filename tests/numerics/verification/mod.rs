@@ -9,6 +9,7 @@ mod bryan_1890;
 mod duffour_woodhouse;
 mod hulten_1993;
 mod johnson_sliding_hertz;
+mod nafems_fv52;
 mod oberst;
 mod sector_pads;
 

@@ -64,10 +64,10 @@ pub(super) fn follow_damped(
         follower: Follower::new(&problem),
         largest: range.largest,
         paths: Vec::new(),
-        next_branch: pairs.len().max(FIRST_BORN),
+        next_branch: (pairs.len() + 1).max(FIRST_BORN),
     };
     let at_rest = problem.at(0.0);
-    for (branch, (kappa, shape)) in pairs.iter().enumerate() {
+    for (branch, (kappa, shape)) in (1..).zip(pairs) {
         let started = start(&mut course.follower, &at_rest, branch, *kappa, shape);
         course.paths.extend(started.into_iter().flatten().map(Tracked::new));
     }

@@ -159,7 +159,7 @@ impl SparseSweep<'_> {
         let modes = wanted.iter().zip(&point.checks).enumerate().map(|(i, (mode, check))| {
             let branch = branches.iter().find(|b| b.modes[k] == Some(i));
             let label = branch.map_or_else(
-                || BranchLabel { harmonic: self.edge.harmonic(&check.edge, check.peak), branch: 0 },
+                || BranchLabel { harmonic: self.edge.harmonic(&check.edge, check.peak), branch: 1 },
                 |b| b.label,
             );
             // Without friction any combination of a degenerate pair is a mode: it has no direction.

@@ -203,7 +203,7 @@ fn relabel(before: &Part, after: &mut FrictionSweep) {
         }
     }
     let known = before.sweep.points.iter().flat_map(|point| &point.modes).map(|mode| mode.branch);
-    let mut next = known.max().map_or(0, |branch| branch + 1);
+    let mut next = known.max().map_or(1, |branch| branch + 1);
     let mut new_number = std::collections::BTreeMap::new();
     for (mode, number) in first.modes.iter().zip(number_of) {
         new_number.insert(
