@@ -2,7 +2,7 @@
 
 use super::elastic::loss_factor;
 use super::imported::{self, ContactPlace};
-use super::normal_force;
+use super::interference::interference;
 use super::normal_law::normal_law;
 use super::reader::Section;
 use super::solid;
@@ -78,7 +78,7 @@ pub(super) fn contact(
         }
         place.plane_speed = None;
     }
-    let interference = normal_force::interference(&section);
+    let interference = interference(&section);
     if is_pressed && section.has("normal_force") {
         section.reject(
             "normal_force",

@@ -24,6 +24,7 @@ mod generated;
 mod imported;
 mod improve;
 mod inclusion;
+mod interference;
 mod key;
 mod keys;
 mod model;

@@ -5,7 +5,6 @@
 
 use super::body::Body;
 use super::diagnostic::CaseErrors;
-use super::reader::Section;
 use super::value::quote;
 use super::{Case, Revolution};
 use crate::contact::{Counterpart, SlidingContact};
@@ -15,8 +14,6 @@ use crate::prestress::{
     PrestressError, SectorSliding, SlidingSurfaces, SolidSliding, SteadySliding,
 };
 
-/// Interference that the search begins with, m; any other leads to the same root.
-const START: f64 = 1e-6;
 /// Factor of the steps up to an interference that presses enough.
 const STEP: f64 = 4.0;
 /// Steps up to it: from a micrometre to kilometres.
@@ -25,25 +22,6 @@ const MOST_STEPS: usize = 15;
 const TOLERANCE: f64 = 1e-12;
 /// Evaluations between two bounds, and rounds over contacts that lean on each other.
 const MOST_ROUNDS: usize = 60;
-
-/// The interference of a contact as a section gives it; a stand-in where a force presses, until the body is known.
-pub(super) fn interference(section: &Section<'_>) -> f64 {
-    let force = section.optional_number("normal_force");
-    if force.is_none() {
-        return section.number("interference");
-    }
-    let _ = section.optional_number("interference");
-    if section.has("interference") {
-        let key = section.name("interference");
-        section.reject(
-            "normal_force",
-            format!("{} beside {key}", section.name("normal_force")),
-            "one of the two presses",
-            format!("leave {key} out, or the force"),
-        );
-    }
-    START
-}
 
 /// A contact that is pressed with a force.
 struct Wanted {

@@ -1,6 +1,6 @@
 //! The rigid counterface of solid bodies: of `[contact]`, and of a `[contacts.NAME]` without `counter`.
 
-use super::normal_force;
+use super::interference::interference;
 use super::reader::Section;
 use super::words::CounterfaceWord;
 use crate::contact::{RigidCounterface, RigidMotion, RigidShape};
@@ -41,7 +41,7 @@ pub(super) fn rigid_counterface(section: &Section<'_>) -> RigidCounterface {
         center: triple(section, "center").unwrap_or([0.0; 3]),
         axis: unit(section, "axis", axis),
         motion: motion(section),
-        interference: normal_force::interference(section),
+        interference: interference(section),
     }
 }
 

@@ -95,7 +95,7 @@ fn every_contact_gets_its_own_force() {
     let contact = |name: &str, force: f64| {
         format!(
             "[contacts.{name}]\nsurface = \"{name}_z0\"\ncounterface = \"plane\"\nspeed = 1.5\n\
-             direction = [1.0, 0.0, 0.0]\nnormal_force = {force:?}\n{CONTACT}"
+             direction = [1.0, 0.0, 0.0]\nnormal_stiffness = 1e12\nnormal_force = {force:?}\n{CONTACT}"
         )
     };
     let both = contact("left", 200.0) + &contact("right", 300.0);

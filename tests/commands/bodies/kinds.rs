@@ -99,7 +99,7 @@ fn solids() -> (String, String) {
     (case, mesh)
 }
 
-/// One sector of a ring around a cylinder, whose body is its six copies.
+/// One sector of a ring around a cylinder, whose body is its six copies; its own friction lies above the onset at 0.12.
 fn sectors() -> (String, String) {
     let sector = Block {
         name: "ring",
@@ -140,15 +140,6 @@ pub fn kinds() -> Vec<Kind> {
         )
     };
     let (solids, solid_mesh) = solids();
-    // Unstable from friction 0.25 on.
-    let squealing = solids
-        .replace("stiffness_coefficient = 4.5e-7", "stiffness_coefficient = 1e-8")
-        .replace("speed_rpm = 100.0", "speed_rpm = -100.0")
-        .replace(
-            "stiffness = 1e12\ntangential_stiffness = 1e12",
-            "stiffness = 1e11\ntangential_stiffness = 1e11",
-        );
-    let stiffened = solids.replace("normal_stiffness = 1e12\n[ties", &format!("{stiffening}[ties"));
     let (of_sectors, sector) = sectors();
     vec![
         kind("annulus", annulus("", "", "")),
@@ -221,9 +212,7 @@ pub fn kinds() -> Vec<Kind> {
                 "[boundaries.bottom]\ncondition = \"guide\"\n",
             ),
         ),
-        of_file("solid bodies, tied and sliding", solids, solid_mesh.clone()),
-        of_file("solid bodies, squealing", squealing, solid_mesh.clone()),
-        of_file("solid bodies, stiffening contact", stiffened, solid_mesh),
+        of_file("solid bodies, tied and sliding", solids, solid_mesh),
         of_file("solid of sectors", of_sectors, sector),
     ]
 }
