@@ -34,7 +34,7 @@
 //!    matrices of small motions around it.
 //! 6. [`cea`], [`transient`], [`frf`], [`cycle`]: eigenvalues, the time loop, responses and limit cycles, each for itself.
 //! 7. [`study`]: an analysis of a case from beginning to end, and what repeats analyses: sweeps, fits, probabilities.
-//! 8. [`results`] and [`chart`]: tables, fields, figures, reports. [`app`]: the command line.
+//! 8. [`results`], [`output`] and [`chart`]: tables, fields, figures, reports. [`app`]: the command line.
 //!
 //! # From equation to item
 //!
@@ -72,7 +72,7 @@
 //!
 //! [`chart`], [`formats`], [`linalg`] and [`signal`] are crates of their own in `crates/`, which name nothing of this one. Each module here
 //! names only those below it: [`linalg`], [`mesh`]; [`fem`]; [`contact`]; [`prestress`]; [`cea`], [`transient`], [`frf`], [`cycle`];
-//! [`case`], [`results`]; [`study`]; [`app`].
+//! [`case`], [`results`]; [`study`]; [`app`]. [`output`] stands beside the lowest: it knows tables and nothing of friction.
 
 pub mod case;
 pub mod cea;
@@ -87,6 +87,7 @@ pub mod linalg {
     pub use frictionsim_linalg::*;
 }
 pub mod mesh;
+pub mod output;
 pub mod prestress;
 pub mod results;
 pub mod study;

@@ -1,9 +1,8 @@
 //! `frictionsim basin`: which of two motions wins.
 
-use super::profile::{Profile, Redraw};
+use super::profile::{Profile, Redraw, redraw};
 use super::{Failure, RunOptions, Session, terminal};
-use crate::results::basin::{BasinSummary, draw_basin, write_basin};
-use crate::results::{DrawingOptions, OutputFolder, read_summary, write_summary};
+use crate::results::basin::BasinSummary;
 use crate::study::basin::summary;
 use clap::Args;
 
@@ -25,17 +24,8 @@ pub const PROFILE: Profile = Profile {
         "frictionsim basin disc.toml",
         "which of two waves wins, by the ratio of their amplitudes at saturation",
     )],
-    redraw: Redraw::OfFolder(redraw),
+    redraw: Redraw::OfFolder(redraw::<BasinSummary>),
 };
-
-/// Draws the figure and the report of a folder again, from its summary.
-///
-/// # Errors
-/// A folder without a whole summary; those of the drawing and of the folder.
-pub fn redraw(folder: &OutputFolder, options: &DrawingOptions) -> Result<(), Failure> {
-    let summary: BasinSummary = read_summary(folder.path())?;
-    Ok(draw_basin(folder, &summary, options)?)
-}
 
 /// Runs the subcommand.
 ///
@@ -48,10 +38,5 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = session.open_folder()?;
     terminal::catch_signals(terminal::NOTHING_KEPT);
     let summary = summary(&session.case, &session.manifest)?;
-    write_basin(&folder, &summary)?;
-    if let Some(drawing) = session.options.output.drawing() {
-        draw_basin(&folder, &summary, &drawing)?;
-    }
-    let object = write_summary(&folder, &summary)?;
-    session.options.output.finish(folder, &summary.text(), &object)
+    session.options.output.finish_finding(folder, &summary)
 }

@@ -4,7 +4,7 @@ use super::profile::{Profile, Redraw};
 use super::{Failure, RunOptions, Session, superelement, terminal};
 use crate::case::{Case, Cea};
 use crate::cea::{SweepProgress, SweepStage, Unwatched};
-use crate::results::cea::{CeaReport, KeptSteps, draw, print, write, write_universal};
+use crate::results::cea::{CeaReport, KeptSteps, View, document, draw, write, write_universal};
 use crate::results::{DrawingOptions, OutputFolder, read_summary};
 use crate::study::eigenvalues::{self, Progress, SlidingModel, Solution, Solver, refuse_no_modes};
 use clap::Args;
@@ -132,8 +132,8 @@ fn run_with(
         draw(&folder, &report, &eigenvalues::dampings(case, &model), &drawing)?;
     }
     steps.discard()?;
-    let table = print(&report, session.options.output.verbose > 0);
-    session.options.output.finish(folder, &table, &summary)
+    let view = if session.options.output.verbose > 0 { View::Whole } else { View::Short };
+    session.options.output.finish(folder, &document(&report, view).to_text(), &summary)
 }
 
 /// Draws the figures of a folder again: solves the case anew, which the same case answers with the same

@@ -1,10 +1,9 @@
 //! `frictionsim fit`: parameters of a case from measured modes.
 
 use super::limits::{input_name, read_input};
-use super::profile::{Profile, Redraw};
+use super::profile::{Profile, Redraw, redraw};
 use super::{Failure, RunOptions, Session, terminal};
-use crate::results::fit::{FitSummary, draw_report, write};
-use crate::results::{DrawingOptions, OutputFolder, read_summary};
+use crate::results::fit::{BLOCK, FitSummary};
 use crate::signal::reader::{MeasuredShape, read_modes, read_shapes};
 use crate::study::fit::{MeasuredShapes, fit_case_with_shapes, refuse_too_few, summarize};
 use clap::{Args, ValueHint};
@@ -47,7 +46,7 @@ pub const PROFILE: Profile = Profile {
             "the same where shapes tell close modes apart",
         ),
     ],
-    redraw: Redraw::OfFolder(redraw),
+    redraw: Redraw::OfFolder(redraw::<FitSummary>),
 };
 
 /// Runs the subcommand.
@@ -76,11 +75,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     for note in &found.notes {
         tracing::warn!("{note}");
     }
-    let object = write(&folder, &found)?;
-    if let Some(drawing) = session.options.output.drawing() {
-        draw_report(&folder, &found, &drawing)?;
-    }
-    session.options.output.finish(folder, &found.text(), &object)
+    folder.write(BLOCK, |out| out.write_all(found.block().as_bytes()))?;
+    session.options.output.finish_finding(folder, &found)
 }
 
 /// The measured shapes, if there are some; results belong to them and their scale too.
@@ -108,15 +104,6 @@ pub(super) fn scale_of_shapes(scale: f64) -> Result<(), Failure> {
     }
     let message = format!("--scale {scale} must be positive and finite");
     Err(Failure::usage(message))
-}
-
-/// Draws the figure and the report of a folder from its summary.
-///
-/// # Errors
-/// A folder without a whole summary; those of the folder.
-pub fn redraw(folder: &OutputFolder, options: &DrawingOptions) -> Result<(), Failure> {
-    let summary: FitSummary = read_summary(folder.path())?;
-    Ok(draw_report(folder, &summary, options)?)
 }
 
 /// One hash for case and table: results belong to both.

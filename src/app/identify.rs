@@ -5,9 +5,13 @@ use super::measurement::{Measurement, SideFile};
 use super::options::OutputOptions;
 use super::profile::{Profile, Redraw};
 use crate::results::identification::{
-    IdentificationRecord, IdentificationSummary, draw_report, write,
+    DAMPING_BLOCK, IdentificationRecord, IdentificationSummary, document, identification,
+    write_fits,
 };
-use crate::results::{DrawingOptions, OutputFolder, read_record, read_summary, write_record};
+use crate::results::{
+    DrawingError, DrawingOptions, OutputFolder, draw_all, read_record, read_summary, write_page,
+    write_record, write_summary, write_tables,
+};
 use crate::signal::reader::{ResponseOptions, read_response, write_response};
 use crate::signal::{FrequencyResponse, IdentificationOptions, ResponseQuantity, identify};
 use clap::{Args, ValueEnum, ValueHint};
@@ -113,7 +117,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         measurement.wall_seconds(),
         folder.manifest().clone(),
     );
-    let object = write(&folder, &summary, &file.responses, &found.fit)?;
+    write_fits(&folder, &file.responses, &found.fit)?;
+    let block = summary.damping_block();
+    folder.write(DAMPING_BLOCK, |out| out.write_all(block.as_bytes()))?;
+    write_tables(&folder, &document(&summary))?;
+    let object = write_summary(&folder, &summary)?;
     let record = IdentificationRecord::of(&responses[0], &found);
     write_record(&folder, &record)?;
     if let Some(copy) = copy {
@@ -121,9 +129,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         copy.write(text.as_bytes())?;
     }
     if let Some(drawing) = arguments.output.drawing() {
-        draw_all(&folder, &record, &summary, &drawing)?;
+        draw(&folder, &record, &summary, &drawing)?;
     }
-    arguments.output.finish(folder, &summary.print(), &object)
+    arguments.output.finish(folder, &document(&summary).to_text(), &object)
 }
 
 /// Draws the figure and the report of a folder from its `record.bin` and its summary.
@@ -133,16 +141,18 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 pub fn redraw(folder: &OutputFolder, options: &DrawingOptions) -> Result<(), Failure> {
     let record: IdentificationRecord = read_record(folder.path())?;
     let summary: IdentificationSummary = read_summary(folder.path())?;
-    draw_all(folder, &record, &summary, options)
+    draw(folder, &record, &summary, options)
 }
 
-fn draw_all(
+fn draw(
     folder: &OutputFolder,
     record: &IdentificationRecord,
     summary: &IdentificationSummary,
     options: &DrawingOptions,
 ) -> Result<(), Failure> {
-    Ok(draw_report(folder, record, summary, options)?)
+    let figures = draw_all(vec![Box::new(|| Ok(identification(record)))], options);
+    let figures = figures.map_err(DrawingError::from)?;
+    Ok(write_page(folder, document(summary), figures, &summary.manifest, options)?)
 }
 
 /// The frequency range, checked.

@@ -3,7 +3,7 @@
 use super::profile::{Profile, Redraw};
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::Case;
-use crate::results::improve::{ImproveSummary, draw, write};
+use crate::results::improve::{ImproveSummary, document, draw, write};
 use crate::results::{DrawingOptions, OutputFolder, read_summary, write_summary};
 use crate::study::extent_of;
 use crate::study::improve::{Improvement, improve};
@@ -72,7 +72,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         draw(&folder, &summary, &found.mesh, &found.fields, &drawing)?;
     }
     let object = write_summary(&folder, &summary)?;
-    session.options.output.finish(folder, &summary.text(), &object)
+    session.options.output.finish(folder, &document(&summary).to_text(), &object)
 }
 
 /// Draws the figures of a folder again: fields are found anew, the list is that of the summary.

@@ -1,10 +1,9 @@
 //! `frictionsim mac`: modal assurance of measured shapes.
 
 use super::limits::{input_name, read_input};
-use super::profile::{Profile, Redraw};
+use super::profile::{Profile, Redraw, redraw};
 use super::{Failure, RunOptions, Session, terminal};
-use crate::results::mac::{MacSummary, draw_mac, write_mac};
-use crate::results::{DrawingOptions, OutputFolder, read_summary, write_summary};
+use crate::results::mac::MacSummary;
 use crate::signal::reader::read_shapes;
 use crate::study::mac::assurance;
 use clap::{Args, ValueHint};
@@ -35,7 +34,7 @@ pub const PROFILE: Profile = Profile {
         "frictionsim mac disc.toml shapes.unv --scale 0.001",
         "which mode of the model is which measured one?",
     )],
-    redraw: Redraw::OfFolder(redraw),
+    redraw: Redraw::OfFolder(redraw::<MacSummary>),
 };
 
 /// Runs the subcommand.
@@ -71,19 +70,5 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         notes: found.notes,
         manifest: folder.manifest().clone(),
     };
-    write_mac(&folder, &summary)?;
-    if let Some(drawing) = session.options.output.drawing() {
-        draw_mac(&folder, &summary, &drawing)?;
-    }
-    let object = write_summary(&folder, &summary)?;
-    session.options.output.finish(folder, &summary.text(), &object)
-}
-
-/// Draws the figure and the report of a folder from its summary.
-///
-/// # Errors
-/// A folder without a whole summary; those of the folder.
-pub fn redraw(folder: &OutputFolder, options: &DrawingOptions) -> Result<(), Failure> {
-    let summary: MacSummary = read_summary(folder.path())?;
-    Ok(draw_mac(folder, &summary, options)?)
+    session.options.output.finish_finding(folder, &summary)
 }

@@ -3,9 +3,10 @@
 use super::profile::{Profile, Redraw};
 use super::{Failure, RunOptions, Session};
 use crate::case::{AssemblyBody, Case, ModeSelection};
+use crate::chart::Figure;
 use crate::mesh::{AnnulusMesh, SolidSector, SolidSpecification};
 use crate::results::mesh::{
-    MeshStatistics, MeshSummary, SolidMeshStatistics, draw_mesh, draw_solids, print, print_solids,
+    Measured, MeshStatistics, MeshSummary, SolidMeshStatistics, draw, plane_figure, solid_figure,
     write_mesh, write_revolution,
 };
 use crate::results::{DrawingOptions, OutputFolder, read_summary, write_summary};
@@ -54,10 +55,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(sector) = &solid {
         statistics.turn(sector);
     }
-    if let Some(drawing) = session.options.output.drawing() {
-        let probes = &case.output.probes;
-        draw_mesh(&folder, &mesh, (&case.title, probes), &statistics, &drawing)?;
-    }
     let summary = MeshSummary {
         command: "mesh".to_owned(),
         title: case.title.clone(),
@@ -67,8 +64,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         not_used: case.taken.not_used(),
         manifest: session.manifest.clone(),
     };
-    let object = write_summary(&folder, &summary)?;
-    session.options.output.finish(folder, &print(&summary), &object)
+    finish(&session, folder, &summary, || plane_figure(&mesh, &case.title, &case.output.probes))
 }
 
 /// The mesh of solid bodies.
@@ -86,10 +82,6 @@ fn run_solid(
     let contact_nodes = contacts.flat_map(|role| mesh.boundaries[*role.0].nodes.iter().copied());
     write_mesh(&folder, mesh, contact_nodes)?;
     let statistics = SolidMeshStatistics::new(mesh, &densities, &roles);
-    if let Some(drawing) = session.options.output.drawing() {
-        let words = (case.title.as_str(), &roles);
-        draw_solids(&folder, mesh, words, &statistics, &drawing)?;
-    }
     let summary = MeshSummary {
         command: "mesh".to_owned(),
         title: case.title.clone(),
@@ -99,9 +91,22 @@ fn run_solid(
         not_used: case.taken.not_used(),
         manifest: session.manifest.clone(),
     };
-    let object = write_summary(&folder, &summary)?;
-    let text = print_solids(&summary);
-    session.options.output.finish(folder, &text, &object)
+    finish(session, folder, &summary, || solid_figure(mesh, &case.title, &roles))
+}
+
+/// Draws, writes the summary and prints.
+fn finish<S: Measured>(
+    session: &Session,
+    folder: OutputFolder,
+    summary: &MeshSummary<S>,
+    figure: impl Fn() -> Figure + Sync + Send,
+) -> Result<(), Failure> {
+    let output = &session.options.output;
+    if let Some(drawing) = output.drawing() {
+        draw(&folder, summary, figure, &drawing)?;
+    }
+    let object = write_summary(&folder, summary)?;
+    output.finish(folder, &summary.document().to_text(), &object)
 }
 
 /// Boundaries that slide or are glued, in a word.
@@ -124,15 +129,13 @@ fn roles(assembly: &AssemblyBody) -> BTreeMap<usize, &'static str> {
 pub fn redraw(folder: &OutputFolder, case: &Case, options: &DrawingOptions) -> Result<(), Failure> {
     if let Some(assembly) = case.body.assembly() {
         let summary: MeshSummary<SolidMeshStatistics> = read_summary(folder.path())?;
-        let words = (case.title.as_str(), &roles(assembly));
-        draw_solids(folder, &assembly.mesh, words, &summary.mesh, options)?;
-        return Ok(());
+        let drawn = || solid_figure(&assembly.mesh, &case.title, &roles(assembly));
+        return Ok(draw(folder, &summary, drawn, options)?);
     }
     let mesh = case.mesh().map_err(Failure::usage)?;
     let summary: MeshSummary<MeshStatistics> = read_summary(folder.path())?;
-    let probes = &case.output.probes;
-    draw_mesh(folder, &mesh, (&case.title, probes), &summary.mesh, options)?;
-    Ok(())
+    let drawn = || plane_figure(&mesh, &case.title, &case.output.probes);
+    Ok(draw(folder, &summary, drawn, options)?)
 }
 
 /// Shear wavelength at the highest frequency that the case asks modes for, m.

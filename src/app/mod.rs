@@ -4,6 +4,7 @@ mod basin;
 pub mod cea;
 pub mod check;
 mod collect;
+mod columns;
 mod compare;
 mod completions;
 mod convergence;
@@ -99,6 +100,7 @@ commands! {
     Check: check,
     Init: init,
     Keys: keys,
+    Columns: columns,
     Fit: fit,
     Frf: frf,
     Identify: identify,

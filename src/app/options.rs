@@ -5,7 +5,10 @@ use super::limits::STANDARD_INPUT;
 use super::{Failure, terminal};
 use crate::case::unset;
 use crate::fem::operator::SimdLevel;
-use crate::results::{DrawingOptions, Manifest, OutputFolder, Replace, is_result, read_manifest};
+use crate::results::{
+    DrawingOptions, Finding, Manifest, OutputFolder, Replace, is_result, read_manifest,
+    write_finding,
+};
 use clap::{ArgAction, Args, ValueEnum, ValueHint};
 use serde_json::{Value, json};
 use std::path::{Component, Path, PathBuf};
@@ -180,6 +183,19 @@ impl OutputOptions {
         let path = folder.destination().to_owned();
         folder.finish()?;
         self.print(table, summary, &path)
+    }
+
+    /// Writes the files of a finding, completes the folder and prints.
+    ///
+    /// # Errors
+    /// Those of the folder, of the drawing and of stdout.
+    pub fn finish_finding(
+        &self,
+        folder: OutputFolder,
+        finding: &impl Finding,
+    ) -> Result<(), Failure> {
+        let object = write_finding(&folder, finding, self.drawing().as_ref())?;
+        self.finish(folder, &finding.document().to_text(), &object)
     }
 
     /// Says what a run would do; the end of a dry run.

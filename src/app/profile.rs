@@ -2,7 +2,7 @@
 
 use super::Failure;
 use crate::case::Case;
-use crate::results::{DrawingOptions, OutputFolder};
+use crate::results::{DrawingOptions, Finding, OutputFolder, draw_finding, read_summary};
 use std::path::Path;
 
 /// What the declarations of a subcommand do not say.
@@ -30,4 +30,13 @@ pub enum Redraw {
     OfCase(fn(&OutputFolder, &Case, &DrawingOptions) -> Result<(), Failure>),
     /// From the points of a folder with its own lock and list of files.
     OfPoints(fn(&Path, &DrawingOptions) -> Result<(), Failure>),
+}
+
+/// Draws the figures and the page of a folder from its summary.
+///
+/// # Errors
+/// A folder without a whole summary; those of the folder.
+pub fn redraw<T: Finding>(folder: &OutputFolder, options: &DrawingOptions) -> Result<(), Failure> {
+    let finding: T = read_summary(folder.path())?;
+    Ok(draw_finding(folder, &finding, options)?)
 }

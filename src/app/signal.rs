@@ -9,9 +9,13 @@ use crate::case::{Case, Cea};
 use crate::cea::{ComplexMode, ModeLimit};
 use crate::fem::MassKind;
 use crate::results::signal::{
-    ChannelRecord, ChannelSummary, ModeSummary, SignalRecord, SignalSummary, draw_report, write,
+    ChannelRecord, ChannelSummary, ModeSummary, SignalRecord, SignalSummary, document,
+    draw as draw_figures, write_spectra,
 };
-use crate::results::{DrawingOptions, OutputFolder, read_record, read_summary, write_record};
+use crate::results::{
+    DrawingError, DrawingOptions, OutputFolder, read_record, read_summary, write_page,
+    write_record, write_summary, write_tables,
+};
 use crate::signal::reader::{
     Channel, SignalFile, SignalOptions, read_signal, slowdown, write_signal, write_wav,
 };
@@ -158,14 +162,16 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         wall_s: measurement.wall_seconds(),
         manifest: folder.manifest().clone(),
     };
-    let object = write(&folder, &summary, &spectra)?;
+    write_spectra(&folder, &spectra)?;
+    write_tables(&folder, &document(&summary))?;
+    let object = write_summary(&folder, &summary)?;
     let record = record(arguments, &file, &summary, &modes, spectra);
     write_record(&folder, &record)?;
     if let Some(drawing) = arguments.output.drawing() {
         draw_all(&folder, &record, &summary, &drawing)?;
     }
     let aside = write_copies(arguments, &copies, &file)?;
-    arguments.output.finish(folder, &(summary.print() + &aside), &object)
+    arguments.output.finish(folder, &(document(&summary).to_text() + &aside), &object)
 }
 
 /// Length of the spectrogram's window, s.
@@ -331,10 +337,11 @@ fn draw_all(
     summary: &SignalSummary,
     options: &DrawingOptions,
 ) -> Result<(), Failure> {
-    for reason in draw_report(folder, record, summary, options)? {
+    let (figures, left_out) = draw_figures(record, summary, options).map_err(DrawingError::from)?;
+    for reason in left_out {
         tracing::warn!("{reason}");
     }
-    Ok(())
+    Ok(write_page(folder, document(summary), figures, &summary.manifest, options)?)
 }
 
 /// Options that change the result.

@@ -5,7 +5,9 @@ use super::share::ShareOptions;
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, find_key};
 use crate::results::sweep::{Found, PointClock, PointRecord, SweepFolder};
-use crate::results::uncertainty::{Sample, UncertaintySummary, draw_report, write_samples};
+use crate::results::uncertainty::{
+    Sample, UncertaintySummary, document, draw_report, samples_table,
+};
 use crate::results::{DrawingOptions, Manifest, object};
 use crate::study::uncertainty::{BLOCK, Design, Sampler, curves, summarize};
 use clap::Args;
@@ -110,13 +112,14 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let object = object(&summary).map_err(Failure::run)?;
     if missing == 0 {
         let largest = summary.largest_friction;
-        write_samples(&folder, &sampler.keys(), &samples, largest)?;
+        let table = samples_table(&sampler.keys(), &samples, largest);
+        folder.write(&table.file, |out| table.write_csv(out))?;
         folder.write_summary(&object)?;
         if let Some(drawing) = output.drawing() {
             draw_report(&folder, &summary, &drawing)?;
         }
     }
-    session.print(&summary.text(), &object, folder.path())
+    session.print(&document(&summary).to_text(), &object, folder.path())
 }
 
 /// Draws the figures and the report of a folder from its summary.

@@ -16,6 +16,7 @@
 //! 14. [`glossary`]: what the words mean.
 //! 15. [`extending`]: a key, an element, a friction law, a figure, a command.
 //! 16. [`keys`]: every key of a case.
+//! 17. [`columns`]: every declared column and key of results.
 
 #[doc = include_str!("start.md")]
 pub mod start {}
@@ -64,3 +65,6 @@ pub mod extending {}
 
 #[doc = include_str!("keys.md")]
 pub mod keys {}
+
+#[doc = include_str!("columns.md")]
+pub mod columns {}

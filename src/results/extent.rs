@@ -1,11 +1,12 @@
 //! What forces, torques, powers and energies are of.
 
+use crate::output::Described;
 use serde::{Deserialize, Serialize};
 
 /// What forces, torques, powers and energies are of, `extent` in JSON.
 ///
 /// The columns of tables keep their names: this says how to read `_w`, `_j`, `_n`, `_n_m` there.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Described, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Extent {
     /// Of the whole body.

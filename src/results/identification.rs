@@ -1,38 +1,119 @@
-//! Tables, figure and report of an identified damping.
+//! Tables, figure and page of an identified damping.
 
 mod figures;
-mod report;
 mod summary;
 
-pub use figures::{IdentificationRecord, unit_of};
-pub use report::draw_report;
+pub use figures::{IdentificationRecord, identification, unit_of};
 pub use summary::{
     CoefficientSummary, FitSummary, HalfPowerSummary, IdentificationSummary, ModeSummary,
     ResponseSummary,
 };
 
-use super::summary::write_summary;
-use super::table::{Table, format_number};
 use super::{FolderError, OutputFolder};
+use crate::output::{Document, Section, Table, columns, csv};
 use crate::signal::reader::NamedResponse;
-use crate::signal::{FrequencyResponse, ModalFit};
-use serde_json::Value;
+use crate::signal::{Estimate, FrequencyResponse, ModalFit};
+use std::io;
 
 /// Name of the `[damping]` section in its folder.
-const DAMPING_BLOCK: &str = "damping.toml";
+pub const DAMPING_BLOCK: &str = "damping.toml";
 
-/// Writes `modes.csv`, `fit.csv` (`fit-2.csv` and so on for further responses), `damping.toml` and
-/// `summary.json`; returns the object of the summary.
+columns! {
+    /// A mode of the responses; its row has its number before.
+    pub(super) MODES: row as (usize, ModeSummary);
+    mode: "number by frequency, from 1" = row.0, Always "mode" Count;
+    frequency_hz: "undamped natural frequency" = row.1.frequency_hz, Always "frequency" Fixed(2);
+    frequency_low_hz: "lower end of its 95 % interval" = row.1.frequency_interval_hz[0];
+    frequency_high_hz: "upper end" = row.1.frequency_interval_hz[1];
+    damping_factor: "damping factor of the fit" = row.1.damping_factor, Always "damping factor" Percent(4);
+    damping_factor_low: "lower end of its 95 % interval" = row.1.damping_factor_interval[0], Always "from" Percent(4);
+    damping_factor_high: "upper end" = row.1.damping_factor_interval[1], Always "to" Percent(4);
+    half_power_damping_factor: "damping factor of the half-power band, where that can be trusted" = row.1.half_power.as_ref().and_then(|b| b.damping_factor), IfAny "by half-power" Percent(4);
+    half_power_low_hz: "lower half-power frequency" = row.1.half_power.as_ref().and_then(|b| b.band_hz).map(|b| b[0]);
+    half_power_high_hz: "upper half-power frequency" = row.1.half_power.as_ref().and_then(|b| b.band_hz).map(|b| b[1]);
+    used: "whether it enters the coefficients" = row.1.used, Always "used" Plain;
+    flag: "what is doubtful about it" = row.1.flag.clone(), IfAny "remark" Plain;
+}
+
+columns! {
+    /// Rayleigh coefficients of an estimator.
+    COEFFICIENTS: row as (&'static str, [Estimate; 2]);
+    estimator: "what they are from" = row.0, Always "estimator" Plain;
+    mass_coefficient_per_s: "alpha_R" = row.1[0].value, Always "alpha_R" Scientific(4);
+    mass_coefficient_low: "lower end of its 95 % interval" = row.1[0].low, Always "from" Scientific(4);
+    mass_coefficient_high: "upper end" = row.1[0].high, Always "to" Scientific(4);
+    stiffness_coefficient_s: "beta_R" = row.1[1].value, Always "beta_R" Scientific(4);
+    stiffness_coefficient_low: "lower end of its 95 % interval" = row.1[1].low, Always "from" Scientific(4);
+    stiffness_coefficient_high: "upper end" = row.1[1].high, Always "to" Scientific(4);
+}
+
+/// A response and its fit, in the order of their columns.
+pub(super) const FITTED: [(&str, &str); 5] = [
+    ("frequency_hz", "frequency of the line"),
+    ("real", "real part of the response, in its unit"),
+    ("imaginary", "imaginary part"),
+    ("fit_real", "real part of the fitted response; empty outside the range of the fit"),
+    ("fit_imaginary", "imaginary part"),
+];
+
+/// Tables and sentences.
+pub fn document(summary: &IdentificationSummary) -> Document {
+    let [low, high] = summary.fit.range_hz;
+    let of_response = |own: &ResponseSummary| {
+        let [from, to] = own.range_hz;
+        format!(
+            "{}: {} {}, {} lines from {from} to {to} Hz.",
+            summary.source, own.name, own.quantity, own.lines
+        )
+    };
+    let scatter = format!(
+        "The response is fitted from {low:.1} to {high:.1} Hz. The damping factors scatter {:.2} times as much about \
+         (alpha_R / omega + beta_R omega) / 2 as their errors say.",
+        summary.reduced_chi_square.sqrt(),
+    );
+    let peaks = summary.unmatched_peaks_hz.iter();
+    let peaks = peaks.map(|peak| format!("The peak at {peak:.2} Hz has no mode in the fit."));
+    let is_other = summary.reduced_chi_square > 3.0;
+    let other = is_other.then(|| {
+        "The material is not exactly Rayleigh, and the intervals are widened for it.".to_owned()
+    });
+    let half = summary.half_power;
+    let estimators = std::iter::once((
+        "fit of the response",
+        [summary.mass_coefficient, summary.stiffness_coefficient],
+    ))
+    .chain(half.map(|own| ("half-power alone", [own.mass_coefficient, own.stiffness_coefficient])));
+    let few = half
+        .is_none()
+        .then(|| "Half-power alone: fewer than three modes without doubt.".to_owned());
+    let modes = summary.modes.iter().enumerate().map(|(k, mode)| (k + 1, mode.clone()));
+    Document::new("", "Identified damping")
+        .section(
+            Section::new("Rayleigh coefficients")
+                .tables([Table::new("", "Rayleigh coefficients with their 95 % intervals")
+                    .columns(COEFFICIENTS, estimators)])
+                .text(few)
+                .text(summary.responses.iter().map(of_response))
+                .text(std::iter::once(scatter).chain(other).chain(peaks))
+                .text([summary.damping_block()])
+                .figures([""]),
+        )
+        .section(
+            Section::new("Modes")
+                .tables([Table::new("modes.csv", "Modes of the response").columns(MODES, modes)]),
+        )
+        .notes(&summary.notes)
+}
+
+/// Writes `fit.csv` (`fit-2.csv` and so on for further responses).
 ///
 /// # Errors
 /// Those of the folder.
-pub fn write(
+pub fn write_fits(
     folder: &OutputFolder,
-    summary: &IdentificationSummary,
     responses: &[NamedResponse],
     fit: &ModalFit,
-) -> Result<Value, FolderError> {
-    folder.write("modes.csv", |out| write_modes(out, summary))?;
+) -> Result<(), FolderError> {
     for (k, named) in responses.iter().enumerate() {
         let name = match k {
             0 => "fit.csv".to_owned(),
@@ -40,54 +121,16 @@ pub fn write(
         };
         folder.write(&name, |out| write_fit(out, &named.response, fit, k))?;
     }
-    folder.write(DAMPING_BLOCK, |out| out.write_all(summary.damping_block().as_bytes()))?;
-    write_summary(folder, summary)
-}
-
-fn write_modes(
-    out: &mut dyn std::io::Write,
-    summary: &IdentificationSummary,
-) -> std::io::Result<()> {
-    let columns = [
-        "mode",
-        "frequency_hz",
-        "frequency_low_hz",
-        "frequency_high_hz",
-        "damping_factor",
-        "damping_factor_low",
-        "damping_factor_high",
-        "half_power_damping_factor",
-        "half_power_low_hz",
-        "half_power_high_hz",
-        "used",
-        "flag",
-    ];
-    let mut table = Table::new(out, &columns)?;
-    for (k, mode) in summary.modes.iter().enumerate() {
-        let ([f_low, f_high], [low, high]) =
-            (mode.frequency_interval_hz, mode.damping_factor_interval);
-        let half = mode.half_power.as_ref();
-        let band = half.and_then(|b| b.band_hz).unwrap_or([f64::NAN; 2]);
-        let half = half.and_then(|b| b.damping_factor).unwrap_or(f64::NAN);
-        let (f, zeta) = (mode.frequency_hz, mode.damping_factor);
-        let numbers = [f, f_low, f_high, zeta, low, high, half, band[0], band[1]];
-        let mut cells = vec![(k + 1).to_string()];
-        cells.extend(numbers.iter().map(|v| format_number(*v)));
-        cells.push(mode.used.to_string());
-        cells.push(mode.flag.clone().unwrap_or_default());
-        table.row(cells)?;
-    }
-    table.finish()
+    Ok(())
 }
 
 fn write_fit(
-    out: &mut dyn std::io::Write,
+    out: &mut dyn io::Write,
     response: &FrequencyResponse,
     fit: &ModalFit,
     number: usize,
-) -> std::io::Result<()> {
-    let columns = ["frequency_hz", "real", "imaginary", "fit_real", "fit_imaginary"];
-    let mut table = Table::new(out, &columns)?;
+) -> io::Result<()> {
+    let mut table = csv::Table::new(out, &FITTED.map(|column| column.0))?;
     for (f, h) in response.frequencies_hz().iter().zip(response.values()) {
         let model = fit.evaluate(number, *f);
         let part = |v: Option<f64>| v.unwrap_or(f64::NAN);

@@ -10,6 +10,7 @@ pub mod cycle_figures;
 mod cycle_table;
 mod drawing;
 mod extent;
+mod finding;
 pub mod fit;
 pub mod identification;
 pub mod improve;
@@ -21,6 +22,7 @@ mod parameter;
 pub mod periodic;
 mod pvd;
 pub mod quantity;
+pub mod reference;
 pub mod report;
 mod response;
 pub mod signal;
@@ -28,19 +30,26 @@ mod store;
 pub mod summary;
 pub mod sweep;
 pub mod sweep_figures;
-mod table;
 pub mod transient;
 pub mod uncertainty;
 mod vtu;
 mod whole_mesh;
 
+/// Tables that are not declared yet.
+mod table {
+    pub use crate::output::csv::{Table, format_number};
+    pub use crate::output::rows::{Column, write_rows};
+}
+
 use store::{folder, framed, manifest, record, reopening, whole_file};
 
+pub use crate::output::csv::{Table, format_number};
 pub use drawing::{
     DOTS_PER_INCH, DrawingError, DrawingOptions, FigureFile, Format, REPORT, draw_all,
     figure_files, write_figures, write_report,
 };
 pub use extent::Extent;
+pub use finding::{Finding, draw_finding, write_finding, write_page, write_table, write_tables};
 pub use pvd::{PvdEntry, write_pvd};
 pub use response::{
     RESPONSE_TABLE, ResponseSummary, draw_response_report, read_response_table, write_response,
@@ -50,7 +59,6 @@ pub use store::{
     FolderError, Manifest, OutputFolder, Record, Replace, is_result, read_manifest, read_record,
     refuse_misfit, write_record,
 };
-pub use summary::{Summary, object, read_summary, write_summary};
-pub use table::{Table, format_number};
+pub use summary::{object, read_summary, write_summary};
 pub use vtu::{EncodedMesh, Field, cartesian_vectors, write_vtu};
 pub use whole_mesh::WholeMesh;

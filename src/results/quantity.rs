@@ -4,22 +4,10 @@
 //! take caption, unit and digits from here. A key that is not in the table is shown as it reads, with the unit that its
 //! ending says (`_hz`, `_s`, `_pa`, ...).
 
+use crate::output::{Format, unit_of};
 use serde_json::Value;
 
-/// How a number is written for people.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// A whole number.
-    Count,
-    /// So many digits behind the point.
-    Fixed(usize),
-    /// So many significant digits, with an exponent only where there is no room.
-    Significant(usize),
-    /// One digit, so many behind the point, and an exponent.
-    Scientific(usize),
-    /// A fraction of one in per cent, so many digits behind the point.
-    Percent(usize),
-}
+pub use crate::output::{fixed, significant};
 
 /// One quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -121,26 +109,6 @@ const QUANTITIES: &[Quantity<'static>] = &[
     quantity_of("order", "observed order", "", Fixed(2)),
 ];
 
-/// Endings of keys and the units that they say.
-const ENDINGS: &[(&str, &str)] = &[
-    ("_rad_per_s", "rad/s"),
-    ("_m_per_s2", "m/s2"),
-    ("_m_per_s", "m/s"),
-    ("_per_s", "1/s"),
-    ("_hz", "Hz"),
-    ("_rpm", "rpm"),
-    ("_n_m", "N m"),
-    ("_mpa", "MPa"),
-    ("_pa", "Pa"),
-    ("_m2", "m2"),
-    ("_deg", "deg"),
-    ("_rad", "rad"),
-    ("_s", "s"),
-    ("_m", "m"),
-    ("_w", "W"),
-    ("_j", "J"),
-];
-
 /// The quantity of a key or a dotted path such as `cycles.0.status.stick`: that of the longest end of the path that the
 /// table has, else what the key itself says.
 pub fn quantity(path: &str) -> Quantity<'_> {
@@ -150,14 +118,9 @@ pub fn quantity(path: &str) -> Quantity<'_> {
     if let Some(known) = known {
         return *known;
     }
+    let (caption, unit) = unit_of(path);
     let key = path.rsplit('.').next().unwrap_or(path);
-    let ending = ENDINGS.iter().find(|(ending, _)| key.ends_with(ending));
-    Quantity {
-        key,
-        caption: ending.map_or(key, |(ending, _)| &key[..key.len() - ending.len()]),
-        unit: ending.map_or("", |(_, unit)| unit),
-        format: Significant(5),
-    }
+    Quantity { key, caption, unit, format: Significant(5) }
 }
 
 impl Quantity<'_> {
@@ -173,22 +136,7 @@ impl Quantity<'_> {
 
     /// The number alone; `-` where there is none.
     pub fn number(&self, value: f64) -> String {
-        if !value.is_finite() {
-            return "-".to_owned();
-        }
-        // Adding zero turns -0.0 into 0.0.
-        let text = match self.format {
-            Count => format!("{:.0}", value + 0.0),
-            Fixed(digits) => format!("{value:.digits$}"),
-            Percent(digits) => format!("{:.digits$}", 100.0 * value),
-            Scientific(digits) => format!("{:.digits$e}", value + 0.0),
-            Significant(digits) => significant(value, digits),
-        };
-        // Small negative numbers must not round to -0.00.
-        match text.strip_prefix('-') {
-            Some(rest) if rest.bytes().all(|b| b == b'0' || b == b'.') => rest.to_owned(),
-            _ => text,
-        }
+        self.format.number(value)
     }
 
     /// The number with its unit.
@@ -214,34 +162,6 @@ impl Quantity<'_> {
     }
 }
 
-/// A number with so many decimals, without the sign of a zero; `-` where there is none.
-pub fn fixed(value: f64, decimals: usize) -> String {
-    let quantity = Quantity { key: "", caption: "", unit: "", format: Fixed(decimals) };
-    quantity.number(value)
-}
-
-/// So many significant digits, without trailing zeros; an exponent below 1e-4 and from 1e10 on.
-pub fn significant(value: f64, digits: usize) -> String {
-    if value == 0.0 {
-        return "0".to_owned();
-    }
-    let rounded = format!("{:.*e}", digits.saturating_sub(1), value);
-    let Some((mantissa, exponent)) = rounded.split_once('e') else {
-        return rounded;
-    };
-    let power: i32 = exponent.parse().unwrap_or(0);
-    if (-4..10).contains(&power) {
-        let decimals = (digits as i32 - 1 - power).max(0) as usize;
-        return trimmed(&format!("{value:.decimals$}")).to_owned();
-    }
-    format!("{}e{exponent}", trimmed(mantissa))
-}
-
-/// Without zeros at the end of the decimals.
-fn trimmed(number: &str) -> &str {
-    if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -251,10 +171,8 @@ mod tests {
         for (at, known) in QUANTITIES.iter().enumerate() {
             let twice = QUANTITIES[at + 1..].iter().any(|q| q.key == known.key);
             assert!(!twice, "{}", known.key);
-            let ending = ENDINGS.iter().find(|(end, _)| known.key.ends_with(end));
-            if let Some((_, unit)) = ending {
-                assert_eq!(*unit, known.unit, "{}", known.key);
-            }
+            let unit = unit_of(known.key).1;
+            assert!(unit.is_empty() || unit == known.unit, "{}", known.key);
         }
     }
 

@@ -97,6 +97,11 @@ impl ReportSection {
         self
     }
 
+    /// Whether some table has something in it.
+    pub(super) fn has_rows(&self) -> bool {
+        self.tables.iter().any(|table| !table.rows.is_empty())
+    }
+
     /// Whether it is the box of results.
     fn is_box(&self) -> bool {
         self.heading == RESULTS

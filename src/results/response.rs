@@ -6,7 +6,6 @@ use super::folder::{FolderError, OutputFolder};
 use super::identification::unit_of;
 use super::reopening::read_own;
 use super::report::{Report, ReportSection};
-use super::summary::{Entry, Summary, present};
 use super::table::Table;
 use crate::chart::{Axis, Figure, INK, Line, Marker, Panel, Points, SERIES};
 use crate::linalg::c64;
@@ -44,13 +43,6 @@ pub struct ResponseSummary {
     pub wall_s: f64,
     /// What it was made from.
     pub manifest: Manifest,
-}
-
-impl Summary for ResponseSummary {
-    fn headline(&self) -> Vec<Entry> {
-        let error = self.largest_error.or(self.backward_error).and_then(present);
-        vec![Entry::new("lines", self.lines), Entry::new("largest_error", error)]
-    }
 }
 
 /// The table of a results folder, as it was written.

@@ -1,67 +1,111 @@
-//! Tables, figures and report of an analysed time signal.
+//! Tables, figures and page of an analysed time signal.
 
 mod figures;
-mod report;
 mod summary;
 
 pub use figures::{ChannelRecord, SignalRecord, draw};
-pub use report::draw_report;
 pub use summary::{
     ChannelSummary, GrowthSummary, ModeSummary, NearestMode, PeakSummary, SignalSummary,
     Superharmonic,
 };
 
-use super::summary::write_summary;
-use super::table::{Column, Table, write_rows};
 use super::{FolderError, OutputFolder};
+use crate::output::{Document, Section, Table, columns, csv, fixed, significant};
 use crate::signal::AmplitudeSpectrum;
-use serde_json::Value;
 
-/// Writes `peaks.csv`, a spectrum for each channel and `summary.json`; returns the object of the summary.
+/// A peak of a channel, numbered from 1, and what it is.
+type Row = (String, usize, PeakSummary, String);
+
+columns! {
+    /// A peak.
+    pub(super) PEAKS: row as Row;
+    channel: "name of the channel" = row.0.clone();
+    peak: "number of the peak, the strongest first, from 1" = row.1, Always "peak" Count;
+    frequency_hz: "frequency of the peak" = row.2.frequency_hz, Always "frequency" Fixed(2);
+    amplitude: "amplitude, in the unit of the signal" = row.2.amplitude, Always "amplitude" Scientific(4);
+    superharmonic_of_peak: "peak of which it is a multiple" = row.2.superharmonic.as_ref().map(|line| line.of_peak);
+    order: "which multiple" = row.2.superharmonic.as_ref().map(|line| line.order);
+    nearest_mode: "number of the mode beside it, from 1" = row.2.nearest_mode.as_ref().map(|mode| mode.mode);
+    mode_frequency_hz: "frequency of that mode" = row.2.nearest_mode.as_ref().map(|mode| mode.frequency_hz);
+    harmonic: "its nodal diameters; none without symmetry" = row.2.nearest_mode.as_ref().and_then(|mode| mode.harmonic);
+    branch: "its rank within the harmonic, else among all, from 0" = row.2.nearest_mode.as_ref().map(|mode| mode.branch);
+    direction: "1 travels with the rotor, -1 against it, 0 stands" = row.2.nearest_mode.as_ref().and_then(|mode| mode.direction);
+}
+
+columns! {
+    /// What a peak is, in words.
+    WORDS: row as Row;
+    what: "what it is" = row.3.clone(), IfAny "what it is" Plain;
+}
+
+/// A spectrum, in the order of its columns.
+pub(super) const SPECTRUM: [(&str, &str); 2] =
+    [("frequency_hz", "frequency"), ("amplitude", "amplitude, in the unit of the signal")];
+
+/// The peaks of a channel.
+fn rows(channel: &ChannelSummary) -> impl Iterator<Item = Row> {
+    let peaks = channel.peaks.iter().enumerate();
+    peaks.map(|(k, peak)| (channel.name.clone(), k + 1, peak.clone(), channel.peak_text(peak)))
+}
+
+/// Tables and sentences.
+pub fn document(summary: &SignalSummary) -> Document {
+    let of_channel = |channel: &ChannelSummary| {
+        let [from, to] = channel.interval_s;
+        let caption = format!(
+            "{}: peaks between {from:.4} and {to:.4} s, resolution {:.4} Hz ({})",
+            channel.name,
+            channel.resolution_hz,
+            match channel.averages {
+                1 => "one block".to_owned(),
+                count => format!("mean of {count} blocks"),
+            }
+        );
+        let table = Table::new("", caption);
+        table.columns(PEAKS, rows(channel)).columns(WORDS, rows(channel))
+    };
+    let said = |channel: &ChannelSummary| {
+        let none = channel.peaks.is_empty().then(|| "no peak stands out from the noise".to_owned());
+        let texts =
+            [none, Some(channel.growth_text()), channel.mode_text(summary.friction_coefficient)];
+        let name = channel.name.clone();
+        texts.into_iter().flatten().map(move |text| format!("{name}: {text}."))
+    };
+    let sampled = format!(
+        "{}: {} samples at {} Hz ({} s).",
+        summary.source,
+        summary.samples,
+        // A rate from the rounded times of a table has a few true digits.
+        significant(summary.sampling_rate_hz, 9),
+        fixed(summary.samples as f64 / summary.sampling_rate_hz, 4)
+    );
+    Document::new("", "Lines of a signal")
+        .section(
+            Section::new("Signal")
+                .text(std::iter::once(sampled).chain(summary.channels.iter().flat_map(said)))
+                .tables(summary.channels.iter().map(of_channel))
+                .figures([""]),
+        )
+        .file(Table::new("peaks.csv", "").columns(PEAKS, summary.channels.iter().flat_map(rows)))
+        .notes(&summary.notes)
+}
+
+/// Writes a spectrum for each channel.
 ///
 /// # Errors
 /// Those of the folder.
-pub fn write(
+pub fn write_spectra(
     folder: &OutputFolder,
-    summary: &SignalSummary,
     spectra: &[AmplitudeSpectrum],
-) -> Result<Value, FolderError> {
-    folder.write("peaks.csv", |out| write_peaks(out, summary))?;
+) -> Result<(), FolderError> {
     for (k, spectrum) in spectra.iter().enumerate() {
         folder.write(&format!("spectrum-{}.csv", k + 1), |out| {
-            let mut table = Table::new(out, &["frequency_hz", "amplitude"])?;
+            let mut table = csv::Table::new(out, &SPECTRUM.map(|column| column.0))?;
             for (f, a) in spectrum.frequencies_hz.iter().zip(&spectrum.amplitudes) {
                 table.numbers(&[*f, *a])?;
             }
             table.finish()
         })?;
     }
-    write_summary(folder, summary)
-}
-
-fn write_peaks(out: &mut dyn std::io::Write, summary: &SignalSummary) -> std::io::Result<()> {
-    type Row<'a> = (&'a str, usize, &'a PeakSummary);
-    fn mode<'a>(row: &Row<'a>) -> Option<&'a ModeSummary> {
-        row.2.nearest_mode.as_ref()
-    }
-    let columns: &[Column<'_, Row<'_>>] = &[
-        ("channel", &|row| row.0.into()),
-        ("peak", &|row| (row.1 + 1).into()),
-        ("frequency_hz", &|row| row.2.frequency_hz.into()),
-        ("amplitude", &|row| row.2.amplitude.into()),
-        ("superharmonic_of_peak", &|row| {
-            row.2.superharmonic.as_ref().map(|line| line.of_peak).into()
-        }),
-        ("order", &|row| row.2.superharmonic.as_ref().map(|line| line.order).into()),
-        ("nearest_mode", &|row| mode(row).map(|mode| mode.mode).into()),
-        ("mode_frequency_hz", &|row| mode(row).map(|mode| mode.frequency_hz).into()),
-        ("harmonic", &|row| mode(row).and_then(|mode| mode.harmonic).into()),
-        ("branch", &|row| mode(row).map(|mode| mode.branch).into()),
-        ("direction", &|row| mode(row).and_then(|mode| mode.direction).into()),
-    ];
-    let rows = summary.channels.iter().flat_map(|channel| {
-        let peaks = channel.peaks.iter().enumerate();
-        peaks.map(|(k, peak)| (&*channel.name, k, peak))
-    });
-    write_rows(out, columns, rows)
+    Ok(())
 }

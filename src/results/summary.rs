@@ -1,8 +1,12 @@
-//! Typed summaries: the struct that `summary.json` is, from which printed lines, rows and columns of studies come.
+//! Typed summaries: the struct that `summary.json` is.
+//!
+//! Its fields are the keys in their order. A value that may be absent is an `Option` and null in JSON: JSON has neither NaN
+//! nor infinity.
 
 use super::folder::{FolderError, OutputFolder};
 use super::reopening::{SUMMARY, read_own};
 use crate::cycle::CriticalValue;
+use crate::output::Described;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -20,30 +24,6 @@ pub struct CriticalSummary {
 impl From<CriticalValue> for CriticalSummary {
     fn from(own: CriticalValue) -> Self {
         Self { key: own.parameter.key().to_owned(), value: own.parameter.in_key_units(own.value) }
-    }
-}
-
-/// The summary of a command, a plain struct whose fields are the keys of `summary.json` in their order.
-///
-/// A value that may be absent is an `Option` and null in JSON: JSON has neither NaN nor infinity.
-pub trait Summary: Serialize + DeserializeOwned {
-    /// What a person wants first of it: the columns that a study prints for each point.
-    fn headline(&self) -> Vec<Entry>;
-}
-
-/// One scalar of a summary: its path and its value.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Entry {
-    /// Dotted path from the root of the summary.
-    pub path: String,
-    /// Number, text, boolean or null.
-    pub value: Value,
-}
-
-impl Entry {
-    /// An entry.
-    pub fn new(path: impl Into<String>, value: impl Into<Value>) -> Self {
-        Self { path: path.into(), value: value.into() }
     }
 }
 
@@ -148,7 +128,7 @@ pub struct Crossing {
 }
 
 /// Amplitude ratios between which the winner of two waves changes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize, Deserialize)]
 pub struct Bounds {
     /// Largest ratio at which the first wave wins; without `high` it wins at every ratio tried.
     pub low: Option<f64>,

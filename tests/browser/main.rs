@@ -169,23 +169,23 @@ fn tables_are_sorted_and_filtered() {
         values.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
     };
     let sort = |browser: &Browser| {
-        browser.run(&format!("{table}.tHead.rows[0].cells[1].querySelector('button').click()"))
+        browser.run(&format!("{table}.tHead.rows[0].cells[3].querySelector('button').click()"))
     };
-    let before = column(&browser, 1);
+    let before = column(&browser, 3);
     sort(&browser);
-    let rising = column(&browser, 1);
+    let rising = column(&browser, 3);
     assert!(rising.is_sorted() && !before.is_sorted() && rising.len() == before.len());
     sort(&browser);
-    assert!(column(&browser, 1).iter().rev().is_sorted());
+    assert!(column(&browser, 3).iter().rev().is_sorted());
     assert_eq!(
-        browser.run(&format!("return {table}.tHead.rows[0].cells[1].getAttribute('aria-sort')")),
+        browser.run(&format!("return {table}.tHead.rows[0].cells[3].getAttribute('aria-sort')")),
         json!("descending")
     );
     browser.run(&format!(
         "{table}.parentElement.previousElementSibling.querySelector('input').id = 'filter'"
     ));
     browser.send("#filter", "unstable");
-    let left = column(&browser, 1);
+    let left = column(&browser, 3);
     assert!(
         !left.is_empty() && left.len() < before.len() && left.iter().all(|&real| real > 0.0),
         "{left:?}"

@@ -38,6 +38,12 @@ fn damaged(folder: &TempDir, from: &str, to: &str) -> &'static str {
     "bad.toml"
 }
 
+/// What was printed, its words a space apart.
+fn words(run: &assert_cmd::assert::Assert) -> String {
+    let said = String::from_utf8_lossy(&run.get_output().stdout);
+    said.split_whitespace().collect::<Vec<&str>>().join(" ")
+}
+
 #[test]
 fn no_arguments_show_the_help_and_are_bad_usage() {
     let folder = folder();
@@ -228,7 +234,7 @@ fn mesh_writes_into_the_default_folder_and_prints_statistics() {
     let mut command = frictionsim(&folder);
     command.args(["mesh", &disc()]).args(COARSE);
     // 16 sectors of 3 x 3 + 2 nodes.
-    command.assert().code(0).stdout(contains("176 nodes, 48 elements, 352 unknowns"));
+    assert!(words(&command.assert().code(0)).contains("nodes 176 elements 48 unknowns 352"));
     let results = folder.path().join("results/polycarbonate-disc/mesh");
     for name in
         ["mesh.vtu", "figures/mesh.svg", "figures/mesh.png", "summary.json", "manifest.json"]
@@ -287,7 +293,7 @@ fn a_named_folder_of_another_case_is_refused_unless_forced() {
     let other = ["--set", "mesh.radial_elements=4"];
     run(&other).code(2).stderr(contains("another case").and(contains("--force")));
     let forced = [other.as_slice(), &["--force"]].concat();
-    run(&forced).code(0).stdout(contains("64 elements"));
+    assert!(words(&run(&forced).code(0)).contains("elements 64"));
 }
 
 #[test]
@@ -483,7 +489,7 @@ fn options_may_stand_before_the_command() {
     let before = ["-q", "--no-figures", "-o", "here", "--set", COARSE[1], "mesh"];
     let mut command = frictionsim(&folder);
     command.args(before).arg(disc()).args(&COARSE[2..]);
-    command.assert().code(0).stdout(contains("48 elements"));
+    assert!(words(&command.assert().code(0)).contains("elements 48"));
     assert!(folder.path().join("here/summary.json").exists());
 }
 

@@ -18,6 +18,7 @@ mod basin;
 mod bodies;
 mod case_files;
 mod cli;
+mod columns;
 mod convergence_command;
 mod cycle_command;
 mod documentation;

@@ -1,17 +1,16 @@
 //! Results of a search for the boundary between two basins.
 
+mod figures;
 mod map;
-mod report;
 
-use super::summary::{Bounds, Entry, Summary};
-use super::table::{Column, write_rows};
-use super::{FolderError, Manifest, OutputFolder};
+use super::drawing::Declaration;
+use super::summary::Bounds;
+use super::{Finding, Manifest};
 use crate::cycle::{BasinBoundary, BasinRun};
+use crate::output::{Described, Document, Section, Table, columns, significant};
 use serde::{Deserialize, Serialize};
-use std::fmt::Write as _;
 
 pub use map::basin_map;
-pub use report::draw_basin;
 
 /// What competes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,7 +22,7 @@ pub enum Rivals {
 }
 
 /// `summary.json` of a basin.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Described, Serialize, Deserialize)]
 pub struct BasinSummary {
     /// Its command.
     pub command: String,
@@ -49,7 +48,7 @@ pub struct BasinSummary {
 }
 
 /// One transient.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Described, Serialize, Deserialize)]
 pub struct RunSummary {
     /// Seed of the second wave over that of the first.
     pub seed_ratio: f64,
@@ -171,54 +170,49 @@ impl BasinSummary {
         }
     }
 
-    /// As text.
-    pub fn text(&self) -> String {
-        let mut out = format!("{}\n{}\n", self.title, self.answer());
-        if !self.is_kick() && self.runs.iter().any(|run| !run.is_settled) {
-            out.push_str("some transients end before one wave has gone: raise basin.periods\n");
-        }
-        for run in &self.runs {
-            if self.is_kick() {
-                let end = if run.is_settled { "" } else { "  (not settled)" };
-                let name = self.name(run.winner);
-                let _ = writeln!(out, "  kick {:<10.4} {name}{end}", run.seed_ratio);
-                continue;
-            }
-            let ratio = run.saturation_ratio.map_or("-".to_owned(), |r| format!("{r:.4}"));
-            let _ = writeln!(
-                out,
-                "  seeds 1 : {:<10.4} at saturation {ratio:>9}  {}{}",
-                run.seed_ratio,
-                self.name(run.winner),
-                if run.is_settled { "" } else { "  (not settled)" },
-            );
-        }
-        out
-    }
-}
-
-impl Summary for BasinSummary {
-    fn headline(&self) -> Vec<Entry> {
+    /// Numbers that decide, name and value.
+    fn facts(&self) -> Vec<(String, String)> {
+        let [first, second] = self.harmonics.map(|rival| self.name(rival));
+        let bound = |value: Option<f64>| value.map_or("-".to_owned(), |v| significant(v, 5));
         vec![
-            Entry::new("winner", self.winner),
-            Entry::new("boundary.low", self.boundary.low),
-            Entry::new("boundary.high", self.boundary.high),
+            ("rivals".to_owned(), format!("{first} and {second}")),
+            ("ratio".to_owned(), self.ratio()),
+            (format!("largest ratio at which {first} wins"), bound(self.boundary.low)),
+            (format!("smallest ratio at which {second} wins"), bound(self.boundary.high)),
+            ("transients".to_owned(), self.transients.to_string()),
         ]
     }
 }
 
-/// Writes `basin.csv`, one row for each transient.
-///
-/// # Errors
-/// Those of the folder.
-pub fn write_basin(folder: &OutputFolder, summary: &BasinSummary) -> Result<(), FolderError> {
-    let columns: &[Column<'_, &RunSummary>] = &[
-        ("seed_ratio", &|run| run.seed_ratio.into()),
-        ("saturation_ratio", &|run| run.saturation_ratio.into()),
-        ("winner", &|run| run.winner.into()),
-        ("is_settled", &|run| run.is_settled.into()),
-        ("duration_s", &|run| run.duration_s.into()),
-    ];
-    folder.write("basin.csv", |out| write_rows(out, columns, &summary.runs))?;
-    Ok(())
+columns! {
+    /// A transient.
+    pub(super) RUNS: run as RunSummary;
+    seed_ratio: "seed of the second rival over that of the first, or the kick" = run.seed_ratio, Always "ratio of the seeds" Significant(5);
+    saturation_ratio: "ratio of their amplitudes when the first node sticks or opens" = run.saturation_ratio, IfAny "ratio at saturation" Significant(5);
+    winner: "nodal diameters or number of the motion that wins, 0 for steady sliding" = run.winner;
+    is_settled: "whether that is settled" = run.is_settled, Always "settled" Plain;
+    duration_s: "simulated time" = run.duration_s, Always "simulated time" Significant(4);
+}
+
+impl Finding for BasinSummary {
+    fn document(&self) -> Document {
+        let is_open = !self.is_kick() && self.runs.iter().any(|run| !run.is_settled);
+        let open = is_open.then(|| {
+            "Some transients end before one wave has gone: raise basin.periods.".to_owned()
+        });
+        let runs = Table::new("basin.csv", "Transients in the order of the search")
+            .columns(RUNS, &self.runs)
+            .shown_column("winner", self.runs.iter().map(|run| self.name(run.winner)));
+        Document::new(&self.title, "Basins")
+            .section(Section::new("Results").text([self.answer()]).text(open).facts(self.facts()))
+            .section(Section::new("Search").tables([runs]).figures(["basin"]))
+    }
+
+    fn figures(&self) -> Vec<Declaration<'_>> {
+        vec![Box::new(|| figures::search(self))]
+    }
+
+    fn manifest(&self) -> &Manifest {
+        &self.manifest
+    }
 }

@@ -1,12 +1,14 @@
 //! The base state of an assembly of solid bodies, point by point.
 
+use super::base::{STATUS, TRACTIONS};
 use crate::chart::{Axis, ChartError, Figure};
-use crate::contact::{ContactSite, ContactStatus};
+use crate::contact::ContactSite;
 use crate::fem::SolidStress;
 use crate::mesh::Mesh;
+use crate::output::{Table, columns};
 use crate::results::charts::contact_surfaces;
+use crate::results::finding::write_table;
 use crate::results::folder::{FolderError, OutputFolder};
-use crate::results::table::{Column, write_rows};
 use crate::results::vtu::{EncodedMesh, Field, write_vtu};
 use nalgebra::Vector3;
 
@@ -47,6 +49,16 @@ pub struct AssemblyReport {
     pub stress: Vec<SolidStress>,
 }
 
+columns! {
+    /// A contact point of solid bodies.
+    pub(in crate::results) POINTS: point as AssemblyPoint;
+    contact: "name of the contact, of solid bodies" = point.contact.clone();
+    x_m: "place of the contact point" = point.site.position[0];
+    y_m: "place of the contact point" = point.site.position[1];
+    z_m: "place of the contact point" = point.site.position[2];
+    area_m2: "area that belongs to it" = point.area;
+}
+
 impl AssemblyReport {
     /// Writes `prestress.csv` (contact points) and `prestress.vtu` (displacement and stress; pressure, traction and closed share
     /// of the points around each node of a contact surface, zero elsewhere).
@@ -54,22 +66,12 @@ impl AssemblyReport {
     /// # Errors
     /// Those of the folder.
     pub fn write_base(&self, folder: &OutputFolder, mesh: &Mesh) -> Result<(), FolderError> {
-        folder.write("prestress.csv", |out| {
-            let columns: &[Column<'_, &AssemblyPoint>] = &[
-                ("contact", &|point| point.contact.as_str().into()),
-                ("x_m", &|point| point.site.position[0].into()),
-                ("y_m", &|point| point.site.position[1].into()),
-                ("z_m", &|point| point.site.position[2].into()),
-                ("area_m2", &|point| point.area.into()),
-                ("pressure_pa", &|point| point.pressure.into()),
-                ("shear_pa", &|point| point.shear.into()),
-                ("status", &|point| {
-                    let status = [ContactStatus::Open, ContactStatus::Slip];
-                    status[usize::from(point.is_closed)].name().into()
-                }),
-            ];
-            write_rows(out, columns, &self.points)
-        })?;
+        let points = || self.points.iter();
+        let table = Table::new("prestress.csv", "")
+            .columns(POINTS, points())
+            .columns(TRACTIONS, points().map(|point| (point.pressure, point.shear)))
+            .columns(STATUS, points().map(|point| point.is_closed));
+        write_table(folder, &table)?;
         let around = |value: fn(&AssemblyPoint) -> f64| self.around_nodes(mesh, value);
         let mut fields = vec![
             Field::vectors("displacement_m", mesh, &self.displacement),

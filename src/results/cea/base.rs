@@ -3,15 +3,16 @@
 use crate::contact::ContactStatus;
 use crate::fem::NodalStress;
 use crate::mesh::{Counterface, Mesh};
+use crate::output::{Described, Table, columns};
 use crate::results::extent::Extent;
+use crate::results::finding::write_table;
 use crate::results::folder::{FolderError, OutputFolder};
-use crate::results::table::{Column, write_rows};
 use crate::results::vtu::{EncodedMesh, Field, write_vtu};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
 /// The steady sliding state at one friction coefficient in a few numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct BaseState {
     /// Friction coefficient.
     pub friction_coefficient: f64,
@@ -61,6 +62,33 @@ impl BaseState {
     pub(super) fn power(&self) -> String {
         format!("{:.1} {}", self.power_w, self.extent.unit("W"))
     }
+}
+
+columns! {
+    /// A contact node and its angle, rad.
+    pub(in crate::results) NODES: row as (usize, f64);
+    node: "number of the contact node" = row.0;
+    angle_degrees: "its angle about the axis; along a straight edge its place" = row.1.to_degrees();
+}
+
+columns! {
+    /// Pressure and traction.
+    pub(in crate::results) TRACTIONS: row as (f64, f64);
+    pressure_pa: "contact pressure" = row.0;
+    shear_pa: "friction traction" = row.1;
+}
+
+columns! {
+    /// Whether it presses.
+    pub(in crate::results) STATUS: is_pressed as bool;
+    status: "slip, or open" = [ContactStatus::Open, ContactStatus::Slip][usize::from(*is_pressed)].name();
+}
+
+columns! {
+    /// Where it is in the plane.
+    pub(in crate::results) PLANE: place as [f64; 2];
+    x_m: "place of the contact node" = place[0];
+    y_m: "place of the contact node" = place[1];
 }
 
 /// The same state node by node.
@@ -119,26 +147,20 @@ pub fn write_base(
     mesh: &Mesh,
     (state, base): (&BaseState, &BaseField),
 ) -> Result<(), FolderError> {
-    folder.write("prestress.csv", |out| {
-        let status = |i: usize| {
-            let is_pressed = base.is_pressed.as_ref()?[i];
-            let status = [ContactStatus::Open, ContactStatus::Slip][usize::from(is_pressed)];
-            Some(status.name())
-        };
+    let along = base.along_contact(mesh);
+    let places = || along.iter().map(|own| own.0);
+    let label = |i: usize| mesh.node_label(base.nodes[i] as usize);
+    let mut table = Table::new("prestress.csv", "")
+        .columns(NODES, along.iter().map(|&(i, angle)| (label(i), angle)))
+        .columns(TRACTIONS, places().map(|i| (base.pressures[i], base.shears[i])));
+    // On an annulus every node slips, at its angle.
+    if let Some(is_pressed) = &base.is_pressed {
         let place = |i: usize| mesh.plane_node(base.nodes[i] as usize);
-        let columns: &[Column<'_, (usize, f64)>] = &[
-            ("node", &|(i, _)| mesh.node_label(base.nodes[*i] as usize).into()),
-            ("angle_degrees", &|(_, angle)| angle.to_degrees().into()),
-            ("pressure_pa", &|(i, _)| base.pressures[*i].into()),
-            ("shear_pa", &|(i, _)| base.shears[*i].into()),
-            ("status", &|(i, _)| status(*i).into()),
-            ("x_m", &|(i, _)| place(*i)[0].into()),
-            ("y_m", &|(i, _)| place(*i)[1].into()),
-        ];
-        // On an annulus every node slips, at its angle.
-        let shown = if base.is_pressed.is_some() { 7 } else { 4 };
-        write_rows(out, &columns[..shown], base.along_contact(mesh))
-    })?;
+        table = table
+            .columns(STATUS, places().map(|i| is_pressed[i]))
+            .columns(PLANE, places().map(place));
+    }
+    write_table(folder, &table)?;
     let mut fields = vec![Field::vectors("displacement_m", mesh, &base.displacement)];
     fields.extend(Field::stresses(&base.stress));
     fields.extend(Field::cartesian_stresses(mesh, &base.stress));

@@ -1,13 +1,13 @@
 //! Where on the contact surfaces friction feeds the unstable modes: `feed.csv`, `feed.vtu` and a figure.
 
 use super::CeaReport;
-use super::mode_name::ModeName;
+use super::mode_name::{ModeName, NAMES};
 use crate::chart::{Axis, ChartError, ColourMap, Figure, INK, Line, Panel, Rule, Stroke, literal};
 use crate::mesh::{Counterface, Mesh, SolidFace};
+use crate::output::{Table, columns, fixed};
 use crate::results::charts::SolidView;
+use crate::results::finding::write_table;
 use crate::results::folder::{FolderError, OutputFolder};
-use crate::results::quantity::fixed;
-use crate::results::table::{Column, write_rows};
 use crate::results::vtu::{EncodedMesh, Field, write_vtu};
 use std::f64::consts::TAU;
 
@@ -46,6 +46,25 @@ pub struct Feed {
     pub places: Vec<FeedPlace>,
 }
 
+/// A contact point in a mode.
+pub(in crate::results) struct FeedRow {
+    mode: ModeName,
+    place: FeedPlace,
+    rate: f64,
+}
+
+columns! {
+    /// What a contact point adds to the growth of a mode.
+    pub(in crate::results) FEED: row as FeedRow;
+    contact: "name of the contact" = row.place.contact.clone();
+    x_m: "place of the contact point" = row.place.position[0];
+    y_m: "place of the contact point" = row.place.position[1];
+    z_m: "place of the contact point" = row.place.position[2];
+    area_m2: "area that belongs to it" = row.place.area;
+    growth_rate_per_s: "what it adds to the growth rate" = row.rate;
+    growth_rate_per_s_m2: "the same over its area" = row.rate / row.place.area;
+}
+
 impl Feed {
     /// Writes `feed.csv`, a row for each unstable mode and contact point, and `feed.vtu`, growth for each area of the contact
     /// surfaces, the mean of the points around each node, 0 elsewhere.
@@ -53,26 +72,16 @@ impl Feed {
     /// # Errors
     /// Those of the folder.
     pub fn write(&self, folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), FolderError> {
-        folder.write("feed.csv", |out| {
-            type Row<'a> = (&'a ModeName, &'a FeedPlace, f64);
-            let columns: &[Column<'_, Row<'_>>] = &[
-                ("friction_coefficient", &|row| row.0.friction_coefficient.into()),
-                ("mode", &|row| row.0.mode.into()),
-                ("frequency_hz", &|row| row.0.frequency_hz.into()),
-                ("contact", &|row| row.1.contact.as_str().into()),
-                ("x_m", &|row| row.1.position[0].into()),
-                ("y_m", &|row| row.1.position[1].into()),
-                ("z_m", &|row| row.1.position[2].into()),
-                ("area_m2", &|row| row.1.area.into()),
-                ("growth_rate_per_s", &|row| row.2.into()),
-                ("growth_rate_per_s_m2", &|row| (row.2 / row.1.area).into()),
-            ];
-            let rows = self.modes.iter().flat_map(|own| {
-                let points = self.places.iter().zip(&own.rates);
-                points.map(move |(place, &rate)| (&own.mode, place, rate))
-            });
-            write_rows(out, columns, rows)
-        })?;
+        let rows = self.modes.iter().flat_map(|own| {
+            let points = self.places.iter().zip(&own.rates);
+            points.map(move |(place, &rate)| FeedRow { mode: own.mode, place: place.clone(), rate })
+        });
+        let rows: Vec<FeedRow> = rows.collect();
+        let names = rows.iter().map(|row| row.mode);
+        write_table(
+            folder,
+            &Table::new("feed.csv", "").columns(&NAMES[..3], names).columns(FEED, &rows),
+        )?;
         let count = match report.solid {
             Some(solid) => solid.sector.sector_count() * solid.sector.node_count(),
             None => report.mesh.node_count(),

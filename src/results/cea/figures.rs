@@ -4,7 +4,8 @@ use super::branches::{Branch, branch_of, branches, interval_rows, pieces};
 use super::locus::{NamedDamping, locus};
 use super::reading::budget;
 use super::shape::{Body, ModeShape, moving};
-use super::{CeaReport, direction_name, html_report};
+use super::tables::{View, document};
+use super::{CeaReport, direction_name};
 use crate::cea::ComplexMode;
 use crate::chart::{
     Axis, ChartError, ColourMap, Figure, INK, Line, Marker, Panel, Points, Rule, SERIES, Side,
@@ -14,8 +15,9 @@ use crate::fem::NodalStress;
 use crate::mesh::Counterface;
 use crate::results::charts::Disc;
 use crate::results::charts::palette::{STABLE, UNSTABLE};
-use crate::results::drawing::{Declaration, DrawingError, DrawingOptions, draw_all, write_report};
+use crate::results::drawing::{Declaration, DrawingError, DrawingOptions, draw_all};
 use crate::results::folder::OutputFolder;
+use crate::results::write_page;
 use std::f64::consts::TAU;
 
 /// Branches whose shape is followed over friction, at most.
@@ -59,8 +61,7 @@ pub fn draw(
         figures.push(Box::new(|| map.figure()));
     }
     let figures = draw_all(figures, options)?;
-    let report = html_report(report, figures, folder.manifest());
-    write_report(folder, &report, options)
+    write_page(folder, document(report, View::Page), figures, folder.manifest(), options)
 }
 
 /// Frequency and damping factor over friction of each pair of waves that turns unstable, that with the rotor and that against

@@ -2,44 +2,37 @@
 
 use super::base::write_base;
 use super::summary::summary;
-use super::{CeaReport, ComplexMode, FrictionPoint, UnstableInterval};
+use super::tables::{eigenvalues, stability};
+use super::{CeaReport, ComplexMode};
+use crate::results::finding::write_table;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::pvd::{PvdEntry, write_pvd};
 use crate::results::summary::write_summary;
-use crate::results::table::{Column, write_rows};
 use crate::results::vtu::{EncodedMesh, Field, rounded, write_vtu};
 use crate::results::whole_mesh::WholeMesh;
 use rayon::prelude::*;
 use serde_json::Value;
-use std::io::{self, Write};
+use std::io;
 
 /// Writes all files of the analysis and returns the summary.
 ///
 /// # Errors
 /// Those of the folder.
 pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, FolderError> {
-    folder.write("eigenvalues.csv", |out| write_eigenvalues(out, report))?;
-    folder.write("stability.csv", |out| {
-        let errors = report.reading.as_ref().map(|own| own.onset_errors.as_slice());
-        write_stability(
-            out,
-            &report.sweep.intervals,
-            errors.unwrap_or_default(),
-            report.has_harmonics,
-        )
-    })?;
+    write_table(folder, &eigenvalues(report))?;
+    write_table(folder, &stability(report))?;
     if let Some(sensitivities) = report.sensitivities {
-        folder.write("sensitivities.csv", |out| sensitivities.write(out))?;
+        write_table(folder, &sensitivities.table())?;
     }
     if let Some(reading) = report.reading {
-        folder.write("contributions.csv", |out| reading.write_contributions(out))?;
-        folder.write("coupling.csv", |out| reading.write_couplings(out))?;
+        write_table(folder, &reading.contributions())?;
+        write_table(folder, &reading.couplings())?;
         if let Some(feed) = &reading.feed {
             feed.write(folder, report)?;
         }
     }
     if let Some(map) = report.map {
-        folder.write("map.csv", |out| map.write(out))?;
+        write_table(folder, &map.table())?;
     }
     match (report.solid, report.assembly) {
         (Some(solid), _) => solid.write_base(folder, &report.base)?,
@@ -48,74 +41,6 @@ pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, Fol
     }
     write_shapes(folder, report)?;
     write_summary(folder, &summary(report, folder.manifest()))
-}
-
-/// Writes one row for each mode and friction value, sorted by frequency within a value.
-///
-/// # Errors
-/// Those of the writer.
-pub fn write_eigenvalues(out: &mut dyn Write, report: &CeaReport<'_>) -> io::Result<()> {
-    let direction = |mode: &ComplexMode| report.has_harmonics.then_some(mode.direction);
-    let mesh_error = |friction: f64, mode: usize| {
-        let reading = report.reading.as_ref()?;
-        reading.mesh_error(friction, mode)
-    };
-    let columns: &[Column<'_, (f64, usize, &ComplexMode)>] = &[
-        ("friction_coefficient", &|row| row.0.into()),
-        ("mode", &|row| (row.1 + 1).into()),
-        ("real_hz", &|row| row.2.real_hz().into()),
-        ("frequency_hz", &|row| row.2.frequency_hz().into()),
-        ("damping_factor", &|row| row.2.damping_factor().into()),
-        ("growth_rate_per_s", &|row| row.2.growth_rate().into()),
-        ("harmonic", &|row| row.2.diameters(report.has_harmonics).into()),
-        ("branch", &|row| row.2.branch.into()),
-        ("direction", &|row| direction(row.2).into()),
-        ("unstable", &|row| row.2.is_unstable().into()),
-        ("residual", &|row| row.2.residual.into()),
-        ("contact_share", &|row| row.2.contact_share.into()),
-        ("mesh_error", &|row| mesh_error(row.0, row.1 + 1).into()),
-        ("axial_share", &|row| row.2.axial_share.into()),
-    ];
-    let is_plane = report.solid.is_none();
-    let columns = &columns[..columns.len() - usize::from(is_plane)];
-    // The case's own friction beside those of the sweep.
-    let is_listed = |point: &&FrictionPoint| {
-        let friction = point.friction_coefficient;
-        report.friction_coefficients.contains(&friction)
-            || friction == report.base.friction_coefficient
-    };
-    let rows = report.sweep.points.iter().filter(is_listed).flat_map(|point| {
-        let modes = point.modes.iter().enumerate();
-        modes.map(|(index, mode)| (point.friction_coefficient, index, mode))
-    });
-    write_rows(out, columns, rows)
-}
-
-/// Writes one row for each crossing into instability; the last columns say where the branch turns
-/// stable again (empty where it does not) and whether it was unstable from the first value on.
-///
-/// # Errors
-/// Those of the writer.
-pub fn write_stability(
-    out: &mut dyn Write,
-    intervals: &[UnstableInterval],
-    mesh_errors: &[Option<f64>],
-    has_harmonics: bool,
-) -> io::Result<()> {
-    let columns: &[Column<'_, (&UnstableInterval, Option<f64>)>] = &[
-        ("harmonic", &|i| i.0.diameters(has_harmonics).into()),
-        ("branch", &|i| i.0.branch.into()),
-        ("direction", &|i| has_harmonics.then_some(i.0.direction).into()),
-        ("critical_friction", &|i| i.0.critical_friction.into()),
-        ("frequency_hz", &|i| i.0.frequency_hz.into()),
-        ("restabilized_friction", &|i| i.0.restabilized.map(|end| end.0).into()),
-        ("restabilized_frequency_hz", &|i| i.0.restabilized.map(|end| end.1).into()),
-        ("unstable_from_start", &|i| i.0.unstable_from_start.into()),
-        ("mesh_error", &|i| i.1.into()),
-    ];
-    let rows = intervals.iter().enumerate();
-    let rows = rows.map(|(k, own)| (own, mesh_errors.get(k).copied().flatten()));
-    write_rows(out, columns, rows)
 }
 
 /// Writes the shapes that the modes carry: one VTU each with the real and the imaginary part of the

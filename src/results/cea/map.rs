@@ -3,10 +3,9 @@
 use crate::cea::UnstableInterval;
 use crate::cea::cyclic::StabilityMapPoint;
 use crate::chart::{ChartError, Figure};
+use crate::output::{Table, columns};
 use crate::results::charts::{BranchName, CriticalBranch, critical_friction};
-use crate::results::table::{Column, write_rows};
 use std::collections::BTreeSet;
-use std::io::{self, Write};
 
 /// A stability map in the friction coefficient and a second parameter.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +22,27 @@ pub struct MapReport {
     pub points: Vec<StabilityMapPoint>,
 }
 
+/// A branch at a value of the second parameter.
+pub(in crate::results) struct MapRow {
+    value: f64,
+    harmonic: Option<usize>,
+    direction: Option<i8>,
+    onset: Option<UnstableInterval>,
+    error: Option<String>,
+}
+
+columns! {
+    /// A branch at a value.
+    pub(in crate::results) MAP: row as MapRow;
+    harmonic: "number of nodal diameters; none without symmetry" = row.harmonic;
+    branch: "rank within the harmonic, else among all, from 0" = row.onset.as_ref().map(|own| own.branch);
+    direction: "1 travels with the rotor, -1 against it, 0 stands; none without symmetry" = row.direction;
+    critical_friction: "friction coefficient above which the branch is unstable" = row.onset.as_ref().map(|own| own.critical_friction);
+    frequency_hz: "frequency there" = row.onset.as_ref().map(|own| own.frequency_hz);
+    restabilized_friction: "friction coefficient above which it is stable again" = row.onset.as_ref().and_then(|own| own.restabilized).map(|end| end.0);
+    error: "why there is nothing at the value" = row.error.clone();
+}
+
 impl MapReport {
     /// Harmonic or nodal diameters, where the body has them, branch and direction.
     fn name(&self, own: &UnstableInterval) -> BranchName {
@@ -32,36 +52,27 @@ impl MapReport {
         }
     }
 
-    /// Writes one row for each value and branch that turns unstable; a value without instability or one
+    /// `map.csv`: one row for each value and branch that turns unstable; a value without instability or one
     /// that failed has one row, with the reason in the last column.
-    ///
-    /// # Errors
-    /// Those of the writer.
-    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        type Row<'a> = (f64, Option<&'a UnstableInterval>, Option<String>);
-        let columns: &[Column<'_, Row<'_>>] = &[
-            (&self.key, &|row| row.0.into()),
-            ("harmonic", &|row| row.1.and_then(|i| self.name(i).0).into()),
-            ("branch", &|row| row.1.map(|i| i.branch).into()),
-            ("direction", &|row| {
-                let direction = row.1.map(|i| i.direction);
-                direction.filter(|_| self.has_harmonics).into()
-            }),
-            ("critical_friction", &|row| row.1.map(|i| i.critical_friction).into()),
-            ("frequency_hz", &|row| row.1.map(|i| i.frequency_hz).into()),
-            ("restabilized_friction", &|row| {
-                row.1.and_then(|i| i.restabilized).map(|end| end.0).into()
-            }),
-            ("error", &|row| row.2.clone().into()),
-        ];
-        let rows = self.points.iter().flat_map(|point| -> Vec<Row<'_>> {
+    pub fn table(&self) -> Table {
+        let rows = self.points.iter().flat_map(|point| -> Vec<MapRow> {
+            let row = |onset: Option<&UnstableInterval>, error: Option<String>| MapRow {
+                value: point.value,
+                harmonic: onset.and_then(|own| self.name(own).0),
+                direction: onset.filter(|_| self.has_harmonics).map(|own| own.direction),
+                onset: onset.cloned(),
+                error,
+            };
             match &point.outcome {
-                Ok(intervals) if intervals.is_empty() => vec![(point.value, None, None)],
-                Ok(all) => all.iter().map(|i| (point.value, Some(i), None)).collect(),
-                Err(error) => vec![(point.value, None, Some(error.to_string()))],
+                Ok(intervals) if intervals.is_empty() => vec![row(None, None)],
+                Ok(all) => all.iter().map(|own| row(Some(own), None)).collect(),
+                Err(error) => vec![row(None, Some(error.to_string()))],
             }
         });
-        write_rows(out, columns, rows)
+        let rows: Vec<MapRow> = rows.collect();
+        Table::new("map.csv", "")
+            .column(&self.key, None, rows.iter().map(|row| row.value))
+            .columns(MAP, &rows)
     }
 
     /// The critical friction of every branch over the second parameter.

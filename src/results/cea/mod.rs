@@ -11,33 +11,40 @@ mod kept;
 mod locus;
 mod map;
 mod mode_name;
-mod print;
 mod reading;
-mod report;
 mod sensitivity;
 mod shape;
 mod solid;
 mod summary;
+mod tables;
 
+pub(super) use assembly::POINTS;
 pub use assembly::{AssemblyPoint, AssemblyReport};
 pub use base::{BaseField, BaseState, write_base};
+pub(super) use base::{NODES, PLANE, STATUS, TRACTIONS};
+pub(super) use feed::FEED;
 pub use feed::{Feed, FeedPlace, ModeFeed};
 pub use figures::draw;
-pub use files::{write, write_eigenvalues, write_stability, write_universal};
+pub use files::{write, write_universal};
 pub use kept::KeptSteps;
 pub use locus::NamedDamping;
+pub(super) use map::MAP;
 pub use map::MapReport;
 pub use mode_name::ModeName;
-pub use print::print;
+pub(super) use mode_name::{BRANCHES, NAMES};
+pub(super) use reading::{CONTRIBUTIONS, COUPLINGS};
 pub use reading::{Contribution, Coupling, MeshError, Reading, Source};
-pub use report::html_report;
+pub(super) use sensitivity::ROWS;
 pub use sensitivity::{OnsetRates, SensitivityReport, SensitivityRow};
+pub(super) use solid::RINGS;
 pub use solid::SolidReport;
 pub use summary::{
     CeaSummary, CriticalFriction, ModeSummary, UnstableCount, UnstableMode, summary,
 };
+pub(super) use tables::{AXIAL, MODES, ONSET_ERRORS, ONSETS, PLACES};
+pub use tables::{View, document};
 
-use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval};
+use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep};
 use crate::mesh::Mesh;
 use branches::Branch;
 use std::collections::BTreeMap;
@@ -120,12 +127,6 @@ impl CeaReport<'_> {
             }
             (false, None) => format!("branch {}", branch.1),
         }
-    }
-
-    /// Whether its modes, of a body made of one sector, are waves with numbers of nodal diameters.
-    fn is_by_diameters(&self) -> bool {
-        let mut modes = self.sweep.points.iter().flat_map(|point| &point.modes);
-        modes.any(|mode| mode.nodal_diameters.is_some())
     }
 
     /// The friction values of the tables.

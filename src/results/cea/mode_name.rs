@@ -1,5 +1,7 @@
 //! The name of a mode in tables of what is read from it.
 
+use crate::output::columns;
+
 /// A mode of one friction value, as its table numbers it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModeName {
@@ -15,4 +17,20 @@ pub struct ModeName {
     pub branch: usize,
     /// +1 travels with the rotor, -1 against it, 0 stands; none without symmetry.
     pub direction: Option<i8>,
+}
+
+columns! {
+    /// A mode in tables of what is read from it.
+    pub(in crate::results) NAMES: mode as ModeName;
+    friction_coefficient: "friction coefficient" = mode.friction_coefficient;
+    mode: "number by frequency at that friction, from 1" = mode.mode;
+    frequency_hz: "frequency of the mode" = mode.frequency_hz;
+    harmonic: "number of nodal diameters; none without symmetry" = mode.harmonic;
+}
+
+columns! {
+    /// Its branch.
+    pub(in crate::results) BRANCHES: mode as ModeName;
+    branch: "rank within the harmonic, else among all, from 0" = mode.branch;
+    direction: "1 travels with the rotor, -1 against it, 0 stands; none without symmetry" = mode.direction;
 }

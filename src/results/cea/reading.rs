@@ -1,13 +1,11 @@
 //! Where the growth of each mode comes from, and which modes couple: `contributions.csv` and `coupling.csv`.
 
 use super::branches::Branch;
-use super::mode_name::ModeName;
+use super::mode_name::{BRANCHES, ModeName, NAMES};
 use super::{CeaReport, Feed};
 use crate::chart::{Axis, ChartError, Figure, INK, Line, Panel, Rule, Stroke, literal};
-use crate::results::quantity::fixed;
-use crate::results::table::{Column, write_rows};
+use crate::output::{Table, columns, fixed};
 use std::collections::BTreeMap;
-use std::io::{self, Write};
 
 /// What a contribution comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,6 +89,27 @@ pub struct Reading {
     pub onset_errors: Vec<Option<f64>>,
 }
 
+columns! {
+    /// A share in a mode.
+    pub(in crate::results) CONTRIBUTIONS: row as Contribution;
+    name: "name of the region, boundary or contact" = row.name.clone();
+    kind: "part, support, contact or rotation" = row.source.name();
+    kinetic_share: "share of the kinetic energy; none of what has no mass" = row.kinetic_share;
+    strain_share: "share of the strain energy; none of a contact" = row.strain_share;
+    growth_rate_per_s: "what it adds to the growth rate" = row.growth_rate;
+}
+
+columns! {
+    /// A mode of the lowest friction value in an unstable mode.
+    pub(in crate::results) COUPLINGS: row as Coupling;
+    growth_rate_per_s: "growth rate of the unstable mode" = row.growth_rate;
+    reference_friction: "lowest friction coefficient" = row.reference.friction_coefficient;
+    reference_mode: "number of the mode there, from 1" = row.reference.mode;
+    reference_frequency_hz: "its frequency" = row.reference.frequency_hz;
+    reference_harmonic: "its nodal diameters; none without symmetry" = row.reference.harmonic;
+    share: "share of that mode in the unstable one, 0 to 1" = row.share;
+}
+
 impl Reading {
     /// The estimate of a mode's frequency error, Hz.
     pub fn mesh_error(&self, friction_coefficient: f64, mode: usize) -> Option<f64> {
@@ -99,45 +118,21 @@ impl Reading {
         own.map(|own| own.frequency_hz)
     }
 
-    /// Writes `contributions.csv`: a row for each mode, friction value and part, support or contact.
-    ///
-    /// # Errors
-    /// Those of the writer.
-    pub fn write_contributions(&self, out: &mut dyn Write) -> io::Result<()> {
-        let columns: &[Column<'_, &Contribution>] = &[
-            ("friction_coefficient", &|row| row.mode.friction_coefficient.into()),
-            ("mode", &|row| row.mode.mode.into()),
-            ("frequency_hz", &|row| row.mode.frequency_hz.into()),
-            ("harmonic", &|row| row.mode.harmonic.into()),
-            ("branch", &|row| row.mode.branch.into()),
-            ("direction", &|row| row.mode.direction.into()),
-            ("name", &|row| row.name.clone().into()),
-            ("kind", &|row| row.source.name().to_owned().into()),
-            ("kinetic_share", &|row| row.kinetic_share.into()),
-            ("strain_share", &|row| row.strain_share.into()),
-            ("growth_rate_per_s", &|row| row.growth_rate.into()),
-        ];
-        write_rows(out, columns, &self.contributions)
+    /// `contributions.csv`: a row for each mode, friction value and part, support or contact.
+    pub(super) fn contributions(&self) -> Table {
+        let rows = &self.contributions;
+        Table::new("contributions.csv", "")
+            .columns(NAMES, rows.iter().map(|row| row.mode))
+            .columns(BRANCHES, rows.iter().map(|row| row.mode))
+            .columns(CONTRIBUTIONS, rows)
     }
 
-    /// Writes `coupling.csv`: a row for each unstable mode and each mode of the lowest friction value that it consists of.
-    ///
-    /// # Errors
-    /// Those of the writer.
-    pub fn write_couplings(&self, out: &mut dyn Write) -> io::Result<()> {
-        let columns: &[Column<'_, &Coupling>] = &[
-            ("friction_coefficient", &|row| row.mode.friction_coefficient.into()),
-            ("mode", &|row| row.mode.mode.into()),
-            ("frequency_hz", &|row| row.mode.frequency_hz.into()),
-            ("harmonic", &|row| row.mode.harmonic.into()),
-            ("growth_rate_per_s", &|row| row.growth_rate.into()),
-            ("reference_friction", &|row| row.reference.friction_coefficient.into()),
-            ("reference_mode", &|row| row.reference.mode.into()),
-            ("reference_frequency_hz", &|row| row.reference.frequency_hz.into()),
-            ("reference_harmonic", &|row| row.reference.harmonic.into()),
-            ("share", &|row| row.share.into()),
-        ];
-        write_rows(out, columns, &self.couplings)
+    /// `coupling.csv`: a row for each unstable mode and each mode of the lowest friction value that it consists of.
+    pub(super) fn couplings(&self) -> Table {
+        let rows = &self.couplings;
+        Table::new("coupling.csv", "")
+            .columns(NAMES, rows.iter().map(|row| row.mode))
+            .columns(COUPLINGS, rows)
     }
 
     /// The unstable modes at a friction coefficient in a sentence each, the fastest first: which modes couple, what feeds and

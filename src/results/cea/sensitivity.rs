@@ -2,11 +2,9 @@
 
 use super::direction_name;
 use crate::linalg::c64;
-use crate::results::report::ReportTable;
-use crate::results::table::{Table, format_number};
+use crate::output::{Format, Table, columns, fixed};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
-use std::io::{self, Write};
 
 /// Derivatives of the eigenvalues at one friction coefficient, and the values of the parameters there.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,6 +45,17 @@ pub struct OnsetRates {
     pub derivatives: Vec<Option<f64>>,
 }
 
+columns! {
+    /// A branch; derivatives follow, two for each parameter.
+    pub(in crate::results) ROWS: row as SensitivityRow;
+    friction_coefficient: "friction coefficient" = row.friction_coefficient;
+    harmonic: "number of nodal diameters; none without symmetry" = row.harmonic;
+    branch: "rank within the harmonic, else among all, from 0" = row.branch;
+    direction: "1 travels with the rotor, -1 against it, 0 stands; none without symmetry" = row.direction;
+    growth_rate_per_s: "growth rate of the mode" = row.eigenvalue.re;
+    frequency_hz: "its frequency" = row.eigenvalue.im / TAU;
+}
+
 impl SensitivityReport {
     /// Change of the eigenvalue, 1/s, for one per cent more of each parameter, that of the growth rate largest first.
     fn per_cent<'a>(&'a self, row: &'a SensitivityRow) -> Vec<(&'a str, c64)> {
@@ -62,91 +71,63 @@ impl SensitivityReport {
         changes
     }
 
-    /// Names of the columns.
-    fn columns(&self) -> Vec<String> {
-        let mut columns: Vec<String> = [
-            "friction_coefficient",
-            "harmonic",
-            "branch",
-            "direction",
-            "growth_rate_per_s",
-            "frequency_hz",
-        ]
-        .map(str::to_owned)
-        .to_vec();
-        for name in &self.parameters {
-            columns.push(format!("growth_rate_per_{name}"));
-            columns.push(format!("frequency_hz_per_{name}"));
+    /// `sensitivities.csv`, one row for each branch: the derivative of its growth rate (1/s) and of its frequency (Hz) for each
+    /// unit of each parameter, empty of one by which there is none; and the first critical friction coefficient of the branch
+    /// with its derivatives.
+    pub(super) fn table(&self) -> Table {
+        let rows = || self.rows.iter();
+        let mut table = Table::new("sensitivities.csv", "").columns(ROWS, rows());
+        for (at, name) in self.parameters.iter().enumerate() {
+            let part = |of: fn(c64) -> f64| rows().map(move |row| row.derivatives[at].map(of));
+            table = table.column(&format!("growth_rate_per_{name}"), None, part(|d| d.re)).column(
+                &format!("frequency_hz_per_{name}"),
+                None,
+                part(|d| d.im / TAU),
+            );
         }
-        columns.push("critical_friction".to_owned());
-        let names = self.parameters.iter().skip(1);
-        columns.extend(names.map(|name| format!("critical_friction_per_{name}")));
-        columns
-    }
-
-    /// Writes one row for each branch: the derivative of its growth rate (1/s) and of its frequency (Hz) for each unit of
-    /// each parameter, empty of one by which there is none; and the first critical friction coefficient
-    ///  of the branch with its derivatives.
-    ///
-    /// # Errors
-    /// Those of the writer.
-    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        let columns = self.columns();
-        let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
-        let mut table = Table::new(out, &columns)?;
-        for row in &self.rows {
-            let mut cells = vec![
-                format_number(row.friction_coefficient),
-                row.harmonic.map_or(String::new(), |n| n.to_string()),
-                row.branch.to_string(),
-                row.direction.map_or(String::new(), |way| way.to_string()),
-                format_number(row.eigenvalue.re),
-                format_number(row.eigenvalue.im / TAU),
-            ];
-            for derivative in &row.derivatives {
-                let parts = derivative.map_or([f64::NAN; 2], |d| [d.re, d.im / TAU]);
-                cells.extend(parts.map(format_number));
-            }
-            let critical = row.onset.as_ref().map(|onset| onset.critical_friction);
-            let rate = |i: usize| row.onset.as_ref().and_then(|onset| onset.derivatives[i]);
-            let all = std::iter::once(critical).chain((1..self.parameters.len()).map(rate));
-            cells.extend(all.map(|value| format_number(value.unwrap_or(f64::NAN))));
-            table.row(cells)?;
+        let onsets = || rows().map(|row| row.onset.as_ref());
+        table = table.column(
+            "critical_friction",
+            None,
+            onsets().map(|own| Some(own?.critical_friction)),
+        );
+        for (at, name) in self.parameters.iter().enumerate().skip(1) {
+            let rates = onsets().map(|own| own.and_then(|own| own.derivatives[at]));
+            table = table.column(&format!("critical_friction_per_{name}"), None, rates);
         }
-        table.finish()
+        table
     }
 
     /// Tables of the modes that grow fastest, at most `most`: what one per cent more of each parameter changes, largest first.
-    pub(super) fn tables(&self, most: usize) -> Vec<ReportTable> {
+    pub(super) fn tables(&self, most: usize) -> Vec<Table> {
         let mut rows: Vec<&SensitivityRow> = self.rows.iter().collect();
         rows.sort_by(|a, b| b.eigenvalue.re.total_cmp(&a.eigenvalue.re));
-        rows.into_iter().take(most).map(|row| self.table(row)).collect()
+        rows.into_iter().take(most).map(|row| self.changes(row)).collect()
     }
 
-    fn table(&self, own: &SensitivityRow) -> ReportTable {
-        let row = |(name, change): (&str, c64)| {
-            vec![
-                name.replace('_', " "),
-                format!("{:+.3}", change.re + 0.0),
-                format!("{:+.3}", change.im / TAU + 0.0),
-            ]
-        };
-        let changes = self.per_cent(own).into_iter();
-        let changes = changes.filter(|(_, change)| change.norm() > 0.0);
+    fn changes(&self, own: &SensitivityRow) -> Table {
+        let mut changes = self.per_cent(own);
+        changes.retain(|(_, change)| change.norm() > 0.0);
         let (rate, frequency) = (own.eigenvalue.re, own.eigenvalue.im / TAU);
         let travels = own.direction.map(|way| format!(", {} the rotor", direction_name(way)));
         let travels = travels.unwrap_or_default();
-        ReportTable::new(
-            format!(
-                "One per cent more of each parameter changes {}{travels} ({frequency:.1} Hz, {} at {:.1} 1/s at friction {}) by",
-                self.name(own),
-                if rate > 0.0 { "grows" } else { "decays" },
-                rate.abs(),
-                own.friction_coefficient,
-            ),
-            ["parameter", "growth rate (1/s)", "frequency (Hz)"],
-            changes.map(row),
-        )
+        let caption = format!(
+            "One per cent more of each parameter changes {}{travels} ({} Hz, {} at {} 1/s at friction {}) by",
+            self.name(own),
+            fixed(frequency, 2),
+            if rate > 0.0 { "grows" } else { "decays" },
+            fixed(rate.abs(), 2),
+            own.friction_coefficient,
+        );
+        let look = |label, digits| Some((label, Format::Signed(digits)));
+        Table::new("", caption)
+            .column(
+                "parameter",
+                look("parameter", 0),
+                changes.iter().map(|own| own.0.replace('_', " ")),
+            )
+            .column("growth_rate_per_s", look("growth rate", 3), changes.iter().map(|own| own.1.re))
+            .column("frequency_hz", look("frequency", 3), changes.iter().map(|own| own.1.im / TAU))
     }
 
     fn name(&self, row: &SensitivityRow) -> String {

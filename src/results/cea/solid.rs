@@ -1,6 +1,7 @@
 //! Results of a body of revolution in three dimensions: base state along the contact, bricks, shapes.
 
 use super::BaseState;
+use super::base::{STATUS, TRACTIONS};
 use crate::chart::{
     Axis, Cell, ColourMap, Field as ColourField, Figure, Line, Marker, Mesh, Panel, SERIES, Side,
 };
@@ -8,9 +9,10 @@ use crate::contact::ContactStatus;
 use crate::fem::SolidStress;
 use crate::linalg::c64;
 use crate::mesh::{ContactRing, SheetNode, SolidFace, SolidSector};
+use crate::output::{Table, columns};
 use crate::prestress::SolidSliding;
+use crate::results::finding::write_table;
 use crate::results::folder::{FolderError, OutputFolder};
-use crate::results::table::{Column, write_rows};
 use crate::results::vtu::{EncodedMesh, Field, solid_vectors, write_vtu};
 use std::sync::Arc;
 
@@ -28,6 +30,13 @@ pub struct SolidReport {
     pub friction_coefficient: f64,
     /// Its stress at the nodes of one sector, in their frames.
     pub stress: Vec<SolidStress>,
+}
+
+columns! {
+    /// A ring of contact nodes.
+    pub(in crate::results) RINGS: ring as [f64; 2];
+    radius_m: "radius of the ring of contact nodes, of bodies of revolution" = ring[0];
+    height_m: "its height" = ring[1];
 }
 
 impl SolidReport {
@@ -68,21 +77,12 @@ impl SolidReport {
         folder: &OutputFolder,
         state: &BaseState,
     ) -> Result<(), FolderError> {
-        folder.write("prestress.csv", |out| {
-            let status = |k: usize| match self.base.is_pressed[k] {
-                true => ContactStatus::Slip,
-                false => ContactStatus::Open,
-            };
-            let (rings, shears) = (&self.sector.rings, self.shears());
-            let columns: &[Column<'_, usize>] = &[
-                ("radius_m", &|k| rings[*k].radius.into()),
-                ("height_m", &|k| rings[*k].height.into()),
-                ("pressure_pa", &|k| self.base.pressures[*k].into()),
-                ("shear_pa", &|k| shears[*k].into()),
-                ("status", &|k| status(*k).name().into()),
-            ];
-            write_rows(out, columns, 0..rings.len())
-        })?;
+        let tractions = self.base.pressures.iter().copied().zip(self.shears());
+        let table = Table::new("prestress.csv", "")
+            .columns(RINGS, self.sector.rings.iter().map(|ring| [ring.radius, ring.height]))
+            .columns(TRACTIONS, tractions)
+            .columns(STATUS, self.base.is_pressed.iter().copied());
+        write_table(folder, &table)?;
         let displacement = self.base.displacement(self.friction_coefficient);
         let mut fields = vec![self.vectors("displacement_m", &self.repeated(&displacement))];
         let stress = self.stress.repeat(self.sector.sector_count());

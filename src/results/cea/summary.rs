@@ -2,13 +2,14 @@
 
 use super::{BaseState, CeaReport};
 use crate::cea::{ComplexMode, ModeCount, UnstableInterval};
+use crate::output::Described;
 use crate::results::manifest::Manifest;
-use crate::results::summary::{Entry, Summary, present};
+use crate::results::summary::present;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// `summary.json` of `frictionsim cea`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct CeaSummary {
     /// `cea`.
     pub command: String,
@@ -52,7 +53,7 @@ pub struct CeaSummary {
 }
 
 /// The modes at one friction value, counted independently of the list.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct CountSummary {
     /// The friction coefficient.
     pub friction_coefficient: f64,
@@ -94,7 +95,7 @@ impl CountSummary {
 }
 
 /// Modes at one friction value.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct UnstableCount {
     /// The friction coefficient.
     pub friction_coefficient: f64,
@@ -105,7 +106,7 @@ pub struct UnstableCount {
 }
 
 /// Where a branch turns unstable, and where it is stable again.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct CriticalFriction {
     /// Nodal diameters; none on a body without symmetry.
     pub harmonic: Option<usize>,
@@ -145,7 +146,7 @@ impl CriticalFriction {
 }
 
 /// A mode.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct ModeSummary {
     /// Nodal diameters; none on a body without symmetry.
     pub harmonic: Option<usize>,
@@ -170,7 +171,7 @@ pub struct ModeSummary {
 }
 
 impl ModeSummary {
-    fn of(mode: &ComplexMode, mesh_error: Option<f64>, has_harmonics: bool) -> Self {
+    pub(super) fn of(mode: &ComplexMode, mesh_error: Option<f64>, has_harmonics: bool) -> Self {
         Self {
             harmonic: mode.diameters(has_harmonics),
             branch: mode.branch,
@@ -186,7 +187,7 @@ impl ModeSummary {
 }
 
 /// A mode that grows, where it was found, and from when it does.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct UnstableMode {
     /// Friction coefficient.
     pub friction_coefficient: f64,
@@ -247,15 +248,21 @@ impl UnstableMode {
     }
 }
 
-impl Summary for CeaSummary {
-    fn headline(&self) -> Vec<Entry> {
-        let lowest = self.critical_frictions.first();
-        let friction = lowest.and_then(|lowest| lowest.critical_friction);
-        vec![
-            Entry::new("critical_frictions.0.critical_friction", friction),
-            Entry::new("modes", self.modes),
-        ]
+/// So many friction values, in words.
+pub(super) fn friction_values(count: usize) -> String {
+    match count {
+        1 => "1 friction value".to_owned(),
+        count => format!("{count} friction values"),
     }
+}
+
+/// The crossings into instability.
+pub(super) fn onsets(report: &CeaReport<'_>) -> Vec<CriticalFriction> {
+    let onset = |(k, interval): (usize, &UnstableInterval)| {
+        let error = report.reading.and_then(|own| own.onset_errors.get(k).copied().flatten());
+        CriticalFriction::of(interval, error, report.has_harmonics)
+    };
+    report.sweep.intervals.iter().enumerate().map(onset).collect()
 }
 
 /// The summary of an analysis.
@@ -278,11 +285,6 @@ pub fn summary(report: &CeaReport<'_>, manifest: &Manifest) -> CeaSummary {
             .map(|(i, mode)| ModeSummary::of(mode, error(i + 1), report.has_harmonics))
             .collect()
     };
-    let onset = |(k, interval): (usize, &UnstableInterval)| {
-        let error = reading.and_then(|own| own.onset_errors.get(k).copied().flatten());
-        CriticalFriction::of(interval, error, report.has_harmonics)
-    };
-    let onsets = report.sweep.intervals.iter().enumerate();
     let may_open = !report.has_harmonics || report.solid.is_some();
     let nodes = (base.slipping + base.sticking + base.open).max(1);
     CeaSummary {
@@ -295,7 +297,7 @@ pub fn summary(report: &CeaReport<'_>, manifest: &Manifest) -> CeaSummary {
         modes: report.mode_counts().1,
         friction_values: report.friction_coefficients.len(),
         unstable_counts: report.tabulated().map(of_point).collect(),
-        critical_frictions: onsets.map(onset).collect(),
+        critical_frictions: onsets(report),
         largest_residual: present(report.largest_residual()),
         modes_at_friction: own.map(modes_at),
         unstable_modes: UnstableMode::all(report),

@@ -8,9 +8,7 @@ use crate::cycle::periodic::velocity_level;
 use crate::cycle::{CycleBranch, LimitCycle, Onset};
 use crate::results::extent::Extent;
 use crate::results::manifest::Manifest;
-use crate::results::summary::{
-    CriticalSummary, Entry, MeanPowers, StatusFractions, Summary, present,
-};
+use crate::results::summary::{CriticalSummary, MeanPowers, StatusFractions, present};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::f64::consts::TAU;
@@ -160,17 +158,6 @@ pub struct StabilityChangeSummary {
     /// Whether the wave gives way to a motion of two frequencies: a Neimark-Sacker bifurcation.
     #[serde(default)]
     pub to_two_frequencies: bool,
-}
-
-impl Summary for CycleSummary {
-    fn headline(&self) -> Vec<Entry> {
-        let first = self.cycles.iter().find_map(|family| family.cycle.as_ref());
-        let frequency = first.map(|cycle| cycle.main_frequency_hz);
-        vec![
-            Entry::new("cycles.0.main_frequency_hz", frequency),
-            Entry::new("steady_sliding_stable", self.steady_sliding_stable),
-        ]
-    }
 }
 
 /// The summary of a search.

@@ -1,54 +1,106 @@
-//! Results of a fit to measured modes: tables, figure, report.
+//! Results of a fit to measured modes: tables, figure, page.
 
 mod figures;
-mod report;
 mod summary;
 
-pub use report::draw_report;
-pub use summary::{FitSummary, FittedParameter, LineSummary, ModeSummary, SearchSummary};
+pub use summary::{BLOCK, FitSummary, FittedParameter, LineSummary, ModeSummary, SearchSummary};
 
-use super::summary::write_summary;
-use super::table::{Column, write_rows};
-use super::{FolderError, OutputFolder};
-use serde_json::Value;
+use super::drawing::Declaration;
+use super::{Finding, Manifest};
+use crate::output::{Document, Section, Table, columns};
 
-/// Name of the block of fitted values in its folder.
-const BLOCK: &str = "fitted.toml";
+columns! {
+    /// A measured line.
+    pub(super) MEASURED: line as LineSummary;
+    line: "line of the table of measurements" = line.line;
+    frequency_hz: "measured frequency" = line.frequency_hz, Always "measured" Fixed(2);
+    real_hz: "measured real part of the eigenvalue over 2 pi" = line.real_hz, IfAny "real part" Fixed(2);
+    harmonic: "measured number of nodal diameters" = line.harmonic;
+}
 
-/// Writes `fit.csv` (one row for each measured line), `modes.csv` (every mode of the fitted model), `fitted.toml` and
-/// `summary.json`; returns the object of the summary.
-///
-/// # Errors
-/// Those of the folder.
-pub fn write(folder: &OutputFolder, summary: &FitSummary) -> Result<Value, FolderError> {
-    let lines: &[Column<'_, &LineSummary>] = &[
-        ("line", &|line| line.line.into()),
-        ("frequency_hz", &|line| line.frequency_hz.into()),
-        ("real_hz", &|line| line.real_hz.into()),
-        ("harmonic", &|line| line.harmonic.into()),
-        ("model_harmonic", &|line| line.mode.harmonic.into()),
-        ("model_branch", &|line| line.mode.branch.into()),
-        ("model_direction", &|line| line.mode.direction.into()),
-        ("model_frequency_hz", &|line| line.mode.frequency_hz.into()),
-        ("model_real_hz", &|line| line.mode.real_hz.into()),
-        ("difference_hz", &|line| line.difference_hz.into()),
-        ("difference_percent", &|line| line.difference_percent.into()),
-        ("real_difference_hz", &|line| line.real_difference_hz.into()),
-        ("mac", &|line| line.mac.into()),
-    ];
-    // The last where shapes were measured.
-    let has_shapes = summary.residuals.iter().any(|line| line.mac.is_some());
-    let lines = &lines[..lines.len() - usize::from(!has_shapes)];
-    folder.write("fit.csv", |out| write_rows(out, lines, &summary.residuals))?;
-    let modes: &[Column<'_, &ModeSummary>] = &[
-        ("harmonic", &|mode| mode.harmonic.into()),
-        ("branch", &|mode| mode.branch.into()),
-        ("direction", &|mode| mode.direction.into()),
-        ("frequency_hz", &|mode| mode.frequency_hz.into()),
-        ("real_hz", &|mode| mode.real_hz.into()),
-        ("unstable", &|mode| mode.is_unstable().into()),
-    ];
-    folder.write("modes.csv", |out| write_rows(out, modes, &summary.modes))?;
-    folder.write(BLOCK, |out| out.write_all(summary.block().as_bytes()))?;
-    write_summary(folder, summary)
+columns! {
+    /// A mode of the model.
+    pub(super) MODES: mode as ModeSummary;
+    harmonic: "number of nodal diameters; none without symmetry" = mode.harmonic, IfAny "n" Count;
+    branch: "rank within the harmonic, else among all, from 0" = mode.branch, Always "branch" Count;
+    direction: "1 travels with the rotor, -1 against it, 0 stands" = mode.direction;
+    frequency_hz: "frequency of the mode" = mode.frequency_hz, Always "frequency" Fixed(2);
+    real_hz: "real part of the eigenvalue over 2 pi" = mode.real_hz, Always "real part" Fixed(2);
+}
+
+columns! {
+    /// Whether a mode grows.
+    pub(super) GROWS: mode as ModeSummary;
+    unstable: "whether the mode grows" = mode.is_unstable();
+}
+
+columns! {
+    /// How far a line and its mode are apart.
+    pub(super) DIFFERENCES: line as LineSummary;
+    difference_hz: "frequency of the model less measured" = line.difference_hz;
+    difference_percent: "the same over the measured one" = line.difference_percent, Always "difference" Signed(3);
+    real_difference_hz: "real part of the model less measured" = line.real_difference_hz;
+    mac: "modal assurance criterion of measured shape and mode; where shapes were measured" = line.mac, IfAny "MAC" Fixed(3);
+}
+
+columns! {
+    /// A fitted parameter.
+    PARAMETERS: row as (String, FittedParameter);
+    parameter: "key of the case" = row.0.clone(), Always "parameter" Plain;
+    value: "fitted value" = row.1.value, Always "value" Significant(6);
+    unit: "its unit" = row.1.unit.clone(), Always "unit" Plain;
+    low: "lower end of its 95 % interval" = row.1.low, Always "95 % from" Significant(6);
+    high: "upper end" = row.1.high, Always "to" Significant(6);
+    from: "lower bound" = row.1.bounds[0], Always "sought from" Significant(6);
+    to: "upper bound" = row.1.bounds[1], Always "to" Significant(6);
+}
+
+impl Finding for FitSummary {
+    fn document(&self) -> Document {
+        let lines = || self.residuals.iter();
+        let parameters = Table::new("", "Parameters with their 95 % intervals")
+            .columns(PARAMETERS, self.parameters.clone());
+        let residuals = Table::new("fit.csv", "Measured lines and their modes")
+            .columns(MEASURED, lines())
+            .group("model_", "model ", MODES, lines().map(|line| Some(&line.mode)))
+            .columns(DIFFERENCES, lines())
+            .without_empty("mac");
+        let modes = Table::new("modes.csv", "Modes of the fitted model")
+            .columns(MODES, &self.modes)
+            .columns(GROWS, &self.modes);
+        let fitted = format!(
+            "Fitted to {} lines of {} at friction coefficient {}; the worst frequency differs by {:.3} %. {} of {} \
+             searches, from the best of {} points, ended here.",
+            self.residuals.len(),
+            self.measurement,
+            self.friction_coefficient,
+            self.worst_percent,
+            self.search.arrived,
+            self.search.searches,
+            self.search.starts,
+        );
+        let pairs = self.correlations.iter().flat_map(|(a, row)| {
+            let later = row.iter().filter(move |(b, _)| a < *b);
+            later.map(move |(b, value)| format!("Correlation of {a} and {b}: {value:+.3}."))
+        });
+        Document::new(&self.title, "Fit to measured modes")
+            .section(
+                Section::new("Fitted parameters")
+                    .text(std::iter::once(fitted).chain(pairs))
+                    .aside([self.block()])
+                    .tables([parameters])
+                    .figures(["fit"]),
+            )
+            .section(Section::new("Lines and modes").tables([residuals]))
+            .file(modes)
+            .notes(&self.notes)
+    }
+
+    fn figures(&self) -> Vec<Declaration<'_>> {
+        vec![Box::new(|| Ok(figures::fit(self)))]
+    }
+
+    fn manifest(&self) -> &Manifest {
+        &self.manifest
+    }
 }

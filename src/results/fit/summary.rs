@@ -1,13 +1,16 @@
 //! `summary.json` of a fit.
 
+use crate::output::Described;
 use crate::results::Manifest;
-use crate::results::summary::{Entry, Summary};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
+/// Name of the block of fitted values in its folder.
+pub const BLOCK: &str = "fitted.toml";
+
 /// `summary.json` of a fit.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Described, Serialize, Deserialize)]
 pub struct FitSummary {
     /// Its command.
     pub command: String,
@@ -46,7 +49,7 @@ pub struct FitSummary {
 }
 
 /// One fitted parameter.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Described, Serialize, Deserialize)]
 pub struct FittedParameter {
     /// Its value.
     pub value: f64,
@@ -65,7 +68,7 @@ pub struct FittedParameter {
 }
 
 /// One mode of the model.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct ModeSummary {
     /// Nodal diameters, where the body has the symmetry.
     pub harmonic: Option<usize>,
@@ -100,7 +103,7 @@ impl ModeSummary {
 }
 
 /// One measured line and its mode.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Described, Serialize, Deserialize)]
 pub struct LineSummary {
     /// Line of the table.
     pub line: usize,
@@ -126,7 +129,7 @@ pub struct LineSummary {
 }
 
 /// How a minimum was found.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Described, Serialize, Deserialize)]
 pub struct SearchSummary {
     /// Points looked at.
     pub starts: usize,
@@ -160,61 +163,5 @@ impl FitSummary {
         let head = format!("# fitted to {}\n", self.measurement);
         let blocks = sections.iter().map(|(name, lines)| format!("[{name}]\n{lines}"));
         head + &blocks.collect::<Vec<_>>().join("\n")
-    }
-
-    /// As text.
-    pub fn text(&self) -> String {
-        let mut out = format!("{}\n", self.title);
-        for (key, fitted) in &self.parameters {
-            let unit =
-                if fitted.unit.is_empty() { String::new() } else { format!(" {}", fitted.unit) };
-            let interval = match (fitted.low, fitted.high) {
-                (Some(low), Some(high)) => {
-                    format!("95 % {} to {}", significant(low), significant(high))
-                }
-                _ => "no interval".to_owned(),
-            };
-            let _ = writeln!(out, "  {key} = {}{unit}  ({interval})", significant(fitted.value));
-        }
-        for (a, row) in &self.correlations {
-            for (b, value) in row.iter().filter(|(b, _)| a < *b) {
-                let _ = writeln!(out, "  correlation of {a} and {b}: {value:+.3}");
-            }
-        }
-        let _ = writeln!(out, "\n  measured             model                differ  mode");
-        for line in &self.residuals {
-            let real = |value: Option<f64>| value.map_or(String::new(), |v| format!("({v:+.1})"));
-            let measured = format!("{:.1} {}", line.frequency_hz, real(line.real_hz));
-            let model = format!("{:.1} ({:+.1})", line.mode.frequency_hz, line.mode.real_hz);
-            let percent = line.difference_percent;
-            let _ = writeln!(
-                out,
-                "  {measured:<20} {model:<18} {percent:>+7.3} %  {}{}",
-                line.mode.name(),
-                line.mac.map_or(String::new(), |mac| format!("  MAC {mac:.3}")),
-            );
-        }
-        let _ = writeln!(
-            out,
-            "  frequency (growth Re/2pi), Hz; the worst differs by {:.3} %",
-            self.worst_percent
-        );
-        for note in &self.notes {
-            let _ = writeln!(out, "  {note}");
-        }
-        out
-    }
-}
-
-fn significant(value: f64) -> String {
-    crate::results::quantity::significant(value, 6)
-}
-
-impl Summary for FitSummary {
-    fn headline(&self) -> Vec<Entry> {
-        let of = |(key, fitted): (&String, &FittedParameter)| {
-            Entry::new(format!("parameters.{key}.value"), fitted.value)
-        };
-        self.parameters.iter().map(of).collect()
     }
 }

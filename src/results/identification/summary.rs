@@ -1,15 +1,15 @@
 //! Summary of `identify`, as it is written, printed and reported.
 
+use crate::output::Described;
 use crate::results::Manifest;
 use crate::signal::reader::NamedResponse;
 use crate::signal::{
     Estimate, HalfPowerBand, Identification, IdentifiedMode, RayleighFit, ResonanceNote,
 };
 use serde::{Deserialize, Serialize};
-use std::fmt::Write as _;
 
 /// Rayleigh coefficients of measured responses.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct IdentificationSummary {
     /// `identify`.
     pub command: String,
@@ -46,7 +46,7 @@ pub struct IdentificationSummary {
 }
 
 /// One response and its noise.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct ResponseSummary {
     /// Name as in the table.
     pub name: String,
@@ -63,7 +63,7 @@ pub struct ResponseSummary {
 }
 
 /// Rayleigh coefficients.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct CoefficientSummary {
     /// `alpha_R`, 1/s.
     pub mass_coefficient: Estimate,
@@ -72,7 +72,7 @@ pub struct CoefficientSummary {
 }
 
 /// One mode with both estimates of its damping.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct ModeSummary {
     /// Undamped natural frequency, Hz.
     pub frequency_hz: f64,
@@ -91,7 +91,7 @@ pub struct ModeSummary {
 }
 
 /// A half-power band.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct HalfPowerSummary {
     /// Peak, Hz.
     pub frequency_hz: f64,
@@ -102,7 +102,7 @@ pub struct HalfPowerSummary {
 }
 
 /// The fit of all responses.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct FitSummary {
     /// Lowest and highest frequency used, Hz.
     pub range_hz: [f64; 2],
@@ -180,68 +180,6 @@ impl IdentificationSummary {
             line("mass_coefficient", self.mass_coefficient, "1/s"),
             line("stiffness_coefficient", self.stiffness_coefficient, "s"),
         )
-    }
-
-    /// One line for each response.
-    fn responses_text(&self) -> String {
-        let mut text = String::new();
-        for response in &self.responses {
-            let name = match self.responses.len() {
-                1 => String::new(),
-                _ => format!(" {}:", response.name),
-            };
-            let [from, to] = response.range_hz;
-            let (source, quantity, lines) = (&self.source, &response.quantity, response.lines);
-            let _ =
-                writeln!(text, "{source}:{name} {quantity}, {lines} lines from {from} to {to} Hz");
-        }
-        text
-    }
-
-    /// Modes and coefficients for a person.
-    pub fn print(&self) -> String {
-        let mut text = self.responses_text();
-        text.push_str("mode  frequency_hz  damping_factor        95 %          half_power  \n");
-        for (k, mode) in self.modes.iter().enumerate() {
-            let [low, high] = mode.damping_factor_interval;
-            let half = mode.half_power.as_ref().and_then(|b| b.damping_factor);
-            let _ = writeln!(
-                text,
-                "{:>4}  {:>12.2}  {:>14.6}  +- {:<10.6}  {:>12}  {}{}",
-                k + 1,
-                mode.frequency_hz,
-                mode.damping_factor,
-                0.5 * (high - low),
-                half.map_or("-".to_owned(), |z| format!("{z:.6}")),
-                if mode.used { "" } else { "not used; " },
-                mode.flag.as_deref().unwrap_or_default(),
-            );
-        }
-        for frequency_hz in &self.unmatched_peaks_hz {
-            let _ = writeln!(text, "      {frequency_hz:>12.2}  peak without a mode in the fit");
-        }
-        let line = |name: &str, alpha: Estimate, beta: Estimate| {
-            let ([a, al, ah], [b, bl, bh]) = (rounded(alpha), rounded(beta));
-            format!("{name:<12} alpha_R = {a} 1/s [{al}, {ah}]   beta_R = {b} s [{bl}, {bh}]\n")
-        };
-        text.push_str(&line("fit", self.mass_coefficient, self.stiffness_coefficient));
-        match &self.half_power {
-            Some(r) => {
-                text.push_str(&line("half-power", r.mass_coefficient, r.stiffness_coefficient));
-            }
-            None => text.push_str("half-power   fewer than three modes without doubt\n"),
-        }
-        if self.reduced_chi_square > 3.0 {
-            let _ = writeln!(
-                text,
-                "the damping factors scatter {:.1} times more about equation 3 than their errors: the \
-                 material is not exactly Rayleigh, and the intervals are widened for it",
-                self.reduced_chi_square.sqrt()
-            );
-        }
-        text.push('\n');
-        text.push_str(&self.damping_block());
-        text
     }
 }
 

@@ -1,15 +1,14 @@
 //! `figures/improve-mode-N`: where each kind of modification feeds or damps a mode, with the candidates.
 
 use super::front::front_figure;
-use super::report::report;
-use super::{ImproveSummary, TargetFields};
+use super::{ImproveSummary, TargetFields, document};
 use crate::chart::{
     Axis, ChartError, ColourMap, Figure, INK, Marker, Panel, Points, Side, significant,
 };
 use crate::mesh::Mesh;
 use crate::results::charts::{Disc, SolidView};
-use crate::results::drawing::{Declaration, draw_all, write_report};
-use crate::results::{DrawingError, DrawingOptions, OutputFolder};
+use crate::results::drawing::{Declaration, draw_all};
+use crate::results::{DrawingError, DrawingOptions, OutputFolder, write_page};
 use std::f64::consts::PI;
 
 /// Targets that have a figure, the fastest first.
@@ -41,7 +40,7 @@ pub fn draw(
     let targets = order.into_iter().take(MOST).map(declare);
     let declarations = targets.chain([of_front]).collect();
     let figures = draw_all(declarations, options)?;
-    write_report(folder, &report(summary, figures, folder.manifest()), options)
+    write_page(folder, document(summary), figures, folder.manifest(), options)
 }
 
 /// The derivatives of one growth rate over the body, a panel for each kind of modification.

@@ -1,11 +1,9 @@
 //! `candidates.csv`, `improve.vtu` and `improved.toml`.
 
-use super::front::write_front;
-use super::{Candidate, ImproveSummary, State, TargetFields};
+use super::{ImproveSummary, TargetFields, document};
 use crate::mesh::Mesh;
-use crate::results::table::{Cell, Column, write_rows};
 use crate::results::vtu::{EncodedMesh, Field, write_vtu};
-use crate::results::{FolderError, OutputFolder};
+use crate::results::{FolderError, OutputFolder, write_tables};
 
 /// Writes the table of candidates, the fields over the mesh, and the keys of the best candidate.
 ///
@@ -17,39 +15,7 @@ pub fn write(
     mesh: &Mesh,
     fields: &[TargetFields],
 ) -> Result<(), FolderError> {
-    folder.write("candidates.csv", |out| {
-        let of = |state: Option<State>, value: fn(&State) -> Option<f64>| -> Cell {
-            state.as_ref().and_then(value).into()
-        };
-        let growth: fn(&State) -> Option<f64> = |state| state.growth_rate_per_s;
-        let critical: fn(&State) -> Option<f64> = |state| state.critical_friction;
-        let beside: fn(&State) -> Option<f64> = |state| Some(state.unstable_beside as f64);
-        let along = |own: &Candidate, axis: usize| own.direction.map(|d| d[axis]);
-        let columns: &[Column<'_, &Candidate>] = &[
-            ("rank", &|own| own.rank.into()),
-            ("kind", &|own| own.kind.clone().into()),
-            ("node", &|own| own.node.into()),
-            ("x_m", &|own| own.position_m[0].into()),
-            ("y_m", &|own| own.position_m[1].into()),
-            ("z_m", &|own| own.position_m[2].into()),
-            ("direction_x", &|own| along(own, 0).into()),
-            ("direction_y", &|own| along(own, 1).into()),
-            ("direction_z", &|own| along(own, 2).into()),
-            ("added_mass_kg", &|own| own.added_mass_kg.into()),
-            ("first_order_growth_rate_per_s", &|own| own.first_order_growth_rate_per_s.into()),
-            ("predicted_growth_rate_per_s", &|own| of(Some(own.predicted), growth)),
-            ("predicted_critical_friction", &|own| of(Some(own.predicted), critical)),
-            ("confirmed_growth_rate_per_s", &|own| of(own.confirmed, growth)),
-            ("confirmed_critical_friction", &|own| of(own.confirmed, critical)),
-            ("confirmed_unstable_beside", &|own| of(own.confirmed, beside)),
-            ("verdict", &|own| own.verdict.clone().into()),
-            ("keys", &|own| own.keys.join("; ").into()),
-        ];
-        write_rows(out, columns, &summary.candidates)
-    })?;
-    if !summary.front.is_empty() {
-        folder.write("front.csv", |out| write_front(out, &summary.front))?;
-    }
+    write_tables(folder, &document(summary))?;
     write_fields(folder, mesh, fields)?;
     let best = summary
         .candidates

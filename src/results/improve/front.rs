@@ -1,132 +1,24 @@
-//! Mass against critical friction: `front.csv`, its figure and its table.
+//! Mass against critical friction: its points and their figure.
 
-use super::{Candidate, ImproveSummary, State, critical};
+use super::{Candidate, ImproveSummary, State};
 use crate::chart::{
     Axis, ChartError, Figure, INK, Label, Line, MUTED, Marker, Panel, Points, Rule, Stroke, look,
 };
+use crate::output::Described;
 use crate::results::charts::palette::{STABLE, UNSTABLE};
-use crate::results::quantity::significant;
-use crate::results::report::ReportTable;
-use crate::results::table::{Column, write_rows};
 use serde::{Deserialize, Serialize};
-use std::fmt::Write as _;
-use std::io::{self, Write};
 
 /// Name of the figure.
 pub(super) const FRONT: &str = "front";
 
 /// A mass or a removal of some size.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Described, Serialize, Deserialize)]
 pub struct FrontPoint {
     /// What it is, and what it does; `rank` is its place by rising mass.
     #[serde(flatten)]
     pub candidate: Candidate,
     /// Whether it was run again, holds, and no lighter one that holds gets as far.
     pub on_front: bool,
-}
-
-/// Writes one row for each point by rising mass.
-///
-/// # Errors
-/// Those of the writer.
-pub(super) fn write_front(out: &mut dyn Write, front: &[FrontPoint]) -> io::Result<()> {
-    let growth = |state: Option<State>| state.and_then(|state| state.growth_rate_per_s);
-    let onset = |state: Option<State>| state.and_then(|state| state.critical_friction);
-    let columns: &[Column<'_, &FrontPoint>] = &[
-        ("added_mass_kg", &|own| own.candidate.added_mass_kg.into()),
-        ("kind", &|own| own.candidate.kind.clone().into()),
-        ("node", &|own| own.candidate.node.into()),
-        ("x_m", &|own| own.candidate.position_m[0].into()),
-        ("y_m", &|own| own.candidate.position_m[1].into()),
-        ("z_m", &|own| own.candidate.position_m[2].into()),
-        ("predicted_growth_rate_per_s", &|own| growth(Some(own.candidate.predicted)).into()),
-        ("predicted_critical_friction", &|own| onset(Some(own.candidate.predicted)).into()),
-        ("confirmed_growth_rate_per_s", &|own| growth(own.candidate.confirmed).into()),
-        ("confirmed_critical_friction", &|own| onset(own.candidate.confirmed).into()),
-        ("on_front", &|own| own.on_front.into()),
-        ("verdict", &|own| own.candidate.verdict.clone().into()),
-        ("keys", &|own| own.candidate.keys.join("; ").into()),
-    ];
-    write_rows(out, columns, front)
-}
-
-/// Points that were run again, as lines of text.
-pub(super) fn text(summary: &ImproveSummary) -> String {
-    let friction = summary.friction_coefficient;
-    if summary.front.is_empty() {
-        return String::new();
-    }
-    let mut out = format!(
-        "\nmass against critical friction, of {} masses and removals (front.csv):\n{:>10}  {:<8} {:<34} {:>10} {:>10}  verdict\n",
-        summary.front.len(),
-        format!("mass {}", summary.extent.unit("g")),
-        "kind",
-        "where",
-        "predicted",
-        "run again",
-    );
-    for own in again(summary) {
-        let onset = |state: &State| critical(state.critical_friction, friction);
-        let _ = writeln!(
-            out,
-            "{:>10}  {:<8} {:<34} {:>10} {:>10}  {}",
-            significant_grams(own.candidate.added_mass_kg),
-            own.candidate.kind,
-            own.candidate.place(),
-            onset(&own.candidate.predicted),
-            own.candidate.confirmed.as_ref().map_or("-".to_owned(), onset),
-            mark(own),
-        );
-    }
-    out.push('\n');
-    out
-}
-
-/// The same as a table of the report.
-pub(super) fn table_of_front(summary: &ImproveSummary) -> ReportTable {
-    let friction = summary.friction_coefficient;
-    let onset = |state: &State| critical(state.critical_friction, friction);
-    let row = |own: &FrontPoint| {
-        vec![
-            significant_grams(own.candidate.added_mass_kg),
-            own.candidate.kind.clone(),
-            own.candidate.place(),
-            onset(&own.candidate.predicted),
-            own.candidate.confirmed.as_ref().map_or(String::new(), onset),
-            mark(own),
-        ]
-    };
-    let mass = format!("mass ({})", summary.extent.unit("g"));
-    let columns = [
-        mass.as_str(),
-        "kind",
-        "where",
-        "critical friction, predicted",
-        "critical friction, run again",
-        "verdict",
-    ];
-    ReportTable::new(
-        "Masses added and taken away that were run again, the lightest first (all: front.csv)",
-        columns,
-        again(summary).map(row),
-    )
-}
-
-/// The points that were run again.
-fn again(summary: &ImproveSummary) -> impl Iterator<Item = &FrontPoint> {
-    let front = summary.front.iter();
-    front.filter(|own| own.candidate.verdict != "not run again")
-}
-
-fn mark(own: &FrontPoint) -> String {
-    match own.on_front {
-        true => format!("{}, on the front", own.candidate.verdict),
-        false => own.candidate.verdict.clone(),
-    }
-}
-
-fn significant_grams(mass: f64) -> String {
-    significant(1e3 * mass, 4)
 }
 
 /// Critical friction over the mass that is added or taken away: every place and size that was looked at, those that were run

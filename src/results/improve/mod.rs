@@ -3,16 +3,17 @@
 mod figures;
 mod files;
 mod front;
-mod report;
+mod tables;
 
-use super::summary::{Entry, Summary};
 use super::{Extent, Manifest};
+use crate::output::Described;
 use serde::{Deserialize, Serialize};
-use std::fmt::Write as _;
 
 pub use figures::draw;
 pub use files::write;
 pub use front::FrontPoint;
+pub use tables::document;
+pub(super) use tables::{BESIDE, CANDIDATES, EFFECTS, FRONTS, STATES, VERDICTS, WEIGHTS};
 
 /// Fields over the mesh of one target.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,7 +35,7 @@ pub struct TargetFields {
 }
 
 /// `summary.json` of `improve`.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Described, Serialize, Deserialize)]
 pub struct ImproveSummary {
     /// Its command.
     pub command: String,
@@ -67,7 +68,7 @@ pub struct ImproveSummary {
 }
 
 /// A mode that is to be silenced.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Described, Serialize, Deserialize)]
 pub struct TargetMode {
     /// Number by frequency, from 1.
     pub mode: usize,
@@ -78,7 +79,7 @@ pub struct TargetMode {
 }
 
 /// What the modes of the window of frequencies come to.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize, Deserialize)]
 pub struct State {
     /// Growth rate of the mode that grows fastest there, 1/s.
     pub growth_rate_per_s: Option<f64>,
@@ -95,7 +96,7 @@ pub struct State {
 }
 
 /// Sizes of the modifications.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Described, Serialize, Deserialize)]
 pub struct Sizes {
     /// Mass at a node, kg.
     pub mass_kg: f64,
@@ -112,7 +113,7 @@ pub struct Sizes {
 }
 
 /// One modification.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Described, Serialize, Deserialize)]
 pub struct Candidate {
     /// Place in the list, from 1.
     pub rank: usize,
@@ -184,73 +185,5 @@ impl ImproveSummary {
             (None, Some(_)) => "none of the candidates that were run again holds".to_owned(),
             (None, None) => "no modification of these sizes helps".to_owned(),
         }
-    }
-
-    /// As text.
-    pub fn text(&self) -> String {
-        let friction = self.friction_coefficient;
-        let growth = |value: Option<f64>| value.map_or("-".to_owned(), |v| format!("{v:.1}"));
-        let mut out = format!("{}\n{}\n", self.title, self.answer());
-        for mode in &self.modes {
-            let _ = writeln!(
-                out,
-                "mode {} at {:.2} Hz grows by {:.1} 1/s at friction {friction}",
-                mode.mode, mode.frequency_hz, mode.growth_rate_per_s
-            );
-        }
-        let _ = writeln!(
-            out,
-            "as it is: growth {} 1/s, critical friction {}\n\n{:49}{:>21} {:>21}\n{:>4}  {:<8} {:<34} {:>21} {:>21}  verdict",
-            growth(self.base.growth_rate_per_s),
-            critical(self.base.critical_friction, friction),
-            "",
-            "predicted",
-            "run again",
-            "rank",
-            "kind",
-            "where",
-            "growth 1/s critical",
-            "growth 1/s critical",
-        );
-        let both = |state: &State| {
-            format!(
-                "{} {:>8}",
-                growth(state.growth_rate_per_s),
-                critical(state.critical_friction, friction)
-            )
-        };
-        for own in &self.candidates {
-            let _ = writeln!(
-                out,
-                "{:>4}  {:<8} {:<34} {:>21} {:>21}  {}",
-                own.rank,
-                own.kind,
-                own.place(),
-                both(&own.predicted),
-                own.confirmed.as_ref().map_or("-".to_owned(), both),
-                own.verdict,
-            );
-        }
-        out += &front::text(self);
-        for note in &self.notes {
-            let _ = writeln!(out, "{note}");
-        }
-        out
-    }
-}
-
-impl Summary for ImproveSummary {
-    fn headline(&self) -> Vec<Entry> {
-        let best = self.candidates.first();
-        let confirmed = best.and_then(|own| own.confirmed);
-        vec![
-            Entry::new("base.critical_friction", self.base.critical_friction),
-            Entry::new("base.growth_rate_per_s", self.base.growth_rate_per_s),
-            Entry::new("candidates", self.candidates.len()),
-            Entry::new(
-                "confirmed.growth_rate_per_s",
-                confirmed.and_then(|state| state.growth_rate_per_s),
-            ),
-        ]
     }
 }

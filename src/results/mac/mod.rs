@@ -1,18 +1,15 @@
 //! Results of `mac`: modal assurance of measured shapes.
 
-mod report;
+mod figures;
 
-use super::summary::{Entry, Summary};
-use super::table::{Column, write_rows};
-use super::{FolderError, Manifest, OutputFolder};
+use super::drawing::Declaration;
+use super::{Finding, Manifest};
+use crate::output::{Described, Document, Section, Table, columns};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
-use std::fmt::Write as _;
-
-pub use report::draw_mac;
 
 /// `summary.json` of `mac`.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Described, Serialize, Deserialize)]
 pub struct MacSummary {
     /// Its command.
     pub command: String,
@@ -39,7 +36,7 @@ pub struct MacSummary {
 }
 
 /// A measured shape.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Described, Serialize, Deserialize)]
 pub struct MacShape {
     /// What the file calls it.
     pub name: String,
@@ -54,7 +51,7 @@ pub struct MacShape {
 }
 
 /// A mode of the model.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Described, Serialize, Deserialize)]
 pub struct MacMode {
     /// Number by frequency, from 1.
     pub mode: usize,
@@ -67,7 +64,7 @@ pub struct MacMode {
 }
 
 /// A shape and the mode that it is.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct MacPair {
     /// Shape, from 1.
     pub shape: usize,
@@ -77,10 +74,35 @@ pub struct MacPair {
     pub mac: f64,
 }
 
+/// A shape, a mode, their criterion, and whether they are a pair.
+type Row = (MacShape, MacMode, f64, bool);
+
+columns! {
+    /// A shape beside a mode.
+    pub(super) ROWS: row as Row;
+    shape: "name of the measured shape" = row.0.name.clone(), Always "shape" Plain;
+    measured_frequency_hz: "its frequency, where the file says it" = row.0.frequency_hz, IfAny "measured" Fixed(2);
+    mode: "number of the mode by frequency, from 1" = row.1.mode, Always "mode" Count;
+    frequency_hz: "its frequency" = row.1.frequency_hz, Always "frequency" Fixed(2);
+    real_hz: "real part of its eigenvalue over 2 pi" = row.1.real_hz;
+    harmonic: "its nodal diameters; none without symmetry" = row.1.harmonic, IfAny "n" Count;
+    mac: "modal assurance criterion, 0 to 1" = row.2, Always "MAC" Fixed(4);
+    paired: "whether the two are a pair" = row.3;
+}
+
+columns! {
+    /// How the mode grows, and what is left out of a shape.
+    BESIDE: row as Row;
+    growth_rate_per_s: "growth rate of the mode" = TAU * row.1.real_hz, Always "growth rate" Fixed(2);
+    off_body: "points off the body" = row.0.off_body, Always "points off the body" Count;
+}
+
 impl MacSummary {
-    /// The shape and the mode of a pair.
-    fn pair(&self, pair: &MacPair) -> (&MacShape, &MacMode) {
-        (&self.shapes[pair.shape - 1], &self.modes[pair.mode - 1])
+    /// The row of a shape and a mode, both from 1.
+    fn row(&self, shape: usize, mode: usize) -> Row {
+        let is_pair = self.pairs.iter().any(|pair| (pair.shape, pair.mode) == (shape, mode));
+        let value = self.mac[shape - 1][mode - 1];
+        (self.shapes[shape - 1].clone(), self.modes[mode - 1], value, is_pair)
     }
 
     /// What was found, in a sentence.
@@ -92,72 +114,35 @@ impl MacSummary {
             self.shapes.len()
         )
     }
-
-    /// As text.
-    pub fn text(&self) -> String {
-        let mut out = format!(
-            "{}\n{}\n\n{:>10} {:>12} {:>6} {:>12} {:>10} {:>7}\n",
-            self.title,
-            self.answer(),
-            "shape",
-            "measured Hz",
-            "mode",
-            "frequency Hz",
-            "growth 1/s",
-            "MAC"
-        );
-        for pair in &self.pairs {
-            let (shape, mode) = self.pair(pair);
-            let measured = shape.frequency_hz.map_or("-".to_owned(), |hz| format!("{hz:.2}"));
-            let _ = writeln!(
-                out,
-                "{:>10} {measured:>12} {:>6} {:>12.2} {:>10.2} {:>7.4}",
-                shape.name,
-                mode.mode,
-                mode.frequency_hz,
-                TAU * mode.real_hz,
-                pair.mac
-            );
-        }
-        for note in &self.notes {
-            let _ = writeln!(out, "{note}");
-        }
-        out
-    }
 }
 
-impl Summary for MacSummary {
-    fn headline(&self) -> Vec<Entry> {
-        let least = self.pairs.iter().map(|pair| pair.mac).fold(1.0, f64::min);
-        vec![
-            Entry::new("shapes", self.shapes.len()),
-            Entry::new("modes", self.modes.len()),
-            Entry::new("least_mac", least),
-        ]
+impl Finding for MacSummary {
+    fn document(&self) -> Document {
+        let all = (1..=self.shapes.len())
+            .flat_map(|shape| (1..=self.modes.len()).map(move |mode| self.row(shape, mode)));
+        let pairs: Vec<Row> =
+            self.pairs.iter().map(|pair| self.row(pair.shape, pair.mode)).collect();
+        let table = Table::new("", "The mode of each shape");
+        let results = Section::new("Results")
+            .facts([
+                ("shapes", self.shapes.len().to_string()),
+                ("modes", self.modes.len().to_string()),
+                ("friction coefficient", self.friction_coefficient.to_string()),
+            ])
+            .text([self.answer()])
+            .tables([table.columns(ROWS, &pairs).columns(BESIDE, &pairs)]);
+        Document::new(&self.title, "Modal assurance")
+            .section(results)
+            .section(Section::new("Modal assurance").figures(["mac"]))
+            .file(Table::new("mac.csv", "Each shape and each mode").columns(ROWS, all))
+            .notes(&self.notes)
     }
-}
 
-/// Writes `mac.csv`: a row for each shape and mode.
-///
-/// # Errors
-/// Those of the folder.
-pub fn write_mac(folder: &OutputFolder, summary: &MacSummary) -> Result<(), FolderError> {
-    let shapes = 0..summary.shapes.len();
-    let rows = shapes.flat_map(|shape| (0..summary.modes.len()).map(move |mode| (shape, mode)));
-    let is_pair = |shape: usize, mode: usize| {
-        let mut pairs = summary.pairs.iter();
-        pairs.any(|pair| (pair.shape, pair.mode) == (shape + 1, mode + 1))
-    };
-    let columns: &[Column<'_, (usize, usize)>] = &[
-        ("shape", &|at| summary.shapes[at.0].name.clone().into()),
-        ("measured_frequency_hz", &|at| summary.shapes[at.0].frequency_hz.into()),
-        ("mode", &|at| summary.modes[at.1].mode.into()),
-        ("frequency_hz", &|at| summary.modes[at.1].frequency_hz.into()),
-        ("real_hz", &|at| summary.modes[at.1].real_hz.into()),
-        ("harmonic", &|at| summary.modes[at.1].harmonic.into()),
-        ("mac", &|at| summary.mac[at.0][at.1].into()),
-        ("paired", &|at| is_pair(at.0, at.1).into()),
-    ];
-    folder.write("mac.csv", |out| write_rows(out, columns, rows))?;
-    Ok(())
+    fn figures(&self) -> Vec<Declaration<'_>> {
+        vec![Box::new(|| figures::matrix(self))]
+    }
+
+    fn manifest(&self) -> &Manifest {
+        &self.manifest
+    }
 }

@@ -7,7 +7,7 @@ pub use spectrum::{FreeSpectrum, FreeSpectrumSummary};
 use super::folder::{FolderError, OutputFolder};
 use super::manifest::Manifest;
 use super::npz::NpzArchive;
-use super::summary::{Entry, Summary, object};
+use super::summary::object;
 use super::table::{Table, format_number};
 use crate::linalg::MarketMatrix;
 use serde::{Deserialize, Serialize};
@@ -185,12 +185,6 @@ pub struct MatricesSummary {
     pub contact: Option<String>,
     /// What it was made from.
     pub manifest: Manifest,
-}
-
-impl Summary for MatricesSummary {
-    fn headline(&self) -> Vec<Entry> {
-        vec![Entry::new("dofs", self.dofs)]
-    }
 }
 
 impl MatrixRole {

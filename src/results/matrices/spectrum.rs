@@ -3,7 +3,7 @@
 use crate::cea::QuadraticMode;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::manifest::Manifest;
-use crate::results::summary::{Entry, Summary, write_summary};
+use crate::results::summary::write_summary;
 use crate::results::table::{Table, format_number};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -50,12 +50,6 @@ pub struct FreeSpectrumSummary {
     pub max_residual: f64,
     /// What it was made from.
     pub manifest: Manifest,
-}
-
-impl Summary for FreeSpectrumSummary {
-    fn headline(&self) -> Vec<Entry> {
-        vec![Entry::new("modes", self.modes), Entry::new("unstable", self.unstable)]
-    }
 }
 
 impl FreeSpectrum {

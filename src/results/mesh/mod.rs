@@ -5,26 +5,25 @@ mod plane_figure;
 mod solid;
 mod solid_figure;
 
-pub use plane::{
-    BoundaryStatistics, MeshStatistics, RegionStatistics, draw_mesh, print, write_revolution,
-};
-pub use solid::{SolidBoundary, SolidMeshStatistics, SolidRegion, print_solids};
-pub use solid_figure::draw_solids;
+pub use plane::{BoundaryStatistics, MeshStatistics, RegionStatistics, write_revolution};
+pub use plane_figure::figure as plane_figure;
+pub use solid::{SolidBoundary, SolidMeshStatistics, SolidRegion};
+pub use solid_figure::figure as solid_figure;
 
-use super::drawing::{DrawingError, DrawingOptions, draw_all, write_report};
+use super::drawing::{DrawingError, DrawingOptions, draw_all};
+use super::finding::write_page;
 use super::folder::{FolderError, OutputFolder};
 use super::manifest::Manifest;
 use super::quantity::quantity;
-use super::report::{Report, ReportSection, ReportTable};
-use super::summary::{Entry, Summary};
 use super::vtu::{EncodedMesh, Field, write_vtu};
 use crate::chart::{Figure, literal};
 use crate::mesh::{BoundaryCondition, Mesh, MeshQuality};
+use crate::output::{Described, Document, Section};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 /// `summary.json` of `frictionsim mesh`, with the statistics of the kind of body.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct MeshSummary<S> {
     /// `mesh`.
     pub command: String,
@@ -45,13 +44,28 @@ pub struct MeshSummary<S> {
 }
 
 /// Statistics of a mesh of any kind.
-pub trait Measured: Serialize + DeserializeOwned {
+pub trait Measured: Serialize + DeserializeOwned + Described {
+    /// What there is to say of it.
+    fn section(&self, results: Section) -> Section;
     /// Its counts.
     fn size(&self) -> &MeshSize;
+    /// Its elements.
+    fn shape(&self) -> &ElementShapes;
+}
+
+impl<S: Measured> MeshSummary<S> {
+    /// Tables and sentences.
+    pub fn document(&self) -> Document {
+        let results = Section::new("Results").facts(numbers(self.mesh.size(), self.mesh.shape()));
+        let not_used = self.not_used.iter().map(|line| format!("not used: {line}"));
+        Document::new(&self.title, "Mesh")
+            .section(self.mesh.section(results).text(not_used))
+            .section(Section::new("Mesh").figures(["mesh"]))
+    }
 }
 
 /// Counts of a mesh.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct MeshSize {
     /// Nodes.
     pub nodes: usize,
@@ -64,7 +78,7 @@ pub struct MeshSize {
 }
 
 /// Sizes and shapes of the elements of a mesh.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct ElementShapes {
     /// Shortest edge of any element, m.
     pub smallest_edge_m: f64,
@@ -74,26 +88,6 @@ pub struct ElementShapes {
     pub largest_aspect_ratio: f64,
     /// Smallest Jacobian determinant of an element over its largest.
     pub worst_jacobian: f64,
-}
-
-impl<S: Measured> Summary for MeshSummary<S> {
-    fn headline(&self) -> Vec<Entry> {
-        let size = self.mesh.size();
-        vec![
-            Entry::new("mesh.nodes", size.nodes),
-            Entry::new("mesh.elements", size.elements),
-            Entry::new("mesh.dofs", size.dofs),
-            Entry::new("mesh.contact_nodes", size.contact_nodes),
-        ]
-    }
-}
-
-impl<S> MeshSummary<S> {
-    /// A line for each thing of the mesh file that is not used.
-    fn not_used_text(&self) -> String {
-        let lines = self.not_used.iter();
-        lines.map(|line| format!("not used: {line}\n")).collect()
-    }
 }
 
 impl MeshSize {
@@ -116,19 +110,6 @@ impl From<MeshQuality> for ElementShapes {
             largest_aspect_ratio: own.largest_aspect_ratio,
             worst_jacobian: own.worst_jacobian,
         }
-    }
-}
-
-impl ElementShapes {
-    /// In one line.
-    fn text(&self) -> String {
-        format!(
-            "edges {} to {}, aspect ratio up to {}, worst Jacobian {:.3}",
-            quantity("smallest_edge_m").number(self.smallest_edge_m),
-            quantity("largest_edge_m").text(self.largest_edge_m),
-            quantity("largest_aspect_ratio").text(self.largest_aspect_ratio),
-            self.worst_jacobian,
-        )
     }
 }
 
@@ -203,23 +184,16 @@ fn numbers(size: &MeshSize, shape: &ElementShapes) -> Vec<(String, String)> {
     ]
 }
 
-/// Draws `figures/mesh` and writes `report.html` from a figure, numbers and tables.
-fn draw(
+/// Draws `figures/mesh` and writes `report.html`.
+///
+/// # Errors
+/// Those of the drawing and of the folder.
+pub fn draw<S: Measured>(
     folder: &OutputFolder,
-    title: &str,
-    figure: impl Fn() -> Figure + Sync,
-    numbers: Vec<(String, String)>,
-    tables: [ReportTable; 2],
+    summary: &MeshSummary<S>,
+    figure: impl Fn() -> Figure + Sync + Send,
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
     let figures = draw_all(vec![Box::new(|| Ok(figure()))], options)?;
-    let report = Report {
-        title: title.to_owned(),
-        sections: vec![
-            ReportSection::results(Vec::new(), numbers).with_tables(tables),
-            ReportSection::new("Mesh").with_figures(figures),
-        ],
-        manifest: folder.manifest().clone(),
-    };
-    write_report(folder, &report, options)
+    write_page(folder, summary.document(), figures, folder.manifest(), options)
 }

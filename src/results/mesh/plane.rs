@@ -1,83 +1,31 @@
 //! Results of `mesh` for plane bodies and bodies of revolution.
 
-use super::plane_figure::figure;
-use super::{
-    ElementShapes, Measured, MeshSize, MeshSummary, condition_name, draw, number, numbers,
-};
+use super::{ElementShapes, Measured, MeshSize, condition_name, number};
 use crate::mesh::{AnnulusMesh, Mesh, SolidContact, SolidSector};
-use crate::results::drawing::{DrawingError, DrawingOptions};
+use crate::output::{Described, Section, Table, columns};
 use crate::results::folder::{FolderError, OutputFolder};
-use crate::results::quantity::quantity;
-use crate::results::report::ReportTable;
-use crate::results::summary::Summary;
 use crate::results::vtu::{EncodedMesh, Field, write_vtu};
 use serde::{Deserialize, Serialize};
-use std::fmt::Write as _;
 
-/// The summary as text.
-pub fn print(summary: &MeshSummary<MeshStatistics>) -> String {
-    let mesh = &summary.mesh;
-    let text = |key: &str, value: f64| quantity(key).text(value);
-    let counts = summary.headline();
-    let counts = counts.iter().map(|entry| {
-        let quantity = quantity(&entry.path);
-        format!("{} {}", quantity.cell(&entry.value), quantity.caption)
-    });
-    let mut out = format!("{}\n{}\n", counts.collect::<Vec<_>>().join(", "), mesh.shape.text());
-    if let (Some(elements), Some(nodes)) =
-        (mesh.elements_per_wavelength, mesh.contact_nodes_per_wave)
-    {
-        let _ = writeln!(
-            out,
-            "at the highest frequency {elements:.1} elements for each shear wavelength, {nodes:.1} contact nodes"
-        );
-    }
-    let area = text("area_m2", mesh.area_m2);
-    if let (Some(layers), Some(nodes)) = (mesh.axial_elements, mesh.nodes_per_sector) {
-        let _ = writeln!(
-            out,
-            "{layers} layers of bricks over the thickness; edges, quality and picture are of the section across the axis, area {area}\n\
-             node ids: 1 + j {nodes} + k, k in the sheet of a sector, j around from +x"
-        );
-        return out;
-    }
-    if let (Some(error), Some(nodes)) = (mesh.area_error, mesh.nodes_per_sector) {
-        let _ = writeln!(
-            out,
-            "area {area}, {} off the annulus\n\
-             node ids: 1 + j {nodes} + i, i outwards along a ray, j around from +x",
-            text("area_error", error),
-        );
-        return out;
-    }
-    let _ = writeln!(out, "area {area}");
-    for region in &mesh.regions {
-        let _ = writeln!(
-            out,
-            "region {}: {} elements, {:.6e} m2",
-            region.name, region.elements, region.area_m2
-        );
-    }
-    for boundary in &mesh.boundaries {
-        let _ = writeln!(
-            out,
-            "boundary {}: {} nodes, {:.6e} m, {}",
-            boundary.name, boundary.nodes, boundary.length_m, boundary.condition
-        );
-    }
-    out += &summary.not_used_text();
-    match mesh.unnamed_free_edges {
-        None | Some(0) => {}
-        Some(1) => out.push_str("1 free edge is in no physical curve\n"),
-        Some(count) => {
-            let _ = writeln!(out, "{count} free edges are in no physical curve");
-        }
-    }
-    out
+columns! {
+    /// A region.
+    REGIONS: own as RegionStatistics;
+    name: "its name" = own.name.clone(), Always "region" Plain;
+    elements: "its elements" = own.elements, Always "elements" Count;
+    area_m2: "its area" = own.area_m2, Always "area" Scientific(6);
+}
+
+columns! {
+    /// A boundary.
+    BOUNDARIES: own as BoundaryStatistics;
+    name: "its name" = own.name.clone(), Always "boundary" Plain;
+    nodes: "its nodes" = own.nodes, Always "nodes" Count;
+    length_m: "its length" = own.length_m, Always "length" Scientific(6);
+    condition: "what holds it" = own.condition.clone(), Always "condition" Plain;
 }
 
 /// Size and quality of a mesh.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct MeshStatistics {
     /// Counts.
     #[serde(flatten)]
@@ -114,7 +62,7 @@ pub struct MeshStatistics {
 }
 
 /// One region of a mesh.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct RegionStatistics {
     /// Its name.
     pub name: String,
@@ -125,7 +73,7 @@ pub struct RegionStatistics {
 }
 
 /// One boundary of a mesh.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct BoundaryStatistics {
     /// Its name.
     pub name: String,
@@ -140,6 +88,45 @@ pub struct BoundaryStatistics {
 impl Measured for MeshStatistics {
     fn size(&self) -> &MeshSize {
         &self.size
+    }
+
+    fn shape(&self) -> &ElementShapes {
+        &self.shape
+    }
+
+    fn section(&self, results: Section) -> Section {
+        let row = |key: &str, value: Option<f64>| Some(number(key, value?));
+        let further = [
+            row("area_m2", Some(self.area_m2)),
+            row("area_error", self.area_error),
+            row("elements_per_wavelength", self.elements_per_wavelength),
+            row("contact_nodes_per_wave", self.contact_nodes_per_wave),
+        ];
+        let layers = self.axial_elements.map(|layers| {
+            format!(
+                "{layers} layers of bricks over the thickness; edges, quality, areas and picture are of the section across the axis"
+            )
+        });
+        let ids = self.nodes_per_sector.map(|nodes| match self.axial_elements {
+            Some(_) => {
+                format!("node ids: 1 + j {nodes} + k, k in the sheet of a sector, j around from +x")
+            }
+            None => {
+                format!("node ids: 1 + j {nodes} + i, i outwards along a ray, j around from +x")
+            }
+        });
+        let free = match self.unnamed_free_edges {
+            None | Some(0) => None,
+            Some(1) => Some("1 free edge is in no physical curve".to_owned()),
+            Some(count) => Some(format!("{count} free edges are in no physical curve")),
+        };
+        results
+            .facts(further.into_iter().flatten())
+            .tables([
+                Table::new("", "Regions").columns(REGIONS, &self.regions),
+                Table::new("", "Boundaries").columns(BOUNDARIES, &self.boundaries),
+            ])
+            .text([layers, ids, free].into_iter().flatten())
     }
 }
 
@@ -236,53 +223,4 @@ pub fn write_revolution(folder: &OutputFolder, sector: &SolidSector) -> Result<(
     folder
         .write("mesh.vtu", |out| write_vtu(out, &EncodedMesh::solid(sector)?, &[], &fields, &[]))?;
     Ok(())
-}
-
-/// Draws `figures/mesh` and writes `report.html`: elements by region, boundaries with their names, normals of the contact edge,
-/// probes (node numbers from 1); sizes and quality.
-///
-/// # Errors
-/// Those of the drawing and of the folder.
-pub fn draw_mesh(
-    folder: &OutputFolder,
-    mesh: &Mesh,
-    (title, probes): (&str, &[usize]),
-    statistics: &MeshStatistics,
-    options: &DrawingOptions,
-) -> Result<(), DrawingError> {
-    let row = |key: &str, value: Option<f64>| Some(number(key, value?));
-    let further = [
-        row("area_m2", Some(statistics.area_m2)),
-        row("elements_per_wavelength", statistics.elements_per_wavelength),
-        row("contact_nodes_per_wave", statistics.contact_nodes_per_wave),
-    ];
-    let mut numbers = numbers(&statistics.size, &statistics.shape);
-    numbers.extend(further.into_iter().flatten());
-    let tables = [region_table(statistics), boundary_table(statistics)];
-    let drawn = || figure(mesh, title, probes);
-    draw(folder, title, drawn, numbers, tables, options)
-}
-
-fn region_table(mesh: &MeshStatistics) -> ReportTable {
-    let row = |region: &RegionStatistics| {
-        let area = format!("{:.6e}", region.area_m2);
-        vec![region.name.clone(), region.elements.to_string(), area]
-    };
-    ReportTable::new("Regions", ["region", "elements", "area (m2)"], mesh.regions.iter().map(row))
-}
-
-fn boundary_table(mesh: &MeshStatistics) -> ReportTable {
-    let row = |boundary: &BoundaryStatistics| {
-        vec![
-            boundary.name.clone(),
-            boundary.nodes.to_string(),
-            format!("{:.6e}", boundary.length_m),
-            boundary.condition.clone(),
-        ]
-    };
-    ReportTable::new(
-        "Boundaries",
-        ["boundary", "nodes", "length (m)", "condition"],
-        mesh.boundaries.iter().map(row),
-    )
 }

@@ -14,7 +14,7 @@ const MOST_NORMALS: usize = 48;
 const GAP: (f64, f64) = (f64::NAN, f64::NAN);
 
 /// Elements by region, boundaries with their names, normals of the contact edge, probes (node numbers from 1).
-pub(super) fn figure(mesh: &Mesh, title: &str, probes: &[usize]) -> Figure {
+pub fn figure(mesh: &Mesh, title: &str, probes: &[usize]) -> Figure {
     let place = |node: u32| (mesh.nodes[node as usize][0], mesh.nodes[node as usize][1]);
     let [low, high] = Window::window(&mesh.plane_nodes(), 0.1);
     let size = high[0] - low[0];

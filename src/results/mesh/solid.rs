@@ -1,14 +1,13 @@
 //! Results of `mesh` for solid bodies of a mesh file.
 
-use super::{ElementShapes, Measured, MeshSize, MeshSummary, condition_name};
+use super::{ElementShapes, Measured, MeshSize, condition_name};
 use crate::mesh::Mesh;
-use crate::results::quantity::quantity;
+use crate::output::{Described, Section, Table, columns};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write as _;
 
 /// Size and quality of the mesh of solid bodies.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct SolidMeshStatistics {
     /// Counts; unknowns with those that are held.
     #[serde(flatten)]
@@ -37,7 +36,7 @@ pub struct SolidMeshStatistics {
 }
 
 /// One region of solid bodies.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct SolidRegion {
     /// Its name.
     pub name: String,
@@ -50,7 +49,7 @@ pub struct SolidRegion {
 }
 
 /// One named surface of solid bodies.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct SolidBoundary {
     /// Its name.
     pub name: String,
@@ -64,9 +63,52 @@ pub struct SolidBoundary {
     pub condition: String,
 }
 
+columns! {
+    /// A region.
+    REGIONS: own as SolidRegion;
+    name: "its name" = own.name.clone(), Always "region" Plain;
+    elements: "its elements" = own.elements, Always "elements" Count;
+    volume_m3: "its volume" = own.volume_m3, Always "volume" Scientific(6);
+    mass_kg: "its mass" = own.mass_kg, Always "mass" Fixed(6);
+}
+
+columns! {
+    /// A boundary.
+    BOUNDARIES: own as SolidBoundary;
+    name: "its name" = own.name.clone(), Always "boundary" Plain;
+    nodes: "its nodes" = own.nodes, Always "nodes" Count;
+    faces: "its faces" = own.faces, Always "faces" Count;
+    area_m2: "their area" = own.area_m2, Always "area" Scientific(6);
+    condition: "what holds or loads it, or what it slides on" = own.condition.clone(), Always "condition" Plain;
+}
+
 impl Measured for SolidMeshStatistics {
     fn size(&self) -> &MeshSize {
         &self.size
+    }
+
+    fn shape(&self) -> &ElementShapes {
+        &self.shape
+    }
+
+    fn section(&self, results: Section) -> Section {
+        let kinds = self.elements_by_kind.iter();
+        let kinds: Vec<String> = kinds.map(|(kind, count)| format!("{count} {kind}")).collect();
+        let point = |[x, y, z]: [f64; 3]| format!("({x:.6}, {y:.6}, {z:.6}) m");
+        results
+            .facts([
+                ("elements by kind", kinds.join(", ")),
+                ("separate bodies", self.bodies.to_string()),
+                ("from", point(self.lowest_m)),
+                ("to", point(self.highest_m)),
+                ("worst element at", point(self.worst_element_at_m)),
+                ("volume", format!("{:.6e} m3", self.volume_m3)),
+                ("mass", format!("{:.6} kg", self.mass_kg)),
+            ])
+            .tables([
+                Table::new("", "Regions").columns(REGIONS, &self.regions),
+                Table::new("", "Boundaries").columns(BOUNDARIES, &self.boundaries),
+            ])
     }
 }
 
@@ -131,54 +173,4 @@ fn boundaries_of(mesh: &Mesh, roles: &BTreeMap<usize, &'static str>) -> Vec<Soli
         },
     });
     boundaries.collect()
-}
-
-/// The summary as text.
-pub fn print_solids(summary: &MeshSummary<SolidMeshStatistics>) -> String {
-    let mesh = &summary.mesh;
-    let size = &mesh.size;
-    let kinds = mesh.elements_by_kind.iter();
-    let kinds: Vec<String> = kinds.map(|(kind, count)| format!("{count} {kind}")).collect();
-    let plural = if mesh.bodies == 1 { "y" } else { "ies" };
-    let mut out = format!(
-        "{} nodes, {} elements ({}), {} unknowns, {} contact nodes, {} separate bod{plural}\n",
-        size.nodes,
-        size.elements,
-        kinds.join(", "),
-        size.dofs,
-        size.contact_nodes,
-        mesh.bodies,
-    );
-    let extent = |axis: usize| format!("{:.6} to {:.6}", mesh.lowest_m[axis], mesh.highest_m[axis]);
-    let [x, y, z] = mesh.worst_element_at_m;
-    let _ = writeln!(
-        out,
-        "x {}, y {}, z {} m\n{} at ({x:.6}, {y:.6}, {z:.6}) m\n\
-         volume {:.6e} m3, mass {:.6} kg",
-        extent(0),
-        extent(1),
-        extent(2),
-        mesh.shape.text(),
-        mesh.volume_m3,
-        mesh.mass_kg,
-    );
-    for region in &mesh.regions {
-        let _ = writeln!(
-            out,
-            "region {}: {} elements, {:.6e} m3, {:.6} kg",
-            region.name, region.elements, region.volume_m3, region.mass_kg
-        );
-    }
-    for boundary in &mesh.boundaries {
-        let _ = writeln!(
-            out,
-            "boundary {}: {} nodes, {} faces, {}, {}",
-            boundary.name,
-            boundary.nodes,
-            boundary.faces,
-            quantity("area_m2").text(boundary.area_m2),
-            boundary.condition
-        );
-    }
-    out + &summary.not_used_text()
 }

@@ -1,32 +1,10 @@
 //! The picture of solid bodies of a mesh file: regions and boundaries.
 
-use super::solid::{SolidBoundary, SolidMeshStatistics, SolidRegion};
-use super::{REGION_COLOURS, condition_name, numbers};
+use super::{REGION_COLOURS, condition_name};
 use crate::chart::{Figure, Motion, MotionState, Panel, SERIES, Surface, literal};
 use crate::mesh::{BoundaryFace, Mesh};
 use crate::results::charts::{MovingBody, SolidView};
-use crate::results::drawing::{DrawingError, DrawingOptions};
-use crate::results::folder::OutputFolder;
-use crate::results::report::ReportTable;
 use std::collections::BTreeMap;
-
-/// Draws `figures/mesh` and writes `report.html`: the regions by colour, then what holds, loads and touches the bodies, from the front
-/// and turned over; sizes and quality. `roles` names boundaries that slide or are glued.
-///
-/// # Errors
-/// Those of the drawing and of the folder.
-pub fn draw_solids(
-    folder: &OutputFolder,
-    mesh: &Mesh,
-    (title, roles): (&str, &BTreeMap<usize, &'static str>),
-    statistics: &SolidMeshStatistics,
-    options: &DrawingOptions,
-) -> Result<(), DrawingError> {
-    let numbers = numbers(&statistics.size, &statistics.shape);
-    let tables = [region_table(statistics), boundary_table(statistics)];
-    let drawn = || figure(mesh, title, roles);
-    super::draw(folder, title, drawn, numbers, tables, options)
-}
 
 /// Colour of the boundaries of each kind, in the order of the legend; the last one of faces that nothing is said of.
 const CONDITION_COLOURS: [(&str, &str); 9] = [
@@ -42,7 +20,7 @@ const CONDITION_COLOURS: [(&str, &str); 9] = [
 ];
 
 /// Regions and boundaries, each seen from the front and turned over.
-fn figure(mesh: &Mesh, title: &str, roles: &BTreeMap<usize, &'static str>) -> Figure {
+pub fn figure(mesh: &Mesh, title: &str, roles: &BTreeMap<usize, &'static str>) -> Figure {
     let regions = mesh.regions.iter().enumerate().map(|(r, name)| {
         let colour = REGION_COLOURS[r % REGION_COLOURS.len()];
         (colour, literal(name))
@@ -113,37 +91,4 @@ fn sorted(face: &BoundaryFace) -> Vec<u32> {
     let mut nodes = face.nodes.clone();
     nodes.sort_unstable();
     nodes
-}
-
-fn region_table(mesh: &SolidMeshStatistics) -> ReportTable {
-    let row = |region: &SolidRegion| {
-        vec![
-            region.name.clone(),
-            region.elements.to_string(),
-            format!("{:.6e}", region.volume_m3),
-            format!("{:.6}", region.mass_kg),
-        ]
-    };
-    ReportTable::new(
-        "Regions",
-        ["region", "elements", "volume (m3)", "mass (kg)"],
-        mesh.regions.iter().map(row),
-    )
-}
-
-fn boundary_table(mesh: &SolidMeshStatistics) -> ReportTable {
-    let row = |boundary: &SolidBoundary| {
-        vec![
-            boundary.name.clone(),
-            boundary.nodes.to_string(),
-            boundary.faces.to_string(),
-            format!("{:.6e}", boundary.area_m2),
-            boundary.condition.clone(),
-        ]
-    };
-    ReportTable::new(
-        "Boundaries",
-        ["boundary", "nodes", "faces", "area (m2)", "condition"],
-        mesh.boundaries.iter().map(row),
-    )
 }

@@ -7,9 +7,7 @@ use crate::cycle::periodic::{
 };
 use crate::results::extent::Extent;
 use crate::results::manifest::Manifest;
-use crate::results::summary::{
-    CriticalSummary, Entry, MeanPowers, StatusFractions, Summary, present,
-};
+use crate::results::summary::{CriticalSummary, MeanPowers, StatusFractions, present};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -242,17 +240,6 @@ pub struct MultiplierSummary {
     pub modulus: f64,
     /// Uncertainty of the growth rate, 1/s.
     pub uncertainty_per_s: Option<f64>,
-}
-
-impl Summary for PeriodicSummary {
-    fn headline(&self) -> Vec<Entry> {
-        let first = self.cycles.iter().find_map(|sought| sought.cycle.as_ref());
-        let frequency = first.map(|cycle| cycle.main_frequency_hz);
-        vec![
-            Entry::new("cycles.0.main_frequency_hz", frequency),
-            Entry::new("steady_sliding_stable", self.steady_sliding_stable),
-        ]
-    }
 }
 
 /// The summary of a search.

@@ -1,17 +1,16 @@
 //! Summary of `signal`, as it is written, printed and reported.
 
 use crate::cea::ComplexMode;
+use crate::output::Described;
 use crate::results::Manifest;
-use crate::results::quantity::significant;
 use crate::signal::{Estimate, ExponentialStage, NoGrowth, SpectralLine, SpectralResolution};
 use serde::{Deserialize, Serialize};
-use std::fmt::Write as _;
 
 /// Largest distance of a line from a mode that it is said to belong to, relative to the line.
 const MODE_TOLERANCE: f64 = 0.03;
 
 /// What was found in a record.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct SignalSummary {
     /// `signal`.
     pub command: String,
@@ -36,7 +35,7 @@ pub struct SignalSummary {
 }
 
 /// What was found in one channel.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct ChannelSummary {
     /// Name as in the table.
     pub name: String,
@@ -61,7 +60,7 @@ pub struct ChannelSummary {
 }
 
 /// A line of the spectrum.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct PeakSummary {
     /// Frequency, Hz.
     pub frequency_hz: f64,
@@ -74,7 +73,7 @@ pub struct PeakSummary {
 }
 
 /// A multiple of a fundamental.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct Superharmonic {
     /// Number of the fundamental's peak, from 1.
     pub of_peak: usize,
@@ -83,7 +82,7 @@ pub struct Superharmonic {
 }
 
 /// The exponential stage.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct GrowthSummary {
     /// Begin, s after the first sample.
     pub start_s: f64,
@@ -98,7 +97,7 @@ pub struct GrowthSummary {
 }
 
 /// A mode of the case.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct ModeSummary {
     /// Number by frequency, from 1.
     pub mode: usize,
@@ -119,7 +118,7 @@ pub struct ModeSummary {
 }
 
 /// A mode and how far it is away.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct NearestMode {
     /// The mode.
     #[serde(flatten)]
@@ -310,43 +309,4 @@ impl ChannelSummary {
 impl SignalSummary {
     /// The tolerance that [`ChannelSummary::name_modes`] uses.
     pub const MODE_TOLERANCE: f64 = MODE_TOLERANCE;
-
-    /// The findings for a person.
-    pub fn print(&self) -> String {
-        let mut text = format!(
-            "{}: {} samples at {} Hz ({:.4} s)\n",
-            self.source,
-            self.samples,
-            // A rate from the rounded times of a table has a few true digits.
-            significant(self.sampling_rate_hz, 9),
-            self.samples as f64 / self.sampling_rate_hz
-        );
-        for channel in &self.channels {
-            let [from, to] = channel.interval_s;
-            let _ = writeln!(
-                text,
-                "\n{}, peaks between {from:.4} and {to:.4} s, resolution {:.4} Hz ({})",
-                channel.name,
-                channel.resolution_hz,
-                match channel.averages {
-                    1 => "one block".to_owned(),
-                    count => format!("mean of {count} blocks"),
-                }
-            );
-            if channel.peaks.is_empty() {
-                text.push_str("  no peak stands out from the noise\n");
-            } else {
-                text.push_str("  peak  frequency_hz     amplitude  \n");
-            }
-            for (k, peak) in channel.peaks.iter().enumerate() {
-                let (f, a, what) = (peak.frequency_hz, peak.amplitude, channel.peak_text(peak));
-                let _ = writeln!(text, "  {:>4}  {f:>12.2}  {a:>12.5e}  {what}", k + 1);
-            }
-            let _ = writeln!(text, "  {}", channel.growth_text());
-            if let Some(mode) = channel.mode_text(self.friction_coefficient) {
-                let _ = writeln!(text, "  {mode}");
-            }
-        }
-        text
-    }
 }

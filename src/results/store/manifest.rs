@@ -1,11 +1,12 @@
 //! Manifest of a result: program, case and inputs.
 
+use crate::output::Described;
 use serde::{Deserialize, Serialize};
 
 /// Everything needed to make a result again; part of every summary and of the output folder.
 ///
 /// Holds no time of day: the same run writes the same manifest.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Described, Serialize, Deserialize)]
 pub struct Manifest {
     /// Program name.
     pub program: String,

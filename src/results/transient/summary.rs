@@ -3,7 +3,7 @@
 use super::TransientReport;
 use crate::results::extent::Extent;
 use crate::results::manifest::Manifest;
-use crate::results::summary::{Entry, MeanPowers, StatusFractions, Summary, present};
+use crate::results::summary::{MeanPowers, StatusFractions, present};
 use crate::transient::{
     Drift, EndState, Growth, Perturbation, ProbeMotion, TransientAnalysis, Vibration,
 };
@@ -199,19 +199,6 @@ pub struct MotionSummary {
     pub acceleration_rms_m_per_s2: f64,
     /// Largest acceleration, m/s2.
     pub acceleration_peak_m_per_s2: f64,
-}
-
-impl Summary for TransientSummary {
-    fn headline(&self) -> Vec<Entry> {
-        vec![
-            Entry::new("main_frequency_hz", self.main_frequency_hz),
-            Entry::new("main_harmonic", self.main_harmonic),
-            Entry::new("end_state", self.end_state.as_str()),
-            Entry::new("status.stick", self.status.stick),
-            Entry::new("status.slip", self.status.slip),
-            Entry::new("status.open", self.status.open),
-        ]
-    }
 }
 
 /// The summary of a run.

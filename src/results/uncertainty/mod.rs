@@ -4,7 +4,8 @@ mod figures;
 mod report;
 mod summary;
 
-pub use report::{draw_report, write_samples};
+pub(super) use report::{ERRORS, ONSETS, SAMPLES};
+pub use report::{document, draw_report, samples_table};
 pub use summary::{
     CriticalFriction, DesignCurve, FamilySummary, Index, Interval, RobustSummary,
     UncertaintySummary,

@@ -1,61 +1,91 @@
-//! Table, figures and report of an uncertainty analysis, in a folder that several processes may share.
+//! Tables, figures and page of an uncertainty analysis, in a folder that several processes may share.
 
-use super::Sample;
 use super::figures::{indices, robust, uncertainty};
-use super::summary::{DesignCurve, RobustSummary, UncertaintySummary};
-use crate::results::FolderError;
+use super::summary::{DesignCurve, FamilySummary, Index, UncertaintySummary};
+use super::{Onset, Sample};
+use crate::output::{Document, Format, Section, Table, columns};
 use crate::results::drawing::{Declaration, DrawingError, DrawingOptions, draw_all, figure_files};
-use crate::results::quantity::significant;
-use crate::results::report::{Report, ReportSection, ReportTable};
+use crate::results::report::Report;
 use crate::results::sweep::SweepFolder;
-use crate::results::table::{Table, format_number};
 
-/// Writes `samples.csv`, one row a sample.
-///
-/// # Errors
-/// Those of the folder.
-pub fn write_samples(
-    folder: &SweepFolder,
-    keys: &[String],
-    samples: &[Sample],
-    largest_friction: f64,
-) -> Result<(), FolderError> {
-    let mut columns = vec!["sample"];
-    columns.extend(keys.iter().map(String::as_str));
-    columns.extend([
-        "own_friction_coefficient",
-        "unstable",
-        "critical_friction",
-        "harmonic",
-        "branch",
-        "direction",
-        "frequency_hz",
-        "unstable_from_start",
-        "error",
-    ]);
-    folder.write("samples.csv", |out| {
-        let mut table = Table::new(out, &columns)?;
-        for sample in samples {
-            let lowest = sample.lowest(largest_friction);
-            let text = |of: &dyn Fn(&super::Onset) -> String| lowest.map_or(String::new(), of);
-            let mut row = vec![sample.number.to_string()];
-            row.extend(sample.values.iter().map(|value| format_number(*value)));
-            row.push(format_number(sample.friction_coefficient));
-            row.push(match sample.error {
-                None => sample.is_unstable(sample.friction_coefficient).to_string(),
-                Some(_) => String::new(),
-            });
-            row.push(text(&|onset| format_number(onset.critical_friction)));
-            row.push(text(&|onset| onset.harmonic.map_or(String::new(), |n| n.to_string())));
-            row.push(text(&|onset| onset.branch.to_string()));
-            row.push(text(&|onset| onset.direction.to_string()));
-            row.push(text(&|onset| format_number(onset.frequency_hz)));
-            row.push(text(&|onset| onset.unstable_from_start.to_string()));
-            row.push(sample.error.clone().unwrap_or_default());
-            table.row(row)?;
+columns! {
+    /// A sample.
+    pub(in crate::results) SAMPLES: sample as Sample;
+    own_friction_coefficient: "friction coefficient of the sample" = sample.friction_coefficient;
+    unstable: "whether some mode is unstable there; empty where the sample could not be solved" = sample.error.is_none().then(|| sample.is_unstable(sample.friction_coefficient));
+}
+
+columns! {
+    /// The lowest onset of a sample.
+    pub(in crate::results) ONSETS: onset as Onset;
+    critical_friction: "lowest critical friction of the sample" = onset.critical_friction;
+    harmonic: "nodal diameters of its mode; none without symmetry" = onset.harmonic;
+    branch: "rank of its mode within the harmonic, else among all, from 0" = onset.branch;
+    direction: "1 travels with the rotor, -1 against it, 0 stands" = onset.direction;
+    frequency_hz: "frequency at the onset" = onset.frequency_hz;
+    unstable_from_start: "whether it is unstable at the lowest friction already" = onset.unstable_from_start;
+}
+
+columns! {
+    /// Why a sample has nothing.
+    pub(in crate::results) ERRORS: sample as Sample;
+    error: "why the sample could not be solved" = sample.error.clone();
+}
+
+columns! {
+    /// A family of modes.
+    FAMILIES: family as FamilySummary;
+    mode: "harmonic, branch, direction" = family.name(), Always "mode" Plain;
+    probability: "probability that it is unstable" = family.probability, Always "unstable at that friction" Fixed(4);
+    probability_in_range: "probability that it turns unstable in the range" = family.probability_in_range, Always "turns unstable in the range" Fixed(4);
+    critical_friction_median: "median of its critical friction" = family.critical_friction_median, Always "median critical friction" Fixed(4);
+    frequency_hz: "mean frequency at its onset" = family.frequency_hz, Always "frequency" Fixed(2);
+    beyond_limit: "share of samples beyond the frequency limit" = (family.beyond_limit > 0.0).then_some(family.beyond_limit), IfAny "beyond the frequency limit" Fixed(4);
+}
+
+columns! {
+    /// Sobol's indices of a parameter.
+    INDICES: row as (String, Index);
+    parameter: "key of the case" = row.0.clone(), Always "parameter" Plain;
+    first: "first-order index" = row.1.first, Always "first order" Fixed(3);
+    first_low: "lower end of its 95 % interval" = row.1.first_interval.map(|ends| ends[0]), IfAny "from" Fixed(3);
+    first_high: "upper end" = row.1.first_interval.map(|ends| ends[1]), IfAny "to" Fixed(3);
+    total: "total index" = row.1.total, Always "total" Fixed(3);
+    total_low: "lower end of its 95 % interval" = row.1.total_interval.map(|ends| ends[0]), IfAny "from" Fixed(3);
+    total_high: "upper end" = row.1.total_interval.map(|ends| ends[1]), IfAny "to" Fixed(3);
+}
+
+columns! {
+    /// The change of a design by one parameter.
+    DESIGNS: curve as DesignCurve;
+    parameter: "key of the case" = curve.key.clone(), Always "parameter" Plain;
+    reached_at: "value at which the bound is reached" = curve.reaches_bound_at, Always "reached at" Significant(4);
+    change_percent: "the change that takes" = curve.change_percent, Always "change" Signed(1);
+    effect: "what there is to say where it is not reached" = reach(curve), IfAny "remark" Plain;
+}
+
+/// Why a design does not reach the bound.
+fn reach(curve: &DesignCurve) -> Option<&'static str> {
+    match curve.reaches_bound_at {
+        _ if !curve.has_effect => {
+            Some("without effect: the onsets of the first sample are the same at all values")
         }
-        table.finish()
-    })
+        None => Some("not reached"),
+        Some(_) => None,
+    }
+}
+
+/// `samples.csv`: one row for each sample, a column for each uncertain parameter.
+pub fn samples_table(keys: &[String], samples: &[Sample], largest_friction: f64) -> Table {
+    let mut table =
+        Table::new("samples.csv", "").column("sample", None, samples.iter().map(|own| own.number));
+    for (at, key) in keys.iter().enumerate() {
+        table = table.column(key, None, samples.iter().map(|own| own.values[at]));
+    }
+    table
+        .columns(SAMPLES, samples)
+        .group("", "", ONSETS, samples.iter().map(|own| own.lowest(largest_friction)))
+        .columns(ERRORS, samples)
 }
 
 /// Draws the figures into `figures/` and writes `report.html`.
@@ -78,39 +108,55 @@ pub fn draw_report(
     for file in figure_files(&figures, options)? {
         folder.write(&file.name, |out| out.write_all(&file.bytes))?;
     }
-    let title = match summary.title.as_str() {
-        "" => "Probability of squeal".to_owned(),
-        title => title.to_owned(),
-    };
-    let mut paragraphs: Vec<String> = summary.notes.clone();
-    paragraphs.extend(summary.robust.as_ref().and_then(cheapest));
-    let report = Report {
-        title,
-        sections: vec![
-            ReportSection::results(paragraphs, results(summary)).with_tables([
-                families(summary),
-                indices_table(summary),
-                designs(summary),
-            ]),
-            ReportSection::new("Probability of squeal").with_figures(figures),
-        ],
-        manifest: summary.manifest.clone(),
-    };
-    let html = report.to_html();
+    let html = Report::of(document(summary), figures, &summary.manifest).to_html();
     Ok(folder.write("report.html", |out| out.write_all(html.as_bytes()))?)
 }
 
+/// Tables and sentences.
+pub fn document(summary: &UncertaintySummary) -> Document {
+    let friction = summary.friction_text();
+    let mut results = Section::new("Results").facts(facts(summary)).tables([Table::new(
+        "",
+        format!("Families of modes, followed across samples by harmonic and rank, at {friction}"),
+    )
+    .columns(FAMILIES, &summary.families)]);
+    if !summary.sobol.is_empty() {
+        let mut rows: Vec<(String, Index)> =
+            summary.sobol.iter().map(|(key, index)| (key.clone(), *index)).collect();
+        rows.sort_by(|a, b| b.1.total.total_cmp(&a.1.total));
+        let caption = "Sobol's indices of the lowest critical friction: which parameter decides it";
+        results = results.tables([Table::new("", caption).columns(INDICES, rows)]);
+    }
+    if let Some(robust) = &summary.robust {
+        let bound = robust.bound;
+        let caption = format!("Designs: where the probability of squeal falls to {bound}");
+        let cheapest = robust.cheapest.as_ref().map(|key| {
+            format!(
+                "The smallest relative change that brings the probability of squeal down to {bound} is that of {key}."
+            )
+        });
+        results = results
+            .tables([Table::new("", caption).columns(DESIGNS, &robust.curves)])
+            .text(cheapest);
+    }
+    Document::new(&summary.title, "Probability of squeal")
+        .section(results)
+        .section(Section::new("Probability of squeal").figures([""]))
+        .notes(&summary.notes)
+}
+
 /// What decides, name and value.
-fn results(summary: &UncertaintySummary) -> Vec<(String, String)> {
+fn facts(summary: &UncertaintySummary) -> Vec<(String, String)> {
     let (p, c) = (summary.probability_unstable, &summary.critical_friction);
-    let text =
-        |value: Option<f64>| value.map_or("beyond the range".to_owned(), |v| format!("{v:.4}"));
+    let number = |value: f64| Format::Fixed(4).number(value);
+    let text = |value: Option<f64>| value.map_or("beyond the range".to_owned(), number);
     let rows = [
         (
             format!("probability of squeal at {}", summary.friction_text()),
-            format!("{:.4} (95 % {:.4} to {:.4})", p.value, p.low, p.high),
+            format!("{} (95 % {} to {})", number(p.value), number(p.low), number(p.high)),
         ),
         ("lowest critical friction, median".into(), text(c.median)),
+        ("its mean".into(), text(c.mean)),
         ("5 % of the samples below".into(), text(c.p05)),
         ("5 % of the samples above".into(), text(c.p95)),
         ("samples".into(), (summary.samples - summary.failed).to_string()),
@@ -118,75 +164,4 @@ fn results(summary: &UncertaintySummary) -> Vec<(String, String)> {
     let decisive = summary.decisive.iter();
     let decisive = decisive.map(|key| ("decisive parameter".to_owned(), key.clone()));
     rows.into_iter().chain(decisive).collect()
-}
-
-fn indices_table(summary: &UncertaintySummary) -> ReportTable {
-    let mut rows: Vec<_> = summary.sobol.iter().collect();
-    rows.sort_by(|a, b| b.1.total.total_cmp(&a.1.total));
-    let row = |(key, index): (&String, &super::Index)| {
-        let part = |value: f64| format!("{value:.3}");
-        vec![key.clone(), part(index.first), part(index.total)]
-    };
-    ReportTable::new(
-        "Sobol's indices of the lowest critical friction: which parameter decides it",
-        ["parameter", "first order", "total"],
-        rows.into_iter().map(row),
-    )
-}
-
-/// The changes of a design, one row for each parameter; no row where none were asked for.
-fn designs(summary: &UncertaintySummary) -> ReportTable {
-    let robust = summary.robust.iter();
-    let rows = robust.flat_map(|robust| robust.curves.iter().map(|curve| (robust.bound, curve)));
-    let row = |(_, curve): (f64, &DesignCurve)| {
-        let reached = match curve.reaches_bound_at {
-            Some(value) => significant(value, 4),
-            None if curve.has_effect => "not reached".to_owned(),
-            None => "without effect".to_owned(),
-        };
-        let change = curve.change_percent;
-        let change = change.map_or(String::new(), |change| format!("{change:+.1}"));
-        vec![curve.key.clone(), reached, change]
-    };
-    let bound = summary.robust.as_ref().map_or(0.0, |robust| robust.bound);
-    ReportTable::new(
-        format!("Designs: where the probability of squeal falls to {bound}"),
-        ["parameter", "reached at", "change (%)"],
-        rows.map(row),
-    )
-}
-
-fn cheapest(robust: &RobustSummary) -> Option<String> {
-    let key = robust.cheapest.as_ref()?;
-    Some(format!(
-        "The smallest relative change that brings the probability of squeal down to {} is that of {key}.",
-        robust.bound
-    ))
-}
-
-fn families(summary: &UncertaintySummary) -> ReportTable {
-    let rows = summary.families.iter().map(|family| {
-        vec![
-            family.name(),
-            format!("{:.4}", family.probability),
-            format!("{:.4}", family.probability_in_range),
-            format!("{:.4}", family.critical_friction_median),
-            format!("{:.0}", family.frequency_hz),
-        ]
-    });
-    let at_friction = match summary.friction_coefficient {
-        Some(_) => "unstable at the friction of the case",
-        None => "unstable at the friction of each sample",
-    };
-    ReportTable::new(
-        "Families of modes, followed across samples by harmonic and rank",
-        [
-            "mode",
-            at_friction,
-            "turns unstable in the range",
-            "median critical friction",
-            "frequency (Hz)",
-        ],
-        rows,
-    )
 }

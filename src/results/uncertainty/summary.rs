@@ -1,13 +1,12 @@
 //! `summary.json` of an uncertainty analysis.
 
+use crate::output::Described;
 use crate::results::Manifest;
-use crate::results::summary::{Entry, Summary};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
 
 /// `summary.json` of an uncertainty analysis.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Described, Serialize, Deserialize)]
 pub struct UncertaintySummary {
     /// Its command.
     pub command: String,
@@ -47,7 +46,7 @@ pub struct UncertaintySummary {
 }
 
 /// A value with a 95 % interval.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct Interval {
     /// The value.
     pub value: f64,
@@ -58,7 +57,7 @@ pub struct Interval {
 }
 
 /// Distribution of the lowest critical friction; absent where that lies beyond the range.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Described, Serialize, Deserialize)]
 pub struct CriticalFriction {
     /// Mean of the samples that have an onset.
     pub mean: Option<f64>,
@@ -77,7 +76,7 @@ pub struct CriticalFriction {
 }
 
 /// A mode that turns unstable in some sample.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Described, Serialize, Deserialize)]
 pub struct FamilySummary {
     /// Circumferential harmonic, of a body that has them.
     pub harmonic: Option<usize>,
@@ -101,7 +100,7 @@ pub struct FamilySummary {
 }
 
 /// Sobol's indices of one parameter.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct Index {
     /// Share of the variance that goes if the parameter is known.
     pub first: f64,
@@ -116,7 +115,7 @@ pub struct Index {
 }
 
 /// Probability of squeal over designs.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Described, Serialize, Deserialize)]
 pub struct RobustSummary {
     /// Probability that is to be reached.
     pub bound: f64,
@@ -129,7 +128,7 @@ pub struct RobustSummary {
 }
 
 /// Probability of squeal over one design parameter.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Described, Serialize, Deserialize)]
 pub struct DesignCurve {
     /// Dotted case key.
     pub key: String,
@@ -164,12 +163,6 @@ impl FamilySummary {
     }
 }
 
-/// An index with its 95 % interval.
-fn with_interval(value: f64, interval: Option<[f64; 2]>) -> String {
-    let ends = interval.map(|[low, high]| format!(" ({low:.3} to {high:.3})"));
-    format!("{value:.3}{}", ends.unwrap_or_default())
-}
-
 impl UncertaintySummary {
     /// Where the probability of squeal is that of.
     pub(super) fn friction_text(&self) -> String {
@@ -177,90 +170,5 @@ impl UncertaintySummary {
             Some(friction) => format!("friction {friction}"),
             None => "the friction of each sample".to_owned(),
         }
-    }
-
-    /// As text.
-    pub fn text(&self) -> String {
-        let mut out = format!("{}\n", self.title);
-        let p = self.probability_unstable;
-        let _ = writeln!(
-            out,
-            "  probability of squeal at {}: {:.4}  (95 % {:.4} to {:.4}, {} samples)",
-            self.friction_text(),
-            p.value,
-            p.low,
-            p.high,
-            self.samples - self.failed
-        );
-        let c = &self.critical_friction;
-        let text =
-            |value: Option<f64>| value.map_or("beyond the range".to_owned(), |v| format!("{v:.4}"));
-        let _ = writeln!(
-            out,
-            "  lowest critical friction: median {}, mean {}, 5 % below {}, 5 % above {}",
-            text(c.median),
-            text(c.mean),
-            text(c.p05),
-            text(c.p95)
-        );
-        for family in &self.families {
-            let _ = writeln!(
-                out,
-                "  {:<22} probability of being unstable {:.4}; becomes unstable below friction {} in {:.1} % of the samples, median {:.4}, {:.0} Hz{}",
-                family.name(),
-                family.probability,
-                self.largest_friction,
-                100.0 * family.probability_in_range,
-                family.critical_friction_median,
-                family.frequency_hz,
-                match family.beyond_limit {
-                    0.0 => String::new(),
-                    share => format!("; beyond the frequency limit in {share:.4}"),
-                },
-            );
-        }
-        for (key, index) in &self.sobol {
-            let _ = writeln!(
-                out,
-                "  {key}: Sobol index first-order {}, total {}",
-                with_interval(index.first, index.first_interval),
-                with_interval(index.total, index.total_interval),
-            );
-        }
-        if let Some(robust) = &self.robust {
-            for curve in &robust.curves {
-                let reached = match (curve.reaches_bound_at, curve.change_percent) {
-                    (Some(value), Some(change)) if curve.has_effect => {
-                        format!(
-                            "below {} from {} on ({change:+.1} %)",
-                            robust.bound,
-                            crate::results::quantity::significant(value, 4)
-                        )
-                    }
-                    _ if !curve.has_effect => format!(
-                        "without effect: the onsets of the first sample are the same at all {} values",
-                        curve.points.len()
-                    ),
-                    _ => format!("never below {}", robust.bound),
-                };
-                let _ = writeln!(out, "  over {}: {reached}", curve.key);
-            }
-            if let Some(key) = &robust.cheapest {
-                let _ = writeln!(out, "  the cheapest change is that of {key}");
-            }
-        }
-        for note in &self.notes {
-            let _ = writeln!(out, "  {note}");
-        }
-        out
-    }
-}
-
-impl Summary for UncertaintySummary {
-    fn headline(&self) -> Vec<Entry> {
-        vec![
-            Entry::new("probability_unstable.value", self.probability_unstable.value),
-            Entry::new("critical_friction.median", self.critical_friction.median),
-        ]
     }
 }

@@ -71,60 +71,6 @@ impl<W: Write> Table<W> {
     }
 }
 
-/// What stands in one place of a table: numbers as [`format_number`] has them, nothing for `None`.
-pub struct Cell(String);
-
-impl From<f64> for Cell {
-    fn from(value: f64) -> Self {
-        Self(format_number(value))
-    }
-}
-
-impl From<&String> for Cell {
-    fn from(text: &String) -> Self {
-        Self(text.clone())
-    }
-}
-
-impl<T: Into<Self>> From<Option<T>> for Cell {
-    fn from(value: Option<T>) -> Self {
-        value.map_or(Self(String::new()), Into::into)
-    }
-}
-
-/// What is written as it is shown.
-macro_rules! as_shown {
-    ($($kind:ty),+) => {$(
-        impl From<$kind> for Cell {
-            fn from(value: $kind) -> Self {
-                Self(value.to_string())
-            }
-        }
-    )+};
-}
-
-as_shown!(&str, String, bool, u8, i8, usize);
-
-/// A column: its name, and its cell of a row.
-pub type Column<'a, T> = (&'a str, &'a dyn Fn(&T) -> Cell);
-
-/// Writes a whole table of declared columns.
-///
-/// # Errors
-/// Those of the writer.
-pub fn write_rows<T>(
-    out: impl Write,
-    columns: &[Column<'_, T>],
-    rows: impl IntoIterator<Item = T>,
-) -> io::Result<()> {
-    let names: Vec<&str> = columns.iter().map(|column| column.0).collect();
-    let mut table = Table::new(out, &names)?;
-    for row in rows {
-        table.row(columns.iter().map(|column| (column.1)(&row).0))?;
-    }
-    table.finish()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

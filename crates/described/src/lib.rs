@@ -1,0 +1,81 @@
+//! `#[derive(Described)]`: the keys of a struct in JSON, each with its comment as meaning.
+
+use proc_macro::{Delimiter, TokenStream, TokenTree};
+use std::fmt::Write;
+use std::iter::Peekable;
+
+type Tokens = Peekable<proc_macro::token_stream::IntoIter>;
+
+/// Implements `crate::output::Described`; an enum is a value without keys of its own.
+#[proc_macro_derive(Described)]
+pub fn derive_described(item: TokenStream) -> TokenStream {
+    let mut tokens = item.into_iter();
+    let is_kind = |token: &TokenTree| ["struct", "enum"].contains(&token.to_string().as_str());
+    let kind = tokens.find(is_kind).map(|kind| kind.to_string());
+    let name = tokens.next().map_or_else(String::new, |name| name.to_string());
+    // One parameter at most, `<S>`.
+    let mut generics = String::new();
+    let body = tokens.find_map(|token| match token {
+        TokenTree::Group(group) if group.delimiter() == Delimiter::Brace => Some(group.stream()),
+        TokenTree::Ident(ident) => {
+            generics = ident.to_string();
+            None
+        }
+        _ => None,
+    });
+    let mut calls = String::new();
+    let body = body.filter(|_| kind.as_deref() == Some("struct"));
+    let mut tokens = body.unwrap_or_default().into_iter().peekable();
+    while tokens.peek().is_some() {
+        describe_field(&mut tokens, &mut calls);
+    }
+    let bound = match generics.as_str() {
+        "" => String::new(),
+        own => format!("<{own}: crate::output::Described>"),
+    };
+    let own = if generics.is_empty() { String::new() } else { format!("<{generics}>") };
+    let code = format!(
+        "impl{bound} crate::output::Described for {name}{own} {{
+            fn describe(path: &str, keys: &mut Vec<crate::output::Key>) {{ let _ = (path, &keys); {calls} }}
+        }}"
+    );
+    code.parse().unwrap_or_default()
+}
+
+/// Takes one field off the tokens of a struct and adds the call that describes it.
+fn describe_field(tokens: &mut Tokens, calls: &mut String) {
+    let (mut docs, mut is_flat, mut name) = (Vec::new(), false, String::new());
+    // Attributes, `pub`, the name, and a colon.
+    for token in tokens.by_ref() {
+        match token {
+            TokenTree::Group(group) if group.delimiter() == Delimiter::Bracket => {
+                let mut inside = group.stream().into_iter();
+                let attribute = inside.next().map_or_else(String::new, |a| a.to_string());
+                match attribute.as_str() {
+                    "doc" => docs.extend(inside.nth(1).map(|text| text.to_string())),
+                    "serde" => is_flat |= group.to_string().contains("flatten"),
+                    _ => {}
+                }
+            }
+            TokenTree::Ident(ident) => name = ident.to_string(),
+            TokenTree::Punct(punct) if punct.as_char() == ':' => break,
+            _ => {}
+        }
+    }
+    // Its type, up to a comma outside of angle brackets.
+    let (mut of_type, mut depth) = (TokenStream::new(), 0);
+    for token in tokens.by_ref() {
+        match token.to_string().as_str() {
+            "<" => depth += 1,
+            ">" => depth -= 1,
+            "," if depth == 0 => break,
+            _ => {}
+        }
+        of_type.extend([token]);
+    }
+    let meaning = docs.join(", ");
+    let _ = writeln!(
+        calls,
+        "crate::output::describe_field::<{of_type}>(path, \"{name}\", concat!({meaning}), {is_flat}, keys);"
+    );
+}

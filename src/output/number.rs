@@ -1,0 +1,107 @@
+//! Numbers for people, and the units that the endings of keys say.
+
+/// How a number is written for people.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// As few digits as say it.
+    Plain,
+    /// A whole number.
+    Count,
+    /// So many digits behind the point.
+    Fixed(usize),
+    /// The same with a sign.
+    Signed(usize),
+    /// So many significant digits, with an exponent only where there is no room.
+    Significant(usize),
+    /// One digit, so many behind the point, and an exponent.
+    Scientific(usize),
+    /// A fraction of one in per cent, so many digits behind the point.
+    Percent(usize),
+}
+
+/// Endings of keys and the units that they say.
+pub(super) const ENDINGS: &[(&str, &str)] = &[
+    ("_rad_per_s", "rad/s"),
+    ("_m_per_s2", "m/s2"),
+    ("_m_per_s", "m/s"),
+    ("_n_s_per_m", "N s/m"),
+    ("_n_per_m", "N/m"),
+    ("_per_s", "1/s"),
+    ("_hz", "Hz"),
+    ("_rpm", "rpm"),
+    ("_percent", "%"),
+    ("_bytes", "bytes"),
+    ("_kg", "kg"),
+    ("_n_m", "N m"),
+    ("_mpa", "MPa"),
+    ("_pa", "Pa"),
+    ("_m2", "m2"),
+    ("_m3", "m3"),
+    ("_deg", "deg"),
+    ("_rad", "rad"),
+    ("_db", "dB"),
+    ("_s", "s"),
+    ("_m", "m"),
+    ("_n", "N"),
+    ("_w", "W"),
+    ("_j", "J"),
+];
+
+/// The unit that a key or the last part of a path says, and the key without it; none of a pure number.
+pub fn unit_of(path: &str) -> (&str, &'static str) {
+    let key = path.rsplit('.').next().unwrap_or(path).trim_end_matches("[]");
+    let ending = ENDINGS.iter().find(|(ending, _)| key.ends_with(ending));
+    ending.map_or((key, ""), |(ending, unit)| (&key[..key.len() - ending.len()], unit))
+}
+
+impl Format {
+    /// The number alone; `-` where there is none.
+    pub fn number(self, value: f64) -> String {
+        if !value.is_finite() {
+            return "-".to_owned();
+        }
+        // Adding zero turns -0.0 into 0.0.
+        let value = value + 0.0;
+        let text = match self {
+            Self::Plain => format!("{value}"),
+            Self::Count => format!("{value:.0}"),
+            Self::Fixed(digits) => format!("{value:.digits$}"),
+            Self::Signed(digits) => return format!("{value:+.digits$}"),
+            Self::Percent(digits) => format!("{:.digits$}", 100.0 * value),
+            Self::Scientific(digits) => format!("{value:.digits$e}"),
+            Self::Significant(digits) => significant(value, digits),
+        };
+        // Small negative numbers must not round to -0.00.
+        match text.strip_prefix('-') {
+            Some(rest) if rest.bytes().all(|b| b == b'0' || b == b'.') => rest.to_owned(),
+            _ => text,
+        }
+    }
+}
+
+/// A number with so many decimals, without the sign of a zero; `-` where there is none.
+pub fn fixed(value: f64, decimals: usize) -> String {
+    Format::Fixed(decimals).number(value)
+}
+
+/// So many significant digits, without trailing zeros; an exponent below 1e-4 and from 1e10 on.
+pub fn significant(value: f64, digits: usize) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let rounded = format!("{:.*e}", digits.saturating_sub(1), value);
+    let Some((mantissa, exponent)) = rounded.split_once('e') else {
+        return rounded;
+    };
+    let power: i32 = exponent.parse().unwrap_or(0);
+    if (-4..10).contains(&power) {
+        let decimals = (digits as i32 - 1 - power).max(0) as usize;
+        return trimmed(&format!("{value:.decimals$}")).to_owned();
+    }
+    format!("{}e{exponent}", trimmed(mantissa))
+}
+
+/// Without zeros at the end of the decimals.
+fn trimmed(number: &str) -> &str {
+    if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number }
+}

@@ -1,0 +1,127 @@
+//! What a command found: its document and figures become the files of its folder.
+
+use super::drawing::{Declaration, DrawingError, DrawingOptions, draw_all, write_report};
+use super::report::{NamedFigure, Report, ReportSection, ReportTable};
+use super::summary::write_summary;
+use super::{FolderError, Manifest, OutputFolder};
+use crate::output::{Described, Document, Key, Section, Table, describe_field};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+
+/// A summary that says everything: it is `summary.json`, and the tables, the page and the figures are made from it.
+pub trait Finding: Serialize + DeserializeOwned + Described {
+    /// Its tables and sentences.
+    fn document(&self) -> Document;
+
+    /// Its figures.
+    fn figures(&self) -> Vec<Declaration<'_>>;
+
+    /// What it was made from.
+    fn manifest(&self) -> &Manifest;
+}
+
+/// Writes tables, figures, page and `summary.json`, and gives the object of the last.
+///
+/// # Errors
+/// Those of the folder and of the drawing.
+pub fn write_finding(
+    folder: &OutputFolder,
+    finding: &impl Finding,
+    options: Option<&DrawingOptions>,
+) -> Result<Value, DrawingError> {
+    write_tables(folder, &finding.document())?;
+    if let Some(options) = options {
+        draw_finding(folder, finding, options)?;
+    }
+    Ok(write_summary(folder, finding)?)
+}
+
+/// Draws the figures and the page.
+///
+/// # Errors
+/// Those of the folder and of the drawing.
+pub fn draw_finding(
+    folder: &OutputFolder,
+    finding: &impl Finding,
+    options: &DrawingOptions,
+) -> Result<(), DrawingError> {
+    let figures = draw_all(finding.figures(), options)?;
+    write_page(folder, finding.document(), figures, finding.manifest(), options)
+}
+
+/// Writes the tables of a document that are files.
+///
+/// # Errors
+/// Those of the folder.
+pub fn write_tables(folder: &OutputFolder, document: &Document) -> Result<(), FolderError> {
+    document.files().try_for_each(|table| write_table(folder, table))
+}
+
+/// Writes a table as its file.
+///
+/// # Errors
+/// Those of the folder.
+pub fn write_table(folder: &OutputFolder, table: &Table) -> Result<(), FolderError> {
+    folder.write(&table.file, |out| table.write_csv(out)).map(drop)
+}
+
+/// Writes the page of a document and its figures.
+///
+/// # Errors
+/// Those of the folder and of the raster image.
+pub fn write_page(
+    folder: &OutputFolder,
+    document: Document,
+    figures: Vec<NamedFigure>,
+    manifest: &Manifest,
+    options: &DrawingOptions,
+) -> Result<(), DrawingError> {
+    write_report(folder, &Report::of(document, figures, manifest), options)
+}
+
+impl Described for crate::signal::Estimate {
+    fn describe(path: &str, keys: &mut Vec<Key>) {
+        for (name, meaning) in [
+            ("value", "the value"),
+            ("low", "lower end of its 95 % interval"),
+            ("high", "upper end"),
+        ] {
+            describe_field::<f64>(path, name, meaning, false, keys);
+        }
+    }
+}
+
+impl Report {
+    /// The page of a document: each figure stands in the first section that names the beginning of its name.
+    pub fn of(document: Document, mut figures: Vec<NamedFigure>, manifest: &Manifest) -> Self {
+        let mut notes = document.notes;
+        let part = |section: Section| {
+            let is_own = |figure: &NamedFigure| {
+                section.figures.iter().any(|name| figure.name.starts_with(name))
+            };
+            let (own, others) = std::mem::take(&mut figures).into_iter().partition(is_own);
+            figures = others;
+            let mut text = section.text;
+            text.append(&mut notes);
+            text.extend(section.aside);
+            let part = match section.facts.is_empty() {
+                true => ReportSection::new(section.heading).with_paragraphs(text),
+                false => ReportSection::results(text, section.facts),
+            };
+            part.with_tables(section.tables.iter().map(page_table)).with_figures(own)
+        };
+        let mut sections: Vec<ReportSection> = document.sections.into_iter().map(part).collect();
+        sections.retain(|part| {
+            !part.paragraphs.is_empty() || !part.figures.is_empty() || part.has_rows()
+        });
+        Self { title: document.title, sections, manifest: manifest.clone() }
+    }
+}
+
+/// The columns of a table that people see.
+fn page_table(table: &Table) -> ReportTable {
+    let (labels, rows) = table.shown();
+    let rows = if labels.is_empty() { Vec::new() } else { rows };
+    ReportTable::new(table.caption.clone(), labels, rows)
+}

@@ -1,0 +1,142 @@
+//! Tables and sentences of `improve`.
+
+use super::front::FRONT;
+use super::{Candidate, FrontPoint, ImproveSummary, State, critical};
+use crate::output::{Document, Section, Table, columns, significant};
+
+columns! {
+    /// A modification and its place.
+    pub(in crate::results) CANDIDATES: own as Candidate;
+    rank: "place in the list, from 1" = own.rank, Always "rank" Count;
+    kind: "mass, spring, dashpot, removal, damping or offset" = own.kind.clone(), Always "kind" Plain;
+    node: "number of its node" = own.node;
+    x_m: "where it is; the way of the hole for an offset" = own.position_m[0];
+    y_m: "where it is; the way of the hole for an offset" = own.position_m[1];
+    z_m: "where it is; the way of the hole for an offset" = own.position_m[2];
+}
+
+columns! {
+    /// Where a modification is, in words.
+    PLACE: own as Candidate;
+    place: "where it is, in words" = own.place(), Always "where" Plain;
+}
+
+columns! {
+    /// The direction of a spring or dashpot, and what a modification weighs.
+    pub(in crate::results) EFFECTS: own as Candidate;
+    direction_x: "direction of a spring or dashpot" = own.direction.map(|d| d[0]);
+    direction_y: "direction of a spring or dashpot" = own.direction.map(|d| d[1]);
+    direction_z: "direction of a spring or dashpot" = own.direction.map(|d| d[2]);
+    added_mass_kg: "mass that it adds; negative where material is taken away" = own.added_mass_kg, Always "mass" Significant(4);
+    first_order_growth_rate_per_s: "largest growth rate of the targets to first order" = own.first_order_growth_rate_per_s, IfAny "growth, first order" Significant(4);
+}
+
+columns! {
+    /// A predicted or confirmed state.
+    pub(in crate::results) STATES: state as State;
+    growth_rate_per_s: "growth rate of the fastest mode of the window" = state.growth_rate_per_s, Always "growth" Significant(4);
+    critical_friction: "lowest critical friction of the window; empty where none is below the case's own" = state.critical_friction, Always "critical friction" Fixed(4);
+}
+
+columns! {
+    /// What a run says of the other frequencies.
+    pub(in crate::results) BESIDE: state as State;
+    unstable_beside: "unstable modes at other frequencies" = state.unstable_beside as f64;
+}
+
+columns! {
+    /// What a run comes to, and how to make it.
+    pub(in crate::results) VERDICTS: own as Candidate;
+    verdict: "what the run with it comes to" = own.verdict.clone(), Always "verdict" Plain;
+    keys: "keys of the case that make it" = own.keys.join("; ");
+}
+
+columns! {
+    /// What a point of the front weighs.
+    pub(in crate::results) WEIGHTS: own as Candidate;
+    added_mass_kg: "mass that it adds; negative where material is taken away" = own.added_mass_kg, Always "mass" Significant(4);
+}
+
+columns! {
+    /// Whether a point is on the front.
+    pub(in crate::results) FRONTS: own as FrontPoint;
+    on_front: "whether it holds and no lighter one that holds gets as far" = own.on_front, Always "on the front" Plain;
+}
+
+/// Tables and sentences.
+pub fn document(summary: &ImproveSummary) -> Document {
+    let mut document = Document::new(&summary.title, "Modifications")
+        .section(Section::new("Results").facts(facts(summary)).text([summary.answer()]))
+        .section(Section::new("Candidates").tables([candidates(summary)]))
+        .notes(&summary.notes);
+    if !summary.front.is_empty() {
+        let is_again = |own: &&FrontPoint| own.candidate.verdict != "not run again";
+        let again = summary.front.iter().filter(is_again);
+        let caption =
+            "Masses added and taken away that were run again, the lightest first (all: front.csv)";
+        document = document
+            .section(
+                Section::new("Mass against critical friction")
+                    .tables([front(Table::new("", caption), again.collect())])
+                    .figures([FRONT]),
+            )
+            .file(front(Table::new("front.csv", ""), summary.front.iter().collect()));
+    }
+    document.section(Section::new("Where it helps").figures([""]))
+}
+
+fn candidates(summary: &ImproveSummary) -> Table {
+    let all = || &summary.candidates;
+    Table::new(
+        "candidates.csv",
+        "Modifications, the best first; no critical friction: none up to that of the case",
+    )
+    .columns(CANDIDATES, all())
+    .shown_only(PLACE, all())
+    .columns(EFFECTS, all())
+    .group("predicted_", "predicted ", STATES, all().iter().map(|own| Some(own.predicted)))
+    .group("confirmed_", "confirmed ", STATES, all().iter().map(|own| own.confirmed))
+    .group("confirmed_", "confirmed ", BESIDE, all().iter().map(|own| own.confirmed))
+    .columns(VERDICTS, all())
+}
+
+fn front(table: Table, points: Vec<&FrontPoint>) -> Table {
+    let own = || points.iter().map(|own| &own.candidate);
+    table
+        .columns(WEIGHTS, own())
+        .columns(&CANDIDATES[1..], own())
+        .shown_only(PLACE, own())
+        .group("predicted_", "predicted ", STATES, own().map(|own| Some(own.predicted)))
+        .group("confirmed_", "confirmed ", STATES, own().map(|own| own.confirmed))
+        .columns(FRONTS, points.iter().copied())
+        .columns(VERDICTS, own())
+}
+
+/// Name and value of what decides.
+fn facts(summary: &ImproveSummary) -> Vec<(String, String)> {
+    let friction = summary.friction_coefficient;
+    let sizes = &summary.sizes;
+    let text = |name: &str, value: f64, unit: &str| {
+        (name.to_owned(), format!("{} {unit}", significant(value, 4)))
+    };
+    let onset = critical(summary.base.critical_friction, friction);
+    let mut rows = vec![
+        ("friction coefficient".to_owned(), friction.to_string()),
+        ("critical friction as it is".to_owned(), onset),
+    ];
+    rows.extend(summary.modes.iter().map(|mode| {
+        let name =
+            format!("growth of mode {}, {} Hz", mode.mode, significant(mode.frequency_hz, 6));
+        text(&name, mode.growth_rate_per_s, "1/s")
+    }));
+    let unit = |unit: &str| summary.extent.unit(unit);
+    rows.extend([
+        text("added mass", sizes.mass_kg, &unit("kg")),
+        text("spring", sizes.stiffness_n_per_m, &unit("N/m")),
+        text("dashpot", sizes.damping_n_s_per_m, &unit("N s/m")),
+        text("patch radius", sizes.patch_radius_m, "m"),
+        text("patch damping", sizes.patch_damping_s, "s"),
+        text("farthest way of the hole", sizes.offset_m, "m"),
+    ]);
+    rows
+}

@@ -1,0 +1,113 @@
+//! The reference of columns is what the program writes, and the guide's page is the reference.
+
+use assert_cmd::Command;
+use frictionsim::results::reference::{markdown, reference};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+/// The guide's page of columns is what the declarations say; `FRICTIONSIM_WRITE_TABLE=1` writes it.
+#[test]
+fn the_guide_documents_every_column_as_it_is_declared() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/src/guide/columns.md");
+    let text = fs::read_to_string(path).unwrap();
+    let (head, rest) = text.split_once("<!-- columns: generated -->\n").unwrap();
+    let (stored, tail) = rest.split_once("<!-- end of the columns -->").unwrap();
+    let table = markdown();
+    if std::env::var_os("FRICTIONSIM_WRITE_TABLE").is_some() {
+        let written =
+            format!("{head}<!-- columns: generated -->\n{table}<!-- end of the columns -->{tail}");
+        fs::write(path, written).unwrap();
+    } else {
+        assert!(
+            stored == table,
+            "src/guide/columns.md is not what `frictionsim columns --markdown` prints"
+        );
+    }
+}
+
+/// Paths of all keys, `[]` for each entry of a list.
+fn keys(path: &str, value: &Value, found: &mut Vec<String>) {
+    match value {
+        Value::Object(object) => {
+            for (key, value) in object {
+                let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+                found.push(path.clone());
+                keys(&path, value, found);
+            }
+        }
+        Value::Array(list) => list.iter().for_each(|v| keys(&format!("{path}[]"), v, found)),
+        _ => {}
+    }
+}
+
+fn check(command: &str, input: &[&str], set: &[&str]) {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let mut program = Command::cargo_bin("frictionsim").unwrap();
+    program.arg(command).args(input).args(["--no-figures", "--quiet", "--out"]).arg(&out);
+    for text in set {
+        program.args(["--set", text]);
+    }
+    program.assert().success();
+    let all = reference();
+    let mut read = 0;
+    for entry in fs::read_dir(&out).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        let mut names = Vec::new();
+        if name.ends_with(".csv") {
+            let mut table = csv::Reader::from_path(&path).unwrap();
+            names.extend(table.headers().unwrap().iter().map(str::to_owned));
+        } else if name == "summary.json" {
+            let text = fs::read(&path).unwrap();
+            keys("", &serde_json::from_slice(&text).unwrap(), &mut names);
+        }
+        let own = all.iter().find(|file| file.command == command && file.file == name);
+        let Some(own) = own else {
+            assert!(names.is_empty(), "{command}: {name} is not declared");
+            continue;
+        };
+        read += 1;
+        for name in names {
+            assert!(own.knows(&name), "{command}: {} has {name}, which is not declared", own.file);
+        }
+    }
+    assert!(read > 0, "{command} wrote nothing that is declared");
+}
+
+fn shipped(name: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name);
+    path.to_str().unwrap().to_owned()
+}
+
+const COARSE: [&str; 2] = ["mesh.circumferential_elements=24", "mesh.radial_elements=4"];
+
+#[test]
+fn every_column_and_key_that_cea_writes_is_declared() {
+    let few = ["cea.friction_coefficients=[0.0,0.15,0.3]", "cea.sensitivities=true"];
+    check("cea", &[&shipped("polycarbonate-disc.toml")], &[&COARSE[..], &few].concat());
+}
+
+#[test]
+fn every_key_that_mesh_writes_is_declared() {
+    check("mesh", &[&shipped("polycarbonate-disc.toml")], &COARSE);
+}
+
+#[test]
+fn every_column_and_key_that_uncertainty_writes_is_declared() {
+    let few =
+        ["cea.max_frequency_hz=14000", "uncertainty.samples=16", "uncertainty.index_samples=0"];
+    check("uncertainty", &[&shipped("squeal-probability.toml")], &[&COARSE[..], &few].concat());
+}
+
+#[test]
+fn columns_lists_what_holds_a_word_and_says_where_nothing_does() {
+    let columns = |word: &str| {
+        let mut command = Command::cargo_bin("frictionsim").unwrap();
+        command.args(["columns", word]).output().unwrap()
+    };
+    let found = String::from_utf8(columns("mesh_error").stdout).unwrap();
+    assert!(found.contains("eigenvalues.csv of cea") && found.contains("mesh_error"), "{found}");
+    assert_eq!(columns("nonesuch").status.code(), Some(2));
+}
