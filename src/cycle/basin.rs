@@ -245,13 +245,12 @@ impl Contest<'_> {
 
     /// Amplitudes of both harmonics of the edge's tangential displacement, m.
     fn amplitudes(&self, run: &CentralDifference<'_>) -> Amplitudes {
-        let places = run.contact().tangential_places();
-        let edge = &run.fields().displacement;
-        let count = places.len();
+        let displacement = &run.fields().displacement;
+        let count = run.interface().len();
         self.request.harmonics.map(|harmonic| {
-            let terms = places.iter().enumerate().map(|(j, &place)| {
+            let terms = (0..count).map(|j| {
                 let angle = TAU * ((harmonic * j) % count) as f64 / count as f64;
-                edge[place] * c64::from_polar(2.0 / count as f64, -angle)
+                run.contact().slip(j, displacement) * c64::from_polar(2.0 / count as f64, -angle)
             });
             terms.sum::<c64>().norm()
         })

@@ -155,8 +155,8 @@ impl MeshStepping<'_> {
 
     /// Tangential displacement of the contact nodes, m.
     pub(super) fn edge(&self, run: &CentralDifference<'_>) -> Vec<f64> {
-        let places = run.contact().tangential_places().iter();
-        places.map(|&k| run.fields().displacement[k]).collect()
+        let nodes = 0..run.interface().len();
+        nodes.map(|i| run.contact().slip(i, &run.fields().displacement)).collect()
     }
 
     /// One period of the transient that starts on `cycle`, after a few others.
@@ -174,7 +174,6 @@ impl MeshStepping<'_> {
         let places = (0..operator.dof_count()).map(|dof| operator.position(dof));
         let moving = places.filter(|&place| masses[place] > 0.0);
         let law = run.contact();
-        let normal = law.normal_places().iter();
         let mut period = Period {
             stepping: self,
             coefficients: StepCoefficients {
@@ -184,7 +183,7 @@ impl MeshStepping<'_> {
             },
             steps,
             friction_coefficient: point.contact.friction_coefficient,
-            places: normal.zip(law.tangential_places()).map(|(&n, &t)| [n, t]).collect(),
+            places: (0..law.status.len()).map(|i| law.places(i)).collect(),
             contact: Vec::with_capacity(steps * law.status.len()),
             dofs: moving.map(|k| (k, masses[k].sqrt())).collect(),
             harmonic: self.solver.body().harmonic(),

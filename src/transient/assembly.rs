@@ -1,14 +1,17 @@
 //! Model of a transient of an assembly of solid bodies.
 
-use super::boundary::BoundaryForces;
+use super::boundary::{BoundaryForces, extra_damping};
 use super::compliance::SpringDamping;
+use super::contact::ContactPart;
 use super::perturbation::Place;
 use super::settings::stiffening;
-use super::{LagrangeContact, Perturbation, StepPlan, TransientError, TransientSettings};
-use crate::contact::{ContactInterface, SlidingContact};
-use crate::fem::operator::{AssembledOperator, SimdLevel, StiffnessOperator};
+use super::{
+    LagrangeContact, OperatorChoice, Perturbation, StepPlan, TransientError, TransientSettings,
+};
+use crate::contact::{ContactInterface, CoulombFriction, Row, SlidingContact};
+use crate::fem::operator::{AssembledOperator, OperatorError, SimdLevel, StiffnessOperator};
 use crate::fem::{
-    MassKind, RayleighDamping, Triplets, assemble_extra_damping, assemble_pressures, lumped_masses,
+    MassKind, RayleighDamping, assemble_extra_damping, assemble_pressures, lumped_masses,
 };
 use crate::mesh::Counterface;
 use crate::prestress::{Assembly, PressedRange, PressedState, PrestressError};
@@ -38,8 +41,15 @@ impl AssemblyTransientModel<'_> {
     /// The mass of a dof that follows others goes to these, by the size of their shares.
     ///
     /// # Errors
-    /// [`TransientError::Operator`] where a node has no positive mass.
-    pub fn operator(&self, simd: SimdLevel) -> Result<Box<dyn StiffnessOperator>, TransientError> {
+    /// [`TransientError::Operator`] where a node has no positive mass, and for [`OperatorChoice::Cyclic`].
+    pub fn operator(
+        &self,
+        choice: OperatorChoice,
+        simd: SimdLevel,
+    ) -> Result<Box<dyn StiffnessOperator>, TransientError> {
+        if choice == OperatorChoice::Cyclic {
+            return Err(OperatorError::NoSymmetry.into());
+        }
         let (mesh, basis) = (self.assembly.mesh(), self.assembly.basis());
         let unknowns = basis.unknowns();
         let moves = |dof: usize| unknowns.unknown_of[dof].is_some();
@@ -156,15 +166,9 @@ impl AssemblyTransientModel<'_> {
 
     pub(super) fn boundary_forces(&self, operator: &dyn StiffnessOperator) -> BoundaryForces {
         let (mesh, basis) = (self.assembly.mesh(), self.assembly.basis());
-        let [springs, dashpots] = self.assembly.supports();
-        let mut damping: Triplets = dashpots.clone();
-        let beta = self.damping.stiffness_coefficient;
-        if beta != 0.0 {
-            damping.entries.extend(springs.scaled(-beta).entries);
-        }
-        let materials = self.assembly.materials();
-        let own = assemble_extra_damping(mesh, materials, MassKind::Lumped, self.damping);
-        damping.entries.extend(own.unwrap_or_default().entries);
+        let own =
+            assemble_extra_damping(mesh, self.assembly.materials(), MassKind::Lumped, self.damping);
+        let damping = extra_damping(self.assembly.supports(), own, self.damping);
         let pressure = assemble_pressures(mesh).unwrap_or_default();
         let pressure = match pressure.is_empty() {
             true => pressure,
@@ -176,6 +180,7 @@ impl AssemblyTransientModel<'_> {
     pub(super) fn lagrange_contact(
         &self,
         operator: &dyn StiffnessOperator,
+        _interface: &ContactInterface,
     ) -> Result<LagrangeContact, TransientError> {
         let friction = self.contact.friction_coefficient;
         let mut contacts = self.assembly.contacts().iter();
@@ -187,8 +192,34 @@ impl AssemblyTransientModel<'_> {
                 false => Vec::new(),
             },
         };
-        let assembly = self.assembly;
-        Ok(LagrangeContact::at_points(operator, assembly, friction, &damped_by))
+        let mut parts: Vec<ContactPart<'_>> = Vec::new();
+        let mut first = 0;
+        for (surfaces, surface) in self.assembly.contacts() {
+            let mut nodes: BTreeMap<u32, Vec<(usize, f64)>> =
+                surface.nodes.iter().map(|&node| (node, Vec::new())).collect();
+            for (k, shares) in surface.shares.iter().enumerate() {
+                for (node, share) in shares {
+                    if let Some(points) = nodes.get_mut(node) {
+                        points.push((k, *share));
+                    }
+                }
+            }
+            let areas: Vec<f64> = surface.points.iter().map(|point| point.weight).collect();
+            parts.push(ContactPart {
+                points: &surface.points,
+                nodes: nodes.into_values().collect(),
+                law: CoulombFriction {
+                    friction_coefficient: friction * surfaces.friction.ratio,
+                    decay: surfaces.friction.decay,
+                },
+                interference: surfaces.counter.interference(),
+                springs: damped_by.springs_of(surfaces, &areas, first),
+                tangential_damping: surfaces.stiffness.tangential_damping,
+            });
+            first += surface.points.len();
+        }
+        let bound = |row: &Row| self.assembly.basis().transposed(row);
+        Ok(LagrangeContact::new(operator, 2, parts, &bound))
     }
 
     /// The velocity of a perturbation over all dofs, m/s: waves along the axis of the motion over all bodies, and noise.

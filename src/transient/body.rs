@@ -4,12 +4,12 @@ use super::boundary::BoundaryForces;
 use super::relaxation::Relaxation;
 use super::{
     AssemblyTransientModel, LagrangeContact, OperatorChoice, Perturbation, SolidTransientModel,
-    StepPlan, TransientError, TransientModel, TransientSettings, build_operator,
+    StepPlan, TransientError, TransientModel, TransientSettings,
 };
 use crate::contact::{ContactInterface, SlidingContact};
-use crate::fem::operator::{OperatorError, SimdLevel, StiffnessOperator};
-use crate::fem::{RayleighDamping, Triplets, assemble_stiffness};
-use crate::prestress::SteadySliding;
+use crate::fem::operator::{SimdLevel, StiffnessOperator};
+use crate::fem::{MaterialField, RayleighDamping, Triplets};
+use crate::mesh::Mesh;
 
 /// A body and its contact.
 #[derive(Clone, Copy, Debug)]
@@ -46,22 +46,26 @@ impl<'a> From<AssemblyTransientModel<'a>> for TransientBody<'a> {
     }
 }
 
+/// An expression of the model of any body.
+macro_rules! of_any {
+    ($body:expr, $model:ident => $value:expr) => {
+        match $body {
+            TransientBody::Plane($model) => $value,
+            TransientBody::Solid($model) => $value,
+            TransientBody::Assembly($model) => $value,
+        }
+    };
+}
+
 impl TransientBody<'_> {
     /// Displacement components of a node: 2, or 3.
     pub fn components(&self) -> usize {
-        match self {
-            Self::Plane(_) => 2,
-            Self::Solid(_) | Self::Assembly(_) => 3,
-        }
+        if let Self::Plane(_) = self { 2 } else { 3 }
     }
 
     /// Rayleigh coefficients.
     pub fn damping(&self) -> RayleighDamping {
-        match self {
-            Self::Plane(model) => model.damping,
-            Self::Solid(model) => model.damping,
-            Self::Assembly(model) => model.damping,
-        }
+        of_any!(self, model => model.damping)
     }
 
     /// Its operator.
@@ -73,32 +77,21 @@ impl TransientBody<'_> {
         choice: OperatorChoice,
         simd: SimdLevel,
     ) -> Result<Box<dyn StiffnessOperator>, TransientError> {
-        match self {
-            Self::Plane(model) => build_operator(model, choice, simd),
-            Self::Solid(model) => model.operator(choice, simd),
-            Self::Assembly(_) if choice == OperatorChoice::Cyclic => {
-                Err(OperatorError::NoSymmetry.into())
-            }
-            Self::Assembly(model) => model.operator(simd),
-        }
+        of_any!(self, model => model.operator(choice, simd))
     }
 
     /// The rotor.
     pub fn contact(&self) -> &SlidingContact {
-        match self {
-            Self::Plane(model) => &model.contact,
-            Self::Solid(model) => &model.contact,
-            Self::Assembly(model) => &model.contact,
-        }
+        of_any!(self, model => &model.contact)
+    }
+
+    pub(super) fn contact_mut(&mut self) -> &mut SlidingContact {
+        of_any!(self, model => &mut model.contact)
     }
 
     /// The contact nodes.
     pub fn interface(&self) -> ContactInterface {
-        match self {
-            Self::Plane(model) => model.interface(),
-            Self::Solid(model) => model.interface(),
-            Self::Assembly(model) => model.interface(),
-        }
+        of_any!(self, model => model.interface())
     }
 
     /// Highest circumferential harmonic that the contact nodes show.
@@ -111,19 +104,9 @@ impl TransientBody<'_> {
         }
     }
 
-    /// Radius (m) and angle (rad) of a node.
+    /// Distance of a node from the axis (m) and its angle about it (rad).
     pub(super) fn place(&self, node: usize) -> [f64; 2] {
-        match self {
-            Self::Plane(model) => {
-                let [x, y] = model.mesh.plane_node(node);
-                [x.hypot(y), model.mesh.frame_angles()[node]]
-            }
-            Self::Solid(SolidTransientModel { sector, .. }) => {
-                let (local, s) = (node % sector.node_count(), node / sector.node_count());
-                [sector.nodes[local].radius, sector.angle(local, s)]
-            }
-            Self::Assembly(model) => model.place(node),
-        }
+        of_any!(self, model => model.place(node))
     }
 
     /// Displacement of steady sliding over all dofs, m.
@@ -131,16 +114,7 @@ impl TransientBody<'_> {
     /// # Errors
     /// Where there is none.
     pub fn sliding_displacement(&self) -> Result<Vec<f64>, TransientError> {
-        match self {
-            Self::Plane(model) => {
-                let stiffness = assemble_stiffness(model.mesh, model.material);
-                let law = model.stiffness.law;
-                let base = SteadySliding::solve_with(model.mesh, &stiffness, &model.contact, law)?;
-                Ok(base.displacement(model.contact.friction_coefficient))
-            }
-            Self::Solid(model) => model.sliding_displacement(),
-            Self::Assembly(model) => model.sliding_displacement(),
-        }
+        of_any!(self, model => model.sliding_displacement())
     }
 
     pub(super) fn plan(
@@ -148,34 +122,25 @@ impl TransientBody<'_> {
         operator: &dyn StiffnessOperator,
         settings: &TransientSettings,
     ) -> Result<StepPlan, TransientError> {
-        match self {
-            Self::Plane(model) => model.plan(operator, settings),
-            Self::Solid(model) => model.plan(operator, settings),
-            Self::Assembly(model) => model.plan(operator, settings),
-        }
+        of_any!(self, model => model.plan(operator, settings))
     }
 
     pub(super) fn boundary_forces(&self, operator: &dyn StiffnessOperator) -> BoundaryForces {
-        match self {
-            Self::Plane(model) => BoundaryForces::new(model, operator),
-            Self::Solid(model) => model.boundary_forces(operator),
-            Self::Assembly(model) => model.boundary_forces(operator),
-        }
+        of_any!(self, model => model.boundary_forces(operator))
     }
 
     /// Maxwell elements of its regions.
     pub(super) fn relaxation(&self, operator: &dyn StiffnessOperator) -> Relaxation {
-        match self {
-            Self::Plane(model) => {
-                Relaxation::new(model.mesh, model.material, operator, &|matrix| matrix)
-            }
-            Self::Solid(_) => Relaxation::default(),
-            Self::Assembly(model) => {
-                let (assembly, basis) = (model.assembly, model.assembly.basis());
-                let bound = |matrix: Triplets| basis.congruent(&matrix);
-                Relaxation::new(assembly.mesh(), assembly.materials(), operator, &bound)
-            }
-        }
+        let (mesh, materials): (&Mesh, &dyn MaterialField) = match self {
+            Self::Plane(model) => (model.mesh, model.material),
+            Self::Solid(_) => return Relaxation::default(),
+            Self::Assembly(model) => (model.assembly.mesh(), model.assembly.materials()),
+        };
+        let bound = |matrix: Triplets| match self {
+            Self::Assembly(model) => model.assembly.basis().congruent(&matrix),
+            _ => matrix,
+        };
+        Relaxation::new(mesh, materials, operator, &bound)
     }
 
     pub(super) fn lagrange_contact(
@@ -183,11 +148,7 @@ impl TransientBody<'_> {
         operator: &dyn StiffnessOperator,
         interface: &ContactInterface,
     ) -> Result<LagrangeContact, TransientError> {
-        match self {
-            Self::Plane(model) => LagrangeContact::new(operator, interface, model),
-            Self::Solid(model) => model.lagrange_contact(operator, interface),
-            Self::Assembly(model) => model.lagrange_contact(operator),
-        }
+        of_any!(self, model => model.lagrange_contact(operator, interface))
     }
 
     /// The velocity of a perturbation over all dofs, m/s.
@@ -195,11 +156,7 @@ impl TransientBody<'_> {
         &self,
         perturbation: &Perturbation,
     ) -> Result<Vec<f64>, TransientError> {
-        match self {
-            Self::Plane(model) => perturbation.field(model),
-            Self::Solid(model) => model.perturbed(perturbation),
-            Self::Assembly(model) => model.perturbed(perturbation),
-        }
+        of_any!(self, model => model.perturbed(perturbation))
     }
 }
 

@@ -1,8 +1,7 @@
 //! Forces of supports, boundary pressures and regions with damping of their own.
 
-use super::TransientModel;
 use crate::fem::operator::{MotionFields, StiffnessOperator};
-use crate::fem::{MassKind, Triplets, assemble_extra_damping, assemble_supports};
+use crate::fem::{RayleighDamping, Triplets};
 use std::collections::BTreeMap;
 
 /// Rows that are summed side by side.
@@ -36,12 +35,6 @@ struct Row {
 }
 
 impl BoundaryForces {
-    /// The forces of `model` in the layout of `operator`.
-    pub fn new(model: &TransientModel<'_>, operator: &dyn StiffnessOperator) -> Self {
-        let pressure = model.mesh.pressure_forces().unwrap_or_default();
-        Self::of(&extra_damping(model), &pressure, operator)
-    }
-
     /// From the entries of `D` and the forces of the full pressure over all dofs; no forces for no pressure.
     pub fn of(damping: &Triplets, pressure: &[f64], operator: &dyn StiffnessOperator) -> Self {
         let mut rows: BTreeMap<usize, BTreeMap<usize, f64>> = BTreeMap::new();
@@ -126,15 +119,19 @@ fn sums_side_by_side(rows: [&[(usize, f64)]; SIDE_BY_SIDE], x: &[f64]) -> [f64; 
     sums
 }
 
-fn extra_damping(model: &TransientModel<'_>) -> Triplets {
-    let [springs, mut damping] = assemble_supports(model.mesh);
-    let beta = model.damping.stiffness_coefficient;
+/// `D` of a body with these springs and dashpots of its supports, and with regions of a damping of their `own`.
+pub(super) fn extra_damping(
+    [springs, dashpots]: &[Triplets; 2],
+    own: Option<Triplets>,
+    damping: RayleighDamping,
+) -> Triplets {
+    let mut all = dashpots.clone();
+    let beta = damping.stiffness_coefficient;
     if beta != 0.0 {
-        damping.entries.extend(springs.scaled(-beta).entries);
+        all.entries.extend(springs.scaled(-beta).entries);
     }
-    let own = assemble_extra_damping(model.mesh, model.material, MassKind::Lumped, model.damping);
-    damping.entries.extend(own.unwrap_or_default().entries);
-    damping
+    all.entries.extend(own.unwrap_or_default().entries);
+    all
 }
 
 #[cfg(test)]

@@ -1,14 +1,23 @@
 //! Model of a transient of a plane body.
 
+use super::boundary::{BoundaryForces, extra_damping};
+use super::compliance::CompliantContact;
+use super::contact::ContactPart;
 use super::settings::{check_times, stable_step_limit, stiffening};
-use super::{OperatorChoice, Perturbation, StepPlan, TransientError, TransientSettings};
-use crate::contact::{ContactInterface, ContactStiffness, SlidingContact};
+use super::{
+    LagrangeContact, OperatorChoice, Perturbation, StepPlan, TransientError, TransientSettings,
+};
+use crate::contact::{ContactInterface, ContactStiffness, Row, SlidingContact};
 use crate::fem::operator::{
     CyclicStencil, OperatorError, SimdLevel, SparseOperator, StiffnessOperator,
     largest_frequency_of,
 };
-use crate::fem::{MaterialField, RayleighDamping, lumped_masses};
+use crate::fem::{
+    MassKind, MaterialField, RayleighDamping, assemble_extra_damping, assemble_stiffness,
+    assemble_supports, lumped_masses,
+};
 use crate::mesh::{AnnulusMesh, Mesh};
+use crate::prestress::SteadySliding;
 
 /// The body and its contact.
 #[derive(Clone, Copy, Debug)]
@@ -109,6 +118,71 @@ impl<'a> TransientModel<'a> {
     /// The contact edge.
     pub fn interface(&self) -> ContactInterface {
         ContactInterface::of(self.mesh)
+    }
+
+    /// Its operator.
+    ///
+    /// # Errors
+    /// As [`build_operator`].
+    pub(super) fn operator(
+        &self,
+        choice: OperatorChoice,
+        simd: SimdLevel,
+    ) -> Result<Box<dyn StiffnessOperator>, TransientError> {
+        build_operator(self, choice, simd)
+    }
+
+    /// Distance of a node from the origin (m) and the angle of its frame (rad).
+    pub(super) fn place(&self, node: usize) -> [f64; 2] {
+        let [x, y] = self.mesh.plane_node(node);
+        [x.hypot(y), self.mesh.frame_angles()[node]]
+    }
+
+    /// Displacement of steady sliding over all dofs, m.
+    pub(super) fn sliding_displacement(&self) -> Result<Vec<f64>, TransientError> {
+        let stiffness = assemble_stiffness(self.mesh, self.material);
+        let law = self.stiffness.law;
+        let base = SteadySliding::solve_with(self.mesh, &stiffness, &self.contact, law)?;
+        Ok(base.displacement(self.contact.friction_coefficient))
+    }
+
+    pub(super) fn boundary_forces(&self, operator: &dyn StiffnessOperator) -> BoundaryForces {
+        let own = assemble_extra_damping(self.mesh, self.material, MassKind::Lumped, self.damping);
+        let pressure = self.mesh.pressure_forces().unwrap_or_default();
+        let supports = assemble_supports(self.mesh);
+        let damping = extra_damping(&supports, own, self.damping);
+        BoundaryForces::of(&damping, &pressure, operator)
+    }
+
+    pub(super) fn perturbed(
+        &self,
+        perturbation: &Perturbation,
+    ) -> Result<Vec<f64>, TransientError> {
+        perturbation.field(self)
+    }
+
+    /// The contact nodes of `interface`, all open.
+    ///
+    /// # Errors
+    /// [`TransientError::Prestress`] where the springs of a compliant contact have no base state.
+    pub(super) fn lagrange_contact(
+        &self,
+        operator: &dyn StiffnessOperator,
+        interface: &ContactInterface,
+    ) -> Result<LagrangeContact, TransientError> {
+        let speed = interface.surface_speed(self.contact.rotation_speed);
+        let mut points = interface.points(&self.contact);
+        // Along the second axes of the nodes, with its sign.
+        points.iter_mut().for_each(|point| point.speed = speed);
+        let part = ContactPart {
+            nodes: ContactPart::nodes_as_points(points.len()),
+            points: &points,
+            law: self.contact.law(),
+            interference: self.contact.interference,
+            springs: CompliantContact::new(self, interface)?,
+            tangential_damping: self.stiffness.tangential_damping,
+        };
+        Ok(LagrangeContact::new(operator, 1, vec![part], &Row::clone))
     }
 }
 

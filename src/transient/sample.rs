@@ -97,7 +97,7 @@ impl Sample<'_> {
 
     /// Friction across the sliding on each contact node at `n`, N; empty for a plane body.
     pub fn across_force(&self) -> &[f64] {
-        self.run.contact().across_force()
+        &self.run.contact().across_force
     }
 
     /// The complete state after this sample, from which a run goes on bit by bit.

@@ -1,11 +1,13 @@
 //! Model of a transient of a body of revolution in three dimensions.
 
-use super::boundary::BoundaryForces;
+use super::boundary::{BoundaryForces, extra_damping};
+use super::compliance::CompliantContact;
+use super::contact::ContactPart;
 use super::perturbation::Place;
 use super::{
     LagrangeContact, OperatorChoice, Perturbation, StepPlan, TransientError, TransientSettings,
 };
-use crate::contact::{ContactInterface, ContactStiffness, SlidingContact};
+use crate::contact::{ContactInterface, ContactStiffness, Point, Row, SlidingContact};
 use crate::fem::operator::{OperatorError, SimdLevel, SolidStencil, StiffnessOperator};
 use crate::fem::solid::{self, SolidMatrix};
 use crate::fem::{ElasticMaterial, RayleighDamping, Triplets};
@@ -102,19 +104,14 @@ impl SolidTransientModel<'_> {
         settings: &TransientSettings,
     ) -> Result<StepPlan, TransientError> {
         let mut damping = self.damping;
-        let rates = self.support_damping();
+        let [_, dashpots] = supports(self.sector);
+        let rates = self.everywhere(&dashpots);
         let rates = rates.entries.iter().filter_map(|&(row, _, value)| {
             let mass = operator.masses()[operator.position(row)];
             (mass > 0.0 && value > 0.0).then(|| value / mass)
         });
         damping.mass_coefficient += rates.fold(0.0, f64::max);
         StepPlan::new(operator, &damping, settings)
-    }
-
-    /// Dashpots of the supports, by dof, N s/m.
-    fn support_damping(&self) -> Triplets {
-        let [_, dashpots] = supports(self.sector);
-        self.everywhere(&dashpots)
     }
 
     /// A matrix that couples no two nodes, in all sectors.
@@ -130,17 +127,19 @@ impl SolidTransientModel<'_> {
     }
 
     pub(super) fn boundary_forces(&self, operator: &dyn StiffnessOperator) -> BoundaryForces {
-        let [springs, _] = supports(self.sector);
-        let mut damping = self.support_damping();
-        let beta = self.damping.stiffness_coefficient;
-        if beta != 0.0 {
-            let springs = self.everywhere(&springs.scaled(-beta));
-            damping.entries.extend(springs.entries);
-        }
+        let supports = supports(self.sector).map(|matrix| self.everywhere(&matrix));
+        let damping = extra_damping(&supports, None, self.damping);
         let pressure = pressure_load(self.sector).repeat(self.sector.sector_count());
         BoundaryForces::of(&damping, &pressure, operator)
     }
 
+    /// Distance of a node from the axis (m) and its angle about it (rad).
+    pub(super) fn place(&self, node: usize) -> [f64; 2] {
+        let (local, s) = (node % self.sector.node_count(), node / self.sector.node_count());
+        [self.sector.nodes[local].radius, self.sector.angle(local, s)]
+    }
+
+    /// The contact nodes of `interface`, all open.
     pub(super) fn lagrange_contact(
         &self,
         operator: &dyn StiffnessOperator,
@@ -150,7 +149,59 @@ impl SolidTransientModel<'_> {
             Some(_) => Some(self.base()?),
             None => None,
         };
-        Ok(LagrangeContact::on_face(operator, interface, self, base.as_ref()))
+        let sector = self.sector;
+        let face = sector.specification.contact.face();
+        let pairs = interface.nodes.iter().zip(&interface.tributary_lengths);
+        let points = pairs.map(|(&node, &weight)| {
+            let (first, local) = (3 * node as usize, node as usize % sector.node_count());
+            Point {
+                weight,
+                normal: vec![(first + face.normal_component(), face.inward_sign())],
+                slip: vec![(first + 1, 1.0)],
+                across: vec![(first + face.across_component(), 1.0)],
+                speed: self.contact.rotation_speed * sector.nodes[local].radius,
+                ..Point::default()
+            }
+        });
+        let part = ContactPart {
+            nodes: ContactPart::nodes_as_points(interface.len()),
+            points: &points.collect::<Vec<Point>>(),
+            law: self.contact.law(),
+            interference: self.contact.interference,
+            springs: base.map(|base| self.springs(interface, &base)),
+            tangential_damping: self.stiffness.tangential_damping,
+        };
+        Ok(LagrangeContact::new(operator, 2, vec![part], &Row::clone))
+    }
+
+    /// The springs of the contact nodes over the state of steady sliding.
+    fn springs(&self, interface: &ContactInterface, base: &SolidSliding) -> CompliantContact {
+        let (stiffness, areas) = (&self.stiffness, &interface.tributary_lengths);
+        let face = self.sector.specification.contact.face();
+        let local = |node: &u32| *node as usize % self.sector.node_count();
+        // What the springs of a compliant base state have given way already is in its displacement.
+        let approach = |node: &u32| {
+            let normal = base.pressed_displacement[3 * local(node) + face.normal_component()];
+            match base.law {
+                Some(_) => self.contact.interference - face.inward_sign() * normal,
+                None => 0.0,
+            }
+        };
+        let given_way: Vec<f64> = interface.nodes.iter().map(approach).collect();
+        if let Some(law) = stiffness.law {
+            let damping = given_way.iter().zip(areas).map(|(g, area)| {
+                let spring = law.stiffness(g.max(0.0));
+                area * (stiffness.normal_damping + stiffness.law_damping * spring)
+            });
+            return CompliantContact::stiffening(law, areas, damping.collect());
+        }
+        let force = |node: &u32| {
+            let mut own = base.normal_forces.iter().filter(|(own, _)| *own == local(node));
+            own.next().map_or(0.0, |(_, force)| *force)
+        };
+        let forces: Vec<f64> = interface.nodes.iter().map(force).collect();
+        let law = [stiffness.normal_stiffness.unwrap_or(0.0), stiffness.normal_damping];
+        CompliantContact::of(law, areas, &forces).beyond(&given_way)
     }
 
     /// The velocity of a perturbation over all dofs, m/s: waves along `e_theta`, uniform over the thickness, which fade towards the

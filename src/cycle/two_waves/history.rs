@@ -84,8 +84,8 @@ impl History {
                     pairs.for_each(|(sum, force)| *sum += force / every as f64);
                 }
                 if step == every / 2 {
-                    let places = run.contact().tangential_places().iter();
-                    let edge: Vec<f64> = places.map(|&k| run.fields().displacement[k]).collect();
+                    let displacement = &run.fields().displacement;
+                    let edge: Vec<f64> = (0..count).map(|i| law.slip(i, displacement)).collect();
                     for (wave, &harmonic) in history.waves.iter_mut().zip(&harmonics) {
                         wave.push(amplitude(&edge, harmonic));
                     }

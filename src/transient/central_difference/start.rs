@@ -137,14 +137,7 @@ impl<'a> CentralDifference<'a> {
         if *self.body.contact() == contact {
             return Ok(());
         }
-        match &mut self.body {
-            TransientBody::Plane(model) => {
-                model.contact = contact;
-                return self.contact.retune(&self.interface, model);
-            }
-            TransientBody::Solid(model) => model.contact = contact,
-            TransientBody::Assembly(model) => model.contact = contact,
-        }
+        *self.body.contact_mut() = contact;
         self.contact = self.body.lagrange_contact(self.operator, &self.interface)?;
         Ok(())
     }

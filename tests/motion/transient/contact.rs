@@ -4,7 +4,7 @@ use crate::transient::model::{Watch, disc, largest, model, settings};
 use frictionsim::contact::{ContactStatus, SlidingContact};
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::fem::{RayleighDamping, assemble_stiffness, lumped_masses};
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification};
+use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ShaftSpecification};
 use frictionsim::prestress::SteadySliding;
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Sample, TimeStep, build_operator,
@@ -28,8 +28,9 @@ fn multipliers_obey_signorini_and_coulomb_at_every_step() {
             let expansion = 25e-6 * expanded;
             let (contact, fields) = (run.contact(), run.fields());
             for i in 0..contact.status.len() {
-                let displacement = fields.displacement[contact.normal_places()[i]];
-                let speed = fields.velocity[contact.tangential_places()[i]];
+                let [normal, tangential] = contact.places(i);
+                let displacement = fields.displacement[normal];
+                let speed = fields.velocity[tangential];
                 let (normal, tangential) = (contact.normal_force[i], contact.tangential_force[i]);
                 let gap = displacement - expansion;
                 seen[contact.status[i] as usize] += 1;
@@ -53,6 +54,44 @@ fn multipliers_obey_signorini_and_coulomb_at_every_step() {
         }
         assert!(seen.iter().all(|&count| count > 1000), "{seen:?}");
     }
+}
+
+/// Exact: rigid contact holds two bodies together, and what a sticking node has along the sliding is the speed between them.
+#[test]
+fn gap_and_velocity_of_a_node_between_two_bodies_are_those_over_the_other_body() {
+    let shaft = ShaftSpecification {
+        inner_radius: 0.006,
+        radial_elements: 2,
+        bore: BoundaryCondition::Clamped,
+    };
+    let specification = AnnulusSpecification { shaft: Some(shaft), ..disc(30, 6).specification };
+    let annulus = AnnulusMesh::generate(&specification).unwrap();
+    let model = model(&annulus, 610.0);
+    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let mut settings = settings(3e-3, &[1, 2]);
+    settings.perturbation = Perturbation::of(&[1, 2], 2.0);
+    let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
+    let mut seen = [0; 3];
+    while run.steps_done() < 5_000 {
+        run.advance();
+        if run.steps_done() as f64 * run.plan().time_step < 1.1e-4 {
+            continue;
+        }
+        let (contact, fields) = (run.contact(), run.fields());
+        for (i, status) in contact.status.iter().enumerate() {
+            seen[*status as usize] += 1;
+            let gap = contact.gap(i, &fields.displacement, 1.0);
+            let [_, speed] = contact.relative(i, &fields.velocity);
+            match status {
+                ContactStatus::Open => assert!(gap >= -1e-17, "{gap:e}"),
+                _ => assert!(gap.abs() < 1e-16, "{gap:e}"),
+            }
+            if *status == ContactStatus::Stick {
+                assert!((speed - contact.counterface_speed(i)).abs() < 1e-9);
+            }
+        }
+    }
+    assert!(seen.iter().all(|&count| count > 0), "{seen:?}");
 }
 
 /// Cross-method: the static solver's sliding state is a rest point of the time loop.
@@ -150,7 +189,7 @@ fn bar_rebounds_from_a_rigid_wall_as_one_dimensional_theory_says() {
         mean / impedance,
         impulse / (impedance * crossing),
         last_contact / crossing,
-        run.fields().velocity[run.contact().normal_places()[0]] / speed,
+        run.fields().velocity[run.contact().places(0)[0]] / speed,
     );
     // The ring's curvature changes everything by L / r = 0.2 %; a front is smeared over a few of 200 elements.
     assert!((mean / impedance - 1.0).abs() < 4e-3);

@@ -1,0 +1,169 @@
+//! Contact points with their rows over the dofs that they touch.
+
+use super::{ContactPoint, LagrangeContact, PointTurn, TouchedDof, TouchingSurfaces};
+use crate::contact::{ContactStatus, CoulombFriction, Point, Row};
+use crate::fem::operator::StiffnessOperator;
+use crate::transient::compliance::CompliantContact;
+use std::collections::BTreeMap;
+
+/// Points of one law, and the nodes that the record shows of them.
+pub(in crate::transient) struct ContactPart<'p> {
+    pub points: &'p [Point],
+    /// For each node its points with the share that it has in each.
+    pub nodes: Vec<Vec<(usize, f64)>>,
+    pub law: CoulombFriction,
+    /// How far the counterface is pushed in at the end, m.
+    pub interference: f64,
+    /// `None` is rigid.
+    pub springs: Option<CompliantContact>,
+    /// Tangential dashpot for each unit of the points' weights.
+    pub tangential_damping: f64,
+}
+
+impl ContactPart<'_> {
+    /// Nodes that are one point each.
+    pub fn nodes_as_points(count: usize) -> Vec<Vec<(usize, f64)>> {
+        (0..count).map(|point| vec![(point, 1.0)]).collect()
+    }
+}
+
+impl LagrangeContact {
+    /// All points of `parts` open; `bound` takes what follows other dofs out of a row. Rows of slip are `tangents`: 1 in the
+    /// plane, 2 in space.
+    pub(in crate::transient) fn new(
+        operator: &dyn StiffnessOperator,
+        tangents: usize,
+        parts: Vec<ContactPart<'_>>,
+        bound: &dyn Fn(&Row) -> Row,
+    ) -> Self {
+        let mut contact = Self::empty(tangents);
+        let mut touched = BTreeMap::new();
+        for part in parts {
+            let first = contact.points.len();
+            for point in part.points {
+                for row in &[&point.normal, &point.slip, &point.across][..=tangents] {
+                    contact.touch(&bound(row), operator, &mut touched);
+                }
+                let mut mass = contact.masses_of(contact.points.len());
+                // A spring pushes against what nothing moves; without one there is no force to find.
+                if mass[0] == 0.0 && part.springs.is_some() {
+                    mass[0] = f64::INFINITY;
+                }
+                contact.points.push(ContactPoint {
+                    mass,
+                    gap: point.gap,
+                    speed: point.speed,
+                    dashpot: part.tangential_damping * point.weight,
+                });
+            }
+            let nodes = part.nodes.into_iter().map(|points| {
+                let points = points.into_iter();
+                points.map(|(point, share)| (first + point, share)).collect()
+            });
+            contact.nodes.extend::<Vec<_>>(nodes.collect());
+            contact.surfaces.push(TouchingSurfaces {
+                points: first..contact.points.len(),
+                law: part.law,
+                interference: part.interference,
+                springs: part.springs,
+                is_plain: part.law.decay.is_none() && part.tangential_damping == 0.0,
+            });
+        }
+        contact.finish()
+    }
+
+    fn empty(tangents: usize) -> Self {
+        Self {
+            tangents,
+            is_single: false,
+            is_coupled: false,
+            dofs: Vec::new(),
+            ends: Vec::new(),
+            entries: Vec::new(),
+            points: Vec::new(),
+            surfaces: Vec::new(),
+            nodes: Vec::new(),
+            velocities: Vec::new(),
+            turns: Vec::new(),
+            normal_force: Vec::new(),
+            tangential_force: Vec::new(),
+            across_force: Vec::new(),
+            status: Vec::new(),
+            ambiguous: 0,
+            unconverged_steps: 0,
+        }
+    }
+
+    /// A row over the dofs that move by themselves and have mass, and over its first one whatever that is.
+    fn touch(
+        &mut self,
+        row: &[(usize, f64)],
+        operator: &dyn StiffnessOperator,
+        touched: &mut BTreeMap<usize, u32>,
+    ) {
+        for (j, &(dof, along)) in row.iter().enumerate() {
+            let mass = operator.masses()[operator.position(dof)];
+            let along = if mass > 0.0 { along } else { 0.0 };
+            if along == 0.0 && j > 0 {
+                continue;
+            }
+            let next = self.dofs.len() as u32;
+            let index = *touched.entry(dof).or_insert(next);
+            if index == next {
+                self.dofs.push(TouchedDof {
+                    place: operator.position(dof),
+                    mass,
+                    inverse_mass: if mass > 0.0 { mass.recip() } else { 0.0 },
+                    before: [0.0; 2],
+                });
+            }
+            self.entries.push((index, along));
+        }
+        self.ends.push(self.entries.len());
+    }
+
+    /// What a force moves along the normal of point `i`, and along its surface where that yields most; zero where nothing moves.
+    fn masses_of(&self, i: usize) -> [f64; 2] {
+        let mass = |c: usize| match &self.entries[self.row(i, c)] {
+            // As it is, without the rounding of its inverse.
+            &[(k, along)] if along.abs() == 1.0 => self.dofs[k as usize].mass,
+            entries => {
+                let parts = entries.iter().map(|&(k, along)| {
+                    let inverse_mass = self.dofs[k as usize].inverse_mass;
+                    along * along * inverse_mass
+                });
+                let mobility: f64 = parts.sum();
+                if mobility > 0.0 { mobility.recip() } else { 0.0 }
+            }
+        };
+        let surface = (1..=self.tangents).map(mass).filter(|mass| *mass > 0.0);
+        [mass(0), surface.reduce(f64::min).unwrap_or(0.0)]
+    }
+
+    /// The points are complete: how they hang together, and room for their steps.
+    fn finish(mut self) -> Self {
+        let mut rows_of = vec![0; self.dofs.len()];
+        self.entries.iter().for_each(|&(k, _)| rows_of[k as usize] += 1);
+        self.is_coupled = rows_of.iter().any(|&rows| rows > 1);
+        let shows_points =
+            self.nodes.iter().enumerate().all(|(i, points)| points[..] == [(i, 1.0)]);
+        let rows = self.tangents + 1;
+        let is_own = |(row, &(k, along)): (usize, &(u32, f64))| {
+            let is_moved = along == 1.0 || along == -1.0 && rows > 2;
+            let mass = self.points[row / rows].mass[(row % rows).min(1)];
+            let is_held = along == 0.0 && rows > 2;
+            k as usize == row && (is_moved && self.dofs[row].mass == mass || is_held)
+        };
+        self.is_single = shows_points
+            && self.entries.len() == self.ends.len()
+            && self.entries.iter().enumerate().all(is_own);
+        let count = self.nodes.len();
+        self.velocities = vec![0.0; self.dofs.len()];
+        self.turns = vec![PointTurn::default(); self.points.len()];
+        self.normal_force = vec![0.0; count];
+        self.tangential_force = vec![0.0; count];
+        self.across_force = vec![0.0; if self.tangents > 1 { count } else { 0 }];
+        self.status = vec![ContactStatus::Open; count];
+        self
+    }
+}
