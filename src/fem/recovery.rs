@@ -20,7 +20,7 @@ pub enum Degree {
 /// order there as well. A patch lies in one region, as stress and strain jump from one material to the next.
 ///
 /// Bricks with 8 nodes have one superconvergent point, and those of a single layer all lie on a plane: they say nothing of the change
-/// across it. Their incompatible modes make strains linear in the element, so that there they are sampled off the middle, too.
+/// across it. Their incompatible modes make strains linear in the element, so that they are sampled on either side of the middle, too.
 pub struct Recovery {
     /// First sample of each element, and their number at last: samples are those of [`Self::places`], element by element.
     pub first_sample: Vec<usize>,
@@ -74,23 +74,25 @@ impl Recovery {
             })
             .collect();
         // Bricks of patches in one layer have samples off their middle.
-        let middles = Samples::of(mesh, &vec![false; mesh.element_count()]);
+        let middles = Samples::of(mesh, &vec![None; mesh.element_count()]);
         let is_brick = |e: u32| mesh.element_kind(e as usize) == ElementKind::Hex8;
         let is_layer = |patch: &[u32]| {
             patch.iter().any(|&e| is_brick(e)) && is_flat(&middles.positions_in(patch))
         };
-        let mut is_thin = vec![false; mesh.element_count()];
+        let mut across = vec![None; mesh.element_count()];
         for (_, patch) in patches.iter().flatten().filter(|(_, patch)| is_layer(patch)) {
-            let bricks = patch.iter().filter(|e| is_brick(**e));
-            bricks.for_each(|&e| is_thin[e as usize] = true);
+            let normal = normal_of(&middles.positions_in(patch));
+            for &e in patch.iter().filter(|e| is_brick(**e)) {
+                across[e as usize] = Some(axis_along(mesh, e as usize, normal));
+            }
         }
-        let samples = Samples::of(mesh, &is_thin);
+        let samples = Samples::of(mesh, &across);
         let recovered = |node: usize, region: usize, patch: &[u32]| {
             let is_layer = is_layer(patch);
             // Patches beside a layer keep to the middles of its bricks.
             let of_element = |&e: &u32| {
                 let all = samples.first[e as usize]..samples.first[e as usize + 1];
-                match is_thin[e as usize] && !is_layer {
+                match across[e as usize].is_some() && !is_layer {
                     true => all.start..all.start + 1,
                     false => all,
                 }
@@ -134,14 +136,18 @@ struct Samples {
 }
 
 impl Samples {
-    /// The superconvergent points, and points off the middle along each axis where elements are `thin`.
-    fn of(mesh: &Mesh, is_thin: &[bool]) -> Self {
+    /// The superconvergent points, and two off the middle along the axis that leads `across` a layer.
+    fn of(mesh: &Mesh, across: &[Option<usize>]) -> Self {
         let mut all = Self { first: vec![0], places: Vec::new(), positions: Vec::new() };
-        for (e, is_thin) in is_thin.iter().enumerate() {
+        for (e, across) in across.iter().enumerate() {
             let geometry = ElementGeometry::new(mesh, e);
             all.places.extend(mesh.element_kind(e).superconvergent_points());
-            if *is_thin {
-                all.places.extend(OFF_MIDDLE);
+            for side in [-0.5, 0.5] {
+                all.places.extend(across.map(|axis| {
+                    let mut place = [0.0; 3];
+                    place[axis] = side;
+                    place
+                }));
             }
             let own = all.places[all.positions.len()..].iter();
             let own = own.map(|place| geometry.position(&geometry.at((*place, 1.0))));
@@ -171,16 +177,6 @@ fn elements_around(mesh: &Mesh) -> Vec<Vec<u32>> {
 const FLAT: f64 = 1e-4;
 /// The same where elements are sampled across their thickness: what lies below is round-off.
 const ROUND_OFF: f64 = 1e-12;
-/// Samples of a brick beside its middle, two along each axis of the parent element: they hold slopes apart from products of two
-/// coordinates, which vanish there.
-const OFF_MIDDLE: [[f64; 3]; 6] = [
-    [-0.5, 0.0, 0.0],
-    [0.5, 0.0, 0.0],
-    [0.0, -0.5, 0.0],
-    [0.0, 0.5, 0.0],
-    [0.0, 0.0, -0.5],
-    [0.0, 0.0, 0.5],
-];
 /// Eigenvalue of the normal equations, relative to the largest, below which the samples do not determine a term.
 const UNDETERMINED: f64 = 1e-6;
 
@@ -189,6 +185,25 @@ fn is_flat(places: &[[f64; 3]]) -> bool {
     let (_, spread) = spread_of(places);
     let spreads = spread.symmetric_eigenvalues();
     spreads.min() <= FLAT * spreads.max()
+}
+
+/// The direction in which places spread least.
+fn normal_of(places: &[[f64; 3]]) -> Vector3<f64> {
+    let eigen = spread_of(places).1.symmetric_eigen();
+    eigen.eigenvectors.column(eigen.eigenvalues.imin()).into_owned()
+}
+
+/// The axis of the parent element that leads most nearly along a direction.
+fn axis_along(mesh: &Mesh, element: usize, direction: Vector3<f64>) -> usize {
+    let geometry = ElementGeometry::new(mesh, element);
+    let position = |place: [f64; 3]| Vector3::from(geometry.position(&geometry.at((place, 1.0))));
+    let along = [0, 1, 2].map(|axis| {
+        let mut place = [0.0; 3];
+        place[axis] = 0.5;
+        let edge = position(place) - position(place.map(|x| -x));
+        edge.normalize().dot(&direction).abs()
+    });
+    (0..3).max_by(|&a, &b| along[a].total_cmp(&along[b])).unwrap_or(0)
 }
 
 /// Mean of some places and their second moments about it.

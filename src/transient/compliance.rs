@@ -1,9 +1,7 @@
 //! Springs and dashpots of a contact edge that is not rigid.
 
-use super::{TransientError, TransientModel};
-use crate::contact::{ContactInterface, NormalLaw};
-use crate::fem::assemble_stiffness;
-use crate::prestress::{SlidingSurfaces, SteadySliding};
+use crate::contact::NormalLaw;
+use crate::prestress::SlidingSurfaces;
 
 /// Newton steps and halvings of one node at most: an interval of the largest numbers is halved away by then.
 const NEWTON_STEPS: usize = 200;
@@ -87,46 +85,6 @@ pub(super) struct CompressedNode {
 }
 
 impl CompliantContact {
-    /// The springs of `model`; `None` for rigid contact.
-    ///
-    /// # Errors
-    /// [`TransientError::Prestress`] where there is no state of steady sliding.
-    pub fn new(
-        model: &TransientModel<'_>,
-        interface: &ContactInterface,
-    ) -> Result<Option<Self>, TransientError> {
-        let Some(stiffness) = model.stiffness.normal_stiffness else {
-            return Ok(None);
-        };
-        let shares = &interface.tributary_lengths;
-        if let Some(law) = model.stiffness.law {
-            return Ok(Some(Self::of_law(law, model, shares)?));
-        }
-        let elastic = assemble_stiffness(model.mesh, model.material);
-        let base = SteadySliding::solve(model.mesh, &elastic, &model.contact)?;
-        let forces = base.normal_forces(model.contact.friction_coefficient);
-        Ok(Some(Self::of([stiffness, model.stiffness.normal_damping], shares, &forces)))
-    }
-
-    /// A contact that stiffens with pressure; dashpots that follow its stiffness have that of the base state.
-    fn of_law(
-        law: NormalLaw,
-        model: &TransientModel<'_>,
-        shares: &[f64],
-    ) -> Result<Self, TransientError> {
-        let stiffness = &model.stiffness;
-        let mut damping: Vec<f64> = shares.iter().map(|w| stiffness.normal_damping * w).collect();
-        if stiffness.law_damping > 0.0 {
-            let elastic = assemble_stiffness(model.mesh, model.material);
-            let base = SteadySliding::solve_with(model.mesh, &elastic, &model.contact, Some(law))?;
-            let springs = base.springs(model.contact.friction_coefficient);
-            for (damping, spring) in damping.iter_mut().zip(springs.iter().flatten()) {
-                *damping += stiffness.law_damping * spring;
-            }
-        }
-        Ok(Self::stiffening(law, shares, damping))
-    }
-
     /// Contact that stiffens with pressure, with its nodes' `shares` and dashpots.
     pub fn stiffening(law: NormalLaw, shares: &[f64], damping: Vec<f64>) -> Self {
         Self {

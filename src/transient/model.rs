@@ -179,10 +179,40 @@ impl<'a> TransientModel<'a> {
             points: &points,
             law: self.contact.law(),
             interference: self.contact.interference,
-            springs: CompliantContact::new(self, interface)?,
+            springs: self.springs(interface)?,
             tangential_damping: self.stiffness.tangential_damping,
         };
         Ok(LagrangeContact::new(operator, 1, vec![part], &Row::clone))
+    }
+
+    /// The springs of the contact; `None` where it is rigid.
+    fn springs(
+        &self,
+        interface: &ContactInterface,
+    ) -> Result<Option<CompliantContact>, TransientError> {
+        let own = &self.stiffness;
+        let Some(stiffness) = own.normal_stiffness else {
+            return Ok(None);
+        };
+        let shares = &interface.tributary_lengths;
+        let elastic = || assemble_stiffness(self.mesh, self.material);
+        let friction = self.contact.friction_coefficient;
+        let Some(law) = own.law else {
+            let base = SteadySliding::solve(self.mesh, &elastic(), &self.contact)?;
+            let forces = base.normal_forces(friction);
+            let constants = [stiffness, own.normal_damping];
+            return Ok(Some(CompliantContact::of(constants, shares, &forces)));
+        };
+        // Dashpots that follow the stiffness of a law have that of the base state.
+        let mut damping: Vec<f64> = shares.iter().map(|w| own.normal_damping * w).collect();
+        if own.law_damping > 0.0 {
+            let base = SteadySliding::solve_with(self.mesh, &elastic(), &self.contact, Some(law))?;
+            let springs = base.springs(friction);
+            for (damping, spring) in damping.iter_mut().zip(springs.iter().flatten()) {
+                *damping += own.law_damping * spring;
+            }
+        }
+        Ok(Some(CompliantContact::stiffening(law, shares, damping)))
     }
 }
 

@@ -48,7 +48,7 @@ const BUDGETS: &[(&str, usize)] = &[
     ("src/cea", 11_578),
     ("src/contact", 2_658),
     ("src/cycle", 8_744),
-    ("src/fem", 5_246),
+    ("src/fem", 5_261),
     ("src/frf", 1_968),
     ("src/guide", 70),
     ("src/lib.rs", 103),
@@ -58,7 +58,7 @@ const BUDGETS: &[(&str, usize)] = &[
     ("src/prestress", 5_541),
     ("src/results", 22_772),
     ("src/study", 12_952),
-    ("src/transient", 5_364),
+    ("src/transient", 5_352),
 ];
 
 /// Lines of a file before its unit tests.
