@@ -23,8 +23,8 @@ use frictionsim::fem::operator::{
 use frictionsim::fem::{ElasticMaterial, PlaneFormulation, assemble_stiffness, lumped_masses};
 use frictionsim::mesh::{ElementKind, FileMesh, Mesh, SolidSector};
 use frictionsim::transient::{
-    CentralDifference, InitialState, Observer, OperatorChoice, Perturbation, Sample,
-    SolidTransientModel, TimeStep, TransientSettings,
+    CentralDifference, InitialState, Observer, OperatorChoice, Perturbation, Sample, SteppedBody,
+    TimeStep, TransientModel, TransientSettings,
 };
 use rayon::prelude::*;
 use std::hint::black_box;
@@ -139,12 +139,14 @@ fn assembled(divisions: usize, threads: usize) {
 fn step(divisions: [usize; 3], level: SimdLevel, (batches, peak): (usize, f64)) {
     let model = model::disc(ElementKind::Quad4, divisions);
     let sector = SolidSector::generate(&model.specification).expect("a valid mesh");
-    let body = SolidTransientModel {
-        sector: &sector,
-        material: &model.material,
-        damping: model.options.damping,
-        contact: model.contact,
+    let body = TransientModel {
         stiffness: model.options.contact,
+        ..TransientModel::new(
+            SteppedBody::Revolution(&sector),
+            &model.material,
+            model.options.damping,
+            model.contact,
+        )
     };
     let operator = body.operator(OperatorChoice::Auto, level);
     let operator = operator.expect("an operator");

@@ -19,8 +19,8 @@ use frictionsim::prestress::{
     Assembly, BaseChoice, DampingModel, SlidingSurfaces, TangentOptions, TiedSurfaces,
 };
 use frictionsim::transient::{
-    AssemblyTransientModel, CentralDifference, InitialState, OperatorChoice, Perturbation,
-    Recorder, RecorderSettings, TimeStep, TransientAnalysis, TransientBody, TransientSettings,
+    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
+    SteppedBody, TimeStep, TransientAnalysis, TransientModel, TransientSettings,
 };
 
 const STEEL: ElasticMaterial = ElasticMaterial {
@@ -131,19 +131,16 @@ fn between<'a>(
     Assembly::at_nodes(mesh, materials, &[tie], &[contact], motions, solved).unwrap()
 }
 
-fn model<'a>(assembly: &'a Assembly<'a>) -> AssemblyTransientModel<'a> {
-    AssemblyTransientModel {
-        assembly,
-        damping: DAMPING,
-        contact: SlidingContact {
-            friction_coefficient: FRICTION,
-            decay: None,
-            interference: 0.0,
-            rotation_speed: 10.0,
-        },
-        contact_damping: 0.0,
-        axis: [[0.02, -0.2, 0.0], [0.0, 0.0, 1.0]],
-    }
+fn model<'a>(assembly: &'a Assembly<'a>) -> TransientModel<'a> {
+    let axis = [[0.02, -0.2, 0.0], [0.0, 0.0, 1.0]];
+    let contact = SlidingContact {
+        friction_coefficient: FRICTION,
+        decay: None,
+        interference: 0.0,
+        rotation_speed: 10.0,
+    };
+    let body = SteppedBody::Assembly { assembly, axis };
+    TransientModel::new(body, assembly.materials(), DAMPING, contact)
 }
 
 fn settings(initial: InitialState, duration: f64, noise: f64) -> TransientSettings {
@@ -159,7 +156,7 @@ fn settings(initial: InitialState, duration: f64, noise: f64) -> TransientSettin
 
 /// The record of a run, and the largest speed at its end, m/s.
 fn run(assembly: &Assembly<'_>, settings: &TransientSettings) -> (Recorder, f64) {
-    let body = TransientBody::from(model(assembly));
+    let body = model(assembly);
     let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar).unwrap();
     let mut run = CentralDifference::start(body, operator.as_ref(), settings).unwrap();
     let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
@@ -263,7 +260,7 @@ fn an_assembly_goes_on_from_a_saved_state_bit_by_bit() {
     let mesh = mesh([4, 3, 1]);
     for springs in SPRINGS {
         let assembly = assembly(&mesh, &STEEL, springs, None, 0.05);
-        let body = TransientBody::from(model(&assembly));
+        let body = model(&assembly);
         let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar);
         let operator = operator.unwrap();
         let [first, whole] = [2e-4, 4e-4].map(|end| settings(InitialState::Rest, end, 0.05));
@@ -358,7 +355,7 @@ fn losses_of_an_assembly_slow_its_growth_as_the_eigenvalue_says() {
     println!("{rate} 1/s, {without} 1/s without losses");
     assert!(without > 1.02 * rate, "{rate} {without}");
 
-    let body = TransientBody::from(model(&stepped));
+    let body = model(&stepped);
     let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar);
     let operator = operator.unwrap();
     let [first, whole] = [2e-4, 4e-4].map(|end| settings(InitialState::SteadySliding, end, 0.05));

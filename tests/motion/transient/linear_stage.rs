@@ -11,7 +11,7 @@ use frictionsim::mesh::AnnulusMesh;
 use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    TransientAnalysis, TransientModel, build_operator,
+    TransientAnalysis, TransientModel,
 };
 use std::f64::consts::TAU;
 
@@ -88,7 +88,7 @@ fn seeded_harmonics_grow_as_the_complex_eigenvalues_predict() {
 
 fn compare(annulus: &AnnulusMesh, duration: f64) {
     let model = model(annulus, 610.0);
-    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     for n in [1, 2, 3] {
         let mut settings = settings(duration, &[n]);
         settings.initial = InitialState::SteadySliding;

@@ -12,23 +12,25 @@ use frictionsim::mesh::{
 use frictionsim::prestress::{DampingModel, PrestressError};
 use frictionsim::transient::{
     CentralDifference, InitialState, Observer, OperatorChoice, Perturbation, Recorder,
-    RecorderSettings, Sample, SolidTransientModel, TimeStep, TransientAnalysis, TransientError,
-    TransientSettings,
+    RecorderSettings, Sample, SteppedBody, TimeStep, TransientAnalysis, TransientError,
+    TransientModel, TransientSettings,
 };
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
-fn body<'a>(model: &'a SolidModel, sector: &'a SolidSector) -> SolidTransientModel<'a> {
-    SolidTransientModel {
-        sector,
-        material: &model.material,
-        damping: model.options.damping,
-        contact: model.contact,
+fn body<'a>(model: &'a SolidModel, sector: &'a SolidSector) -> TransientModel<'a> {
+    TransientModel {
         stiffness: model.options.contact,
+        ..TransientModel::new(
+            SteppedBody::Revolution(sector),
+            &model.material,
+            model.options.damping,
+            model.contact,
+        )
     }
 }
 
-fn operator(body: &SolidTransientModel<'_>) -> Box<dyn StiffnessOperator> {
+fn operator(body: &TransientModel<'_>) -> Box<dyn StiffnessOperator> {
     body.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap()
 }
 
