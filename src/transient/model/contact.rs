@@ -185,15 +185,15 @@ impl TransientModel<'_> {
         interface: &ContactInterface,
     ) -> Result<Vec<PressedPoint>, PrestressError> {
         let friction = self.contact.friction_coefficient;
-        let spring_alone = |spring: f64| PressedPoint { spring, ..PressedPoint::default() };
+        let spring = |spring: f64| PressedPoint { spring, ..PressedPoint::default() };
+        let force = |force: f64| PressedPoint { force, ..PressedPoint::default() };
         match self.body {
             SteppedBody::Plane { mesh, .. } => {
                 let base = self.sliding_edge(mesh)?;
-                if let Some(springs) = base.springs(friction) {
-                    return Ok(springs.into_iter().map(spring_alone).collect());
-                }
-                let forces = base.normal_forces(friction).into_iter();
-                Ok(forces.map(|force| PressedPoint { force, ..PressedPoint::default() }).collect())
+                Ok(match self.stiffness.law {
+                    Some(_) => base.springs(friction).into_iter().map(spring).collect(),
+                    None => base.normal_forces(friction).into_iter().map(force).collect(),
+                })
             }
             SteppedBody::Revolution(sector) => {
                 let base = self.sliding_face(sector)?;
@@ -205,7 +205,7 @@ impl TransientModel<'_> {
             }
             SteppedBody::Assembly { assembly, .. } => {
                 let springs = self.sliding_pairs(assembly)?.springs(friction);
-                Ok(springs.into_iter().map(spring_alone).collect())
+                Ok(springs.into_iter().map(spring).collect())
             }
         }
     }
