@@ -18,7 +18,7 @@ use fma_peak::fma_peak;
 use frictionsim::cea::cyclic::{SolidModel, solid_sweep};
 use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::fem::operator::{
-    AlignedVector, AssembledOperator, MotionFields, SimdLevel, StepCoefficients, StiffnessOperator,
+    AlignedVector, MotionFields, SimdLevel, SparseOperator, StepCoefficients, StiffnessOperator,
 };
 use frictionsim::fem::{ElasticMaterial, PlaneFormulation, assemble_stiffness, lumped_masses};
 use frictionsim::mesh::{ElementKind, FileMesh, Mesh, SolidSector};
@@ -95,7 +95,7 @@ fn assembled(divisions: usize, threads: usize) {
     let stiffness = assemble_stiffness(&mesh, &STEEL);
     let masses = lumped_masses(&mesh, &STEEL);
     let masses = masses.iter().flat_map(|&mass| [mass; 3]).collect();
-    let operator = AssembledOperator::new(&stiffness, masses, Vec::new(), SimdLevel::detect());
+    let operator = SparseOperator::<3>::new(&stiffness, masses, Vec::new(), SimdLevel::detect());
     let operator = operator.expect("an operator");
     let zeros = || AlignedVector::zeros(operator.field_length());
     let mut fields = MotionFields {

@@ -8,9 +8,7 @@ use super::pressed_state::{PressedState, Pressing};
 use super::rotation::Rotation;
 use super::tangent::{BodyTerms, ContactDofs, ContactPart, SlidingTangent};
 use super::{PrestressError, TangentOptions};
-use crate::contact::{
-    ContactSurface, Motion, PairError, PointKind, SurfacePair, mortar_nodes,
-};
+use crate::contact::{ContactSurface, Motion, PairError, PointKind, SurfacePair, mortar_nodes};
 use crate::fem::{
     MaterialField, Triplets, assemble_pressures, assemble_stiffness, assemble_supports,
 };

@@ -3,8 +3,7 @@
 use super::{SteppedBody, TransientModel};
 use crate::fem::lumped_masses;
 use crate::fem::operator::{
-    AssembledOperator, CyclicStencil, OperatorError, SimdLevel, SolidStencil, SparseOperator,
-    StiffnessOperator,
+    CyclicStencil, OperatorError, SimdLevel, SolidStencil, SparseOperator, StiffnessOperator,
 };
 use crate::prestress::{Assembly, supports};
 use crate::transient::{OperatorChoice, TransientError};
@@ -52,7 +51,7 @@ impl TransientModel<'_> {
 /// The stiffness of solid bodies over the dofs that move by themselves, with their lumped masses.
 ///
 /// The mass of a dof that follows others goes to these, by the size of their shares.
-fn assembled(assembly: &Assembly<'_>, simd: SimdLevel) -> Result<AssembledOperator, OperatorError> {
+fn assembled(assembly: &Assembly<'_>, simd: SimdLevel) -> Result<SparseOperator<3>, OperatorError> {
     let (mesh, basis) = (assembly.mesh(), assembly.basis());
     let unknowns = basis.unknowns();
     let moves = |dof: usize| unknowns.unknown_of[dof].is_some();
@@ -83,5 +82,5 @@ fn assembled(assembly: &Assembly<'_>, simd: SimdLevel) -> Result<AssembledOperat
     let [springs, _] = assembly.supports();
     stiffness.entries.extend_from_slice(&springs.entries);
     let followers = followers.into_iter().map(|(dof, shares)| (dof as u32, shares));
-    AssembledOperator::new(&basis.congruent(&stiffness), own, followers.collect(), simd)
+    SparseOperator::new(&basis.congruent(&stiffness), own, followers.collect(), simd)
 }
