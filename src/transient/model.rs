@@ -9,8 +9,8 @@ use super::relaxation::Relaxation;
 use super::settings::{check_times, stable_step_limit, stiffening};
 use super::{Perturbation, StepPlan, TransientError, TransientSettings};
 use crate::contact::{ContactInterface, ContactStiffness, SlidingContact};
+use crate::fem::fold::SectorMatrix;
 use crate::fem::operator::{StiffnessOperator, largest_frequency_of};
-use crate::fem::solid::SolidMatrix;
 use crate::fem::{
     MassKind, MaterialField, RayleighDamping, Triplets, assemble_extra_damping, assemble_pressures,
     assemble_supports,
@@ -324,11 +324,11 @@ impl<'a> TransientModel<'a> {
     }
 }
 
-/// A matrix that couples no two nodes, in all sectors.
-fn everywhere(sector: &SolidSector, matrix: &SolidMatrix) -> Triplets {
-    let own = matrix.nodal_blocks(sector.node_count());
-    let offsets = (0..sector.sector_count()).map(|s| 3 * s * sector.node_count());
-    let moved = offsets
-        .flat_map(|first| own.iter().map(move |&(i, j, value)| (first + i, first + j, value)));
-    Triplets { entries: moved.collect() }
+/// A matrix that couples no two sectors, in all of them.
+fn everywhere(sector: &SolidSector, matrix: &SectorMatrix) -> Triplets {
+    let dofs = 3 * sector.node_count();
+    let all = (0..sector.sector_count()).flat_map(|s| {
+        matrix.entries().map(move |(i, j, _, value)| (dofs * s + i, dofs * s + j, value))
+    });
+    Triplets { entries: all.collect() }
 }
