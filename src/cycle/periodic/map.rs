@@ -1,7 +1,7 @@
 //! The period map of a body: so many steps of the explicit transient, from a state to where it comes.
 
-use super::vector::{add, difference, dot, norm};
 use crate::contact::{ContactInterface, SlidingContact};
+use crate::cycle::vector::{add, difference, dot, norm};
 use crate::fem::operator::StiffnessOperator;
 use crate::linalg::interruption;
 use crate::transient::{

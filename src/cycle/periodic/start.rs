@@ -1,7 +1,7 @@
 //! Where the search for a periodic motion starts: on a mode that grows.
 
 use super::map::{PeriodMap, PeriodicState};
-use super::vector::{difference, norm};
+use crate::cycle::vector::{difference, norm};
 use crate::fem::operator::scatter;
 use crate::linalg::c64;
 use std::f64::consts::TAU;
