@@ -15,7 +15,6 @@ mod two_bodies;
 
 use disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use fma_peak::fma_peak;
-use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::mesh::{AnnulusMesh, BoundaryCondition, ElementKind, Mesh, ShaftSpecification};
 use frictionsim::transient::{

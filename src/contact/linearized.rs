@@ -92,19 +92,16 @@ pub fn linearized(
         for i in pressed() {
             let (point, force) = (&points[i], forces[first + i]);
             let friction = point.friction;
-            if friction.slope != 0.0 {
-                let value = friction.slope * force;
+            let mut add = |row: &Row, value: f64| {
                 for (term, factor) in following(p, frozen) {
-                    let falling = power(&mut terms.dashpots, term);
-                    add_product(falling, factor * value, &point.slip, &point.slip);
+                    add_product(power(&mut terms.dashpots, term), factor * value, row, row);
                 }
+            };
+            if friction.slope != 0.0 {
+                add(&point.slip, friction.slope * force);
             }
             if !point.across.is_empty() {
-                let value = friction.drag.abs() * force / point.speed;
-                for (term, factor) in following(p, frozen) {
-                    let turned = power(&mut terms.dashpots, term);
-                    add_product(turned, factor * value, &point.across, &point.across);
-                }
+                add(&point.across, friction.drag.abs() * force / point.speed);
             }
         }
         for (point, &force) in points.iter().zip(&forces[first..]) {

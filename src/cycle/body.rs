@@ -1,7 +1,7 @@
 //! The body as the harmonics of a rotating wave see it: a 2 x 2 receptance at the contact edge.
 
 use super::CycleError;
-use crate::fem::fold::MirrorParity;
+use crate::fem::fold::{MirrorParity, SectorMatrix};
 use crate::fem::{ElasticMaterial, MassKind, RayleighDamping, sector};
 use crate::linalg::banded::BandedMatrix;
 use crate::linalg::c64;
@@ -103,7 +103,7 @@ impl WaveBody {
         let mesh = SectorMesh::generate(specification)?;
         let stiffness = sector::stiffness(&mesh, material);
         let dofs = sector::wave_dofs(&mesh);
-        let fold = |n: usize, matrix| dofs.fold(n, MirrorParity::Even, &[matrix]);
+        let fold = |n: usize, matrix: &SectorMatrix| dofs.fold(n, MirrorParity::Even, &[matrix]);
         let mass = fold(0, &sector::mass(&mesh, material, MassKind::Lumped));
         let support = match specification.outer {
             BoundaryCondition::Support(_) => mesh.strip.nodal_supports().first().copied(),

@@ -153,7 +153,7 @@ impl<'a> PeriodicStudy<'a> {
         let tune = |map: &mut PeriodMap<'b>, value: f64| {
             let body = self.body_at(*parameter, value);
             if parameter.is_of_contact() {
-                return map.retune(*body.contact());
+                return map.retune(body.contact);
             }
             let mut next = self.map(body, operator, mode)?;
             next.follow(map);

@@ -3,7 +3,6 @@
 use crate::disc::{DAMPING, POLYCARBONATE};
 use crate::two_bodies::model::{contact, modes_of, options, rings};
 use frictionsim::cea::ModeLimit;
-use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::fem::{
     ElasticMaterial, MassKind, PlaneFormulation, RegionMaterial, assemble_stiffness,
