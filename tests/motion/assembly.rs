@@ -14,7 +14,7 @@ use frictionsim::fem::{
     RayleighDamping, RegionMaterial, RelaxedMaterials, TabledMaterial,
 };
 use frictionsim::linalg::c64;
-use frictionsim::mesh::{BoundaryCondition, FileMesh, Mesh};
+use frictionsim::mesh::{BoundaryCondition, ElasticSupport, FileMesh, Mesh};
 use frictionsim::prestress::{
     Assembly, BaseChoice, DampingModel, SlidingSurfaces, TangentOptions, TiedSurfaces,
 };
@@ -252,6 +252,33 @@ fn a_block_on_a_rigid_plane_rests_in_its_base_state_and_its_energy_closes() {
         assert!(residual < 1e-11, "{residual:e}");
         assert_eq!(record.unconverged_steps, 0);
     }
+}
+
+/// Theory (Gershgorin): dashpots of a support that outweigh the frequencies of the body bound the automatic step, by the sums of
+/// the rows of their matrix.
+#[test]
+fn heavy_dashpots_of_a_support_bound_the_step() {
+    let mut mesh = mesh([4, 3, 1]);
+    let held = boundary(&mesh, "plate_x0");
+    let dashpot = 1e9;
+    mesh.boundaries[held].condition = BoundaryCondition::Support(ElasticSupport {
+        normal_stiffness: 1e10,
+        tangential_stiffness: 1e10,
+        normal_damping: dashpot,
+        tangential_damping: dashpot,
+        ..ElasticSupport::default()
+    });
+    let assembly = assembly(&mesh, &STEEL, SPRINGS[0], None, 0.05);
+    let operator = model(&assembly).operator(OperatorChoice::Auto, SimdLevel::Scalar).unwrap();
+    let settings = settings(InitialState::Rest, 1e-4, 0.05);
+    let plan = model(&assembly).plan(operator.as_ref(), &settings).unwrap();
+    // Nodes of the face carry half an element of 12.5 mm.
+    let rate = dashpot / (STEEL.density * 0.5 * 0.0125);
+    assert!((0.5 * plan.limit * rate - 1.0).abs() < 0.1, "{} {rate}", plan.limit);
+    let (record, speed) = run(&assembly, &settings);
+    assert!(record.rows.iter().all(|row| row.balance_residual < 1e-11));
+    // The load gives it some centimetres a second, an unstable step no bound.
+    assert!(speed < 1.0, "{speed}");
 }
 
 /// Consistency: a run that goes on from a saved state is the same, bit by bit, as one that never stopped.
