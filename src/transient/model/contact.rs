@@ -22,9 +22,14 @@ impl TransientModel<'_> {
     pub fn interface(&self) -> ContactInterface {
         let mut nodes = Vec::new();
         let mut areas = Vec::new();
+        let mut counterface = Counterface::Plane { point: [0.0; 2], direction: [1.0, 0.0] };
         match self.body {
             SteppedBody::Plane { mesh, .. } => return ContactInterface::of(mesh),
             SteppedBody::Revolution(sector) => {
+                let area: f64 = sector.rings.iter().map(|ring| ring.area).sum();
+                let moment: f64 = sector.rings.iter().map(|ring| ring.area * ring.radius).sum();
+                let radius = moment / area;
+                counterface = Counterface::Cylinder { center: [0.0; 2], radius, is_inside: true };
                 for s in 0..sector.sector_count() {
                     for ring in &sector.rings {
                         let first = s * sector.node_count();
@@ -48,7 +53,7 @@ impl TransientModel<'_> {
             angles: nodes.iter().map(|&node| self.place(node as usize)[1]).collect(),
             gaps: vec![0.0; nodes.len()],
             tributary_lengths: areas,
-            counterface: Counterface::Plane { point: [0.0; 2], direction: [1.0, 0.0] },
+            counterface,
             opposite: Vec::new(),
             nodes,
         }
