@@ -2,7 +2,6 @@
 
 use super::kernel::{SUMS, add_up, dispatched, move_range, multiply_add};
 use super::{SimdLevel, StepCoefficients};
-use std::array;
 use std::ops::Range;
 
 /// Compressed rows of `D x D` blocks.
@@ -16,7 +15,8 @@ pub(super) struct BlockRows<const D: usize> {
     pub blocks: Vec<[[f64; D]; D]>,
 }
 
-/// All components of one node row times `x`: a sum for each of the products, so that they are formed side by side.
+/// All components of one node row times `x`: a sum for each of the products, so that they are formed side by side. Plain loops:
+/// calls of small functions would not be compiled for the instruction set.
 #[inline(always)]
 fn block_row<const FUSED: bool, const D: usize>(
     rows: &BlockRows<D>,
@@ -27,12 +27,19 @@ fn block_row<const FUSED: bool, const D: usize>(
     let blocks = rows.columns[range.clone()].iter().zip(&rows.blocks[range]);
     for (&column, block) in blocks {
         let part = &x[column as usize..column as usize + D];
-        let (sums, block) = (sums.as_flattened_mut(), block.as_flattened());
-        for k in 0..D * D {
-            sums[k] = multiply_add::<FUSED>(block[k], part[k / D], sums[k]);
+        for j in 0..D {
+            for i in 0..D {
+                sums[j][i] = multiply_add::<FUSED>(block[j][i], part[j], sums[j][i]);
+            }
         }
     }
-    array::from_fn(|i| (1..D).fold(sums[0][i], |sum, j| sum + sums[j][i]))
+    let mut result = sums[0];
+    for column in &sums[1..] {
+        for i in 0..D {
+            result[i] += column[i];
+        }
+    }
+    result
 }
 
 #[inline(always)]
