@@ -33,15 +33,15 @@ fn assemble(sector: &SectorMesh, compute: impl Fn(usize) -> DMatrix<f64>) -> Sec
 /// Springs and dashpots of the supported edges, Pa and Pa s.
 pub fn supports(sector: &SectorMesh) -> [SectorMatrix; 2] {
     let supports = sector.strip.nodal_supports();
-    let parts: [fn(&NodalSupport) -> [[f64; 2]; 2]; 2] = [|s| s.stiffness, |s| s.damping];
-    parts.map(|of| {
+    let of = |part: fn(&NodalSupport) -> [[f64; 2]; 2]| {
         let own = supports.iter().map(|support| {
-            let matrix = of(support);
+            let matrix = part(support);
             let node = [(sector.sector_node_of[support.node], 0)];
             (node, DMatrix::from_fn(2, 2, |row, column| matrix[row][column]))
         });
         SectorMatrix::sum(2, own)
-    })
+    };
+    [of(|support| support.stiffness), of(|support| support.damping)]
 }
 
 /// Name, springs and dashpots of each supported edge.

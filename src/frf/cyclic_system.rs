@@ -21,14 +21,18 @@ pub struct CyclicSystem {
 
 #[derive(Clone, Debug)]
 enum State {
-    Body {
-        mass: SectorMatrix,
-        stiffness: SectorMatrix,
-        supports: [SectorMatrix; 2],
-        damping: RayleighDamping,
-    },
+    Body(Box<Body>),
     Annulus(Box<SectorTangent>, f64),
     Revolution(Box<SolidTangent>, f64),
+}
+
+/// A body without contact and prestress.
+#[derive(Clone, Debug)]
+struct Body {
+    mass: SectorMatrix,
+    stiffness: SectorMatrix,
+    supports: [SectorMatrix; 2],
+    damping: RayleighDamping,
 }
 
 /// Where a terminal lies.
@@ -54,13 +58,13 @@ impl CyclicSystem {
         if !is_clamped {
             sector = sector.with_free_outer_edge();
         }
-        let state = State::Body {
+        let body = Body {
             mass: sector::mass(&sector, material, mass),
             stiffness: sector::stiffness(&sector, material),
             supports: sector::supports(&sector),
             damping,
         };
-        Self::of_annulus(&sector, state, sector::wave_dofs(&sector))
+        Self::of_annulus(&sector, State::Body(Box::new(body)), sector::wave_dofs(&sector))
     }
 
     /// Small motions around steady sliding at a friction coefficient.
@@ -100,13 +104,13 @@ impl CyclicSystem {
         if !is_clamped {
             sector.specification.conditions = [BoundaryCondition::Free; 4];
         }
-        let state = State::Body {
+        let body = Body {
             mass: solid::mass(&sector, material, mass),
             stiffness: solid::stiffness(&sector, material),
             supports: supports(&sector),
             damping,
         };
-        Self::of_revolution(&sector, state, solid::wave_dofs(&sector))
+        Self::of_revolution(&sector, State::Body(Box::new(body)), solid::wave_dofs(&sector))
     }
 
     /// Small motions of a body of revolution around steady sliding at a friction coefficient, the dashpot `mu p_0 / V`
@@ -190,11 +194,12 @@ impl CyclicSystem {
     pub(super) fn harmonic(&self, n: usize) -> Harmonic {
         let is_standing = n == 0 || 2 * n == self.sector_count();
         match &self.state {
-            State::Body { mass, stiffness, supports, damping } => {
+            State::Body(body) => {
                 let fold = |matrix| self.dofs.fold(n, MirrorParity::Even, &[matrix]);
-                let is_supported = supports.iter().any(|matrix| !matrix.is_empty());
-                let supports = is_supported.then(|| supports.each_ref().map(fold));
-                held_harmonic([mass, stiffness].map(fold), supports, *damping, is_standing)
+                let is_supported = body.supports.iter().any(|matrix| !matrix.is_empty());
+                let supports = is_supported.then(|| body.supports.each_ref().map(fold));
+                let matrices = [&body.mass, &body.stiffness].map(fold);
+                held_harmonic(matrices, supports, body.damping, is_standing)
             }
             State::Annulus(tangent, friction) => {
                 sliding_harmonic(tangent, *friction, (n, is_standing))
