@@ -58,7 +58,7 @@ const BUDGETS: &[(&str, usize)] = &[
     ("src/prestress", 5_475),
     ("src/results", 22_772),
     ("src/study", 12_899),
-    ("src/transient", 4_988),
+    ("src/transient", 5_009),
 ];
 
 /// Lines of a file before its unit tests.
