@@ -4,7 +4,7 @@
 //! basis `(u_r, -i u_theta)`, in space `(u_r, -i u_theta, u_z)`, that matrix is real where the body looks the same in a mirror
 //! along a radius, and `i` times real where the mirror reverses it (the stress of sliding friction).
 
-use super::Triplets;
+use super::{DofMap, Triplets};
 use crate::linalg::banded::BandedMatrix;
 use nalgebra::DMatrix;
 use std::borrow::Borrow;
@@ -57,18 +57,12 @@ impl SectorMatrix {
         let mut terms = Triplets::default();
         for (nodes, matrix) in elements {
             let (nodes, matrix): (_, &DMatrix<f64>) = (nodes.as_ref(), matrix.borrow());
-            for (b, &(other, there)) in nodes.iter().enumerate() {
-                for (a, &(node, here)) in nodes.iter().enumerate() {
-                    for (d, c) in
-                        (0..components * components).map(|k| (k / components, k % components))
-                    {
-                        let value = matrix[(components * a + c, components * b + d)];
-                        if value != 0.0 {
-                            let place = STEPS * (components * other + d) + REACH + there - here;
-                            terms.push(components * node + c, place, value);
-                        }
-                    }
-                }
+            let place = |k: usize| (nodes[k / components], k % components);
+            for (k, &value) in matrix.iter().enumerate().filter(|(_, value)| **value != 0.0) {
+                let ((node, here), c) = place(k % matrix.nrows());
+                let ((other, there), d) = place(k / matrix.nrows());
+                let column = STEPS * (components * other + d) + REACH + there - here;
+                terms.push(components * node + c, column, value);
             }
         }
         Self::merged(components, terms)
@@ -136,8 +130,7 @@ impl WaveDofs {
         half_bandwidth: usize,
         sectors: usize,
     ) -> Self {
-        let unknown_of =
-            super::DofMap::excluding(dofs, (0..dofs).filter(|&dof| is_held(dof))).unknown_of;
+        let unknown_of = DofMap::excluding(dofs, (0..dofs).filter(|&dof| is_held(dof))).unknown_of;
         let count = unknown_of.iter().flatten().count();
         Self { unknown_of, count, half_bandwidth, sectors }
     }

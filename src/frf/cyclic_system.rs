@@ -3,9 +3,9 @@
 use super::harmonic::{Damping, Harmonic, evaluate, held_harmonic};
 use super::{Direction, FrfError, Terminal};
 use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
-use crate::fem::{DofMap, ElasticMaterial, MassKind, RayleighDamping, sector, solid};
+use crate::fem::{ElasticMaterial, MassKind, RayleighDamping, sector, solid};
 use crate::mesh::{BoundaryCondition, SectorMesh, SolidSector};
-use crate::prestress::{SectorTangent, SolidTangent, supports};
+use crate::prestress::{MovingHarmonic, SectorTangent, SolidTangent, supports};
 
 /// [`super::FrfSystem`] of an annulus or of a body of revolution, as the matrices of its circumferential harmonics.
 #[derive(Clone, Debug)]
@@ -119,13 +119,11 @@ impl CyclicSystem {
     /// In rigid contact the motion along the normal of pressed nodes is no unknown; the force of excitation acts on the
     /// body, not through the contact.
     pub fn solid_sliding(tangent: &SolidTangent, friction_coefficient: f64) -> Self {
-        let mut dofs = solid::wave_dofs(tangent.sector());
-        let rigid = tangent.rigid();
+        let (own, rigid) = (tangent.unknown_of(), tangent.rigid());
         let is_still = |unknown: usize| rigid.iter().any(|(normal, ..)| *normal == unknown);
-        let all = dofs.unknown_of.iter().enumerate();
-        let still = all.filter(|(_, unknown)| unknown.is_none_or(is_still)).map(|(dof, _)| dof);
-        dofs.unknown_of = DofMap::excluding(dofs.unknown_of.len(), still).unknown_of;
-        dofs.count = dofs.unknown_of.iter().flatten().count();
+        let WaveDofs { half_bandwidth, sectors, .. } = solid::wave_dofs(tangent.sector());
+        let is_held = |dof: usize| own[dof].is_none_or(is_still);
+        let dofs = WaveDofs::new(own.len(), is_held, half_bandwidth, sectors);
         let state = State::Revolution(Box::new(tangent.clone()), friction_coefficient);
         Self::of_revolution(tangent.sector(), state, dofs)
     }
@@ -205,14 +203,10 @@ impl CyclicSystem {
                 sliding_harmonic(tangent, *friction, (n, is_standing))
             }
             State::Revolution(tangent, friction) => {
-                let matrices = tangent.harmonic(n).at(*friction);
-                Harmonic {
-                    half_bandwidth: matrices.half_bandwidth,
-                    mass: matrices.mass,
-                    stiffness: matrices.stiffness,
-                    damping: Damping::Band(matrices.damping),
-                    is_standing,
-                }
+                let MovingHarmonic { half_bandwidth, mass, damping, stiffness } =
+                    tangent.harmonic(n).at(*friction);
+                let damping = Damping::Band(damping);
+                Harmonic { half_bandwidth, mass, stiffness, damping, is_standing }
             }
         }
     }

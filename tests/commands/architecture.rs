@@ -48,8 +48,8 @@ const BUDGETS: &[(&str, usize)] = &[
     ("src/cea", 11_559),
     ("src/contact", 2_658),
     ("src/cycle", 8_617),
-    ("src/fem", 5_014),
-    ("src/frf", 1_854),
+    ("src/fem", 5_007),
+    ("src/frf", 1_848),
     ("src/guide", 70),
     ("src/lib.rs", 103),
     ("src/main.rs", 5),
@@ -58,7 +58,7 @@ const BUDGETS: &[(&str, usize)] = &[
     ("src/prestress", 5_475),
     ("src/results", 22_772),
     ("src/study", 12_899),
-    ("src/transient", 4_993),
+    ("src/transient", 5_009),
 ];
 
 /// Lines of a file before its unit tests.
