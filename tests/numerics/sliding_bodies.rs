@@ -8,6 +8,7 @@
 use crate::bricks::{Block, file_of};
 use crate::matrices::{dense, lossy_eigenvalues};
 use crate::tier::sized;
+use faer::linalg::solvers::Solve;
 use frictionsim::case::Case;
 use frictionsim::linalg::{Mat, c64};
 use frictionsim::results::matrices::{ExportedSystem, MatrixRole};
@@ -151,6 +152,29 @@ fn sums(system: &ExportedSystem) -> [Mat<f64>; 4] {
     sums
 }
 
+/// An eigenvalue of `T(lambda) = lambda^2 M + lambda C + K + i H` by Newton's method on one pair, from nearby: a decomposition
+/// loses digits of slow modes beside fast ones, this does not.
+fn polished([mass, damping, stiffness, losses]: &[Mat<f64>; 4], start: c64) -> c64 {
+    let size = mass.nrows();
+    let (mut own, mut shape) = (start, Mat::<c64>::from_fn(size, 1, |i, _| c64::cis(i as f64)));
+    for round in 0..8 {
+        let at = |i: usize, j: usize| {
+            let elastic = c64::new(stiffness[(i, j)], losses[(i, j)]);
+            own * own * mass[(i, j)] + own * damping[(i, j)] + elastic
+        };
+        let slope =
+            Mat::<c64>::from_fn(size, size, |i, j| own * (2.0 * mass[(i, j)]) + damping[(i, j)]);
+        let next = Mat::<c64>::from_fn(size, size, at).partial_piv_lu().solve(&slope * &shape);
+        // The first rounds turn the shape, the others move the eigenvalue.
+        if round > 2 {
+            let share = (0..size).map(|i| shape[(i, 0)].conj() * next[(i, 0)]).sum::<c64>();
+            own -= c64::new(1.0, 0.0) / share;
+        }
+        shape = &next * faer::Scale(c64::new(next.norm_l2().recip(), 0.0));
+    }
+    own
+}
+
 /// Below which the analysis promises every mode: damping over critical damping.
 const PROMISED: f64 = 0.5;
 
@@ -166,8 +190,8 @@ fn check(slider: &Slider) -> Result<(), TestCaseError> {
     };
     for point in &found.points {
         let friction = point.friction_coefficient;
-        let [mass, damping, stiffness, losses] = sums(&matrices(&case, Some(friction)).unwrap());
-        let exact = lossy_eigenvalues([&mass, &damping, &stiffness, &losses]);
+        let problem = sums(&matrices(&case, Some(friction)).unwrap());
+        let exact = lossy_eigenvalues(problem.each_ref());
         // The decomposition leaves a few roundings of the largest square.
         let largest = exact.iter().map(|own| own.norm_sqr()).fold(0.0, f64::max);
         let tolerance = |own: c64| 1e-7 * own.norm() + 1e3 * f64::EPSILON * largest / own.norm();
@@ -176,8 +200,11 @@ fn check(slider: &Slider) -> Result<(), TestCaseError> {
             all.iter().map(|other| (other - own).norm()).fold(f64::INFINITY, f64::min)
         };
         for own in &listed {
-            let error = nearest(*own, &exact);
-            prop_assert!(error <= tolerance(*own), "{own} at friction {friction}: {error:e} off");
+            let error = match nearest(*own, &exact) {
+                error if error <= tolerance(*own) => continue,
+                _ => (polished(&problem, *own) - own).norm(),
+            };
+            prop_assert!(error <= 1e-7 * own.norm(), "{own} at friction {friction}: {error:e} off");
         }
         for mode in &point.modes {
             prop_assert!(mode.residual <= 1e-9, "residual {:e}", mode.residual);
