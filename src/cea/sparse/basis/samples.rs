@@ -54,6 +54,16 @@ impl BasisBuilder<'_> {
         self.rigid + self.count
     }
 
+    /// Begins the sample at `mu`, anew, with the rigid motions: in a span without them, what corrections have of them looks like modes.
+    fn begin_sample(&mut self, mu: f64) {
+        self.model.drop_sample(mu);
+        self.sampled.retain(|held| *held != mu);
+        self.sampled.push(mu);
+        if self.rigid > 0 {
+            self.model.hold_coordinates(mu, Mat::identity(self.model.dimension(), self.rigid));
+        }
+    }
+
     /// Branches begin without friction: the modes there, without damping too, are near enough, or those of proportional damping.
     pub(super) fn hold_frictionless(&mut self) {
         let modes = Mat::identity(self.model.dimension(), self.leading_count());
@@ -72,7 +82,7 @@ impl BasisBuilder<'_> {
             _ if !self.is_sampling => Ok(self.refine_at(mu)?.is_some()),
             _ if self.sampled.contains(&mu) => self.refine_sample(mu),
             Linearization::Reduced(..) => {
-                self.sampled.push(mu);
+                self.begin_sample(mu);
                 let vectors =
                     self.step(mu, |builder| builder.dominant_vectors(mu, builder.leading_count()))?;
                 let has_grown = self.model.extend(vectors.clone(), SAMPLE_TOLERANCE).ncols() > 0;
@@ -80,7 +90,7 @@ impl BasisBuilder<'_> {
                 Ok(has_grown)
             }
             Linearization::Companion { .. } => {
-                self.sampled.push(mu);
+                self.begin_sample(mu);
                 if self.may_decompose() {
                     return self.sample_densely(mu);
                 }
@@ -170,7 +180,7 @@ impl BasisBuilder<'_> {
     /// Lets `modes` stand for a sample at `mu`, if there is none and the basis is made of samples.
     pub fn take_up(&mut self, mu: f64, modes: &[ReducedMode]) {
         if self.is_sampling && !self.sampled.contains(&mu) {
-            self.sampled.push(mu);
+            self.begin_sample(mu);
             self.model.hold_coordinates(mu, self.leading(modes));
         }
     }
@@ -225,7 +235,7 @@ impl BasisBuilder<'_> {
     /// Lets the `modes` found in the sample at `mu`, if there is one, stand for it: corrections made it wider than they need.
     pub fn hold_solved(&mut self, mu: f64, modes: &[ReducedMode]) {
         if self.sampled.contains(&mu) && modes.len() >= self.count {
-            self.model.drop_sample(mu);
+            self.begin_sample(mu);
             self.model.hold_coordinates(mu, self.leading(modes));
         }
     }
