@@ -90,21 +90,6 @@ pub enum CeaError {
         /// Largest margin tried.
         margin: f64,
     },
-    /// An eigenpair stays above the residual bound.
-    #[error(
-        "at friction coefficient {friction_coefficient} the mode at {frequency_hz:.1} Hz keeps a \
-         relative residual of {residual:.1e}, the bound is {bound:.0e}: not converged"
-    )]
-    NotConverged {
-        /// Friction coefficient.
-        friction_coefficient: f64,
-        /// Frequency of the mode, Hz.
-        frequency_hz: f64,
-        /// Its residual.
-        residual: f64,
-        /// Largest residual accepted.
-        bound: f64,
-    },
     /// A mode whose frequency a table of modulus over frequency does not hold.
     #[error(
         "{key} = \"{file}\" holds {low} to {high} Hz, and at friction coefficient {friction_coefficient} a mode lies at \

@@ -4,6 +4,10 @@ use super::UnstableInterval;
 use super::branch::{BranchPoint, Cubic};
 use std::f64::consts::TAU;
 
+/// Growth relative to `|lambda|` at a change of sign above which the branch jumps there: another one was taken for it, and nothing
+/// crosses zero.
+const JUMP: f64 = 1e-3;
+
 /// Solves for one branch between friction coefficients at which it is known.
 pub(super) trait BranchSolver {
     /// The branch at one friction coefficient, with whatever the solver needs to find it nearby.
@@ -33,7 +37,7 @@ pub(super) trait BranchSolver {
 pub(super) struct Instability<S> {
     pub onset: S,
     pub restabilized: Option<S>,
-    /// Whether it grows from the first state on.
+    /// Whether it grows from the first state on, or from one on that it jumped to.
     pub from_start: bool,
 }
 
@@ -84,11 +88,11 @@ pub(super) fn instabilities<B: BranchSolver>(
             if search.is_growing(&end) != was_growing {
                 let root = search.root(&start, &end)?;
                 match found.last_mut().filter(|_| was_growing) {
-                    Some(open) => open.restabilized = Some(root),
+                    Some(open) => open.restabilized = root,
                     None => found.push(Instability {
-                        onset: root,
+                        from_start: root.is_none(),
+                        onset: root.unwrap_or_else(|| end.clone()),
                         restabilized: None,
-                        from_start: false,
                     }),
                 }
                 was_growing = !was_growing;
@@ -163,8 +167,8 @@ impl<B: BranchSolver> Search<'_, B> {
     }
 
     /// Root of `Re(lambda)` between states of opposite sign: Newton steps on the branch, kept inside the
-    /// bracket, from the root of the cubic.
-    fn root(&mut self, start: &B::State, end: &B::State) -> Result<B::State, B::Error> {
+    /// bracket, from the root of the cubic; nothing where it jumps across zero.
+    fn root(&mut self, start: &B::State, end: &B::State) -> Result<Option<B::State>, B::Error> {
         let (first, last) = (self.solver.point(start), self.solver.point(end));
         let cubic = Cubic::between(&first, &last);
         let (mut low, mut high) = (start.clone(), end.clone());
@@ -195,6 +199,8 @@ impl<B: BranchSolver> Search<'_, B> {
             }
             friction = next;
         }
-        Ok(best)
+        let point = self.solver.point(&best);
+        let has_root = Self::growth(&point).abs() <= JUMP * point.eigenvalue.norm();
+        Ok(has_root.then_some(best))
     }
 }

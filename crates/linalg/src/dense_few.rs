@@ -2,7 +2,7 @@
 
 use super::dense::product;
 use super::dense_eigen::RealEigen;
-use super::{BlockOperator, KrylovSchurSettings, Wanted, krylov_schur};
+use super::{BlockOperator, KrylovSchurSettings, krylov_schur};
 use faer::{Mat, MatRef};
 
 /// How many times as many rows as eigenvalues are wanted a matrix has from which on an iteration is cheaper than the whole
@@ -19,12 +19,12 @@ pub fn few_eigenvalues(matrix: &Mat<f64>, leading: usize) -> Option<RealEigen> {
         return None;
     }
     let settings = KrylovSchurSettings {
-        wanted: Wanted::Largest(leading),
+        wanted: leading,
         tolerance: FEW_TOLERANCE,
         block: FEW_BLOCK,
         max_applications: 20 * leading,
     };
-    let found = krylov_schur(&DenseOperator(matrix), None, &settings).ok()?;
+    let found = krylov_schur(&DenseOperator(matrix), &settings).ok()?;
     Some(RealEigen { values: found.values, right: found.vectors, left: None })
 }
 

@@ -17,23 +17,14 @@ pub trait BlockOperator {
     fn apply(&self, x: MatRef<'_, f64>) -> Mat<f64>;
 }
 
-/// Which eigenvalues an iteration must find, largest modulus first.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Wanted {
-    /// This many, one more where it would split a conjugate pair.
-    Largest(usize),
-    /// All of at least this modulus; the iteration also converges one below, as a witness.
-    ModulusAtLeast(f64),
-}
-
 /// Settings of [`krylov_schur`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KrylovSchurSettings {
-    /// Eigenvalues wanted.
-    pub wanted: Wanted,
+    /// Eigenvalues wanted, largest modulus first; one more where their number would split a conjugate pair.
+    pub wanted: usize,
     /// Bound on `|S x - theta x| / |theta x|`.
     pub tolerance: f64,
-    /// Width of a random start block, where no start is given.
+    /// Width of the random start block.
     pub block: usize,
     /// Operator applications (in vectors) after which the iteration gives up.
     pub max_applications: usize,
@@ -58,9 +49,8 @@ pub struct RealPairs {
 /// Eigenvalues of largest modulus of `S`, with vectors.
 ///
 /// Block Arnoldi, `S Q = Q H + Q' B`, with thick restarts; the vectors returned are one application of
-/// `S` further than the Ritz vectors, which damps what the operator damps. The start is a block of
-/// approximate eigenvectors of any width, or (`None`) pseudo-random and always the same. Complete up to
-/// the multiplicity that the block width resolves at once; a multiple eigenvalue beyond it converges
+/// `S` further than the Ritz vectors, which damps what the operator damps. The start is
+/// pseudo-random and always the same. Complete up to the multiplicity that the block width resolves at once; a multiple eigenvalue beyond it converges
 /// later, through round-off.
 ///
 /// # Errors
@@ -71,60 +61,45 @@ pub struct RealPairs {
 /// vectors.
 pub fn krylov_schur(
     operator: &dyn BlockOperator,
-    start: Option<MatRef<'_, f64>>,
     settings: &KrylovSchurSettings,
 ) -> Result<RealPairs, LinalgError> {
     let n = operator.dimension();
-    let seed = match start {
-        Some(columns) => columns.to_owned(),
-        None => random_columns(n, settings.block.min(n), 0x5eed),
-    };
-    if let Wanted::Largest(count) = settings.wanted
-        && 2 * count + 8 * seed.ncols() >= n
-    {
-        return whole(operator, count, settings);
+    let (count, seed) = (settings.wanted, random_columns(n, settings.block.min(n), 0x5eed));
+    if 2 * count + 8 * seed.ncols() >= n {
+        return whole(operator, count);
     }
     let mut process = BlockArnoldi::new(operator, seed);
     let mut looked_at = 0;
     loop {
         interruption::check();
         process.expand();
-        let too_small =
-            matches!(settings.wanted, Wanted::Largest(count) if process.dimension() < count.min(n));
+        let too_small = process.dimension() < count;
         // A dense decomposition costs as much as many applications: look when the basis has grown by a tenth.
         let too_early = 10 * process.dimension() < 11 * looked_at;
         if (too_small || too_early) && !process.is_exhausted() {
             continue;
         }
         looked_at = process.dimension();
-        let leading = match settings.wanted {
-            Wanted::Largest(count) => count,
-            Wanted::ModulusAtLeast(_) => usize::MAX,
-        };
-        let eigen = real_eigen(process.projection.as_ref(), false, leading)?;
+        let eigen = real_eigen(process.projection.as_ref(), false, count)?;
         let order = by_modulus(&eigen.values);
         let residuals = process.ritz_residuals(&eigen);
-        let wanted = wanted_count(&eigen, &order, settings.wanted, process.is_exhausted(), n);
-        let converged = order
-            .iter()
-            .take(wanted.unwrap_or(usize::MAX))
-            .filter(|&&i| residuals[i] <= settings.tolerance)
-            .count();
-        if wanted.is_some_and(|count| converged >= count) || process.is_exhausted() {
-            let count = wanted.unwrap_or(eigen.values.len());
-            return process.finish(&eigen, &order[..count], settings);
+        let wanted = wanted_count(&eigen, &order, count);
+        let is_converged = |i: &&usize| residuals[**i] <= settings.tolerance;
+        let converged = order[..wanted].iter().filter(is_converged).count();
+        if converged == wanted || process.is_exhausted() {
+            return process.finish(&eigen, &order[..wanted], settings);
         }
         if process.applications >= settings.max_applications {
             return Err(LinalgError::NotConverged {
                 converged,
-                wanted: wanted.unwrap_or(order.len()),
+                wanted,
                 tolerance: settings.tolerance,
                 applications: process.applications,
             });
         }
-        let target = wanted.unwrap_or(order.len()).max(process.width());
+        let target = wanted.max(process.width());
         let limit = 2 * target + 8 * process.width();
-        if process.dimension() + process.width() > limit.min(n) && wanted.is_some() {
+        if process.dimension() + process.width() > limit.min(n) {
             let keep = target + (process.dimension() - target) / 3;
             process.restart(&eigen, &order[..keep.min(order.len())]);
             looked_at = process.dimension();
@@ -134,16 +109,12 @@ pub fn krylov_schur(
 
 /// The `count` largest pairs of a small operator by a dense decomposition: a basis of twice their number would be nearly all of
 /// its space.
-fn whole(
-    operator: &dyn BlockOperator,
-    count: usize,
-    settings: &KrylovSchurSettings,
-) -> Result<RealPairs, LinalgError> {
+fn whole(operator: &dyn BlockOperator, count: usize) -> Result<RealPairs, LinalgError> {
     let n = operator.dimension();
     let matrix = operator.apply(Mat::identity(n, n).as_ref());
     let eigen = real_eigen(matrix.as_ref(), false, count)?;
     let order = by_modulus(&eigen.values);
-    let own = wanted_count(&eigen, &order, settings.wanted, true, n).unwrap_or(order.len());
+    let own = wanted_count(&eigen, &order, count);
     let chosen = &order[..own];
     let values: Vec<c64> = chosen.iter().map(|&i| eigen.values[i]).collect();
     let ritz = Mat::from_fn(n, own, |i, j| eigen.right[(i, chosen[j])]);
@@ -161,27 +132,11 @@ fn by_modulus(values: &[c64]) -> Vec<usize> {
     order
 }
 
-/// How many leading eigenvalues are wanted; `None` while the basis is too small to tell.
-fn wanted_count(
-    eigen: &RealEigen,
-    order: &[usize],
-    wanted: Wanted,
-    is_exhausted: bool,
-    dimension: usize,
-) -> Option<usize> {
-    let available = order.len();
-    let count = match wanted {
-        Wanted::Largest(count) => count.min(dimension),
-        Wanted::ModulusAtLeast(bound) => {
-            let inside = order.iter().take_while(|&&i| eigen.values[i].norm() >= bound).count();
-            if is_exhausted { inside } else { inside + 1 }
-        }
-    };
-    if count > available {
-        return is_exhausted.then_some(available);
-    }
+/// How many leading eigenvalues are wanted, of those that there are.
+fn wanted_count(eigen: &RealEigen, order: &[usize], count: usize) -> usize {
+    let count = count.min(order.len());
     let splits_pair = count > 0 && eigen.values[order[count - 1]].im > 0.0;
-    Some(if splits_pair { count + 1 } else { count })
+    count + usize::from(splits_pair)
 }
 
 /// `S Q = Q H + Q' B` with `[Q Q']` orthonormal.

@@ -19,7 +19,6 @@ mod pattern;
 mod polynomial;
 mod quadratic_krylov;
 mod sparse_cholesky;
-mod sparse_determinant;
 mod sparse_ldl;
 mod sparse_lu;
 mod sparse_product;
@@ -31,7 +30,7 @@ pub use distribution::Distribution;
 pub use error::LinalgError;
 pub use gaussian_noise::GaussianNoise;
 pub use gmres::gmres;
-pub use krylov_schur::{BlockOperator, KrylovSchurSettings, RealPairs, Wanted, krylov_schur};
+pub use krylov_schur::{BlockOperator, KrylovSchurSettings, RealPairs, krylov_schur};
 pub use lanczos::{LanczosPairs, LanczosSettings, SymmetricPencil, block_lanczos};
 pub use pattern::SparsityPattern;
 pub use polynomial::{FrictionWeights, MatrixPolynomial};
@@ -40,6 +39,5 @@ pub use quadratic_krylov::{
     quadratic_krylov,
 };
 pub use sparse_cholesky::SparseCholesky;
-pub use sparse_determinant::DeterminantAnalysis;
 pub use sparse_ldl::{LdlAnalysis, SparseLdl};
 pub use sparse_lu::{ComplexSparseLu, LuAnalysis, SparseLu};

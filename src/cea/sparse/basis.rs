@@ -15,7 +15,7 @@ use crate::linalg::dense::{
     column, column_mut, column_norms, columns_of, dot, from_columns, join_columns,
     orthonormal_complement, random_columns,
 };
-use crate::linalg::{KrylovSchurSettings, LinalgError, MatrixPolynomial, Wanted, krylov_schur};
+use crate::linalg::{KrylovSchurSettings, LinalgError, MatrixPolynomial, krylov_schur};
 use crate::linalg::{Mat, Scale};
 use crate::prestress::SlidingTangent;
 use std::borrow::Cow;
@@ -303,12 +303,12 @@ impl<'a> BasisBuilder<'a> {
         let factors = StiffnessFactors::general(&self.stiffness, &self.cache, mu)?;
         let operator = ShiftInverted { matrices: &matrices, factors: &factors };
         let settings = KrylovSchurSettings {
-            wanted: Wanted::Largest(wanted),
+            wanted,
             tolerance: 1e-11,
             block: SEARCH_WIDTH,
             max_applications: 100 * (wanted + 20),
         };
-        let mut vectors = krylov_schur(&operator, None, &settings)?.vectors;
+        let mut vectors = krylov_schur(&operator, &settings)?.vectors;
         vectors.truncate(unknowns, wanted);
         Ok(vectors)
     }

@@ -1,7 +1,7 @@
 //! Eigenvalues in a part of the upper half plane, counted by the argument principle.
 
 use crate::cea::{CeaError, CountedRegion};
-use crate::linalg::{DeterminantAnalysis, LinalgError, c64};
+use crate::linalg::{LinalgError, LuAnalysis, c64};
 use crate::prestress::SlidingTangent;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
@@ -41,7 +41,7 @@ pub struct Winding {
 /// section 4.5.2.
 pub struct ModeCounter<'a> {
     tangent: &'a SlidingTangent,
-    analysis: DeterminantAnalysis,
+    analysis: LuAnalysis,
 }
 
 impl<'a> ModeCounter<'a> {
@@ -53,7 +53,7 @@ impl<'a> ModeCounter<'a> {
         if let Some(part) = tangent.tabled.first() {
             return Err(CeaError::Uncountable { key: part.gain.table.key().to_owned() });
         }
-        Ok(Self { tangent, analysis: DeterminantAnalysis::new(tangent.stiffness.pattern())? })
+        Ok(Self { tangent, analysis: LuAnalysis::new(tangent.stiffness.pattern())? })
     }
 
     /// `ln det T(lambda; mu)`, up to multiples of `2 pi i`.
@@ -113,7 +113,7 @@ fn corners(region: &CountedRegion) -> [c64; 4] {
 
 /// `det T` at one friction coefficient without the factors of the known eigenvalues.
 struct Reduced<'a> {
-    analysis: &'a DeterminantAnalysis,
+    analysis: &'a LuAnalysis,
     stiffness: Vec<c64>,
     damping: Vec<f64>,
     mass: Vec<f64>,

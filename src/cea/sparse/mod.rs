@@ -6,8 +6,8 @@
 //!    grows by residuals; otherwise it takes up the modes at a few friction coefficients, each from a Krylov iteration
 //!    on the quadratic problem ([`crate::linalg::quadratic_krylov`]), chosen where residuals are largest.
 //! 3. [`PointSolver`]: the projected problem at each friction coefficient, in parallel; every mode is
-//!    held to its residual in the full matrices, and the basis grows where one fails; the few that corrections reach slowly are
-//!    found one by one, by inverse iteration in the full problem ([`FullProblem`]).
+//!    held to its residual in the full matrices. Where one fails a ladder is climbed: corrections by the factors without friction, then
+//!    by factors of the full problem beside the modes ([`FullProblem`]); strongly damped motions that fail then take no places.
 //! 4. [`track`]: branches continued from `mu = 0`, so that none is lost on the way.
 //! 5. [`ModeCounter`], where asked for: eigenvalues counted by the argument principle.
 //! 6. [`OnsetFinder`]: critical friction coefficients by root finding on the branches.

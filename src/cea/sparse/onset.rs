@@ -7,9 +7,8 @@ use super::packed::ComplexColumns;
 use super::point::{PointSolver, SolvedPoint};
 use super::reduced::ReducedModel;
 use crate::cea::onset::{BranchSolver, Instability, instabilities};
-use crate::cea::{BranchPoint, CeaError, UnstableInterval};
+use crate::cea::{BranchPoint, UnstableInterval};
 use crate::linalg::LinalgError;
-use std::f64::consts::TAU;
 
 /// Newton's steps to a crossing that is nearly known; two or three do.
 const CROSSING_STEPS: usize = 8;
@@ -40,16 +39,10 @@ impl FoundInterval {
         (!self.found.from_start).then_some(&self.found.onset)
     }
 
-    /// What is wrong with the mode at its onset, if that misses the bound of converged pairs. A branch that is unstable from the start may
-    /// come from beyond the wanted modes, whose points are checked: nothing was located there.
-    pub fn miss(&self) -> Option<CeaError> {
-        let is_met = self.residual <= RESIDUAL_BOUND || self.found.from_start;
-        (!is_met).then(|| CeaError::NotConverged {
-            friction_coefficient: self.found.onset.mu,
-            frequency_hz: self.found.onset.mode.eigenvalue.im / TAU,
-            residual: self.residual,
-            bound: RESIDUAL_BOUND,
-        })
+    /// The mode at its onset, if that misses the bound of converged pairs. A branch that is unstable from the start may come from beyond
+    /// the wanted modes, whose points are checked: nothing was located there.
+    pub fn missed(&self) -> Option<&State> {
+        self.onset().filter(|_| !(self.residual <= RESIDUAL_BOUND))
     }
 
     /// Modes at its ends that lie within the range.

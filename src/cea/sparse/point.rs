@@ -140,22 +140,26 @@ pub struct PointSolver<'a> {
     pub limit: ModeLimit,
     /// Modes tracked.
     pub count: usize,
-    /// Whether motions near critical damping that have not converged are left out: combinations of what the basis does not hold.
-    pub leaves_out: bool,
 }
 
 impl PointSolver<'_> {
     /// Solves the projected problem at `mu` and checks its modes in the full matrices. Left vectors are coarse ones, until
-    /// [`SolvedPoint::refine_lefts`].
+    /// [`SolvedPoint::refine_lefts`]. With `leaves_out` motions near critical damping that have not converged take no places:
+    /// combinations of what the basis does not hold.
     ///
     /// # Errors
     /// If a dense decomposition fails.
-    pub fn solve(&self, model: &ReducedModel, mu: f64) -> Result<SolvedPoint, LinalgError> {
+    pub fn solve(
+        &self,
+        model: &ReducedModel,
+        mu: f64,
+        leaves_out: bool,
+    ) -> Result<SolvedPoint, LinalgError> {
         let mut modes = model.solve_with_coarse_lefts(mu, self.count + TRACKING_MARGIN)?;
         let frequencies = |modes: &[ReducedMode]| -> Vec<f64> {
             modes.iter().map(|mode| mode.eigenvalue.im).collect()
         };
-        if self.leaves_out {
+        if leaves_out {
             let checks = self.check(model, mu, &modes);
             let mut converged = checks.iter().map(|check| check.residual <= RESIDUAL_BOUND);
             modes.retain(|mode| converged.next() == Some(true) || !mode.is_nearly_critical());

@@ -1,7 +1,7 @@
 //! The stages of a sweep.
 
 mod counts;
-mod repair;
+mod ladder;
 mod results;
 
 use super::basis::BasisBuilder;
@@ -17,7 +17,6 @@ use crate::cea::{
 use crate::linalg::LinalgError;
 use crate::prestress::SlidingTangent;
 use rayon::prelude::*;
-use repair::Repairs;
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -28,8 +27,6 @@ const MIN_SAMPLES: usize = 6;
 const FEW_VALUES: usize = 6;
 /// Change of a critical friction coefficient below which its mode needs no more corrections.
 const SETTLED: f64 = 1e-10;
-/// Attempts to improve points that miss the goal.
-const MAX_REPAIRS: usize = 8;
 /// Highest modes that stiffness which depends on frequency is referred to, one after the other.
 const MAX_REFERENCES: usize = 4;
 /// Relative change of their frequency that is none.
@@ -106,13 +103,11 @@ pub struct SparseSweep<'a> {
     /// Smallest friction coefficient asked for.
     lowest: f64,
     points: Vec<SolvedPoint>,
-    /// Whether motions near critical damping that do not converge are left out.
-    leaves_out: bool,
+    /// Points where motions near critical damping that do not converge are left out.
+    leaves_out: Vec<bool>,
     /// Friction coefficient and frequency (rad/s) of the modes that did not converge, which are not listed.
     unconverged: Vec<(f64, f64)>,
     labels: Vec<BranchLabel>,
-    /// What was done to each point.
-    repairs: Vec<Repairs>,
     watch: &'a dyn SweepWatch,
 }
 
@@ -150,10 +145,9 @@ impl<'a> SparseSweep<'a> {
             grid,
             lowest,
             points: Vec::new(),
-            leaves_out: false,
+            leaves_out: Vec::new(),
             unconverged: Vec::new(),
             labels: Vec::new(),
-            repairs: Vec::new(),
             watch,
         })
     }
@@ -202,6 +196,7 @@ impl<'a> SparseSweep<'a> {
     pub fn solve(&mut self) -> Result<(), CeaError> {
         let all: Vec<usize> = (0..self.grid.len()).collect();
         if self.points.is_empty() {
+            self.leaves_out = vec![false; all.len()];
             self.points = self.solve_points(&all)?;
         } else {
             let is_stale = |k: &usize| {
@@ -211,14 +206,7 @@ impl<'a> SparseSweep<'a> {
             let stale: Vec<usize> = all.iter().copied().filter(is_stale).collect();
             self.solve_anew(&stale)?;
         }
-        self.repair_all()?;
-        if !self.leaves_out && self.open_points().next().is_some() {
-            // What no repair makes converge may be no mode.
-            self.leaves_out = true;
-            self.solve_anew(&all)?;
-            self.repair_all()?;
-        }
-        self.converge_rest()?;
+        self.climb_all()?;
         self.check_tables()?;
         let first = self.first_asked();
         self.unconverged.clear();
@@ -250,7 +238,7 @@ impl<'a> SparseSweep<'a> {
         indices
             .par_iter()
             .map(|&k| {
-                let point = self.solve_point(self.grid[k]);
+                let point = self.solve_point(k);
                 self.watch.reached(SweepProgress {
                     stage: SweepStage::Values,
                     solved: solved.fetch_add(1, Ordering::Relaxed) + 1,
@@ -261,16 +249,17 @@ impl<'a> SparseSweep<'a> {
             .collect()
     }
 
-    /// The point at `mu` in the basis as it is, or what an earlier run of the same sweep found there.
-    fn solve_point(&self, mu: f64) -> Result<SolvedPoint, LinalgError> {
-        let stage = if self.leaves_out { "-left-out" } else { "" };
+    /// Point `k` in the basis as it is, or what an earlier run of the same sweep found there.
+    fn solve_point(&self, k: usize) -> Result<SolvedPoint, LinalgError> {
+        let (mu, leaves_out) = (self.grid[k], self.leaves_out[k]);
+        let stage = if leaves_out { "-left-out" } else { "" };
         let name = format!("value-{:04}-{mu:?}{stage}", self.builder.steps());
         let kept = self.watch.recall(&name);
         if let Some(mut point) = kept.and_then(|kept| SolvedPoint::from_columns(mu, &kept)) {
             point.solved_in = self.builder.model.sample_width(mu);
             return Ok(point);
         }
-        let point = self.point_solver().solve(&self.builder.model, mu)?;
+        let point = self.point_solver().solve(&self.builder.model, mu, leaves_out)?;
         self.watch.keep(&name, &point.to_columns());
         Ok(point)
     }
@@ -282,27 +271,7 @@ impl<'a> SparseSweep<'a> {
             edge: &self.edge,
             limit: self.limit,
             count: self.builder.count,
-            leaves_out: self.leaves_out,
         }
-    }
-
-    /// Points asked for with a wanted mode that has not converged.
-    fn open_points(&self) -> impl Iterator<Item = usize> {
-        let asked = self.first_asked()..self.grid.len();
-        asked.filter(|&k| !(self.points[k].worst().0 <= RESIDUAL_BOUND))
-    }
-
-    /// Finds modes that no repair made converge one by one in the full problem, whatever that costs.
-    fn converge_rest(&mut self) -> Result<(), CeaError> {
-        let open: Vec<usize> = self.open_points().collect();
-        if !self.tangent.tabled.is_empty() || open.is_empty() {
-            return Ok(());
-        }
-        for &k in &open {
-            self.converge(k)?;
-        }
-        self.solve_anew(&open)?;
-        Ok(())
     }
 
     /// Refuses modes whose stiffness follows from a table that does not reach them, or that changes too fast for them.

@@ -5,19 +5,21 @@ use super::{
     VECTOR_TOLERANCE, turn_to_real,
 };
 use crate::cea::CeaError;
-use crate::cea::sparse::TRACKING_MARGIN;
 use crate::cea::sparse::factors::StiffnessFactors;
 use crate::cea::sparse::full_problem::FullProblem;
 use crate::cea::sparse::linearization::Linearization;
 use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::sparse::packed::PackedModes;
 use crate::cea::sparse::structure::{Companion, StructureMatrices};
-use crate::linalg::dense::{column, column_mut, column_norms, random_columns};
+use crate::cea::sparse::{GROUP_WIDTH, TRACKING_MARGIN};
+use crate::linalg::dense::{column_mut, column_norms, random_columns};
 use crate::linalg::{LinalgError, Mat, QuadraticKrylovSettings, c64, quadratic_krylov};
 use rayon::prelude::*;
 
-/// Unknowns up to which modes get complex factors of their own: those of larger bodies may cost more than iterations for all modes.
-const MOST_UNKNOWNS: usize = 5000;
+/// Complex factors of one round of corrections: more of them cost more than the rounds that they save.
+const MOST_SHIFTS: usize = 6;
+/// Distance of such factors from an eigenvalue, relative to it: far above its error, far below its distance from other modes.
+const BESIDE: f64 = 1e-3;
 /// Refinements of lossy modes whose corrections are kept beside the modes: with none of them convergence is slow and uneven.
 const HISTORY: usize = 3;
 /// Unknowns up to which lossy modes come from one decomposition, of twice that size: one or two seconds for each friction value.
@@ -52,6 +54,16 @@ impl BasisBuilder<'_> {
         self.rigid + self.count
     }
 
+    /// Begins the sample at `mu`, anew, with the rigid motions: in a span without them, what corrections have of them looks like modes.
+    fn begin_sample(&mut self, mu: f64) {
+        self.model.drop_sample(mu);
+        self.sampled.retain(|held| *held != mu);
+        self.sampled.push(mu);
+        if self.rigid > 0 {
+            self.model.hold_coordinates(mu, Mat::identity(self.model.dimension(), self.rigid));
+        }
+    }
+
     /// Branches begin without friction: the modes there, without damping too, are near enough, or those of proportional damping.
     pub(super) fn hold_frictionless(&mut self) {
         let modes = Mat::identity(self.model.dimension(), self.leading_count());
@@ -70,7 +82,7 @@ impl BasisBuilder<'_> {
             _ if !self.is_sampling => Ok(self.refine_at(mu)?.is_some()),
             _ if self.sampled.contains(&mu) => self.refine_sample(mu),
             Linearization::Reduced(..) => {
-                self.sampled.push(mu);
+                self.begin_sample(mu);
                 let vectors =
                     self.step(mu, |builder| builder.dominant_vectors(mu, builder.leading_count()))?;
                 let has_grown = self.model.extend(vectors.clone(), SAMPLE_TOLERANCE).ncols() > 0;
@@ -78,7 +90,7 @@ impl BasisBuilder<'_> {
                 Ok(has_grown)
             }
             Linearization::Companion { .. } => {
-                self.sampled.push(mu);
+                self.begin_sample(mu);
                 if self.may_decompose() {
                     return self.sample_densely(mu);
                 }
@@ -161,52 +173,69 @@ impl BasisBuilder<'_> {
     /// # Errors
     /// If a dense decomposition fails.
     pub fn correct_at(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
-        if !self.sampled.contains(&mu) {
-            self.sampled.push(mu);
-            self.model.hold_coordinates(mu, self.leading(modes));
-        }
+        self.take_up(mu, modes);
         self.refine_sample(mu)
     }
 
-    /// Takes up those of the full problem at the sampled `mu` that a few `modes` are near, each by inverse iteration: corrections by the
-    /// stiffness without friction converge slowly to a mode that friction damps strongly. Whether the basis grew.
+    /// Lets `modes` stand for a sample at `mu`, if there is none and the basis is made of samples.
+    pub fn take_up(&mut self, mu: f64, modes: &[ReducedMode]) {
+        if self.is_sampling && !self.sampled.contains(&mu) {
+            self.begin_sample(mu);
+            self.model.hold_coordinates(mu, self.leading(modes));
+        }
+    }
+
+    /// Corrects `modes`, nearly those at `mu`, by the full problem there, `t = T(sigma)^-1 T(lambda) x`; whether the basis grew.
+    ///
+    /// What `x` has of another mode, with the eigenvalue `nu`, a correction takes away down to `|sigma - lambda| / |sigma - nu|`: factors
+    /// that hold friction, damping, losses and tables, and lie beside the mode, leave a hundredth or less.
     ///
     /// # Errors
     /// If the analysis of the matrices fails.
-    pub fn converge_at(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
-        let vectors = self.step(mu, |builder| {
-            let problem = FullProblem::at(builder.tangent, mu)?;
-            let found = modes.par_iter().filter_map(|mode| {
-                let part = |of: fn(&c64) -> f64| {
-                    let own = Mat::from_fn(mode.right.len(), 1, |i, _| of(&mode.right[i]));
-                    builder.model.expand(own.as_ref())
-                };
-                let (re, im) = (part(|v| v.re), part(|v| v.im));
-                let parts = column(re.as_ref(), 0).iter().zip(column(im.as_ref(), 0));
-                let start = parts.map(|(re, im)| c64::new(*re, *im)).collect();
-                problem.mode_near(mode.eigenvalue, start)
-            });
-            let found: Vec<Vec<c64>> = found.map(|(_, vector)| vector).collect();
-            Ok::<_, CeaError>(real_columns(problem.dimension(), &found))
-        })?;
+    pub fn shift(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
+        let vectors = self.step(mu, |builder| builder.shifted_corrections(mu, modes))?;
         let has_grown = self.model.extend(vectors.clone(), SAMPLE_TOLERANCE).ncols() > 0;
-        self.model.hold_sample(mu, &vectors);
+        if self.sampled.contains(&mu) {
+            self.model.hold_sample(mu, &vectors);
+        }
         Ok(has_grown)
     }
 
-    /// Whether the basis is made of samples with one at `mu`, of a problem whose single modes can be found by themselves and at little
-    /// cost.
-    pub fn can_converge_at(&self, mu: f64) -> bool {
-        let is_general = matches!(self.linearization, Linearization::Companion { .. });
-        let is_small = self.tangent.stiffness.dimension() <= MOST_UNKNOWNS;
-        let is_apt = is_general && self.tangent.tabled.is_empty() && is_small;
-        is_apt && self.sampled.contains(&mu)
+    /// The corrections of [`Self::shift`], two real columns each. Neighbours in frequency share factors.
+    fn shifted_corrections(&self, mu: f64, modes: &[ReducedMode]) -> Result<Mat<f64>, LinalgError> {
+        let problem = FullProblem::at(self.tangent, mu)?;
+        let unknowns = problem.dimension();
+        // Residuals in the full matrices.
+        let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
+        let packed = PackedModes::of(modes, self.model.dimension());
+        let mut open: Vec<(c64, Vec<c64>)> = Vec::with_capacity(modes.len());
+        for group in packed.groups(GROUP_WIDTH) {
+            let x = self.model.expand(packed.coordinates.get(.., group.columns.clone()));
+            let (residuals, _) = matrices.residuals_and_momenta(&group.entries, x.as_ref());
+            open.extend(group.modes.iter().map(|&j| {
+                let own = packed.vector(j, &group, &residuals);
+                (modes[j].eigenvalue, (0..unknowns).map(|i| own.at(i)).collect())
+            }));
+        }
+        open.sort_by(|a, b| a.0.im.total_cmp(&b.0.im));
+
+        // Factors beside the middle one of each group; where an eigenvalue lies just there, another round has others.
+        let share = open.len().div_ceil(MOST_SHIFTS).max(1);
+        let solved = open.par_chunks(share).filter_map(|own| {
+            let (middle, _) = own[own.len() / 2];
+            let factors = problem.factors(middle * (1.0 + BESIDE)).ok()?;
+            let mut x = Mat::from_fn(unknowns, own.len(), |i, j| own[j].1[i]);
+            factors.solve_in_place(x.as_mut());
+            Some((0..own.len()).map(|j| x.col(j).iter().copied().collect()).collect())
+        });
+        let solved: Vec<Vec<Vec<c64>>> = solved.collect();
+        Ok(real_columns(unknowns, &solved.concat()))
     }
 
     /// Lets the `modes` found in the sample at `mu`, if there is one, stand for it: corrections made it wider than they need.
     pub fn hold_solved(&mut self, mu: f64, modes: &[ReducedMode]) {
         if self.sampled.contains(&mu) && modes.len() >= self.count {
-            self.model.drop_sample(mu);
+            self.begin_sample(mu);
             self.model.hold_coordinates(mu, self.leading(modes));
         }
     }
@@ -262,8 +291,8 @@ impl BasisBuilder<'_> {
         let operator = Companion::new(&matrices, &factors, frequency_scale);
         let settings = QuadraticKrylovSettings {
             pairs: modes,
-            // Residuals tell of each mode whether it converged: those about the highest may be left to repairs.
-            least: modes.saturating_sub(TRACKING_MARGIN),
+            // Residuals tell of each mode whether it converged: the ladder takes up what is left.
+            least: 0,
             tolerance: SAMPLE_RESIDUAL,
             max_applications: 20 * (modes + 10),
             centre: centre.shift / frequency_scale,

@@ -1,6 +1,6 @@
 //! What a sweep found: points, unstable intervals, shapes.
 
-use super::{MAX_REPAIRS, SETTLED, SparseSweep};
+use super::{SETTLED, SparseSweep};
 use crate::cea::sparse::branches::{BranchLabel, TrackedBranch};
 use crate::cea::sparse::onset::{FoundInterval, OnsetFinder, State};
 use crate::cea::{CeaError, ComplexMode, FrictionPoint, FrictionSweep, SweepRequest};
@@ -8,6 +8,9 @@ use crate::cea::{EndedMode, UnconvergedMode};
 use crate::linalg::c64;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
+
+/// Rounds of corrections of the modes at crossings.
+const MOST_CORRECTIONS: usize = 8;
 
 impl SparseSweep<'_> {
     /// The result, with shapes and critical friction coefficients.
@@ -74,15 +77,12 @@ impl SparseSweep<'_> {
         ended
     }
 
-    /// Unstable intervals of all branches; where the mode at a crossing misses its residual, the basis grows there.
-    ///
-    /// Of the quadratic problem the basis holds the modes of a few friction coefficients only: the modes at crossings are
-    /// corrected until these settle, one by one. Only where that does not help are all modes computed anew there.
+    /// Unstable intervals of all branches. The basis holds the modes of a few friction coefficients only, or of all that were asked for:
+    /// the modes at crossings are corrected until these settle, one by one, and by the full problem where one misses its residual.
     fn intervals(&mut self, branches: &[TrackedBranch]) -> Result<Vec<FoundInterval>, CeaError> {
         let mut settled: Vec<f64> = Vec::new();
         let mut known: Vec<Vec<FoundInterval>> = Vec::new();
-        let mut repairs = 0;
-        loop {
+        for round in 0.. {
             let found = self.find_intervals(branches, &known)?;
             let all = || found.iter().flatten();
             let crossings = || all().flat_map(FoundInterval::crossings);
@@ -90,32 +90,27 @@ impl SparseSweep<'_> {
             let mut pairs = places.iter().zip(&settled);
             let has_settled = places.len() == settled.len()
                 && pairs.all(|(new, old)| (new - old).abs() <= SETTLED);
-            let is_spent = repairs >= MAX_REPAIRS;
+            let missed: Vec<&State> = all().filter_map(FoundInterval::missed).collect();
+            let is_spent = round == MOST_CORRECTIONS;
             let mut has_grown = false;
             if self.builder.is_sampling() && !has_settled && !is_spent {
                 for State { mu, mode } in crossings() {
                     has_grown |= self.builder.refine_mode(*mu, mode);
                 }
             }
-            if !has_grown {
-                let Some(miss) = all().find_map(FoundInterval::miss) else {
-                    return Ok(found.into_iter().flatten().collect());
-                };
-                match miss {
-                    CeaError::NotConverged { friction_coefficient, .. } if !is_spent => {
-                        self.builder.improve_at(friction_coefficient)?
-                    }
-                    error => return Err(error),
-                };
+            if !has_grown && (missed.is_empty() || is_spent) {
+                let open = missed.iter().map(|state| (state.mu, state.mode.eigenvalue.im));
+                self.unconverged.extend(open);
+                return Ok(found.into_iter().flatten().collect());
+            }
+            for State { mu, mode } in missed.iter().filter(|_| !has_grown) {
+                self.builder.shift(*mu, std::slice::from_ref(mode))?;
             }
             // What a basis that missed a crossing says about the other branches is worth no more: all are looked at again.
-            known = match all().any(|own| own.miss().is_some()) {
-                true => Vec::new(),
-                false => found,
-            };
+            known = if missed.is_empty() { found } else { Vec::new() };
             settled = places;
-            repairs += 1;
         }
+        unreachable!("rounds end")
     }
 
     /// The intervals of each branch in the basis as it is; in a basis that grew, crossings are near where they were.
