@@ -18,13 +18,13 @@ use fma_peak::fma_peak;
 use frictionsim::cea::cyclic::{SolidModel, solid_sweep};
 use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::fem::operator::{
-    AlignedVector, AssembledOperator, MotionFields, SimdLevel, StepCoefficients, StiffnessOperator,
+    AlignedVector, MotionFields, SimdLevel, SparseOperator, StepCoefficients, StiffnessOperator,
 };
 use frictionsim::fem::{ElasticMaterial, PlaneFormulation, assemble_stiffness, lumped_masses};
 use frictionsim::mesh::{ElementKind, FileMesh, Mesh, SolidSector};
 use frictionsim::transient::{
-    CentralDifference, InitialState, Observer, OperatorChoice, Perturbation, Sample,
-    SolidTransientModel, TimeStep, TransientSettings,
+    CentralDifference, InitialState, Observer, OperatorChoice, Perturbation, Sample, SteppedBody,
+    TimeStep, TransientModel, TransientSettings,
 };
 use rayon::prelude::*;
 use std::hint::black_box;
@@ -95,7 +95,7 @@ fn assembled(divisions: usize, threads: usize) {
     let stiffness = assemble_stiffness(&mesh, &STEEL);
     let masses = lumped_masses(&mesh, &STEEL);
     let masses = masses.iter().flat_map(|&mass| [mass; 3]).collect();
-    let operator = AssembledOperator::new(&stiffness, masses, Vec::new(), SimdLevel::detect());
+    let operator = SparseOperator::<3>::new(&stiffness, masses, Vec::new(), SimdLevel::detect());
     let operator = operator.expect("an operator");
     let zeros = || AlignedVector::zeros(operator.field_length());
     let mut fields = MotionFields {
@@ -139,12 +139,14 @@ fn assembled(divisions: usize, threads: usize) {
 fn step(divisions: [usize; 3], level: SimdLevel, (batches, peak): (usize, f64)) {
     let model = model::disc(ElementKind::Quad4, divisions);
     let sector = SolidSector::generate(&model.specification).expect("a valid mesh");
-    let body = SolidTransientModel {
-        sector: &sector,
-        material: &model.material,
-        damping: model.options.damping,
-        contact: model.contact,
+    let body = TransientModel {
         stiffness: model.options.contact,
+        ..TransientModel::new(
+            SteppedBody::Revolution(&sector),
+            &model.material,
+            model.options.damping,
+            model.contact,
+        )
     };
     let operator = body.operator(OperatorChoice::Auto, level);
     let operator = operator.expect("an operator");

@@ -15,12 +15,11 @@ mod two_bodies;
 
 use disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use fma_peak::fma_peak;
-use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::mesh::{AnnulusMesh, BoundaryCondition, ElementKind, Mesh, ShaftSpecification};
 use frictionsim::transient::{
-    CentralDifference, InitialState, Observer, OperatorChoice, Perturbation, Sample, TimeStep,
-    TransientModel, TransientSettings, build_operator,
+    CentralDifference, InitialState, Observer, OperatorChoice, Perturbation, Sample, SteppedBody,
+    TimeStep, TransientModel, TransientSettings,
 };
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
@@ -86,7 +85,7 @@ fn bodies(level: SimdLevel, peak: f64) {
     let of = |annulus| TransientModel::of_annulus(annulus, &POLYCARBONATE, DAMPING, contact(610.0));
     println!("\none body, nodes in pairs (cyclic, sparse), meshes that do not match");
     let each = |model: TransientModel<'_>, choice| {
-        report(model, choice, level, peak) / model.mesh.element_count() as f64
+        report(model, choice, level, peak) / model.mesh().map_or(0, Mesh::element_count) as f64
     };
     let [cyclic, sparse] = [OperatorChoice::Cyclic, OperatorChoice::Sparse];
     let alone = [cyclic, sparse].map(|choice| each(of(&one), choice));
@@ -140,20 +139,18 @@ fn irregular(annulus: &AnnulusMesh) -> Mesh {
 }
 
 fn of_mesh(mesh: &Mesh) -> TransientModel<'_> {
-    TransientModel {
-        mesh,
-        annulus: None,
-        material: &POLYCARBONATE,
-        damping: DAMPING,
-        contact: contact(610.0),
-        stiffness: ContactStiffness::default(),
-    }
+    TransientModel::new(
+        SteppedBody::Plane { mesh, annulus: None },
+        &POLYCARBONATE,
+        DAMPING,
+        contact(610.0),
+    )
 }
 
 /// Prints a row; returns the time of a step, s.
 fn report(model: TransientModel<'_>, choice: OperatorChoice, level: SimdLevel, peak: f64) -> f64 {
-    let mesh = model.mesh;
-    let operator = build_operator(&model, choice, level).expect("an operator");
+    let mesh = model.mesh().expect("a mesh");
+    let operator = model.operator(choice, level).expect("an operator");
     let sample_interval = 2e-6;
     let settings = TransientSettings {
         duration: 13.0 / mesh.node_count() as f64,

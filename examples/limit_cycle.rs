@@ -8,7 +8,7 @@ use frictionsim::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
 use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    TimeStep, TransientAnalysis, TransientModel, TransientSettings, build_operator,
+    TimeStep, TransientAnalysis, TransientModel, TransientSettings,
 };
 use std::error::Error;
 use std::f64::consts::TAU;
@@ -49,7 +49,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         initial: InitialState::Rest,
         perturbation: Perturbation::of(&harmonics, 1e-3),
     };
-    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect())?;
+    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect())?;
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings)?;
     let mut record = Recorder::new(&run, &RecorderSettings::default())?;
     run.run(&mut record)?;

@@ -7,10 +7,12 @@ use crate::linalg::FrictionWeights;
 /// Entries of one term from which on those of one place are summed at once: thousands of points share few nodes.
 const MANY_ENTRIES: usize = 1 << 18;
 
-/// The pressed points of a base state and their normal forces.
+/// A stretch of the points of a base state.
 #[derive(Clone, Copy, Debug)]
 pub struct PressedPoints<'a> {
-    /// Whether each point is pressed; the others are open.
+    /// Place of its first point among those of the state.
+    pub first: usize,
+    /// Whether each point of the state is pressed; the others are open.
     pub is_pressed: &'a [bool],
     /// Normal force `N_i(mu)` by power of `mu`, N (N/m in the plane); nothing where the state is free of stress.
     pub normal_forces: &'a [Vec<f64>],
@@ -55,7 +57,8 @@ pub fn linearized(
         let many = terms.iter_mut();
         many.filter(|term| term.entries.len() > MANY_ENTRIES).for_each(Triplets::merge);
     };
-    let pressed = || (0..points.len()).filter(|&i| state.is_pressed[i]);
+    let first = state.first;
+    let pressed = || (0..points.len()).filter(|&i| state.is_pressed[first + i]);
     for point in pressed().map(|i| &points[i]) {
         let weight = point.weight;
         // Springs and dashpots of the contact itself.
@@ -75,7 +78,7 @@ pub fn linearized(
     }
     for (p, springs) in state.stiffnesses.iter().enumerate() {
         for i in pressed() {
-            add_normal_law(&mut terms.stiffness, (p, frozen), &points[i], springs[i]);
+            add_normal_law(&mut terms.stiffness, (p, frozen), &points[i], springs[first + i]);
         }
         merge_many(&mut terms.stiffness);
     }
@@ -87,24 +90,21 @@ pub fn linearized(
     // What the forces of the base state do.
     for (p, forces) in state.normal_forces.iter().enumerate() {
         for i in pressed() {
-            let (point, force) = (&points[i], forces[i]);
+            let (point, force) = (&points[i], forces[first + i]);
             let friction = point.friction;
-            if friction.slope != 0.0 {
-                let value = friction.slope * force;
+            let mut add = |row: &Row, value: f64| {
                 for (term, factor) in following(p, frozen) {
-                    let falling = power(&mut terms.dashpots, term);
-                    add_product(falling, factor * value, &point.slip, &point.slip);
+                    add_product(power(&mut terms.dashpots, term), factor * value, row, row);
                 }
+            };
+            if friction.slope != 0.0 {
+                add(&point.slip, friction.slope * force);
             }
             if !point.across.is_empty() {
-                let value = friction.drag.abs() * force / point.speed;
-                for (term, factor) in following(p, frozen) {
-                    let turned = power(&mut terms.dashpots, term);
-                    add_product(turned, factor * value, &point.across, &point.across);
-                }
+                add(&point.across, friction.drag.abs() * force / point.speed);
             }
         }
-        for (point, &force) in points.iter().zip(forces) {
+        for (point, &force) in points.iter().zip(&forces[first..]) {
             add_turning(&mut terms.turning, (p, frozen), point, force);
         }
         merge_many(&mut terms.dashpots);

@@ -8,7 +8,7 @@ use crate::linalg::{c64, interruption};
 use crate::mesh::AnnulusMesh;
 use crate::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, StandingWave, TimeStep,
-    TransientModel, TransientSettings, build_operator, stable_step_limit,
+    TransientModel, TransientSettings, stable_step_limit,
 };
 use std::f64::consts::TAU;
 
@@ -127,7 +127,7 @@ impl DiscModel {
         let annulus = AnnulusMesh::generate(&self.specification)?;
         let model =
             TransientModel::of_annulus(&annulus, &self.material, point.damping, point.contact);
-        let operator = build_operator(&model, OperatorChoice::Auto, simd)?;
+        let operator = model.operator(OperatorChoice::Auto, simd)?;
         let contest = Contest {
             model,
             operator: operator.as_ref(),
@@ -220,10 +220,10 @@ impl Contest<'_> {
 
     /// Steady sliding with both waves seeded, the larger with a fixed share of what saturates it.
     fn start(&self, seed_ratio: f64) -> Result<CentralDifference<'_>, CycleError> {
-        let radius = self.model.mesh.counterface.lever();
         let contact = &self.model.contact;
+        let surface_speed = self.model.interface().surface_speed(contact.rotation_speed).abs();
         let opening = contact.interference * TAU / self.period;
-        let largest = SEED * (contact.rotation_speed.abs() * radius).min(opening);
+        let largest = SEED * surface_speed.min(opening);
         let scale = largest / seed_ratio.max(1.0);
         let seeds = [scale, scale * seed_ratio];
         let waves = self.request.harmonics.iter().zip(seeds);

@@ -1,6 +1,7 @@
 //! The body as the harmonics of a rotating wave see it: a 2 x 2 receptance at the contact edge.
 
 use super::CycleError;
+use crate::fem::fold::{MirrorParity, SectorMatrix};
 use crate::fem::{ElasticMaterial, MassKind, RayleighDamping, sector};
 use crate::linalg::banded::BandedMatrix;
 use crate::linalg::c64;
@@ -101,18 +102,20 @@ impl WaveBody {
         }
         let mesh = SectorMesh::generate(specification)?;
         let stiffness = sector::stiffness(&mesh, material);
-        let mass = sector::mass(&mesh, material, MassKind::Lumped).harmonic(0);
+        let dofs = sector::wave_dofs(&mesh);
+        let fold = |n: usize, matrix: &SectorMatrix| dofs.fold(n, MirrorParity::Even, &[matrix]);
+        let mass = fold(0, &sector::mass(&mesh, material, MassKind::Lumped));
         let support = match specification.outer {
             BoundaryCondition::Support(_) => mesh.strip.nodal_supports().first().copied(),
             _ => None,
         };
         let sectors = mesh.sector_count() as isize;
         // Neighbours turn the node's own stiffness by `cos(2 pi n / N)`: opposite at n = 0 and N / 2.
-        let own = [0, mesh.sector_count() / 2].map(|n| stiffness.harmonic(n).get(0, 0));
+        let own = [0, mesh.sector_count() / 2].map(|n| fold(n, &stiffness).get(0, 0));
         let node_frequency = (0.5 * (own[0] + own[1]) / mass.get(0, 0)).sqrt();
         let harmonics = circumferential_harmonics
             .into_iter()
-            .map(|n| HarmonicStiffness::new(&stiffness.harmonic(n.rem_euclid(sectors) as usize)))
+            .map(|n| HarmonicStiffness::new(&fold(n.rem_euclid(sectors) as usize, &stiffness)))
             .collect();
         Ok(Self {
             harmonics,

@@ -1,7 +1,6 @@
 //! A limit cycle put to the test: does a transient that starts beside it stay there?
 
 use super::limit_cycle::LimitCycle;
-use super::stability::FloquetExponent;
 use super::stepping::MeshStepping;
 use super::{CycleError, CycleStability, Verdict};
 use crate::linalg::{c64, interruption};
@@ -43,14 +42,32 @@ pub struct Confirmation {
 impl Confirmation {
     /// Whether the transient still is on the cycle.
     pub fn agrees(&self, cycle: &LimitCycle) -> bool {
-        let [frequency_bound, power_bound, status_bound] = TOLERANCE;
-        let within = |value: f64, wanted: f64, bound: f64| (value / wanted - 1.0).abs() <= bound;
-        let statuses = self.status.iter().zip(&cycle.fractions);
+        let frequency = [self.main_frequency_hz.unwrap_or(0.0), cycle.frequency_hz()];
+        let power = [self.external_power, cycle.powers.external];
         self.main_harmonic == Some(cycle.harmonic)
-            && within(self.main_frequency_hz.unwrap_or(0.0), cycle.frequency_hz(), frequency_bound)
-            && within(self.external_power, cycle.powers.external, power_bound)
-            && statuses.into_iter().all(|(a, b)| (a - b).abs() <= status_bound)
+            && agree([frequency, power], [self.status, cycle.fractions], TOLERANCE)
     }
+}
+
+/// Whether `[found, wanted]` frequencies and powers, and fractions of contact nodes, agree: the first two relative to what is wanted.
+pub(super) fn agree(
+    values: [[f64; 2]; 2],
+    [status, wanted]: [[f64; 3]; 2],
+    [frequency_bound, power_bound, status_bound]: [f64; 3],
+) -> bool {
+    let pairs = values.into_iter().zip([frequency_bound, power_bound]);
+    let mut within = pairs.map(|([found, wanted], bound)| (found / wanted - 1.0).abs() <= bound);
+    let mut statuses = status.iter().zip(wanted);
+    within.all(|is_within| is_within)
+        && statuses.all(|(found, wanted)| (found - wanted).abs() <= status_bound)
+}
+
+/// Periods that tell: `least`, or as many as a perturbation that may grow, at a rate with its uncertainty (1/s), needs for so many
+/// e-folds, `e_folds` divided by the period.
+pub(super) fn telling_periods(growth: Option<[f64; 2]>, e_folds: f64, least: usize) -> usize {
+    let growing = growth.filter(|&[rate, open]| Verdict::of_rate(rate, open) != Verdict::Stable);
+    let wanted = growing.map_or(0, |[rate, open]| (e_folds / rate.abs().max(open)).ceil() as usize);
+    least.max(wanted.min(MOST_PERIODS))
 }
 
 /// Amplitude of one harmonic of the edge over time, and the angle that it has turned through.
@@ -62,20 +79,6 @@ struct Turning {
 }
 
 impl MeshStepping<'_> {
-    /// Periods that tell: `least`, or as many as a perturbation that may grow needs for five e-folds.
-    fn telling_periods(
-        cycle: &LimitCycle,
-        leading: Option<&FloquetExponent>,
-        least: usize,
-    ) -> usize {
-        let growing = leading.filter(|found| found.verdict() != Verdict::Stable);
-        let wanted = growing.map_or(0, |found| {
-            let rate = found.exponent.re.abs().max(found.uncertainty);
-            (E_FOLDS / rate * cycle.frequency_hz()).ceil() as usize
-        });
-        least.max(wanted.min(MOST_PERIODS))
-    }
-
     /// Steps the disc through `periods` periods or more from a cycle, seeded in the harmonic of its leading perturbation, and
     /// reads the last fifth.
     ///
@@ -88,7 +91,8 @@ impl MeshStepping<'_> {
         periods: usize,
     ) -> Result<Confirmation, CycleError> {
         let leading = stability.and_then(CycleStability::leading);
-        let periods = Self::telling_periods(cycle, leading, periods);
+        let growth = leading.map(|found| [found.exponent.re, found.uncertainty]);
+        let periods = telling_periods(growth, E_FOLDS * cycle.frequency_hz(), periods);
         let surface_speed = cycle.state.point.contact.rotation_speed * self.solver.body().radius;
         let seed = leading.map(|found| (found.harmonic, SEED * surface_speed));
         let (mut run, steps) = self.start(cycle, seed)?;

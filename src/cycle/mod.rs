@@ -11,6 +11,7 @@
 //!
 //! Bodies without symmetry have no rotating waves; their cycles are periodic motions of the whole mesh ([`periodic`]).
 
+mod arnoldi;
 mod basin;
 mod body;
 mod branch;
@@ -32,6 +33,7 @@ mod state;
 mod stepping;
 mod system;
 mod two_waves;
+mod vector;
 mod wave;
 
 pub use basin::{BasinBoundary, BasinRequest, BasinRun};

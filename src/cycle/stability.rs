@@ -29,6 +29,22 @@ pub enum Verdict {
 }
 
 impl Verdict {
+    /// What a growth rate says for sure.
+    pub(super) fn of_rate(rate: f64, uncertainty: f64) -> Self {
+        match rate {
+            rate if rate > uncertainty => Self::Unstable,
+            rate if rate < -uncertainty => Self::Stable,
+            _ => Self::Undecided,
+        }
+    }
+
+    /// What all perturbations together say.
+    pub(super) fn of_all(all: impl Iterator<Item = Self> + Clone) -> Self {
+        let has = |wanted: Self| all.clone().any(|found| found == wanted);
+        let known = [Self::Unstable, Self::Undecided].into_iter().find(|&wanted| has(wanted));
+        known.unwrap_or(Self::Stable)
+    }
+
     /// In one word.
     pub fn word(self) -> &'static str {
         match self {
@@ -75,11 +91,7 @@ impl StabilityChange {
 impl FloquetExponent {
     /// What its growth rate says for sure.
     pub fn verdict(&self) -> Verdict {
-        match self.exponent.re {
-            rate if rate > self.uncertainty => Verdict::Unstable,
-            rate if rate < -self.uncertainty => Verdict::Stable,
-            _ => Verdict::Undecided,
-        }
+        Verdict::of_rate(self.exponent.re, self.uncertainty)
     }
 }
 
@@ -91,13 +103,7 @@ impl CycleStability {
 
     /// What the exponents say for sure.
     pub fn verdict(&self) -> Verdict {
-        let mut all = self.exponents.iter().map(FloquetExponent::verdict);
-        let is = |wanted: Verdict| move |found: Verdict| found == wanted;
-        match self.leading() {
-            _ if all.clone().any(is(Verdict::Unstable)) => Verdict::Unstable,
-            _ if all.any(is(Verdict::Undecided)) => Verdict::Undecided,
-            _ => Verdict::Stable,
-        }
+        Verdict::of_all(self.exponents.iter().map(FloquetExponent::verdict))
     }
 
     /// Whether every perturbation decays for sure.

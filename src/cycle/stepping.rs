@@ -3,7 +3,7 @@
 
 use super::limit_cycle::{CyclePowers, LimitCycle};
 use super::{CycleError, CycleSolver};
-use crate::contact::{ContactStatus, ContactStiffness};
+use crate::contact::ContactStatus;
 use crate::fem::RayleighDamping;
 use crate::fem::operator::{
     AlignedVector, MotionFields, SimdLevel, StepCoefficients, StiffnessOperator, largest_frequency,
@@ -12,7 +12,7 @@ use crate::linalg::interruption;
 use crate::mesh::AnnulusMesh;
 use crate::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, TimeStep, TransientModel,
-    TransientSettings, build_operator, stable_step_limit,
+    TransientSettings, stable_step_limit,
 };
 use std::f64::consts::TAU;
 
@@ -84,15 +84,10 @@ impl CycleSolver {
     /// [`CycleError::Stepping`] for a mesh that it cannot take.
     pub fn stepping(&self, simd: SimdLevel) -> Result<MeshStepping<'_>, CycleError> {
         let annulus = AnnulusMesh::generate(&self.specification)?;
-        let model = TransientModel {
-            mesh: &annulus.mesh,
-            annulus: Some(&annulus),
-            material: &self.material,
-            damping: RayleighDamping { mass_coefficient: 0.0, stiffness_coefficient: 0.0 },
-            contact: super::onset::unloaded(&self.specification),
-            stiffness: ContactStiffness::default(),
-        };
-        let operator = build_operator(&model, OperatorChoice::Auto, simd)?;
+        let undamped = RayleighDamping::default();
+        let unloaded = super::onset::unloaded(&self.specification);
+        let model = TransientModel::of_annulus(&annulus, &self.material, undamped, unloaded);
+        let operator = model.operator(OperatorChoice::Auto, simd)?;
         let largest_frequency = largest_frequency(operator.as_ref());
         Ok(MeshStepping { solver: self, annulus, operator, largest_frequency })
     }

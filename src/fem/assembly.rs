@@ -55,8 +55,19 @@ pub fn element_matrices(
     kind: MassKind,
     element: usize,
 ) -> [DMatrix<f64>; 2] {
+    let stiffness = element::stiffness(mesh, element, material.of(mesh.region(element)));
+    [element_mass(mesh, material, kind, element), stiffness]
+}
+
+/// Mass of one element in nodal frames, kg, in the plane for each metre of thickness.
+pub fn element_mass(
+    mesh: &Mesh,
+    material: &dyn MaterialField,
+    kind: MassKind,
+    element: usize,
+) -> DMatrix<f64> {
     let elastic = material.of(mesh.region(element));
-    let mass = match kind {
+    match kind {
         MassKind::Consistent => element::consistent_mass(mesh, element, elastic),
         MassKind::Lumped => {
             let masses = element::lumped_mass(mesh, element, elastic);
@@ -64,8 +75,7 @@ pub fn element_matrices(
             let size = d * masses.len();
             DMatrix::from_fn(size, size, |i, j| if i == j { masses[i / d] } else { 0.0 })
         }
-    };
-    [mass, element::stiffness(mesh, element, elastic)]
+    }
 }
 
 /// Mass and stiffness of the elements of one region alone, over all dofs: kg and N/m, in the plane for each metre of thickness.

@@ -9,6 +9,7 @@ mod discretization;
 mod dof_map;
 pub mod element;
 mod face;
+pub mod fold;
 mod material;
 mod maxwell;
 mod modulus_table;
@@ -26,7 +27,8 @@ pub use assembly::{
     assemble_geometric_stiffness, assemble_losses, assemble_mass, assemble_patch_damping,
     assemble_point_masses, assemble_pressures, assemble_region,
     assemble_region_geometric_stiffness, assemble_stiffness, assemble_structural_damping,
-    assemble_support_losses, assemble_supports, assemble_tabled, element_matrices, lumped_masses,
+    assemble_support_losses, assemble_supports, assemble_tabled, element_mass, element_matrices,
+    lumped_masses,
 };
 pub use discretization::DiscretizationError;
 pub use dof_map::DofMap;

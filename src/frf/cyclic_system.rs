@@ -1,25 +1,22 @@
-//! Harmonics of the annulus in the state that is excited.
+//! Harmonics of a body of equal sectors in the state that is excited.
 
-use super::cyclic_solid::SolidState;
 use super::harmonic::{Damping, Harmonic, evaluate, held_harmonic};
 use super::{Direction, FrfError, Terminal};
-use crate::fem::sector::{self, SectorMatrix};
-use crate::fem::{ElasticMaterial, MassKind, RayleighDamping};
-use crate::mesh::{SectorMesh, SolidSector};
-use crate::prestress::{SectorTangent, SolidTangent};
+use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
+use crate::fem::{DofMap, ElasticMaterial, MassKind, RayleighDamping, sector, solid};
+use crate::mesh::{BoundaryCondition, SectorMesh, SolidSector};
+use crate::prestress::{SectorTangent, SolidTangent, supports};
 
 /// [`super::FrfSystem`] of an annulus or of a body of revolution, as the matrices of its circumferential harmonics.
 #[derive(Clone, Debug)]
 pub struct CyclicSystem {
-    sector_count: usize,
     /// Sector node of each node of a sector, in the order of the mesh, and its angle in halves of a sector.
     nodes: Vec<(usize, usize)>,
     /// Components of a displacement: 2 in the plane, 3 in space.
     components: usize,
     state: State,
-    /// Unknown of each dof of the sector.
-    unknown_of: Vec<Option<usize>>,
-    dimension: usize,
+    /// Dofs of the sector that can be excited and observed.
+    dofs: WaveDofs,
 }
 
 #[derive(Clone, Debug)]
@@ -27,14 +24,11 @@ enum State {
     Body {
         mass: SectorMatrix,
         stiffness: SectorMatrix,
-        supports: Option<[SectorMatrix; 2]>,
+        supports: [SectorMatrix; 2],
         damping: RayleighDamping,
     },
-    Sliding {
-        tangent: Box<SectorTangent>,
-        friction_coefficient: f64,
-    },
-    Solid(SolidState),
+    Annulus(Box<SectorTangent>, f64),
+    Revolution(Box<SolidTangent>, f64),
 }
 
 /// Where a terminal lies.
@@ -66,38 +60,31 @@ impl CyclicSystem {
             supports: sector::supports(&sector),
             damping,
         };
-        let unknowns: Vec<usize> = (0..2 * sector.free_node_count()).collect();
-        Self::new(&sector, state, &unknowns)
+        Self::of_annulus(&sector, state, sector::wave_dofs(&sector))
     }
 
     /// Small motions around steady sliding at a friction coefficient.
     pub fn sliding(tangent: &SectorTangent, friction_coefficient: f64) -> Self {
-        let state = State::Sliding { tangent: Box::new(tangent.clone()), friction_coefficient };
-        let mut system = Self::new(tangent.sector(), state, &tangent.unknowns());
         let sector = tangent.sector();
-        for node in sector.contact_nodes() {
-            // A distance between two bodies is no place to strike or to observe.
-            if sector.opposite(node).is_some() {
-                system.unknown_of[2 * node] = None;
-            }
+        let unknowns = tangent.unknowns();
+        let mut dofs = sector::wave_dofs(sector);
+        dofs.count = unknowns.len();
+        dofs.unknown_of.fill(None);
+        for (unknown, &dof) in unknowns.iter().enumerate() {
+            dofs.unknown_of[dof] = Some(unknown);
         }
-        system
+        // A distance between two bodies is no place to strike or to observe.
+        for node in sector.contact_nodes().filter(|&node| sector.opposite(node).is_some()) {
+            dofs.unknown_of[2 * node] = None;
+        }
+        let state = State::Annulus(Box::new(tangent.clone()), friction_coefficient);
+        Self::of_annulus(sector, state, dofs)
     }
 
-    fn new(sector: &SectorMesh, state: State, unknowns: &[usize]) -> Self {
-        let mut unknown_of = vec![None; 2 * sector.node_count()];
-        for (unknown, &dof) in unknowns.iter().enumerate() {
-            unknown_of[dof] = Some(unknown);
-        }
+    fn of_annulus(sector: &SectorMesh, state: State, dofs: WaveDofs) -> Self {
         let nodes = sector.sector_node_of.iter().take(sector.node_count());
-        Self {
-            sector_count: sector.sector_count(),
-            nodes: nodes.map(|&k| (k, sector.half_step(k))).collect(),
-            components: 2,
-            state,
-            unknown_of,
-            dimension: unknowns.len(),
-        }
+        let nodes = nodes.map(|&k| (k, sector.half_step(k))).collect();
+        Self { nodes, components: 2, state, dofs }
     }
 
     /// A body of revolution without contact and prestress, all of it free or held by the conditions of its faces,
@@ -109,7 +96,17 @@ impl CyclicSystem {
         damping: RayleighDamping,
         is_clamped: bool,
     ) -> Self {
-        Self::of_solid(SolidState::body(sector, material, mass, damping, is_clamped))
+        let mut sector = sector.clone();
+        if !is_clamped {
+            sector.specification.conditions = [BoundaryCondition::Free; 4];
+        }
+        let state = State::Body {
+            mass: solid::mass(&sector, material, mass),
+            stiffness: solid::stiffness(&sector, material),
+            supports: supports(&sector),
+            damping,
+        };
+        Self::of_revolution(&sector, state, solid::wave_dofs(&sector))
     }
 
     /// Small motions of a body of revolution around steady sliding at a friction coefficient, the dashpot `mu p_0 / V`
@@ -118,27 +115,25 @@ impl CyclicSystem {
     /// In rigid contact the motion along the normal of pressed nodes is no unknown; the force of excitation acts on the
     /// body, not through the contact.
     pub fn solid_sliding(tangent: &SolidTangent, friction_coefficient: f64) -> Self {
-        let tangent = Box::new(tangent.clone());
-        Self::of_solid(SolidState::Sliding { tangent, friction_coefficient })
+        let mut dofs = solid::wave_dofs(tangent.sector());
+        let rigid = tangent.rigid();
+        let is_still = |unknown: usize| rigid.iter().any(|(normal, ..)| *normal == unknown);
+        let all = dofs.unknown_of.iter().enumerate();
+        let still = all.filter(|(_, unknown)| unknown.is_none_or(is_still)).map(|(dof, _)| dof);
+        dofs.unknown_of = DofMap::excluding(dofs.unknown_of.len(), still).unknown_of;
+        dofs.count = dofs.unknown_of.iter().flatten().count();
+        let state = State::Revolution(Box::new(tangent.clone()), friction_coefficient);
+        Self::of_revolution(tangent.sector(), state, dofs)
     }
 
-    fn of_solid(state: SolidState) -> Self {
-        let unknown_of = state.unknown_of();
-        let sector = state.sector();
+    fn of_revolution(sector: &SolidSector, state: State, dofs: WaveDofs) -> Self {
         let half_steps = sector.nodes.iter().map(|node| node.half_step);
-        Self {
-            sector_count: sector.sector_count(),
-            nodes: half_steps.enumerate().collect(),
-            components: 3,
-            dimension: unknown_of.iter().flatten().count(),
-            unknown_of,
-            state: State::Solid(state),
-        }
+        Self { nodes: half_steps.enumerate().collect(), components: 3, state, dofs }
     }
 
     /// Number of unknowns of the annulus.
     pub fn dimension(&self) -> usize {
-        self.dimension * self.sector_count()
+        self.dofs.count * self.sector_count()
     }
 
     /// Checks that a terminal can move; `key` is the case key of its node.
@@ -151,21 +146,17 @@ impl CyclicSystem {
 
     /// Number of unknowns of one harmonic.
     pub(super) fn harmonic_dimension(&self) -> usize {
-        self.dimension
+        self.dofs.count
     }
 
     pub(super) fn sector_count(&self) -> usize {
-        self.sector_count
+        self.dofs.sectors
     }
 
     /// How many harmonics are held at a time: at most `count`, and few where their bands have many entries.
     pub(super) fn harmonics_at_once(&self, count: usize, entries: usize) -> usize {
-        let width = match &self.state {
-            State::Solid(state) => 2 * state.half_bandwidth() + 1,
-            // Bands of plane harmonics are narrow.
-            State::Body { .. } | State::Sliding { .. } => return count,
-        };
-        (entries / (self.dimension * width).max(1)).clamp(1, count)
+        let width = 2 * self.dofs.half_bandwidth + 1;
+        (entries / (self.dofs.count * width).max(1)).clamp(1, count)
     }
 
     /// Place of a terminal; `key` is the case key of its node.
@@ -174,7 +165,7 @@ impl CyclicSystem {
     /// [`FrfError::NoNode`], or [`FrfError::Constrained`] where the boundary holds it.
     pub(super) fn place(&self, terminal: Terminal, key: &'static str) -> Result<Place, FrfError> {
         let per_sector = self.nodes.len();
-        let count = per_sector * self.sector_count;
+        let count = per_sector * self.sector_count();
         let node = terminal.node + 1;
         if node > count {
             return Err(FrfError::NoNode { key, node, count });
@@ -187,7 +178,7 @@ impl CyclicSystem {
         }
         let (sector, position) = (terminal.node / per_sector, terminal.node % per_sector);
         let (sector_node, half_step) = self.nodes[position];
-        let unknown = self.unknown_of[self.components * sector_node + component];
+        let unknown = self.dofs.unknown_of[self.components * sector_node + component];
         Ok(Place {
             unknown: unknown.ok_or_else(|| FrfError::constrained(terminal, key))?,
             half_steps: 2 * sector + half_step,
@@ -200,16 +191,24 @@ impl CyclicSystem {
         let is_standing = n == 0 || 2 * n == self.sector_count();
         match &self.state {
             State::Body { mass, stiffness, supports, damping } => {
-                let supports = supports
-                    .as_ref()
-                    .map(|matrices| matrices.each_ref().map(|matrix| matrix.harmonic(n)));
-                let matrices = [mass.harmonic(n), stiffness.harmonic(n)];
-                held_harmonic(matrices, supports, *damping, is_standing)
+                let fold = |matrix| self.dofs.fold(n, MirrorParity::Even, &[matrix]);
+                let is_supported = supports.iter().any(|matrix| !matrix.is_empty());
+                let supports = is_supported.then(|| supports.each_ref().map(fold));
+                held_harmonic([mass, stiffness].map(fold), supports, *damping, is_standing)
             }
-            State::Sliding { tangent, friction_coefficient } => {
-                sliding_harmonic(tangent, *friction_coefficient, (n, is_standing))
+            State::Annulus(tangent, friction) => {
+                sliding_harmonic(tangent, *friction, (n, is_standing))
             }
-            State::Solid(state) => state.harmonic(n, is_standing),
+            State::Revolution(tangent, friction) => {
+                let matrices = tangent.harmonic(n).at(*friction);
+                Harmonic {
+                    half_bandwidth: matrices.half_bandwidth,
+                    mass: matrices.mass,
+                    stiffness: matrices.stiffness,
+                    damping: Damping::Band(matrices.damping),
+                    is_standing,
+                }
+            }
         }
     }
 }

@@ -9,7 +9,6 @@
 //! [`GaussianNoise`](crate::linalg::GaussianNoise) turns a computed response into a synthetic measurement.
 
 mod cyclic;
-mod cyclic_solid;
 mod cyclic_system;
 mod direct;
 mod error;

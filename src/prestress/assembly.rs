@@ -8,12 +8,9 @@ use super::pressed_state::{PressedState, Pressing};
 use super::rotation::Rotation;
 use super::tangent::{BodyTerms, ContactDofs, ContactPart, SlidingTangent};
 use super::{PrestressError, TangentOptions};
-use crate::contact::{
-    ContactSurface, Motion, PairError, PointKind, PressedPoints, SurfacePair, mortar_nodes,
-};
+use crate::contact::{ContactSurface, Motion, PairError, PointKind, SurfacePair, mortar_nodes};
 use crate::fem::{
-    MaterialField, Triplets, assemble_extra_damping, assemble_losses, assemble_mass,
-    assemble_pressures, assemble_stiffness, assemble_supports, assemble_tabled,
+    MaterialField, Triplets, assemble_pressures, assemble_stiffness, assemble_supports,
 };
 use crate::mesh::Mesh;
 use std::sync::Arc;
@@ -299,55 +296,26 @@ impl<'a> Assembly<'a> {
         state: &PressedState,
         options: &TangentOptions,
     ) -> Result<SlidingTangent, PrestressError> {
+        let joined = &self.joined;
+        let (elastic, supports) = (joined.elastic.clone(), joined.supports.clone());
         let body = BodyTerms {
-            mass: assemble_mass(self.mesh, self.materials, options.mass),
-            elastic: self.joined.elastic.clone(),
-            geometric: None,
-            supports: self.joined.supports.clone(),
-            extra_damping: assemble_extra_damping(
-                self.mesh,
-                self.materials,
-                options.mass,
-                options.damping,
-            ),
-            structural: assemble_losses(self.mesh, self.materials),
-            tabled: assemble_tabled(self.mesh, self.materials),
-            rotation: self.joined.rotation.as_ref().map(|own| own.terms.clone()),
+            rotation: joined.rotation.as_ref().map(|own| own.terms.clone()),
+            ..BodyTerms::of((self.mesh, self.materials), elastic, supports, options)
         };
         // Each contact has its stretch of the state's points.
         let mut first = 0;
-        let stretches: Vec<Stretch> = self
-            .joined
-            .contacts
-            .iter()
-            .map(|(_, surface)| {
-                let range = first..first + surface.points.len();
-                first = range.end;
-                let own = |all: &Vec<Vec<f64>>| -> Vec<Vec<f64>> {
-                    all.iter().map(|all| all[range.clone()].to_vec()).collect()
-                };
-                let own = [own(&state.normal_forces), own(&state.stiffnesses)];
-                (range, own)
-            })
-            .collect();
-        let parts: Vec<ContactPart<'_>> = self
-            .joined
-            .contacts
-            .iter()
-            .zip(&stretches)
-            .map(|((contact, surface), (range, [forces, stiffnesses]))| ContactPart {
+        let parts = joined.contacts.iter().map(|(contact, surface)| {
+            let part = ContactPart {
                 points: &surface.points,
-                state: PressedPoints {
-                    is_pressed: &state.is_pressed[range.clone()],
-                    normal_forces: forces,
-                    stiffnesses,
-                    frozen_below: state.frozen_below,
-                },
+                state: state.points_from(first),
                 stiffness: contact.stiffness,
                 has_own_dofs: contact.stiffness.normal_stiffness.is_none(),
-            })
-            .collect();
-        let nodes = self.joined.contacts.iter().flat_map(|(_, surface)| &surface.nodes);
+            };
+            first += surface.points.len();
+            part
+        });
+        let parts: Vec<ContactPart<'_>> = parts.collect();
+        let nodes = joined.contacts.iter().flat_map(|(_, surface)| &surface.nodes);
         let dofs = ContactDofs {
             tangential: nodes
                 .flat_map(|&node| (0..3).map(move |axis| 3 * node as usize + axis))
@@ -355,12 +323,9 @@ impl<'a> Assembly<'a> {
             sliding_direction: 1.0,
             ..ContactDofs::default()
         };
-        SlidingTangent::assemble(&body, &parts, self.joined.basis.clone(), &dofs, options)
+        SlidingTangent::assemble(&body, &parts, joined.basis.clone(), &dofs, options)
     }
 }
-
-/// The points of one contact among all, with the powers of their forces and stiffnesses about where the state is frozen.
-type Stretch = (std::ops::Range<usize>, [Vec<Vec<f64>>; 2]);
 
 /// Takes the jumps of a tie's nodes for unknowns, and drops them.
 fn tie_surfaces(

@@ -5,11 +5,11 @@ use super::SectorSliding;
 use super::cholesky::CholeskySolver;
 use super::complementarity::PressedRange;
 use super::elimination::Elimination;
-use super::friction_polynomial::evaluate;
 use super::pressed_state::{PressedState, Pressing};
 use crate::contact::{ContactInterface, NormalLaw, Point, SlidingContact, SteadyFriction};
 use crate::fem::{Triplets, assemble_supports};
 use crate::mesh::{AnnulusMesh, Mesh, SectorMesh};
+use std::ops::Deref;
 
 /// The state of steady sliding: counterface pushed in by `delta`, every pressed contact node slipping.
 ///
@@ -22,16 +22,8 @@ use crate::mesh::{AnnulusMesh, Mesh, SectorMesh};
 /// Per metre of thickness; vectors over all dofs in nodal frames.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SteadySliding {
-    /// Displacement by power of `mu - a`, m, with `a` of [`Self::frozen_below`].
-    pub displacements: Vec<Vec<f64>>,
-    /// Normal force on each contact node by power of `mu - a`, N/m, in the order of the interface.
-    pub normal_forces: Vec<Vec<f64>>,
-    /// Stiffness `w_i dp/dg` of each contact node by power of `mu - a`, N/m2; none where contact does not stiffen.
-    pub stiffnesses: Vec<Vec<f64>>,
-    /// Whether each contact node is pressed; the others are open.
-    pub is_pressed: Vec<bool>,
-    /// As [`PressedState::frozen_below`].
-    pub frozen_below: f64,
+    /// Displacement, normal forces and springs of the contact nodes.
+    pub state: PressedState,
     /// Sense of the friction force `s`, +1 or -1.
     pub sliding_direction: f64,
     /// Friction at the sliding speed for each unit of friction coefficient and normal force.
@@ -40,6 +32,14 @@ pub struct SteadySliding {
     pub interface: ContactInterface,
     /// Its nodes as contact points.
     pub points: Vec<Point>,
+}
+
+impl Deref for SteadySliding {
+    type Target = PressedState;
+
+    fn deref(&self) -> &PressedState {
+        &self.state
+    }
 }
 
 /// States of steady sliding over a range of friction coefficients.
@@ -128,11 +128,7 @@ impl SteadySliding {
 
     fn of(state: PressedState, interface: ContactInterface, contact: &SlidingContact) -> Self {
         Self {
-            displacements: state.displacements,
-            normal_forces: state.normal_forces,
-            stiffnesses: state.stiffnesses,
-            is_pressed: state.is_pressed,
-            frozen_below: state.frozen_below,
+            state,
             sliding_direction: interface.sliding_direction(contact.rotation_speed),
             friction: interface.steady_friction(contact),
             points: interface.points(contact),
@@ -176,27 +172,6 @@ impl SteadySliding {
             normal_forces: vec![normal_forces],
         };
         Self::of(state, interface, contact)
-    }
-
-    /// `mu - a`, and 0 below `a`, [`Self::frozen_below`].
-    fn beyond(&self, friction_coefficient: f64) -> f64 {
-        (friction_coefficient - self.frozen_below).max(0.0)
-    }
-
-    /// Displacement over all dofs at friction coefficient `friction_coefficient`, m.
-    pub fn displacement(&self, friction_coefficient: f64) -> Vec<f64> {
-        evaluate(&self.displacements, self.beyond(friction_coefficient))
-    }
-
-    /// Normal force on each contact node, N/m.
-    pub fn normal_forces(&self, friction_coefficient: f64) -> Vec<f64> {
-        evaluate(&self.normal_forces, self.beyond(friction_coefficient))
-    }
-
-    /// Stiffness of each contact node, N/m2, where contact stiffens with pressure.
-    pub fn springs(&self, friction_coefficient: f64) -> Option<Vec<f64>> {
-        let has_law = !self.stiffnesses.is_empty();
-        has_law.then(|| evaluate(&self.stiffnesses, self.beyond(friction_coefficient)))
     }
 
     /// Contact pressure at each contact node `p_i = N_i / w_i`, Pa.

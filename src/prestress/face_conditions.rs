@@ -1,20 +1,19 @@
 //! Springs, dashpots and pressures on the faces of a body of revolution.
 
-use crate::fem::solid::{FaceTerm, SolidMatrix, face_load, face_matrix, whole_element};
+use crate::fem::fold::SectorMatrix;
+use crate::fem::solid::{FaceTerm, face_load, face_matrix, whole_element};
 use crate::mesh::{BoundaryCondition, SolidFace, SolidSector};
 
 /// Springs and dashpots of every support, N/m and N s/m.
-pub fn supports(sector: &SolidSector) -> [SolidMatrix; 2] {
-    let mut result = [SolidMatrix::default(), SolidMatrix::default()];
-    for (_, own) in each_support(sector) {
-        let sums = result.iter_mut().zip(own);
-        sums.for_each(|(sum, matrix)| sum.extend(matrix));
-    }
-    result
+pub fn supports(sector: &SolidSector) -> [SectorMatrix; 2] {
+    let none = [SectorMatrix::default(), SectorMatrix::default()];
+    each_support(sector)
+        .iter()
+        .fold(none, |[springs, dashpots], (_, own)| [springs.plus(&own[0]), dashpots.plus(&own[1])])
 }
 
 /// Name, springs and dashpots of each supported face.
-pub(super) fn each_support(sector: &SolidSector) -> Vec<(&'static str, [SolidMatrix; 2])> {
+pub(super) fn each_support(sector: &SolidSector) -> Vec<(&'static str, [SectorMatrix; 2])> {
     let mut all = Vec::new();
     for (face, condition) in SolidFace::ALL.into_iter().zip(&sector.specification.conditions) {
         let BoundaryCondition::Support(support) = condition else {
@@ -39,7 +38,7 @@ pub(super) fn each_support(sector: &SolidSector) -> Vec<(&'static str, [SolidMat
                 (across, axial_damping),
             ],
         ];
-        let mut own = [SolidMatrix::default(), SolidMatrix::default()];
+        let mut own = [SectorMatrix::default(), SectorMatrix::default()];
         for (sum, terms) in own.iter_mut().zip(values) {
             for (component, value) in terms.into_iter().filter(|(_, value)| *value != 0.0) {
                 let term = FaceTerm {
@@ -49,7 +48,7 @@ pub(super) fn each_support(sector: &SolidSector) -> Vec<(&'static str, [SolidMat
                     span: &whole_element,
                     is_nodal: false,
                 };
-                sum.extend(face_matrix(sector, &elements, &term));
+                *sum = sum.plus(&face_matrix(sector, &elements, &term));
             }
         }
         all.push((face.name(), own));

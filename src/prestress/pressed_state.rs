@@ -4,7 +4,7 @@
 use super::PrestressError;
 use super::elimination::Elimination;
 use super::friction_polynomial::{evaluate, interpolated};
-use crate::contact::{NormalLaw, Point, Row};
+use crate::contact::{NormalLaw, Point, PressedPoints, Row};
 use crate::fem::{DofMap, Triplets};
 
 /// Smallest range of friction coefficients of a polynomial: without friction the state needs none, but its tangent is
@@ -102,6 +102,17 @@ impl PressedState {
     /// `mu - a`, and 0 below `a`.
     fn beyond(&self, friction_coefficient: f64) -> f64 {
         (friction_coefficient - self.frozen_below).max(0.0)
+    }
+
+    /// Its contact points from the `first` on.
+    pub(super) fn points_from(&self, first: usize) -> PressedPoints<'_> {
+        PressedPoints {
+            first,
+            is_pressed: &self.is_pressed,
+            normal_forces: &self.normal_forces,
+            stiffnesses: &self.stiffnesses,
+            frozen_below: self.frozen_below,
+        }
     }
 
     /// Displacement over all dofs at a friction coefficient, m.

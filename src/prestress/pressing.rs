@@ -3,8 +3,8 @@
 use super::PrestressError;
 use super::face_conditions::pressure_load;
 use crate::contact::{NormalLaw, SlidingContact};
-use crate::fem::sector::MirrorParity;
-use crate::fem::solid::{FaceTerm, SolidMatrix, face_matrix, half_bandwidth};
+use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
+use crate::fem::solid::{FaceTerm, face_matrix, wave_dofs};
 use crate::linalg::banded::{BandedFactor, BandedMatrix};
 use crate::mesh::{FaceElement, SolidSector};
 
@@ -158,7 +158,7 @@ pub(super) fn press_rigidly(
 /// is the derivative of this state.
 pub(super) fn press_on_springs(
     sector: &SolidSector,
-    terms: &[&SolidMatrix],
+    terms: &[&SectorMatrix],
     contact: &SlidingContact,
     law: NormalLaw,
 ) -> Result<Pressing, PrestressError> {
@@ -218,7 +218,7 @@ pub(super) struct Springs<'a> {
 
 impl Springs<'_> {
     /// `int k(g) n n^T dA`, N/m.
-    pub fn tangent(&self) -> SolidMatrix {
+    pub fn tangent(&self) -> SectorMatrix {
         self.matrix(&|approach| self.law.stiffness(approach))
     }
 
@@ -230,7 +230,7 @@ impl Springs<'_> {
     }
 
     /// A normal term with a weight that follows the approach.
-    fn matrix(&self, weight: &dyn Fn(f64) -> f64) -> SolidMatrix {
+    fn matrix(&self, weight: &dyn Fn(f64) -> f64) -> SectorMatrix {
         let at = |element: &FaceElement, _: f64, along: f64| weight(self.approach(element, along));
         let faces = self.sector.contact_elements();
         face_matrix(self.sector, &faces, &self.term(&at, &|element| self.span(element)))
@@ -286,14 +286,11 @@ pub(super) struct System {
 }
 
 impl System {
-    pub fn new(sector: &SolidSector, terms: &[&SolidMatrix]) -> Self {
+    pub fn new(sector: &SolidSector, terms: &[&SectorMatrix]) -> Self {
         let dofs = 3 * sector.node_count();
-        let all: Vec<Option<usize>> = (0..dofs).map(Some).collect();
-        let mut stiffness = BandedMatrix::zeros(dofs, half_bandwidth(sector));
-        for term in terms {
-            let zero = (sector.sector_count(), 0);
-            term.add_harmonic(&mut stiffness, &all, zero, (MirrorParity::Even, 1.0));
-        }
+        let WaveDofs { half_bandwidth, sectors, .. } = wave_dofs(sector);
+        let all = WaveDofs::new(dofs, |_| false, half_bandwidth, sectors);
+        let stiffness = all.fold(0, MirrorParity::Even, terms);
         Self { dofs, is_held: (0..dofs).map(|dof| sector.is_held(dof)).collect(), stiffness }
     }
 

@@ -2,7 +2,8 @@
 
 use super::PrestressError;
 use crate::contact::{NormalLaw, SlidingContact, SteadyFriction};
-use crate::fem::sector::SectorMatrix;
+use crate::fem::fold::{MirrorParity, SectorMatrix};
+use crate::fem::sector;
 use crate::linalg::banded::{BandedLdl, BandedMatrix};
 use crate::mesh::SectorMesh;
 use nalgebra::{DMatrix, DVector};
@@ -120,7 +121,8 @@ struct PressedSystem<'a> {
 
 impl<'a> PressedSystem<'a> {
     fn new(sector: &'a SectorMesh, elastic: &SectorMatrix) -> Result<Self, PrestressError> {
-        let mut stiffness = elastic.harmonic(0);
+        let dofs = sector::wave_dofs(sector);
+        let mut stiffness = dofs.fold(0, MirrorParity::Even, &[elastic]);
         to_distances(&mut stiffness, sector);
         let contact = sector.contact_nodes();
         let unknowns: Vec<usize> = (0..stiffness.dimension())

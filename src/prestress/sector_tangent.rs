@@ -6,7 +6,8 @@ use super::sector_terms::{
 };
 use super::{DampingModel, PrestressError, SectorSliding, TangentOptions};
 use crate::contact::SlidingContact;
-use crate::fem::sector::{self, SectorMatrix};
+use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
+use crate::fem::sector;
 use crate::fem::{ElasticMaterial, MaterialField, RayleighDamping, RegionMaterial};
 use crate::linalg::banded::BandedMatrix;
 use crate::mesh::SectorMesh;
@@ -51,6 +52,7 @@ pub struct SectorTangent {
     pub(super) options: TangentOptions,
     pub(super) base: SectorSliding,
     pub(super) terms: Terms,
+    dofs: WaveDofs,
 }
 
 impl SectorTangent {
@@ -67,7 +69,7 @@ impl SectorTangent {
         let regions = 0..sector.strip.regions.len();
         let elastic = sector::stiffness(sector, material);
         let supports = sector::supports(sector);
-        let supported = sector::supported_stiffness(sector, material);
+        let supported = elastic.plus(&supports[0]);
         let law = options.contact.law;
         let base = SectorSliding::solve_with(sector, &supported, contact, law)?;
         let stress = options.geometric_stiffness.then(|| stress_stiffness(sector, material, &base));
@@ -88,6 +90,7 @@ impl SectorTangent {
         };
         Ok(Self {
             sector: sector.clone(),
+            dofs: sector::wave_dofs(sector),
             materials: regions
                 .map(|region| RegionMaterial {
                     elastic: *material.of(region),
@@ -117,12 +120,11 @@ impl SectorTangent {
 
     /// Sector dof of each unknown, ascending.
     pub fn unknowns(&self) -> Vec<usize> {
-        let total = 2 * self.sector.free_node_count();
         let is_rigid = self.terms.normal_stiffness.is_none();
         let contact = self.sector.contact_nodes();
         let is_held =
             |dof: usize| is_rigid && dof.is_multiple_of(2) && contact.contains(&(dof / 2));
-        (0..total).filter(|&dof| !is_held(dof)).collect()
+        (0..self.dofs.count).filter(|&dof| !is_held(dof)).collect()
     }
 
     /// Unknowns that belong to contact nodes, those of the shaft included.
@@ -183,11 +185,10 @@ impl SectorTangent {
 
     /// `M_n` and `K_n` without friction, real and symmetric.
     pub fn harmonic_at_rest(&self, n: usize) -> [BandedMatrix; 2] {
-        let mass = self.wave(&self.terms.mass, n);
+        let mass = self.wave(&[&self.terms.mass], n);
         let mut stiffness = self.stiffness_at_rest(n);
-        if let Some([springs, _]) = &self.terms.supports {
-            stiffness.add_scaled(1.0, &self.wave(springs, n));
-        }
+        let [springs, _] = &self.terms.supports;
+        stiffness.add_scaled(1.0, &self.wave(&[springs], n));
         if self.terms.normal_stiffness.is_some() {
             return [mass, stiffness];
         }
@@ -200,44 +201,50 @@ impl SectorTangent {
         let contact = self.options.contact;
         let has_dashpots = contact.normal_damping != 0.0 || contact.tangential_damping != 0.0;
         let is_whole = self.options.damping_model == DampingModel::WholeTangent;
-        let has_own = self.terms.supports.is_some() || self.terms.own_damping.is_some();
+        let [springs, dashpots] = &self.terms.supports;
+        let own = [springs, dashpots, &self.terms.own_damping];
+        let has_own = own.iter().any(|matrix| !matrix.is_empty());
         let is_steady = self.terms.friction_dashpots.is_none();
         is_whole && is_steady && !has_dashpots && !has_own
     }
 
-    fn zero(&self) -> BandedMatrix {
-        let half_bandwidth = sector::half_bandwidth(&self.sector);
-        BandedMatrix::zeros(2 * self.sector.free_node_count(), half_bandwidth)
+    /// Harmonic `n` of a sum of even terms over displacements, with distances across the contact.
+    fn wave(&self, terms: &[&SectorMatrix], n: usize) -> BandedMatrix {
+        self.folded(terms, MirrorParity::Even, n)
     }
 
-    /// Harmonic `n` of a matrix over displacements, with distances across the contact.
-    pub(super) fn wave(&self, matrix: &SectorMatrix, n: usize) -> BandedMatrix {
-        let mut wave = matrix.harmonic(n);
+    /// The same of terms of any parity.
+    pub(super) fn folded(
+        &self,
+        terms: &[&SectorMatrix],
+        parity: MirrorParity,
+        n: usize,
+    ) -> BandedMatrix {
+        let mut wave = self.dofs.fold(n, parity, terms);
         to_distances(&mut wave, &self.sector);
         wave
     }
 
     fn mass(&self, n: usize) -> FrictionPolynomial {
-        self.project(vec![self.wave(&self.terms.mass, n)])
+        self.project(vec![self.wave(&[&self.terms.mass], n)])
     }
 
     /// `K_e + K_sigma`, supports, the contact forces that turn with the edge, and the normal law.
     fn stiffness(&self, n: usize) -> FrictionPolynomial {
         let mut full = self.damped_stiffness(n);
-        if let Some([springs, _]) = &self.terms.supports {
-            full[0].add_scaled(1.0, &self.wave(springs, n));
-        }
+        let [springs, _] = &self.terms.supports;
+        full[0].add_scaled(1.0, &self.wave(&[springs], n));
         self.project(full)
     }
 
     /// The stiffness that `beta_R` multiplies: all but the supports; over all free dofs.
     fn damped_stiffness(&self, n: usize) -> FrictionPolynomial {
-        let mut full = vec![self.stiffness_at_rest(n), self.zero()];
+        let mut full = vec![self.stiffness_at_rest(n), self.dofs.zeros()];
         if let Some([_, sheared]) = &self.terms.stress {
             // Odd parity: the harmonic is i times this, which is what a coefficient of i mu wants.
-            full[1].add_scaled(1.0, &self.wave(sheared, n));
+            full[1].add_scaled(1.0, &self.folded(&[sheared], MirrorParity::Odd, n));
         }
-        let mut turning = self.zero();
+        let mut turning = self.dofs.zeros();
         self.turning_friction(n, &mut turning);
         to_distances(&mut turning, &self.sector);
         full[1].add_scaled(1.0, &turning);
@@ -249,11 +256,11 @@ impl SectorTangent {
 
     /// Body, prestress and contact without friction and supports.
     fn stiffness_at_rest(&self, n: usize) -> BandedMatrix {
-        let mut stiffness = self.wave(&self.terms.elastic, n);
+        let mut stiffness = self.wave(&[&self.terms.elastic], n);
         if let Some([pressed, _]) = &self.terms.stress {
-            stiffness.add_scaled(1.0, &self.wave(pressed, n));
+            stiffness.add_scaled(1.0, &self.wave(&[pressed], n));
         }
-        let mut turning = self.zero();
+        let mut turning = self.dofs.zeros();
         self.turning_pressure(n, &mut turning);
         to_distances(&mut turning, &self.sector);
         stiffness.add_scaled(1.0, &turning);
@@ -269,20 +276,15 @@ impl SectorTangent {
         let (terms, rayleigh) = (&self.terms, self.options.damping);
         let stiffness = match self.options.damping_model {
             DampingModel::WholeTangent => self.project(self.damped_stiffness(n)),
-            DampingModel::BodyOnly => self.project(vec![self.wave(&self.terms.elastic, n)]),
+            DampingModel::BodyOnly => self.project(vec![self.wave(&[&self.terms.elastic], n)]),
         };
         let mass = multiplied(self.mass(n), rayleigh.mass_coefficient);
         let stiffness = multiplied(stiffness, rayleigh.stiffness_coefficient);
         let damping = sum(mass, stiffness);
         let contact = self.options.contact;
         let lengths = self.sector.tributary_lengths();
-        let mut dashpots = vec![self.zero(), self.zero()];
-        if let Some([_, supports]) = &terms.supports {
-            dashpots[0].add_scaled(1.0, &self.wave(supports, n));
-        }
-        if let Some(own) = &terms.own_damping {
-            dashpots[0].add_scaled(1.0, &self.wave(own, n));
-        }
+        let [_, supports] = &terms.supports;
+        let mut dashpots = vec![self.wave(&[supports, &terms.own_damping], n), self.dofs.zeros()];
         let normal: Vec<f64> = lengths.iter().map(|w| contact.normal_damping * w).collect();
         self.add_friction(&mut dashpots[1], &normal);
         for (i, node) in self.sector.contact_nodes().enumerate() {
@@ -299,7 +301,7 @@ impl SectorTangent {
 
     /// On the tangential rows alone, whose scaling by `-i` cancels that of the unknown.
     fn friction_dashpots(&self) -> Option<BandedMatrix> {
-        let mut dashpots = self.zero();
+        let mut dashpots = self.dofs.zeros();
         let values = self.terms.friction_dashpots.as_ref()?;
         for (node, value) in self.sector.contact_nodes().zip(values) {
             for (row, along) in self.slip(node) {
@@ -334,7 +336,7 @@ impl SectorTangent {
     /// factor `-s mu`, which is `s (i mu)` once the tangential row is multiplied by `-i`.
     fn project(&self, mut full: Vec<BandedMatrix>) -> FrictionPolynomial {
         if self.terms.normal_stiffness.is_none() {
-            full.push(self.zero());
+            full.push(self.dofs.zeros());
             for power in (1..full.len()).rev() {
                 let (lower, upper) = full.split_at_mut(power);
                 for node in self.sector.contact_nodes() {

@@ -2,7 +2,8 @@
 
 use super::{SectorSliding, TangentOptions};
 use crate::fem::MaterialField;
-use crate::fem::sector::{self, MirrorParity, SectorMatrix};
+use crate::fem::fold::SectorMatrix;
+use crate::fem::sector;
 use crate::linalg::banded::BandedMatrix;
 use crate::linalg::c64;
 use crate::mesh::SectorMesh;
@@ -28,9 +29,9 @@ pub fn evaluate(polynomial: &FrictionPolynomial, z: c64) -> Vec<c64> {
 pub(super) struct Terms {
     pub(super) elastic: SectorMatrix,
     /// Springs and dashpots of the supported edges.
-    pub(super) supports: Option<[SectorMatrix; 2]>,
+    pub(super) supports: [SectorMatrix; 2],
     /// Damping that a body has beyond that of the whole.
-    pub(super) own_damping: Option<SectorMatrix>,
+    pub(super) own_damping: SectorMatrix,
     pub(super) mass: SectorMatrix,
     /// Stress of the pressed state and, for each unit of friction, of the sheared state.
     pub(super) stress: Option<[SectorMatrix; 2]>,
@@ -54,13 +55,8 @@ pub(super) fn stress_stiffness(
     material: &dyn MaterialField,
     base: &SectorSliding,
 ) -> [SectorMatrix; 2] {
-    let of = |displacement: &[f64], parity| {
-        sector::geometric_stiffness(sector, material, displacement, parity)
-    };
-    [
-        of(&base.pressed_displacement, MirrorParity::Even),
-        of(&base.sheared_displacement, MirrorParity::Odd),
-    ]
+    [&base.pressed_displacement, &base.sheared_displacement]
+        .map(|displacement| sector::geometric_stiffness(sector, material, displacement))
 }
 
 /// `N / a` of each contact node, zero where the prestress does not act back.

@@ -4,7 +4,8 @@ use super::PrestressError;
 use super::face_conditions::supports;
 use super::pressing::{System, along_element, press_on_springs, press_rigidly, pressed_span};
 use crate::contact::{NormalLaw, SlidingContact, SteadyFriction};
-use crate::fem::solid::{SolidMatrix, whole_element};
+use crate::fem::fold::SectorMatrix;
+use crate::fem::solid::whole_element;
 use crate::mesh::{FaceElement, SolidSector};
 
 /// The state of steady sliding of a body of revolution, the same in every sector.
@@ -49,7 +50,7 @@ impl SolidSliding {
     /// [`PrestressError::NoState`] where no set of pressed rings is found.
     pub fn solve(
         sector: &SolidSector,
-        elastic: &SolidMatrix,
+        elastic: &SectorMatrix,
         contact: &SlidingContact,
     ) -> Result<Self, PrestressError> {
         Self::solve_with(sector, elastic, contact, None)
@@ -61,7 +62,7 @@ impl SolidSliding {
     /// As [`Self::solve`].
     pub fn solve_with(
         sector: &SolidSector,
-        elastic: &SolidMatrix,
+        elastic: &SectorMatrix,
         contact: &SlidingContact,
         law: Option<NormalLaw>,
     ) -> Result<Self, PrestressError> {

@@ -3,18 +3,19 @@
 use super::SolidSliding;
 use super::pressing::along_element;
 use crate::contact::ContactStiffness;
-use crate::fem::solid::{FaceTerm, SolidMatrix, face_matrix};
+use crate::fem::fold::SectorMatrix;
+use crate::fem::solid::{FaceTerm, face_matrix};
 use crate::mesh::{FaceElement, SolidSector};
 
 /// Matrices of the contact.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ContactTerms {
     /// Penalty stiffness at rest and its friction; empty for rigid contact.
-    pub penalty: [SolidMatrix; 2],
+    pub penalty: [SectorMatrix; 2],
     /// Contact dashpots at rest and their friction.
-    pub dashpots: [SolidMatrix; 2],
+    pub dashpots: [SectorMatrix; 2],
     /// `p_0 / V` across the sliding, and `p_0 mu'(V) / mu` along it where friction falls with the speed.
-    pub friction_dashpots: SolidMatrix,
+    pub friction_dashpots: SectorMatrix,
 }
 
 /// A weight from the element, the radius (m) and the place along the element.
@@ -48,14 +49,14 @@ pub(super) fn contact_terms(
         let dragged = |element: &FaceElement, r: f64, at: f64| weight(element, r, at) * drag(r);
         [pressed(normal, normal, weight), pressed(1, normal, &dragged)]
     };
-    let mut dashpots: [SolidMatrix; 2] = match contact.normal_damping {
+    let mut dashpots: [SectorMatrix; 2] = match contact.normal_damping {
         0.0 => Default::default(),
         damping => normal_and_drag(&|_, _, _| damping),
     };
     let tangential = contact.tangential_damping;
     if tangential != 0.0 {
         for component in [1, side] {
-            dashpots[0].extend(pressed(component, component, &|_, _, _| tangential));
+            dashpots[0] = dashpots[0].plus(&pressed(component, component, &|_, _, _| tangential));
         }
     }
 
@@ -67,7 +68,7 @@ pub(super) fn contact_terms(
     if base.contact.decay.is_some() {
         let slope = |r: f64| base.friction(r).1.slope;
         let along = term(1, 1, false, &|element, r, at| pressure(element, at) * slope(r));
-        friction_dashpots.extend(along);
+        friction_dashpots = friction_dashpots.plus(&along);
     }
     ContactTerms {
         penalty: match (base.law, contact.normal_stiffness) {

@@ -4,9 +4,9 @@ use super::face_conditions::supports;
 use super::solid_contact::{ContactTerms, contact_terms};
 use super::{DampingModel, PrestressError, SolidHarmonic, SolidSliding, TangentOptions};
 use crate::contact::SlidingContact;
-use crate::fem::sector::MirrorParity;
-use crate::fem::solid::{self, SolidMatrix, half_bandwidth, nodal_matrix};
-use crate::fem::{DofMap, ElasticMaterial, RayleighDamping};
+use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
+use crate::fem::solid::{self, nodal_matrix};
+use crate::fem::{ElasticMaterial, RayleighDamping};
 use crate::linalg::banded::BandedMatrix;
 use crate::mesh::SolidSector;
 
@@ -28,17 +28,17 @@ pub struct SolidTangent {
     pub(super) options: TangentOptions,
     pub(super) base: SolidSliding,
     pub(super) terms: SolidTerms,
-    supports: [SolidMatrix; 2],
-    unknown_of: Vec<Option<usize>>,
+    supports: [SectorMatrix; 2],
+    pub(super) dofs: WaveDofs,
 }
 
 /// What the matrices are made of.
 #[derive(Clone, Debug, Default)]
 pub(super) struct SolidTerms {
-    pub elastic: SolidMatrix,
-    pub mass: SolidMatrix,
+    pub elastic: SectorMatrix,
+    pub mass: SectorMatrix,
     /// Even and odd parts of prestress and turning forces.
-    pub stress: [SolidMatrix; 2],
+    pub stress: [SectorMatrix; 2],
     pub contact: ContactTerms,
 }
 
@@ -69,7 +69,7 @@ impl SolidTangent {
             elastic,
         };
         Ok(Self {
-            unknown_of: sector_unknowns(sector),
+            dofs: solid::wave_dofs(sector),
             supports: supports(sector),
             sector: sector.clone(),
             material: *material,
@@ -96,7 +96,7 @@ impl SolidTangent {
 
     /// Unknown of each dof, `None` for those held.
     pub fn unknown_of(&self) -> &[Option<usize>] {
-        &self.unknown_of
+        &self.dofs.unknown_of
     }
 
     /// Whether harmonic `n` stands: `+n` and `-n` are one and the same.
@@ -110,8 +110,8 @@ impl SolidTangent {
         let stiffness =
             [&terms.elastic, &terms.stress[0], &terms.contact.penalty[0], &self.supports[0]];
         [
-            self.sum(n, MirrorParity::Even, &[&terms.mass]),
-            self.sum(n, MirrorParity::Even, &stiffness),
+            self.dofs.fold(n, MirrorParity::Even, &[&terms.mass]),
+            self.dofs.fold(n, MirrorParity::Even, &stiffness),
         ]
     }
 
@@ -119,7 +119,7 @@ impl SolidTangent {
     pub fn harmonic(&self, n: usize) -> SolidHarmonic {
         let terms = &self.terms;
         let [springs, dashpots] = &self.supports;
-        let mass = self.sum(n, MirrorParity::Even, &[&terms.mass]);
+        let mass = self.dofs.fold(n, MirrorParity::Even, &[&terms.mass]);
         let mut stiffness = self.stiffness(n);
         let rayleigh = self.options.damping;
         let mut damping = self.damped(&stiffness, n);
@@ -128,16 +128,16 @@ impl SolidTangent {
         }
         damping[0].add_scaled(rayleigh.mass_coefficient, &mass);
         let [even, odd] = &terms.contact.dashpots;
-        damping[0].add_scaled(1.0, &self.sum(n, MirrorParity::Even, &[even]));
-        damping[1].add_scaled(1.0, &self.sum(n, MirrorParity::Odd, &[odd]));
-        self.add(&mut stiffness[0], n, MirrorParity::Even, &[springs]);
-        self.add(&mut damping[0], n, MirrorParity::Even, &[dashpots]);
+        damping[0].add_scaled(1.0, &self.dofs.fold(n, MirrorParity::Even, &[even]));
+        damping[1].add_scaled(1.0, &self.dofs.fold(n, MirrorParity::Odd, &[odd]));
+        self.dofs.add(&mut stiffness[0], n, MirrorParity::Even, &[springs]);
+        self.dofs.add(&mut damping[0], n, MirrorParity::Even, &[dashpots]);
         let across = &terms.contact.friction_dashpots;
         SolidHarmonic {
             mass,
             stiffness,
             damping,
-            across: self.sum(n, MirrorParity::Even, &[across]),
+            across: self.dofs.fold(n, MirrorParity::Even, &[across]),
             rigid: self.rigid(),
         }
     }
@@ -148,8 +148,8 @@ impl SolidTangent {
         let [pressed, sheared] = &terms.stress;
         let [normal, friction] = &terms.contact.penalty;
         [
-            self.sum(n, MirrorParity::Even, &[&terms.elastic, pressed, normal]),
-            self.sum(n, MirrorParity::Odd, &[sheared, friction]),
+            self.dofs.fold(n, MirrorParity::Even, &[&terms.elastic, pressed, normal]),
+            self.dofs.fold(n, MirrorParity::Odd, &[sheared, friction]),
         ]
     }
 
@@ -158,28 +158,9 @@ impl SolidTangent {
         match self.options.damping_model {
             DampingModel::WholeTangent => stiffness.clone(),
             DampingModel::BodyOnly => [
-                self.sum(n, MirrorParity::Even, &[&self.terms.elastic]),
-                self.sum(n, MirrorParity::Odd, &[]),
+                self.dofs.fold(n, MirrorParity::Even, &[&self.terms.elastic]),
+                self.dofs.fold(n, MirrorParity::Odd, &[]),
             ],
-        }
-    }
-
-    pub(super) fn sum(
-        &self,
-        n: usize,
-        parity: MirrorParity,
-        terms: &[&SolidMatrix],
-    ) -> BandedMatrix {
-        let count = self.unknown_of.iter().flatten().count();
-        let mut sum = BandedMatrix::zeros(count, half_bandwidth(&self.sector));
-        self.add(&mut sum, n, parity, terms);
-        sum
-    }
-
-    fn add(&self, sum: &mut BandedMatrix, n: usize, parity: MirrorParity, terms: &[&SolidMatrix]) {
-        let at = (self.sector.sector_count(), n);
-        for term in terms {
-            term.add_harmonic(sum, &self.unknown_of, at, (parity, 1.0));
         }
     }
 
@@ -187,9 +168,9 @@ impl SolidTangent {
     pub fn rigid(&self) -> Vec<(usize, Option<usize>, f64)> {
         let face = self.sector.specification.contact.face();
         let nodes = self.rigid_nodes().filter_map(|node| {
-            let normal = self.unknown_of[3 * node + face.normal_component()]?;
+            let normal = self.dofs.unknown_of[3 * node + face.normal_component()]?;
             let drag = self.base.friction(self.sector.nodes[node].radius).1.drag;
-            Some((normal, self.unknown_of[3 * node + 1], face.inward_sign() * drag))
+            Some((normal, self.dofs.unknown_of[3 * node + 1], face.inward_sign() * drag))
         });
         nodes.collect()
     }
@@ -202,36 +183,28 @@ impl SolidTangent {
     }
 }
 
-/// Unknown of each dof of a sector, `None` for those that a boundary holds.
-pub fn sector_unknowns(sector: &SolidSector) -> Vec<Option<usize>> {
-    let dofs = 3 * sector.node_count();
-    DofMap::excluding(dofs, (0..dofs).filter(|&dof| sector.is_held(dof))).unknown_of
-}
-
 /// Geometric stiffness of the pressed and of the sheared state with the contact forces that turn with their nodes.
 fn prestress(
     sector: &SolidSector,
     material: &ElasticMaterial,
     base: &SolidSliding,
-) -> [SolidMatrix; 2] {
-    let mut pressed = solid::geometric_stiffness(sector, material, &base.pressed_displacement);
-    let mut sheared = solid::geometric_stiffness(sector, material, &base.sheared_displacement);
+) -> [SectorMatrix; 2] {
+    let [pressed, sheared] = [&base.pressed_displacement, &base.sheared_displacement]
+        .map(|displacement| solid::geometric_stiffness(sector, material, displacement));
     let forces = base.normal_forces.iter().map(|&(node, force)| {
         let radius = sector.nodes[node].radius;
         let turning = force / radius;
         (node, [turning, base.friction(radius).1.drag * turning])
     });
     let [turning, dragging] = turning_forces(sector, forces);
-    pressed.extend(turning);
-    sheared.extend(dragging);
-    [pressed, sheared]
+    [pressed.plus(&turning), sheared.plus(&dragging)]
 }
 
 /// What forces of the contact do that turn with their nodes, from `(node, [N / r, s N mu(V) / (mu r)])`.
 fn turning_forces(
     sector: &SolidSector,
     forces: impl Iterator<Item = (usize, [f64; 2])>,
-) -> [SolidMatrix; 2] {
+) -> [SectorMatrix; 2] {
     let is_cylinder = sector.specification.contact.face().normal_component() == 0;
     let (mut turning, mut dragging) = (Vec::new(), Vec::new());
     for (node, [force, drag]) in forces {

@@ -130,6 +130,27 @@ pub struct BodyTerms {
     pub rotation: Option<[Triplets; 2]>,
 }
 
+impl BodyTerms {
+    /// Those of bodies that neither carry stress nor turn.
+    pub fn of(
+        (mesh, material): (&Mesh, &dyn MaterialField),
+        elastic: Triplets,
+        supports: [Triplets; 2],
+        options: &TangentOptions,
+    ) -> Self {
+        Self {
+            mass: assemble_mass(mesh, material, options.mass),
+            elastic,
+            geometric: None,
+            supports,
+            extra_damping: assemble_extra_damping(mesh, material, options.mass, options.damping),
+            structural: assemble_losses(mesh, material),
+            tabled: assemble_tabled(mesh, material),
+            rotation: None,
+        }
+    }
+}
+
 /// The surfaces of one contact and their state.
 #[derive(Clone, Copy, Debug)]
 pub struct ContactPart<'a> {
@@ -169,27 +190,15 @@ impl SlidingTangent {
     ) -> Self {
         let stressed =
             |displacement: &Vec<f64>| assemble_geometric_stiffness(mesh, material, displacement);
+        let geometric =
+            options.geometric_stiffness.then(|| base.displacements.iter().map(stressed).collect());
         let body = BodyTerms {
-            mass: assemble_mass(mesh, material, options.mass),
-            elastic: elastic.clone(),
-            geometric: options
-                .geometric_stiffness
-                .then(|| base.displacements.iter().map(stressed).collect())
-                .map(|terms| frozen_terms(terms, base.frozen_below)),
-            supports: assemble_supports(mesh),
-            extra_damping: assemble_extra_damping(mesh, material, options.mass, options.damping),
-            structural: assemble_losses(mesh, material),
-            tabled: assemble_tabled(mesh, material),
-            rotation: None,
+            geometric: geometric.map(|terms| frozen_terms(terms, base.frozen_below)),
+            ..BodyTerms::of((mesh, material), elastic.clone(), assemble_supports(mesh), options)
         };
         let part = ContactPart {
             points: &base.points,
-            state: PressedPoints {
-                is_pressed: &base.is_pressed,
-                normal_forces: &base.normal_forces,
-                stiffnesses: &base.stiffnesses,
-                frozen_below: base.frozen_below,
-            },
+            state: base.points_from(0),
             stiffness: options.contact,
             has_own_dofs: true,
         };
@@ -227,7 +236,8 @@ impl SlidingTangent {
         let mut friction = Vec::new();
         for part in contacts.iter().filter(|part| part.has_own_dofs) {
             let is_rigid = part.stiffness.normal_stiffness.is_none();
-            for (point, &is_pressed) in part.points.iter().zip(part.state.is_pressed) {
+            let own = &part.state.is_pressed[part.state.first..];
+            for (point, &is_pressed) in part.points.iter().zip(own) {
                 let pivot = basis.require(&point.normal, "contact")?;
                 if is_rigid && is_pressed {
                     basis.drop_unknown(pivot);

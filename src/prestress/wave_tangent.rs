@@ -6,6 +6,7 @@ use super::{
 use crate::linalg::c64;
 
 /// The tangent of one sector of a body.
+#[derive(Clone, Debug)]
 pub enum WaveTangent {
     /// Of a plane annulus.
     Plane(Box<SectorTangent>),

@@ -1,7 +1,7 @@
 //! Forces of supports, boundary pressures and regions with damping of their own.
 
+use crate::fem::Triplets;
 use crate::fem::operator::{MotionFields, StiffnessOperator};
-use crate::fem::{RayleighDamping, Triplets};
 use std::collections::BTreeMap;
 
 /// Rows that are summed side by side.
@@ -117,21 +117,6 @@ fn sums_side_by_side(rows: [&[(usize, f64)]; SIDE_BY_SIDE], x: &[f64]) -> [f64; 
         }
     }
     sums
-}
-
-/// `D` of a body with these springs and dashpots of its supports, and with regions of a damping of their `own`.
-pub(super) fn extra_damping(
-    [springs, dashpots]: &[Triplets; 2],
-    own: Option<Triplets>,
-    damping: RayleighDamping,
-) -> Triplets {
-    let mut all = dashpots.clone();
-    let beta = damping.stiffness_coefficient;
-    if beta != 0.0 {
-        all.entries.extend(springs.scaled(-beta).entries);
-    }
-    all.entries.extend(own.unwrap_or_default().entries);
-    all
 }
 
 #[cfg(test)]

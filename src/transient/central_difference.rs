@@ -7,8 +7,8 @@ mod start;
 use super::boundary::BoundaryForces;
 use super::relaxation::Relaxation;
 use super::{
-    ContactPowers, LagrangeContact, Observer, Sample, StatusCounts, StepPlan, TransientBody,
-    TransientError,
+    ContactPowers, LagrangeContact, Observer, Sample, StatusCounts, StepPlan, TransientError,
+    TransientModel,
 };
 use crate::contact::ContactInterface;
 use crate::fem::operator::{
@@ -81,7 +81,7 @@ struct Kick {
 /// exactly; the balance residual is what round-off leaves of it. The springs of a compliant contact add their energy to
 /// `E`. Linear kinematics, no geometric stiffness.
 pub struct CentralDifference<'a> {
-    body: TransientBody<'a>,
+    model: TransientModel<'a>,
     operator: &'a dyn StiffnessOperator,
     plan: StepPlan,
     expansion_time: f64,
@@ -236,8 +236,8 @@ impl<'a> CentralDifference<'a> {
     }
 
     /// The body and its contact.
-    pub fn body(&self) -> &TransientBody<'a> {
-        &self.body
+    pub fn model(&self) -> &TransientModel<'a> {
+        &self.model
     }
 
     /// The stiffness operator.

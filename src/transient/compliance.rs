@@ -1,7 +1,6 @@
 //! Springs and dashpots of a contact edge that is not rigid.
 
-use crate::contact::NormalLaw;
-use crate::prestress::SlidingSurfaces;
+use crate::contact::{ContactStiffness, NormalLaw};
 
 /// Newton steps and halvings of one node at most: an interval of the largest numbers is halved away by then.
 const NEWTON_STEPS: usize = 200;
@@ -42,35 +41,15 @@ pub(super) struct CompliantContact {
     pub dissipation: Vec<f64>,
 }
 
-/// The stiffness damping of a case that acts on the springs of contacts between solid bodies too.
-#[derive(Clone, Debug, Default)]
-pub(super) struct SpringDamping {
-    /// The coefficient, s.
-    pub coefficient: f64,
-    /// Springs of all points in the base state, N/m, where some stiffen with pressure; else empty.
-    pub springs: Vec<f64>,
-}
-
-impl SpringDamping {
-    /// The springs of a contact at points with these `areas`, the first of which is point `first` of all; `None` is rigid.
-    pub fn springs_of(
-        &self,
-        surfaces: &SlidingSurfaces,
-        areas: &[f64],
-        first: usize,
-    ) -> Option<CompliantContact> {
-        let Some(law) = surfaces.law else {
-            let stiffness = surfaces.stiffness.damped_by(self.coefficient);
-            let own = [stiffness.normal_stiffness?, stiffness.normal_damping];
-            return Some(CompliantContact::of(own, areas, &vec![0.0; areas.len()]));
-        };
-        let damping = areas.iter().enumerate().map(|(k, area)| {
-            let spring = self.springs.get(first + k).copied().unwrap_or(0.0);
-            surfaces.stiffness.normal_damping * area + self.coefficient * spring
-        });
-        let damping = damping.collect();
-        Some(CompliantContact::stiffening(law, areas, damping))
-    }
+/// Steady sliding at a contact point; nothing where its springs need none.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct PressedPoint {
+    /// Normal force, N (N/m in the plane).
+    pub force: f64,
+    /// Stiffness of contact that stiffens with pressure, N/m.
+    pub spring: f64,
+    /// How far the springs have given way in the displacement of the base state, m.
+    pub given_way: f64,
 }
 
 /// One node before a step, as its spring sees it.
@@ -85,38 +64,30 @@ pub(super) struct CompressedNode {
 }
 
 impl CompliantContact {
-    /// Contact that stiffens with pressure, with its nodes' `shares` and dashpots.
-    pub fn stiffening(law: NormalLaw, shares: &[f64], damping: Vec<f64>) -> Self {
-        Self {
-            stiffness: Vec::new(),
-            compression: vec![0.0; shares.len()],
-            dissipation: vec![0.0; shares.len()],
-            law: Some((law, shares.to_vec())),
-            damping,
+    /// Springs and dashpots of points with these `weights` over their `base` state; `None` is rigid contact.
+    pub fn of(contact: &ContactStiffness, weights: &[f64], base: &[PressedPoint]) -> Option<Self> {
+        let linear = contact.normal_stiffness.filter(|_| contact.law.is_none());
+        if linear.is_none() && contact.law.is_none() {
+            return None;
         }
-    }
-
-    /// From stiffness and dashpot for each unit of the nodes' `shares` of the contact, and the nodes' forces in steady sliding.
-    pub fn of([stiffness, damping]: [f64; 2], shares: &[f64], forces: &[f64]) -> Self {
-        let scaled = |factor: f64| shares.iter().map(|w| factor * w).collect::<Vec<f64>>();
-        let stiffness = scaled(stiffness);
-        let pairs = forces.iter().zip(&stiffness);
-        Self {
-            compression: pairs.map(|(force, k)| force.max(0.0) / k).collect(),
-            damping: scaled(damping),
-            dissipation: vec![0.0; stiffness.len()],
-            law: None,
+        let stiffness: Vec<f64> =
+            linear.iter().flat_map(|k| weights.iter().map(move |w| k * w)).collect();
+        let mut compression = vec![0.0; weights.len()];
+        for ((own, k), point) in compression.iter_mut().zip(&stiffness).zip(base) {
+            if point.force > 0.0 {
+                *own = point.force / k - point.given_way;
+            }
+        }
+        let dashpot = |(w, point): (&f64, &PressedPoint)| {
+            contact.normal_damping * w + contact.law_damping * point.spring
+        };
+        Some(Self {
             stiffness,
-        }
-    }
-
-    /// The same over a base state whose displacement has `given_way`, m, of the compression of its pressed nodes.
-    pub fn beyond(mut self, given_way: &[f64]) -> Self {
-        let pressed = self.compression.iter_mut().zip(given_way);
-        pressed
-            .filter(|(compression, _)| **compression > 0.0)
-            .for_each(|(compression, given_way)| *compression -= given_way);
-        self
+            damping: weights.iter().zip(base).map(dashpot).collect(),
+            compression,
+            law: contact.law.map(|law| (law, weights.to_vec())),
+            dissipation: vec![0.0; weights.len()],
+        })
     }
 
     /// What the interface gives way under the base state's force at node `i`, m.

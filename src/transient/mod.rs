@@ -6,8 +6,6 @@
 //! that keeps what results need, and [`TransientAnalysis`] reads frequencies, growth and powers from it.
 
 mod analysis;
-mod assembly;
-mod body;
 mod boundary;
 mod central_difference;
 mod compliance;
@@ -21,16 +19,13 @@ mod relaxation;
 mod sample;
 mod settings;
 mod settling;
-mod solid;
 mod vibration;
 
 pub use analysis::{Growth, LastFifth, ProbeMotion, TransientAnalysis};
-pub use assembly::AssemblyTransientModel;
-pub use body::TransientBody;
 pub use central_difference::{CentralDifference, RunEnd, TransientState};
 pub use contact::{ContactPowers, LagrangeContact, StatusCounts};
 pub use error::{Breakdown, TransientError};
-pub use model::{TransientModel, build_operator};
+pub use model::{SteppedBody, TransientModel};
 pub use motion::TwoFrequencies;
 pub use perturbation::{Perturbation, StandingWave};
 pub use recorder::{ContactFrame, Recorder, RecorderSettings, SampleRow, Snapshot};
@@ -40,4 +35,3 @@ pub use settings::{
     whole_intervals,
 };
 pub use settling::{Drift, EndState, Settling, Unsettled, Vibration};
-pub use solid::SolidTransientModel;

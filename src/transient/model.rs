@@ -1,253 +1,334 @@
-//! Model of a transient of a plane body.
+//! What the time loop steps: bodies with their contact.
 
-use super::boundary::{BoundaryForces, extra_damping};
-use super::compliance::CompliantContact;
-use super::contact::ContactPart;
+mod contact;
+mod operator;
+
+use super::boundary::BoundaryForces;
+use super::perturbation::{Place, places};
+use super::relaxation::Relaxation;
 use super::settings::{check_times, stable_step_limit, stiffening};
-use super::{
-    LagrangeContact, OperatorChoice, Perturbation, StepPlan, TransientError, TransientSettings,
-};
-use crate::contact::{ContactInterface, ContactStiffness, Row, SlidingContact};
-use crate::fem::operator::{
-    CyclicStencil, OperatorError, SimdLevel, SparseOperator, StiffnessOperator,
-    largest_frequency_of,
-};
+use super::{Perturbation, StepPlan, TransientError, TransientSettings};
+use crate::contact::{ContactInterface, ContactStiffness, SlidingContact};
+use crate::fem::fold::SectorMatrix;
+use crate::fem::operator::{StiffnessOperator, largest_frequency_of};
 use crate::fem::{
-    MassKind, MaterialField, RayleighDamping, assemble_extra_damping, assemble_stiffness,
-    assemble_supports, lumped_masses,
+    MassKind, MaterialField, RayleighDamping, Triplets, assemble_extra_damping, assemble_pressures,
+    assemble_supports,
 };
-use crate::mesh::{AnnulusMesh, Mesh};
-use crate::prestress::SteadySliding;
+use crate::mesh::{AnnulusMesh, BoundaryCondition, Mesh, SolidFace, SolidSector};
+use crate::prestress::{Assembly, pressure_load, supports};
+use nalgebra::Vector3;
 
-/// The body and its contact.
+/// Bodies of a mesh or of revolution.
+#[derive(Clone, Copy, Debug)]
+pub enum SteppedBody<'a> {
+    /// In the plane, two components a node; the annulus that the mesh belongs to, if it is one.
+    Plane {
+        /// Its mesh.
+        mesh: &'a Mesh,
+        /// What it was generated as.
+        annulus: Option<&'a AnnulusMesh>,
+    },
+    /// Of revolution, of bricks with 8 nodes, by one of its sectors.
+    ///
+    /// Dofs over the whole body are `3 (s n + k) + c`: component `c` of `(u_r, u_theta, u_z)` at node `k` of sector `s`, `n` nodes
+    /// to a sector.
+    Revolution(&'a SolidSector),
+    /// Solid bodies that are tied together and slide on each other.
+    ///
+    /// Dofs are those of the mesh, three a node in its frame; ties and held dofs are eliminated, what follows others moves with
+    /// them. Meshes stay where they are: sliding is a relative velocity at each contact point.
+    Assembly {
+        /// The bodies with their ties and contacts.
+        assembly: &'a Assembly<'a>,
+        /// Point of the axis about which places are told, and the axis.
+        axis: [[f64; 3]; 2],
+    },
+}
+
+/// A body with its material and its contact; forces and energies are for each metre of thickness in the plane, else in N and J.
 #[derive(Clone, Copy, Debug)]
 pub struct TransientModel<'a> {
-    /// Mesh of the disc.
-    pub mesh: &'a Mesh,
-    /// The annulus that the mesh belongs to, if it is one.
-    pub annulus: Option<&'a AnnulusMesh>,
-    /// Its material.
+    /// The body.
+    pub body: SteppedBody<'a>,
+    /// Its materials.
     pub material: &'a dyn MaterialField,
     /// Rayleigh coefficients.
     pub damping: RayleighDamping,
-    /// The rotating cylinder.
+    /// Friction and speed of the counterface; of an assembly the friction of its first contact, and the speed of its first motion.
     pub contact: SlidingContact,
-    /// Springs and dashpots of the contact; the default is rigid.
+    /// Springs and dashpots of the contact of one body; those of an assembly have their own.
     pub stiffness: ContactStiffness,
+    /// Stiffness damping that acts on the springs of contacts too, s.
+    pub contact_damping: f64,
 }
 
 impl<'a> TransientModel<'a> {
-    /// A generated annulus of one material in rigid contact.
+    /// A body in rigid contact.
+    pub fn new(
+        body: SteppedBody<'a>,
+        material: &'a dyn MaterialField,
+        damping: RayleighDamping,
+        contact: SlidingContact,
+    ) -> Self {
+        let stiffness = ContactStiffness::default();
+        Self { body, material, damping, contact, stiffness, contact_damping: 0.0 }
+    }
+
+    /// A generated annulus in rigid contact.
     pub fn of_annulus(
         annulus: &'a AnnulusMesh,
         material: &'a dyn MaterialField,
         damping: RayleighDamping,
         contact: SlidingContact,
     ) -> Self {
-        Self {
-            mesh: &annulus.mesh,
-            annulus: Some(annulus),
-            material,
-            damping,
-            contact,
-            stiffness: ContactStiffness::default(),
+        let body = SteppedBody::Plane { mesh: &annulus.mesh, annulus: Some(annulus) };
+        Self::new(body, material, damping, contact)
+    }
+
+    /// Displacement components of a node: 2, or 3.
+    pub fn components(&self) -> usize {
+        if let SteppedBody::Plane { .. } = self.body { 2 } else { 3 }
+    }
+
+    /// The mesh of all dofs; a body of revolution has none.
+    pub fn mesh(&self) -> Option<&'a Mesh> {
+        match self.body {
+            SteppedBody::Plane { mesh, .. } => Some(mesh),
+            SteppedBody::Revolution(_) => None,
+            SteppedBody::Assembly { assembly, .. } => Some(assembly.mesh()),
         }
     }
 
-    /// The step of the body, as [`StepPlan::new`]: the smallest that any of its parts asks for.
+    /// A matrix over all dofs without those that are held or follow others.
+    fn bound(&self, matrix: Triplets) -> Triplets {
+        match self.body {
+            SteppedBody::Assembly { assembly, .. } => assembly.basis().congruent(&matrix),
+            _ => matrix,
+        }
+    }
+
+    /// Springs (N/m) and dashpots (N s/m) of the supports over all dofs.
+    fn supports(&self) -> [Triplets; 2] {
+        match self.body {
+            SteppedBody::Plane { mesh, .. } => assemble_supports(mesh),
+            SteppedBody::Revolution(sector) => {
+                supports(sector).map(|matrix| everywhere(sector, &matrix))
+            }
+            SteppedBody::Assembly { assembly, .. } => assembly.supports().clone(),
+        }
+    }
+
+    /// Distance of a node from the axis, of a plane body from the origin (m), and its angle about it (rad).
+    pub(super) fn place(&self, node: usize) -> [f64; 2] {
+        match self.body {
+            SteppedBody::Plane { mesh, .. } => {
+                let [x, y] = mesh.plane_node(node);
+                [x.hypot(y), mesh.frame_angles()[node]]
+            }
+            SteppedBody::Revolution(sector) => {
+                let (local, s) = (node % sector.node_count(), node / sector.node_count());
+                [sector.nodes[local].radius, sector.angle(local, s)]
+            }
+            SteppedBody::Assembly { assembly, axis } => {
+                let [center, axis] = axis.map(Vector3::from);
+                let arm = Vector3::from(assembly.mesh().nodes[node]) - center;
+                // The axis with the smallest share along the other one gives the zero of the angle.
+                let first = Vector3::ith(axis.iamin(), 1.0);
+                let first = (first - axis * axis.dot(&first)).normalize();
+                let [x, y] = [arm.dot(&first), arm.dot(&axis.cross(&first))];
+                [x.hypot(y), y.atan2(x)]
+            }
+        }
+    }
+
+    /// The step of the body: the smallest that any of its parts asks for.
     ///
     /// # Errors
-    /// Those of [`StepPlan::new`].
-    pub(super) fn plan(
+    /// [`TransientError`] names the setting that does not fit, with its bound.
+    pub fn plan(
         &self,
         operator: &dyn StiffnessOperator,
         settings: &TransientSettings,
     ) -> Result<StepPlan, TransientError> {
         check_times(settings)?;
-        let bodies = self.mesh.bodies();
-        let count = bodies.iter().max().map_or(0, |last| last + 1);
-        let factor = stiffening(self.mesh, self.material);
-        if count < 2 {
-            let damping = self.bounding_damping(&|_| true);
-            return StepPlan::stiffened(operator, factor, &damping, settings);
-        }
-        let limits = (0..count).map(|body| {
-            let is_part = |node: usize| bodies[node] == body;
-            let frequency = factor * largest_frequency_of(operator, &|dof| is_part(dof / 2));
-            let limit = stable_step_limit(frequency, &self.bounding_damping(&is_part));
-            (limit, frequency)
+        let count = operator.dof_count() / self.components();
+        // Parts that the operator does not connect each have their own highest frequency.
+        let part_of = match self.body {
+            SteppedBody::Plane { mesh, .. } => mesh.bodies(),
+            _ => vec![0; count],
+        };
+        let parts = part_of.iter().max().map_or(0, |last| last + 1);
+        let factor = self.mesh().map_or(1.0, |mesh| stiffening(mesh, self.material));
+        let rates = self.dashpot_rates(operator);
+        let limits = (0..parts).map(|part| {
+            let is_part = |dof: usize| part_of[dof / self.components()] == part;
+            let frequency = factor * largest_frequency_of(operator, &is_part);
+            (stable_step_limit(frequency, &self.bounding_damping(&rates, &is_part)), frequency)
         });
-        let limits: Vec<(f64, f64)> = limits.collect();
-        let smallest = limits.iter().min_by(|a, b| a.0.total_cmp(&b.0));
-        let (limit, frequency) = *smallest.expect("a mesh has a body");
+        let (limit, frequency) =
+            limits.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, 0.0));
         StepPlan::within(limit, frequency, settings)
     }
 
-    /// Coefficients of a Rayleigh damping that is nowhere below that of the nodes `is_part`, dashpots included: what bounds
-    /// the step.
-    pub fn bounding_damping(&self, is_part: &dyn Fn(usize) -> bool) -> RayleighDamping {
-        let mut regions: Vec<usize> = (0..self.mesh.element_count())
-            .filter(|&e| is_part(self.mesh.element_nodes(e)[0] as usize))
-            .map(|e| self.mesh.region(e))
-            .collect();
-        regions.sort_unstable();
-        regions.dedup();
+    /// Bound of the decay rates that the dashpots of supports give, dof by dof, 1/s: the sums of the rows of `M^-1 C`
+    /// (Gershgorin).
+    fn dashpot_rates(&self, operator: &dyn StiffnessOperator) -> Vec<f64> {
+        let mut rates = vec![0.0; operator.dof_count()];
+        let [_, dashpots] = self.supports();
+        for (row, _, value) in self.bound(dashpots).entries {
+            let mass = operator.masses()[operator.position(row)];
+            if mass > 0.0 {
+                rates[row] += value.abs() / mass;
+            }
+        }
+        rates
+    }
+
+    /// Coefficients of a Rayleigh damping that is nowhere below that of the dofs `is_part`, the `rates` of dashpots included: what
+    /// bounds the step.
+    fn bounding_damping(&self, rates: &[f64], is_part: &dyn Fn(usize) -> bool) -> RayleighDamping {
         let mut bound = RayleighDamping::default();
-        for region in regions {
-            let own = self.material.own_damping(region).unwrap_or(self.damping);
+        let mut cover = |own: RayleighDamping| {
             bound.mass_coefficient = bound.mass_coefficient.max(own.mass_coefficient);
             bound.stiffness_coefficient =
                 bound.stiffness_coefficient.max(own.stiffness_coefficient);
+        };
+        let Some(mesh) = self.mesh() else {
+            cover(self.damping);
+            bound.mass_coefficient += rates.iter().copied().fold(0.0, f64::max);
+            return bound;
+        };
+        let first_dof = |e: usize| mesh.dimension * mesh.element_nodes(e)[0] as usize;
+        for e in (0..mesh.element_count()).filter(|&e| is_part(first_dof(e))) {
+            cover(self.material.own_damping(mesh.region(e)).unwrap_or(self.damping));
         }
-        let mut supports = self.mesh.nodal_supports();
-        supports.retain(|support| is_part(support.node));
-        if supports.iter().any(|s| s.damping != [[0.0; 2]; 2]) {
-            let masses = lumped_masses(self.mesh, self.material);
-            let rates =
-                supports.iter().map(|s| (s.damping[0][0] + s.damping[1][1]) / masses[s.node]);
-            bound.mass_coefficient += rates.fold(0.0, f64::max);
-        }
+        let rates = rates.iter().enumerate().filter(|(dof, _)| is_part(*dof));
+        bound.mass_coefficient += rates.map(|(_, rate)| *rate).fold(0.0, f64::max);
         // Patches may overlap.
-        for patch in &self.mesh.patches {
+        for patch in &mesh.patches {
             bound.mass_coefficient += patch.mass_coefficient;
             bound.stiffness_coefficient += patch.stiffness_coefficient;
         }
         bound
     }
 
-    /// The contact edge.
-    pub fn interface(&self) -> ContactInterface {
-        ContactInterface::of(self.mesh)
-    }
-
-    /// Its operator.
-    ///
-    /// # Errors
-    /// As [`build_operator`].
-    pub(super) fn operator(
-        &self,
-        choice: OperatorChoice,
-        simd: SimdLevel,
-    ) -> Result<Box<dyn StiffnessOperator>, TransientError> {
-        build_operator(self, choice, simd)
-    }
-
-    /// Distance of a node from the origin (m) and the angle of its frame (rad).
-    pub(super) fn place(&self, node: usize) -> [f64; 2] {
-        let [x, y] = self.mesh.plane_node(node);
-        [x.hypot(y), self.mesh.frame_angles()[node]]
-    }
-
-    /// Displacement of steady sliding over all dofs, m.
-    pub(super) fn sliding_displacement(&self) -> Result<Vec<f64>, TransientError> {
-        let stiffness = assemble_stiffness(self.mesh, self.material);
-        let law = self.stiffness.law;
-        let base = SteadySliding::solve_with(self.mesh, &stiffness, &self.contact, law)?;
-        Ok(base.displacement(self.contact.friction_coefficient))
-    }
-
+    /// Supports, pressures, and regions with a damping of their own.
     pub(super) fn boundary_forces(&self, operator: &dyn StiffnessOperator) -> BoundaryForces {
-        let own = assemble_extra_damping(self.mesh, self.material, MassKind::Lumped, self.damping);
-        let pressure = self.mesh.pressure_forces().unwrap_or_default();
-        let supports = assemble_supports(self.mesh);
-        let damping = extra_damping(&supports, own, self.damping);
-        BoundaryForces::of(&damping, &pressure, operator)
-    }
-
-    pub(super) fn perturbed(
-        &self,
-        perturbation: &Perturbation,
-    ) -> Result<Vec<f64>, TransientError> {
-        perturbation.field(self)
-    }
-
-    /// The contact nodes of `interface`, all open.
-    ///
-    /// # Errors
-    /// [`TransientError::Prestress`] where the springs of a compliant contact have no base state.
-    pub(super) fn lagrange_contact(
-        &self,
-        operator: &dyn StiffnessOperator,
-        interface: &ContactInterface,
-    ) -> Result<LagrangeContact, TransientError> {
-        let speed = interface.surface_speed(self.contact.rotation_speed);
-        let mut points = interface.points(&self.contact);
-        // Along the second axes of the nodes, with its sign.
-        points.iter_mut().for_each(|point| point.speed = speed);
-        let part = ContactPart {
-            nodes: ContactPart::nodes_as_points(points.len()),
-            points: &points,
-            law: self.contact.law(),
-            interference: self.contact.interference,
-            springs: self.springs(interface)?,
-            tangential_damping: self.stiffness.tangential_damping,
-        };
-        Ok(LagrangeContact::new(operator, 1, vec![part], &Row::clone))
-    }
-
-    /// The springs of the contact; `None` where it is rigid.
-    fn springs(
-        &self,
-        interface: &ContactInterface,
-    ) -> Result<Option<CompliantContact>, TransientError> {
-        let own = &self.stiffness;
-        let Some(stiffness) = own.normal_stiffness else {
-            return Ok(None);
-        };
-        let shares = &interface.tributary_lengths;
-        let elastic = || assemble_stiffness(self.mesh, self.material);
-        let friction = self.contact.friction_coefficient;
-        let Some(law) = own.law else {
-            let base = SteadySliding::solve(self.mesh, &elastic(), &self.contact)?;
-            let forces = base.normal_forces(friction);
-            let constants = [stiffness, own.normal_damping];
-            return Ok(Some(CompliantContact::of(constants, shares, &forces)));
-        };
-        // Dashpots that follow the stiffness of a law have that of the base state.
-        let mut damping: Vec<f64> = shares.iter().map(|w| own.normal_damping * w).collect();
-        if own.law_damping > 0.0 {
-            let base = SteadySliding::solve_with(self.mesh, &elastic(), &self.contact, Some(law))?;
-            let springs = base.springs(friction);
-            for (damping, spring) in damping.iter_mut().zip(springs.iter().flatten()) {
-                *damping += own.law_damping * spring;
-            }
+        let [springs, mut damping] = self.supports();
+        let beta = self.damping.stiffness_coefficient;
+        if beta != 0.0 {
+            damping.entries.extend(springs.scaled(-beta).entries);
         }
-        Ok(Some(CompliantContact::stiffening(law, shares, damping)))
+        let own = self.mesh().and_then(|mesh| {
+            assemble_extra_damping(mesh, self.material, MassKind::Lumped, self.damping)
+        });
+        damping.entries.extend(own.unwrap_or_default().entries);
+        let pressure = match self.body {
+            SteppedBody::Plane { mesh, .. } => assemble_pressures(mesh),
+            SteppedBody::Revolution(sector) => {
+                Some(pressure_load(sector).repeat(sector.sector_count()))
+            }
+            SteppedBody::Assembly { assembly, .. } => assemble_pressures(assembly.mesh())
+                .map(|load| assembly.basis().transposed_forces(&load)),
+        };
+        BoundaryForces::of(&self.bound(damping), &pressure.unwrap_or_default(), operator)
     }
-}
 
-impl Perturbation {
-    /// Velocity over all dofs of `model`, m/s.
+    /// Maxwell elements of its regions.
+    pub(super) fn relaxation(&self, operator: &dyn StiffnessOperator) -> Relaxation {
+        let mesh = self.mesh();
+        mesh.map_or_else(Relaxation::default, |mesh| {
+            Relaxation::new(mesh, self.material, operator, &|matrix| self.bound(matrix))
+        })
+    }
+
+    /// Highest circumferential harmonic that the contact nodes show.
+    pub fn highest_harmonic(&self) -> usize {
+        match self.body {
+            SteppedBody::Plane { mesh, .. } => ContactInterface::of(mesh).len() / 2,
+            SteppedBody::Revolution(sector) => sector.sector_count() / 2,
+            // Its contact nodes are no edge.
+            SteppedBody::Assembly { .. } => 0,
+        }
+    }
+
+    /// The velocity of a perturbation over all dofs, m/s.
     ///
-    /// On a body that is no annulus the depth is the distance from the counterface over the largest there is, and the
-    /// angle that about the cylinder's axis, or `2 pi` times the share of the contact edge along a plane.
+    /// On a plane body that is no annulus the depth is the distance from the counterface over the largest there is, and the
+    /// angle that about the cylinder's axis, or `2 pi` times the share of the contact edge along a plane. Waves on a body of
+    /// revolution are uniform over the thickness, and fade towards the cylinder that is clamped, the outer one where neither is;
+    /// those of an assembly go along its axis over all bodies.
     ///
     /// # Errors
     /// [`TransientError::HarmonicAboveNyquist`] for a harmonic above half the circumferential elements.
-    pub fn field(&self, model: &TransientModel<'_>) -> Result<Vec<f64>, TransientError> {
-        self.over(model.mesh, model.annulus)
+    pub fn perturbed(&self, perturbation: &Perturbation) -> Result<Vec<f64>, TransientError> {
+        perturbation.check_harmonics(match self.body {
+            SteppedBody::Plane { annulus: Some(annulus), .. } => annulus.sector_count(),
+            SteppedBody::Revolution(sector) => sector.sector_count(),
+            _ => self.interface().len(),
+        })?;
+        let places = self.places();
+        let mut velocity = vec![0.0; self.components() * places.len()];
+        for (own, place) in velocity.chunks_exact_mut(self.components()).zip(&places) {
+            let along = perturbation.along(place);
+            own.iter_mut().zip(place.direction).for_each(|(v, share)| *v += along * share);
+        }
+        perturbation.add_noise(&mut velocity, self.components());
+        // What is held or follows others does not move by itself.
+        match self.body {
+            SteppedBody::Plane { mesh, .. } => mesh.held_dofs().for_each(|dof| velocity[dof] = 0.0),
+            SteppedBody::Revolution(sector) => {
+                let count = 3 * sector.node_count();
+                let held = (0..velocity.len()).filter(|dof| sector.is_held(dof % count));
+                held.for_each(|dof| velocity[dof] = 0.0);
+            }
+            SteppedBody::Assembly { assembly, .. } => {
+                let unknowns = assembly.basis().unknowns();
+                let free = unknowns.expand(&unknowns.restrict(&velocity));
+                velocity = assembly.basis().displacement(&free);
+            }
+        }
+        Ok(velocity)
+    }
+
+    /// Where each node stands for the waves of a perturbation.
+    fn places(&self) -> Vec<Place> {
+        match self.body {
+            SteppedBody::Plane { mesh, annulus } => places(mesh, annulus),
+            SteppedBody::Revolution(sector) => {
+                let own = &sector.specification;
+                let (inner, outer) = (own.annulus.inner_radius, own.annulus.outer_radius);
+                let fades_inwards =
+                    own.conditions[SolidFace::Inner as usize] == BoundaryCondition::Clamped;
+                let nodes = 0..sector.node_count() * sector.sector_count();
+                let place = nodes.map(|node| {
+                    let [radius, angle] = self.place(node);
+                    let share = (radius - inner) / (outer - inner);
+                    let depth = if fades_inwards { 1.0 - share } else { share };
+                    Place { depth, angle, direction: [0.0, 1.0, 0.0] }
+                });
+                place.collect()
+            }
+            SteppedBody::Assembly { assembly, axis } => {
+                let mesh = assembly.mesh();
+                let along = Vector3::from(axis[1]);
+                let place = (0..mesh.node_count()).map(|node| Place {
+                    depth: 0.0,
+                    angle: self.place(node)[1],
+                    direction: (mesh.frame(node).transpose() * along).into(),
+                });
+                place.collect()
+            }
+        }
     }
 }
 
-/// The operator of `model`.
-///
-/// # Errors
-/// [`TransientError::Operator`] if the chosen operator cannot represent the mesh.
-pub fn build_operator(
-    model: &TransientModel<'_>,
-    choice: OperatorChoice,
-    simd: SimdLevel,
-) -> Result<Box<dyn StiffnessOperator>, TransientError> {
-    let is_cyclic = match choice {
-        OperatorChoice::Auto => model.annulus.is_some() && model.mesh.is_quad4(),
-        OperatorChoice::Cyclic => true,
-        OperatorChoice::Sparse => false,
-    };
-    if !is_cyclic {
-        let operator = SparseOperator::assemble(model.mesh, model.material, simd)?;
-        return Ok(Box::new(operator));
-    }
-    let annulus = model.annulus.ok_or(OperatorError::NoSymmetry)?;
-    let stencil = CyclicStencil::assemble(annulus, model.material, simd)?;
-    Ok(Box::new(stencil))
+/// A matrix that couples no two sectors, in all of them.
+fn everywhere(sector: &SolidSector, matrix: &SectorMatrix) -> Triplets {
+    let dofs = 3 * sector.node_count();
+    let all = (0..sector.sector_count()).flat_map(|s| {
+        matrix.entries().map(move |(i, j, _, value)| (dofs * s + i, dofs * s + j, value))
+    });
+    Triplets { entries: all.collect() }
 }

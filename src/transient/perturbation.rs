@@ -1,7 +1,6 @@
 //! The seed that decides which mode grows: a velocity added to that of the body.
 
 use super::TransientError;
-use crate::contact::ContactInterface;
 use crate::linalg::GaussianNoise;
 use crate::mesh::{AnnulusMesh, Counterface, Mesh};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -50,27 +49,6 @@ impl Perturbation {
         self.waves.iter().map(|wave| wave.harmonic).collect()
     }
 
-    /// [`Self::field`] over a mesh, which may belong to an annulus.
-    pub(super) fn over(
-        &self,
-        mesh: &Mesh,
-        annulus: Option<&AnnulusMesh>,
-    ) -> Result<Vec<f64>, TransientError> {
-        let elements = match annulus {
-            Some(annulus) => annulus.specification.circumferential_elements,
-            None => ContactInterface::of(mesh).len(),
-        };
-        self.check_harmonics(elements)?;
-        let mut velocity = vec![0.0; 2 * mesh.node_count()];
-        match annulus {
-            Some(annulus) => self.add_waves(&places_on(annulus), mesh, &mut velocity),
-            None => self.add_waves(&places(mesh), mesh, &mut velocity),
-        }
-        self.add_noise(&mut velocity, 2);
-        mesh.held_dofs().for_each(|dof| velocity[dof] = 0.0);
-        Ok(velocity)
-    }
-
     /// Refuses harmonics that `elements` around do not hold.
     pub(super) fn check_harmonics(&self, elements: usize) -> Result<(), TransientError> {
         let limit = elements / 2;
@@ -98,23 +76,6 @@ impl Perturbation {
         largest * (FRAC_PI_2 * place.depth).cos() * sum
     }
 
-    fn add_waves(&self, places: &[Place], mesh: &Mesh, velocity: &mut [f64]) {
-        if self.waves.iter().all(|wave| wave.velocity == 0.0) {
-            return;
-        }
-        for (node, place) in places.iter().enumerate() {
-            let along = self.along(place);
-            let turn = place.tangent - mesh.frame_angles()[node];
-            // A quarter turn, but for round-off: along the node's second axis exactly.
-            if (turn - FRAC_PI_2).abs() < 1e-12 {
-                velocity[2 * node + 1] = along;
-            } else {
-                velocity[2 * node] = along * turn.cos();
-                velocity[2 * node + 1] = along * turn.sin();
-            }
-        }
-    }
-
     /// Adds noise to every component of nodes with `components` each.
     pub(super) fn add_noise(&self, velocity: &mut [f64], components: usize) {
         if self.noise == 0.0 {
@@ -137,50 +98,52 @@ pub(super) struct Place {
     /// 0 at the contact edge, 1 where the waves vanish.
     pub depth: f64,
     pub angle: f64,
-    /// Direction along the counterface, rad.
-    pub tangent: f64,
+    /// Direction of the sliding over the components of the node.
+    pub direction: [f64; 3],
 }
 
-fn places_on(annulus: &AnnulusMesh) -> Vec<Place> {
-    let specification = &annulus.specification;
-    let (inner, outer) = (specification.inner_radius, specification.outer_radius);
-    let bore = specification.shaft.map_or(inner, |shaft| shaft.inner_radius);
-    let per_sector = annulus.sector_node_count();
-    let first = annulus.mesh.contact_edge().nodes[0] as usize;
-    let nodes = annulus.mesh.nodes.iter().zip(annulus.mesh.frame_angles());
-    let place = |(node, ([x, y, _], &angle)): (usize, (&[f64; 3], &f64))| Place {
-        depth: if node % per_sector < first {
-            (inner - x.hypot(*y)) / (inner - bore)
-        } else {
-            (x.hypot(*y) - inner) / (outer - inner)
-        },
-        angle,
-        tangent: angle + FRAC_PI_2,
-    };
-    nodes.enumerate().map(place).collect()
-}
+/// Where the nodes of a plane mesh stand; it may belong to an annulus.
+pub(super) fn places(mesh: &Mesh, annulus: Option<&AnnulusMesh>) -> Vec<Place> {
+    let points = mesh.plane_nodes().into_iter().zip(mesh.frame_angles());
+    if let Some(annulus) = annulus {
+        let own = &annulus.specification;
+        let bore = own.shaft.map_or(own.inner_radius, |shaft| shaft.inner_radius);
+        let first = mesh.contact_edge().nodes[0] as usize;
+        let place = points.enumerate().map(|(node, ([x, y], &angle))| {
+            let beyond = x.hypot(y) - own.inner_radius;
+            let is_shaft = node % annulus.sector_node_count() < first;
+            let depth = match is_shaft {
+                true => -beyond / (own.inner_radius - bore),
+                false => beyond / (own.outer_radius - own.inner_radius),
+            };
+            Place { depth, angle, direction: [0.0, 1.0, 0.0] }
+        });
+        return place.collect();
+    }
 
-fn places(mesh: &Mesh) -> Vec<Place> {
+    // Extent of the edge along its counterface, and the deepest node.
     let counterface = mesh.counterface;
-    let gaps: Vec<f64> =
-        mesh.plane_nodes().into_iter().map(|p| counterface.gap(p).max(0.0)).collect();
-    let deepest = gaps.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-    let along = mesh
-        .contact_edge()
-        .nodes
-        .iter()
-        .map(|&node| counterface.place(mesh.plane_node(node as usize)));
+    let edge = mesh.contact_edge().nodes.iter();
+    let along = edge.map(|&node| counterface.place(mesh.plane_node(node as usize)));
     let (low, high) =
         along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| (low.min(s), high.max(s)));
-    let angle = |point: [f64; 2]| match counterface {
-        Counterface::Cylinder { .. } => counterface.place(point),
-        Counterface::Plane { .. } => TAU * (counterface.place(point) - low) / (high - low),
-    };
-    let pairs = mesh.plane_nodes().into_iter().zip(gaps);
-    let place = |(point, gap): ([f64; 2], f64)| Place {
-        depth: gap / deepest,
-        angle: angle(point),
-        tangent: counterface.normal_angle(point) + FRAC_PI_2,
-    };
-    pairs.map(place).collect()
+    let gap = |point: [f64; 2]| counterface.gap(point).max(0.0);
+    let deepest = mesh.plane_nodes().into_iter().map(gap).fold(f64::MIN_POSITIVE, f64::max);
+    let place = points.map(|(point, frame)| {
+        let turn = counterface.normal_angle(point) + FRAC_PI_2 - frame;
+        // A quarter turn, but for round-off: along the node's second axis exactly.
+        let is_straight = (turn - FRAC_PI_2).abs() < 1e-12;
+        Place {
+            depth: gap(point) / deepest,
+            angle: match counterface {
+                Counterface::Cylinder { .. } => counterface.place(point),
+                Counterface::Plane { .. } => TAU * (counterface.place(point) - low) / (high - low),
+            },
+            direction: match is_straight {
+                true => [0.0, 1.0, 0.0],
+                false => [turn.cos(), turn.sin(), 0.0],
+            },
+        }
+    });
+    place.collect()
 }

@@ -4,7 +4,7 @@ mod consistency;
 mod observation;
 
 use super::{
-    CentralDifference, ContactPowers, StatusCounts, StepPlan, TransientBody, TransientError,
+    CentralDifference, ContactPowers, StatusCounts, StepPlan, SteppedBody, TransientError,
     TransientModel,
 };
 use crate::contact::ContactInterface;
@@ -182,7 +182,7 @@ impl Recorder {
         settings: &RecorderSettings,
     ) -> Result<Self, TransientError> {
         let (plan, interface) = (run.plan(), run.interface());
-        let components = run.body().components();
+        let components = run.model().components();
         let count = run.operator().dof_count() / components;
         let mut nodes = settings.probes.iter();
         if let Some(&probe) = nodes.find(|&&node| node == 0 || node > count) {
@@ -190,11 +190,11 @@ impl Recorder {
         }
         let stride = settings.contact_interval.unwrap_or(0.0) / plan.sample_interval;
         let higher_harmonics =
-            higher_harmonics(run.body().highest_harmonic(), run.seeded_harmonics());
-        let (contact, probes) = (run.body().contact(), settings.probes.len());
+            higher_harmonics(run.model().highest_harmonic(), run.seeded_harmonics());
+        let (contact, probes) = (&run.model().contact, settings.probes.len());
         Ok(Self {
             probes: settings.probes.clone(),
-            probe_turns: probe_turns(run.body(), &settings.probes),
+            probe_turns: probe_turns(run.model(), &settings.probes),
             rows: Vec::with_capacity(plan.samples as usize),
             probe_rows: vec![Vec::with_capacity(plan.samples as usize); probes],
             axial_rows: match components {
@@ -238,7 +238,7 @@ impl Recorder {
         let done = run.steps_done().div_ceil(run.plan().steps_per_sample) as usize;
         let is_whole = self.rows.len() == done
             && self.is_consistent()
-            && self.fits(dofs, run.body().components(), fresh.contact_angles.len())
+            && self.fits(dofs, run.model().components(), fresh.contact_angles.len())
             && self.probes == fresh.probes
             && self.axial_rows.len() == fresh.axial_rows.len()
             && self.raw_accelerations.is_some() == fresh.raw_accelerations.is_some()
@@ -315,8 +315,8 @@ impl Recorder {
 }
 
 /// How each probe's frame is turned against the axes of its report.
-fn probe_turns(body: &TransientBody<'_>, probes: &[usize]) -> Vec<[f64; 2]> {
-    let TransientBody::Plane(TransientModel { mesh, .. }) = body else {
+fn probe_turns(model: &TransientModel<'_>, probes: &[usize]) -> Vec<[f64; 2]> {
+    let SteppedBody::Plane { mesh, .. } = model.body else {
         return vec![[1.0, 0.0]; probes.len()];
     };
     let turn = |&probe: &usize| {

@@ -1,7 +1,6 @@
 //! Settings of a transient, checked before it runs.
 
 use super::{Perturbation, TransientError};
-use crate::fem::operator::{StiffnessOperator, largest_frequency};
 use crate::fem::{MaterialField, MaxwellChain, RayleighDamping};
 use crate::mesh::Mesh;
 
@@ -104,32 +103,12 @@ pub struct StepPlan {
 }
 
 impl StepPlan {
-    /// Chooses the step: the given one, or 0.95 of the limit, lowered so that it divides the sample interval. It does
-    /// not depend on the duration; the run is as many whole sample intervals as lie within that.
+    /// Chooses the step below a `limit` (s), that of the highest frequency (rad/s): the given one, or 0.95 of the limit, lowered
+    /// so that it divides the sample interval. It does not depend on the duration; the run is as many whole sample intervals as
+    /// lie within that.
     ///
     /// # Errors
     /// [`TransientError`] names the setting that does not fit, with its bound.
-    pub fn new(
-        operator: &dyn StiffnessOperator,
-        damping: &RayleighDamping,
-        settings: &TransientSettings,
-    ) -> Result<Self, TransientError> {
-        Self::stiffened(operator, 1.0, damping, settings)
-    }
-
-    /// The same for bodies whose stiffness at once is so many times the square of `factor` that of the operator.
-    pub(super) fn stiffened(
-        operator: &dyn StiffnessOperator,
-        factor: f64,
-        damping: &RayleighDamping,
-        settings: &TransientSettings,
-    ) -> Result<Self, TransientError> {
-        check_times(settings)?;
-        let largest_frequency = factor * largest_frequency(operator);
-        let limit = stable_step_limit(largest_frequency, damping);
-        Self::within(limit, largest_frequency, settings)
-    }
-
     pub(super) fn within(
         limit: f64,
         largest_frequency: f64,

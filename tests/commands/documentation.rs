@@ -77,10 +77,12 @@ fn is_printed(shown: &str, printed: &str) -> bool {
     (value - other).abs() < 1.5 * unit
 }
 
-/// Whether the words of a line stand one after the other in a printed one.
+/// Whether the words of a line stand one after the other in a printed one, whatever punctuation ends them.
 fn stands_in(line: &str, printed: &str) -> bool {
-    let (line, printed): (Vec<&str>, Vec<&str>) =
-        (line.split(' ').collect(), printed.split(' ').collect());
+    let words = |text: &str| -> Vec<String> {
+        text.split(' ').map(|word| word.trim_end_matches([',', ';', ':', '.']).to_owned()).collect()
+    };
+    let (line, printed) = (words(line), words(printed));
     printed
         .windows(line.len())
         .any(|own| own.iter().zip(&line).all(|(own, shown)| is_printed(shown, own)))

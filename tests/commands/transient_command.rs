@@ -198,7 +198,7 @@ fn a_jammed_block_is_said_to_jam_and_to_leave_small_displacements() {
         .unwrap()
         .args(["transient", &case("sliding-block.toml"), "--no-figures", "--out"])
         .arg(&out)
-        .args(["--set", "contact.friction_coefficient=0.9"])
+        .args(["--set", "contact.friction_coefficient=0.9", "--set", "transient.duration=0.002"])
         .assert()
         .code(0)
         .stdout(contains("the body jams: there is no state of steady sliding"))

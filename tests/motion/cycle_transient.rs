@@ -10,8 +10,7 @@ use frictionsim::fem::operator::SimdLevel;
 use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    StepPlan, TimeStep, TransientAnalysis, TransientError, TransientModel, TransientSettings,
-    build_operator,
+    TimeStep, TransientAnalysis, TransientError, TransientModel, TransientSettings,
 };
 
 fn operating(rpm: f64) -> OperatingPoint {
@@ -36,11 +35,11 @@ fn run(solver: &CycleSolver, cycle: &LimitCycle, perturbed: usize, duration: f64
         initial: InitialState::LimitCycle { harmonic: cycle.harmonic, onset: 1 },
         perturbation: Perturbation::of(&[perturbed], 1e-3),
     };
-    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let operator = operator.as_ref();
     let refused = CentralDifference::start(model, operator, &settings);
     assert!(matches!(refused.err(), Some(TransientError::FieldsMissing { .. })));
-    let step = StepPlan::new(operator, &DAMPING, &settings).unwrap().time_step;
+    let step = model.plan(operator, &settings).unwrap().time_step;
     let [displacement, _] = solver.field(cycle, 0.0);
     let [_, velocity] = solver.field(cycle, -0.5 * step);
     let mut run =

@@ -20,7 +20,7 @@ use frictionsim::prestress::{
 };
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    TimeStep, TransientAnalysis, TransientModel, TransientSettings, build_operator,
+    SteppedBody, TimeStep, TransientAnalysis, TransientModel, TransientSettings,
 };
 
 const CYLINDER: CounterfaceSpecification =
@@ -326,15 +326,13 @@ fn a_body_without_symmetry_grows_in_time_as_its_eigenvalue_says() {
     let contact = contact(610.0);
     let found = modes(&body, &options(MassKind::Lumped, false), &contact);
     let exact = found.iter().max_by(|a, b| a.growth_rate().total_cmp(&b.growth_rate())).unwrap();
-    let model = TransientModel {
-        mesh: &body,
-        annulus: None,
-        material: &POLYCARBONATE,
-        damping: DAMPING,
+    let model = TransientModel::new(
+        SteppedBody::Plane { mesh: &body, annulus: None },
+        &POLYCARBONATE,
+        DAMPING,
         contact,
-        stiffness: ContactStiffness::default(),
-    };
-    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    );
+    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let settings = TransientSettings {
         duration: 0.03,
         time_step: TimeStep::Auto,
@@ -371,15 +369,13 @@ fn energy_closes_with_supports_pressure_and_partial_contact() {
         tangential_damping: 1e4,
     });
     let mesh = Mesh::from_gmsh(&file, &specification).unwrap();
-    let model = TransientModel {
-        mesh: &mesh,
-        annulus: None,
-        material: &POLYCARBONATE,
-        damping: RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 1e-7 },
-        contact: plane(0.5),
-        stiffness: ContactStiffness::default(),
-    };
-    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let model = TransientModel::new(
+        SteppedBody::Plane { mesh: &mesh, annulus: None },
+        &POLYCARBONATE,
+        RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 1e-7 },
+        plane(0.5),
+    );
+    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let settings = TransientSettings {
         duration: 2e-3,
         time_step: TimeStep::Auto,

@@ -44,6 +44,7 @@ mod plane_spectrum;
 mod pyramids;
 mod relaxation;
 mod shaft;
+mod sliding_bodies;
 mod solid_elements;
 mod solid_refinement;
 mod solids;

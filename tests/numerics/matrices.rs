@@ -15,7 +15,7 @@ use std::io::Read;
 use std::path::Path;
 use tempfile::TempDir;
 
-fn dense(matrix: &MarketMatrix) -> Mat<f64> {
+pub fn dense(matrix: &MarketMatrix) -> Mat<f64> {
     let mut dense = Mat::zeros(matrix.rows, matrix.columns);
     for &(row, column, value) in &matrix.entries {
         dense[(row, column)] += value;
@@ -135,7 +135,7 @@ fn exported_matrices_solved_densely_have_the_eigenvalues_of_the_analysis() {
 }
 
 /// Eigenvalues of `lambda^2 M + lambda C + K + i H` by the companion matrix, frequencies scaled to about one.
-fn lossy_eigenvalues([mass, damping, stiffness, losses]: [&Mat<f64>; 4]) -> Vec<c64> {
+pub fn lossy_eigenvalues([mass, damping, stiffness, losses]: [&Mat<f64>; 4]) -> Vec<c64> {
     let size = mass.nrows();
     let scale = (stiffness.norm_l2() / mass.norm_l2()).sqrt();
     let complex = |re: &Mat<f64>, im: Option<&Mat<f64>>, factor: f64| {

@@ -14,7 +14,7 @@ use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    TimeStep, TransientAnalysis, TransientModel, TransientSettings, build_operator,
+    TimeStep, TransientAnalysis, TransientModel, TransientSettings,
 };
 use std::sync::Arc;
 
@@ -95,7 +95,7 @@ fn a_wave_grows_as_its_eigenvalue_says_with_a_chain_in_place_of_a_loss_factor() 
     let (disc, materials) = (disc(), relaxed());
     let undamped = RayleighDamping::default();
     let model = TransientModel::of_annulus(&disc, &materials, undamped, sliding());
-    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let settings = settings(0.020, 0.0);
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
     let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
@@ -117,7 +117,7 @@ fn a_kick_keeps_the_balance_and_a_run_goes_on_to_the_same_bits() {
     let (disc, materials) = (disc(), relaxed());
     let undamped = RayleighDamping::default();
     let model = TransientModel::of_annulus(&disc, &materials, undamped, sliding());
-    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let settings = TransientSettings {
         perturbation: Perturbation { time: 2e-4, ..Perturbation::of(&[HARMONIC], 1e-2) },
         ..settings(1e-3, 0.0)

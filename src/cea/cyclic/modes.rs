@@ -95,8 +95,7 @@ fn mode(
     })
 }
 
-/// Displacement of all nodes in nodal frames, `U(r) e^{i n theta}`, largest nodal `|u|` one and real in
-/// its larger component.
+/// Displacement of all nodes of an annulus in nodal frames.
 pub(super) fn expand(
     tangent: &SectorTangent,
     harmonic: usize,
@@ -104,13 +103,9 @@ pub(super) fn expand(
     x: &[c64],
 ) -> Vec<c64> {
     let sector = tangent.sector();
-    let per_sector = sector.node_count();
-    let zero = c64::new(0.0, 0.0);
-    let mut wave = vec![[zero; 2]; per_sector];
+    let mut wave = vec![[c64::ZERO; 2]; sector.node_count()];
     for (&dof, value) in tangent.unknowns().iter().zip(x) {
-        let turned = if dof % 2 == 0 { *value } else { value * c64::new(0.0, 1.0) };
-        let value = if waves == Waves::Backward { turned.conj() } else { turned };
-        wave[sector.numbering[dof / 2]][dof % 2] = value;
+        wave[sector.numbering[dof / 2]][dof % 2] = *value;
     }
     // Of a pair the unknown is the distance between the two bodies.
     for node in sector.contact_nodes() {
@@ -119,24 +114,43 @@ pub(super) fn expand(
             wave[sector.numbering[node]][0] += moved;
         }
     }
-    let size = |u: &[c64; 2]| u[0].norm_sqr() + u[1].norm_sqr();
-    let peak = wave.iter().fold([zero; 2], |best, u| if size(u) > size(&best) { *u } else { best });
-    let larger = if peak[0].norm() >= peak[1].norm() { peak[0] } else { peak[1] };
-    let scale = larger.conj() / (larger.norm() * size(&peak).sqrt());
-    let mut half_steps = vec![0; per_sector];
+    let mut half_steps = vec![0; sector.node_count()];
     for (node, &place) in sector.numbering.iter().enumerate() {
         half_steps[place] = sector.half_step(node);
     }
-    let sectors = sector.sector_count();
-    let sign = if waves == Waves::Backward { -1.0 } else { 1.0 };
-    let mut shape = Vec::with_capacity(2 * per_sector * sectors);
-    for j in 0..sectors {
-        for (u, half) in wave.iter().zip(&half_steps) {
-            let turns = harmonic * (2 * j + half) % (2 * sectors);
-            let angle = sign * PI * turns as f64 / sectors as f64;
-            let phase = c64::new(angle.cos(), angle.sin()) * scale;
-            shape.extend([u[0] * phase, u[1] * phase]);
+    around(wave, &half_steps, (sector.sector_count(), harmonic), waves)
+}
+
+/// Displacement of all nodes in nodal frames, `U e^{i n theta}`, of `U = (u_r, -i u_theta, ...)` over the nodes of a sector, each
+/// with its angle in halves of a sector: largest nodal `|u|` one and real in its largest component.
+pub(super) fn around<const D: usize>(
+    mut wave: Vec<[c64; D]>,
+    half_steps: &[usize],
+    (sectors, harmonic): (usize, usize),
+    waves: Waves,
+) -> Vec<c64> {
+    let is_backward = waves == Waves::Backward;
+    for u in &mut wave {
+        u[1] *= c64::new(0.0, 1.0);
+        if is_backward {
+            *u = u.map(|v| v.conj());
         }
     }
-    shape
+    let size = |u: &[c64; D]| u.iter().map(|v| v.norm_sqr()).sum::<f64>();
+    let peak = wave.iter().fold(&wave[0], |best, u| if size(u) > size(best) { u } else { best });
+    let larger =
+        peak.iter().fold(peak[0], |best, v| if v.norm() > best.norm() { *v } else { best });
+    let scale = larger.conj() / (larger.norm() * size(peak).sqrt()).max(f64::MIN_POSITIVE);
+    let sign = if is_backward { -1.0 } else { 1.0 };
+    let phases = (0..2 * sectors).map(|turns| {
+        let angle = sign * PI * turns as f64 / sectors as f64;
+        c64::new(angle.cos(), angle.sin()) * scale
+    });
+    let phases: Vec<c64> = phases.collect();
+    let nodes = (0..sectors).flat_map(|j| wave.iter().zip(half_steps).map(move |own| (j, own)));
+    let shape = nodes.flat_map(|(j, (u, half))| {
+        let phase = phases[harmonic * (2 * j + half) % (2 * sectors)];
+        u.map(|v| v * phase)
+    });
+    shape.collect()
 }

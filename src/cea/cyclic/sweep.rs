@@ -205,24 +205,33 @@ fn finish(tangent: SectorTangent, found: Found, verdict: Verdict) -> CyclicSweep
         margin_hz: margin / TAU,
         factorizations: followed.iter().map(|paths| paths.factorizations).sum(),
     };
-    let direction = tangent.base().sliding_direction;
+    let (sweep, branches) = together(points, &followed, tangent.base().sliding_direction);
+    CyclicSweep { sweep, branches, coverage, tangent }
+}
+
+/// A sweep of its points and the paths that they are of, and the branches that have one of the modes.
+pub(super) fn together(
+    points: Vec<FrictionPoint>,
+    followed: &[HarmonicPaths],
+    sliding_direction: f64,
+) -> (FrictionSweep, Vec<ModeBranch>) {
     let branches: Vec<Vec<ModeBranch>> =
-        followed.par_iter().map(|paths| branches_of(paths, direction)).collect();
-    let branches: Vec<ModeBranch> =
-        branches.into_iter().flatten().filter(|branch| occurs_in(branch, &points)).collect();
+        followed.par_iter().map(|paths| branches_of(paths, sliding_direction)).collect();
+    let occurs = |branch: &ModeBranch| {
+        let is_same =
+            |mode: &ComplexMode| (mode.harmonic, mode.branch) == (branch.harmonic, branch.branch);
+        points.iter().any(|point| point.modes.iter().any(is_same))
+    };
+    let branches: Vec<ModeBranch> = branches.into_iter().flatten().filter(occurs).collect();
     let mut intervals: Vec<_> = branches.iter().flat_map(|b| b.intervals.clone()).collect();
     intervals.sort_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction));
-    CyclicSweep {
-        sweep: FrictionSweep {
-            points,
-            crossings: vec![None; intervals.len()],
-            intervals,
-            ..FrictionSweep::default()
-        },
-        branches,
-        coverage,
-        tangent,
-    }
+    let sweep = FrictionSweep {
+        crossings: vec![None; intervals.len()],
+        points,
+        intervals,
+        ..FrictionSweep::default()
+    };
+    (sweep, branches)
 }
 
 /// Harmonics that have a mode with `kappa < limit` without friction: all are looked at.
@@ -294,10 +303,4 @@ fn select_lowest(
         }
         bound *= 1.5;
     }
-}
-
-pub(super) fn occurs_in(branch: &ModeBranch, points: &[FrictionPoint]) -> bool {
-    let is_same =
-        |mode: &ComplexMode| (mode.harmonic, mode.branch) == (branch.harmonic, branch.branch);
-    points.iter().any(|point| point.modes.iter().any(is_same))
 }

@@ -3,7 +3,7 @@
 use super::map::{PeriodMap, PeriodicState};
 use super::motion::PeriodicMotion;
 use super::multipliers::FloquetMultiplier;
-use crate::cycle::Verdict;
+use crate::cycle::confirmation::{agree, telling_periods};
 use crate::linalg::{GaussianNoise, c64, interruption};
 use std::f64::consts::TAU;
 
@@ -11,8 +11,6 @@ use std::f64::consts::TAU;
 const SEED: f64 = 0.01;
 /// E-folds of a leading perturbation that may grow over which the transient runs: of a random start it is a small part.
 const E_FOLDS: f64 = 8.0;
-/// Most periods that are spent on a slow perturbation.
-const MOST_PERIODS: usize = 200;
 
 /// Largest difference between a cycle and a transient that stays on it: of the frequency and of the external power,
 /// relative, and of the fractions of contact nodes.
@@ -36,12 +34,9 @@ pub struct MotionConfirmation {
 impl MotionConfirmation {
     /// Whether the transient still is on the cycle.
     pub fn agrees(&self, motion: &PeriodicMotion) -> bool {
-        let [frequency_bound, power_bound, status_bound] = TOLERANCE;
-        let within = |value: f64, wanted: f64, bound: f64| (value / wanted - 1.0).abs() <= bound;
-        let mut statuses = self.status.iter().zip(motion.fractions);
-        within(self.main_frequency_hz, motion.frequency_hz, frequency_bound)
-            && within(self.external_power, motion.powers.contact.external, power_bound)
-            && statuses.all(|(a, b)| (a - b).abs() <= status_bound)
+        let frequency = [self.main_frequency_hz, motion.frequency_hz];
+        let power = [self.external_power, motion.powers.contact.external];
+        agree([frequency, power], [self.status, motion.fractions], TOLERANCE)
     }
 
     /// Steps the body through `least` periods or more from a cycle that is perturbed by a hundredth of its amplitude at random,
@@ -52,7 +47,8 @@ impl MotionConfirmation {
         leading: Option<&FloquetMultiplier>,
         least: usize,
     ) -> Self {
-        let periods = telling_periods(state, leading, least);
+        let growth = leading.map(|found| [found.growth_rate, found.uncertainty]);
+        let periods = telling_periods(growth, E_FOLDS / state.period, least);
         let start = perturbed(map, state);
         map.place(&start);
         // The last fifth: its first harmonic period by period, its powers and statuses.
@@ -87,20 +83,6 @@ impl MotionConfirmation {
             e_folds: leading.map_or(0.0, |found| found.growth_rate * periods as f64 * state.period),
         }
     }
-}
-
-/// `least`, or as many as a perturbation that may grow needs for eight e-folds.
-fn telling_periods(
-    state: &PeriodicState,
-    leading: Option<&FloquetMultiplier>,
-    least: usize,
-) -> usize {
-    let growing = leading.filter(|found| found.verdict() != Verdict::Stable);
-    let wanted = growing.map_or(0, |found| {
-        let rate = found.growth_rate.abs().max(found.uncertainty);
-        (E_FOLDS / (rate * state.period)).ceil() as usize
-    });
-    least.max(wanted.min(MOST_PERIODS))
 }
 
 /// A state with a random velocity of a hundredth of its amplitude; a first period damps what the body damps fast.

@@ -2,9 +2,9 @@
 
 use super::map::PeriodMap;
 use super::start::GrowingMode;
-use super::vector::{add, difference, dot, norm};
 use crate::contact::ContactStatus;
 use crate::cycle::basin::{AGREEING_WINDOWS, CONSTANT, LOOKS, LOST, SEED, WINDOW, is_final};
+use crate::cycle::vector::{add, difference, dot, norm};
 use crate::cycle::{BasinRequest, BasinRun};
 use crate::linalg::{c64, interruption};
 use nalgebra::{DMatrix, DVector};

@@ -4,7 +4,7 @@ use super::error::PeriodicError;
 use super::map::{PeriodImage, PeriodMap, PeriodicState};
 use super::search::{ACCEPTED, Found};
 use super::secants::{Change, SecantSpace};
-use super::vector::{add, difference, norm};
+use crate::cycle::vector::{add, difference, norm};
 use crate::transient::TransientError;
 
 /// Residual of a point, relative to the amplitude of the vibration.

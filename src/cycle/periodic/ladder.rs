@@ -5,7 +5,7 @@ use super::map::{PeriodMap, PeriodicState};
 use super::search::{Found, find, find_settled};
 use super::start::{GrowingMode, balanced_start};
 use super::two_frequencies::transient_from;
-use super::vector::{add, difference};
+use crate::cycle::vector::{add, difference};
 use std::f64::consts::TAU;
 
 /// Difference of a cycle's frequency from its mode's, relative, from which on another start may know a cycle nearer to the mode.

@@ -1,12 +1,12 @@
 //! The period map of a body: so many steps of the explicit transient, from a state to where it comes.
 
-use super::vector::{add, difference, dot, norm};
 use crate::contact::{ContactInterface, SlidingContact};
+use crate::cycle::vector::{add, difference, dot, norm};
 use crate::fem::operator::StiffnessOperator;
 use crate::linalg::interruption;
 use crate::transient::{
     CentralDifference, ContactPowers, InitialState, Perturbation, StatusCounts, TimeStep,
-    TransientBody, TransientError, TransientSettings,
+    TransientError, TransientModel, TransientSettings,
 };
 
 /// Share of the longest step that a period begins with: it may grow by the rest before it takes another number of steps.
@@ -90,7 +90,7 @@ impl<'a> PeriodMap<'a> {
     /// # Errors
     /// A body that the time loop cannot take.
     pub fn new(
-        body: impl Into<TransientBody<'a>>,
+        model: TransientModel<'a>,
         operator: &'a dyn StiffnessOperator,
         frequency: f64,
         longest_step: Option<f64>,
@@ -105,7 +105,7 @@ impl<'a> PeriodMap<'a> {
             perturbation: Perturbation::default(),
         };
         let still = vec![0.0; operator.dof_count()];
-        let run = CentralDifference::start_from(body, operator, &settings, &still, still.clone())?;
+        let run = CentralDifference::start_from(model, operator, &settings, &still, still.clone())?;
         let masses = operator.masses();
         let places = (0..operator.dof_count()).map(|dof| operator.position(dof));
         let moving =
@@ -143,7 +143,7 @@ impl<'a> PeriodMap<'a> {
     /// Mass that moves, kg/m, of a body in three dimensions kg: the mean over its directions.
     pub fn mass(&self) -> f64 {
         let masses = self.moving.iter().map(|(_, root)| root * root);
-        masses.sum::<f64>() / self.run.body().components() as f64
+        masses.sum::<f64>() / self.run.model().components() as f64
     }
 
     /// Length of a state's motion.

@@ -40,7 +40,6 @@ mod sound;
 mod spectrum;
 mod start;
 mod two_frequencies;
-mod vector;
 
 pub use branch::{BranchMotion, BranchRequest, KeptMotion, PeriodicBranch};
 pub use confirmation::MotionConfirmation;

@@ -2,20 +2,16 @@
 
 use super::error::PeriodicError;
 use super::map::{PeriodMap, PeriodicState};
-use super::vector::{add, difference, dot, norm, orthogonalize};
 use crate::cycle::Verdict;
-use crate::linalg::dense_eigen::{RealEigen, real_eigen};
-use crate::linalg::{GaussianNoise, Mat, c64};
+use crate::cycle::arnoldi::{LeadingMultipliers, MultiplierSearch, Ritz, unit};
+use crate::cycle::vector::{difference, norm};
+use crate::linalg::{GaussianNoise, c64};
 use std::f64::consts::TAU;
 
-/// Multipliers kept.
-const KEPT: usize = 6;
-/// Of those, the leading ones that must have converged.
-const CONVERGED: usize = 2;
-/// Residual of a converged multiplier, relative to it.
-const RESIDUAL: f64 = 4e-3;
-/// Residual of one that is worth listing.
-const LISTED: f64 = 0.1;
+/// Multipliers kept, and the residual of one that is worth listing.
+const LISTED: (usize, f64) = (6, 0.1);
+/// The leading ones that must have converged, and the residual of a converged one, relative to it.
+const CONVERGED: (usize, f64) = (2, 4e-3);
 /// Smallest and largest dimension of the Krylov space, and periods between two looks at it.
 const DIMENSIONS: [usize; 3] = [16, 100, 4];
 /// Length of a perturbation, relative to the amplitude: so large that some nodes change their status at another step, whose kinks
@@ -50,11 +46,7 @@ impl FloquetMultiplier {
 
     /// What its growth rate says for sure.
     pub fn verdict(&self) -> Verdict {
-        match self.growth_rate {
-            rate if rate > self.uncertainty => Verdict::Unstable,
-            rate if rate < -self.uncertainty => Verdict::Stable,
-            _ => Verdict::Undecided,
-        }
+        Verdict::of_rate(self.growth_rate, self.uncertainty)
     }
 }
 
@@ -68,15 +60,6 @@ pub struct FloquetMultipliers {
     pub shift: Option<c64>,
     /// Periods spent.
     pub periods: usize,
-}
-
-/// A Ritz value: itself, its residual, and its share along the motion.
-struct Ritz {
-    value: c64,
-    /// In the basis.
-    vector: Vec<c64>,
-    residual: f64,
-    along: f64,
 }
 
 impl FloquetMultipliers {
@@ -99,54 +82,31 @@ impl FloquetMultipliers {
         };
         let mut noise = GaussianNoise::new(1);
         let start = (0..state.motion.len()).map(|_| noise.draw().re).collect();
-        // What the body damps within a period is of no interest.
-        let mut basis = vec![unit(apply(&unit(start)))];
-        let mut columns: Vec<Vec<f64>> = Vec::new();
-        let along = unit(image.rate.clone());
-        let [least, most, stride] = DIMENSIONS;
-        loop {
-            // One more vector.
-            let mut next = apply(&basis[basis.len() - 1]);
-            let mut column = orthogonalize(&mut next, &basis);
-            column.push(norm(&next));
-            basis.push(unit(next));
-            columns.push(column);
-            let dimension = columns.len();
-            if dimension < least || !dimension.is_multiple_of(stride) {
-                continue;
-            }
-            // The leading ones, once in a while: the shift in phase stands apart.
-            let (shift, others) = leading(&columns, &basis, &along)?;
-            let converged = others.iter().take(CONVERGED);
-            let is_done = shift.is_some()
-                && others.len() >= CONVERGED
-                && converged.into_iter().all(|ritz| ritz.residual < RESIDUAL);
-            if is_done || dimension >= most {
-                let listed = others.into_iter().take(KEPT);
-                let listed: Vec<Ritz> = listed.take_while(|r| r.residual < LISTED).collect();
-                if listed.is_empty() {
-                    return Err(PeriodicError::Multipliers { dimension });
-                }
-                // What nodes that change their status at another step leave of linearity.
-                let along = unit(combined(&listed[0].vector, &basis));
-                let against: Vec<f64> = along.iter().map(|value| -value).collect();
-                let sums = apply(&along).into_iter().zip(apply(&against));
-                let sums: Vec<f64> = sums.map(|(one, other)| 0.5 * (one + other)).collect();
-                let bend = norm(&sums) / listed[0].value.norm();
-                let periods = map.periods() - first;
-                return Ok(Self::assessed(&listed, shift, (state.period, bend), periods));
-            }
-        }
+        let [reach, least] = NEUTRAL;
+        let search = MultiplierSearch {
+            dimensions: DIMENSIONS,
+            converged: CONVERGED,
+            listed: LISTED,
+            is_shift: &|own| (own.value - 1.0).norm() < reach && own.along > least,
+        };
+        let found = search.run(&unit(start), image.rate.clone(), &mut apply);
+        let found = found.map_err(|dimension| PeriodicError::Multipliers { dimension })?;
+        // What nodes that change their status at another step leave of linearity.
+        let first_listed = &found.listed[0];
+        let vector = found.vector(first_listed);
+        let along = unit(vector.iter().map(|value| value.re).collect());
+        let against: Vec<f64> = along.iter().map(|value| -value).collect();
+        let sums = apply(&along).into_iter().zip(apply(&against));
+        let sums: Vec<f64> = sums.map(|(one, other)| 0.5 * (one + other)).collect();
+        let bend = norm(&sums) / first_listed.value.norm();
+        let periods = map.periods() - first;
+        Ok(Self::assessed(&found, (state.period, bend), periods))
     }
 
     /// With what the residuals, the shift's distance from 1, a hundredth of each rate and the `bend` leave open: nodes change their
     /// status at whole steps, so that differences of the map in opposite directions are not quite opposite.
-    fn assessed(
-        listed: &[Ritz],
-        shift: Option<c64>,
-        (period, bend): (f64, f64),
-        periods: usize,
-    ) -> Self {
+    fn assessed(found: &LeadingMultipliers, (period, bend): (f64, f64), periods: usize) -> Self {
+        let shift = found.shift;
         let off = shift.map_or(NEUTRAL[0], |shift| shift.norm().ln().abs());
         let of = |ritz: &Ritz| {
             let growth_rate = ritz.value.norm().ln() / period;
@@ -157,7 +117,7 @@ impl FloquetMultipliers {
                 beat_hz: ritz.value.arg().abs() / (TAU * period),
             }
         };
-        Self { multipliers: listed.iter().map(of).collect(), shift, periods }
+        Self { multipliers: found.listed.iter().map(of).collect(), shift, periods }
     }
 
     /// The multiplier of the fastest growth or slowest decay.
@@ -167,14 +127,7 @@ impl FloquetMultipliers {
 
     /// Whether small perturbations decay.
     pub fn verdict(&self) -> Verdict {
-        let all = || self.multipliers.iter().map(FloquetMultiplier::verdict);
-        if all().any(|found| found == Verdict::Unstable) {
-            Verdict::Unstable
-        } else if all().any(|found| found == Verdict::Undecided) {
-            Verdict::Undecided
-        } else {
-            Verdict::Stable
-        }
+        Verdict::of_all(self.multipliers.iter().map(FloquetMultiplier::verdict))
     }
 }
 
@@ -220,67 +173,6 @@ pub(super) fn from_columns(columns: &[Vec<f64>]) -> Result<FloquetMultipliers, S
         },
         periods: periods as usize,
     })
-}
-
-/// The shift in phase and the other Ritz values, by falling modulus, of `A V = V H`.
-fn leading(
-    columns: &[Vec<f64>],
-    basis: &[Vec<f64>],
-    along: &[f64],
-) -> Result<(Option<c64>, Vec<Ritz>), PeriodicError> {
-    let dimension = columns.len();
-    let matrix =
-        Mat::from_fn(dimension, dimension, |i, j| columns[j].get(i).copied().unwrap_or(0.0));
-    let eigen = real_eigen(matrix.as_ref(), false, 0)
-        .map_err(|_| PeriodicError::Multipliers { dimension })?;
-    let overflow = columns[dimension - 1][dimension];
-    let shares: Vec<f64> = basis.iter().map(|unit| dot(unit, along)).collect();
-    let ritz = |i: usize| {
-        let vector = eigenvector(&eigen, i);
-        let length = vector.iter().map(|y| y.norm_sqr()).sum::<f64>().sqrt();
-        let pairs = vector.iter().zip(&shares);
-        let value = eigen.values[i];
-        Ritz {
-            value,
-            residual: overflow * vector[dimension - 1].norm() / (length * value.norm()),
-            along: pairs.map(|(y, share)| y * share).sum::<c64>().norm() / length,
-            vector,
-        }
-    };
-    let upper = (0..dimension).filter(|&i| eigen.values[i].im >= 0.0);
-    let mut all: Vec<Ritz> = upper.map(ritz).collect();
-    all.sort_by(|a, b| b.value.norm().total_cmp(&a.value.norm()));
-    let [reach, least] = NEUTRAL;
-    let is_shift = |ritz: &Ritz| (ritz.value - 1.0).norm() < reach && ritz.along > least;
-    let candidates = all.iter().enumerate().filter(|(_, ritz)| is_shift(ritz));
-    let shift = candidates.max_by(|a, b| a.1.along.total_cmp(&b.1.along));
-    let place = shift.map(|(place, _)| place);
-    let shift = place.map(|place| all.remove(place).value);
-    Ok((shift, all))
-}
-
-/// The real part of a combination of basis vectors.
-fn combined(factors: &[c64], basis: &[Vec<f64>]) -> Vec<f64> {
-    let mut sum = vec![0.0; basis.first().map_or(0, Vec::len)];
-    for (factor, unit) in factors.iter().zip(basis) {
-        add(&mut sum, factor.re, unit);
-    }
-    sum
-}
-
-/// Eigenvector `i`, not of unit length.
-fn eigenvector(eigen: &RealEigen, i: usize) -> Vec<c64> {
-    let part = |row: usize| match eigen.values[i].im {
-        im if im > 0.0 => c64::new(eigen.right[(row, i)], eigen.right[(row, i + 1)]),
-        _ => c64::new(eigen.right[(row, i)], 0.0),
-    };
-    (0..eigen.right.nrows()).map(part).collect()
-}
-
-fn unit(mut vector: Vec<f64>) -> Vec<f64> {
-    let length = norm(&vector);
-    vector.iter_mut().for_each(|value| *value /= length);
-    vector
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use super::error::PeriodicError;
 use super::map::{PeriodImage, PeriodMap, PeriodicState};
 use super::secants::{Change, SecantSpace};
-use super::vector::{add, difference, norm};
+use crate::cycle::vector::{add, difference, norm};
 
 /// Residual, relative to the amplitude of the vibration, at which a motion repeats itself.
 pub const TOLERANCE: f64 = 1e-9;

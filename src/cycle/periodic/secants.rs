@@ -1,6 +1,6 @@
 //! Newton's method on the differences of past iterates, plain periods on what they do not hold.
 
-use super::vector::{add, dot, norm};
+use crate::cycle::vector::{add, dot, norm};
 use std::collections::VecDeque;
 
 /// Share of a difference that must lie beyond later ones, lest it says nothing new.
@@ -192,8 +192,8 @@ fn least_squares(product: &dyn Fn(usize, usize) -> f64, against: &[f64], least: 
 
 #[cfg(test)]
 mod tests {
-    use super::super::vector::difference;
     use super::*;
+    use crate::cycle::vector::difference;
     use crate::linalg::GaussianNoise;
 
     /// An affine map of `n` unknowns with one multiplier of 1.2, one of -0.95 and a shift of multiplier 1, whose residual

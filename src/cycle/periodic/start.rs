@@ -1,10 +1,9 @@
 //! Where the search for a periodic motion starts: on a mode that grows.
 
 use super::map::{PeriodMap, PeriodicState};
-use super::vector::{difference, norm};
+use crate::cycle::vector::{difference, norm};
 use crate::fem::operator::scatter;
 use crate::linalg::c64;
-use crate::transient::TransientBody;
 use std::f64::consts::TAU;
 
 /// Doublings of the amplitude that are tried.
@@ -40,8 +39,8 @@ impl GrowingMode<'_> {
         let (interface, law, operator) = (map.interface(), map.run.contact(), map.run.operator());
         let part = |of: fn(&c64) -> f64| -> Vec<f64> { self.shape.iter().map(of).collect() };
         let [real, imaginary] = [part(|u| u.re), part(|u| u.im)].map(|u| scatter(operator, &u));
-        let slip = |i: usize| match map.run.body() {
-            TransientBody::Plane(_) => {
+        let slip = |i: usize| match map.run.model().components() {
+            2 => {
                 let parts = interface.slip(i);
                 parts.map(|(dof, along)| self.shape[dof] * along).sum()
             }

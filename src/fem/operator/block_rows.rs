@@ -1,35 +1,38 @@
-//! Rows of 2 x 2 blocks, their product and their step.
+//! Rows of `D x D` blocks, their product and their step.
 
 use super::kernel::{SUMS, add_up, dispatched, move_range, multiply_add};
 use super::{SimdLevel, StepCoefficients};
+use std::array;
+use std::ops::Range;
 
-/// Compressed rows of 2 x 2 blocks; `values` holds `[a_11, a_21, a_12, a_22]`.
+/// Compressed rows of `D x D` blocks.
 #[derive(Clone, Debug, Default)]
-pub(super) struct BlockRows {
+pub(super) struct BlockRows<const D: usize> {
     /// First block of each node row.
     pub starts: Vec<u32>,
     /// First place of each block's column node.
     pub columns: Vec<u32>,
-    pub values: Vec<[f64; 4]>,
+    /// The blocks, column by column.
+    pub blocks: Vec<[[f64; D]; D]>,
 }
 
-/// Both components of one node row times `x`.
+/// All components of one node row times `x`: a sum for each of the products, so that they are formed side by side.
 #[inline(always)]
-fn block_row<const FUSED: bool>(
-    rows: &BlockRows,
-    range: std::ops::Range<usize>,
+fn block_row<const FUSED: bool, const D: usize>(
+    rows: &BlockRows<D>,
+    range: Range<usize>,
     x: &[f64],
-) -> [f64; 2] {
-    let mut sum = [0.0; 4];
-    let blocks = rows.columns[range.clone()].iter().zip(&rows.values[range]);
+) -> [f64; D] {
+    let mut sums = [[0.0; D]; D];
+    let blocks = rows.columns[range.clone()].iter().zip(&rows.blocks[range]);
     for (&column, block) in blocks {
-        let pair = &x[column as usize..column as usize + 2];
-        let spread = [pair[0], pair[0], pair[1], pair[1]];
-        for k in 0..4 {
-            sum[k] = multiply_add::<FUSED>(block[k], spread[k], sum[k]);
+        let part = &x[column as usize..column as usize + D];
+        let (sums, block) = (sums.as_flattened_mut(), block.as_flattened());
+        for k in 0..D * D {
+            sums[k] = multiply_add::<FUSED>(block[k], part[k / D], sums[k]);
         }
     }
-    [sum[0] + sum[2], sum[1] + sum[3]]
+    array::from_fn(|i| (1..D).fold(sums[0][i], |sum, j| sum + sums[j][i]))
 }
 
 #[inline(always)]
@@ -45,27 +48,33 @@ fn move_body<const FUSED: bool>(
 }
 
 #[inline(always)]
-fn accumulate_body<const FUSED: bool>(
-    rows: &BlockRows,
+fn accumulate_body<const FUSED: bool, const D: usize>(
+    rows: &BlockRows<D>,
     first: usize,
     velocity: &[f64],
     time_step: f64,
     [elastic, elastic_rate]: [&mut [f64]; 2],
 ) {
-    let outputs = elastic.as_chunks_mut::<2>().0.iter_mut();
-    let outputs = outputs.zip(elastic_rate.as_chunks_mut::<2>().0);
+    let outputs = elastic.as_chunks_mut::<D>().0.iter_mut();
+    let outputs = outputs.zip(elastic_rate.as_chunks_mut::<D>().0);
     for ((q, z), range) in outputs.zip(rows.starts[first..].windows(2)) {
-        *z = block_row::<FUSED>(rows, range[0] as usize..range[1] as usize, velocity);
-        q[0] = multiply_add::<FUSED>(time_step, z[0], q[0]);
-        q[1] = multiply_add::<FUSED>(time_step, z[1], q[1]);
+        *z = block_row::<FUSED, D>(rows, range[0] as usize..range[1] as usize, velocity);
+        for c in 0..D {
+            q[c] = multiply_add::<FUSED>(time_step, z[c], q[c]);
+        }
     }
 }
 
 #[inline(always)]
-fn multiply_body<const FUSED: bool>(rows: &BlockRows, first: usize, x: &[f64], y: &mut [f64]) {
-    let y = y.as_chunks_mut::<2>().0.iter_mut();
+fn multiply_body<const FUSED: bool, const D: usize>(
+    rows: &BlockRows<D>,
+    first: usize,
+    x: &[f64],
+    y: &mut [f64],
+) {
+    let y = y.as_chunks_mut::<D>().0.iter_mut();
     for (y, range) in y.zip(rows.starts[first..].windows(2)) {
-        *y = block_row::<FUSED>(rows, range[0] as usize..range[1] as usize, x);
+        *y = block_row::<FUSED, D>(rows, range[0] as usize..range[1] as usize, x);
     }
 }
 
@@ -74,9 +83,9 @@ dispatched!(move_places, move_body, (
     masses: &[f64], moved: [&mut [f64]; 2], accelerations: [&[f64]; 2],
     coefficients: &StepCoefficients) -> f64);
 // `z <- M^-1 K v`, `q <- q + dt z` on the node rows from `first` that `[q, z]` have room for.
-dispatched!(accumulate, accumulate_body, (
-    rows: &BlockRows, first: usize, velocity: &[f64], time_step: f64,
+dispatched!(accumulate<D>, accumulate_body, (
+    rows: &BlockRows<D>, first: usize, velocity: &[f64], time_step: f64,
     accelerations: [&mut [f64]; 2]) -> ());
 // `y <- M^-1 K x` on the node rows from `first` that `y` has room for.
-dispatched!(multiply, multiply_body, (
-    rows: &BlockRows, first: usize, x: &[f64], y: &mut [f64]) -> ());
+dispatched!(multiply<D>, multiply_body, (
+    rows: &BlockRows<D>, first: usize, x: &[f64], y: &mut [f64]) -> ());

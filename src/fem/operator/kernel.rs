@@ -279,19 +279,21 @@ pub(super) fn add_up(sums: &[f64; SUMS]) -> f64 {
 
 /// Compiles a body for every instruction set and picks one at run time.
 macro_rules! dispatched {
-    ($name:ident, $body:ident, ($($argument:ident: $kind:ty),*) -> $result:ty) => {
+    ($name:ident $(<$size:ident>)?, $body:ident, ($($argument:ident: $kind:ty),*) -> $result:ty) => {
         // The only unsafe code of the program: instructions that not every processor has.
         #[allow(unsafe_code)]
-        pub(in crate::fem::operator) fn $name(level: SimdLevel, $($argument: $kind),*) -> $result {
+        pub(in crate::fem::operator) fn $name$(<const $size: usize>)?(
+            level: SimdLevel, $($argument: $kind),*
+        ) -> $result {
             #[cfg(target_arch = "x86_64")]
             {
                 #[target_feature(enable = "avx2,fma")]
-                unsafe fn avx2($($argument: $kind),*) -> $result {
-                    $body::<true>($($argument),*)
+                unsafe fn avx2$(<const $size: usize>)?($($argument: $kind),*) -> $result {
+                    $body::<true $(, $size)?>($($argument),*)
                 }
                 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,fma")]
-                unsafe fn avx512($($argument: $kind),*) -> $result {
-                    $body::<true>($($argument),*)
+                unsafe fn avx512$(<const $size: usize>)?($($argument: $kind),*) -> $result {
+                    $body::<true $(, $size)?>($($argument),*)
                 }
                 match level {
                     // SAFETY: operators are built with levels that `SimdLevel::available` found on
@@ -303,7 +305,7 @@ macro_rules! dispatched {
                 }
             }
             let _ = level;
-            $body::<false>($($argument),*)
+            $body::<false $(, $size)?>($($argument),*)
         }
     };
 }

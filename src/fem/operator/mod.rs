@@ -1,10 +1,9 @@
 //! The stiffness operator of an explicit time step: `M^-1 K` with a lumped mass, applied without a
 //! factorization.
 //!
-//! Three implementations stand behind one trait: [`SparseOperator`] for any plane mesh, [`CyclicStencil`] for a uniform annulus,
+//! Three implementations stand behind one trait: [`SparseOperator`] for any mesh, [`CyclicStencil`] for a uniform annulus,
 //! whose sectors share one stencil in polar frames, and [`SolidStencil`] for a body of revolution in three dimensions.
 
-mod assembled;
 mod block_rows;
 mod cyclic;
 mod field;
@@ -15,7 +14,6 @@ mod simd;
 mod solid;
 mod sparse;
 
-pub use assembled::AssembledOperator;
 pub use cyclic::CyclicStencil;
 pub use field::{AlignedVector, MotionFields};
 pub use largest_frequency::{largest_frequency, largest_frequency_of};

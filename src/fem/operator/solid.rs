@@ -2,8 +2,8 @@
 
 use super::kernel::solid::{SheetCoupling, SheetLayout, solid_advance, solid_multiply};
 use super::{MotionFields, OperatorError, SimdLevel, StepCoefficients, StiffnessOperator};
-use crate::fem::solid::{self, SolidMatrix};
-use crate::fem::{ElasticMaterial, MassKind};
+use crate::fem::fold::SectorMatrix;
+use crate::fem::{ElasticMaterial, MassKind, solid};
 use crate::mesh::SolidSector;
 use std::collections::BTreeMap;
 
@@ -32,7 +32,7 @@ impl SolidStencil {
     pub fn assemble(
         sector: &SolidSector,
         material: &ElasticMaterial,
-        springs: &SolidMatrix,
+        springs: &SectorMatrix,
         simd: SimdLevel,
     ) -> Result<Self, OperatorError> {
         if sector.is_quadratic() {
@@ -82,10 +82,9 @@ fn nodal_masses(
 ) -> Result<Vec<f64>, OperatorError> {
     let mut masses = vec![0.0; sector.node_count()];
     let lumped = solid::mass(sector, material, MassKind::Lumped);
-    for (matrix, nodes) in &lumped.places {
-        for (a, (node, _)) in nodes.iter().enumerate() {
-            masses[*node] += lumped.matrices[*matrix][(3 * a, 3 * a)];
-        }
+    let own = lumped.entries().filter(|&(row, column, ..)| row == column && row % 3 == 0);
+    for (row, _, _, mass) in own {
+        masses[row / 3] += mass;
     }
     match masses.iter().position(|mass| !(*mass > 0.0)) {
         Some(node) => Err(OperatorError::Massless { node: node + 1, mass: masses[node] }),
@@ -94,23 +93,11 @@ fn nodal_masses(
 }
 
 /// Blocks between each node of a sector and its neighbours.
-fn sector_blocks(sector: &SolidSector, terms: &[&SolidMatrix]) -> Vec<BTreeMap<usize, Blocks>> {
+fn sector_blocks(sector: &SolidSector, terms: &[&SectorMatrix]) -> Vec<BTreeMap<usize, Blocks>> {
     let mut blocks = vec![BTreeMap::<usize, Blocks>::new(); sector.node_count()];
-    for term in terms {
-        for (matrix, nodes) in &term.places {
-            let matrix = &term.matrices[*matrix];
-            for (a, &(node, half)) in nodes.iter().enumerate() {
-                for (b, &(other, other_half)) in nodes.iter().enumerate() {
-                    let block =
-                        &mut blocks[node].entry(other).or_default()[(2 + other_half - half) / 2];
-                    for (c, row) in block.iter_mut().enumerate() {
-                        for (d, value) in row.iter_mut().enumerate() {
-                            *value += matrix[(3 * a + c, 3 * b + d)];
-                        }
-                    }
-                }
-            }
-        }
+    for (row, column, ahead, value) in terms.iter().flat_map(|term| term.entries()) {
+        let block = blocks[row / 3].entry(column / 3).or_default();
+        block[(2 + ahead) as usize / 2][row % 3][column % 3] += value;
     }
     blocks
 }

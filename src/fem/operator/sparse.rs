@@ -1,104 +1,165 @@
-//! `M^-1 K` as 2 x 2 block rows, for any mesh.
+//! `M^-1 K` as rows of blocks, for bodies of any mesh.
 
 use super::block_rows::{self, BlockRows};
 use super::node_order::cuthill_mckee;
 use super::{MotionFields, OperatorError, SimdLevel, StepCoefficients, StiffnessOperator};
-use crate::fem::{MaterialField, assemble_stiffness, assemble_supports, lumped_masses};
+use crate::fem::{MaterialField, Triplets, assemble_stiffness, assemble_supports, lumped_masses};
 use crate::mesh::{BoundaryCondition, Mesh};
 use rayon::prelude::*;
-use std::collections::BTreeMap;
 
-/// Places of a field that one thread takes at a time: enough work to hand over, few enough to share evenly.
-const PIECE: usize = 4096;
-/// Places of a field up to which it is one piece: handing parts of a step of less than half a millisecond to other
-/// threads would take a good part of what they save.
-const UNDIVIDED: usize = 1 << 16;
+/// A dof that follows others: its place, theirs with their shares.
+type Follower = (u32, Vec<(u32, f64)>);
 
-/// `M^-1 K` over all nodes as compressed rows of 2 x 2 blocks, supports included; clamped nodes have empty rows.
+/// `M^-1 K` over all nodes as compressed rows of `D x D` blocks; dofs that are held or follow others have empty rows and no
+/// mass, and followers are given their motion after each step.
 ///
-/// Large bodies are stepped in pieces on the threads of the current rayon pool. Pieces depend on the body alone and each
-/// row is summed by one thread, so the result is the same, bit for bit, for any number of threads. Their matrix does not
-/// fit the cache of a core: the step takes the time of reading it, and its nodes are put in an order that reads the
-/// velocities from the cache at least.
+/// `D` places in a row are the components of one node. Large bodies are stepped in pieces on the threads of the current rayon
+/// pool. Pieces depend on the body alone and each row is summed by one thread, so the result is the same, bit for bit, for any
+/// number of threads. Their matrix does not fit the cache of a core: the step takes the time of reading it, and its nodes are
+/// put in an order that reads the velocities from the cache at least.
 #[derive(Clone, Debug)]
-pub struct SparseOperator {
-    rows: BlockRows,
-    masses: Vec<f64>,
+pub struct SparseOperator<const D: usize> {
+    rows: BlockRows<D>,
     /// First place of each node.
     places: Vec<u32>,
+    /// Mass of each place.
+    masses: Vec<f64>,
+    followers: Vec<Follower>,
     simd: SimdLevel,
 }
 
-impl SparseOperator {
-    /// Assembles the operator of `mesh` with its boundary conditions.
+impl SparseOperator<2> {
+    /// The operator of a plane mesh with its boundary conditions and supports.
     ///
     /// # Errors
-    /// [`OperatorError::Massless`] for a node without mass; [`super::SimdLevel::available`] must have
-    /// accepted `simd` (a level that the processor lacks falls back to the best it has).
+    /// As [`Self::new`].
     pub fn assemble(
         mesh: &Mesh,
         material: &dyn MaterialField,
         simd: SimdLevel,
     ) -> Result<Self, OperatorError> {
-        let node_masses = free_masses(mesh, material)?;
-        let mut dof_masses: Vec<f64> = node_masses.iter().flat_map(|&mass| [mass; 2]).collect();
-        mesh.held_dofs().for_each(|dof| dof_masses[dof] = 0.0);
-        let blocks = node_blocks(mesh, material, &dof_masses);
-        let field_length = dof_masses.len().next_multiple_of(8);
-        let order: Vec<u32> = match field_length > UNDIVIDED {
+        let masses = free_masses(mesh, material)?;
+        let mut masses: Vec<f64> = masses.iter().flat_map(|&mass| [mass; 2]).collect();
+        mesh.held_dofs().for_each(|dof| masses[dof] = 0.0);
+        let mut stiffness = assemble_stiffness(mesh, material);
+        let [springs, _] = assemble_supports(mesh);
+        stiffness.entries.extend(springs.entries);
+        stiffness.merge();
+        Self::new(&stiffness, masses, Vec::new(), simd)
+    }
+}
+
+impl<const D: usize> SparseOperator<D> {
+    /// Nodes that one thread takes at a time: enough work to hand over, few enough to share evenly.
+    const PIECE: usize = if D == 2 { 2048 } else { 1024 };
+    /// Nodes up to which a body is one piece: handing parts of a step of less than half a millisecond to other threads would take
+    /// a good part of what they save.
+    const UNDIVIDED: usize = if D == 2 { 1 << 15 } else { 4096 };
+
+    /// From the stiffness over the dofs that move by themselves (N/m), their lumped masses (kg; zero for all others), and those
+    /// that follow them; in the plane for each metre of thickness.
+    ///
+    /// [`super::SimdLevel::available`] must have accepted `simd`; a level that the processor lacks falls back to the best it has.
+    ///
+    /// # Errors
+    /// [`OperatorError::Massless`] for a dof with stiffness whose mass is not positive.
+    pub fn new(
+        stiffness: &Triplets,
+        masses: Vec<f64>,
+        followers: Vec<Follower>,
+        simd: SimdLevel,
+    ) -> Result<Self, OperatorError> {
+        let blocks = node_blocks::<D>(stiffness, &masses)?;
+        let nodes = blocks.len();
+        let order: Vec<u32> = match nodes > Self::UNDIVIDED {
             true => cuthill_mckee(&neighbours(&blocks)),
-            false => (0..mesh.node_count() as u32).collect(),
+            false => (0..nodes as u32).collect(),
         };
-        let mut places = vec![0; mesh.node_count()];
+        let mut places = vec![0; nodes];
         for (k, &node) in order.iter().enumerate() {
-            places[node as usize] = 2 * k as u32;
+            places[node as usize] = (D * k) as u32;
         }
-        let mut rows = BlockRows { starts: vec![0], ..BlockRows::default() };
-        let mut masses = Vec::with_capacity(field_length);
+
+        // Rows and masses in that order.
+        let mut rows = BlockRows { starts: vec![0], columns: Vec::new(), blocks: Vec::new() };
+        let mut placed_masses = Vec::with_capacity(D * nodes + 8);
         for node in order.iter().map(|&node| node as usize) {
-            let mass = node_masses[node];
-            let mut row: Vec<_> = blocks[node]
-                .iter()
-                .map(|(&column, block)| (places[column as usize], block.map(|value| value / mass)))
-                .collect();
-            row.sort_unstable_by_key(|&(place, _)| place);
-            rows.columns.extend(row.iter().map(|&(place, _)| place));
-            rows.values.extend(row.iter().map(|&(_, block)| block));
+            let mut row = blocks[node].clone();
+            row.iter_mut().for_each(|block| block.0 = places[block.0 as usize]);
+            row.sort_unstable_by_key(|block| block.0);
+            rows.columns.extend(row.iter().map(|block| block.0));
+            rows.blocks.extend(row.iter().map(|block| block.1));
             rows.starts.push(rows.columns.len() as u32);
-            masses.extend(&dof_masses[2 * node..2 * node + 2]);
+            placed_masses.extend(&masses[D * node..D * (node + 1)]);
         }
-        masses.resize(field_length, 0.0);
-        Ok(Self { rows, masses, places, simd: simd.min(SimdLevel::detect()) })
+        placed_masses.resize((D * nodes).next_multiple_of(8), 0.0);
+        let place = |dof: u32| places[dof as usize / D] + dof % D as u32;
+        let followers = followers.into_iter().map(|(dof, shares)| {
+            let shares = shares.into_iter();
+            (place(dof), shares.map(|(dof, share)| (place(dof), share)).collect())
+        });
+        Ok(Self {
+            followers: followers.collect(),
+            masses: placed_masses,
+            rows,
+            places,
+            simd: simd.min(SimdLevel::detect()),
+        })
+    }
+
+    /// Bytes that a step reads and writes where nothing stays in a cache: the blocks with their columns once; displacement,
+    /// velocity, `M^-1 K u` and its rate read and written, the masses read.
+    pub fn bytes_per_step(&self) -> usize {
+        let block = 8 * D * D + 4;
+        block * self.rows.blocks.len() + 4 * self.rows.starts.len() + 8 * 9 * self.masses.len()
     }
 
     fn is_divided(&self) -> bool {
-        self.masses.len() > UNDIVIDED
+        self.places.len() > Self::UNDIVIDED
+    }
+
+    fn follow(&self, field: &mut [f64]) {
+        for (place, shares) in &self.followers {
+            let values = shares.iter().map(|&(other, share)| share * field[other as usize]);
+            field[*place as usize] = values.sum();
+        }
     }
 }
 
-/// Blocks `[k_11, k_21, k_12, k_22]` of `K` by row and column node, supports included, N/m for each metre of thickness; a dof
-/// without mass, which is held, neither moves nor pushes.
-fn node_blocks(
-    mesh: &Mesh,
-    material: &dyn MaterialField,
+/// A block with its column node.
+type NodeBlock<const D: usize> = (u32, [[f64; D]; D]);
+
+/// Blocks of `M^-1 K` by row, each with its column node, ascending; a dof without mass neither moves nor pushes.
+fn node_blocks<const D: usize>(
+    stiffness: &Triplets,
     masses: &[f64],
-) -> Vec<BTreeMap<u32, [f64; 4]>> {
-    let mut blocks: Vec<BTreeMap<u32, [f64; 4]>> = vec![BTreeMap::new(); mesh.node_count()];
-    let [springs, _] = assemble_supports(mesh);
-    let body = assemble_stiffness(mesh, material).entries;
-    for (row, column, value) in body.into_iter().chain(springs.entries) {
-        if masses[row] > 0.0 && masses[column] > 0.0 {
-            let block = blocks[row / 2].entry(column as u32 / 2).or_default();
-            block[row % 2 + 2 * (column % 2)] += value;
+) -> Result<Vec<Vec<NodeBlock<D>>>, OperatorError> {
+    let mut rows: Vec<Vec<NodeBlock<D>>> = vec![Vec::new(); masses.len() / D];
+    for &(row, column, value) in &stiffness.entries {
+        if masses[row] == 0.0 || masses[column] == 0.0 {
+            continue;
         }
+        if !(masses[row] > 0.0) {
+            let (node, mass) = (row / D + 1, masses[row]);
+            return Err(OperatorError::Massless { node, mass });
+        }
+        let (own, other) = (&mut rows[row / D], (column / D) as u32);
+        let at = match own.binary_search_by_key(&other, |block| block.0) {
+            Ok(at) => at,
+            Err(at) => {
+                own.insert(at, (other, [[0.0; D]; D]));
+                at
+            }
+        };
+        own[at].1[column % D][row % D] += value / masses[row];
     }
-    blocks
+    Ok(rows)
 }
 
 /// Nodes that each node is coupled to, itself left out.
-fn neighbours(blocks: &[BTreeMap<u32, [f64; 4]>]) -> Vec<Vec<u32>> {
-    let row = |(node, row): (usize, &BTreeMap<u32, _>)| {
-        let columns = row.keys().copied();
+fn neighbours<const D: usize>(blocks: &[Vec<NodeBlock<D>>]) -> Vec<Vec<u32>> {
+    let row = |(node, row): (usize, &Vec<NodeBlock<D>>)| {
+        let columns = row.iter().map(|block| block.0);
         columns.filter(|&column| column as usize != node).collect()
     };
     blocks.iter().enumerate().map(row).collect()
@@ -122,7 +183,7 @@ pub(super) fn free_masses(
     Ok(masses)
 }
 
-impl StiffnessOperator for SparseOperator {
+impl<const D: usize> StiffnessOperator for SparseOperator<D> {
     fn name(&self) -> &'static str {
         "sparse"
     }
@@ -132,7 +193,7 @@ impl StiffnessOperator for SparseOperator {
     }
 
     fn dof_count(&self) -> usize {
-        2 * self.places.len()
+        D * self.places.len()
     }
 
     fn field_length(&self) -> usize {
@@ -140,7 +201,7 @@ impl StiffnessOperator for SparseOperator {
     }
 
     fn position(&self, dof: usize) -> usize {
-        self.places[dof / 2] as usize + dof % 2
+        self.places[dof / D] as usize + dof % D
     }
 
     fn masses(&self) -> &[f64] {
@@ -151,10 +212,11 @@ impl StiffnessOperator for SparseOperator {
         if !self.is_divided() {
             return block_rows::multiply(self.simd, &self.rows, 0, x, y);
         }
-        let x = &*x;
-        y.par_chunks_mut(PIECE)
-            .enumerate()
-            .for_each(|(k, y)| block_rows::multiply(self.simd, &self.rows, k * PIECE / 2, x, y));
+        let (x, used) = (&*x, self.dof_count());
+        let pieces = y[..used].par_chunks_mut(D * Self::PIECE).enumerate();
+        pieces.for_each(|(k, y)| {
+            block_rows::multiply(self.simd, &self.rows, k * Self::PIECE, x, y);
+        });
     }
 
     fn advance(&self, fields: &mut MotionFields, coefficients: &StepCoefficients) -> f64 {
@@ -163,20 +225,27 @@ impl StiffnessOperator for SparseOperator {
         if !self.is_divided() {
             let power =
                 block_rows::move_places(self.simd, &self.masses, [u, v], [q, z], coefficients);
+            self.follow(u);
+            self.follow(v);
             block_rows::accumulate(self.simd, &self.rows, 0, v, dt, [q, z]);
             return power;
         }
-        let moved = u.par_chunks_mut(PIECE).zip(v.par_chunks_mut(PIECE));
+        let piece = D * Self::PIECE;
+        let moved = u.par_chunks_mut(piece).zip(v.par_chunks_mut(piece));
         let powers: Vec<f64> = moved
-            .zip(q.par_chunks(PIECE).zip(z.par_chunks(PIECE)))
-            .zip(self.masses.par_chunks(PIECE))
+            .zip(q.par_chunks(piece).zip(z.par_chunks(piece)))
+            .zip(self.masses.par_chunks(piece))
             .map(|(((u, v), (q, z)), m)| {
                 block_rows::move_places(self.simd, m, [u, v], [q, z], coefficients)
             })
             .collect();
-        let accelerations = q.par_chunks_mut(PIECE).zip(z.par_chunks_mut(PIECE));
-        accelerations.enumerate().for_each(|(k, (q, z))| {
-            block_rows::accumulate(self.simd, &self.rows, k * PIECE / 2, v, dt, [q, z]);
+        self.follow(u);
+        self.follow(v);
+        let used = self.dof_count();
+        let accelerations = q[..used].par_chunks_mut(piece);
+        let accelerations = accelerations.zip(z[..used].par_chunks_mut(piece)).enumerate();
+        accelerations.for_each(|(k, (q, z))| {
+            block_rows::accumulate(self.simd, &self.rows, k * Self::PIECE, v, dt, [q, z]);
         });
         powers.iter().sum()
     }

@@ -1,7 +1,7 @@
 //! Element matrices of one sector of bricks.
 
-use super::SolidMatrix;
 use crate::fem::element::ElementGeometry;
+use crate::fem::fold::SectorMatrix;
 use crate::fem::{ElasticMaterial, MassKind};
 use crate::mesh::SolidSector;
 use nalgebra::{DMatrix, DVector, Matrix3};
@@ -19,23 +19,21 @@ pub(super) fn geometry(sector: &SolidSector, element: usize) -> ElementGeometry 
 }
 
 /// A matrix that is the same in every layer, from the elements of the first.
-fn layered(sector: &SolidSector, compute: impl FnMut(usize) -> DMatrix<f64>) -> SolidMatrix {
+fn layered(sector: &SolidSector, compute: impl FnMut(usize) -> DMatrix<f64>) -> SectorMatrix {
     let [radial, _] = sector.divisions();
-    let places = sector.elements.iter().enumerate();
-    SolidMatrix {
-        matrices: (0..radial).map(compute).collect(),
-        places: places.map(|(e, nodes)| (e % radial, nodes.clone())).collect(),
-    }
+    let own: Vec<DMatrix<f64>> = (0..radial).map(compute).collect();
+    let elements = sector.elements.iter().enumerate();
+    SectorMatrix::sum(3, elements.map(|(e, nodes)| (nodes, &own[e % radial])))
 }
 
 /// Elastic stiffness `∫ B^T D B dV`, N/m: full integration for 20 nodes, incompatible modes for 8, which do not lock in bending.
-pub fn stiffness(sector: &SolidSector, material: &ElasticMaterial) -> SolidMatrix {
+pub fn stiffness(sector: &SolidSector, material: &ElasticMaterial) -> SectorMatrix {
     layered(sector, |e| geometry(sector, e).stiffness(material).stiffness)
 }
 
 /// Mass, kg: consistent `∫ rho N_I N_J dV`, or lumped by row sums (8 nodes) or the scaled diagonal (20 nodes; Hinton, Rock and
 /// Zienkiewicz 1976).
-pub fn mass(sector: &SolidSector, material: &ElasticMaterial, kind: MassKind) -> SolidMatrix {
+pub fn mass(sector: &SolidSector, material: &ElasticMaterial, kind: MassKind) -> SectorMatrix {
     layered(sector, |e| {
         let geometry = geometry(sector, e);
         match kind {

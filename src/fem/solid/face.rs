@@ -1,6 +1,6 @@
 //! Terms on the faces of a body of revolution: contact, supports, pressure.
 
-use super::SolidMatrix;
+use crate::fem::fold::SectorMatrix;
 use crate::mesh::{FaceElement, SolidSector, face_quadrature};
 use nalgebra::DMatrix;
 
@@ -45,9 +45,8 @@ pub fn face_matrix(
     sector: &SolidSector,
     faces: &[FaceElement],
     term: &FaceTerm<'_>,
-) -> SolidMatrix {
-    let mut result = SolidMatrix::default();
-    for face in faces {
+) -> SectorMatrix {
+    let matrix_of = |face: &FaceElement| {
         let size = 3 * face.nodes.len();
         let mut matrix = DMatrix::zeros(size, size);
         let span = (term.span)(face);
@@ -80,10 +79,9 @@ pub fn face_matrix(
                 }
             }
         }
-        result.places.push((result.matrices.len(), face.nodes.clone()));
-        result.matrices.push(matrix);
-    }
-    result
+        matrix
+    };
+    SectorMatrix::sum(3, faces.iter().map(|face| (&face.nodes, matrix_of(face))))
 }
 
 /// Components in the nodes' frames of a unit vector along `component` at a point, times `values` of the nodes.
@@ -111,13 +109,11 @@ pub fn face_load(sector: &SolidSector, faces: &[FaceElement], component: usize) 
 }
 
 /// A matrix that couples no two nodes, from `(node, row, column, value)`.
-pub fn nodal_matrix(entries: &[(usize, usize, usize, f64)]) -> SolidMatrix {
-    let mut result = SolidMatrix::default();
-    for &(node, row, column, value) in entries {
+pub fn nodal_matrix(entries: &[(usize, usize, usize, f64)]) -> SectorMatrix {
+    let own = entries.iter().map(|&(node, row, column, value)| {
         let mut matrix = DMatrix::zeros(3, 3);
         matrix[(row, column)] = value;
-        result.places.push((result.matrices.len(), vec![(node, 0)]));
-        result.matrices.push(matrix);
-    }
-    result
+        ([(node, 0)], matrix)
+    });
+    SectorMatrix::sum(3, own)
 }

@@ -1,8 +1,8 @@
 //! Geometric stiffness of bricks.
 
-use super::SolidMatrix;
 use super::element::geometry;
 use crate::fem::ElasticMaterial;
+use crate::fem::fold::SectorMatrix;
 use crate::mesh::SolidSector;
 use nalgebra::{DMatrix, DVector};
 
@@ -12,24 +12,17 @@ pub fn geometric_stiffness(
     sector: &SolidSector,
     material: &ElasticMaterial,
     displacement: &[f64],
-) -> SolidMatrix {
+) -> SectorMatrix {
     let recovered = recoveries(sector, material);
-    let mut matrix = SolidMatrix::default();
-    for (e, nodes) in sector.elements.iter().enumerate() {
-        let values =
-            nodes.iter().flat_map(|(node, _)| [0, 1, 2].map(|c| displacement[3 * node + c]));
-        let values = DVector::from_vec(values.collect());
+    let of = |(e, nodes): (usize, &Vec<(usize, usize)>)| {
+        let values = nodes.iter().flat_map(|(node, _)| &displacement[3 * node..3 * node + 3]);
+        let values = DVector::from_iterator(3 * nodes.len(), values.copied());
         let recovered = recovered[e % recovered.len()].as_ref();
         let internal = recovered.map(|recovered| recovered * &values);
-        let own = geometry(sector, e);
-        matrix.matrices.push(own.geometric_stiffness(
-            material,
-            values.as_slice(),
-            internal.as_ref(),
-        ));
-        matrix.places.push((e, nodes.clone()));
-    }
-    matrix
+        geometry(sector, e).geometric_stiffness(material, values.as_slice(), internal.as_ref())
+    };
+    let elements = sector.elements.iter().enumerate();
+    SectorMatrix::sum(3, elements.map(|(e, nodes)| (nodes, of((e, nodes)))))
 }
 
 /// What gives the amplitudes of the incompatible modes, of each element along a radius: layers are alike.

@@ -37,6 +37,7 @@ fn rigid_rotation_leaves_the_prestressed_edge_in_balance() {
         let elastic = assemble_stiffness(&mesh, &material);
         let base = SteadySliding::solve(&mesh, &elastic, &turning(-60.0)).unwrap();
         let state = PressedPoints {
+            first: 0,
             is_pressed: &base.is_pressed,
             normal_forces: &base.normal_forces,
             stiffnesses: &[],

@@ -21,7 +21,7 @@ use crate::fem::operator::{SimdLevel, StiffnessOperator};
 use crate::results::cycle::{
     CycleReport, FoundCycle, MotionSearch, PeriodicResult, Search, SoughtMode,
 };
-use crate::transient::{OperatorChoice, TransientBody, TransientError};
+use crate::transient::{OperatorChoice, TransientError, TransientModel};
 pub use basin::boundary_of_modes;
 use rayon::prelude::*;
 use std::time::Instant;
@@ -108,12 +108,12 @@ impl<'a> PeriodicStudy<'a> {
         self.sought.len()
     }
 
-    fn body(&self) -> TransientBody<'_> {
+    fn body(&self) -> TransientModel<'_> {
         self.stepped.body(self.case)
     }
 
     /// The body with another value of a parameter, SI.
-    fn body_at(&self, parameter: Parameter, value: f64) -> TransientBody<'_> {
+    fn body_at(&self, parameter: Parameter, value: f64) -> TransientModel<'_> {
         let mut point = operating_point(self.case);
         parameter.set(&mut point, value);
         self.stepped.body_at(self.case, &point)
@@ -122,7 +122,7 @@ impl<'a> PeriodicStudy<'a> {
     /// The period map of a body for motions near a mode.
     fn map<'b>(
         &self,
-        body: TransientBody<'b>,
+        body: TransientModel<'b>,
         operator: &'b dyn StiffnessOperator,
         mode: &ComplexMode,
     ) -> Result<PeriodMap<'b>, TransientError> {
@@ -135,7 +135,7 @@ impl<'a> PeriodicStudy<'a> {
     }
 
     /// Where the search starts.
-    fn body_at_start(&self) -> TransientBody<'_> {
+    fn body_at_start(&self) -> TransientModel<'_> {
         match (self.start, &self.continuation) {
             (Some(value), Some((parameter, _))) => self.body_at(*parameter, value),
             _ => self.body(),
@@ -155,7 +155,7 @@ impl<'a> PeriodicStudy<'a> {
         let tune = |map: &mut PeriodMap<'b>, value: f64| {
             let body = self.body_at(*parameter, value);
             if parameter.is_of_contact() {
-                return map.retune(*body.contact());
+                return map.retune(body.contact);
             }
             let mut next = self.map(body, operator, mode)?;
             next.follow(map);

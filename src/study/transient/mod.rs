@@ -32,7 +32,7 @@ use crate::prestress::Assembly;
 use crate::results::transient::TransientReport;
 use crate::transient::{
     CentralDifference, InitialState, Recorder, RecorderSettings, StepPlan, TransientAnalysis,
-    TransientBody, TransientError, TransientSettings, TransientState,
+    TransientError, TransientModel, TransientSettings, TransientState,
 };
 use std::time::Instant;
 
@@ -80,7 +80,7 @@ impl<'a> TransientStudy<'a> {
     }
 
     /// The body with its contact.
-    pub fn body(&self) -> TransientBody<'_> {
+    pub fn body(&self) -> TransientModel<'_> {
         self.stepped.body(self.case)
     }
 
@@ -108,8 +108,7 @@ impl<'a> TransientStudy<'a> {
     /// # Errors
     /// [`StudyError::Case`] for times that do not fit together.
     pub fn plan(&self, operator: &dyn StiffnessOperator) -> Result<StepPlan, StudyError> {
-        let plan = StepPlan::of(self.body(), operator, &self.settings);
-        plan.map_err(|error| self.error(error))
+        self.body().plan(operator, &self.settings).map_err(|error| self.error(error))
     }
 
     /// The run in its initial state.
@@ -218,9 +217,7 @@ impl<'a> TransientStudy<'a> {
     pub fn preflight(&self) -> Result<StepPlan, StudyError> {
         let operator = self.operator()?;
         if matches!(self.settings.initial, InitialState::LimitCycle { .. }) {
-            let damping = &self.case.damping.rayleigh;
-            let plan = StepPlan::new(operator.as_ref(), damping, &self.settings);
-            return plan.map_err(|error| self.error(error));
+            return self.plan(operator.as_ref());
         }
         let fresh = self.start(operator.as_ref())?;
         self.recorder(&fresh)?;

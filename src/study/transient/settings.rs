@@ -1,62 +1,8 @@
 //! From the case's terms to those of the time loop, and its errors back to keys of the case.
 
-use crate::case::{AssemblyBody, Case, Transient};
-use crate::cycle::OperatingPoint;
-use crate::mesh::{AnnulusMesh, Mesh, SolidSector};
-use crate::prestress::Assembly;
+use crate::case::{Case, Transient};
 use crate::study::StudyError;
-use crate::transient::{
-    AssemblyTransientModel, Breakdown, RecorderSettings, SolidTransientModel, TransientBody,
-    TransientError, TransientModel, TransientSettings,
-};
-
-/// The body of a case at an operating point; `mesh` and `annulus` are the section of one in three dimensions, `sector`.
-pub fn body<'a>(
-    (case, point): (&'a Case, &OperatingPoint),
-    mesh: &'a Mesh,
-    annulus: Option<&'a AnnulusMesh>,
-    sector: Option<&'a SolidSector>,
-) -> TransientBody<'a> {
-    let (damping, contact) = (point.damping, point.contact);
-    let stiffness = case.contact.stiffness.damped_by(contact_damping(case, point));
-    if let Some(sector) = sector {
-        let material = &case.material;
-        return SolidTransientModel { sector, material, damping, contact, stiffness }.into();
-    }
-    TransientModel {
-        mesh,
-        annulus,
-        material: case.materials_in_time(),
-        damping,
-        contact,
-        stiffness,
-    }
-    .into()
-}
-
-/// Stiffness damping that acts on the springs of the contact too, s.
-fn contact_damping(case: &Case, point: &OperatingPoint) -> f64 {
-    match case.damping.include_contact {
-        true => point.damping.stiffness_coefficient,
-        false => 0.0,
-    }
-}
-
-/// The bodies of an assembly.
-pub fn assembly<'a>(
-    case: &Case,
-    point: &OperatingPoint,
-    assembly: &'a Assembly<'a>,
-) -> AssemblyTransientModel<'a> {
-    let axis = case.body.assembly().and_then(AssemblyBody::axis);
-    AssemblyTransientModel {
-        assembly,
-        damping: point.damping,
-        contact: point.contact,
-        contact_damping: contact_damping(case, point),
-        axis: axis.unwrap_or([[0.0; 3], [0.0, 0.0, 1.0]]),
-    }
-}
+use crate::transient::{Breakdown, RecorderSettings, TransientError, TransientSettings};
 
 pub fn run_settings(case: &Case, transient: &Transient) -> TransientSettings {
     TransientSettings {

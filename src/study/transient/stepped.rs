@@ -1,13 +1,13 @@
 //! The body of a case as the time loop takes it.
 
-use super::settings;
-use crate::case::{Annulus, Body, Case, Revolution};
+use crate::case::{Annulus, AssemblyBody, Body, Case, Revolution};
 use crate::cycle::OperatingPoint;
+use crate::fem::MaterialField;
 use crate::mesh::{AnnulusMesh, Mesh, SolidSector};
 use crate::prestress::Assembly;
 use crate::study::StudyError;
 use crate::study::cycle::operating_point;
-use crate::transient::TransientBody;
+use crate::transient::{SteppedBody, TransientModel};
 use std::sync::Arc;
 
 /// The mesh of a case and what belongs to it: a transient and the limit cycles that it may end on step the same body.
@@ -52,18 +52,32 @@ impl<'a> SteppedMesh<'a> {
     }
 
     /// The body of the case with its contact.
-    pub fn body<'b>(&'b self, case: &'b Case) -> TransientBody<'b> {
+    pub fn body<'b>(&'b self, case: &'b Case) -> TransientModel<'b> {
         self.body_at(case, &operating_point(case))
     }
 
     /// The same at another operating point.
-    pub fn body_at<'b>(&'b self, case: &'b Case, point: &OperatingPoint) -> TransientBody<'b> {
-        match (&self.assembly, self.sector.as_ref()) {
-            (Some(assembly), _) => settings::assembly(case, point, assembly).into(),
-            (None, sector) => {
-                let annulus = self.annulus.as_ref();
-                settings::body((case, point), &self.mesh, annulus, sector)
+    pub fn body_at<'b>(&'b self, case: &'b Case, point: &OperatingPoint) -> TransientModel<'b> {
+        let body = match (&self.assembly, self.sector.as_ref()) {
+            (Some(assembly), _) => {
+                let axis = case.body.assembly().and_then(AssemblyBody::axis);
+                let axis = axis.unwrap_or([[0.0; 3], [0.0, 0.0, 1.0]]);
+                SteppedBody::Assembly { assembly, axis }
             }
+            (None, Some(sector)) => SteppedBody::Revolution(sector),
+            (None, None) => SteppedBody::Plane { mesh: &self.mesh, annulus: self.annulus.as_ref() },
+        };
+        let material: &dyn MaterialField = match body {
+            SteppedBody::Revolution(_) => &case.material,
+            _ => case.materials_in_time(),
+        };
+        TransientModel {
+            stiffness: case.contact.stiffness,
+            contact_damping: match case.damping.include_contact {
+                true => point.damping.stiffness_coefficient,
+                false => 0.0,
+            },
+            ..TransientModel::new(body, material, point.damping, point.contact)
         }
     }
 

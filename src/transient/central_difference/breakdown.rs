@@ -26,7 +26,7 @@ impl CentralDifference<'_> {
     }
 
     fn unstable(&self, symptom: String, cause: Breakdown) -> TransientError {
-        let count = self.body.components();
+        let count = self.model.components();
         let speed = |node: usize| {
             let component =
                 |c: usize| self.fields.velocity[self.operator.position(count * node + c)];
@@ -41,7 +41,7 @@ impl CentralDifference<'_> {
                 (node, largest) = (candidate, value);
             }
         }
-        let [radius, angle] = self.body.place(node);
+        let [radius, angle] = self.model.place(node);
         TransientError::Unstable {
             time: (self.next_step - 1) as f64 * self.plan.time_step,
             step: self.next_step - 1,

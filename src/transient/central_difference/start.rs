@@ -6,7 +6,7 @@ use crate::fem::operator::{
     AlignedVector, MotionFields, StepCoefficients, StiffnessOperator, scatter,
 };
 use crate::transient::{
-    ContactPowers, InitialState, StatusCounts, StepPlan, TransientBody, TransientError,
+    ContactPowers, InitialState, StatusCounts, StepPlan, TransientError, TransientModel,
     TransientSettings,
 };
 
@@ -17,20 +17,19 @@ impl<'a> CentralDifference<'a> {
     /// [`TransientError`] names the setting that does not fit, with its bound;
     /// [`TransientError::FieldsMissing`] for a limit cycle, which [`Self::start_from`] takes.
     pub fn start(
-        body: impl Into<TransientBody<'a>>,
+        model: TransientModel<'a>,
         operator: &'a dyn StiffnessOperator,
         settings: &TransientSettings,
     ) -> Result<Self, TransientError> {
-        let body = body.into();
         let still = vec![0.0; operator.dof_count()];
         let displacement = match settings.initial {
             InitialState::Rest => still.clone(),
-            InitialState::SteadySliding => body.sliding_displacement()?,
+            InitialState::SteadySliding => model.sliding_displacement()?,
             InitialState::LimitCycle { harmonic, .. } => {
                 return Err(TransientError::FieldsMissing { harmonic });
             }
         };
-        Self::start_from(body, operator, settings, &displacement, still)
+        Self::start_from(model, operator, settings, &displacement, still)
     }
 
     /// A run from given fields, `u_0` (m) and `v_{-1/2}` (m/s) over all dofs in nodal frames; a perturbation at the
@@ -40,21 +39,20 @@ impl<'a> CentralDifference<'a> {
     /// [`TransientError`] names the setting that does not fit, with its bound;
     /// [`TransientError::ForeignState`] for fields of another size.
     pub fn start_from(
-        body: impl Into<TransientBody<'a>>,
+        model: TransientModel<'a>,
         operator: &'a dyn StiffnessOperator,
         settings: &TransientSettings,
         displacement: &[f64],
         mut velocity: Vec<f64>,
     ) -> Result<Self, TransientError> {
-        let body = body.into();
-        let plan = body.plan(operator, settings)?;
+        let plan = model.plan(operator, settings)?;
         let expected = operator.dof_count();
         for found in [displacement.len(), velocity.len()] {
             if found != expected {
                 return Err(TransientError::ForeignState { found, expected });
             }
         }
-        let mut run = Self::new(body, operator, plan, settings)?;
+        let mut run = Self::new(model, operator, plan, settings)?;
         if let Some(kick) = run.kick.take_if(|kick| kick.step == 0) {
             velocity.iter_mut().zip(kick.velocity).for_each(|(v, p)| *v += p);
         }
@@ -73,13 +71,12 @@ impl<'a> CentralDifference<'a> {
     /// # Errors
     /// As [`Self::start`], and [`TransientError::ForeignState`] for a state of another size.
     pub fn resume(
-        body: impl Into<TransientBody<'a>>,
+        model: TransientModel<'a>,
         operator: &'a dyn StiffnessOperator,
         settings: &TransientSettings,
         state: &TransientState,
     ) -> Result<Self, TransientError> {
-        let body = body.into();
-        let plan = body.plan(operator, settings)?;
+        let plan = model.plan(operator, settings)?;
         let expected = operator.dof_count();
         for vector in [&state.displacement, &state.velocity, &state.elastic, &state.elastic_rate] {
             let found = vector.len();
@@ -87,7 +84,7 @@ impl<'a> CentralDifference<'a> {
                 return Err(TransientError::ForeignState { found, expected });
             }
         }
-        let mut run = Self::new(body, operator, plan, settings)?;
+        let mut run = Self::new(model, operator, plan, settings)?;
         // What was added at the start is in the state.
         run.kick.take_if(|kick| kick.step == 0);
         run.fields = MotionFields {
@@ -134,21 +131,21 @@ impl<'a> CentralDifference<'a> {
     /// # Errors
     /// [`TransientError::Prestress`] where the springs of a compliant contact have no base state.
     pub fn retune(&mut self, contact: SlidingContact) -> Result<(), TransientError> {
-        if *self.body.contact() == contact {
+        if self.model.contact == contact {
             return Ok(());
         }
-        *self.body.contact_mut() = contact;
-        self.contact = self.body.lagrange_contact(self.operator, &self.interface)?;
+        self.model.contact = contact;
+        self.contact = self.model.lagrange_contact(self.operator, &self.interface)?;
         Ok(())
     }
 
     fn new(
-        body: TransientBody<'a>,
+        model: TransientModel<'a>,
         operator: &'a dyn StiffnessOperator,
         plan: StepPlan,
         settings: &TransientSettings,
     ) -> Result<Self, TransientError> {
-        let (interface, damping) = (body.interface(), body.damping());
+        let (interface, damping) = (model.interface(), model.damping);
         let zeros = || AlignedVector::zeros(operator.field_length());
         // All others start fully expanded: a ramp of no length.
         let expansion_time = match settings.initial {
@@ -157,7 +154,7 @@ impl<'a> CentralDifference<'a> {
         };
         let kick = Kick {
             step: (settings.perturbation.time / plan.time_step).round() as u64,
-            velocity: body.perturbed(&settings.perturbation)?,
+            velocity: model.perturbed(&settings.perturbation)?,
         };
         Ok(Self {
             coefficients: StepCoefficients {
@@ -171,9 +168,9 @@ impl<'a> CentralDifference<'a> {
                 elastic: zeros(),
                 elastic_rate: zeros(),
             },
-            contact: body.lagrange_contact(operator, &interface)?,
-            boundary: body.boundary_forces(operator),
-            relaxation: body.relaxation(operator),
+            contact: model.lagrange_contact(operator, &interface)?,
+            boundary: model.boundary_forces(operator),
+            relaxation: model.relaxation(operator),
             interface,
             next_step: 0,
             initial_energy: 0.0,
@@ -185,7 +182,7 @@ impl<'a> CentralDifference<'a> {
             counts: StatusCounts::default(),
             displacement_before: zeros(),
             velocity_before: zeros(),
-            body,
+            model,
             operator,
             plan,
             expansion_time,

@@ -1,30 +1,23 @@
 //! Contact points with their rows over the dofs that they touch.
 
 use super::{ContactPoint, LagrangeContact, PointTurn, TouchedDof, TouchingSurfaces};
-use crate::contact::{ContactStatus, CoulombFriction, Point, Row};
+use crate::contact::{ContactStatus, ContactStiffness, CoulombFriction, Point, Row};
 use crate::fem::operator::StiffnessOperator;
-use crate::transient::compliance::CompliantContact;
+use crate::transient::compliance::{CompliantContact, PressedPoint};
 use std::collections::BTreeMap;
 
 /// Points of one law, and the nodes that the record shows of them.
-pub(in crate::transient) struct ContactPart<'p> {
-    pub points: &'p [Point],
+#[derive(Debug)]
+pub(in crate::transient) struct ContactPart {
+    pub points: Vec<Point>,
     /// For each node its points with the share that it has in each.
     pub nodes: Vec<Vec<(usize, f64)>>,
+    /// Steady sliding at each point.
+    pub base: Vec<PressedPoint>,
     pub law: CoulombFriction,
     /// How far the counterface is pushed in at the end, m.
     pub interference: f64,
-    /// `None` is rigid.
-    pub springs: Option<CompliantContact>,
-    /// Tangential dashpot for each unit of the points' weights.
-    pub tangential_damping: f64,
-}
-
-impl ContactPart<'_> {
-    /// Nodes that are one point each.
-    pub fn nodes_as_points(count: usize) -> Vec<Vec<(usize, f64)>> {
-        (0..count).map(|point| vec![(point, 1.0)]).collect()
-    }
+    pub stiffness: ContactStiffness,
 }
 
 impl LagrangeContact {
@@ -33,27 +26,30 @@ impl LagrangeContact {
     pub(in crate::transient) fn new(
         operator: &dyn StiffnessOperator,
         tangents: usize,
-        parts: Vec<ContactPart<'_>>,
+        parts: Vec<ContactPart>,
         bound: &dyn Fn(&Row) -> Row,
     ) -> Self {
         let mut contact = Self::empty(tangents);
         let mut touched = BTreeMap::new();
         for part in parts {
             let first = contact.points.len();
-            for point in part.points {
+            let weights: Vec<f64> = part.points.iter().map(|point| point.weight).collect();
+            let springs = CompliantContact::of(&part.stiffness, &weights, &part.base);
+            let tangential_damping = part.stiffness.tangential_damping;
+            for point in &part.points {
                 for row in &[&point.normal, &point.slip, &point.across][..=tangents] {
                     contact.touch(&bound(row), operator, &mut touched);
                 }
                 let mut mass = contact.masses_of(contact.points.len());
                 // A spring pushes against what nothing moves; without one there is no force to find.
-                if mass[0] == 0.0 && part.springs.is_some() {
+                if mass[0] == 0.0 && springs.is_some() {
                     mass[0] = f64::INFINITY;
                 }
                 contact.points.push(ContactPoint {
                     mass,
                     gap: point.gap,
                     speed: point.speed,
-                    dashpot: part.tangential_damping * point.weight,
+                    dashpot: tangential_damping * point.weight,
                 });
             }
             let nodes = part.nodes.into_iter().map(|points| {
@@ -65,8 +61,8 @@ impl LagrangeContact {
                 points: first..contact.points.len(),
                 law: part.law,
                 interference: part.interference,
-                springs: part.springs,
-                is_plain: part.law.decay.is_none() && part.tangential_damping == 0.0,
+                springs,
+                is_plain: part.law.decay.is_none() && tangential_damping == 0.0,
             });
         }
         contact.finish()

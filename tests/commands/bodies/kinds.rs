@@ -82,9 +82,9 @@ fn solids() -> (String, String) {
         counts,
     };
     let blocks = [
-        block("slab", -0.035, 0.02, [4, 3, 2]),
-        block("lining", -0.015, 0.01, [5, 4, 1]),
-        block("plate", -0.005, 0.005, [4, 4, 1]),
+        block("slab", -0.035, 0.02, [3, 2, 1]),
+        block("lining", -0.015, 0.01, [4, 3, 1]),
+        block("plate", -0.005, 0.005, [3, 3, 1]),
     ];
     let mesh = String::from_utf8(file_of(&blocks, |point| point)).expect("a file of text");
     let case = format!(
@@ -105,7 +105,7 @@ fn sectors() -> (String, String) {
         name: "ring",
         origin: [0.0205, 0.0, 0.0],
         size: [0.07, std::f64::consts::TAU / 6.0, 0.009],
-        counts: [4, 4, 1],
+        counts: [3, 2, 1],
     };
     let mesh = file_of(&[sector], |[r, t, z]| [r * t.cos(), r * t.sin(), z]);
     let case = format!(

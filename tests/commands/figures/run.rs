@@ -10,7 +10,7 @@ use frictionsim::results::transient::{RunFigures, draw_run};
 use frictionsim::results::{DrawingOptions, Extent};
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    TimeStep, TransientAnalysis, TransientModel, TransientSettings, build_operator,
+    TimeStep, TransientAnalysis, TransientModel, TransientSettings,
 };
 
 #[test]
@@ -27,7 +27,7 @@ fn a_run_gets_every_figure_of_its_record() {
         initial: InitialState::Rest,
         perturbation: Perturbation::of(&[2], 1e-2),
     };
-    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
     // Node 1 + 15 * 13 lies on the contact edge at 90 degrees, seven nodes further out on its ray.
     let mut record = Recorder::new(

@@ -7,7 +7,7 @@ use frictionsim::fem::{RayleighDamping, assemble_stiffness, lumped_masses};
 use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ShaftSpecification};
 use frictionsim::prestress::SteadySliding;
 use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, Sample, TimeStep, build_operator,
+    CentralDifference, InitialState, OperatorChoice, Perturbation, Sample, TimeStep,
 };
 
 /// Theory: the laws of Signorini and Coulomb at every node of every step.
@@ -16,7 +16,7 @@ fn multipliers_obey_signorini_and_coulomb_at_every_step() {
     let annulus = disc(30, 6);
     for rpm in [610.0, -610.0] {
         let model = model(&annulus, rpm);
-        let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+        let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
         let mut settings = settings(3e-3, &[1, 2]);
         settings.perturbation = Perturbation::of(&[1, 2], 2.0);
         let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
@@ -67,7 +67,7 @@ fn gap_and_velocity_of_a_node_between_two_bodies_are_those_over_the_other_body()
     let specification = AnnulusSpecification { shaft: Some(shaft), ..disc(30, 6).specification };
     let annulus = AnnulusMesh::generate(&specification).unwrap();
     let model = model(&annulus, 610.0);
-    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let mut settings = settings(3e-3, &[1, 2]);
     settings.perturbation = Perturbation::of(&[1, 2], 2.0);
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
@@ -99,7 +99,7 @@ fn gap_and_velocity_of_a_node_between_two_bodies_are_those_over_the_other_body()
 fn steady_sliding_start_stays_in_equilibrium() {
     let annulus = disc(36, 7);
     let model = model(&annulus, 600.0);
-    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let mut settings = settings(1e-3, &[]);
     settings.initial = InitialState::SteadySliding;
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
@@ -144,7 +144,7 @@ fn bar_rebounds_from_a_rigid_wall_as_one_dimensional_theory_says() {
     let density = model.material.of(0).density;
     let wave_speed = ((lambda + 2.0 * shear) / density).sqrt();
     let crossing = length / wave_speed;
-    let operator = build_operator(&model, OperatorChoice::Cyclic, SimdLevel::detect()).unwrap();
+    let operator = model.operator(OperatorChoice::Cyclic, SimdLevel::detect()).unwrap();
     let mut settings = settings(1.5 * crossing, &[]);
     settings.sample_interval = crossing / 400.0;
     settings.expansion_time = 0.0;

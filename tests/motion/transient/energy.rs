@@ -5,7 +5,6 @@ use frictionsim::fem::RayleighDamping;
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::transient::{
     CentralDifference, OperatorChoice, Perturbation, Recorder, RecorderSettings, Sample, TimeStep,
-    build_operator,
 };
 
 /// Theory: the discrete energy identity is exact, whatever contact and damping do.
@@ -14,7 +13,7 @@ fn every_joule_is_accounted_for_through_stick_slip_and_separation() {
     let annulus = disc(45, 9);
     for choice in [OperatorChoice::Cyclic, OperatorChoice::Sparse] {
         let model = model(&annulus, 610.0);
-        let operator = build_operator(&model, choice, SimdLevel::detect()).unwrap();
+        let operator = model.operator(choice, SimdLevel::detect()).unwrap();
         let mut settings = settings(6e-3, &[1, 2]);
         settings.perturbation = Perturbation::of(&[1, 2], 2.0);
         let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
@@ -40,7 +39,7 @@ fn free_undamped_vibration_keeps_its_energy_over_a_million_steps() {
     model.damping = RayleighDamping::default();
     // The cylinder shrinks away and never touches.
     model.contact.interference = -1.0;
-    let operator = build_operator(&model, OperatorChoice::Cyclic, SimdLevel::detect()).unwrap();
+    let operator = model.operator(OperatorChoice::Cyclic, SimdLevel::detect()).unwrap();
     let mut settings = settings(1.0, &[1, 2, 3]);
     settings.expansion_time = 0.0;
     settings.perturbation = Perturbation::of(&[1, 2, 3], 1.0);

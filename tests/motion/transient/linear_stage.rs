@@ -11,7 +11,7 @@ use frictionsim::mesh::AnnulusMesh;
 use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    TransientAnalysis, TransientModel, build_operator,
+    SteppedBody, TransientAnalysis, TransientModel,
 };
 use std::f64::consts::TAU;
 
@@ -56,7 +56,9 @@ fn harmonic(
 
 /// Eigenvalue with the largest real part for harmonic `n`, rigid contact, lumped mass, no geometric stiffness.
 fn least_stable(model: &TransientModel<'_>, n: usize) -> c64 {
-    let mesh = model.mesh;
+    let SteppedBody::Plane { mesh, annulus: Some(annulus) } = model.body else {
+        panic!("an annulus");
+    };
     let stiffness = assemble_stiffness(mesh, model.material);
     let base = SteadySliding::solve(mesh, &stiffness, &model.contact).unwrap();
     let options = TangentOptions {
@@ -67,8 +69,8 @@ fn least_stable(model: &TransientModel<'_>, n: usize) -> c64 {
         contact: ContactStiffness::default(),
     };
     let tangent = SlidingTangent::linearize(mesh, model.material, &stiffness, &base, &options);
-    let mass = harmonic(&tangent.mass, &tangent, model.annulus.unwrap(), n);
-    let stiffness = harmonic(&tangent.stiffness, &tangent, model.annulus.unwrap(), n);
+    let mass = harmonic(&tangent.mass, &tangent, annulus, n);
+    let stiffness = harmonic(&tangent.stiffness, &tangent, annulus, n);
     let reduced = mass.partial_piv_lu().solve(&stiffness);
     let (alpha, beta) = (model.damping.mass_coefficient, model.damping.stiffness_coefficient);
     let roots = reduced.eigenvalues().unwrap().into_iter().flat_map(|kappa| {
@@ -88,7 +90,7 @@ fn seeded_harmonics_grow_as_the_complex_eigenvalues_predict() {
 
 fn compare(annulus: &AnnulusMesh, duration: f64) {
     let model = model(annulus, 610.0);
-    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     for n in [1, 2, 3] {
         let mut settings = settings(duration, &[n]);
         settings.initial = InitialState::SteadySliding;

@@ -12,7 +12,7 @@ use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::prestress::{DampingModel, SteadySliding, TangentOptions};
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    Sample, TransientAnalysis, TransientModel, build_operator,
+    Sample, TransientAnalysis, TransientModel,
 };
 
 const LAWS: [NormalLaw; 2] = [
@@ -43,8 +43,7 @@ fn every_joule_is_accounted_for_on_contact_that_stiffens() {
         let damped = ContactStiffness { normal_damping: 1e5, ..stiffening(law) };
         for stiffness in [stiffening(law), damped] {
             let model = disc(stiffness, &mesh);
-            let operator =
-                build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+            let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
             let mut settings = settings(4e-3, &[]);
             settings.perturbation = Perturbation::of(&[1, 2], 2.0);
             let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
@@ -68,7 +67,7 @@ fn steady_sliding_on_a_law_stays_where_it_is() {
     let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 36, 7)).unwrap();
     for law in LAWS {
         let model = disc(stiffening(law), &mesh);
-        let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+        let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
         let mut settings = settings(5e-4, &[]);
         settings.initial = InitialState::SteadySliding;
         let elastic = assemble_stiffness(&mesh.mesh, model.material);
@@ -113,7 +112,7 @@ fn a_wave_on_contact_that_stiffens_grows_as_its_eigenvalue_says() {
 
         let stiffness = stiffening(law).damped_by(DAMPING.stiffness_coefficient);
         let model = disc(stiffness, &mesh);
-        let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+        let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
         let mut settings = settings(0.012, &[harmonic]);
         settings.initial = InitialState::SteadySliding;
         settings.perturbation = Perturbation::of(&[harmonic], 1e-8);

@@ -8,9 +8,7 @@ use frictionsim::fem::operator::{
 };
 use frictionsim::fem::{DofMap, assemble_stiffness, lumped_masses};
 use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification};
-use frictionsim::transient::{
-    CentralDifference, OperatorChoice, Perturbation, TransientState, build_operator,
-};
+use frictionsim::transient::{CentralDifference, OperatorChoice, Perturbation, TransientState};
 
 const LEVELS: [SimdLevel; 3] = [SimdLevel::Scalar, SimdLevel::Avx2, SimdLevel::Avx512];
 
@@ -62,7 +60,7 @@ fn both_operators_equal_the_assembled_matrix_on_any_mesh() {
 fn end_state(choice: OperatorChoice, level: SimdLevel) -> (TransientState, [u64; 3]) {
     let annulus = disc(45, 9);
     let model = model(&annulus, 610.0);
-    let operator = build_operator(&model, choice, level).unwrap();
+    let operator = model.operator(choice, level).unwrap();
     let mut settings = settings(4e-3, &[1, 2]);
     settings.perturbation = Perturbation::of(&[1, 2], 2.0);
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
@@ -138,14 +136,14 @@ fn steps_are_stable_below_the_limit_and_unstable_above() {
     use frictionsim::transient::stable_step_limit;
     let annulus = disc(24, 6);
     let model = model(&annulus, 0.0);
-    let operator = build_operator(&model, OperatorChoice::Cyclic, SimdLevel::detect()).unwrap();
+    let operator = model.operator(OperatorChoice::Cyclic, SimdLevel::detect()).unwrap();
     let limit = stable_step_limit(largest_frequency(operator.as_ref()), &model.damping);
     let start = Perturbation::of(&[1, 12], 1.0);
     for (factor, is_stable) in [(0.999, true), (1.001, false)] {
         let zeros = || AlignedVector::zeros(operator.field_length());
         let mut fields = MotionFields {
             displacement: zeros(),
-            velocity: scatter(operator.as_ref(), &start.field(&model).unwrap()),
+            velocity: scatter(operator.as_ref(), &model.perturbed(&start).unwrap()),
             elastic: zeros(),
             elastic_rate: zeros(),
         };
@@ -169,7 +167,7 @@ fn a_large_body_moves_as_with_the_stencil_and_to_the_same_bits_on_any_number_of_
     let annulus = disc(200, 180);
     let model = model(&annulus, 0.0);
     let operators = [OperatorChoice::Cyclic, OperatorChoice::Sparse]
-        .map(|choice| build_operator(&model, choice, SimdLevel::detect()).unwrap());
+        .map(|choice| model.operator(choice, SimdLevel::detect()).unwrap());
     let [cyclic, sparse] = &operators;
     let dofs = cyclic.dof_count();
     assert!((0..dofs).any(|dof| sparse.position(dof) != dof));

@@ -5,7 +5,7 @@ use frictionsim::contact::{ContactStiffness, FrictionDecay};
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::transient::{
     CentralDifference, Observer, OperatorChoice, Perturbation, Recorder, RecorderSettings, RunEnd,
-    Sample, TransientError, TransientState, build_operator,
+    Sample, TransientError, TransientState,
 };
 use std::ops::ControlFlow;
 
@@ -46,7 +46,7 @@ fn restarted_run_equals_uninterrupted_run_bitwise() {
         (rigid, OperatorChoice::Sparse),
         (compliant, OperatorChoice::Cyclic),
     ] {
-        let operator = build_operator(&model, choice, SimdLevel::detect()).unwrap();
+        let operator = model.operator(choice, SimdLevel::detect()).unwrap();
         let mut settings = settings(4e-3, &[1, 2]);
         settings.perturbation = Perturbation::of(&[1, 2], 2.0);
         let wanted = RecorderSettings {
@@ -83,8 +83,7 @@ fn runs_are_bitwise_equal_inside_thread_pools_of_any_size() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             let model = model(&annulus, 610.0);
-            let operator =
-                build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+            let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
             let mut run =
                 CentralDifference::start(model, operator.as_ref(), &settings(1e-3, &[1])).unwrap();
             run.run(&mut Watch(|_: &Sample<'_>| {})).unwrap();
@@ -99,11 +98,11 @@ fn a_state_of_another_mesh_is_refused() {
     let (small, large) = (disc(12, 3), disc(15, 3));
     let saved = {
         let model = model(&small, 600.0);
-        let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+        let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
         CentralDifference::start(model, operator.as_ref(), &settings(1e-3, &[1])).unwrap().state()
     };
     let model = model(&large, 600.0);
-    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let error = CentralDifference::resume(model, operator.as_ref(), &settings(1e-3, &[1]), &saved)
         .err()
         .unwrap();

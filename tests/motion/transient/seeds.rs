@@ -5,13 +5,13 @@ use frictionsim::fem::operator::SimdLevel;
 use frictionsim::mesh::AnnulusMesh;
 use frictionsim::transient::{
     CentralDifference, OperatorChoice, Perturbation, Recorder, RecorderSettings, RunEnd, Sample,
-    StandingWave, TransientSettings, build_operator,
+    StandingWave, TransientSettings,
 };
 use std::f64::consts::TAU;
 
 fn record(annulus: &AnnulusMesh, settings: &TransientSettings) -> Recorder {
     let model = model(annulus, 610.0);
-    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let mut run = CentralDifference::start(model, operator.as_ref(), settings).unwrap();
     let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
     assert_eq!(run.run(&mut record).unwrap(), RunEnd::Finished);
@@ -29,7 +29,7 @@ fn each_harmonic_has_its_own_velocity_and_its_crest_at_its_phase() {
             .to_vec(),
         ..Perturbation::default()
     };
-    let field = perturbation.field(&model(&annulus, 610.0)).unwrap();
+    let field = model(&annulus, 610.0).perturbed(&perturbation).unwrap();
     let nodes = &annulus.mesh.contact_edge().nodes;
     for (harmonic, velocity, phase) in waves {
         let project = |offset: f64| {
@@ -52,7 +52,7 @@ fn noise_has_its_standard_deviation_in_both_directions_and_spares_the_clamped_ed
     let noise = |seed: u64| {
         let perturbation =
             Perturbation { noise: 2e-3, noise_seed: seed, ..Perturbation::default() };
-        perturbation.field(&model(&annulus, 610.0)).unwrap()
+        model(&annulus, 610.0).perturbed(&perturbation).unwrap()
     };
     let field = noise(1);
     let clamped =
@@ -107,7 +107,7 @@ fn a_kick_starts_what_the_same_velocity_starts_at_time_zero_and_its_energy_is_ac
 fn a_run_stopped_before_its_kick_goes_on_to_the_same_bits() {
     let annulus = disc(30, 6);
     let model = model(&annulus, 610.0);
-    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let mut settings = settings(2e-3, &[1]);
     settings.perturbation.time = 1e-3;
     settings.perturbation.noise = 1e-3;

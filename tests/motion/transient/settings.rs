@@ -3,14 +3,14 @@
 use crate::transient::model::{Watch, disc, model, settings};
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::transient::{
-    CentralDifference, OperatorChoice, Perturbation, Recorder, RecorderSettings, Sample, StepPlan,
-    TimeStep, TransientError, TransientSettings, build_operator,
+    CentralDifference, OperatorChoice, Perturbation, Recorder, RecorderSettings, Sample, TimeStep,
+    TransientError, TransientSettings,
 };
 
 fn failure(change: impl FnOnce(&mut TransientSettings)) -> String {
     let annulus = disc(24, 6);
     let model = model(&annulus, 600.0);
-    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let mut settings = settings(1e-3, &[1]);
     change(&mut settings);
     let result = CentralDifference::start(model, operator.as_ref(), &settings);
@@ -39,7 +39,7 @@ fn a_setting_that_does_not_fit_is_named_with_its_bound() {
 fn a_probe_or_snapshot_that_does_not_exist_is_named_with_its_bound() {
     let annulus = disc(24, 6);
     let model = model(&annulus, 600.0);
-    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let run = CentralDifference::start(model, operator.as_ref(), &settings(1e-3, &[1])).unwrap();
     let failure = |probes: &[usize], snapshots: &[f64]| {
         let wanted = RecorderSettings {
@@ -58,8 +58,8 @@ fn a_probe_or_snapshot_that_does_not_exist_is_named_with_its_bound() {
 fn the_step_divides_the_sample_interval_and_stays_below_the_limit() {
     let annulus = disc(24, 6);
     let model = model(&annulus, 600.0);
-    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
-    let plan = StepPlan::new(operator.as_ref(), &model.damping, &settings(1e-3, &[])).unwrap();
+    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let plan = model.plan(operator.as_ref(), &settings(1e-3, &[])).unwrap();
     assert!(plan.time_step < plan.limit && plan.time_step > 0.5 * plan.limit);
     let interval = plan.steps_per_sample as f64 * plan.time_step;
     assert!((interval / 4e-6 - 1.0).abs() < 1e-15);
@@ -67,7 +67,7 @@ fn the_step_divides_the_sample_interval_and_stays_below_the_limit() {
     // A step that divides the interval is kept as it is.
     let mut given = settings(1e-3, &[]);
     given.time_step = TimeStep::Seconds(1e-7);
-    let plan = StepPlan::new(operator.as_ref(), &model.damping, &given).unwrap();
+    let plan = model.plan(operator.as_ref(), &given).unwrap();
     assert_eq!(plan.steps_per_sample, 40);
     assert_eq!(plan.total_steps(), 10_001);
 }
@@ -77,7 +77,7 @@ fn a_run_that_leaves_the_numbers_says_when_where_and_why() {
     let annulus = disc(24, 6);
     let mut model = model(&annulus, 600.0);
     model.contact.rotation_speed = 1e200;
-    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let mut settings = settings(1e-3, &[2]);
     settings.perturbation = Perturbation::of(&[2], 1e170);
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();

@@ -3,7 +3,7 @@
 use crate::transient::model::{Watch, disc, largest_difference, model, settings};
 use frictionsim::fem::RayleighDamping;
 use frictionsim::fem::operator::SimdLevel;
-use frictionsim::transient::{CentralDifference, OperatorChoice, Sample, TimeStep, build_operator};
+use frictionsim::transient::{CentralDifference, OperatorChoice, Sample, TimeStep};
 
 /// Displacement and velocity of free undamped vibration after 0.2 ms with this many steps.
 fn end(steps: u32) -> (Vec<f64>, Vec<f64>) {
@@ -11,7 +11,7 @@ fn end(steps: u32) -> (Vec<f64>, Vec<f64>) {
     let mut model = model(&annulus, 0.0);
     model.damping = RayleighDamping::default();
     model.contact.interference = -1.0;
-    let operator = build_operator(&model, OperatorChoice::Cyclic, SimdLevel::detect()).unwrap();
+    let operator = model.operator(OperatorChoice::Cyclic, SimdLevel::detect()).unwrap();
     let mut settings = settings(2e-4, &[2]);
     settings.expansion_time = 0.0;
     settings.sample_interval = 2e-4;

@@ -15,7 +15,7 @@ use frictionsim::mesh::{
 use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    SampleRow, TimeStep, TransientModel, TransientSettings, build_operator,
+    SampleRow, SteppedBody, TimeStep, TransientModel, TransientSettings,
 };
 
 /// So stiff that the block moves as one: its own modes lie above 30 kHz.
@@ -139,15 +139,13 @@ fn a_block_on_a_spring_turns_unstable_at_the_critical_speed_of_the_stick_slip_os
 
 /// Samples of a transient of forty periods that starts from a push.
 fn samples(mesh: &Mesh, speed: f64) -> Vec<SampleRow> {
-    let model = TransientModel {
-        mesh,
-        annulus: None,
-        material: &STEEL,
-        damping: RayleighDamping { mass_coefficient: 0.0, stiffness_coefficient: 3e-7 },
-        contact: contact(speed),
-        stiffness: ContactStiffness::default(),
-    };
-    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let model = TransientModel::new(
+        SteppedBody::Plane { mesh, annulus: None },
+        &STEEL,
+        RayleighDamping { mass_coefficient: 0.0, stiffness_coefficient: 3e-7 },
+        contact(speed),
+    );
+    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let period = std::f64::consts::TAU * (MASS / SPRING).sqrt();
     let settings = TransientSettings {
         duration: 40.0 * period,

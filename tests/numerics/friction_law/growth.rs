@@ -11,7 +11,7 @@ use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::prestress::{DampingModel, TangentOptions};
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    SampleRow, TimeStep, TransientAnalysis, TransientModel, TransientSettings, build_operator,
+    SampleRow, TimeStep, TransientAnalysis, TransientModel, TransientSettings,
 };
 
 /// Largest growth rate of a harmonic (1/s) as the time loop has it: lumped mass, no geometric stiffness.
@@ -54,7 +54,7 @@ fn growth(contact: &SlidingContact, stiffness: ContactStiffness, harmonic: usize
         stiffness: stiffness.damped_by(DAMPING.stiffness_coefficient),
         ..TransientModel::of_annulus(&annulus, &POLYCARBONATE, DAMPING, *contact)
     };
-    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let settings = settings(0.012, Perturbation::of(&[harmonic], 1e-8));
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
     let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
@@ -123,7 +123,7 @@ fn every_joule_is_accounted_for_under_a_falling_law_and_with_contact_springs() {
             stiffness,
             ..TransientModel::of_annulus(&annulus, &POLYCARBONATE, DAMPING, contact)
         };
-        let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+        let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
         let mut settings = settings(4e-3, Perturbation::of(&[1, 2], 2.0));
         settings.initial = InitialState::Rest;
         let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
@@ -151,7 +151,7 @@ fn steady_sliding_does_not_depend_on_the_contact_stiffness() {
             stiffness: ContactStiffness { normal_stiffness, ..ContactStiffness::default() },
             ..TransientModel::of_annulus(&annulus, &POLYCARBONATE, DAMPING, falling(610.0))
         };
-        let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+        let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
         let settings = settings(1e-3, Perturbation::default());
         let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
         let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();

@@ -9,7 +9,7 @@ use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::prestress::TangentOptions;
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    TimeStep, TransientAnalysis, TransientModel, TransientSettings, build_operator,
+    TimeStep, TransientAnalysis, TransientModel, TransientSettings,
 };
 use std::f64::consts::TAU;
 
@@ -31,7 +31,7 @@ fn run(
     settings: &TransientSettings,
 ) -> Recorder {
     let model = TransientModel::of_annulus(annulus, materials, DAMPING, contact(610.0));
-    let operator = build_operator(&model, choice, SimdLevel::detect()).unwrap();
+    let operator = model.operator(choice, SimdLevel::detect()).unwrap();
     let mut run = CentralDifference::start(model, operator.as_ref(), settings).unwrap();
     let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
     run.run(&mut record).unwrap();

@@ -4,9 +4,8 @@ use crate::solids::model::{disc, modes};
 use frictionsim::cea::ComplexMode;
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::RayleighDamping;
-use frictionsim::fem::sector::MirrorParity;
-use frictionsim::fem::solid::{half_bandwidth, stiffness};
-use frictionsim::linalg::banded::BandedMatrix;
+use frictionsim::fem::fold::{MirrorParity, WaveDofs};
+use frictionsim::fem::solid::{stiffness, wave_dofs};
 use frictionsim::mesh::{ElementKind, SheetNode, SolidContact, SolidSector};
 use frictionsim::prestress::{SolidTangent, TangentOptions};
 use std::f64::consts::TAU;
@@ -27,10 +26,10 @@ fn bricks_hold_every_constant_strain() {
         let sector = SolidSector::generate(&model.specification).unwrap();
         let elastic = stiffness(&sector, &model.material);
         let dofs = 3 * sector.node_count();
-        let all: Vec<Option<usize>> = (0..dofs).map(Some).collect();
+        let own = wave_dofs(&sector);
+        let all = WaveDofs::new(dofs, |_| false, own.half_bandwidth, own.sectors);
         for (n, field) in fields {
-            let mut matrix = BandedMatrix::zeros(dofs, half_bandwidth(&sector));
-            elastic.add_harmonic(&mut matrix, &all, (12, n), (MirrorParity::Even, 1.0));
+            let matrix = all.fold(n, MirrorParity::Even, &[&elastic]);
             let displacement: Vec<f64> = sector.nodes.iter().flat_map(field).collect();
             let force = matrix.multiply(&displacement);
             let largest = force.iter().fold(0.0_f64, |m, f| m.max(f.abs()));

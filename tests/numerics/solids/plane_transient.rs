@@ -6,8 +6,8 @@ use frictionsim::fem::PlaneFormulation;
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::mesh::{AnnulusMesh, BoundaryCondition, ElementKind, SolidSector};
 use frictionsim::transient::{
-    CentralDifference, InitialState, Observer, OperatorChoice, Perturbation, Sample,
-    SolidTransientModel, TimeStep, TransientModel, TransientSettings, build_operator,
+    CentralDifference, InitialState, Observer, OperatorChoice, Perturbation, Sample, SteppedBody,
+    TimeStep, TransientModel, TransientSettings,
 };
 use std::ops::ControlFlow;
 
@@ -55,12 +55,14 @@ fn thick(divisions: [usize; 2]) -> Course {
     model.specification.conditions[2] = BoundaryCondition::Guide;
     model.specification.conditions[3] = BoundaryCondition::Guide;
     let sector = SolidSector::generate(&model.specification).unwrap();
-    let body = SolidTransientModel {
-        sector: &sector,
-        material: &model.material,
-        damping: model.options.damping,
-        contact: model.contact,
+    let body = TransientModel {
         stiffness: model.options.contact,
+        ..TransientModel::new(
+            SteppedBody::Revolution(&sector),
+            &model.material,
+            model.options.damping,
+            model.contact,
+        )
     };
     let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar);
     let operator = operator.unwrap();
@@ -77,7 +79,7 @@ fn flat(divisions: [usize; 2]) -> Course {
     material.formulation = PlaneFormulation::PlaneStrain;
     let damping = model.options.damping;
     let body = TransientModel::of_annulus(&annulus, &material, damping, model.contact);
-    let operator = build_operator(&body, OperatorChoice::Auto, SimdLevel::Scalar).unwrap();
+    let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar).unwrap();
     let mut run = CentralDifference::start(body, operator.as_ref(), &settings()).unwrap();
     let mut course = Course::default();
     run.run(&mut course).unwrap();

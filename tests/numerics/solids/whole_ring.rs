@@ -7,7 +7,7 @@ use frictionsim::fem::operator::SimdLevel;
 use frictionsim::linalg::ComplexDenseLu;
 use frictionsim::mesh::{BoundaryCondition, ElementKind, SolidSector, face_quadrature};
 use frictionsim::prestress::SolidSliding;
-use frictionsim::transient::{OperatorChoice, SolidTransientModel};
+use frictionsim::transient::{OperatorChoice, SteppedBody, TransientModel};
 use std::f64::consts::TAU;
 
 /// `M`, `C`, `K` over the dofs `3 (s n + k) + c` in nodal frames, and the dofs that move.
@@ -142,12 +142,14 @@ fn global(sector: &SolidSector, s: usize, node: usize, half: usize) -> usize {
 /// `M` and `K` column by column.
 fn operated(sector: &SolidSector, model: &SolidModel) -> [Mat<f64>; 2] {
     assert_eq!(model.options.mass, MassKind::Lumped);
-    let body = SolidTransientModel {
-        sector,
-        material: &model.material,
-        damping: model.options.damping,
-        contact: model.contact,
+    let body = TransientModel {
         stiffness: model.options.contact,
+        ..TransientModel::new(
+            SteppedBody::Revolution(sector),
+            &model.material,
+            model.options.damping,
+            model.contact,
+        )
     };
     let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar);
     let operator = operator.unwrap();

@@ -3,7 +3,6 @@
 use crate::disc::{DAMPING, POLYCARBONATE};
 use crate::two_bodies::model::{contact, modes_of, options, rings};
 use frictionsim::cea::ModeLimit;
-use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::fem::{
     ElasticMaterial, MassKind, PlaneFormulation, RegionMaterial, assemble_stiffness,
@@ -12,7 +11,7 @@ use frictionsim::linalg::c64;
 use frictionsim::prestress::SteadySliding;
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    StepPlan, TimeStep, TransientAnalysis, TransientModel, TransientSettings, build_operator,
+    SteppedBody, TimeStep, TransientAnalysis, TransientModel, TransientSettings,
 };
 use std::f64::consts::TAU;
 
@@ -64,15 +63,13 @@ fn run(
     eigenvalue: c64,
     shape: &[c64],
 ) -> (Recorder, usize) {
-    let model = TransientModel {
-        mesh,
-        annulus: None,
-        material: materials,
-        damping: DAMPING,
-        contact: contact(),
-        stiffness: ContactStiffness::default(),
-    };
-    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let model = TransientModel::new(
+        SteppedBody::Plane { mesh, annulus: None },
+        materials,
+        DAMPING,
+        contact(),
+    );
+    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let settings = TransientSettings {
         duration: 0.004,
         time_step: TimeStep::Auto,
@@ -81,7 +78,7 @@ fn run(
         initial: InitialState::SteadySliding,
         perturbation: Perturbation::default(),
     };
-    let step = StepPlan::of(model, operator.as_ref(), &settings).unwrap().time_step;
+    let step = model.plan(operator.as_ref(), &settings).unwrap().time_step;
     let elastic = assemble_stiffness(mesh, materials);
     let base = SteadySliding::solve(mesh, &elastic, &contact()).unwrap();
     let mut displacement = base.displacement(0.3);

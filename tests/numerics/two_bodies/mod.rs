@@ -20,7 +20,7 @@ use frictionsim::mesh::{
 use frictionsim::prestress::SteadySliding;
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    TimeStep, TransientModel, TransientSettings, build_operator,
+    SteppedBody, TimeStep, TransientModel, TransientSettings,
 };
 use model::{Part, contact, file_of, modes, one_material, options, rectangle, rings};
 use std::collections::BTreeMap;
@@ -215,15 +215,12 @@ fn run(
     duration: f64,
     velocity: f64,
 ) -> Recorder {
+    let body = SteppedBody::Plane { mesh, annulus: None };
     let model = TransientModel {
-        mesh,
-        annulus: None,
-        material: one_material(),
-        damping: DAMPING,
-        contact: contact(),
         stiffness,
+        ..TransientModel::new(body, one_material(), DAMPING, contact())
     };
-    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let settings = TransientSettings {
         duration,
         time_step: TimeStep::Auto,

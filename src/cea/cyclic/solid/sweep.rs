@@ -8,12 +8,11 @@ use super::reduction::Reduction;
 use super::rest::Pencil;
 use super::shape::shape;
 use crate::cea::cyclic::Coverage;
-use crate::cea::cyclic::branch::branches_of;
 use crate::cea::cyclic::modes::{ShapeProducer, point};
 use crate::cea::cyclic::path::Waves;
 use crate::cea::cyclic::paths::{HarmonicPaths, follow_pairs};
 use crate::cea::cyclic::problem::HarmonicProblem;
-use crate::cea::cyclic::sweep::occurs_in;
+use crate::cea::cyclic::sweep::together;
 use crate::cea::{CeaError, FrictionPoint, FrictionSweep, ModeBranch, SweepRequest};
 use crate::contact::SlidingContact;
 use crate::fem::ElasticMaterial;
@@ -145,12 +144,7 @@ pub fn solid_sweep_with_waves(
         .iter()
         .map(|&friction| point(&producer, &followed, friction, request))
         .collect();
-    let branches: Vec<Vec<ModeBranch>> =
-        followed.par_iter().map(|paths| branches_of(paths, direction)).collect();
-    let branches = branches.into_iter().flatten().filter(|branch| occurs_in(branch, &points));
-    let branches: Vec<ModeBranch> = branches.collect();
-    let mut intervals: Vec<_> = branches.iter().flat_map(|b| b.intervals.clone()).collect();
-    intervals.sort_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction));
+    let (sweep, branches) = together(points, &followed, direction);
     let coverage = Coverage {
         largest_harmonic: sector.sector_count() / 2,
         followed: followed.iter().map(|paths| paths.problem.harmonic).collect(),
@@ -161,17 +155,12 @@ pub fn solid_sweep_with_waves(
         factorizations: followed.iter().map(|paths| paths.factorizations).sum(),
     };
     Ok(SolidSweep {
-        sweep: FrictionSweep {
-            points,
-            crossings: vec![None; intervals.len()],
-            intervals,
-            ..FrictionSweep::default()
-        },
+        sweep,
         coverage,
         dofs: tangent.unknown_of().iter().flatten().count() * sector.sector_count(),
         reduction_error: error,
         branches,
-        overdamped: together(&grid, &overdamped),
+        overdamped: overdamped_at(&grid, &overdamped),
         tangent,
     })
 }
@@ -218,7 +207,7 @@ fn follow(
 }
 
 /// The overdamped motions of all harmonics at each friction value.
-fn together(grid: &[f64], overdamped: &[Overdamped]) -> Vec<Overdamped> {
+fn overdamped_at(grid: &[f64], overdamped: &[Overdamped]) -> Vec<Overdamped> {
     let at = |&friction: &f64| {
         let own = overdamped.iter().filter(|own| own.friction_coefficient == friction);
         let none =

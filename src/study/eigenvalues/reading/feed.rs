@@ -130,6 +130,7 @@ fn form(terms: &PointTerms, factors: [c64; 2], phi: &[c64]) -> c64 {
 /// What one point adds to the stiffness and to the dashpots.
 fn terms(own: &Pressed, friction: f64, has_turning: bool) -> PointTerms {
     let state = PressedPoints {
+        first: 0,
         is_pressed: &[own.is_pressed],
         normal_forces: &own.forces,
         stiffnesses: &own.springs,

@@ -7,8 +7,7 @@ use crate::case::Case;
 use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep, ModeWave};
 use crate::linalg::c64;
 use crate::mesh::SolidSector;
-use crate::prestress::WaveTangent;
-use crate::prestress::{HarmonicParts, PartForms, SectorParts, SolidParts};
+use crate::prestress::{HarmonicParts, PartForms, WaveParts, WaveTangent};
 use crate::results::cea::{
     Contribution, Coupling, Feed, FeedPlace, ModeFeed, ModeName, Reading, Source,
 };
@@ -68,19 +67,9 @@ impl Apart {
             modes.filter(|mode| mode.wave.is_some()).map(|mode| mode.harmonic).collect();
         numbers.sort_unstable();
         numbers.dedup();
-        let named = |names: &mut dyn Iterator<Item = &str>| names.map(str::to_owned).collect();
-        let (supports, harmonics) = match tangent {
-            WaveTangent::Plane(tangent) => {
-                let parts = SectorParts::new(tangent);
-                let all = numbers.iter().map(|&n| (n, parts.harmonic(n)));
-                (named(&mut parts.support_names()), all.collect())
-            }
-            WaveTangent::Solid(tangent) => {
-                let parts = SolidParts::new(tangent);
-                let all = numbers.iter().map(|&n| (n, parts.harmonic(n)));
-                (named(&mut parts.support_names()), all.collect())
-            }
-        };
+        let parts = WaveParts::new(tangent);
+        let supports = parts.support_names().map(str::to_owned).collect();
+        let harmonics = numbers.iter().map(|&n| (n, parts.harmonic(n))).collect();
         Self { regions: model.mesh.regions.clone(), supports, harmonics }
     }
 

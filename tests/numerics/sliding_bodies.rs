@@ -1,0 +1,206 @@
+//! What the eigenvalue analysis promises of bodies that slide: random blocks of quadrilaterals and bricks on a plane, on springs
+//! from 1e5 to 1e13 Pa/m, with viscous and structural damping that follow neither mass nor stiffness, at three friction
+//! coefficients.
+//!
+//! Independent check: a dense decomposition of the exported matrices at each friction coefficient. Every mode damped by less than
+//! half of critical that lies below the highest one listed is listed, and what is listed is an eigenvalue.
+
+use crate::bricks::{Block, file_of};
+use crate::matrices::{dense, lossy_eigenvalues};
+use crate::tier::sized;
+use frictionsim::case::Case;
+use frictionsim::linalg::{Mat, c64};
+use frictionsim::results::matrices::{ExportedSystem, MatrixRole};
+use frictionsim::study::eigenvalues::modes_and_onsets;
+use frictionsim::study::matrices::matrices;
+use proptest::prelude::*;
+use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::PathBuf;
+
+#[derive(Clone, Debug)]
+struct Slider {
+    is_plane: bool,
+    counts: [usize; 3],
+    size: [f64; 3],
+    young_modulus: f64,
+    /// Normal and tangential stiffness of the support, Pa/m, and its dashpots, Pa s/m.
+    support: [f64; 3],
+    /// Of the contact, Pa/m; a rigid one without.
+    contact_stiffness: Option<f64>,
+    loss_factor: f64,
+    friction: f64,
+    speed: f64,
+    modes: usize,
+}
+
+fn sliders() -> impl Strategy<Value = Slider> {
+    let shape = (any::<bool>(), [2_usize..5, 2..4, 2..4], [5e-3..0.05, 5e-3..0.05, 5e-3..0.02]);
+    let losses = prop_oneof![3 => Just(0.0), 1 => 0.001..1.0_f64];
+    let springs = prop::option::of(9.0..14.0_f64);
+    let numbers = (7.0..12.0_f64, [5.0..13.0_f64, -2.0..0.0, 1.0..6.0], springs, losses);
+    (shape, numbers, 0.05..0.6_f64, -3.0..1.0_f64, 1_usize..20).prop_map(
+        |(
+            (is_plane, counts, size),
+            (modulus, support, springs, loss_factor),
+            friction,
+            speed,
+            modes,
+        )| {
+            let normal = 10_f64.powf(support[0]);
+            Slider {
+                is_plane,
+                counts,
+                size,
+                young_modulus: 10_f64.powf(modulus),
+                support: [normal, normal * 10_f64.powf(support[1]), 10_f64.powf(support[2])],
+                contact_stiffness: springs.map(|power| 10_f64.powf(power)),
+                loss_factor,
+                friction,
+                speed: 10_f64.powf(speed),
+                modes,
+            }
+        },
+    )
+}
+
+/// A mesh of one layer of quadrilaterals in the plane of the first two directions, named as a block of bricks is.
+fn quadrilaterals([along, across, _]: [usize; 3], [width, height, _]: [f64; 3]) -> String {
+    let (mut text, around) = (String::new(), along + 1);
+    let nodes = around * (across + 1);
+    text += "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"part_z0\"\n1 2 \"part_z1\"\n";
+    write!(text, "2 3 \"part\"\n$EndPhysicalNames\n$Nodes\n{nodes}\n").unwrap();
+    for node in 0..nodes {
+        let (i, j) = (node % around, node / around);
+        let (x, y) = (i as f64 / along as f64, j as f64 / across as f64);
+        writeln!(text, "{} {:?} {:?} 0", node + 1, width * x, height * y).unwrap();
+    }
+    write!(text, "$EndNodes\n$Elements\n{}\n", along * (across + 2)).unwrap();
+    for k in 0..along * (across + 2) {
+        let (i, row) = (k % along, k / along);
+        let first = 1 + i + around * row.saturating_sub(2);
+        let corner = 1 + i + around * across * row;
+        match row {
+            0 | 1 => {
+                writeln!(text, "{} 1 2 {tag} {tag} {corner} {}", k + 1, corner + 1, tag = row + 1)
+            }
+            _ => {
+                let above = first + around;
+                writeln!(text, "{} 3 2 3 3 {first} {} {} {above}", k + 1, first + 1, above + 1)
+            }
+        }
+        .unwrap();
+    }
+    text + "$EndElements\n"
+}
+
+fn case_of(slider: &Slider) -> Case {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("sliding-body");
+    fs::create_dir_all(&folder).unwrap();
+    let (mesh, direction, formulation) = if slider.is_plane {
+        let mesh = quadrilaterals(slider.counts, slider.size).into_bytes();
+        (mesh, "[1.0, 0.0]", "formulation = \"plane-strain\"\n")
+    } else {
+        let block =
+            Block { name: "part", origin: [0.0; 3], size: slider.size, counts: slider.counts };
+        (file_of(&[block], |point| point), "[1.0, 0.0, 0.0]", "")
+    };
+    fs::write(folder.join("part.msh"), mesh).unwrap();
+    let [normal, tangential, dashpot] = slider.support;
+    // Pushed in by a millionth of its height: strains are small however soft the block is.
+    let height = slider.size[if slider.is_plane { 1 } else { 2 }];
+    let mut text = format!(
+        "[mesh]\nfile = \"part.msh\"\n[material]\nyoung_modulus = {:e}\npoisson_ratio = 0.3\ndensity = 7850.0\n\
+         loss_factor = {}\n{formulation}[boundaries.part_z1]\ncondition = \"support\"\nnormal_stiffness = {normal:e}\n\
+         tangential_stiffness = {tangential:e}\nnormal_damping = {dashpot:e}\n\
+         [cea]\nfriction_coefficients = [0.0, {mu:?}, {:?}]\nmodes = {}\ngeometric_stiffness = false\n\
+         [contact]\nboundary = \"part_z0\"\ncounterface = \"plane\"\ndirection = {direction}\nspeed = {:e}\n\
+         friction_coefficient = {mu:?}\ninterference = {:e}\n",
+        slider.young_modulus,
+        slider.loss_factor,
+        1.5 * slider.friction,
+        slider.modes,
+        slider.speed,
+        1e-6 * height,
+        mu = slider.friction,
+    );
+    if let Some(stiffness) = slider.contact_stiffness {
+        writeln!(text, "normal_stiffness = {stiffness:e}").unwrap();
+    }
+    let path = folder.join("part.toml");
+    let parsed = Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]);
+    parsed.unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+/// Mass, damping, stiffness and structural damping of an export at one friction coefficient.
+fn sums(system: &ExportedSystem) -> [Mat<f64>; 4] {
+    let size = system.matrices[0].matrix.rows;
+    let mut sums = [(); 4].map(|()| Mat::zeros(size, size));
+    for own in &system.matrices {
+        let place = match own.role {
+            MatrixRole::Mass { friction_power: 0 } => 0,
+            MatrixRole::Damping { friction_power: 0 } => 1,
+            MatrixRole::Stiffness { friction_power: 0 } => 2,
+            MatrixRole::Structural { friction_power: 0 } => 3,
+            _ => continue,
+        };
+        sums[place] += dense(&own.matrix);
+    }
+    sums
+}
+
+/// Below which the analysis promises every mode: damping over critical damping.
+const PROMISED: f64 = 0.5;
+
+fn check(slider: &Slider) -> Result<(), TestCaseError> {
+    let case = case_of(slider);
+    let found = match modes_and_onsets(&case) {
+        Ok(found) => found,
+        // A block that friction tips over, or lifts off altogether, has no steady sliding.
+        Err(error) if error.to_string().contains("steady sliding") => {
+            return Err(TestCaseError::reject("no steady sliding"));
+        }
+        Err(error) => return Err(TestCaseError::fail(error.to_string())),
+    };
+    for point in &found.points {
+        let friction = point.friction_coefficient;
+        let [mass, damping, stiffness, losses] = sums(&matrices(&case, Some(friction)).unwrap());
+        let exact = lossy_eigenvalues([&mass, &damping, &stiffness, &losses]);
+        // The decomposition leaves a few roundings of the largest square.
+        let largest = exact.iter().map(|own| own.norm_sqr()).fold(0.0, f64::max);
+        let tolerance = |own: c64| 1e-7 * own.norm() + 1e3 * f64::EPSILON * largest / own.norm();
+        let listed: Vec<c64> = point.modes.iter().map(|mode| mode.eigenvalue).collect();
+        let nearest = |own: c64, all: &[c64]| {
+            all.iter().map(|other| (other - own).norm()).fold(f64::INFINITY, f64::min)
+        };
+        for own in &listed {
+            let error = nearest(*own, &exact);
+            prop_assert!(error <= tolerance(*own), "{own} at friction {friction}: {error:e} off");
+        }
+        for mode in &point.modes {
+            prop_assert!(mode.residual <= 1e-9, "residual {:e}", mode.residual);
+        }
+        let highest = listed.iter().map(|own| own.im).fold(0.0, f64::max);
+        let promised = exact.iter().filter(|own| own.im > 0.0 && -own.re < PROMISED * own.norm());
+        for own in promised.filter(|own| own.im < (1.0 - 1e-6) * highest) {
+            let error = nearest(*own, &listed);
+            prop_assert!(
+                error <= tolerance(*own),
+                "{} Hz at friction {friction} is missing among {listed:?}",
+                own.im / TAU
+            );
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn bodies_that_slide_have_every_mode_below_half_of_critical_damping() {
+    let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[11; 32]);
+    let cases = sized(12, 200);
+    let config = Config { cases, failure_persistence: None, ..Config::default() };
+    let outcome = TestRunner::new_with_rng(config, rng).run(&sliders(), |slider| check(&slider));
+    outcome.unwrap_or_else(|error| panic!("{error}"));
+}
