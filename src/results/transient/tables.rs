@@ -29,7 +29,7 @@ type GrowthRow = (String, Result<GrowthSummary, String>, Option<f64>);
 columns! {
     /// A vibration in the linear stage.
     GROWTH: row as GrowthRow;
-    harmonic: "harmonic" = row.0.clone(), Always "harmonic n" Plain;
+    vibration: "harmonic, or the strongest" = row.0.clone(), Always "vibration" Plain;
     rate_per_s: "rate" = row.1.as_ref().ok().map(|own| own.rate_per_s), IfAny "rate" Fixed(2);
     low_per_s: "low end" = row.1.as_ref().ok().map(|own| own.rate_low_per_s), IfAny "95 % from" Fixed(2);
     high_per_s: "high end" = row.1.as_ref().ok().map(|own| own.rate_high_per_s), IfAny "to" Fixed(2);
@@ -83,7 +83,6 @@ pub fn document(
         capitalized(&ending(summary, state))
     );
     let extent = summary.extent.note().map(|note| format!("{note}."));
-    let notes: Vec<String> = summary.notes.iter().map(|note| capitalized(note)).collect();
     Document::new(&summary.title, "Transient")
         .section(Section::new("Results").text([end]).text(extent).facts(facts(summary)))
         .section(
@@ -94,7 +93,7 @@ pub fn document(
                 .figures([""]),
         )
         .section(Section::new(heading).tables([motions(summary), growth(summary, predicted)]))
-        .notes(&notes)
+        .notes(&summary.notes)
 }
 
 fn capitalized(sentence: &str) -> String {
@@ -130,7 +129,7 @@ fn course(summary: &TransientSummary) -> String {
         Some(time) => {
             format!("the first contact node sticks or opens at {} ms", fixed(1e3 * time, 3))
         }
-        None => "there is no linear stage that ends in stick or separation".into(),
+        None => "no vibration grows until a contact node sticks or opens".into(),
     };
     format!(
         "{} ms in {} steps of {} µs ({end}), from {}, {} operator; {first}; the energy \
@@ -242,13 +241,13 @@ fn growth(summary: &TransientSummary, predicted: PredictedGrowth<'_>) -> Table {
         None => predicted.mode,
     };
     let fitted = summary.growth.iter().map(|own| {
-        let name = own.harmonic.map_or("strongest".to_owned(), |n| n.to_string());
+        let name = own.harmonic.map_or("strongest".to_owned(), |n| format!("n = {n}"));
         (name, Ok(*own), rate(own.harmonic))
     });
     let others = summary.no_growth.iter().map(|(vibration, reason)| {
-        let name = vibration.strip_prefix('n').unwrap_or(vibration);
-        let rate = name.parse().ok().and_then(|n| rate(Some(n)));
-        (name.to_owned(), Err(reason.clone()), rate)
+        let harmonic = vibration.strip_prefix('n').and_then(|n| n.parse().ok());
+        let name = harmonic.map_or(vibration.clone(), |n| format!("n = {n}"));
+        (name, Err(reason.clone()), harmonic.and_then(|n| rate(Some(n))))
     });
     let rows: Vec<GrowthRow> = fitted.chain(others).collect();
     Table::new("", "Growth in the linear stage").columns(GROWTH, &rows)
