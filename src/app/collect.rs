@@ -4,9 +4,9 @@ use super::figure_options::FigureOptions;
 use super::profile::{Profile, Redraw};
 use super::recorded_case::recorded_case;
 use super::session::start_threads;
-use super::sweep::{SweepPlan, core_seconds, drawing, finished_points, gather};
+use super::sweep::{Finished, SweepPlan, drawing, gather};
 use super::{Failure, terminal};
-use crate::results::sweep::{SweepFolder, SweepReport, print};
+use crate::results::sweep::{SweepFolder, document};
 use clap::{ArgAction, Args, ValueHint};
 use std::path::PathBuf;
 use std::time::Instant;
@@ -50,18 +50,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let (folder, manifest) = SweepFolder::find(&arguments.folder)?;
     let case = recorded_case(&arguments.folder, &manifest)?;
     let plan = SweepPlan::new(&case)?;
-    let records = finished_points(&folder, plan.count())?;
-    let report = SweepReport {
-        title: &case.title,
-        friction_coefficient: case.contact.sliding.friction_coefficient,
-        keys: &plan.keys(),
-        analyses: &plan.analysis_names(),
-        count: plan.count(),
-        records: &records,
-        core_s: core_seconds(&folder, &records),
-        ran: None,
-        wall_s: start.elapsed().as_secs_f64(),
-    };
+    let finished = Finished::of(&case, &plan, &folder)?;
+    let report = finished.report(None, start.elapsed().as_secs_f64());
     let drawing =
         (!arguments.no_figures).then(|| drawing(&case, &plan, &arguments.figures.drawing()));
     let summary = gather(&folder, &report, &manifest, drawing.as_ref())?;
@@ -69,7 +59,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         terminal::print_json(&summary)?;
     } else if arguments.quiet < 2 {
         let path = folder.path().display();
-        terminal::print(&format!("{}results in {path}\n", print(&report)))?;
+        terminal::print(&format!("{}results in {path}\n", document(&report, false).to_text()))?;
     }
     match report.missing().len() {
         0 => Ok(()),

@@ -4,10 +4,11 @@ use super::options::OutputOptions;
 use super::profile::{Profile, Redraw};
 use super::{Failure, terminal};
 use crate::results::compare::{
-    ComparedRun, ComparisonSummary, html_report, overlaid, print, shared, write_comparison,
+    ComparedRun, ComparisonSummary, document, file, overlaid, print, shared,
 };
 use crate::results::{
-    DrawingError, Manifest, REPORT, read_manifest, read_summary, write_report, write_summary,
+    DrawingError, Manifest, REPORT, read_manifest, read_summary, write_page, write_summary,
+    write_table,
 };
 use clap::{Args, ValueHint};
 use frictionsim_bounds::{RESULT, read_text};
@@ -70,10 +71,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         },
     };
     let folder = output.open_folder(&manifest, false)?;
-    write_comparison(&folder, &runs, &quantities)?;
+    write_table(&folder, &file(&runs, &quantities))?;
     if let Some(drawing) = arguments.output.drawing() {
         let figures = overlaid(&runs, &drawing).map_err(DrawingError::from)?;
-        write_report(&folder, &html_report(&runs, &quantities, figures, &manifest), &drawing)?;
+        write_page(&folder, document(&runs, &quantities), figures, &manifest, &drawing)?;
     }
     let table = print(&runs, &quantities);
     let summary = ComparisonSummary {

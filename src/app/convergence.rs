@@ -1,10 +1,10 @@
 //! `frictionsim convergence`: a case on several meshes and with several time steps.
 
-use super::profile::{Profile, Redraw};
+use super::profile::{Profile, Redraw, redraw};
 use super::{Failure, RunOptions, Session, cycle, terminal};
 use crate::case::Analysis;
-use crate::results::convergence::{ConvergenceReport, draw, print, write};
-use crate::results::{DrawingOptions, OutputFolder, read_record};
+use crate::results::convergence::ConvergenceSummary;
+use crate::results::write_finding;
 use crate::study::convergence::{Levels, levels, solve};
 use clap::Args;
 
@@ -20,12 +20,9 @@ pub struct Arguments {
 
 /// What the rest of the program asks of this command.
 pub const PROFILE: Profile = Profile {
-    files: &[
-        ("convergence.csv", "one row for each quantity on each level"),
-        ("record.bin", "what the figures are drawn from"),
-    ],
+    files: &[("convergence.csv", "one row for each quantity on each level")],
     examples: &[("frictionsim convergence disc.toml", "observed orders and extrapolated values")],
-    redraw: Redraw::OfFolder(redraw),
+    redraw: Redraw::OfFolder(redraw::<ConvergenceSummary>),
 };
 
 /// Runs the subcommand.
@@ -48,26 +45,14 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let bar = terminal::progress(session.options.output.is_quiet(), count, "levels");
     let series = solve(case, &levels, &session.manifest, &|| bar.inc(1));
     bar.finish_and_clear();
-    let report = ConvergenceReport {
+    let summary = ConvergenceSummary {
+        command: "convergence".to_owned(),
         title: case.title.clone(),
         series: series?,
         wall_s: session.wall_seconds(),
+        manifest: folder.manifest().clone(),
     };
-    let summary = write(&folder, &report)?;
-    if let Some(drawing) = session.options.output.drawing() {
-        draw(&folder, &report, &drawing)?;
-    }
     let output = &session.options.output;
-    let text = print(&report, output.verbose > 0);
-    output.finish(folder, &text, &summary)
-}
-
-/// Draws the figures of a folder again, from its `record.bin`.
-///
-/// # Errors
-/// A folder without a whole record; those of the drawing and of the folder.
-pub fn redraw(folder: &OutputFolder, options: &DrawingOptions) -> Result<(), Failure> {
-    let report: ConvergenceReport = read_record(folder.path())?;
-    draw(folder, &report, options)?;
-    Ok(())
+    let object = write_finding(&folder, &summary, output.drawing().as_ref())?;
+    output.finish(folder, &summary.told(output.verbose > 0).to_text(), &object)
 }

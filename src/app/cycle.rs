@@ -1,16 +1,16 @@
 //! `frictionsim cycle`: limit cycles found directly, and followed over a parameter.
 
-mod figures;
-mod periodic;
-
 use super::profile::{Profile, Redraw};
 use super::session::{available_memory, gibibytes};
 use super::{Failure, RunOptions, Session, terminal};
-use crate::case::Case;
+use crate::case::{Body, Case};
+use crate::mesh::SolidSector;
 use crate::results::cea::KeptSteps;
-use crate::results::cycle::{doubt, print, write};
-use crate::study::cycle::CycleStudy;
+use crate::results::cycle::{CycleFigures, CycleRecord, CycleReport, CycleSummary, PeriodicResult};
+use crate::results::{DrawingOptions, OutputFolder, read_record, read_summary, refuse_misfit};
+use crate::study::cycle::{CycleStudy, PeriodicStudy, refuse_nothing};
 use clap::Args;
+use serde_json::Value;
 
 /// The vibration that each unstable mode saturates to
 ///
@@ -29,8 +29,12 @@ pub struct Arguments {
 }
 
 /// What an interrupted search for motions of two frequencies leaves.
-const KEPT: &str =
+const KEPT_PAIRS: &str =
     "motions of two frequencies that are done are kept: the same command with --resume goes on";
+
+/// What an interrupted search for motions of the whole mesh leaves.
+const KEPT: &str = "cycles and points of branches that are done are kept (done-modeK.json tells of a mode that is done): the same \
+                    command with --resume goes on";
 
 /// What the rest of the program asks of this command.
 pub const PROFILE: Profile = Profile {
@@ -56,7 +60,7 @@ pub const PROFILE: Profile = Profile {
             "go on where a search on any other body was interrupted",
         ),
     ],
-    redraw: Redraw::OfCase(figures::redraw),
+    redraw: Redraw::OfCase(redraw),
 };
 
 /// Runs the subcommand.
@@ -67,40 +71,131 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let session = Session::start("cycle", &arguments.options)?;
     let case = &session.case;
     case.require_cycle()?;
-    if !case.has_rotating_waves() {
-        return periodic::run(&session, arguments.resume);
-    }
     session.check_memory(case.memory("cycle").0)?;
-    check_memory(case)?;
-    let study = CycleStudy::new(case, session.simd)?;
-    let folder = match arguments.resume {
-        true => session.reopen_folder()?,
-        false => session.open_folder()?,
-    };
+    match case.has_rotating_waves() {
+        true => waves(&session, arguments.resume),
+        false => motions(&session, arguments.resume),
+    }
+}
+
+/// Takes the folder of a search.
+fn opened(session: &Session, is_continued: bool) -> Result<OutputFolder, Failure> {
+    match is_continued {
+        true => session.reopen_folder(),
+        false => session.open_folder(),
+    }
+}
+
+/// Searches for rotating waves.
+fn waves(session: &Session, is_continued: bool) -> Result<(), Failure> {
+    check_memory(&session.case)?;
+    let study = CycleStudy::new(&session.case, session.simd)?;
+    let folder = opened(session, is_continued)?;
     let families = study.family_count() as u64;
     let bar = terminal::progress(session.options.output.is_quiet(), families, "families");
-    let steps = KeptSteps::new(&folder, arguments.resume, &|_| {})?;
+    let steps = KeptSteps::new(&folder, is_continued, &|_| {})?;
     terminal::catch_signals(match study.choices.two_frequencies {
-        true => KEPT,
+        true => KEPT_PAIRS,
         false => terminal::NOTHING_KEPT,
     });
     let results = study.run(study.choices.frames, &|| bar.inc(1));
     bar.finish_and_clear();
     let two_waves = study.two_waves(&results, &steps);
-    let mut report = study.report(results, session.wall_seconds());
-    report.two_waves = two_waves;
-    CycleStudy::refuse_nothing(&report)?;
-    for result in &report.results {
-        if let Some(doubt) = doubt(&report, result) {
-            tracing::warn!("{doubt}");
-        }
-    }
-    let summary = write(&folder, &report)?;
-    if let Some(drawing) = session.options.output.drawing() {
-        figures::draw_record(&folder, case, &summary, &drawing)?;
-    }
+    let report = study.report(results, two_waves, session.wall_seconds());
+    let (text, object) = written(session, &folder, &report)?;
     steps.discard()?;
-    session.options.output.finish(folder, &print(&report), &summary)
+    session.options.output.finish(folder, &text, &object)
+}
+
+/// Searches for motions of the whole mesh.
+fn motions(session: &Session, is_continued: bool) -> Result<(), Failure> {
+    let study = PeriodicStudy::new(&session.case, session.simd)?;
+    let folder = opened(session, is_continued)?;
+    let steps = KeptSteps::new(&folder, is_continued, &|_| {})?;
+    let sought = study.sought_count() as u64;
+    let bar = terminal::progress(session.options.output.is_quiet(), sought, "modes");
+    terminal::catch_signals(KEPT);
+    let kept_name = |result: &PeriodicResult| format!("done-{}.json", result.tag());
+    let results = study.run(study.choices.frames, &steps, &|result| {
+        bar.inc(1);
+        let told = study.report(vec![result.clone()], 0.0).cycles();
+        let kept = folder.write(&kept_name(result), |out| {
+            Ok(told.iter().try_for_each(|own| serde_json::to_writer_pretty(&mut *out, own))?)
+        });
+        if let Err(error) = kept {
+            tracing::warn!("{error}");
+        }
+    })?;
+    bar.finish_and_clear();
+    let kept: Vec<String> = results.iter().map(kept_name).collect();
+    let report = study.report(results, session.wall_seconds());
+    let (text, object) = written(session, &folder, &report)?;
+    kept.iter().try_for_each(|name| folder.discard(name))?;
+    steps.discard()?;
+    session.options.output.finish(folder, &text, &object)
+}
+
+/// Writes and draws what was found; gives what is printed of it, for people and as an object.
+fn written(
+    session: &Session,
+    folder: &OutputFolder,
+    report: &CycleReport<'_>,
+) -> Result<(String, Value), Failure> {
+    refuse_nothing(report)?;
+    for doubt in report.doubts() {
+        tracing::warn!("{doubt}");
+    }
+    let (summary, object) = report.write(folder)?;
+    if let Some(drawing) = session.options.output.drawing() {
+        draw_record(folder, &session.case, &summary, &drawing)?;
+    }
+    Ok((summary.document().to_text(), object))
+}
+
+/// Draws the figures of a folder again, from its `record.bin`.
+///
+/// # Errors
+/// As [`draw_record`].
+fn redraw(folder: &OutputFolder, case: &Case, options: &DrawingOptions) -> Result<(), Failure> {
+    draw_record(folder, case, &read_summary(folder.path())?, options)
+}
+
+/// Draws the figures and the report of the record in the folder.
+///
+/// # Errors
+/// A folder without a whole record; those of the drawing and of the folder.
+fn draw_record(
+    folder: &OutputFolder,
+    case: &Case,
+    summary: &CycleSummary,
+    options: &DrawingOptions,
+) -> Result<(), Failure> {
+    let record: CycleRecord = read_record(folder.path())?;
+    let sector = match &case.body {
+        Body::Revolution(body) => {
+            Some(SolidSector::generate(&body.specification).map_err(Failure::usage)?)
+        }
+        _ => None,
+    };
+    let mesh = case.mesh().map_err(Failure::usage)?;
+    let whole = sector
+        .as_ref()
+        .map_or(mesh.node_count(), |sector| sector.node_count() * sector.sector_count());
+    let dofs = case.body.dimension() * whole;
+    let is_own = record.nodes.iter().all(|&node| (node as usize) < whole)
+        && record.cycles.iter().all(|motion| {
+            motion.displacement_field.len() == dofs && motion.velocity_field.len() == dofs
+        });
+    refuse_misfit(folder.path(), is_own)?;
+    let contacts = case.body.assembly().into_iter().flat_map(|body| &body.contacts);
+    let data = CycleFigures {
+        record: &record,
+        mesh: &mesh,
+        solid: sector.as_ref(),
+        surfaces: contacts.map(|own| (own.name.clone(), own.surface)).collect(),
+        materials: case.materials(),
+    };
+    Ok(summary.draw(folder, &data, options)?)
 }
 
 /// Refuses phases whose dense matrices do not fit the machine's memory.

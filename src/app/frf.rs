@@ -83,7 +83,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let path = folder.destination().to_owned();
     folder.finish()?;
-    session.print(&format!("{}\n", summary.description), &object, &path)
+    session.print(&summary.document().to_text(), &object, &path)
 }
 
 /// Draws the figure and the report of a folder from its `frf.csv` and its summary.

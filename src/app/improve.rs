@@ -26,7 +26,6 @@ pub const PROFILE: Profile = Profile {
         ("candidates.csv", "one row for each modification, the best first"),
         ("improve.vtu", "derivatives of growth by a modification at each place"),
         ("improved.toml", "the keys that make the best one"),
-        ("front.csv", "mass against critical friction, with improve.front"),
     ],
     examples: &[
         ("frictionsim improve disc.toml", "what raises the critical friction most"),
@@ -34,7 +33,6 @@ pub const PROFILE: Profile = Profile {
             "frictionsim improve disc.toml --set improve.modifications=mass --set improve.mass=0.005",
             "where five grams do",
         ),
-        ("frictionsim improve disc.toml --set improve.front=6", "how little mass gets how far"),
     ],
     redraw: Redraw::OfCase(redraw),
 };
@@ -63,7 +61,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         sizes: found.sizes,
         extent: extent_of(&session.case),
         candidates: found.candidates.clone(),
-        front: found.front.clone(),
         notes: found.notes.clone(),
         manifest: session.manifest.clone(),
     };
@@ -82,7 +79,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 pub fn redraw(folder: &OutputFolder, case: &Case, options: &DrawingOptions) -> Result<(), Failure> {
     let summary: ImproveSummary = read_summary(folder.path())?;
     let mut case = case.clone();
-    (case.improve.confirm, case.improve.front) = (0, 0);
+    case.improve.confirm = 0;
     let Improvement { mesh, fields, .. } = improve(&case)?;
     Ok(draw(folder, &summary, &mesh, &fields, options)?)
 }

@@ -15,7 +15,7 @@ use super::transient::linear_stage;
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Analysis, Case};
 use crate::results::sweep::{Found, PointRecord, SweepDrawing, SweepFolder, SweepReport};
-use crate::results::sweep::{LONG_TABLES, SweepSummary, draw, print, write_points};
+use crate::results::sweep::{SweepSummary, document, draw, long_tables, write_points};
 use crate::results::{DrawingOptions, Manifest};
 use clap::Args;
 use serde_json::Value;
@@ -74,18 +74,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     progress.finish();
     let ran = outcome?;
 
-    let records = finished_points(&folder, plan.count())?;
-    let report = SweepReport {
-        title: &session.case.title,
-        friction_coefficient: session.case.contact.sliding.friction_coefficient,
-        keys: &plan.keys(),
-        analyses: &plan.analysis_names(),
-        count: plan.count(),
-        records: &records,
-        core_s: core_seconds(&folder, &records),
-        ran: Some(ran),
-        wall_s: session.wall_seconds(),
-    };
+    let finished = Finished::of(&session.case, &plan, &folder)?;
+    let report = finished.report(Some(ran), session.wall_seconds());
     let summary = if report.missing().is_empty() {
         let options = output.drawing();
         let drawing = options.map(|options| drawing(&session.case, &plan, &options));
@@ -93,7 +83,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         summary_object(&report, &session.manifest)?
     };
-    session.print(&print(&report), &summary, folder.path())?;
+    session.print(&document(&report, false).to_text(), &summary, folder.path())?;
     let of_these = |record: &&PointRecord| points.binary_search(&record.point).is_ok();
     match report.failed().filter(of_these).count() {
         0 => Ok(()),
@@ -113,32 +103,60 @@ fn point_memory(session: &Session, plan: &SweepPlan<'_>) -> f64 {
     cost.mesh_memory_bytes + cea.max(transient)
 }
 
-/// The finished points, in their order.
-///
-/// # Errors
-/// Those of the file system.
-pub fn finished_points(folder: &SweepFolder, count: usize) -> Result<Vec<PointRecord>, Failure> {
-    let mut records = Vec::new();
-    for point in 1..=count {
-        match folder.read(point)? {
-            Found::Point(record) => records.push(*record),
-            Found::Damaged(reason) => {
-                let path = folder.point_path(point);
-                tracing::warn!(
-                    "{} is damaged ({reason}): the point counts as missing; --resume runs it again",
-                    path.display()
-                );
-            }
-            Found::Nothing => {}
-        }
-    }
-    Ok(records)
+/// The finished points of a study, in their order.
+pub struct Finished<'a> {
+    case: &'a Case,
+    keys: Vec<String>,
+    analyses: Vec<&'static str>,
+    count: usize,
+    records: Vec<PointRecord>,
+    core_s: f64,
 }
 
-/// Time that finished points kept cores busy, s.
-pub fn core_seconds(folder: &SweepFolder, records: &[PointRecord]) -> f64 {
-    let clocks = records.iter().map(|record| folder.read_clock(record.point));
-    clocks.map(|clock| clock.core_s).sum()
+impl<'a> Finished<'a> {
+    /// Those of a folder.
+    ///
+    /// # Errors
+    /// Those of the file system.
+    pub fn of(case: &'a Case, plan: &SweepPlan<'_>, folder: &SweepFolder) -> Result<Self, Failure> {
+        let mut records = Vec::new();
+        for point in 1..=plan.count() {
+            match folder.read(point)? {
+                Found::Point(record) => records.push(*record),
+                Found::Damaged(reason) => {
+                    let path = folder.point_path(point);
+                    tracing::warn!(
+                        "{} is damaged ({reason}): the point counts as missing; --resume runs it again",
+                        path.display()
+                    );
+                }
+                Found::Nothing => {}
+            }
+        }
+        Ok(Self {
+            case,
+            keys: plan.keys(),
+            analyses: plan.analysis_names(),
+            count: plan.count(),
+            core_s: records.iter().map(|record| folder.read_clock(record.point).core_s).sum(),
+            records,
+        })
+    }
+
+    /// What there is to report of them; `ran` is how many this process ran.
+    pub fn report(&self, ran: Option<usize>, wall_s: f64) -> SweepReport<'_> {
+        SweepReport {
+            title: &self.case.title,
+            friction_coefficient: self.case.contact.sliding.friction_coefficient,
+            keys: &self.keys,
+            analyses: &self.analyses,
+            count: self.count,
+            records: &self.records,
+            core_s: self.core_s,
+            ran,
+            wall_s,
+        }
+    }
 }
 
 /// What the figures of a study need besides its points: the modes of the case at its own friction, if
@@ -176,8 +194,8 @@ pub fn gather(
         draw(folder, report, manifest, drawing)?;
     }
     folder.write("points.csv", |out| write_points(out, report.keys, report.records))?;
-    for table in LONG_TABLES.iter().filter(|table| table.is_of(report.analyses)) {
-        folder.write(table.file, |out| table.write(out, report.keys, report.records))?;
+    for table in long_tables(report.keys, report.analyses, report.records) {
+        folder.write(&table.file, |out| table.write_csv(out))?;
     }
     let summary = summary_object(report, manifest)?;
     folder.write_summary(&summary)?;
@@ -192,18 +210,8 @@ pub fn redraw(path: &Path, options: &DrawingOptions) -> Result<(), Failure> {
     let (folder, manifest) = SweepFolder::find(path)?;
     let case = recorded_case(path, &manifest)?;
     let plan = SweepPlan::new(&case)?;
-    let records = finished_points(&folder, plan.count())?;
-    let report = SweepReport {
-        title: &case.title,
-        friction_coefficient: case.contact.sliding.friction_coefficient,
-        keys: &plan.keys(),
-        analyses: &plan.analysis_names(),
-        count: plan.count(),
-        records: &records,
-        core_s: core_seconds(&folder, &records),
-        ran: None,
-        wall_s: 0.0,
-    };
+    let finished = Finished::of(&case, &plan, &folder)?;
+    let report = finished.report(None, 0.0);
     draw(&folder, &report, &manifest, &drawing(&case, &plan, options))?;
     Ok(())
 }

@@ -11,7 +11,7 @@ use super::{Failure, RunOptions, Session};
 use crate::fem::operator::StiffnessOperator;
 use crate::linalg::interruption;
 use crate::results::transient::{
-    CHECKPOINT, Checkpoint, TransientReport, print, write, write_checkpoint,
+    CHECKPOINT, Checkpoint, PredictedGrowth, TransientReport, document, write, write_checkpoint,
 };
 use crate::results::{OutputFolder, object, read_record};
 use crate::study::transient::TransientStudy;
@@ -131,7 +131,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(drawing) = output.drawing() {
         figures::draw_record(&folder, &study, record, &summary, &drawing)?;
     }
-    let table = print(&summary, analysis.settling.state);
+    let state = analysis.settling.state;
+    let table = document(&summary, state, PredictedGrowth::default()).to_text();
     let object = object(&summary).map_err(Failure::run)?;
     output.finish(folder, &table, &object)
 }

@@ -28,8 +28,6 @@ pub struct Improve {
     pub candidates: usize,
     /// How many of all are run again.
     pub confirm: usize,
-    /// Sizes of masses and removals for the front of mass against critical friction; 0 for none.
-    pub front: usize,
 }
 
 pub(super) fn improve(root: &Section<'_>) -> Improve {
@@ -59,7 +57,6 @@ pub(super) fn improve(root: &Section<'_>) -> Improve {
         forbidden: section.texts("forbidden"),
         candidates: section.count("candidates"),
         confirm: section.count("confirm"),
-        front: section.count("front"),
     };
     section.close();
     own

@@ -201,7 +201,6 @@ pub const KEYS: &[CaseKey] = &[
     key("improve.forbidden", Texts, "", Otherwise("nothing; surfaces in contact are never touched"), "[\"outer\"]", "regions and boundaries that nothing may be attached to, damped or taken from"),
     key("improve.candidates", Count(1), "", Value("3"), "3", "how many places of each kind are listed"),
     key("improve.confirm", Count(0), "", Value("4"), "4", "how many of the best candidates are run again as cases of their own"),
-    key("improve.front", Count(0), "", Value("0"), "6", "number of sizes on the mass/critical-friction front, up to `mass` and `patch_radius`, each run again; 0 = no front"),
 
     key("transient.duration", Number(Positive), "s", Required, "0.05", "the simulated time"),
     key("transient.time_step", NumberOr(Positive, "auto"), "s", Value("\"auto\""), "\"auto\"", "the time step (\"auto\" = 0.95 of the stability limit, at most)"),

@@ -48,6 +48,13 @@ macro_rules! plain {
 
 plain!(bool, i8, i64, u8, u32, u64, usize, f64, String, serde_json::Value);
 
+impl Described for serde_json::Map<String, serde_json::Value> {
+    fn describe(path: &str, keys: &mut Vec<Key>) {
+        let meaning = "value of the key";
+        keys.push(Key { path: format!("{path}.KEY"), meaning });
+    }
+}
+
 impl<T: Described> Described for Option<T> {
     fn describe(path: &str, keys: &mut Vec<Key>) {
         T::describe(path, keys);

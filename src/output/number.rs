@@ -77,6 +77,12 @@ impl Format {
             _ => text,
         }
     }
+
+    /// The number with its unit.
+    pub fn text(self, value: f64, unit: &str) -> String {
+        let number = self.number(value);
+        if unit.is_empty() || !value.is_finite() { number } else { format!("{number} {unit}") }
+    }
 }
 
 /// A number with so many decimals, without the sign of a zero; `-` where there is none.
@@ -104,4 +110,44 @@ pub fn significant(value: f64, digits: usize) -> String {
 /// Without zeros at the end of the decimals.
 fn trimmed(number: &str) -> &str {
     if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_number_is_shown_as_nan_infinite_or_negative_zero() {
+        use Format::{Count, Fixed, Percent, Plain, Scientific, Significant};
+        for format in [Plain, Count, Fixed(2), Percent(1), Scientific(3), Significant(4)] {
+            for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                assert_eq!(format.text(value, "Hz"), "-");
+            }
+            for value in [-0.0, -1e-300] {
+                let text = format.number(value);
+                let is_zero = text.parse::<f64>().is_ok_and(|number| number == 0.0);
+                assert!(!(is_zero && text.starts_with('-')), "{format:?}: {text}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_small_negative_number_loses_its_sign_with_its_digits() {
+        assert_eq!(fixed(-0.04, 1), "0.0");
+        assert_eq!(fixed(-0.06, 1), "-0.1");
+        assert_eq!(fixed(f64::NAN, 1), "-");
+    }
+
+    #[test]
+    fn significant_digits_need_no_exponent_where_there_is_room() {
+        for (value, text) in [
+            (9433.1234, "9433.1"),
+            (0.3, "0.3"),
+            (1.5e-5, "1.5e-5"),
+            (-12345678.0, "-12345678"),
+            (7.4e12, "7.4e12"),
+        ] {
+            assert_eq!(significant(value, 5), text);
+        }
+    }
 }

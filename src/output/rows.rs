@@ -1,11 +1,8 @@
 //! Tables whose rows are written as they are made.
 
 use super::csv::Table;
-use super::table::Cell;
+use super::table::Column;
 use std::io::{self, Write};
-
-/// A column whose rows are not of one kind: its name, and its cell of a row.
-pub type Column<'a, T> = (&'a str, &'a dyn Fn(&T) -> Cell);
 
 /// Writes a whole table of declared columns.
 ///
@@ -13,13 +10,13 @@ pub type Column<'a, T> = (&'a str, &'a dyn Fn(&T) -> Cell);
 /// Those of the writer.
 pub fn write_rows<T>(
     out: impl Write,
-    columns: &[Column<'_, T>],
+    columns: &[Column<T>],
     rows: impl IntoIterator<Item = T>,
 ) -> io::Result<()> {
-    let names: Vec<&str> = columns.iter().map(|column| column.0).collect();
+    let names: Vec<&str> = columns.iter().map(|column| column.key).collect();
     let mut table = Table::new(out, &names)?;
     for row in rows {
-        table.row(columns.iter().map(|column| (column.1)(&row).csv()))?;
+        table.row(columns.iter().map(|column| (column.cell)(&row).csv()))?;
     }
     table.finish()
 }

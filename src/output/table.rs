@@ -33,6 +33,15 @@ impl Cell {
         }
     }
 
+    /// The number that it is, if it is one.
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Self::Number(value) => Some(*value),
+            Self::Count(count) => Some(*count as f64),
+            Self::None | Self::Flag(_) | Self::Text(_) => None,
+        }
+    }
+
     /// As people read it.
     pub fn text(&self, format: Format) -> String {
         match self {
@@ -103,6 +112,14 @@ pub struct Column<T> {
     pub cell: fn(&T) -> Cell,
 }
 
+impl<T> Column<T> {
+    /// What stands above it, with the unit; its name where it is in files only.
+    pub fn heading(&self) -> String {
+        let look = self.look.map(|own| (own.when, own.label.to_owned(), own.format));
+        Head { key: self.key.to_owned(), look }.label()
+    }
+}
+
 /// Declares columns: `NAME: row as Type; key: "meaning" = cell, Always "label" Fixed(2); ...`.
 macro_rules! columns {
     ($(#[$meta:meta])* $vis:vis $name:ident: $row:ident as $type:ty;
@@ -120,7 +137,7 @@ macro_rules! columns {
                     })?];
                     LOOKS.first()
                 },
-                cell: |$row: &$type| $crate::output::Cell::from($cell),
+                cell: |#[allow(unused_variables)] $row: &$type| $crate::output::Cell::from($cell),
             }),+]
         };
     };
@@ -300,7 +317,7 @@ impl Table {
         table.finish()
     }
 
-    /// Labels with units, and the cells of each row, of the columns that people see.
+    /// Labels with units, and the cells of each row, of the columns that people see; no row where they see none.
     pub fn shown(&self) -> (Vec<String>, Vec<Vec<String>>) {
         let is_shown = |at: &usize| match self.heads[*at].look {
             Some((Shown::Always, ..)) => true,
@@ -312,7 +329,7 @@ impl Table {
             let format = self.heads[at].look.as_ref().map_or(Format::Plain, |look| look.2);
             row[at].text(format)
         };
-        let rows = self.rows.iter();
+        let rows = self.rows.iter().filter(|_| !shown.is_empty());
         let rows = rows.map(|row| shown.iter().map(|&at| cell(row, at)).collect());
         (shown.iter().map(|&at| self.heads[at].label()).collect(), rows.collect())
     }
@@ -320,7 +337,7 @@ impl Table {
     /// As aligned text: numbers to the right, words to the left; nothing where people see no column or no row.
     pub fn text(&self) -> String {
         let (labels, rows) = self.shown();
-        if labels.is_empty() || rows.is_empty() {
+        if rows.is_empty() {
             return String::new();
         }
         let width = |at: usize| {

@@ -141,7 +141,7 @@ pub fn write_report(
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
     for section in &report.sections {
-        write_figures(folder, &section.figures, options)?;
+        write_figures(folder, &section.1, options)?;
     }
     let html = report.to_html();
     folder.write(REPORT, |out| out.write_all(html.as_bytes()))?;

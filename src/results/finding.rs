@@ -1,10 +1,10 @@
 //! What a command found: its document and figures become the files of its folder.
 
 use super::drawing::{Declaration, DrawingError, DrawingOptions, draw_all, write_report};
-use super::report::{NamedFigure, Report, ReportSection, ReportTable};
+use super::report::{NamedFigure, Report};
 use super::summary::write_summary;
 use super::{FolderError, Manifest, OutputFolder};
-use crate::output::{Described, Document, Key, Section, Table, describe_field};
+use crate::output::{Described, Document, Key, Table, describe_field};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -90,38 +90,4 @@ impl Described for crate::signal::Estimate {
             describe_field::<f64>(path, name, meaning, false, keys);
         }
     }
-}
-
-impl Report {
-    /// The page of a document: each figure stands in the first section that names the beginning of its name.
-    pub fn of(document: Document, mut figures: Vec<NamedFigure>, manifest: &Manifest) -> Self {
-        let mut notes = document.notes;
-        let part = |section: Section| {
-            let is_own = |figure: &NamedFigure| {
-                section.figures.iter().any(|name| figure.name.starts_with(name))
-            };
-            let (own, others) = std::mem::take(&mut figures).into_iter().partition(is_own);
-            figures = others;
-            let mut text = section.text;
-            text.append(&mut notes);
-            text.extend(section.aside);
-            let part = match section.facts.is_empty() {
-                true => ReportSection::new(section.heading).with_paragraphs(text),
-                false => ReportSection::results(text, section.facts),
-            };
-            part.with_tables(section.tables.iter().map(page_table)).with_figures(own)
-        };
-        let mut sections: Vec<ReportSection> = document.sections.into_iter().map(part).collect();
-        sections.retain(|part| {
-            !part.paragraphs.is_empty() || !part.figures.is_empty() || part.has_rows()
-        });
-        Self { title: document.title, sections, manifest: manifest.clone() }
-    }
-}
-
-/// The columns of a table that people see.
-fn page_table(table: &Table) -> ReportTable {
-    let (labels, rows) = table.shown();
-    let rows = if labels.is_empty() { Vec::new() } else { rows };
-    ReportTable::new(table.caption.clone(), labels, rows)
 }

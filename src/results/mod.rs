@@ -6,8 +6,6 @@ pub mod charts;
 pub mod compare;
 pub mod convergence;
 pub mod cycle;
-pub mod cycle_figures;
-mod cycle_table;
 mod drawing;
 mod extent;
 mod finding;
@@ -19,9 +17,7 @@ pub mod matrices;
 pub mod mesh;
 mod npz;
 mod parameter;
-pub mod periodic;
 mod pvd;
-pub mod quantity;
 pub mod reference;
 pub mod report;
 mod response;
@@ -38,7 +34,7 @@ mod whole_mesh;
 /// Tables that are not declared yet.
 mod table {
     pub use crate::output::csv::{Table, format_number};
-    pub use crate::output::rows::{Column, write_rows};
+    pub use crate::output::rows::write_rows;
 }
 
 use store::{folder, framed, manifest, record, reopening, whole_file};

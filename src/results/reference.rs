@@ -5,12 +5,19 @@ use super::cea::{
     AXIAL, BRANCHES, CONTRIBUTIONS, COUPLINGS, CeaSummary, FEED, MAP, MODES, NAMES, NODES,
     ONSET_ERRORS, ONSETS, PLACES, PLANE, POINTS, RINGS, ROWS, STATUS, TRACTIONS,
 };
+use super::compare::ComparisonSummary;
+use super::convergence::{self, ConvergenceSummary};
+use super::cycle::{self, CycleSummary};
 use super::fit::{self, FitSummary};
 use super::identification::{self, IdentificationSummary};
 use super::improve::{self, ImproveSummary};
 use super::mac::{self, MacSummary};
+use super::matrices::{self, MatricesSummary};
 use super::mesh::{MeshStatistics, MeshSummary};
+use super::response::ResponseSummary;
 use super::signal::{self, SignalSummary};
+use super::sweep::{self, SweepSummary};
+use super::transient::{self, TransientSummary};
 use super::uncertainty::{self, UncertaintySummary};
 use crate::output::{Column, Entry, Key, entries, keys_of, unit_of};
 use std::fmt::Write as _;
@@ -67,6 +74,31 @@ pub fn reference() -> Vec<FileReference> {
         file("cea", "feed.csv", vec![all(&NAMES[..3]), all(FEED)]),
         file("cea", "map.csv", vec![one("KEY", "value of the second parameter"), all(MAP)]),
         summary::<CeaSummary>("cea"),
+        summary::<ComparisonSummary>("compare"),
+        file("convergence", "convergence.csv", vec![all(convergence::ROWS)]),
+        summary::<ConvergenceSummary>("convergence"),
+        file(
+            "cycle",
+            "cycle.csv",
+            vec![
+                all(cycle::NAMES),
+                all(cycle::MOTION),
+                all(cycle::POWERS),
+                all(cycle::KNOWN),
+                all(cycle::ERRORS),
+            ],
+        ),
+        file(
+            "cycle",
+            "cycle-N.csv",
+            vec![all(cycle::HISTORY), all(cycle::WAVE_PATH), all(cycle::PATH)],
+        ),
+        file("cycle", "contact-N.csv", vec![all(cycle::CONTACT_NODES)]),
+        file("cycle", "harmonics-N.csv", vec![all(cycle::HARMONICS)]),
+        file("cycle", "stability-N.csv", vec![parameter(), all(cycle::EXPONENTS)]),
+        file("cycle", "branch-N.csv", vec![parameter(), all(cycle::BRANCH)]),
+        file("cycle", "two-waves-N.csv", vec![parameter(), all(cycle::TWO_WAVES)]),
+        summary::<CycleSummary>("cycle"),
         file(
             "fit",
             "fit.csv",
@@ -74,6 +106,16 @@ pub fn reference() -> Vec<FileReference> {
         ),
         file("fit", "modes.csv", vec![all(fit::MODES), all(fit::GROWS)]),
         summary::<FitSummary>("fit"),
+        file(
+            "frf",
+            "frf.csv",
+            vec![pairs(&[
+                ("frequency_hz", "frequency"),
+                ("KEY_real", "real part of the accelerance, mobility or receptance"),
+                ("KEY_imaginary", "its imaginary part"),
+            ])],
+        ),
+        summary::<ResponseSummary>("frf"),
         file("identify", "modes.csv", vec![all(identification::MODES)]),
         file("identify", "fit.csv", vec![pairs(&identification::FITTED)]),
         summary::<IdentificationSummary>("identify"),
@@ -89,25 +131,59 @@ pub fn reference() -> Vec<FileReference> {
                 all(improve::VERDICTS),
             ],
         ),
-        file(
-            "improve",
-            "front.csv",
-            vec![
-                all(improve::WEIGHTS),
-                all(&improve::CANDIDATES[1..]),
-                entries("predicted_", improve::STATES),
-                entries("confirmed_", improve::STATES),
-                all(improve::FRONTS),
-                all(improve::VERDICTS),
-            ],
-        ),
         summary::<ImproveSummary>("improve"),
         file("mac", "mac.csv", vec![all(mac::ROWS)]),
         summary::<MacSummary>("mac"),
+        file("matrices", "unknowns.csv", vec![all(matrices::UNKNOWN)]),
+        file(
+            "matrices",
+            "contact.csv",
+            vec![all(matrices::PLANE_POINT), all(matrices::SOLID_POINT)],
+        ),
+        summary::<MatricesSummary>("matrices"),
         summary::<MeshSummary<MeshStatistics>>("mesh"),
         file("signal", "peaks.csv", vec![all(signal::PEAKS)]),
         file("signal", "spectrum-N.csv", vec![pairs(&signal::SPECTRUM)]),
         summary::<SignalSummary>("signal"),
+        file(
+            "sweep",
+            "points.csv",
+            vec![swept(), one("KEY.KEY", "numbers of the summaries"), points()],
+        ),
+        file("sweep", "stability.csv", vec![swept(), all(ONSETS), points()]),
+        file("sweep", "unstable_modes.csv", vec![swept(), all(sweep::UNSTABLE), points()]),
+        file("sweep", "modes.csv", vec![swept(), all(sweep::OWN_MODES), points()]),
+        file("sweep", "branches.csv", vec![swept(), all(sweep::BRANCHES), points()]),
+        summary::<SweepSummary>("sweep"),
+        file(
+            "transient",
+            "probe-N.csv",
+            vec![
+                one("time_s", "time"),
+                pairs(&[
+                    ("u_KEY_m", "displacement in a direction: r, theta, x, y or z"),
+                    ("v_KEY_m_per_s", "velocity"),
+                    (
+                        "a_KEY_m_per_s2",
+                        "acceleration: mean since the last sample, or with `step` of the step alone",
+                    ),
+                ]),
+            ],
+        ),
+        file("transient", "energy.csv", vec![all(transient::ENERGY)]),
+        file("transient", "contact.csv", vec![all(transient::STATUS)]),
+        file(
+            "transient",
+            "harmonics.csv",
+            vec![
+                one("time_s", "time"),
+                pairs(&[
+                    ("nKEY_real_m", "amplitude of a harmonic along the contact edge, real part"),
+                    ("nKEY_imaginary_m", "imaginary part"),
+                ]),
+            ],
+        ),
+        summary::<TransientSummary>("transient"),
         file(
             "uncertainty",
             "samples.csv",
@@ -125,6 +201,21 @@ pub fn reference() -> Vec<FileReference> {
 
 fn all<T>(columns: &[Column<T>]) -> Vec<Entry> {
     entries("", columns)
+}
+
+/// A swept key.
+fn swept() -> Vec<Entry> {
+    one("KEY", "value of a swept key")
+}
+
+/// The number of a point, and why it failed.
+fn points() -> Vec<Entry> {
+    pairs(&[("point", "number of the point, from 1"), ("error", "why it failed, in `points.csv`")])
+}
+
+/// The parameter of a branch.
+fn parameter() -> Vec<Entry> {
+    one("KEY", "value of the parameter of `cycle.continuation`; `point` without one")
 }
 
 fn pairs(columns: &[(&str, &str)]) -> Vec<Entry> {

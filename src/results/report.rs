@@ -9,7 +9,7 @@ pub use reading::{ReadFigure, read_figures};
 
 use super::Manifest;
 use crate::chart::FigureData;
-use serde_json::Value;
+use crate::output::{Document, Section};
 
 /// A finished drawing with its file name and caption.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,90 +24,6 @@ pub struct NamedFigure {
     pub data: FigureData,
 }
 
-/// A small table.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct ReportTable {
-    /// Caption.
-    pub caption: String,
-    /// Column names with units.
-    pub columns: Vec<String>,
-    /// Cells, row by row.
-    pub rows: Vec<Vec<String>>,
-}
-
-impl ReportTable {
-    /// A table of these columns and rows.
-    pub fn new<C: ToString>(
-        caption: impl Into<String>,
-        columns: impl IntoIterator<Item = C>,
-        rows: impl IntoIterator<Item = Vec<String>>,
-    ) -> Self {
-        Self {
-            caption: caption.into(),
-            columns: columns.into_iter().map(|name| name.to_string()).collect(),
-            rows: rows.into_iter().collect(),
-        }
-    }
-}
-
-/// A part of a report.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct ReportSection {
-    /// Heading.
-    pub heading: String,
-    /// Paragraphs of plain text; one of several lines is set as a block.
-    pub paragraphs: Vec<String>,
-    /// Tables.
-    pub tables: Vec<ReportTable>,
-    /// Figures.
-    pub figures: Vec<NamedFigure>,
-}
-
-/// Heading of the section that comes first and is set as a box: the numbers that decide.
-const RESULTS: &str = "Results";
-
-impl ReportSection {
-    /// The numbers that decide, name and value, which a report opens with.
-    pub fn results(paragraphs: Vec<String>, rows: Vec<(String, String)>) -> Self {
-        let rows = rows.into_iter().map(|(name, value)| vec![name, value]);
-        let table = ReportTable::new("", ["quantity", "value"], rows);
-        Self::new(RESULTS).with_paragraphs(paragraphs).with_tables([table])
-    }
-
-    /// An empty part.
-    pub fn new(heading: impl Into<String>) -> Self {
-        Self { heading: heading.into(), ..Self::default() }
-    }
-
-    /// The same with further paragraphs.
-    pub fn with_paragraphs(mut self, paragraphs: impl IntoIterator<Item = String>) -> Self {
-        self.paragraphs.extend(paragraphs);
-        self
-    }
-
-    /// The same with further tables.
-    pub fn with_tables(mut self, tables: impl IntoIterator<Item = ReportTable>) -> Self {
-        self.tables.extend(tables);
-        self
-    }
-
-    /// The same with further figures.
-    pub fn with_figures(mut self, figures: impl IntoIterator<Item = NamedFigure>) -> Self {
-        self.figures.extend(figures);
-        self
-    }
-
-    /// Whether some table has something in it.
-    pub(super) fn has_rows(&self) -> bool {
-        self.tables.iter().any(|table| !table.rows.is_empty())
-    }
-
-    /// Whether it is the box of results.
-    fn is_box(&self) -> bool {
-        self.heading == RESULTS
-    }
-}
-
 /// A report on one result.
 ///
 /// It needs no network and no other file: drawings are inline, and so are the scripts that let a reader zoom, sort, animate
@@ -116,32 +32,43 @@ impl ReportSection {
 pub struct Report {
     /// Title, from the case.
     pub title: String,
-    /// Parts in order.
-    pub sections: Vec<ReportSection>,
+    /// Parts in order, each with its figures.
+    pub sections: Vec<(Section, Vec<NamedFigure>)>,
     /// What the result was made from.
     pub manifest: Manifest,
 }
 
-/// The number at a JSON pointer of a summary, if there is one.
-pub fn number(summary: &Value, pointer: &str) -> Option<f64> {
-    summary.pointer(pointer).and_then(Value::as_f64)
-}
-
-/// The number at a JSON pointer times a factor, with so many decimals; empty if there is none.
-pub fn cell(summary: &Value, pointer: &str, factor: f64, decimals: usize) -> String {
-    number(summary, pointer)
-        .map_or_else(String::new, |value| format!("{:.decimals$}", factor * value))
-}
-
-/// The entries of an array of a summary; none if there is no such array.
-pub fn entries<'a>(summary: &'a Value, key: &str) -> &'a [Value] {
-    summary[key].as_array().map_or(&[][..], Vec::as_slice)
+impl Report {
+    /// The page of a document: each figure stands in the first section that names the beginning of its name, notes in the first.
+    pub fn of(document: Document, mut figures: Vec<NamedFigure>, manifest: &Manifest) -> Self {
+        let mut notes = document.notes;
+        let part = |mut section: Section| {
+            let is_own = |figure: &NamedFigure| {
+                section.figures.iter().any(|name| figure.name.starts_with(name))
+            };
+            let (own, others) = std::mem::take(&mut figures).into_iter().partition(is_own);
+            figures = others;
+            section.text.append(&mut notes);
+            section.text.append(&mut section.aside);
+            (section, own)
+        };
+        let sections = document.sections.into_iter().map(part);
+        let says = |(section, own): &(Section, Vec<NamedFigure>)| {
+            let has_rows = section.tables.iter().any(|table| !table.shown().1.is_empty());
+            let has_words = !section.text.is_empty() || !section.facts.is_empty();
+            has_words || has_rows || !own.is_empty()
+        };
+        let sections = sections.filter(says).collect();
+        Self { title: document.title, sections, manifest: manifest.clone() }
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::chart::ID_PREFIX;
+    use crate::output::{Format, Table};
+    use serde_json::Value;
 
     fn report() -> Report {
         let figure = NamedFigure {
@@ -150,23 +77,20 @@ mod tests {
             svg: format!("<svg><clipPath id=\"{ID_PREFIX}plot-1\"/></svg>\n"),
             data: FigureData::default(),
         };
-        Report {
-            title: "Disc & <cylinder>".into(),
-            sections: vec![ReportSection {
-                heading: "Modes".into(),
-                paragraphs: vec!["All modes below 17.5 kHz.".into()],
-                tables: vec![ReportTable {
-                    caption: "Eigenvalues".into(),
-                    columns: vec!["mode".into(), "frequency (Hz)".into(), "direction".into()],
-                    rows: vec![vec!["1".into(), "5857".into(), "standing".into()]],
-                }],
-                figures: vec![figure.clone(), figure],
-            }],
-            manifest: Manifest {
-                case_text: "[mesh]\nelement = \"quad4\" # <&>\n".into(),
-                ..Manifest::new("cea")
-            },
-        }
+        let table = Table::new("", "Eigenvalues")
+            .column("", Some(("mode", Format::Count)), [1_usize])
+            .column("", Some(("frequency (Hz)", Format::Fixed(0))), [5857.0])
+            .column("", Some(("direction", Format::Plain)), ["standing"]);
+        let section = Section::new("Modes")
+            .text(["All modes below 17.5 kHz.".to_owned()])
+            .tables([table])
+            .figures(["plot"]);
+        let manifest = Manifest {
+            case_text: "[mesh]\nelement = \"quad4\" # <&>\n".into(),
+            ..Manifest::new("cea")
+        };
+        let document = Document::new("Disc & <cylinder>", "").section(section);
+        Report::of(document, vec![figure.clone(), figure], &manifest)
     }
 
     #[test]
@@ -182,7 +106,7 @@ mod tests {
     #[test]
     fn no_text_of_a_user_ends_a_script() {
         let mut report = report();
-        report.sections[0].figures[0].name = "</script><img>".into();
+        report.sections[0].1[0].name = "</script><img>".into();
         let html = report.to_html();
         let data = html.split("id=\"data\">").nth(1).unwrap();
         let data = data.split("</script>").next().unwrap();
@@ -194,8 +118,9 @@ mod tests {
     #[test]
     fn numbers_of_the_box_come_before_words_and_pictures() {
         let mut report = report();
-        let row = ("main frequency".into(), "9433 Hz".into());
-        report.sections.insert(0, ReportSection::results(vec!["In words.".into()], vec![row]));
+        let section = Section::new("Results").text(["In words.".to_owned()]);
+        let section = section.facts([("main frequency", "9433 Hz".to_owned())]);
+        report.sections.insert(0, (section, Vec::new()));
         let html = report.to_html();
         let at = |text: &str| html.find(text).unwrap();
         assert!(at("<dd>9433 Hz</dd>") < at("In words.") && at("In words.") < at("<svg"));
@@ -206,7 +131,7 @@ mod tests {
         let mut report = report();
         report.manifest.case_text.clear();
         report.manifest.case_file = "frf.csv".into();
-        report.sections[0].paragraphs = vec!["[damping]\nmass_coefficient = 40.0\n".into()];
+        report.sections[0].0.text = vec!["[damping]\nmass_coefficient = 40.0\n".into()];
         let html = report.to_html();
         assert!(html.contains("table frf.csv") && !html.contains("id=\"case\""));
         assert!(html.contains(

@@ -1,21 +1,21 @@
 //! Table, figure and report of a computed frequency response.
 
 use super::Manifest;
-use super::drawing::{DrawingError, DrawingOptions, draw_all, write_report};
+use super::drawing::{DrawingError, DrawingOptions, draw_all};
+use super::finding::{write_page, write_table};
 use super::folder::{FolderError, OutputFolder};
 use super::identification::unit_of;
 use super::reopening::read_own;
-use super::report::{Report, ReportSection};
-use super::table::Table;
 use crate::chart::{Axis, Figure, INK, Line, Marker, Panel, Points, SERIES};
 use crate::linalg::c64;
+use crate::output::{Described, Document, Section, Table};
 use crate::signal::reader::{self, NamedResponse};
 use crate::signal::{FrequencyResponse, ResponseQuantity};
 use serde::{Deserialize, Serialize};
 use std::io;
 
 /// `summary.json` of `frictionsim frf`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct ResponseSummary {
     /// `frf`.
     pub command: String,
@@ -67,15 +67,11 @@ pub fn write_response(
     values: &[c64],
 ) -> Result<(), FolderError> {
     let name = quantity.name();
-    let columns = ["frequency_hz", &format!("{name}_real"), &format!("{name}_imaginary")];
-    folder.write(RESPONSE_TABLE, |out| {
-        let mut table = Table::new(out, &columns)?;
-        for (f, h) in frequencies_hz.iter().zip(values) {
-            table.numbers(&[*f, h.re, h.im])?;
-        }
-        table.finish()
-    })?;
-    Ok(())
+    let table = Table::new(RESPONSE_TABLE, "")
+        .column("frequency_hz", None, frequencies_hz.iter().copied())
+        .column(&format!("{name}_real"), None, values.iter().map(|h| h.re))
+        .column(&format!("{name}_imaginary"), None, values.iter().map(|h| h.im));
+    write_table(folder, &table)
 }
 
 /// Writes the response as a universal file, dataset 58.
@@ -107,16 +103,18 @@ pub fn draw_response_report(
     summary: &ResponseSummary,
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
-    let report = Report {
-        title: summary.title.clone(),
-        sections: vec![
-            ReportSection::new("Frequency response")
-                .with_paragraphs([summary.description.clone()])
-                .with_figures(draw_all(vec![Box::new(|| Ok(response_figure(response)))], options)?),
-        ],
-        manifest: folder.manifest().clone(),
-    };
-    write_report(folder, &report, options)
+    let figures = draw_all(vec![Box::new(|| Ok(response_figure(response)))], options)?;
+    write_page(folder, summary.document(), figures, folder.manifest(), options)
+}
+
+impl ResponseSummary {
+    /// What was computed, and its figure.
+    pub fn document(&self) -> Document {
+        let section = Section::new("Frequency response")
+            .text([self.description.clone()])
+            .figures(["response"]);
+        Document::new(&self.title, "Frequency response").section(section)
+    }
 }
 
 /// Degrees beyond half a turn up to which the phase goes on before it is drawn a turn away: noise about half a turn is no jump.

@@ -13,12 +13,20 @@ use serde_json::Value;
 use std::path::Path;
 
 /// Where along a parameter steady sliding loses its stability.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct CriticalSummary {
     /// Key of the case.
     pub key: String,
     /// Value, in its units.
     pub value: f64,
+}
+
+impl StatusFractions {
+    /// Of `[stick, slip, open]`.
+    pub fn of(fractions: [f64; 3]) -> Self {
+        let [stick, slip, open] = fractions.map(present);
+        Self { stick, slip, open }
+    }
 }
 
 impl From<CriticalValue> for CriticalSummary {
@@ -28,7 +36,7 @@ impl From<CriticalValue> for CriticalSummary {
 }
 
 /// Fractions of the contact nodes, averaged over the interval that a summary is of.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize, Deserialize)]
 pub struct StatusFractions {
     /// Sticking.
     pub stick: Option<f64>,
@@ -39,7 +47,7 @@ pub struct StatusFractions {
 }
 
 /// Mean powers of a whole disc, W; equations (9) to (12).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize, Deserialize)]
 pub struct MeanPowers {
     /// Of the motor.
     pub external: Option<f64>,

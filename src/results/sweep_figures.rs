@@ -3,7 +3,7 @@
 use super::basin::basin_map;
 use super::charts::palette::{OPEN, SLIP, STICK};
 use super::charts::{CriticalBranch, ModeLine, critical_friction};
-use super::cycle_figures::{FamilyRecord, NamedFamily, draw_branches};
+use super::cycle::{FamilyRecord, NamedFamily, draw_branches};
 use super::drawing::{Declaration, DrawingOptions, draw_all};
 use super::parameter::{parameter_axis, parameter_name};
 use super::report::NamedFigure;

@@ -1,6 +1,6 @@
 //! The summary of one analysis of a case, as its command prints it, without a file written: what a point of a sweep holds.
 
-use super::cycle::{CycleStudy, PeriodicStudy};
+use super::cycle::{CycleStudy, PeriodicStudy, refuse_nothing};
 use super::eigenvalues::{self, SlidingModel};
 use super::transient::TransientStudy;
 use super::{StudyError, basin};
@@ -8,8 +8,6 @@ use crate::case::{Analysis, Case, Cea};
 use crate::cea::Unwatched;
 use crate::fem::operator::SimdLevel;
 use crate::results::cycle::{CycleReport, CycleSummary};
-use crate::results::cycle_figures::FamilyRecord;
-use crate::results::periodic::PeriodicSummary;
 use crate::results::transient::TransientReport;
 use crate::results::{self, Manifest, object};
 use serde_json::Value;
@@ -28,10 +26,7 @@ pub fn summarize(
         Analysis::Cea => cea(case, manifest),
         Analysis::Transient => transient(case, manifest),
         Analysis::Basin => Ok(serde_json::to_value(basin::summary(case, manifest)?)?),
-        Analysis::Cycle if case.has_rotating_waves() => {
-            cycle(case, manifest, CycleStudy::refuse_nothing)
-        }
-        Analysis::Cycle => periodic(case, manifest),
+        Analysis::Cycle => cycle(case, manifest, refuse_nothing),
     }
 }
 
@@ -62,40 +57,26 @@ fn transient(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
     Ok(object(&results::transient::summary(&report, manifest))?)
 }
 
-/// The limit cycles of a body without symmetry, with their branches as `curves`.
-fn periodic(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
-    let start = Instant::now();
-    let study = PeriodicStudy::new(case, SimdLevel::choose(&manifest.simd)?)?;
-    let results = study.run(0, &Unwatched, &|_| {})?;
-    let branches = results.iter().filter_map(|result| {
-        let branch = result.own()?.branch.as_ref()?;
-        Some(FamilyRecord::of_mode(result.mode.number, branch))
-    });
-    let curves: Vec<FamilyRecord> = branches.collect();
-    let report = study.report(results, start.elapsed().as_secs_f64());
-    PeriodicStudy::refuse_nothing(&report)?;
-    let summary = PeriodicSummary {
-        curves: Some(serde_json::to_value(curves)?),
-        ..results::periodic::summary(&report, manifest)
-    };
-    Ok(object(&summary)?)
-}
-
-/// With the branches as `curves`, of which the command itself writes tables; `judge` may refuse what was found.
+/// The limit cycles with their branches as `curves`, of which the command itself writes tables; `judge` may refuse what was found.
 pub(super) fn cycle(
     case: &Case,
     manifest: &Manifest,
     judge: impl Fn(&CycleReport<'_>) -> Result<(), StudyError>,
 ) -> Result<Value, StudyError> {
     let start = Instant::now();
-    let study = CycleStudy::new(case, SimdLevel::choose(&manifest.simd)?)?;
-    let results = study.run(0, &|| {});
-    let curves: Vec<FamilyRecord> = results.iter().map(FamilyRecord::of).collect();
-    let report = study.report(results, start.elapsed().as_secs_f64());
-    judge(&report)?;
-    let summary = CycleSummary {
-        curves: Some(serde_json::to_value(curves)?),
-        ..results::cycle::summary(&report, manifest)
+    let simd = SimdLevel::choose(&manifest.simd)?;
+    let wall = || start.elapsed().as_secs_f64();
+    let told = |report: &CycleReport<'_>| -> Result<Value, StudyError> {
+        judge(report)?;
+        let curves = Some(report.curves());
+        Ok(object(&CycleSummary { curves, ..report.summary(manifest) })?)
     };
-    Ok(object(&summary)?)
+    if case.has_rotating_waves() {
+        let study = CycleStudy::new(case, simd)?;
+        let results = study.run(0, &|| {});
+        return told(&study.report(results, Vec::new(), wall()));
+    }
+    let study = PeriodicStudy::new(case, simd)?;
+    let results = study.run(0, &Unwatched, &|_| {})?;
+    told(&study.report(results, wall()))
 }

@@ -76,7 +76,7 @@ fn shipped_case_follows_both_waves_over_the_speed_and_says_where_the_single_one_
     let header = "contact.rotation_speed_rpm,class,growth_rate_per_s,wave_frequency_rad_per_s,harmonic,frequency_hz,uncertainty_per_s";
     assert_eq!(table.lines().next().unwrap(), header);
     let branch = std::fs::read_to_string(out.join("branch-n1.csv")).unwrap();
-    assert!(branch.lines().next().unwrap().ends_with("growth_rate_per_s"));
+    assert!(branch.lines().next().unwrap().ends_with("growth_rate_per_s,stability"));
 }
 
 #[test]

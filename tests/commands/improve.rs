@@ -142,45 +142,6 @@ fn what_cannot_be_improved_is_refused_with_the_remedy() {
     }
 }
 
-/// Each point of the front was run again, brings no new unstable mode, weighs more than the one before it and gets farther; no
-/// predicted point that was left out was to get farther at less mass.
-#[test]
-fn the_front_of_mass_against_critical_friction_is_run_again_and_rises() {
-    let folder = tempfile::tempdir().unwrap();
-    let set = [
-        "improve.modifications=[\"mass\", \"removal\"]",
-        "improve.min_frequency_hz=10000",
-        "improve.max_frequency_hz=11500",
-        "improve.mass=0.05",
-        "improve.candidates=2",
-        "improve.confirm=0",
-        "improve.front=3",
-    ];
-    let output = run(folder.path(), "improve", &set);
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{errors}");
-    let summary = summary(folder.path());
-    let front = summary["front"].as_array().unwrap();
-    assert!(front.len() >= 3, "{front:?}");
-    let onset = |state: &Value| state["critical_friction"].as_f64().unwrap_or(f64::INFINITY);
-    let (mut mass, mut reached, mut count) = (0.0, onset(&summary["base"]), 0);
-    for own in front {
-        let weight = own["added_mass_kg"].as_f64().unwrap().abs();
-        assert!(weight >= mass - 1e-15 && weight < 0.06, "{own}");
-        if own["on_front"] == true {
-            let beside = |state: &Value| state["unstable_beside"].as_u64().unwrap();
-            assert!(beside(&own["confirmed"]) <= beside(&summary["base"]), "{own}");
-            assert!(weight > mass && onset(&own["confirmed"]) > reached, "{own}");
-            (reached, count) = (onset(&own["confirmed"]), count + 1);
-            mass = weight;
-        }
-    }
-    assert!(count > 0, "{front:?}");
-    for file in ["front.csv", "figures/front.png"] {
-        assert!(folder.path().join("out").join(file).exists(), "{file}");
-    }
-}
-
 /// A mass of several per cent of the disc and a stiff spring, attached to a node, are predicted as they run: at the case's own friction
 /// to round-off of two eigenproblems, since the small problem has the compliance of the whole there; the onset by vectors of that
 /// friction.

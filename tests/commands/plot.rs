@@ -201,7 +201,8 @@ fn cycles_of_a_whole_mesh_are_drawn_again_to_the_same_bytes() {
         "history-mode7",
         "orbit-mode7",
         "harmonics-mode7",
-        "branch-mode7",
+        "branch-frequencies",
+        "branch-shares",
         "velocity",
         "shear-stress",
     ];

@@ -5,10 +5,10 @@ use crate::coarse_disc::coarse_disc;
 use assert_cmd::Command;
 use frictionsim::app::Failure;
 use frictionsim::app::sweep::{
-    PointRunner, Shard, SweepPlan, SweepProgress, SweepRun, finished_points, gather,
+    Finished, PointRunner, Shard, SweepPlan, SweepProgress, SweepRun, gather,
 };
 use frictionsim::case::Case;
-use frictionsim::results::sweep::{Start, SweepFolder, SweepReport};
+use frictionsim::results::sweep::{Start, SweepFolder};
 use frictionsim::results::{FolderError, Manifest, OutputFolder, Replace};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
@@ -71,18 +71,8 @@ fn sweep(
 
 fn write_table(case: &Case, folder: &SweepFolder) {
     let plan = SweepPlan::new(case).unwrap();
-    let records = finished_points(folder, plan.count()).unwrap();
-    let report = SweepReport {
-        title: &case.title,
-        friction_coefficient: case.contact.sliding.friction_coefficient,
-        keys: &plan.keys(),
-        analyses: &plan.analysis_names(),
-        count: plan.count(),
-        records: &records,
-        ran: None,
-        core_s: 0.0,
-        wall_s: 0.0,
-    };
+    let finished = Finished::of(case, &plan, folder).unwrap();
+    let report = finished.report(None, 0.0);
     gather(folder, &report, &manifest(case), None).unwrap();
 }
 

@@ -9,7 +9,7 @@ use frictionsim::case::Case;
 use frictionsim::cea::Unwatched;
 use frictionsim::cycle::{BasinBoundary, BasinRequest};
 use frictionsim::fem::operator::SimdLevel;
-use frictionsim::results::periodic::FoundCycle;
+use frictionsim::results::cycle::FoundCycle;
 use frictionsim::study::basin::boundary;
 use frictionsim::study::cycle::{PeriodicStudy, boundary_of_modes};
 use std::f64::consts::TAU;

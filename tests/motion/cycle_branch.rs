@@ -9,7 +9,7 @@ use frictionsim::cea::{SweepProgress, SweepWatch, Unwatched};
 use frictionsim::cycle::periodic::PeriodicBranch;
 use frictionsim::cycle::{BranchEnd, Parameter};
 use frictionsim::fem::operator::SimdLevel;
-use frictionsim::results::periodic::FoundCycle;
+use frictionsim::results::cycle::FoundCycle;
 use frictionsim::study::cycle::PeriodicStudy;
 use std::collections::BTreeMap;
 use std::path::Path;

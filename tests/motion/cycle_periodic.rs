@@ -7,8 +7,8 @@ use frictionsim::case::Case;
 use frictionsim::cea::Unwatched;
 use frictionsim::cycle::{Parameter, Verdict};
 use frictionsim::fem::operator::SimdLevel;
-use frictionsim::results::periodic::{FoundCycle, PeriodicResult};
-use frictionsim::study::cycle::{CycleStudy, PeriodicStudy};
+use frictionsim::results::cycle::{FoundCycle, PeriodicResult, Search};
+use frictionsim::study::cycle::{CycleStudy, PeriodicStudy, refuse_nothing};
 use frictionsim::study::transient::TransientStudy;
 
 use crate::oscillator::{EventDriven, oscillator};
@@ -173,7 +173,7 @@ fn below_the_onset_steady_sliding_is_said_to_be_stable() {
     let case = block(&["contact.friction_coefficient=0.5"]);
     let study = PeriodicStudy::new(&case, SimdLevel::detect()).unwrap();
     let report = study.report(study.run(0, &Unwatched, &|_| {}).unwrap(), 0.0);
-    assert!(PeriodicStudy::refuse_nothing(&report).is_ok());
+    assert!(refuse_nothing(&report).is_ok());
     let text = report.stable_sliding().unwrap();
     assert!(
         text.contains("none of 10 modes") && text.contains("friction_coefficient = 0.5"),
@@ -206,8 +206,11 @@ fn the_critical_damping_of_stable_sliding_is_where_the_onset_is_the_friction() {
             ],
         );
         let study = CycleStudy::new(&case, SimdLevel::detect()).unwrap();
-        let report = study.report(Vec::new(), 0.0);
-        (report.critical, report.lowest_onset.unwrap())
+        let report = study.report(Vec::new(), Vec::new(), 0.0);
+        let Search::Waves(search) = report.search else {
+            panic!("a disc");
+        };
+        (report.critical, search.lowest_onset.unwrap())
     };
     let (critical, onset) = at(4.5e-7);
     let critical = critical.unwrap();

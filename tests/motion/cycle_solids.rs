@@ -7,7 +7,7 @@ use crate::cycle_periodic::{found, hold_to_transient, shipped};
 use frictionsim::case::Case;
 use frictionsim::cea::{SweepProgress, SweepWatch};
 use frictionsim::fem::operator::SimdLevel;
-use frictionsim::results::periodic::PeriodicResult;
+use frictionsim::results::cycle::PeriodicResult;
 use frictionsim::study::cycle::PeriodicStudy;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;

@@ -6,7 +6,7 @@ use crate::bricks::{Block, file_of};
 use frictionsim::case::Case;
 use frictionsim::cea::Unwatched;
 use frictionsim::fem::operator::SimdLevel;
-use frictionsim::results::periodic::PeriodicResult;
+use frictionsim::results::cycle::PeriodicResult;
 use frictionsim::study::cycle::PeriodicStudy;
 use std::fmt::Write;
 

@@ -3,7 +3,7 @@
 use super::branches::{Branch, branch_of, branches};
 use super::{CeaReport, direction_name};
 use crate::cea::{ComplexMode, FrictionPoint, UnstableInterval};
-use crate::results::quantity::fixed;
+use crate::output::fixed;
 
 /// Largest distance of two frequencies that couple, relative to their mean.
 const NEAR: f64 = 0.05;

@@ -13,20 +13,12 @@ use std::f64::consts::TAU;
 
 /// Columns of a status map: three for each point of a wide panel.
 const FINEST: usize = 900;
-/// Intervals that are tried, best first, for a pattern that drifts the way it travels.
-const TRIED: usize = 12;
-/// Intervals over which its drift is measured.
-const SEVERAL: usize = 8;
-/// Fewest columns that a strobed map keeps.
-const FEWEST: usize = 150;
-
 /// The status of all contact nodes over time between two instants, and the interval between the instants shown (s) if not
 /// every sample is; `codes` are 0 open, 1 stick, 2 slip, sample by sample, all nodes of one sample together, evenly spaced in
 /// time and around the circle.
 ///
-/// Where there are more samples than the drawing has columns, single instants are shown, an interval apart at which the end of
-/// the run repeats itself best: a travelling pattern then stands nearly still, as under a stroboscope, drifts the way it
-/// travels, and keeps its shares of stick, slip and open.
+/// Where there are more samples than the drawing has columns, every so many-th is shown: a pattern that travels by more than half
+/// its length from one to the next seems to go another way.
 pub fn status_map(
     times: &[f64],
     nodes: usize,
@@ -39,7 +31,7 @@ pub fn status_map(
     if nodes == 0 || last < first + 2 {
         return None;
     }
-    let stride = strobe_stride(nodes, &codes[..count * nodes], (last - first).div_ceil(FINEST));
+    let stride = (last - first).div_ceil(FINEST);
     let columns = (last - first).div_ceil(stride);
     let hop = (times[count - 1] - times[0]) / (count - 1) as f64;
     let start = times[first] - 0.5 * hop;
@@ -52,45 +44,6 @@ pub fn status_map(
         Heat::of_states(((start, end), columns), ((-half, TAU - half), nodes), palette, status);
     let heat = heat.names(status_keys());
     Some((heat, (stride > 1).then_some(hop * stride as f64)))
-}
-
-/// Samples between the instants shown: the number from `finest` up, with enough columns left, after which the last fifth of
-/// the run repeats itself best, among those after which its pattern has not fallen back.
-fn strobe_stride(nodes: usize, codes: &[u8], finest: usize) -> usize {
-    let count = codes.len() / nodes;
-    let start = count - count / 5;
-    let coarsest = (3 * finest).max(count / FEWEST);
-    if finest <= 1 || start + coarsest >= count {
-        return finest.max(1);
-    }
-    let probes = (start..count - coarsest).step_by(((count - start) / 64).max(1));
-    let row = |sample: usize| &codes[sample * nodes..(sample + 1) * nodes];
-    let agreement = |lag: usize| -> usize {
-        let pairs = probes.clone().map(|sample| row(sample).iter().zip(row(sample + lag)));
-        pairs.map(|pair| pair.filter(|(a, b)| a == b).count()).sum()
-    };
-    // Nodes by which the pattern has moved after `lag` samples: the shortest way of those that fit best.
-    let moved = |lag: usize| -> isize {
-        let reach = (nodes / 4) as isize;
-        let fit = |shift: isize| -> usize {
-            let at = |node: usize| (node as isize + shift).rem_euclid(nodes as isize) as usize;
-            let own = (start..count.saturating_sub(lag)).step_by(((count - start) / 8).max(1));
-            let pairs = own.map(|sample| (row(sample), row(sample + lag)));
-            pairs.map(|(a, b)| (0..nodes).filter(|&node| a[node] == b[at(node)]).count()).sum()
-        };
-        (-reach..=reach)
-            .max_by_key(|&shift| (fit(shift), std::cmp::Reverse(shift.abs())))
-            .unwrap_or(0)
-    };
-    // The shortest of equals: a uniform state needs no strobe.
-    let mut lags: Vec<usize> = (finest..=coarsest).collect();
-    lags.sort_by_key(|&lag| (std::cmp::Reverse(agreement(lag)), lag));
-    let travels = moved(1);
-    // Several intervals on, a drift of less than a node for each shows too.
-    let several = |lag: usize| lag * ((count - start) / (2 * lag)).clamp(1, SEVERAL);
-    let onward = |lag: &&usize| moved(several(**lag)) * travels >= 0;
-    let chosen = lags.iter().take(TRIED).find(onward);
-    chosen.or(lags.first()).copied().unwrap_or(finest)
 }
 
 /// Where nodes stand along the contact: the angle around a whole hole, a share of any other edge.
@@ -299,41 +252,4 @@ pub fn status_curves(points: &[(f64, f64)], status: &[ContactStatus]) -> Vec<Lin
         lines.push(Line::through(pieces).solid(line_colour(wanted), width).name(name));
     }
     lines
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn strobe_finds_the_period_of_a_rotating_pattern() {
-        let (count, nodes, period) = (20_000, 36, 41);
-        let cells = (0..count).flat_map(|i| (0..nodes).map(move |j| (i, j)));
-        let sticks = |(i, j)| (j * period + i * nodes) % (nodes * period) < nodes * period / 3;
-        let codes: Vec<u8> = cells.map(|cell| if sticks(cell) { 1 } else { 2 }).collect();
-        assert_eq!(strobe_stride(nodes, &codes, 20), period);
-        assert_eq!(strobe_stride(nodes, &codes, 1), 1);
-    }
-
-    /// A pattern of two periods around 180 nodes that travels by `speed` nodes a sample, seen at the strobe's interval.
-    fn drift(speed: f64) -> f64 {
-        let (nodes, count) = (180, 9000);
-        let mut codes = vec![0; nodes * count];
-        for sample in 0..count {
-            for node in 0..nodes {
-                let place = (node as f64 - speed * sample as f64).rem_euclid(90.0);
-                codes[sample * nodes + node] = u8::from(place < 30.0);
-            }
-        }
-        let moved = speed * strobe_stride(nodes, &codes, 10) as f64;
-        moved - 90.0 * (moved / 90.0).round()
-    }
-
-    #[test]
-    fn a_strobed_pattern_drifts_the_way_it_travels() {
-        for speed in [6.8, 7.13, 6.29, 3.371] {
-            assert!(drift(speed) > -0.1, "{speed}: {}", drift(speed));
-            assert!(drift(-speed) < 0.1, "-{speed}: {}", drift(-speed));
-        }
-    }
 }

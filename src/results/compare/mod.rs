@@ -4,10 +4,8 @@ mod figures;
 
 pub use figures::overlaid;
 
-use super::quantity::{quantity, significant};
-use super::report::{NamedFigure, Report, ReportSection, ReportTable};
-use super::table::{Table, format_number};
-use super::{FolderError, Manifest, OutputFolder};
+use super::Manifest;
+use crate::output::{Cell, Described, Document, Format, Section, Table, columns, unit_of};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -25,7 +23,7 @@ pub struct ComparedRun {
 }
 
 /// A number that every run has.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct SharedQuantity {
     /// Dotted path in the summaries; entries of lists are named by what they are of.
     pub path: String,
@@ -34,7 +32,7 @@ pub struct SharedQuantity {
 }
 
 /// `summary.json` of `frictionsim compare`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct ComparisonSummary {
     /// `compare`.
     pub command: String,
@@ -127,20 +125,19 @@ pub fn shared(runs: &[ComparedRun]) -> Vec<SharedQuantity> {
 }
 
 impl SharedQuantity {
-    /// Difference of each other run from the first.
-    fn differences(&self) -> impl Iterator<Item = f64> + '_ {
-        self.values[1..].iter().map(|value| value - self.values[0])
+    /// Difference of a run from the first.
+    fn difference(&self, run: usize) -> f64 {
+        self.values[run] - self.values[0]
     }
 
     fn is_equal(&self) -> bool {
-        self.differences().all(|difference| difference == 0.0)
+        (1..self.values.len()).all(|run| self.difference(run) == 0.0)
     }
 
-    /// Difference of each other run from the first, relative to the first.
-    fn relative(&self) -> impl Iterator<Item = Option<f64>> + '_ {
+    /// The same relative to the first.
+    fn relative(&self, run: usize) -> Option<f64> {
         let first = self.values[0];
-        let relative = move |difference: f64| (first != 0.0).then(|| difference / first.abs());
-        self.differences().map(relative)
+        (first != 0.0).then(|| self.difference(run) / first.abs())
     }
 
     fn last_key(&self) -> &str {
@@ -148,51 +145,55 @@ impl SharedQuantity {
     }
 }
 
-/// Writes `compare.csv`: path, unit, the value of each run, then differences from the first, absolute and relative.
-///
-/// # Errors
-/// Those of the folder.
-pub fn write_comparison(
-    folder: &OutputFolder,
-    runs: &[ComparedRun],
-    quantities: &[SharedQuantity],
-) -> Result<(), FolderError> {
-    let others = || runs[1..].iter().map(|run| run.name.as_str());
-    let columns = ["quantity", "unit"].map(String::from).into_iter();
-    let columns: Vec<String> = columns
-        .chain(runs.iter().map(|run| run.name.clone()))
-        .chain(others().map(|name| format!("difference {name}")))
-        .chain(others().map(|name| format!("relative difference {name}")))
-        .collect();
-    let names: Vec<&str> = columns.iter().map(String::as_str).collect();
-    folder.write("compare.csv", |out| {
-        let mut table = Table::new(out, &names)?;
-        for shared in quantities {
-            let texts = [shared.path.clone(), quantity(&shared.path).unit.to_owned()];
-            let numbers = shared.values.iter().copied().chain(shared.differences());
-            let relative = shared.relative().map(|v| v.map_or_else(String::new, format_number));
-            table.row(texts.into_iter().chain(numbers.map(format_number)).chain(relative))?;
-        }
-        table.finish()
-    })?;
-    Ok(())
+/// The unit that the last part of a path says which says one.
+fn unit(path: &str) -> &'static str {
+    let units = path.rsplit('.').map(|part| match part {
+        "mass_coefficient" => "1/s",
+        "stiffness_coefficient" => "s",
+        other => unit_of(other).1,
+    });
+    units.into_iter().find(|unit| !unit.is_empty()).unwrap_or_default()
 }
 
-/// The rows of the table for people: quantity, values, difference from the first in per cent where there is one.
-fn table_of(runs: &[ComparedRun], caption: String, quantities: &[&SharedQuantity]) -> ReportTable {
-    let mut columns = vec!["quantity".to_owned(), "unit".to_owned()];
-    columns.extend(runs.iter().map(|run| run.name.clone()));
-    columns.extend(runs[1..].iter().map(|run| format!("{} less {}", run.name, runs[0].name)));
-    columns.extend(runs[1..].iter().map(|run| format!("{} off by (%)", run.name)));
-    let rows = quantities.iter().map(|shared| {
-        let mut row = vec![shared.path.clone(), quantity(&shared.path).unit.to_owned()];
-        row.extend(shared.values.iter().map(|&value| significant(value, 7)));
-        row.extend(shared.differences().map(|value| significant(value, 4)));
-        let relative = shared.relative().map(|value| value.map(|v| significant(100.0 * v, 4)));
-        row.extend(relative.map(Option::unwrap_or_default));
-        row
-    });
-    ReportTable::new(caption, columns, rows)
+/// Path, unit, the value of each run, then differences from the first, absolute and relative; people see the latter in per cent.
+fn table_of(
+    (file, caption): (&str, &str),
+    runs: &[ComparedRun],
+    quantities: &[&SharedQuantity],
+) -> Table {
+    let words = |label: &'static str| Some((label, Format::Plain));
+    let units = quantities.iter().map(|own| unit(&own.path).to_owned());
+    let mut table = Table::new(file, caption)
+        .column("quantity", words("quantity"), quantities.iter().map(|own| own.path.clone()))
+        .column("unit", words("unit"), units);
+    let mut add =
+        |key: &str, look: Option<(&str, Format)>, of: &dyn Fn(&SharedQuantity) -> Cell| {
+            let cells = quantities.iter().map(|own| of(own));
+            table = std::mem::take(&mut table).column(key, look, cells);
+        };
+    for (at, run) in runs.iter().enumerate() {
+        add(&run.name, None, &|own| own.values[at].into());
+        add("", Some((&run.name, Format::Significant(7))), &|own| own.values[at].into());
+    }
+    for (at, run) in runs.iter().enumerate().skip(1) {
+        let less = format!("{} less {}", run.name, runs[0].name);
+        add(&format!("difference {}", run.name), None, &|own| own.difference(at).into());
+        add("", Some((&less, Format::Significant(4))), &|own| own.difference(at).into());
+    }
+    for (at, run) in runs.iter().enumerate().skip(1) {
+        let (key, off) =
+            (format!("relative difference {}", run.name), format!("{} off by (%)", run.name));
+        add(&key, None, &|own| own.relative(at).into());
+        add("", Some((&off, Format::Significant(4))), &|own| {
+            own.relative(at).map(|share| 100.0 * share).into()
+        });
+    }
+    table
+}
+
+/// `compare.csv`: every shared number.
+pub fn file(runs: &[ComparedRun], quantities: &[SharedQuantity]) -> Table {
+    table_of(("compare.csv", ""), runs, &quantities.iter().collect::<Vec<_>>())
 }
 
 /// Most lines of the table for the terminal.
@@ -205,8 +206,8 @@ fn differing(quantities: &[SharedQuantity]) -> Vec<&SharedQuantity> {
     let mut found: Vec<&SharedQuantity> =
         first_of(quantities).into_iter().filter(differs).collect();
     let size = |shared: &SharedQuantity| {
-        let relative = shared.relative().flatten().map(f64::abs);
-        relative.fold(0.0, f64::max)
+        let relative = (1..shared.values.len()).filter_map(|run| shared.relative(run));
+        relative.map(f64::abs).fold(0.0, f64::max)
     };
     let mut others: Vec<&SharedQuantity> = quantities
         .iter()
@@ -222,16 +223,7 @@ fn differing(quantities: &[SharedQuantity]) -> Vec<&SharedQuantity> {
 pub fn print(runs: &[ComparedRun], quantities: &[SharedQuantity]) -> String {
     let differing = differing(quantities);
     let shown = &differing[..differing.len().min(MOST_PRINTED)];
-    let table = table_of(runs, String::new(), shown);
-    let rows: Vec<&Vec<String>> = std::iter::once(&table.columns).chain(&table.rows).collect();
-    let width = |at: usize| rows.iter().map(|row| row[at].chars().count()).max().unwrap_or(0);
-    let widths: Vec<usize> = (0..table.columns.len()).map(width).collect();
-    let mut out = String::new();
-    for row in rows {
-        let cells = row.iter().zip(&widths).map(|(text, &width)| format!("{text:>width$}"));
-        out.push_str(cells.collect::<Vec<_>>().join("  ").trim_end());
-        out.push('\n');
-    }
+    let mut out = table_of(("", ""), runs, shown).text();
     let costs = quantities.iter();
     let costs = costs.filter(|shared| COSTS.contains(&shared.last_key()));
     let total = quantities.len() - costs.count();
@@ -253,64 +245,56 @@ fn first_of(quantities: &[SharedQuantity]) -> Vec<&SharedQuantity> {
     FIRST.iter().flat_map(of).collect()
 }
 
-/// The report: what decides, the figures over each other, every shared number, what the runs were made from.
-pub fn html_report(
-    runs: &[ComparedRun],
-    quantities: &[SharedQuantity],
-    figures: Vec<NamedFigure>,
-    manifest: &Manifest,
-) -> Report {
+columns! {
+    /// What a run was made from.
+    INPUTS: run as ComparedRun;
+    run: "its name" = run.name.clone(), Always "run" Plain;
+    command: "its command" = run.manifest.command.clone(), Always "command" Plain;
+    case: "its case" = run.manifest.case_file.clone(), Always "case" Plain;
+    overrides: "what the command line changed" = run.overrides(), Always "overrides" Plain;
+    version: "version of the program" = run.manifest.version.clone(), Always "version" Plain;
+    hash: "hash of the case" = run.manifest.case_hash.clone(), Always "SHA-256 of the case" Plain;
+}
+
+impl ComparedRun {
+    fn overrides(&self) -> String {
+        match self.manifest.overrides.as_slice() {
+            [] => "none".to_owned(),
+            all => all.join(", "),
+        }
+    }
+}
+
+/// The page: what decides, the figures over each other, every shared number, what the runs were made from.
+pub fn document(runs: &[ComparedRun], quantities: &[SharedQuantity]) -> Document {
     let names: Vec<&str> = runs.iter().map(|run| run.name.as_str()).collect();
     let (differing, equal): (Vec<_>, Vec<_>) = quantities
         .iter()
         .filter(|shared| !COSTS.contains(&shared.last_key()))
         .partition(|shared| !shared.is_equal());
-    let counts = vec![
-        ("runs".to_owned(), runs.len().to_string()),
-        ("shared numbers that differ".to_owned(), differing.len().to_string()),
-        ("that are equal".to_owned(), equal.len().to_string()),
-    ];
     let without = runs.iter().filter(|run| run.page.is_none());
-    let without =
-        without.map(|run| format!("{} has no report.html: frictionsim plot draws it.", run.name));
-    let made = runs.iter().map(|run| {
-        let manifest = &run.manifest;
-        let overrides = match manifest.overrides.is_empty() {
-            true => "none".to_owned(),
-            false => manifest.overrides.join(", "),
-        };
-        let own = [
-            &manifest.command,
-            &manifest.case_file,
-            &overrides,
-            &manifest.version,
-            &manifest.case_hash,
-        ];
-        std::iter::once(&run.name).chain(own).cloned().collect()
-    });
-    let made = ReportTable::new(
-        "Inputs",
-        ["run", "command", "case", "overrides", "version", "SHA-256 of the case"],
-        made,
-    );
-    let first = table_of(runs, "Key results".into(), &first_of(quantities));
-    let section =
-        |heading: &str, tables: Vec<ReportTable>| ReportSection::new(heading).with_tables(tables);
-    Report {
-        title: format!("Comparison of {}", names.join(", ")),
-        sections: vec![
-            ReportSection::results(without.collect(), counts).with_tables([first, made]),
-            ReportSection::new("Figures over each other").with_figures(figures),
-            section(
-                "Every shared number",
-                vec![
-                    table_of(runs, "Numbers that differ".into(), &differing),
-                    table_of(runs, "Numbers that are equal".into(), &equal),
-                ],
-            ),
-        ],
-        manifest: manifest.clone(),
-    }
+    let results = Section::new("Results")
+        .facts([
+            ("runs", runs.len().to_string()),
+            ("shared numbers that differ", differing.len().to_string()),
+            ("that are equal", equal.len().to_string()),
+        ])
+        .text(
+            without
+                .map(|run| format!("{} has no report.html: frictionsim plot draws it.", run.name)),
+        )
+        .tables([
+            table_of(("", "Key results"), runs, &first_of(quantities)),
+            Table::new("", "Inputs").columns(INPUTS, runs),
+        ]);
+    let every = Section::new("Every shared number").tables([
+        table_of(("", "Numbers that differ"), runs, &differing),
+        table_of(("", "Numbers that are equal"), runs, &equal),
+    ]);
+    Document::new(&format!("Comparison of {}", names.join(", ")), "")
+        .section(results)
+        .section(Section::new("Figures over each other").figures([""]))
+        .section(every)
 }
 
 #[cfg(test)]
@@ -358,7 +342,7 @@ mod tests {
         assert!(of("dofs").is_equal());
         let second = of("critical_frictions.[harmonic=2 direction=-1].critical_friction");
         assert_eq!(second.values, [0.2, 0.25]);
-        assert!((second.relative().next().unwrap().unwrap() - 0.25).abs() < 1e-12);
+        assert!((second.relative(1).unwrap() - 0.25).abs() < 1e-12);
         assert!(found.iter().all(|q| q.path != "more"));
         assert_eq!(first_of(&found)[0].values, [0.1, 0.1]);
     }

@@ -1,7 +1,5 @@
 //! Observed order and limit of one quantity over refinements.
 
-use serde::{Deserialize, Serialize};
-
 /// Smallest order that counts as convergence: below it, halving the error takes a resolution sixteen times
 /// as fine, and the limit is mostly extrapolation.
 const LOWEST_ORDER: f64 = 0.25;
@@ -13,7 +11,7 @@ const HIGHEST_ORDER: f64 = 20.0;
 const ROUND_OFF: f64 = 1e-9;
 
 /// What the values of a quantity say of its limit.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Verdict {
     /// The last two differences have one sign and shrink as those of `value + constant h^order` do.
     Converging {

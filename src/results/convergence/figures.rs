@@ -1,47 +1,12 @@
-//! Figures and report of a convergence study.
+//! The figure of a convergence study.
 
-use super::print::significant;
-use super::{ConvergenceReport, Quantity, Refinement, Series};
+use super::{Quantity, Refinement, Series};
 use crate::chart::{Axis, Figure, Line, MUTED, Panel, Points, Rule, Stroke, look};
-use crate::results::drawing::{DrawingError, DrawingOptions, draw_all, write_report};
-use crate::results::folder::OutputFolder;
-use crate::results::report::{Report, ReportSection, ReportTable};
-
-/// Draws the figure of all series and writes `report.html`.
-///
-/// # Errors
-/// Those of the drawing and of the folder.
-pub fn draw(
-    folder: &OutputFolder,
-    report: &ConvergenceReport,
-    options: &DrawingOptions,
-) -> Result<(), DrawingError> {
-    let mut sections: Vec<ReportSection> = report.series.iter().map(section).collect();
-    let figures = draw_all(vec![Box::new(|| Ok(convergence(report)))], options)?;
-    sections.insert(0, ReportSection::new("Convergence").with_figures(figures));
-    let html =
-        Report { title: report.title.clone(), sections, manifest: folder.manifest().clone() };
-    write_report(folder, &html, options)
-}
-
-fn heading(series: &Series) -> String {
-    let refinement = match series.refinement {
-        Refinement::Mesh => "mesh",
-        Refinement::TimeStep => "time step",
-    };
-    format!("{}: {refinement}", series.analysis)
-}
-
-fn section(series: &Series) -> ReportSection {
-    ReportSection::new(heading(series))
-        .with_paragraphs(series.notes.clone())
-        .with_tables([table(series)])
-}
 
 /// For each series the change of every quantity from level to level, relative to its size, over the resolution; and the orders
 /// that the three finest levels show.
-fn convergence(report: &ConvergenceReport) -> Figure {
-    let panels = report.series.iter().flat_map(|series| [changes(series), orders(series)]);
+pub(super) fn convergence(series: &[Series]) -> Figure {
+    let panels = series.iter().flat_map(|series| [changes(series), orders(series)]);
     Figure::new(
         "convergence",
         "Relative change of every quantity from each level to the next (left), and observed orders of convergence from the three \
@@ -59,16 +24,18 @@ fn changes(series: &Series) -> Panel {
         Refinement::TimeStep => Axis::new("time step", "s"),
     };
     let lines = series.quantities.iter().filter_map(|quantity| {
-        let largest = quantity.values.iter().map(|v| v.abs()).fold(0.0, f64::max);
+        let values = quantity.values.iter().map(|value| value.unwrap_or(f64::NAN));
+        let values: Vec<f64> = values.collect();
+        let largest = values.iter().map(|v| v.abs()).fold(0.0, f64::max);
         let index = groups.iter().position(|group| *group == group_of(quantity))?;
-        let pairs = series.sizes.iter().zip(quantity.values.windows(2));
+        let pairs = series.sizes.iter().zip(values.windows(2));
         let changes = pairs.map(|(&size, pair)| (size, (pair[1] - pair[0]).abs() / largest));
         let line = Line::through(changes.filter(|(_, change)| *change > 0.0));
         Some(line.solid(look(index).0, 0.6).marked(look(index).1, 1.2).name(groups[index]))
     });
     Panel::new(size.prefixed().logarithmic(), Axis::new("relative change", "–").decades(10.0))
         .height(130.0)
-        .caption(heading(series))
+        .caption(series.heading())
         .legend()
         .layers(lines.collect::<Vec<_>>())
 }
@@ -84,7 +51,7 @@ fn orders(series: &Series) -> Panel {
             .quantities
             .iter()
             .filter(|q| group_of(q) == *group)
-            .filter_map(|q| q.verdict.order())
+            .filter_map(|q| q.order)
             .collect();
         // Side by side within the row, in the order of the list.
         let place = |k: usize| row(index) + 0.6 * (0.5 - (k as f64 + 0.5) / own.len() as f64);
@@ -118,25 +85,4 @@ fn groups(series: &Series) -> Vec<&str> {
         }
     }
     groups
-}
-
-fn table(series: &Series) -> ReportTable {
-    let mut columns = vec!["quantity".to_owned(), "unit".to_owned()];
-    columns.extend(series.levels.iter().cloned());
-    columns.extend(["extrapolated", "order", "spread", "verdict"].map(str::to_owned));
-    let optional = |value: Option<f64>| value.map_or_else(String::new, significant);
-    let rows = series.quantities.iter().map(|quantity| {
-        let mut row = vec![quantity.name.clone(), quantity.unit.clone()];
-        row.extend(quantity.values.iter().map(|value| significant(*value)));
-        row.push(optional(quantity.verdict.limit()));
-        row.push(quantity.verdict.order().map_or_else(String::new, |p| format!("{p:.2}")));
-        row.push(significant(quantity.spread()));
-        row.push(quantity.verdict.name().to_owned());
-        row
-    });
-    ReportTable::new(
-        "Values on each level, Richardson-extrapolated from the three finest",
-        columns,
-        rows,
-    )
 }

@@ -1,24 +1,18 @@
-//! Results of a convergence study: what is printed, written and drawn.
+//! Results of a convergence study.
 
 mod estimate;
 mod figures;
-mod print;
 
 pub use estimate::{Verdict, estimate};
-pub use figures::draw;
-pub use print::print;
 
-use crate::results::folder::{FolderError, OutputFolder};
-use crate::results::manifest::Manifest;
-use crate::results::record::{Record, write_record};
-use crate::results::summary::{present, write_summary};
-use crate::results::table::{Column, write_rows};
+use super::drawing::Declaration;
+use super::{Finding, Manifest, summary::present};
+use crate::output::{Described, Document, Format, Section, Table, columns};
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
-use std::io::{self, Write};
 
 /// What is refined.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Described, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Refinement {
     /// The mesh; sizes are element sizes, m.
     Mesh,
@@ -28,7 +22,7 @@ pub enum Refinement {
 
 impl Refinement {
     /// Name in tables.
-    pub fn name(self) -> &'static str {
+    fn name(self) -> &'static str {
         match self {
             Self::Mesh => "mesh",
             Self::TimeStep => "time-step",
@@ -37,173 +31,8 @@ impl Refinement {
 }
 
 /// A quantity over the levels of its series.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct Quantity {
-    /// Name, with the mode it belongs to.
-    pub name: String,
-    /// Unit; empty for a pure number.
-    pub unit: String,
-    /// One value for each level; NaN where there is none.
-    pub values: Vec<f64>,
-    /// Order and limit.
-    pub verdict: Verdict,
-    /// Whether the terminal leaves it to the table, as a mode that does not grow.
-    #[serde(skip)]
-    pub is_minor: bool,
-}
-
-impl Quantity {
-    /// Judges values on levels of these sizes.
-    pub fn new(name: String, unit: &str, sizes: &[f64], values: Vec<f64>) -> Self {
-        Self {
-            verdict: estimate(sizes, &values),
-            name,
-            unit: unit.to_owned(),
-            values,
-            is_minor: false,
-        }
-    }
-
-    /// A whole number on each level, which is the same on the three finest or has not converged.
-    pub fn count(name: String, values: Vec<f64>) -> Self {
-        let finest = &values[values.len().saturating_sub(3)..];
-        let verdict = if !finest.iter().all(|value| value.is_finite()) {
-            Verdict::Missing
-        } else if finest.windows(2).all(|pair| pair[0] == pair[1]) {
-            Verdict::Settled
-        } else {
-            Verdict::NotConverging
-        };
-        Self { name, unit: String::new(), values, verdict, is_minor: false }
-    }
-
-    /// Estimated error of each level, the value less the limit; NaN without a limit.
-    pub fn errors(&self) -> Vec<f64> {
-        let limit = self.verdict.limit().unwrap_or(f64::NAN);
-        self.values.iter().map(|value| value - limit).collect()
-    }
-
-    /// Spread of the three finest levels: largest less smallest value.
-    pub fn spread(&self) -> f64 {
-        let finest = &self.values[self.values.len().saturating_sub(3)..];
-        let largest = finest.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        largest - finest.iter().copied().fold(f64::INFINITY, f64::min)
-    }
-}
-
-/// One analysis over refinements of one kind.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Series {
-    /// `cea` or `transient`.
-    pub analysis: String,
-    /// What is refined.
-    pub refinement: Refinement,
-    /// Name of each level: `90 x 18`, or the time step.
-    pub levels: Vec<String>,
-    /// Element size, m, or time step, s, of each level, strictly falling.
-    pub sizes: Vec<f64>,
-    /// The quantities.
-    pub quantities: Vec<Quantity>,
-    /// Wall time of each level, s; levels run side by side.
-    pub wall_s: Vec<f64>,
-    /// What else there is to say.
-    pub notes: Vec<String>,
-}
-
-/// Everything that a convergence study reports.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ConvergenceReport {
-    /// Title of the case.
-    pub title: String,
-    /// What was studied.
-    pub series: Vec<Series>,
-    /// Wall time, s.
-    pub wall_s: f64,
-}
-
-impl Record for ConvergenceReport {
-    const MAGIC: [u8; 8] = *b"FRICSIMV";
-    const VERSION: u32 = 1;
-
-    fn inconsistency(&self) -> Option<&'static str> {
-        let is_whole = |series: &Series| {
-            let count = series.levels.len();
-            let falls = series.sizes.windows(2).all(|pair| pair[0] > pair[1]);
-            let is_positive = series.sizes.iter().all(|&size| size > 0.0 && size.is_finite());
-            let mut quantities = series.quantities.iter();
-            let lengths = [series.sizes.len(), series.wall_s.len()];
-            falls
-                && is_positive
-                && lengths == [count; 2]
-                && quantities.all(|quantity| quantity.values.len() == count)
-        };
-        (!self.series.iter().all(is_whole)).then_some("its levels and values do not fit together")
-    }
-}
-
-impl ConvergenceReport {
-    /// The same without how long anything took: equal studies have equal records, and times are in the summary alone.
-    fn timeless(&self) -> Self {
-        let mut series = self.series.clone();
-        series.iter_mut().for_each(|own| own.wall_s.fill(0.0));
-        Self { title: self.title.clone(), series, wall_s: 0.0 }
-    }
-}
-
-/// Writes `convergence.csv` and `summary.json`; returns the summary.
-///
-/// # Errors
-/// Those of the folder.
-pub fn write(folder: &OutputFolder, report: &ConvergenceReport) -> Result<Value, FolderError> {
-    folder.write("convergence.csv", |out| write_table(out, report))?;
-    write_record(folder, &report.timeless())?;
-    let summary = ConvergenceSummary {
-        command: "convergence".to_owned(),
-        title: report.title.clone(),
-        series: report.series.iter().map(SeriesSummary::of).collect(),
-        wall_s: report.wall_s,
-        manifest: folder.manifest().clone(),
-    };
-    write_summary(folder, &summary)
-}
-
-/// `summary.json` of `frictionsim convergence`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ConvergenceSummary {
-    /// `convergence`.
-    pub command: String,
-    /// Title of the case.
-    pub title: String,
-    /// What was studied.
-    pub series: Vec<SeriesSummary>,
-    /// Wall time, s.
-    pub wall_s: f64,
-    /// What it was made from.
-    pub manifest: Manifest,
-}
-
-/// One analysis over refinements of one kind.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SeriesSummary {
-    /// Analysis, with the family of its limit cycles.
-    pub analysis: String,
-    /// `mesh` or `time-step`.
-    pub refinement: String,
-    /// Name of each level.
-    pub levels: Vec<String>,
-    /// Element size, m, or time step, s.
-    pub sizes: Vec<f64>,
-    /// Wall time of each level, s.
-    pub wall_s: Vec<f64>,
-    /// What else there is to say.
-    pub notes: Vec<String>,
-    /// The quantities.
-    pub quantities: Vec<QuantitySummary>,
-}
-
-/// One quantity over the levels.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct QuantitySummary {
     /// Name, with the mode it belongs to.
     pub name: String,
     /// Unit; empty for a pure number.
@@ -218,61 +47,204 @@ pub struct QuantitySummary {
     pub extrapolated: Option<f64>,
     /// Values less that one.
     pub errors: Option<Vec<Option<f64>>>,
-    /// Spread of the three finest levels.
+    /// Largest less smallest value of the three finest levels.
     pub spread: Option<f64>,
+    /// Whether it is of a mode that does not grow.
+    #[serde(default)]
+    pub is_minor: bool,
 }
 
-impl SeriesSummary {
-    fn of(series: &Series) -> Self {
-        Self {
-            analysis: series.analysis.clone(),
-            refinement: series.refinement.name().to_owned(),
-            levels: series.levels.clone(),
-            sizes: series.sizes.clone(),
-            wall_s: series.wall_s.clone(),
-            notes: series.notes.clone(),
-            quantities: series.quantities.iter().map(QuantitySummary::of).collect(),
-        }
+impl Quantity {
+    /// Judges values on levels of these sizes.
+    pub fn new(name: String, unit: &str, sizes: &[f64], values: Vec<f64>) -> Self {
+        let verdict = estimate(sizes, &values);
+        Self::judged(name, unit, &values, verdict)
     }
-}
 
-impl QuantitySummary {
-    fn of(quantity: &Quantity) -> Self {
-        let all = |values: &[f64]| values.iter().map(|&value| present(value)).collect();
-        let limit = quantity.verdict.limit();
+    /// A whole number on each level, which is the same on the three finest or has not converged.
+    pub fn count(name: String, values: Vec<f64>) -> Self {
+        let finest = &values[values.len().saturating_sub(3)..];
+        let verdict = if !finest.iter().all(|value| value.is_finite()) {
+            Verdict::Missing
+        } else if finest.windows(2).all(|pair| pair[0] == pair[1]) {
+            Verdict::Settled
+        } else {
+            Verdict::NotConverging
+        };
+        Self::judged(name, "", &values, verdict)
+    }
+
+    fn judged(name: String, unit: &str, values: &[f64], verdict: Verdict) -> Self {
+        let less = |limit: f64| values.iter().map(|value| present(value - limit)).collect();
+        let finest = values[values.len().saturating_sub(3)..].iter().copied();
+        let largest = finest.clone().fold(f64::NEG_INFINITY, f64::max);
+        let limit = verdict.limit();
         Self {
-            name: quantity.name.clone(),
-            unit: quantity.unit.clone(),
-            values: all(&quantity.values),
-            verdict: quantity.verdict.name().to_owned(),
-            order: quantity.verdict.order(),
+            name,
+            unit: unit.to_owned(),
+            values: less(0.0),
+            verdict: verdict.name().to_owned(),
+            order: verdict.order(),
             extrapolated: limit,
-            errors: limit.map(|_| all(&quantity.errors())),
-            spread: present(quantity.spread()),
+            errors: limit.map(less),
+            spread: present(largest - finest.fold(f64::INFINITY, f64::min)),
+            is_minor: false,
         }
+    }
+
+    fn error(&self, level: usize) -> Option<f64> {
+        self.errors.as_ref()?.get(level).copied().flatten()
     }
 }
 
-/// Writes one row for each quantity on each level.
-fn write_table(out: &mut dyn Write, report: &ConvergenceReport) -> io::Result<()> {
-    type Row<'a> = (&'a Series, &'a Quantity, usize);
-    let columns: &[Column<'_, Row<'_>>] = &[
-        ("analysis", &|(series, ..)| (&series.analysis).into()),
-        ("refinement", &|(series, ..)| series.refinement.name().into()),
-        ("quantity", &|(_, quantity, _)| (&quantity.name).into()),
-        ("unit", &|(_, quantity, _)| (&quantity.unit).into()),
-        ("level", &|(series, _, level)| (&series.levels[*level]).into()),
-        ("size", &|(series, _, level)| series.sizes[*level].into()),
-        ("value", &|(_, quantity, level)| quantity.values[*level].into()),
-        ("error", &|(_, quantity, level)| quantity.errors()[*level].into()),
-        ("extrapolated", &|(_, quantity, _)| quantity.verdict.limit().into()),
-        ("order", &|(_, quantity, _)| quantity.verdict.order().into()),
-        ("verdict", &|(_, quantity, _)| quantity.verdict.name().into()),
-    ];
-    let all = report.series.iter();
-    let each = all.flat_map(|series| series.quantities.iter().map(move |of| (series, of)));
-    let rows = each.flat_map(|(series, quantity)| {
-        (0..series.levels.len()).map(move |level| (series, quantity, level))
-    });
-    write_rows(out, columns, rows)
+/// One analysis over refinements of one kind.
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+pub struct Series {
+    /// Analysis, with the family of its limit cycles.
+    pub analysis: String,
+    /// `mesh` or `time-step`.
+    pub refinement: Refinement,
+    /// Name of each level: `90 x 18`, or the time step.
+    pub levels: Vec<String>,
+    /// Element size, m, or time step, s, of each level, strictly falling.
+    pub sizes: Vec<f64>,
+    /// Wall time of each level, s; levels run side by side.
+    pub wall_s: Vec<f64>,
+    /// What else there is to say.
+    pub notes: Vec<String>,
+    /// The quantities.
+    pub quantities: Vec<Quantity>,
+}
+
+/// `summary.json` of `frictionsim convergence`.
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+pub struct ConvergenceSummary {
+    /// `convergence`.
+    pub command: String,
+    /// Title of the case.
+    pub title: String,
+    /// What was studied.
+    pub series: Vec<Series>,
+    /// Wall time, s.
+    pub wall_s: f64,
+    /// What it was made from.
+    pub manifest: Manifest,
+}
+
+/// A quantity on a level of a series.
+pub(super) struct Row {
+    series: (String, Refinement, String, f64),
+    level: usize,
+    own: Quantity,
+}
+
+columns! {
+    /// A quantity on a level.
+    pub(super) ROWS: row as Row;
+    analysis: "the analysis, with the family of its limit cycles" = row.series.0.clone();
+    refinement: "what is refined: mesh or time-step" = row.series.1.name();
+    quantity: "name of the quantity, with the mode it belongs to" = row.own.name.clone();
+    unit: "its unit; empty for a pure number" = row.own.unit.clone();
+    level: "name of the level: elements along the edges, or the time step" = row.series.2.clone();
+    size: "element size, m, or time step, s" = row.series.3;
+    value: "value on the level" = row.own.values[row.level];
+    error: "value less the extrapolated one" = row.own.error(row.level);
+    extrapolated: "value extrapolated after Richardson from the three finest levels" = row.own.extrapolated;
+    order: "observed order of convergence" = row.own.order;
+    verdict: "what the three finest values say" = row.own.verdict.clone();
+}
+
+columns! {
+    /// What a quantity is.
+    NAMES: own as Quantity;
+    quantity: "name" = own.name.clone(), Always "quantity" Plain;
+    unit: "unit" = Some(own.unit.clone()).filter(|unit| !unit.is_empty()), IfAny "unit" Plain;
+}
+
+columns! {
+    /// What the levels say of a quantity.
+    VERDICTS: own as Quantity;
+    extrapolated: "limit" = own.extrapolated, Always "extrapolated" Significant(7);
+    order: "order" = own.order, Always "order" Fixed(2);
+    error: "error of the finest" = own.error(own.values.len() - 1), IfAny "error" Significant(3);
+    spread: "spread of the three finest" = own.spread, Always "spread" Significant(4);
+    verdict: "verdict" = own.verdict.clone(), Always "verdict" Plain;
+}
+
+impl Series {
+    fn heading(&self) -> String {
+        let refinement = match self.refinement {
+            Refinement::Mesh => "mesh",
+            Refinement::TimeStep => "time step",
+        };
+        format!("{} over the {refinement}", self.analysis)
+    }
+
+    fn rows(&self) -> impl Iterator<Item = Row> + '_ {
+        let row = |own: &Quantity, level: usize| Row {
+            series: (
+                self.analysis.clone(),
+                self.refinement,
+                self.levels[level].clone(),
+                self.sizes[level],
+            ),
+            level,
+            own: own.clone(),
+        };
+        let levels = self.levels.len();
+        self.quantities.iter().flat_map(move |own| (0..levels).map(move |level| row(own, level)))
+    }
+
+    /// All quantities, or those that matter, and how many are left out.
+    fn section(&self, is_whole: bool) -> Section {
+        let is_shown = |own: &&Quantity| is_whole || !own.is_minor;
+        let (shown, left): (Vec<&Quantity>, Vec<_>) = self.quantities.iter().partition(is_shown);
+        let orders = left.iter().filter_map(|own| own.order);
+        let (low, high) = crate::chart::extremes(orders);
+        let range = (low <= high).then(|| format!(" (orders {low:.2} to {high:.2})"));
+        let said = (!left.is_empty()).then(|| {
+            format!(
+                "{} quantities of modes that do not grow are in convergence.csv; --verbose lists them{}",
+                left.len(),
+                range.unwrap_or_default()
+            )
+        });
+        let names = shown.iter().copied();
+        let mut table = Table::new("", self.heading()).columns(NAMES, names.clone());
+        for (at, level) in self.levels.iter().enumerate() {
+            let values = names.clone().map(|own| own.values[at]);
+            table = table.column(level, Some((level, Format::Significant(7))), values);
+        }
+        Section::new(self.heading())
+            .text(self.notes.iter().cloned())
+            .text(said)
+            .tables([table.columns(VERDICTS, names)])
+    }
+}
+
+impl ConvergenceSummary {
+    /// All quantities of every series, or those that matter.
+    pub fn told(&self, is_whole: bool) -> Document {
+        let figure = Section::new("Convergence").figures(["convergence"]);
+        let document = Document::new(&self.title, "Convergence").section(figure);
+        let series = self.series.iter().map(|own| own.section(is_whole));
+        let rows = self.series.iter().flat_map(Series::rows);
+        series
+            .fold(document, Document::section)
+            .file(Table::new("convergence.csv", "").columns(ROWS, rows))
+    }
+}
+
+impl Finding for ConvergenceSummary {
+    fn document(&self) -> Document {
+        self.told(true)
+    }
+
+    fn figures(&self) -> Vec<Declaration<'_>> {
+        vec![Box::new(|| Ok(figures::convergence(&self.series)))]
+    }
+
+    fn manifest(&self) -> &Manifest {
+        &self.manifest
+    }
 }

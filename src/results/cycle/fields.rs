@@ -1,9 +1,10 @@
 //! Whole fields of limit cycles, for ParaView.
 
-use super::CycleReport;
+use super::{CycleReport, Search};
+use crate::cycle::periodic::ContactInstant;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::pvd::{PvdEntry, write_pvd};
-use crate::results::vtu::{EncodedMesh, Field, write_vtu};
+use crate::results::vtu::{EncodedMesh, Field, solid_vectors, write_vtu};
 
 /// The whole field of a limit cycle at one time.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,63 +15,113 @@ pub struct CycleFrame {
     pub fields: [Vec<f64>; 2],
 }
 
+/// Fields at one time: displacement and velocity, and the contact of a motion of the whole mesh.
+type Frame<'a> = (f64, &'a [Vec<f64>; 2], Option<&'a ContactInstant>);
+
 /// Writes each frame as a VTU file, `cycles.pvd` over the waves at time zero and, where there are several frames,
-/// `cycle-nN.pvd` over the time; of a motion of two waves likewise `two-waves-nN-nM.vtu`, over one period of the first.
+/// `cycle-TAG.pvd` over the time; of a motion of two waves likewise `two-waves-nN-nM.vtu`, over one period of the first.
 ///
 /// # Errors
 /// Those of the folder.
-pub fn write_fields(folder: &OutputFolder, report: &CycleReport<'_>) -> Result<(), FolderError> {
-    let mut waves = Vec::new();
-    for (place, result) in report.results.iter().enumerate() {
-        let n = result.family.harmonic;
-        let group = format!("limit cycle of {n} nodal diameters");
-        let stem = format!("cycle-{}", result.family.tag());
-        let frames = write_frames(folder, report, &stem, &group, &result.frames)?;
-        if let Some(first) = frames.first() {
-            waves.push(PvdEntry { time: (place + 1) as f64, ..first.clone() });
+pub(super) fn write_fields(
+    folder: &OutputFolder,
+    report: &CycleReport<'_>,
+) -> Result<(), FolderError> {
+    match &report.search {
+        Search::Waves(search) => {
+            let mut waves = Vec::new();
+            for (place, result) in search.results.iter().enumerate() {
+                let group = format!("limit cycle of {} nodal diameters", result.family.harmonic);
+                let stem = format!("cycle-{}", result.family.tag());
+                let frames = result.frames.iter().map(CycleFrame::alone);
+                let entries = report.write_frames(folder, (&stem, &group), frames)?;
+                if let Some(first) = entries.first() {
+                    waves.push(PvdEntry { time: (place + 1) as f64, ..first.clone() });
+                }
+            }
+            for own in &search.two_waves {
+                let [first, second] = own.harmonics;
+                let group = format!("waves of {first} and {second} nodal diameters together");
+                let stem = format!("two-waves-n{first}-n{second}");
+                if let Ok(found) = &own.outcome {
+                    let frames = found.frames.iter().map(CycleFrame::alone);
+                    report.write_frames(folder, (&stem, &group), frames)?;
+                }
+            }
+            if !waves.is_empty() {
+                folder.write("cycles.pvd", |out| write_pvd(out, &waves))?;
+            }
         }
-    }
-    for own in &report.two_waves {
-        let [first, second] = own.harmonics;
-        let group = format!("waves of {first} and {second} nodal diameters together");
-        let stem = format!("two-waves-n{first}-n{second}");
-        if let Ok(found) = &own.outcome {
-            write_frames(folder, report, &stem, &group, &found.frames)?;
+        Search::Motions(search) => {
+            for result in &search.results {
+                let Some(found) = result.own() else {
+                    continue;
+                };
+                let group = format!("limit cycle of {:.2} Hz", found.motion.frequency_hz);
+                let stem = format!("cycle-{}", result.tag());
+                let frames = found.motion.frames.iter();
+                let frames = frames.map(|own| (own.time, &own.fields, Some(&own.contact)));
+                report.write_frames(folder, (&stem, &group), frames)?;
+            }
         }
-    }
-    if !waves.is_empty() {
-        folder.write("cycles.pvd", |out| write_pvd(out, &waves))?;
     }
     Ok(())
 }
 
-/// Writes the frames of one motion of the `group`, whose files begin with `stem`, and of several a list over the time.
-fn write_frames(
-    folder: &OutputFolder,
-    report: &CycleReport<'_>,
-    stem: &str,
-    group: &str,
-    frames: &[CycleFrame],
-) -> Result<Vec<PvdEntry>, FolderError> {
-    let mut entries = Vec::new();
-    for (i, frame) in frames.iter().enumerate() {
-        let name = match i {
-            0 => format!("{stem}.vtu"),
-            _ => format!("{stem}-{i:03}.vtu"),
+impl CycleFrame {
+    fn alone(&self) -> Frame<'_> {
+        (self.time, &self.fields, None)
+    }
+}
+
+impl CycleReport<'_> {
+    /// Writes the frames of one motion of the `group`, whose files begin with `stem`, and of several a list over the time.
+    fn write_frames<'f>(
+        &self,
+        folder: &OutputFolder,
+        (stem, group): (&str, &str),
+        frames: impl Iterator<Item = Frame<'f>>,
+    ) -> Result<Vec<PvdEntry>, FolderError> {
+        let mut entries = Vec::new();
+        for (i, frame) in frames.enumerate() {
+            let name = match i {
+                0 => format!("{stem}.vtu"),
+                _ => format!("{stem}-{i:03}.vtu"),
+            };
+            folder.write(&name, |out| {
+                let encoded = match self.solid {
+                    Some(sector) => EncodedMesh::solid(sector)?,
+                    None => EncodedMesh::new(self.mesh)?,
+                };
+                let whole = [Field::number("time_s", frame.0)];
+                write_vtu(out, &encoded, &whole, &self.frame_fields(&frame), &[])
+            })?;
+            entries.push(PvdEntry { time: frame.0, group: group.to_owned(), file: name });
+        }
+        if entries.len() > 1 {
+            folder.write(&format!("{stem}.pvd"), |out| write_pvd(out, &entries))?;
+        }
+        Ok(entries)
+    }
+
+    /// The fields of one frame: motion of all nodes; status, pressure and shear of those of the contact.
+    fn frame_fields(&self, (_, [displacement, velocity], contact): &Frame<'_>) -> Vec<Field> {
+        let vectors = |name: &str, values: &[f64]| match self.solid {
+            Some(sector) => solid_vectors(name, sector, values),
+            None => Field::vectors(name, self.mesh, values),
         };
-        let [displacement, velocity] = &frame.fields;
-        folder.write(&name, |out| {
-            let fields = [
-                Field::vectors("displacement_m", report.mesh, displacement),
-                Field::vectors("velocity_m_per_s", report.mesh, velocity),
-            ];
-            let whole = [Field::number("time_s", frame.time)];
-            write_vtu(out, &EncodedMesh::new(report.mesh)?, &whole, &fields, &[])
-        })?;
-        entries.push(PvdEntry { time: frame.time, group: group.to_owned(), file: name });
+        let mut fields =
+            vec![vectors("displacement_m", displacement), vectors("velocity_m_per_s", velocity)];
+        if let (Some(contact), Search::Motions(search)) = (contact, &self.search) {
+            let is_solid = self.solid.is_some() || self.mesh.dimension == 3;
+            let count = displacement.len() / if is_solid { 3 } else { 2 };
+            let nodes = &search.interface.nodes;
+            fields.extend([
+                Field::status(count, nodes, contact.status.iter().copied()),
+                Field::on_edge("pressure_pa", count, nodes, &contact.pressure),
+                Field::on_edge("shear_pa", count, nodes, &contact.shear),
+            ]);
+        }
+        fields
     }
-    if entries.len() > 1 {
-        folder.write(&format!("{stem}.pvd"), |out| write_pvd(out, &entries))?;
-    }
-    Ok(entries)
 }

@@ -1,239 +1,243 @@
-//! Results of a search for limit cycles: what is printed and what is written.
+//! Limit cycles: one outcome, one set of columns and of figures, whatever solver has found them.
 
-mod confirmation;
+mod branches;
+mod curve;
 mod fields;
-mod print;
-mod stability;
+mod figures;
+mod motions;
+mod on_bodies;
+mod record;
 mod summary;
+mod tables;
 mod two_waves;
+mod waves;
+mod words;
 
-pub use confirmation::ConfirmationSummary;
-pub use confirmation::doubt;
+pub(super) use branches::BRANCH;
+pub use branches::{BranchRecord, FamilyRecord, NamedFamily, draw_branches};
 pub use fields::CycleFrame;
-pub use print::print;
-pub use stability::{ExponentSummary, Finding, StabilitySummary, known};
-pub use summary::{CycleSummary, FamilySummary, LimitCycleSummary, summary};
-pub use two_waves::{FoundTwoWaves, TwoWaveResult, TwoWaveSummary};
-
-use crate::cycle::{
-    Confirmation, CriticalValue, CycleBranch, CyclePowers, CycleStability, Family, LimitCycle,
-    Onset, PhasePoint, StabilityChange,
+pub use figures::CycleFigures;
+pub use motions::{FoundCycle, PeriodicResult, SoughtMode};
+pub use record::{CycleRecord, MotionRecord};
+pub use summary::*;
+pub(super) use tables::{
+    CONTACT_NODES, ERRORS, EXPONENTS, HARMONICS, HISTORY, KNOWN, MOTION, NAMES, PATH, POWERS,
+    WAVE_PATH,
 };
-use crate::mesh::Mesh;
-use crate::results::cycle_figures::CycleRecord;
-use crate::results::cycle_table::write_cycles;
+pub(super) use two_waves::TWO_WAVES;
+pub use two_waves::{FoundTwoWaves, TwoWaveResult, TwoWaveSummary};
+pub use waves::{Absence, CycleResult, Finding, known};
+
+use crate::contact::{ContactInterface, SlidingContact};
+use crate::cycle::periodic::MotionHarmonic;
+use crate::cycle::{CriticalValue, Onset};
+use crate::mesh::{Mesh, SolidSector};
+use crate::results::DrawingOptions;
+use crate::results::drawing::DrawingError;
 use crate::results::extent::Extent;
+use crate::results::finding::{write_page, write_table, write_tables};
 use crate::results::folder::{FolderError, OutputFolder};
+use crate::results::manifest::Manifest;
 use crate::results::record::write_record;
-use crate::results::summary::write_summary;
-use crate::results::table::{Column, write_rows};
+use crate::results::summary::{CriticalSummary, write_summary};
+use branches::BranchRow;
+use motions::ContactNode;
+use record::HistoryRow;
 use serde_json::Value;
-use std::f64::consts::TAU;
-use std::io::{self, Write};
-
-/// Why a family has no cycle at the case's own operating point.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Absence {
-    /// In words.
-    pub reason: String,
-    /// Whether that is so because steady sliding is stable against its wave.
-    pub is_stable: bool,
-}
-
-/// The limit cycle of one harmonic, and its branch.
-#[derive(Clone, Debug)]
-pub struct CycleResult {
-    /// Which limit cycle.
-    pub family: Family,
-    /// Every onset of the harmonic, by rising friction; the cycle is born at that of its family.
-    pub onsets: Vec<Onset>,
-    /// The cycle at the case's own operating point, or why there is none.
-    pub cycle: Result<LimitCycle, Absence>,
-    /// The whole field at times over one period, from zero on; empty where there is no cycle.
-    pub frames: Vec<CycleFrame>,
-    /// Root mean square of the velocity of that cycle over the mass that moves, m/s.
-    pub velocity: Option<f64>,
-    /// Points along the phase.
-    pub phases: usize,
-    /// A transient that started on that cycle, where one was asked for.
-    pub confirmation: Option<Result<Confirmation, String>>,
-    /// Stability of that cycle, where it was asked for.
-    pub stability: Finding,
-    /// Stability of each cycle of the branch, where it was asked for; else empty.
-    pub branch_stability: Vec<Finding>,
-    /// Where the branch changes its stability, in its order.
-    pub stability_changes: Vec<StabilityChange>,
-    /// The branch over the case's parameter, where one was asked for and there is a cycle to start from.
-    pub branch: Option<CycleBranch>,
-    /// Wall time of cycle and branch, s.
-    pub wall_s: f64,
-}
-
-impl CycleReport<'_> {
-    /// That steady sliding is stable against every wave looked at, in words; nothing where it is not.
-    pub fn stable_sliding(&self) -> Option<String> {
-        let is_stable =
-            |result: &CycleResult| matches!(&result.cycle, Err(absence) if absence.is_stable);
-        let friction = self.friction_coefficient;
-        let onset = self.lowest_onset.as_ref();
-        if !self.results.iter().all(is_stable)
-            || onset.is_some_and(|onset| onset.friction_coefficient < friction)
-        {
-            return None;
-        }
-        Some(match onset {
-            Some(onset) => format!(
-                "{friction} < {:.4}: steady sliding is stable, so no limit cycle is sought; the first wave to grow has {} \
-                 nodal diameters and {:.2} Hz ({})",
-                onset.friction_coefficient,
-                onset.harmonic,
-                onset.frequency / TAU,
-                match self.critical {
-                    Some(critical) => format!("sliding loses its stability at {critical}"),
-                    None => format!(
-                        "raise contact.friction_coefficient above {:.4}",
-                        onset.friction_coefficient
-                    ),
-                },
-            ),
-            None => {
-                format!("steady sliding is stable at contact.friction_coefficient = {friction}")
-            }
-        })
-    }
-}
-
-impl CycleResult {
-    /// The onset that the cycle is born at.
-    pub fn birth(&self) -> Option<&Onset> {
-        self.onsets.get(self.family.onset - 1)
-    }
-}
 
 /// Everything a search for limit cycles reports.
 #[derive(Clone, Debug)]
 pub struct CycleReport<'a> {
     /// Title of the case.
     pub title: &'a str,
-    /// The mesh.
+    /// The mesh; of a body of revolution in three dimensions the section across the axis.
     pub mesh: &'a Mesh,
-    /// Radius of the contact edge, m.
-    pub inner_radius: f64,
-    /// Thickness, m: scales powers.
+    /// One sector of a body of revolution in three dimensions.
+    pub solid: Option<&'a SolidSector>,
+    /// Thickness, m: scales powers; 1 of a body in three dimensions.
     pub thickness: f64,
     /// What powers are of.
     pub extent: Extent,
     /// Friction coefficient of the case.
     pub friction_coefficient: f64,
-    /// The onset of lowest friction among those looked for, where there is one.
-    pub lowest_onset: Option<Onset>,
     /// Where along the parameter of the case sliding loses its stability, where it is stable at its own operating point.
     pub critical: Option<CriticalValue>,
-    /// One entry for each harmonic.
-    pub results: Vec<CycleResult>,
-    /// Motions of two waves that live together.
-    pub two_waves: Vec<TwoWaveResult>,
+    /// What was sought, and found.
+    pub search: Search,
     /// Wall time of the run, s.
     pub wall_s: f64,
 }
 
-/// Writes all files and returns the summary.
-///
-/// # Errors
-/// Those of the folder.
-pub fn write(folder: &OutputFolder, report: &CycleReport<'_>) -> Result<Value, FolderError> {
-    for result in &report.results {
-        if let Ok(cycle) = &result.cycle {
-            let name = format!("cycle-{}.csv", result.family.tag());
-            folder.write(&name, |out| write_phases(out, cycle))?;
-        }
-        if let Some(branch) = &result.branch {
-            let name = format!("branch-{}.csv", result.family.tag());
-            folder
-                .write(&name, |out| write_branch(out, branch, &result.branch_stability, report))?;
-        }
-        if result.stability.is_some() {
-            let name = format!("stability-{}.csv", result.family.tag());
-            folder.write(&name, |out| stability::write_stability(out, result))?;
+/// What was sought, and found.
+#[derive(Clone, Debug)]
+pub enum Search {
+    /// Rotating waves of a disc.
+    Waves(WaveSearch),
+    /// Motions of the whole mesh.
+    Motions(MotionSearch),
+}
+
+/// A search for rotating waves.
+#[derive(Clone, Debug)]
+pub struct WaveSearch {
+    /// Radius of the contact edge, m.
+    pub inner_radius: f64,
+    /// The contact at the case's own operating point.
+    pub contact: SlidingContact,
+    /// The onset of lowest friction among those looked for, where there is one.
+    pub lowest_onset: Option<Onset>,
+    /// One entry for each family.
+    pub results: Vec<CycleResult>,
+    /// Motions of two waves that live together.
+    pub two_waves: Vec<TwoWaveResult>,
+}
+
+/// A search for motions of the whole mesh.
+#[derive(Clone, Debug)]
+pub struct MotionSearch {
+    /// The contact nodes.
+    pub interface: ContactInterface,
+    /// Modes looked at.
+    pub modes: usize,
+    /// Frequency of the highest, Hz.
+    pub highest_hz: f64,
+    /// The mode that grows fastest or decays slowest.
+    pub least_stable: Option<SoughtMode>,
+    /// One entry for each mode that grows, fastest first.
+    pub results: Vec<PeriodicResult>,
+}
+
+/// What the tables of a cycle are made from.
+struct Told {
+    /// Part of their names.
+    tag: String,
+    is_wave: bool,
+    history: Vec<HistoryRow>,
+    nodes: Vec<ContactNode>,
+    archive: Option<Vec<u8>>,
+    harmonics: Vec<(usize, f64, MotionHarmonic)>,
+    /// Whether there is a table of exponents, if of none.
+    has_exponents: bool,
+    /// Key of the parameter of the branch.
+    key: Option<&'static str>,
+    /// Exponents, those of waves with the value of that parameter.
+    exponents: Vec<(Option<f64>, Perturbation)>,
+    branch: Option<Vec<BranchRow>>,
+}
+
+impl CycleReport<'_> {
+    /// Every cycle that was sought.
+    pub fn cycles(&self) -> Vec<SoughtCycle> {
+        match &self.search {
+            Search::Waves(search) => {
+                search.results.iter().map(|result| result.sought(self, search)).collect()
+            }
+            Search::Motions(search) => {
+                search.results.iter().map(|result| result.sought(self, search)).collect()
+            }
         }
     }
-    two_waves::write_two_waves(folder, report)?;
-    fields::write_fields(folder, report)?;
-    write_record(folder, &CycleRecord::of(report))?;
-    let summary = write_summary(folder, &summary(report, folder.manifest()))?;
-    folder.write("cycle.csv", |out| write_cycles(out, &summary))?;
-    Ok(summary)
-}
 
-/// Writes contact and motion of the edge along the phase, which is also the history of the contact node at angle zero.
-///
-/// # Errors
-/// Those of the writer.
-pub fn write_phases(out: &mut dyn Write, cycle: &LimitCycle) -> io::Result<()> {
-    let columns: &[Column<'_, &PhasePoint>] = &[
-        ("phase_rad", &|point| point.phase.into()),
-        ("time_s", &|point| (point.phase / cycle.state.frequency).into()),
-        ("status", &|point| point.status.name().into()),
-        ("pressure_pa", &|point| point.pressure.into()),
-        ("shear_pa", &|point| point.shear.into()),
-        ("u_r_m", &|point| point.displacement[0].into()),
-        ("u_theta_m", &|point| point.displacement[1].into()),
-        ("v_r_m_per_s", &|point| point.velocity[0].into()),
-        ("v_theta_m_per_s", &|point| point.velocity[1].into()),
-    ];
-    write_rows(out, columns, &cycle.points)
-}
-
-/// Writes one row for each cycle of a branch, in the order of the branch.
-///
-/// # Errors
-/// Those of the writer.
-pub fn write_branch(
-    out: &mut dyn Write,
-    branch: &CycleBranch,
-    stability: &[Finding],
-    report: &CycleReport<'_>,
-) -> io::Result<()> {
-    type Row<'a> = (&'a LimitCycle, CyclePowers, f64);
-    let value = |cycle: &LimitCycle| {
-        let value = branch.parameter.of(&cycle.state.point);
-        branch.parameter.in_key_units(value)
-    };
-    let columns: &[Column<'_, Row<'_>>] = &[
-        (branch.parameter.key(), &|row| value(row.0).into()),
-        ("harmonic", &|row| row.0.harmonic.into()),
-        ("main_frequency_hz", &|row| row.0.frequency_hz().into()),
-        ("stick", &|row| row.0.fractions[0].into()),
-        ("slip", &|row| row.0.fractions[1].into()),
-        ("open", &|row| row.0.fractions[2].into()),
-        ("external_w", &|row| row.1.external.into()),
-        ("stick_w", &|row| row.1.stick.into()),
-        ("slide_w", &|row| row.1.slide.into()),
-        ("contact_dissipated_w", &|row| row.1.contact_dissipated.into()),
-        ("material_damping_w", &|row| row.1.material_damping.into()),
-        ("normal_contact_w", &|row| row.1.normal_contact.into()),
-        ("amplitude_m", &|row| amplitude(row.0).into()),
-        ("balance_residual", &|row| row.0.powers.balance_residual().into()),
-        ("growth_rate_per_s", &|row| row.2.into()),
-    ];
-    let rows = branch.cycles.iter().enumerate().map(|(i, cycle)| {
-        let leading = stability.get(i).and_then(known);
-        let leading = leading.and_then(CycleStability::leading);
-        let growth = leading.map_or(f64::NAN, |leading| leading.exponent.re);
-        (cycle, cycle.powers.scaled(report.thickness), growth)
-    });
-    write_rows(out, columns, rows)
-}
-
-/// Amplitude of the wave's own harmonic of the edge's tangential displacement, m; half the peak-to-peak motion where the
-/// summary's harmonics do not reach.
-pub(super) fn amplitude(cycle: &LimitCycle) -> f64 {
-    match cycle.harmonics.get(cycle.harmonic) {
-        Some(&amplitude) => amplitude,
-        None => {
-            let motion = cycle.points.iter().map(|point| point.displacement[1]);
-            let largest = motion.clone().fold(f64::NEG_INFINITY, f64::max);
-            0.5 * (largest - motion.fold(f64::INFINITY, f64::min))
+    /// The branches, for a study that writes no tables of them.
+    pub fn curves(&self) -> Vec<FamilyRecord> {
+        match &self.search {
+            Search::Waves(search) => {
+                search.results.iter().map(|own| own.family_record(self)).collect()
+            }
+            Search::Motions(search) => {
+                let all = search.results.iter();
+                all.filter_map(|own| own.family_record(self)).collect()
+            }
         }
+    }
+
+    /// Whether steady sliding is stable against everything looked at.
+    pub fn is_stable(&self) -> bool {
+        match &self.search {
+            Search::Waves(search) => search.is_stable(self.friction_coefficient),
+            Search::Motions(search) => search.is_stable(),
+        }
+    }
+
+    /// The summary.
+    pub fn summary(&self, manifest: &Manifest) -> CycleSummary {
+        let (origin, two_waves) = match &self.search {
+            Search::Waves(search) => {
+                let lowest_onset = search.lowest_onset.as_ref().map(OnsetSummary::from);
+                let pairs = search.two_waves.iter().map(|own| own.summary(self.thickness));
+                (Origin::Waves(WavesSought { lowest_onset }), pairs.collect())
+            }
+            Search::Motions(search) => {
+                let least_stable = search.least_stable.map(ModeSummary::from);
+                let modes = search.modes;
+                (Origin::Modes(ModesSought { modes, least_stable }), Vec::new())
+            }
+        };
+        CycleSummary {
+            command: "cycle".to_owned(),
+            title: self.title.to_owned(),
+            wall_s: self.wall_s,
+            steady_sliding_stable: self.is_stable(),
+            origin,
+            critical_value: self.critical.map(CriticalSummary::from),
+            extent: self.extent,
+            cycles: self.cycles(),
+            two_waves,
+            notes: self.notes(),
+            manifest: manifest.clone(),
+            curves: None,
+        }
+    }
+
+    /// Writes all files and gives the summary, as it is and as an object.
+    ///
+    /// # Errors
+    /// Those of the folder.
+    pub fn write(&self, folder: &OutputFolder) -> Result<(CycleSummary, Value), FolderError> {
+        let told: std::io::Result<Vec<Told>> = match &self.search {
+            Search::Waves(search) => search.results.iter().map(|own| Ok(own.told(self))).collect(),
+            Search::Motions(search) => {
+                let all = search.results.iter();
+                all.filter_map(|own| own.told(self, search).transpose()).collect()
+            }
+        };
+        let told = told.map_err(|error| FolderError::io("write", folder.path(), error))?;
+        let is_solid = self.solid.is_some() || self.mesh.dimension == 3;
+        for own in &told {
+            own.tables(is_solid).iter().try_for_each(|table| write_table(folder, table))?;
+            if let Some(archive) = &own.archive {
+                let name = format!("contact-{}.npz", own.tag);
+                folder.write_bulk(&name, |out| out.write_all(archive))?;
+            }
+        }
+        fields::write_fields(folder, self)?;
+        if let Search::Waves(search) = &self.search {
+            let mut pairs = search.two_waves.iter().filter_map(|own| own.table(self.thickness));
+            pairs.try_for_each(|table| write_table(folder, &table))?;
+        }
+        write_record(folder, &CycleRecord::of(self))?;
+        let summary = self.summary(folder.manifest());
+        write_tables(folder, &summary.document())?;
+        let object = write_summary(folder, &summary)?;
+        Ok((summary, object))
+    }
+}
+
+impl CycleSummary {
+    /// Draws every figure of the cycles and writes the page.
+    ///
+    /// # Errors
+    /// Those of the folder; a figure that cannot be drawn although there is something to draw.
+    pub fn draw(
+        &self,
+        folder: &OutputFolder,
+        data: &CycleFigures<'_>,
+        options: &DrawingOptions,
+    ) -> Result<(), DrawingError> {
+        let families: Vec<NamedFamily<'_>> =
+            data.record.families.iter().map(|own| (String::new(), own)).collect();
+        let mut figures = figures::draw_cycles(data, options)?;
+        figures.extend(draw_branches(&families, &data.record.two_waves, options)?);
+        write_page(folder, self.document(), figures, folder.manifest(), options)
     }
 }

@@ -1,20 +1,18 @@
 //! `summary.json` of a search for limit cycles.
 
-use super::confirmation::ConfirmationSummary;
-use super::stability::StabilitySummary;
-use super::{CycleReport, CycleResult, TwoWaveSummary, amplitude};
-use crate::chart::extremes;
-use crate::cycle::periodic::velocity_level;
-use crate::cycle::{CycleBranch, LimitCycle, Onset};
+use super::branches::FamilyRecord;
+use super::two_waves::TwoWaveSummary;
+use crate::cycle::{Family, Onset};
+use crate::output::{Described, Key};
 use crate::results::extent::Extent;
 use crate::results::manifest::Manifest;
-use crate::results::summary::{CriticalSummary, MeanPowers, StatusFractions, present};
+use crate::results::summary::{CriticalSummary, MeanPowers, StatusFractions};
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
 use std::f64::consts::TAU;
+use std::fmt;
 
 /// `summary.json` of `frictionsim cycle`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct CycleSummary {
     /// `cycle`.
     pub command: String,
@@ -22,30 +20,67 @@ pub struct CycleSummary {
     pub title: String,
     /// Wall time, s.
     pub wall_s: f64,
-    /// Whether no wave looked at grows.
+    /// Whether nothing looked at grows.
     pub steady_sliding_stable: bool,
-    /// The lowest onset of all.
-    pub lowest_onset: Option<OnsetSummary>,
+    /// Where the search has started.
+    #[serde(flatten)]
+    pub origin: Origin,
     /// Where along the parameter of the case sliding loses its stability, where it is stable at its own operating point.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub critical_value: Option<CriticalSummary>,
     /// What powers are of, in the tables too.
     #[serde(default)]
     pub extent: Extent,
-    /// The families, each with its cycle or why there is none.
-    pub cycles: Vec<FamilySummary>,
+    /// The cycles that were sought, each with its motion or why there is none.
+    pub cycles: Vec<SoughtCycle>,
     /// Motions of two waves that live together.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub two_waves: Vec<TwoWaveSummary>,
+    /// What there is to say.
+    #[serde(default)]
+    pub notes: Vec<String>,
     /// What it was made from.
     pub manifest: Manifest,
     /// The branches, where no tables hold them: at a point of a study.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub curves: Option<Value>,
+    pub curves: Option<Vec<FamilyRecord>>,
+}
+
+/// What a search has started from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Origin {
+    /// From modes of the whole body.
+    Modes(ModesSought),
+    /// From waves of a disc.
+    Waves(WavesSought),
+}
+
+/// Modes of steady sliding of a body without rotating waves.
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+pub struct ModesSought {
+    /// Modes of steady sliding looked at.
+    pub modes: usize,
+    /// The mode that grows fastest or decays slowest.
+    pub least_stable: Option<ModeSummary>,
+}
+
+/// Waves of a disc.
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+pub struct WavesSought {
+    /// The lowest onset of all.
+    pub lowest_onset: Option<OnsetSummary>,
+}
+
+impl Described for Origin {
+    fn describe(path: &str, keys: &mut Vec<Key>) {
+        ModesSought::describe(path, keys);
+        WavesSought::describe(path, keys);
+    }
 }
 
 /// Where a wave starts to grow.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct OnsetSummary {
     /// Circumferential harmonic.
     pub harmonic: usize,
@@ -68,26 +103,28 @@ impl From<&Onset> for OnsetSummary {
     }
 }
 
-/// A family of limit cycles at the case's own operating point.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct FamilySummary {
-    /// Circumferential harmonic.
-    pub harmonic: usize,
-    /// Onset of that harmonic at which it is born, from 1.
-    pub onset: usize,
-    /// Critical friction coefficient of that onset.
-    pub critical_friction: Option<f64>,
-    /// Its direction.
-    pub direction: Option<i8>,
-    /// Points along the phase.
-    pub phases: usize,
-    /// Every onset of the harmonic.
-    pub onsets: Vec<OnsetSummary>,
+/// A mode of steady sliding.
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+pub struct ModeSummary {
+    /// Number by frequency, from 1.
+    pub mode: usize,
+    /// Frequency, Hz.
+    pub mode_frequency_hz: f64,
+    /// Growth rate, 1/s.
+    pub growth_rate_per_s: f64,
+}
+
+/// A limit cycle that was sought.
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+pub struct SoughtCycle {
+    /// What leads to it.
+    #[serde(flatten)]
+    pub name: CycleName,
     /// Wall time, s.
     pub wall_s: f64,
-    /// The cycle, where there is one.
+    /// The cycle, where there is one that no other has led to before.
     #[serde(flatten)]
-    pub cycle: Option<LimitCycleSummary>,
+    pub cycle: Option<CycleMotion>,
     /// That there is none because steady sliding is stable against the wave.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub absent: Option<String>,
@@ -103,29 +140,269 @@ pub struct FamilySummary {
     pub branch: Option<BranchSummary>,
 }
 
-/// A limit cycle.
+/// What leads to a cycle.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LimitCycleSummary {
+#[serde(untagged)]
+pub enum CycleName {
+    /// A mode of a body without rotating waves.
+    Mode(ModeOfCycle),
+    /// A wave of a disc.
+    Wave(WaveOfCycle),
+}
+
+/// A mode, and what it leads to.
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+pub struct ModeOfCycle {
+    /// The mode.
+    #[serde(flatten)]
+    pub mode: ModeSummary,
+    /// Mode that has led to the same cycle before.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub same_as: Option<usize>,
+    /// Value of the parameter of `cycle.continuation` at which the mode grows, where none does at the case's own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sought_from: Option<f64>,
+}
+
+/// A wave and its onset.
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+pub struct WaveOfCycle {
+    /// Circumferential harmonic.
+    pub harmonic: usize,
+    /// Onset of that harmonic at which it is born, from 1.
+    pub onset: usize,
+    /// Critical friction coefficient of that onset.
+    pub critical_friction: Option<f64>,
+    /// Its direction.
+    pub direction: Option<i8>,
+    /// Points along the phase.
+    pub phases: usize,
+    /// Every onset of the harmonic.
+    pub onsets: Vec<OnsetSummary>,
+}
+
+impl Described for CycleName {
+    fn describe(path: &str, keys: &mut Vec<Key>) {
+        WaveOfCycle::describe(path, keys);
+        ModeOfCycle::describe(path, keys);
+    }
+}
+
+impl CycleName {
+    /// The wave, if it is one.
+    pub fn wave(&self) -> Option<&WaveOfCycle> {
+        match self {
+            Self::Wave(wave) => Some(wave),
+            Self::Mode(_) => None,
+        }
+    }
+
+    /// The mode, if it is one.
+    pub fn mode(&self) -> Option<&ModeOfCycle> {
+        match self {
+            Self::Mode(mode) => Some(mode),
+            Self::Wave(_) => None,
+        }
+    }
+}
+
+/// `n = 2`, `n = 1, onset 2` or `mode 15`.
+impl fmt::Display for CycleName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Wave(WaveOfCycle { harmonic, onset, .. }) => {
+                Family { harmonic: *harmonic, onset: *onset }.fmt(f)
+            }
+            Self::Mode(own) => write!(f, "mode {}", own.mode.mode),
+        }
+    }
+}
+
+/// A limit cycle.
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+pub struct CycleMotion {
     /// Frequency, Hz.
     pub main_frequency_hz: f64,
-    /// Fractions of the contact edge.
+    /// Fractions of the contact nodes.
     pub status: StatusFractions,
     /// Mean powers.
     pub power_w: MeanPowers,
-    /// Amplitude of the wave's own harmonic of the contact edge's tangential displacement, m.
-    #[serde(default)]
-    pub amplitude_m: Option<f64>,
-    /// Amplitudes of the harmonics 0 to 8 of the contact edge's tangential displacement, m.
-    pub harmonics: Vec<f64>,
     /// Residual of the energy balance, relative to the external power.
     pub balance_residual: f64,
+    /// Amplitude along the counterface, m: of the wave's own harmonic of the contact edge, of other bodies half the range of
+    /// the contact node that moves most.
+    #[serde(default)]
+    pub amplitude_m: Option<f64>,
     /// Level of the velocity, root mean square over time and mass, over 5e-8 m/s, dB.
     #[serde(default)]
     pub velocity_level_db: Option<f64>,
+    /// Amplitudes along the counterface, m: of a wave of the harmonics 0 to 8 around the contact edge, of other bodies of the
+    /// harmonics 1, 2, ... in time, root mean square over the contact nodes.
+    pub harmonics: Vec<f64>,
+    /// What else there is to a motion that was stepped in time.
+    #[serde(flatten)]
+    pub stepped: Option<SteppedMotion>,
+}
+
+/// A motion of the whole mesh that was stepped in time.
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+pub struct SteppedMotion {
+    /// What the motion misses its start by after a period, relative to its amplitude.
+    pub residual: f64,
+    /// Periods stepped to find it.
+    pub periods: usize,
+    /// Steps of a period.
+    pub steps: usize,
+    /// Label of the contact node that moves most along the counterface.
+    pub contact_node: usize,
+    /// Velocity of a kick that tips stable sliding into this cycle: `2 pi f` times the amplitude of the unstable cycle between both,
+    /// m/s.
+    #[serde(default)]
+    pub kick_velocity: Option<f64>,
+    /// Estimate of the sound that it radiates, of a body with flat faces.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sound: Option<SoundSummary>,
+    /// Harmonics in which the motion is told.
+    pub harmonic_count: usize,
+    /// Share of the vibration of the contact nodes that these leave.
+    pub harmonic_remainder: f64,
+}
+
+/// Sound radiated into air, by the Rayleigh integral: each flat face in an infinite rigid baffle.
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+pub struct SoundSummary {
+    /// Power of all harmonics up to 20 kHz, W.
+    pub power_w: f64,
+    /// Its level over 1e-12 W, dB.
+    pub level_db: f64,
+    /// Area of the faces, m2.
+    pub area_m2: f64,
+    /// Power of harmonics 1, 2, ..., W.
+    pub harmonics_w: Vec<f64>,
+}
+
+/// A transient that started on a cycle, or why none could.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum ConfirmationSummary {
+    /// It ran.
+    Ran(ConfirmationRun),
+    /// It could not.
+    Failed {
+        /// False.
+        agrees: bool,
+        /// Why.
+        error: String,
+    },
+}
+
+/// A transient that started on a cycle.
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+pub struct ConfirmationRun {
+    /// Length of the run in periods of the cycle.
+    pub periods: usize,
+    /// Whether it still is on the cycle.
+    pub agrees: bool,
+    /// Frequency, Hz; none if it has stopped to vibrate.
+    pub main_frequency_hz: Option<f64>,
+    /// Its harmonic, of a wave that still vibrates.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub main_harmonic: Option<usize>,
+    /// Fractions of contact nodes.
+    pub status: StatusFractions,
+    /// Power of the counterface.
+    pub power_w: ExternalPower,
+    /// E-folds of the leading perturbation over the run; negative where it decays, 0 where it is not known.
+    #[serde(default)]
+    pub e_folds: f64,
+}
+
+impl Described for ConfirmationSummary {
+    fn describe(path: &str, keys: &mut Vec<Key>) {
+        ConfirmationRun::describe(path, keys);
+        keys.push(Key { path: format!("{path}.error"), meaning: "why it could not run" });
+    }
+}
+
+/// Power of the counterface alone.
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+pub struct ExternalPower {
+    /// Mean power, W.
+    pub external: Option<f64>,
+}
+
+/// Stability of a cycle, or why it is not known.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum StabilitySummary {
+    /// It is known.
+    Known(Box<KnownStability>),
+    /// It could not be found.
+    Failed {
+        /// Why.
+        error: String,
+    },
+}
+
+/// Stability of a cycle.
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+pub struct KnownStability {
+    /// `stable`, `unstable` or `undecided`.
+    pub verdict: String,
+    /// The same as a flag; none if undecided.
+    pub is_stable: Option<bool>,
+    /// Circumferential harmonics that grow, of a wave.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub growing_harmonics: Option<Vec<usize>>,
+    /// The leading perturbation.
+    pub leading: Option<Perturbation>,
+    /// Modulus of the multiplier of a shift in phase, which is 1, of a motion that was stepped in time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shift: Option<f64>,
+}
+
+impl Described for StabilitySummary {
+    fn describe(path: &str, keys: &mut Vec<Key>) {
+        KnownStability::describe(path, keys);
+        keys.push(Key { path: format!("{path}.error"), meaning: "why it is not known" });
+    }
+}
+
+/// A small perturbation of a cycle: an exponent of a wave, a multiplier of a motion that was stepped in time.
+#[derive(Clone, Debug, Default, PartialEq, Described, Serialize, Deserialize)]
+pub struct Perturbation {
+    /// Growth rate, 1/s.
+    pub growth_rate_per_s: f64,
+    /// Class of the harmonics that it holds: those that differ from plus or minus it by a multiple of the wave's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub class: Option<usize>,
+    /// Frequency in the frame of the wave, rad/s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wave_frequency_rad_per_s: Option<f64>,
+    /// Circumferential harmonic at which it moves the contact edge most.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub harmonic: Option<usize>,
+    /// Frequency in the fixed frame, Hz.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frequency_hz: Option<f64>,
+    /// Distance of its frequency from the nearest harmonic of the cycle, Hz.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub beat_hz: Option<f64>,
+    /// Modulus of the multiplier.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub modulus: Option<f64>,
+    /// Argument of the multiplier, rad.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub argument_rad: Option<f64>,
+    /// What it leads to where it grows.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub leads_to: Option<String>,
+    /// Uncertainty of the growth rate, 1/s.
+    pub uncertainty_per_s: Option<f64>,
 }
 
 /// A branch of limit cycles.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct BranchSummary {
     /// Case key of the parameter.
     pub key: String,
@@ -134,21 +411,52 @@ pub struct BranchSummary {
     /// Smallest and largest value of the parameter.
     #[serde(default)]
     pub range: Option<[f64; 2]>,
-    /// Values at which it turns back.
+    /// Values at which it turns back, in its order.
+    #[serde(default)]
     pub folds: Vec<f64>,
     /// Why it ends, at either end.
     pub ends: [String; 2],
+    /// Where stability changes between folds: the value; of waves an object.
+    pub stability_changes: Vec<StabilityChangeSummary>,
+    /// What else there is to a branch of waves.
+    #[serde(flatten)]
+    pub waves: Option<WaveBranch>,
+    /// What else there is to one of motions of the whole mesh.
+    #[serde(flatten)]
+    pub motions: Option<MotionBranch>,
+}
+
+/// What only branches of waves have.
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+pub struct WaveBranch {
     /// Speed from which on no node sticks, rpm.
     pub saturation_speed_rpm: Option<f64>,
     /// Dense factorizations spent.
     pub factorizations: usize,
-    /// Where stability changes.
-    pub stability_changes: Vec<StabilityChangeSummary>,
+}
+
+/// What only branches of motions of the whole mesh have.
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+pub struct MotionBranch {
+    /// Values at which steady sliding loses its stability.
+    pub onsets: Vec<f64>,
+    /// Where cycles live beside stable sliding.
+    pub coexistence: Vec<[f64; 2]>,
 }
 
 /// Where a branch changes its stability.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct StabilityChangeSummary {
+#[serde(untagged)]
+pub enum StabilityChangeSummary {
+    /// Of a motion of the whole mesh.
+    At(f64),
+    /// Of a wave, by a mode.
+    By(ModeOfChange),
+}
+
+/// The mode by which a wave changes its stability.
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+pub struct ModeOfChange {
     /// Value of the parameter.
     pub at: f64,
     /// Circumferential harmonic of the mode that starts or ceases to grow.
@@ -160,100 +468,8 @@ pub struct StabilityChangeSummary {
     pub to_two_frequencies: bool,
 }
 
-/// The summary of a search.
-pub fn summary(report: &CycleReport<'_>, manifest: &Manifest) -> CycleSummary {
-    let families = report.results.iter().map(|result| family(report, result));
-    let pairs = report.two_waves.iter();
-    let pairs = pairs.map(|result| TwoWaveSummary::of(report, result));
-    CycleSummary {
-        command: "cycle".to_owned(),
-        title: report.title.to_owned(),
-        wall_s: report.wall_s,
-        steady_sliding_stable: report.stable_sliding().is_some(),
-        lowest_onset: report.lowest_onset.as_ref().map(OnsetSummary::from),
-        critical_value: report.critical.map(CriticalSummary::from),
-        extent: report.extent,
-        cycles: families.collect(),
-        two_waves: pairs.collect(),
-        manifest: manifest.clone(),
-        curves: None,
-    }
-}
-
-/// The summary of one family.
-pub(super) fn family(report: &CycleReport<'_>, result: &CycleResult) -> FamilySummary {
-    let absence = result.cycle.as_ref().err();
-    let reason = |is_stable: bool| {
-        let absence = absence.filter(|absence| absence.is_stable == is_stable);
-        absence.map(|absence| absence.reason.clone())
-    };
-    FamilySummary {
-        harmonic: result.family.harmonic,
-        onset: result.family.onset,
-        critical_friction: result.birth().map(|onset| onset.friction_coefficient),
-        direction: result.birth().map(|onset| onset.direction),
-        phases: result.phases,
-        onsets: result.onsets.iter().map(OnsetSummary::from).collect(),
-        wall_s: result.wall_s,
-        cycle: result.cycle.as_ref().ok().map(|cycle| LimitCycleSummary {
-            velocity_level_db: result.velocity.map(velocity_level),
-            ..limit_cycle(report, cycle)
-        }),
-        absent: reason(true),
-        error: reason(false),
-        confirmation: ConfirmationSummary::of(report, result),
-        stability: StabilitySummary::of(&result.stability),
-        branch: result.branch.as_ref().map(|branch| branch_of(report, result, branch)),
-    }
-}
-
-fn limit_cycle(report: &CycleReport<'_>, cycle: &LimitCycle) -> LimitCycleSummary {
-    let powers = cycle.powers.scaled(report.thickness);
-    let [stick, slip, open] = cycle.fractions.map(present);
-    LimitCycleSummary {
-        main_frequency_hz: cycle.frequency_hz(),
-        status: StatusFractions { stick, slip, open },
-        power_w: MeanPowers {
-            external: present(powers.external),
-            stick: present(powers.stick),
-            slide: present(powers.slide),
-            contact_dissipated: present(powers.contact_dissipated),
-            material_damping: present(powers.material_damping),
-            normal_contact: present(powers.normal_contact),
-            contact_damping: None,
-        },
-        amplitude_m: present(amplitude(cycle)),
-        harmonics: cycle.harmonics.to_vec(),
-        balance_residual: cycle.powers.balance_residual(),
-        velocity_level_db: None,
-    }
-}
-
-fn branch_of(
-    report: &CycleReport<'_>,
-    result: &CycleResult,
-    branch: &CycleBranch,
-) -> BranchSummary {
-    let in_key_units = |value: f64| branch.parameter.in_key_units(value);
-    let values = branch.cycles.iter().map(|cycle| branch.parameter.of(&cycle.state.point));
-    let (low, high) = extremes(values.map(in_key_units));
-    let mut cycles = branch.cycles.iter();
-    let saturation = cycles.find_map(|cycle| cycle.saturation_speed(report.inner_radius));
-    let changes = result.stability_changes.iter();
-    let changes = changes.map(|change| StabilityChangeSummary {
-        at: in_key_units(change.value),
-        harmonic: change.harmonic,
-        frequency_hz: change.frequency_hz,
-        to_two_frequencies: change.harmonic != result.family.harmonic,
-    });
-    BranchSummary {
-        key: branch.parameter.key().to_owned(),
-        cycles: branch.cycles.len(),
-        range: (low <= high).then_some([low, high]),
-        folds: branch.folds.iter().map(|&fold| in_key_units(fold)).collect(),
-        ends: branch.ends.map(|end| end.describe().to_owned()),
-        saturation_speed_rpm: saturation.map(|speed| speed * 60.0 / TAU),
-        factorizations: branch.factorizations,
-        stability_changes: changes.collect(),
+impl Described for StabilityChangeSummary {
+    fn describe(path: &str, keys: &mut Vec<Key>) {
+        ModeOfChange::describe(path, keys);
     }
 }

@@ -1,13 +1,10 @@
-//! Motions of two frequencies: words, tables, summary.
+//! Motions of two frequencies: words, table, summary, record.
 
-use super::{CycleFrame, CycleReport};
+use super::fields::CycleFrame;
 use crate::cycle::{BranchEnd, Measured, TwoWaveBranch, TwoWaveMotion};
-use crate::results::folder::{FolderError, OutputFolder};
-use crate::results::quantity::significant;
-use crate::results::table::{Column, write_rows};
+use crate::output::{Described, Table, columns, significant};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
-use std::fmt::Write as _;
 
 /// What two waves that may live together come to.
 #[derive(Clone, Debug)]
@@ -36,7 +33,7 @@ pub struct FoundTwoWaves {
 }
 
 /// A motion of two frequencies in the summary.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct TwoWaveSummary {
     /// Harmonics of both waves.
     pub harmonics: [usize; 2],
@@ -64,33 +61,76 @@ pub struct TwoWaveSummary {
     pub error: Option<String>,
 }
 
-impl TwoWaveSummary {
-    /// Of a result.
-    pub fn of(report: &CycleReport<'_>, result: &TwoWaveResult) -> Self {
-        let found = result.outcome.as_ref().ok();
-        let motion = found.map(|found| &found.motion);
-        let branch = found.and_then(|found| found.branch.as_ref());
-        let births = branch.map_or(Vec::new(), |branch| {
-            let births = branch.births.iter();
-            births.map(|&value| branch.parameter.in_key_units(value)).collect()
-        });
-        Self {
-            harmonics: result.harmonics,
-            frequencies_hz: motion.map(TwoWaveMotion::frequencies_hz),
-            amplitudes_m: motion.map(|motion| motion.amplitudes),
-            status: motion.map(|motion| motion.fractions),
-            points: found.map(|found| found.sides),
-            external_w: motion.map(|motion| motion.powers.external * report.thickness),
-            balance_residual: motion.map(|motion| motion.powers.balance_residual()),
-            transient_frequencies_hz: found
-                .and_then(|found| found.confirmation)
-                .map(|own| own.frequencies.map(|omega| omega / TAU)),
-            is_confirmed: found.map(|found| found.is_confirmed),
-            births,
-            ends: branch.map(|branch| branch.ends.map(|end| described(end).to_owned())),
-            error: result.outcome.as_ref().err().cloned(),
-        }
+/// A motion of a branch: the parameter, the motion, the thickness.
+type Row = (f64, TwoWaveMotion, f64);
+
+columns! {
+    /// A motion of two waves, behind the parameter.
+    pub(in crate::results) TWO_WAVES: row as Row;
+    frequency_1_hz: "frequency of the first wave" = row.1.frequencies_hz()[0];
+    frequency_2_hz: "frequency of the second" = row.1.frequencies_hz()[1];
+    amplitude_1_m: "amplitude of the first wave along the edge" = row.1.amplitudes[0];
+    amplitude_2_m: "amplitude of the second" = row.1.amplitudes[1];
+    stick: "fraction of the edge that sticks" = row.1.fractions[0];
+    slip: "fraction that slips" = row.1.fractions[1];
+    open: "fraction that is open" = row.1.fractions[2];
+    external_w: "power of the rotor" = row.1.powers.external * row.2;
+    balance_residual: "residual of the energy balance, relative to it" = row.1.powers.balance_residual();
+}
+
+columns! {
+    /// A motion of two waves for people.
+    SHOWN: own as TwoWaveSummary;
+    waves: "harmonics" = own.name(), Always "waves" Plain;
+    first_hz: "first frequency" = own.frequencies_hz.map(|f| f[0]), Always "first frequency" Fixed(2);
+    second_hz: "second frequency" = own.frequencies_hz.map(|f| f[1]), Always "second frequency" Fixed(2);
+    first_m: "first amplitude" = own.amplitudes_m.map(|a| a[0]), Always "first amplitude" Scientific(3);
+    second_m: "second amplitude" = own.amplitudes_m.map(|a| a[1]), Always "second amplitude" Scientific(3);
+    stick: "stick" = own.status.map(|s| s[0]), Always "stick" Percent(1);
+    slip: "slip" = own.status.map(|s| s[1]), Always "slip" Percent(1);
+    open: "open" = own.status.map(|s| s[2]), Always "open" Percent(1);
+    external_w: "power of the rotor" = own.external_w, Always "power of the rotor" Fixed(2);
+    stays: "whether a transient stays on it" = own.is_confirmed, IfAny "a transient stays on it" Plain;
+    transient_1_hz: "first frequency of a transient" = own.transient_frequencies_hz.map(|f| f[0]), IfAny "transient, first" Fixed(2);
+    transient_2_hz: "second frequency of a transient" = own.transient_frequencies_hz.map(|f| f[1]), IfAny "second" Fixed(2);
+    births: "where one wave vanishes" = own.births_text(), IfAny "one wave alone at" Plain;
+    error: "why there is none" = own.error.clone(), IfAny "why there is none" Plain;
+}
+
+/// Motions of two waves along a branch, in its order.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TwoWaveRecord {
+    /// Their harmonics.
+    pub harmonics: [usize; 2],
+    /// The parameter, in units of its key.
+    pub values: Vec<f64>,
+    /// Both frequencies, Hz.
+    pub frequency_hz: [Vec<f64>; 2],
+    /// Both amplitudes of the edge's tangential displacement, m.
+    pub amplitude: [Vec<f64>; 2],
+}
+
+impl TwoWaveRecord {
+    pub(super) fn is_whole(&self) -> bool {
+        let mut columns = self.frequency_hz.iter().chain(&self.amplitude);
+        columns.all(|column| column.len() == self.values.len())
     }
+
+    pub(super) fn of(result: &TwoWaveResult) -> Option<Self> {
+        let branch = result.outcome.as_ref().ok()?.branch.as_ref()?;
+        let column = |of: &dyn Fn(&TwoWaveMotion) -> f64| branch.motions.iter().map(of).collect();
+        Some(Self {
+            harmonics: result.harmonics,
+            values: column(&|own| value(branch, own)),
+            frequency_hz: [0, 1].map(|wave| column(&|own| own.frequencies_hz()[wave])),
+            amplitude: [0, 1].map(|wave| column(&|own| own.amplitudes[wave])),
+        })
+    }
+}
+
+/// Value of the parameter of a branch at a motion, in units of its key.
+fn value(branch: &TwoWaveBranch, motion: &TwoWaveMotion) -> f64 {
+    branch.parameter.in_key_units(branch.parameter.of(&motion.state.point))
 }
 
 /// Why a branch of two waves ends, in words.
@@ -101,84 +141,73 @@ fn described(end: BranchEnd) -> &'static str {
     }
 }
 
-/// Writes one table for each pair of waves.
-///
-/// # Errors
-/// Those of the folder.
-pub fn write_two_waves(folder: &OutputFolder, report: &CycleReport<'_>) -> Result<(), FolderError> {
-    for result in &report.two_waves {
-        let Ok(found) = &result.outcome else {
-            continue;
-        };
-        let [first, second] = result.harmonics;
-        let parameter = found.branch.as_ref().map(|branch| branch.parameter);
-        let value = |motion: &TwoWaveMotion| {
-            parameter.map_or(0.0, |own| own.in_key_units(own.of(&motion.state.point)))
-        };
-        let columns: &[Column<'_, &TwoWaveMotion>] = &[
-            (parameter.map_or("point", |own| own.key()), &|m| value(m).into()),
-            ("frequency_1_hz", &|m| m.frequencies_hz()[0].into()),
-            ("frequency_2_hz", &|m| m.frequencies_hz()[1].into()),
-            ("amplitude_1_m", &|m| m.amplitudes[0].into()),
-            ("amplitude_2_m", &|m| m.amplitudes[1].into()),
-            ("stick", &|m| m.fractions[0].into()),
-            ("slip", &|m| m.fractions[1].into()),
-            ("open", &|m| m.fractions[2].into()),
-            ("external_w", &|m| (m.powers.external * report.thickness).into()),
-            ("balance_residual", &|m| m.powers.balance_residual().into()),
-        ];
-        let rows: Vec<&TwoWaveMotion> = match &found.branch {
-            Some(branch) => branch.motions.iter().collect(),
-            None => vec![&found.motion],
-        };
-        let name = format!("two-waves-n{first}-n{second}.csv");
-        folder.write(&name, |out| write_rows(out, columns, rows))?;
+impl TwoWaveResult {
+    /// What the summary says of it.
+    pub(super) fn summary(&self, thickness: f64) -> TwoWaveSummary {
+        let found = self.outcome.as_ref().ok();
+        let motion = found.map(|found| &found.motion);
+        let branch = found.and_then(|found| found.branch.as_ref());
+        let births = branch.map_or(Vec::new(), |branch| {
+            branch.births.iter().map(|&value| branch.parameter.in_key_units(value)).collect()
+        });
+        TwoWaveSummary {
+            harmonics: self.harmonics,
+            frequencies_hz: motion.map(TwoWaveMotion::frequencies_hz),
+            amplitudes_m: motion.map(|motion| motion.amplitudes),
+            status: motion.map(|motion| motion.fractions),
+            points: found.map(|found| found.sides),
+            external_w: motion.map(|motion| motion.powers.external * thickness),
+            balance_residual: motion.map(|motion| motion.powers.balance_residual()),
+            transient_frequencies_hz: found
+                .and_then(|found| found.confirmation)
+                .map(|own| own.frequencies.map(|omega| omega / TAU)),
+            is_confirmed: found.map(|found| found.is_confirmed),
+            births,
+            ends: branch.map(|branch| branch.ends.map(|end| described(end).to_owned())),
+            error: self.outcome.as_ref().err().cloned(),
+        }
     }
-    Ok(())
+
+    /// The table of its branch, or of the motion alone.
+    pub(super) fn table(&self, thickness: f64) -> Option<Table> {
+        let found = self.outcome.as_ref().ok()?;
+        let [first, second] = self.harmonics;
+        let rows: Vec<Row> = match &found.branch {
+            Some(branch) => {
+                let rows = branch.motions.iter();
+                rows.map(|own| (value(branch, own), own.clone(), thickness)).collect()
+            }
+            None => vec![(0.0, found.motion.clone(), thickness)],
+        };
+        let key = found.branch.as_ref().map_or("point", |branch| branch.parameter.key());
+        let values = rows.iter().map(|row| row.0);
+        let name = format!("two-waves-n{first}-n{second}.csv");
+        Some(Table::new(name, "").column(key, None, values).columns(TWO_WAVES, &rows))
+    }
 }
 
-/// What is printed of two waves.
-pub fn print_two_waves(out: &mut String, result: &TwoWaveResult) {
-    let [first, second] = result.harmonics;
-    let name = format!("n = {first} and {second} together");
-    let found = match &result.outcome {
-        Ok(found) => found,
-        Err(reason) => {
-            let _ = writeln!(out, "{name}: {reason}");
-            return;
-        }
-    };
-    let ([a, b], [stick, slip, open]) = (found.motion.frequencies_hz(), found.motion.fractions);
-    let share = found.motion.amplitudes[1] / found.motion.amplitudes[0];
-    let _ = writeln!(
-        out,
-        "{name}: {a:.2} and {b:.2} Hz, the second with {share:.2} of the first, stick {stick:.3}, slip {slip:.3}, open {open:.3} \
-         ({} x {} phases)",
-        found.sides[0], found.sides[1],
-    );
-    if let Some(own) = found.confirmation {
-        let [a, b] = own.frequencies.map(|omega| omega / TAU);
-        let verdict = match found.is_confirmed {
-            true => "stays on it",
-            false => "has OTHER frequencies",
-        };
-        let _ = writeln!(out, "{name}: a transient {verdict}: {a:.2} and {b:.2} Hz");
+impl TwoWaveSummary {
+    fn name(&self) -> String {
+        let [first, second] = self.harmonics;
+        format!("n = {first} and {second} together")
     }
-    if let Some(branch) = &found.branch {
-        let key = branch.parameter.key();
-        let births = branch.births.iter();
-        let births = births.map(|&value| significant(branch.parameter.in_key_units(value), 5));
-        let births: Vec<String> = births.collect();
-        let born = match births.is_empty() {
-            true => String::new(),
-            false => format!(", one wave alone at {key} = {}", births.join(", ")),
-        };
-        let _ = writeln!(
-            out,
-            "{name}: {} motions over {key} ({}; {}){born}",
-            branch.motions.len(),
-            described(branch.ends[0]),
-            described(branch.ends[1]),
-        );
+
+    fn births_text(&self) -> Option<String> {
+        let births: Vec<String> = self.births.iter().map(|&value| significant(value, 5)).collect();
+        (!births.is_empty()).then(|| births.join(", "))
+    }
+
+    /// The table of several.
+    pub(super) fn shown(all: &[Self]) -> Table {
+        Table::new("", "Motions of two frequencies").columns(SHOWN, all)
+    }
+
+    /// Why its branch ends, in a sentence.
+    pub(super) fn ends_text(&self) -> Option<String> {
+        let [one, other] = self.ends.as_ref()?;
+        Some(format!(
+            "{}: the branch ends at one end where {one}, at the other: {other}",
+            self.name()
+        ))
     }
 }

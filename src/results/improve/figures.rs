@@ -1,6 +1,5 @@
 //! `figures/improve-mode-N`: where each kind of modification feeds or damps a mode, with the candidates.
 
-use super::front::front_figure;
 use super::{ImproveSummary, TargetFields, document};
 use crate::chart::{
     Axis, ChartError, ColourMap, Figure, INK, Marker, Panel, Points, Side, significant,
@@ -36,10 +35,7 @@ pub fn draw(
         let own = own.clone();
         Box::new(move || target_figure(summary, mesh, &own))
     };
-    let of_front: Declaration<'_> = Box::new(move || front_figure(summary));
-    let targets = order.into_iter().take(MOST).map(declare);
-    let declarations = targets.chain([of_front]).collect();
-    let figures = draw_all(declarations, options)?;
+    let figures = draw_all(order.into_iter().take(MOST).map(declare).collect(), options)?;
     write_page(folder, document(summary), figures, folder.manifest(), options)
 }
 

@@ -2,7 +2,6 @@
 
 mod figures;
 mod files;
-mod front;
 mod tables;
 
 use super::{Extent, Manifest};
@@ -11,9 +10,8 @@ use serde::{Deserialize, Serialize};
 
 pub use figures::draw;
 pub use files::write;
-pub use front::FrontPoint;
 pub use tables::document;
-pub(super) use tables::{BESIDE, CANDIDATES, EFFECTS, FRONTS, STATES, VERDICTS, WEIGHTS};
+pub(super) use tables::{BESIDE, CANDIDATES, EFFECTS, STATES, VERDICTS};
 
 /// Fields over the mesh of one target.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,9 +56,6 @@ pub struct ImproveSummary {
     pub extent: Extent,
     /// Modifications, the best first.
     pub candidates: Vec<Candidate>,
-    /// Masses and removals of several sizes by rising mass, and which of them nothing lighter beats.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub front: Vec<FrontPoint>,
     /// What there is to say.
     pub notes: Vec<String>,
     /// What it was made from.

@@ -1,7 +1,6 @@
 //! Tables and sentences of `improve`.
 
-use super::front::FRONT;
-use super::{Candidate, FrontPoint, ImproveSummary, State, critical};
+use super::{Candidate, ImproveSummary, State, critical};
 use crate::output::{Document, Section, Table, columns, significant};
 
 columns! {
@@ -51,38 +50,13 @@ columns! {
     keys: "keys of the case that make it" = own.keys.join("; ");
 }
 
-columns! {
-    /// What a point of the front weighs.
-    pub(in crate::results) WEIGHTS: own as Candidate;
-    added_mass_kg: "mass that it adds; negative where material is taken away" = own.added_mass_kg, Always "mass" Significant(4);
-}
-
-columns! {
-    /// Whether a point is on the front.
-    pub(in crate::results) FRONTS: own as FrontPoint;
-    on_front: "whether it holds and no lighter one that holds gets as far" = own.on_front, Always "on the front" Plain;
-}
-
 /// Tables and sentences.
 pub fn document(summary: &ImproveSummary) -> Document {
-    let mut document = Document::new(&summary.title, "Modifications")
+    Document::new(&summary.title, "Modifications")
         .section(Section::new("Results").facts(facts(summary)).text([summary.answer()]))
         .section(Section::new("Candidates").tables([candidates(summary)]))
-        .notes(&summary.notes);
-    if !summary.front.is_empty() {
-        let is_again = |own: &&FrontPoint| own.candidate.verdict != "not run again";
-        let again = summary.front.iter().filter(is_again);
-        let caption =
-            "Masses added and taken away that were run again, the lightest first (all: front.csv)";
-        document = document
-            .section(
-                Section::new("Mass against critical friction")
-                    .tables([front(Table::new("", caption), again.collect())])
-                    .figures([FRONT]),
-            )
-            .file(front(Table::new("front.csv", ""), summary.front.iter().collect()));
-    }
-    document.section(Section::new("Where it helps").figures([""]))
+        .notes(&summary.notes)
+        .section(Section::new("Where it helps").figures([""]))
 }
 
 fn candidates(summary: &ImproveSummary) -> Table {
@@ -98,18 +72,6 @@ fn candidates(summary: &ImproveSummary) -> Table {
     .group("confirmed_", "confirmed ", STATES, all().iter().map(|own| own.confirmed))
     .group("confirmed_", "confirmed ", BESIDE, all().iter().map(|own| own.confirmed))
     .columns(VERDICTS, all())
-}
-
-fn front(table: Table, points: Vec<&FrontPoint>) -> Table {
-    let own = || points.iter().map(|own| &own.candidate);
-    table
-        .columns(WEIGHTS, own())
-        .columns(&CANDIDATES[1..], own())
-        .shown_only(PLACE, own())
-        .group("predicted_", "predicted ", STATES, own().map(|own| Some(own.predicted)))
-        .group("confirmed_", "confirmed ", STATES, own().map(|own| own.confirmed))
-        .columns(FRONTS, points.iter().copied())
-        .columns(VERDICTS, own())
 }
 
 /// Name and value of what decides.

@@ -8,8 +8,9 @@ use super::folder::{FolderError, OutputFolder};
 use super::manifest::Manifest;
 use super::npz::NpzArchive;
 use super::summary::object;
-use super::table::{Table, format_number};
+use super::table::write_rows;
 use crate::linalg::MarketMatrix;
+use crate::output::{Described, columns};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
 use std::io;
@@ -46,7 +47,7 @@ impl ExportedMatrix {
 }
 
 /// What a matrix is in the problem.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Described, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum MatrixRole {
     /// Coefficient of `(mu - mu_0)^power`, `mu_0` the friction coefficient of the export, in the mass `M`, kg/m; of solid bodies kg.
@@ -136,7 +137,7 @@ impl ExportedSystem {
 }
 
 /// Where a matrix is written, and how large it is.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct MatrixEntry {
     /// Its name.
     pub name: String,
@@ -157,7 +158,7 @@ pub struct MatrixEntry {
 }
 
 /// `summary.json` of `frictionsim matrices`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct MatricesSummary {
     /// `matrices`.
     pub command: String,
@@ -307,44 +308,64 @@ pub fn write_matrices(
     Ok(())
 }
 
-/// Writes node, direction and place of every unknown.
-fn write_unknowns(folder: &OutputFolder, system: &ExportedSystem) -> Result<(), FolderError> {
-    folder.write(UNKNOWNS, |out| {
-        let columns = ["unknown", "node", "kind", "direction_x", "direction_y", "direction_z"];
-        let mut table = Table::new(out, &[&columns[..], &["x_m", "y_m", "z_m"]].concat())?;
-        for (k, own) in system.unknowns.iter().enumerate() {
-            let kind = if own.is_distance { "distance" } else { "displacement" };
-            let mut row = vec![k.to_string(), own.node.to_string(), kind.to_owned()];
-            row.extend(own.direction.iter().chain(&own.place).map(|v| format_number(*v)));
-            table.row(row)?;
-        }
-        table.finish()
-    })?;
-    Ok(())
+/// Its place among all, from 0, and an unknown.
+type UnknownRow = (usize, ExportedUnknown);
+
+columns! {
+    /// An unknown.
+    pub(super) UNKNOWN: row as UnknownRow;
+    unknown: "row and column of the matrices, from 0" = row.0;
+    node: "number of its node" = row.1.node;
+    kind: "displacement, or distance from the opposite body" = if row.1.is_distance { "distance" } else { "displacement" };
+    direction_x: "direction of the motion" = row.1.direction[0];
+    direction_y: "direction of the motion" = row.1.direction[1];
+    direction_z: "direction of the motion" = row.1.direction[2];
+    x_m: "place of the node" = row.1.place[0];
+    y_m: "place of the node" = row.1.place[1];
+    z_m: "place of the node" = row.1.place[2];
 }
 
-/// Writes the contact points: nodes of a plane body, points of faces of solid ones.
+/// Writes node, direction and place of every unknown.
+fn write_unknowns(folder: &OutputFolder, system: &ExportedSystem) -> Result<(), FolderError> {
+    let rows = system.unknowns.iter().cloned().enumerate();
+    folder.write(UNKNOWNS, |out| write_rows(out, UNKNOWN, rows)).map(drop)
+}
+
+/// Its place among all, from 0, and a contact point.
+type PointRow = (usize, ExportedContactPoint);
+
+fn status(row: &PointRow) -> &'static str {
+    if row.1.is_pressed { "slip" } else { "open" }
+}
+
+columns! {
+    /// A contact point of a plane body: a node.
+    pub(super) PLANE_POINT: row as PointRow;
+    point: "row of the contact matrices, from 0" = row.0;
+    node: "number of the node" = row.1.node;
+    status: "slip, or open without contact terms" = status(row);
+    length_m: "its share of the contact" = row.1.weight;
+    normal_force_n_per_m: "normal force at the friction coefficient of the case" = row.1.normal_force;
+}
+
+columns! {
+    /// A contact point of solid bodies: a point of a face.
+    pub(super) SOLID_POINT: row as PointRow;
+    point: "row of the contact matrices, from 0" = row.0;
+    contact: "name of the contact, or number of the node" = row.1.contact.clone().or(row.1.node.map(|node| node.to_string()));
+    status: "slip, or open without contact terms" = status(row);
+    area_m2: "its share of the contact" = row.1.weight;
+    normal_force_n: "normal force at the friction coefficient of the case" = row.1.normal_force;
+    x_m: "its place" = row.1.place[0];
+    y_m: "its place" = row.1.place[1];
+    z_m: "its place" = row.1.place[2];
+}
+
+/// Writes the contact points.
 fn write_contact(folder: &OutputFolder, system: &ExportedSystem) -> Result<(), FolderError> {
-    folder.write(CONTACT, |out| {
-        let columns: &[&str] = match system.dimension {
-            3 => &["point", "contact", "status", "area_m2", "normal_force_n", "x_m", "y_m", "z_m"],
-            _ => &["point", "node", "status", "length_m", "normal_force_n_per_m"],
-        };
-        let mut table = Table::new(out, columns)?;
-        for (k, own) in system.contact.iter().enumerate() {
-            let status = if own.is_pressed { "slip" } else { "open" };
-            let node = own.node.map(|node| node.to_string());
-            let name = own.contact.clone().or(node).unwrap_or_default();
-            let mut row = vec![k.to_string(), name, status.to_owned()];
-            row.extend([own.weight, own.normal_force].map(format_number));
-            if system.dimension == 3 {
-                row.extend(own.place.map(format_number));
-            }
-            table.row(row)?;
-        }
-        table.finish()
-    })?;
-    Ok(())
+    let columns = if system.dimension == 3 { SOLID_POINT } else { PLANE_POINT };
+    let rows = system.contact.iter().cloned().enumerate();
+    folder.write(CONTACT, |out| write_rows(out, columns, rows)).map(drop)
 }
 
 /// An archive that `scipy.sparse.load_npz` reads as compressed rows.

@@ -1,14 +1,14 @@
 //! The eigenvalues of a superelement: table, summary, print.
 
 use crate::cea::QuadraticMode;
+use crate::output::{Table, columns};
+use crate::results::finding::write_table;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::manifest::Manifest;
 use crate::results::summary::write_summary;
-use crate::results::table::{Table, format_number};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::f64::consts::TAU;
-use std::fmt::Write as _;
 
 /// The modes of a superelement that stands free.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,42 +52,38 @@ pub struct FreeSpectrumSummary {
     pub manifest: Manifest,
 }
 
+/// Place of a mode by frequency, from 0, and the mode.
+type Row = (usize, QuadraticMode);
+
+columns! {
+    /// A mode, with the columns of every eigenvalue analysis: no friction, no harmonic, no direction, no contact.
+    MODES: row as Row;
+    friction_coefficient: "none" = None::<f64>;
+    mode: "number by frequency, from 1" = row.0 + 1, Always "mode" Count;
+    real_hz: "real part of the eigenvalue over 2 pi" = row.1.eigenvalue.re / TAU;
+    frequency_hz: "imaginary part over 2 pi" = row.1.eigenvalue.im / TAU, Always "frequency" Scientific(6);
+    damping_factor: "damping factor" = -row.1.eigenvalue.re / row.1.eigenvalue.norm(), Always "damping factor" Fixed(6);
+    growth_rate_per_s: "real part" = row.1.eigenvalue.re, Always "growth" Scientific(5);
+    harmonic: "none" = None::<usize>;
+    branch: "rank, from 0" = row.0;
+    direction: "none" = None::<i8>;
+    unstable: "whether it grows" = row.1.eigenvalue.re > 0.0;
+    residual: "relative residual" = row.1.residual;
+    contact_share: "none" = None::<f64>;
+}
+
 impl FreeSpectrum {
-    /// Writes `eigenvalues.csv`, with the columns of every eigenvalue analysis, and the summary.
+    fn table(&self) -> Table {
+        let rows = self.modes.iter().cloned().enumerate();
+        Table::new("eigenvalues.csv", "Eigenvalues").columns(MODES, rows)
+    }
+
+    /// Writes `eigenvalues.csv` and the summary.
     ///
     /// # Errors
     /// Those of the folder.
     pub fn write(&self, folder: &OutputFolder, wall_s: f64) -> Result<Value, FolderError> {
-        folder.write("eigenvalues.csv", |out| {
-            let columns = [
-                "friction_coefficient",
-                "mode",
-                "real_hz",
-                "frequency_hz",
-                "damping_factor",
-                "growth_rate_per_s",
-                "harmonic",
-                "branch",
-                "direction",
-                "unstable",
-                "residual",
-                "contact_share",
-            ];
-            let mut table = Table::new(out, &columns)?;
-            for (k, mode) in self.modes.iter().enumerate() {
-                let lambda = mode.eigenvalue;
-                let numbers =
-                    [lambda.re / TAU, lambda.im / TAU, -lambda.re / lambda.norm(), lambda.re];
-                // No friction coefficient, no harmonic, no direction, no contact.
-                let mut row = vec![String::new(), (k + 1).to_string()];
-                row.extend(numbers.map(format_number));
-                row.extend([String::new(), k.to_string(), String::new()]);
-                row.push((lambda.re > 0.0).to_string());
-                row.extend([format_number(mode.residual), String::new()]);
-                table.row(row)?;
-            }
-            table.finish()
-        })?;
+        write_table(folder, &self.table())?;
         write_summary(
             folder,
             &FreeSpectrumSummary {
@@ -107,32 +103,19 @@ impl FreeSpectrum {
     }
 
     fn unstable(&self) -> usize {
-        let unstable = self.modes.iter().filter(|mode| mode.eigenvalue.re > 0.0);
-        unstable.count()
+        self.modes.iter().filter(|mode| mode.eigenvalue.re > 0.0).count()
     }
 
     /// What is printed.
     pub fn print(&self) -> String {
-        let mut text = format!(
-            "superelement {}: {} unknowns, {} modes listed, {} unstable; {} real eigenvalues are not listed\n\n",
+        format!(
+            "superelement {}: {} unknowns, {} modes listed, {} unstable; {} real eigenvalues are not listed\n\n{}",
             self.name,
             self.dofs,
             self.modes.len(),
             self.unstable(),
             self.overdamped,
-        );
-        let _ = writeln!(text, "  mode  frequency Hz    growth 1/s  damping factor");
-        for (k, mode) in self.modes.iter().enumerate() {
-            let lambda = mode.eigenvalue;
-            let _ = writeln!(
-                text,
-                "  {:>4} {:>13.6e} {:>13.5e} {:>15.6}",
-                k + 1,
-                lambda.im / TAU,
-                lambda.re,
-                -lambda.re / lambda.norm(),
-            );
-        }
-        text
+            self.table().text(),
+        )
     }
 }

@@ -14,11 +14,10 @@ use super::drawing::{DrawingError, DrawingOptions, draw_all};
 use super::finding::write_page;
 use super::folder::{FolderError, OutputFolder};
 use super::manifest::Manifest;
-use super::quantity::quantity;
 use super::vtu::{EncodedMesh, Field, write_vtu};
 use crate::chart::{Figure, literal};
 use crate::mesh::{BoundaryCondition, Mesh, MeshQuality};
-use crate::output::{Described, Document, Section};
+use crate::output::{Described, Document, Format, Section, fixed, significant};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
@@ -164,23 +163,19 @@ pub fn write_mesh(
     Ok(())
 }
 
-/// A quantity with its value, in words.
-fn number(key: &str, value: f64) -> (String, String) {
-    let quantity = quantity(key);
-    (quantity.caption.to_owned(), quantity.text(value))
-}
-
 /// Sizes and quality, name and value.
 fn numbers(size: &MeshSize, shape: &ElementShapes) -> Vec<(String, String)> {
+    let count = |name: &str, count: usize| (name.to_owned(), count.to_string());
+    let metres = |name: &str, value: f64| (name.to_owned(), Format::Scientific(4).text(value, "m"));
     vec![
-        number("nodes", size.nodes as f64),
-        number("elements", size.elements as f64),
-        number("dofs", size.dofs as f64),
-        number("contact_nodes", size.contact_nodes as f64),
-        number("smallest_edge_m", shape.smallest_edge_m),
-        number("largest_edge_m", shape.largest_edge_m),
-        number("largest_aspect_ratio", shape.largest_aspect_ratio),
-        number("worst_jacobian", shape.worst_jacobian),
+        count("nodes", size.nodes),
+        count("elements", size.elements),
+        count("unknowns", size.dofs),
+        count("contact nodes", size.contact_nodes),
+        metres("shortest edge", shape.smallest_edge_m),
+        metres("longest edge", shape.largest_edge_m),
+        ("largest aspect ratio".to_owned(), fixed(shape.largest_aspect_ratio, 2)),
+        ("worst Jacobian".to_owned(), significant(shape.worst_jacobian, 5)),
     ]
 }
 

@@ -1,8 +1,8 @@
 //! Results of `mesh` for plane bodies and bodies of revolution.
 
-use super::{ElementShapes, Measured, MeshSize, condition_name, number};
+use super::{ElementShapes, Measured, MeshSize, condition_name};
 use crate::mesh::{AnnulusMesh, Mesh, SolidContact, SolidSector};
-use crate::output::{Described, Section, Table, columns};
+use crate::output::{Described, Format, Section, Table, columns};
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::vtu::{EncodedMesh, Field, write_vtu};
 use serde::{Deserialize, Serialize};
@@ -95,12 +95,15 @@ impl Measured for MeshStatistics {
     }
 
     fn section(&self, results: Section) -> Section {
-        let row = |key: &str, value: Option<f64>| Some(number(key, value?));
+        let row = |name: &str, value: Option<f64>, format: Format, unit: &str| {
+            Some((name.to_owned(), format.text(value?, unit)))
+        };
+        let few = Format::Significant(5);
         let further = [
-            row("area_m2", Some(self.area_m2)),
-            row("area_error", self.area_error),
-            row("elements_per_wavelength", self.elements_per_wavelength),
-            row("contact_nodes_per_wave", self.contact_nodes_per_wave),
+            row("area", Some(self.area_m2), Format::Scientific(6), "m2"),
+            row("area off the annulus by", self.area_error, Format::Scientific(1), ""),
+            row("elements per wavelength", self.elements_per_wavelength, few, ""),
+            row("contact nodes per wave", self.contact_nodes_per_wave, few, ""),
         ];
         let layers = self.axial_elements.map(|layers| {
             format!(

@@ -1,7 +1,8 @@
 //! The report as an HTML document.
 
-use super::{NamedFigure, Report, ReportSection, ReportTable, script};
+use super::{NamedFigure, Report, script};
 use crate::chart::{ID_PREFIX, escape};
+use crate::output::{Section, Table};
 use std::fmt::Write;
 
 const STYLE: &str = include_str!("style.css");
@@ -40,11 +41,11 @@ impl Report {
         out.push_str("<main>\n");
         let mut figures = 0;
         for (index, section) in self.sections.iter().enumerate() {
-            write_section(&mut out, index, section, &mut figures);
+            write_section(&mut out, (index, &section.0), &section.1, &mut figures);
         }
         self.write_origin(&mut out);
         out.push_str("</main>\n");
-        let figures = self.sections.iter().flat_map(|section| &section.figures);
+        let figures = self.sections.iter().flat_map(|section| &section.1);
         script::write(&mut out, figures);
         out.push_str("</body>\n</html>\n");
         out
@@ -67,7 +68,7 @@ impl Report {
     fn write_contents(&self, out: &mut String) {
         out.push_str("<nav aria-label=\"Contents\">\n<ul>\n");
         for (index, section) in self.sections.iter().enumerate() {
-            let heading = escape(&section.heading);
+            let heading = escape(&section.0.heading);
             let _ = writeln!(out, "<li><a href=\"#section-{}\">{heading}</a></li>", index + 1);
         }
         if self.has_case() {
@@ -125,49 +126,44 @@ fn write_paragraph(out: &mut String, text: &str) {
     };
 }
 
-fn write_section(out: &mut String, index: usize, section: &ReportSection, figures: &mut usize) {
+fn write_section(
+    out: &mut String,
+    (index, section): (usize, &Section),
+    drawn: &[NamedFigure],
+    figures: &mut usize,
+) {
+    // The numbers that decide are set as a box.
+    let is_box = !section.facts.is_empty();
     let _ = write!(
         out,
         "<section id=\"section-{}\"{}>\n<h2>{}</h2>\n",
         index + 1,
-        if section.is_box() { " class=\"results\"" } else { "" },
+        if is_box { " class=\"results\"" } else { "" },
         escape(&section.heading)
     );
-    if let (true, Some(numbers)) = (section.is_box(), section.tables.first()) {
-        write_numbers(out, numbers);
+    if is_box {
+        out.push_str("<dl>\n");
+        for (name, value) in &section.facts {
+            let _ = writeln!(out, "<div><dt>{}</dt><dd>{}</dd></div>", escape(name), escape(value));
+        }
+        out.push_str("</dl>\n");
     }
-    for paragraph in &section.paragraphs {
+    for paragraph in &section.text {
         write_paragraph(out, paragraph);
     }
     // A report begins with numbers; behind them pictures come first.
     let is_first = index == 0;
     if is_first {
-        write_tables(out, section);
+        section.tables.iter().for_each(|table| write_table(out, table));
     }
-    for figure in &section.figures {
+    for figure in drawn {
         *figures += 1;
         write_figure(out, *figures, figure);
     }
     if !is_first {
-        write_tables(out, section);
+        section.tables.iter().for_each(|table| write_table(out, table));
     }
     out.push_str("</section>\n");
-}
-
-fn write_tables(out: &mut String, section: &ReportSection) {
-    let tables = section.tables.iter().skip(usize::from(section.is_box()));
-    let tables = tables.filter(|table| !table.rows.is_empty());
-    tables.for_each(|table| write_table(out, table));
-}
-
-/// The first table of the box: names and values.
-fn write_numbers(out: &mut String, table: &ReportTable) {
-    out.push_str("<dl>\n");
-    for row in &table.rows {
-        let [name, value] = [0, 1].map(|at| row.get(at).map_or("", String::as_str));
-        let _ = writeln!(out, "<div><dt>{}</dt><dd>{}</dd></div>", escape(name), escape(value));
-    }
-    out.push_str("</dl>\n");
 }
 
 fn write_figure(out: &mut String, number: usize, figure: &NamedFigure) {
@@ -183,13 +179,15 @@ fn write_figure(out: &mut String, number: usize, figure: &NamedFigure) {
     );
 }
 
-fn write_table(out: &mut String, table: &ReportTable) {
+/// The columns of a table that people see; nothing of one without a row.
+fn write_table(out: &mut String, table: &Table) {
+    let (labels, rows) = table.shown();
+    if rows.is_empty() {
+        return;
+    }
     // A column of numbers is set right-aligned, its name too.
     let is_number = |column: usize| {
-        !table.rows.is_empty()
-            && table.rows.iter().all(|row| {
-                row.get(column).is_none_or(|cell| cell.is_empty() || cell.parse::<f64>().is_ok())
-            })
+        rows.iter().all(|row| row[column].is_empty() || row[column].parse::<f64>().is_ok())
     };
     let class = |column: usize| {
         if is_number(column) { " class=\"number\"" } else { "" }
@@ -199,12 +197,11 @@ fn write_table(out: &mut String, table: &ReportTable) {
         "<div class=\"scroll\" role=\"region\" aria-label=\"{0}\" tabindex=\"0\"><table>\n<caption>{0}</caption>\n<thead><tr>",
         escape(&table.caption)
     );
-    for (column, name) in table.columns.iter().enumerate() {
+    for (column, name) in labels.iter().enumerate() {
         let _ = write!(out, "<th scope=\"col\"{}>{}</th>", class(column), escape(name));
     }
     out.push_str("</tr></thead>\n<tbody>\n");
-    for row in &table.rows {
-        debug_assert_eq!(row.len(), table.columns.len(), "{}", table.caption);
+    for row in &rows {
         out.push_str("<tr>");
         for (column, cell) in row.iter().enumerate() {
             let _ = write!(out, "<td{}>{}</td>", class(column), escape(cell));

@@ -1,170 +1,114 @@
 //! Long tables of a sweep: one row for each onset, mode or limit cycle of each point, named by what it is.
 
-use super::super::Table;
 use super::PointRecord;
 use super::table::cell;
-use serde_json::{Map, Value};
-use std::io::{self, Write};
+use crate::output::{Column, Table, columns};
+use crate::results::cea::{ModeSummary, ONSETS, UnstableMode};
+use crate::results::cycle::{BranchRecord, FamilyRecord};
+use serde::de::DeserializeOwned;
+use serde_json::Value;
 
-/// One long table: where its rows come from in the points' summaries.
-pub struct LongTable {
-    /// File name.
-    pub file: &'static str,
-    /// Analysis whose summary has the rows.
-    analysis: &'static str,
-    /// Columns after the swept keys.
-    columns: &'static [&'static str],
-    /// The rows of one summary, as objects that have the columns.
-    rows: fn(&Value) -> Vec<Map<String, Value>>,
+columns! {
+    /// A mode that grows.
+    pub(in crate::results) UNSTABLE: mode as UnstableMode;
+    friction_coefficient: "friction coefficient" = mode.friction_coefficient, Always "friction" Plain;
+    mode: "number by frequency at that friction, from 1" = mode.mode, Always "mode" Count;
+    harmonic: "number of nodal diameters; none without symmetry" = mode.harmonic, IfAny "n" Count;
+    branch: "rank within the harmonic, else among all, from 0" = mode.branch;
+    direction: "1 travels with the rotor, -1 against it, 0 stands; none without symmetry" = mode.direction;
+    frequency_hz: "frequency" = mode.frequency_hz, Always "frequency" Fixed(2);
+    growth_rate_per_s: "growth rate" = mode.growth_rate_per_s, Always "growth rate" Fixed(2);
+    damping_factor: "damping factor, below 0" = mode.damping_factor;
+    critical_friction: "friction at which its branch turned unstable last" = mode.critical_friction, IfAny "critical friction" Fixed(6);
 }
 
-/// Every long table of a sweep.
-pub const LONG_TABLES: [LongTable; 4] = [
-    LongTable {
-        file: "stability.csv",
-        analysis: "cea",
-        columns: &[
-            "harmonic",
-            "branch",
-            "direction",
-            "critical_friction",
-            "frequency_hz",
-            "restabilized_friction",
-            "restabilized_frequency_hz",
-            "unstable_from_start",
-        ],
-        rows: |summary| objects(summary.get("critical_frictions")),
-    },
-    LongTable {
-        file: "unstable_modes.csv",
-        analysis: "cea",
-        columns: &[
-            "friction_coefficient",
-            "mode",
-            "harmonic",
-            "branch",
-            "direction",
-            "frequency_hz",
-            "growth_rate_per_s",
-            "damping_factor",
-            "critical_friction",
-        ],
-        rows: |summary| objects(summary.get("unstable_modes")),
-    },
-    LongTable {
-        file: "modes.csv",
-        analysis: "cea",
-        columns: &[
-            "harmonic",
-            "branch",
-            "direction",
-            "real_hz",
-            "frequency_hz",
-            "unstable",
-            "contact_share",
-        ],
-        rows: |summary| objects(summary.get("modes_at_friction")),
-    },
-    LongTable {
-        file: "branches.csv",
-        analysis: "cycle",
-        columns: &[
-            "mode",
-            "harmonic",
-            "onset",
-            "key",
-            "value",
-            "main_frequency_hz",
-            "amplitude_m",
-            "stick",
-            "slip",
-            "open",
-            "stable",
-            "growth_rate_per_s",
-        ],
-        rows: cycles_of_branches,
-    },
-];
+columns! {
+    /// A mode at the friction coefficient of the case.
+    pub(in crate::results) OWN_MODES: mode as ModeSummary;
+    harmonic: "number of nodal diameters; none without symmetry" = mode.harmonic;
+    branch: "rank within the harmonic, else among all, from 0" = mode.branch;
+    direction: "1 travels with the rotor, -1 against it, 0 stands; none without symmetry" = mode.direction;
+    real_hz: "real part of the eigenvalue over 2 pi" = mode.real_hz;
+    frequency_hz: "imaginary part over 2 pi" = mode.frequency_hz;
+    unstable: "whether it grows" = mode.unstable;
+    contact_share: "share of the kinetic energy at the contact" = mode.contact_share;
+}
 
-impl LongTable {
-    /// Whether a sweep with these analyses has this table.
-    pub fn is_of(&self, analyses: &[&str]) -> bool {
-        analyses.contains(&self.analysis)
+/// A cycle of a branch: its family, and its place along the branch.
+type BranchPoint = (FamilyRecord, usize);
+
+/// A quantity of the branch at a point.
+fn at<T: Copy>((family, place): &BranchPoint, of: impl Fn(&BranchRecord) -> &Vec<T>) -> Option<T> {
+    of(family.branch.as_ref()?).get(*place).copied()
+}
+
+columns! {
+    /// A limit cycle along a branch.
+    pub(in crate::results) BRANCHES: own as BranchPoint;
+    mode: "mode that leads to it, of a body without rotating waves" = own.0.mode;
+    harmonic: "nodal diameters of a wave" = own.0.mode.is_none().then_some(own.0.harmonic);
+    onset: "onset at which the wave is born, from 1" = own.0.mode.is_none().then_some(own.0.onset);
+    key: "key of the parameter" = own.0.branch.as_ref().map(|branch| branch.key.clone());
+    value: "its value" = at(own, |branch| &branch.values);
+    main_frequency_hz: "frequency" = at(own, |branch| &branch.frequency_hz);
+    amplitude_m: "amplitude along the counterface" = at(own, |branch| &branch.amplitude);
+    stick: "fraction of the contact that sticks" = at(own, |branch| &branch.status[0]);
+    slip: "fraction that slips" = at(own, |branch| &branch.status[1]);
+    open: "fraction that is open" = at(own, |branch| &branch.status[2]);
+    stable: "whether it is stable, where that is known" = at(own, |branch| &branch.stable).flatten();
+    growth_rate_per_s: "growth rate of its leading perturbation, where it is known" = at(own, |branch| &branch.growth_rate).flatten();
+}
+
+/// The long tables of a sweep with these analyses; failed points have no rows.
+pub fn long_tables(keys: &[String], analyses: &[&str], records: &[PointRecord]) -> Vec<Table> {
+    let mut tables = Vec::new();
+    if analyses.contains(&"cea") {
+        let of = ("stability.csv", "cea", "critical_frictions");
+        tables.push(long(of, keys, records, ONSETS, |own| vec![own]));
+        let of = ("unstable_modes.csv", "cea", "unstable_modes");
+        tables.push(long(of, keys, records, UNSTABLE, |own| vec![own]));
+        let of = ("modes.csv", "cea", "modes_at_friction");
+        tables.push(long(of, keys, records, OWN_MODES, |own| vec![own]));
     }
-
-    /// Writes the swept keys, the columns and the number of the point; failed points have no rows.
-    ///
-    /// # Errors
-    /// Those of the writer.
-    pub fn write(
-        &self,
-        out: &mut dyn Write,
-        keys: &[String],
-        records: &[PointRecord],
-    ) -> io::Result<()> {
-        let swept = keys.iter().map(String::as_str);
-        let header: Vec<&str> =
-            swept.chain(self.columns.iter().copied()).chain(["point"]).collect();
-        let mut table = Table::new(out, &header)?;
-        let of = |object: &Map<String, Value>, name: &str| {
-            object.get(name).map_or_else(String::new, cell)
+    if analyses.contains(&"cycle") {
+        let points = |family: FamilyRecord| -> Vec<BranchPoint> {
+            let count = family.branch.as_ref().map_or(0, |branch| branch.values.len());
+            (0..count).map(|place| (family.clone(), place)).collect()
         };
-        for record in records {
-            let rows = record.summaries.get(self.analysis).map(self.rows);
-            for row in rows.unwrap_or_default() {
-                let swept = keys.iter().map(|key| of(&record.swept, key));
-                let own = self.columns.iter().map(|name| of(&row, name));
-                table.row(swept.chain(own).chain([record.point.to_string()]))?;
-            }
-        }
-        table.finish()
+        let of = ("branches.csv", "cycle", "curves");
+        tables.push(long(of, keys, records, BRANCHES, points));
     }
+    tables
 }
 
-fn objects(list: Option<&Value>) -> Vec<Map<String, Value>> {
-    let items = list.and_then(Value::as_array).into_iter().flatten();
-    items.filter_map(|item| item.as_object().cloned()).collect()
-}
-
-/// One object for each cycle of each branch, from the arrays along the branches.
-fn cycles_of_branches(summary: &Value) -> Vec<Map<String, Value>> {
-    let mut rows = Vec::new();
-    for family in objects(summary.get("curves")) {
-        let Some(Value::Object(branch)) = family.get("branch") else {
-            continue;
-        };
-        let mode = family.get("mode").filter(|mode| !mode.is_null());
-        let count = branch.get("values").and_then(Value::as_array).map_or(0, Vec::len);
-        for i in 0..count {
-            let at = |name: &str| branch.get(name).and_then(|list| list.get(i)).cloned();
-            let status = |k: usize| branch.get("status").and_then(|s| s.get(k)?.get(i)).cloned();
-            // Cycles of a mode are no waves.
-            let of_wave = |name: &str| family.get(name).filter(|_| mode.is_none()).cloned();
-            let cells = [
-                ("mode", mode.cloned()),
-                ("harmonic", of_wave("harmonic")),
-                ("onset", of_wave("onset")),
-                ("key", branch.get("key").cloned()),
-                ("value", at("values")),
-                ("main_frequency_hz", at("frequency_hz")),
-                ("amplitude_m", at("amplitude")),
-                ("stick", status(0)),
-                ("slip", status(1)),
-                ("open", status(2)),
-                ("stable", at("stable")),
-                ("growth_rate_per_s", at("growth_rate")),
-            ];
-            let known = cells.into_iter().filter_map(|(name, v)| Some((name.to_owned(), v?)));
-            rows.push(known.collect());
-        }
+/// The swept keys, the columns and the number of the point, with the rows of each entry of a list of an analysis; an entry of
+/// another version has none.
+fn long<S: DeserializeOwned, T>(
+    (file, analysis, list): (&str, &str, &str),
+    keys: &[String],
+    records: &[PointRecord],
+    columns: &[Column<T>],
+    rows_of: impl Fn(S) -> Vec<T>,
+) -> Table {
+    let mut rows: Vec<(&PointRecord, T)> = Vec::new();
+    for record in records {
+        let found = record.summaries.get(analysis).and_then(|summary| summary.get(list));
+        let entries = found.and_then(Value::as_array).into_iter().flatten();
+        let own = entries.filter_map(|entry| S::deserialize(entry).ok()).flat_map(&rows_of);
+        rows.extend(own.map(|row| (record, row)));
     }
-    rows
+    let swept = keys.iter().fold(Table::new(file, ""), |table, key| {
+        let values = rows.iter().map(|row| row.0.swept.get(key).map(cell));
+        table.column(key, None, values)
+    });
+    let table = swept.columns(columns, rows.iter().map(|row| &row.1));
+    table.column("point", None, rows.iter().map(|row| row.0.point))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use serde_json::json;
+    use serde_json::{Map, json};
 
     fn record(point: usize, radius: f64, analysis: &str, summary: Value) -> PointRecord {
         PointRecord {
@@ -180,9 +124,10 @@ mod tests {
     }
 
     fn written(file: &str, records: &[PointRecord]) -> String {
-        let table = LONG_TABLES.iter().find(|table| table.file == file).unwrap();
+        let keys = ["geometry.inner_radius".to_owned()];
+        let tables = long_tables(&keys, &["cea", "cycle"], records);
         let mut out = Vec::new();
-        table.write(&mut out, &["geometry.inner_radius".into()], records).unwrap();
+        tables.iter().find(|table| table.file == file).unwrap().write_csv(&mut out).unwrap();
         String::from_utf8(out).unwrap()
     }
 
@@ -206,12 +151,25 @@ mod tests {
 
     #[test]
     fn each_limit_cycle_of_a_branch_is_a_row() {
-        let branch = json!({ "key": "contact.rotation_speed_rpm", "values": [10.0, 20.0],
-            "frequency_hz": [9e3, 8e3], "amplitude": [1e-6, 2e-6],
-            "status": [[0.5, 0.4], [0.5, 0.4], [0.0, 0.2]],
-            "stable": [true, null], "growth_rate": [-3.5, null] });
-        let summary = json!({ "curves": [{ "harmonic": 2, "onset": 1, "branch": branch },
-            { "harmonic": 0, "onset": 0, "mode": 4, "branch": branch }] });
+        let branch = BranchRecord {
+            key: "contact.rotation_speed_rpm".into(),
+            values: vec![10.0, 20.0],
+            frequency_hz: vec![9e3, 8e3],
+            amplitude: vec![1e-6, 2e-6],
+            status: [vec![0.5, 0.4], vec![0.5, 0.4], vec![0.0, 0.2]],
+            stable: vec![Some(true), None],
+            growth_rate: vec![Some(-3.5), None],
+            ..BranchRecord::default()
+        };
+        let family = |harmonic, onset, mode| FamilyRecord {
+            harmonic,
+            onset,
+            mode,
+            onsets: Vec::new(),
+            cycle: None,
+            branch: Some(branch.clone()),
+        };
+        let summary = json!({ "curves": [family(2, 1, None), family(0, 0, Some(4))] });
         let text = written("branches.csv", &[record(1, 0.02, "cycle", summary)]);
         let rows: Vec<&str> = text.lines().skip(1).collect();
         let key = "contact.rotation_speed_rpm";

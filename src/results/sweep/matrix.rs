@@ -1,10 +1,10 @@
 //! The operating matrix of a study of eigenvalue analyses: which modes grow under which conditions.
 
 use super::PointRecord;
+use super::long::UNSTABLE;
 use super::swept::{printed, short, swept_text};
+use crate::output::{Format, Table, fixed};
 use crate::results::cea::{UnstableCount, UnstableMode};
-use crate::results::quantity::{fixed, quantity};
-use crate::results::report::ReportTable;
 use serde::Deserialize;
 use serde_json::{Map, Value};
 use std::collections::BTreeSet;
@@ -93,30 +93,8 @@ impl<'a> OperatingMatrix<'a> {
         conditions.flat_map(|own| own.unstable.iter().map(move |mode| (own, mode)))
     }
 
-    /// The unstable modes as a table of a report; none where nothing is unstable.
-    pub fn table(&self, keys: &[String]) -> Option<ReportTable> {
-        let captions = ["frequency_hz", "growth_rate_per_s", "critical_friction"];
-        let mut columns = vec!["point".to_owned()];
-        columns.extend(keys.iter().map(|key| short(key).to_owned()));
-        columns.extend(["friction".to_owned(), "mode".to_owned()]);
-        columns.extend(captions.iter().map(|key| quantity(key).label()));
-        let number = |key: &str, value: Option<f64>| {
-            value.map_or_else(String::new, |value| quantity(key).number(value))
-        };
-        let rows = self.modes().take(MOST_ROWS).map(|(condition, mode)| {
-            let mut row = vec![condition.point.to_string()];
-            row.extend(condition.swept.values().map(printed));
-            row.push(condition.friction_coefficient.to_string());
-            row.push(match mode.harmonic {
-                Some(harmonic) => format!("{} (n = {harmonic})", mode.mode),
-                None => mode.mode.to_string(),
-            });
-            row.push(number(captions[0], Some(mode.frequency_hz)));
-            row.push(number(captions[1], Some(mode.growth_rate_per_s)));
-            row.push(number(captions[2], mode.critical_friction));
-            row
-        });
-        let rows: Vec<Vec<String>> = rows.collect();
+    /// The unstable modes as a table.
+    pub(super) fn table(&self, keys: &[String]) -> Table {
         let count = self.modes().count();
         let caption = match count > MOST_ROWS {
             true => {
@@ -126,7 +104,14 @@ impl<'a> OperatingMatrix<'a> {
                 "Unstable modes under every operating condition (unstable_modes.csv)".to_owned()
             }
         };
-        (!rows.is_empty()).then_some(ReportTable::new(caption, columns, rows))
+        let shown: Vec<_> = self.modes().take(MOST_ROWS).collect();
+        let points = shown.iter().map(|own| own.0.point);
+        let mut table = Table::new("", caption).column("", Some(("point", Format::Count)), points);
+        for key in keys {
+            let values = shown.iter().map(|own| own.0.swept.get(key).map(printed));
+            table = table.column("", Some((short(key), Format::Plain)), values);
+        }
+        table.columns(UNSTABLE, shown.iter().map(|own| own.1))
     }
 }
 

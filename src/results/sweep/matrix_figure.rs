@@ -6,8 +6,8 @@ use super::swept::{printed, swept_text};
 use crate::chart::{
     Axis, ChartError, Figure, MUTED, Marker, Panel, Points, Shapes, extremes, literal,
 };
+use crate::output::fixed;
 use crate::results::parameter::{in_unit, parameter_name, shared_unit};
-use crate::results::quantity::fixed;
 use serde_json::Value;
 
 /// Most panels of the figure.

@@ -13,9 +13,10 @@ mod table;
 
 pub use figures::{SweepDrawing, draw};
 pub use folder::{Claim, Found, Start, SweepFolder};
-pub use long::{LONG_TABLES, LongTable};
+pub use long::long_tables;
+pub(super) use long::{BRANCHES, OWN_MODES, UNSTABLE};
 pub use record::{PointClock, PointRecord};
-pub use report::{FailedPoint, SweepReport, SweepSummary, print};
+pub use report::{FailedPoint, SweepReport, SweepSummary, document};
 pub use swept::swept_text;
 pub use table::write_points;
 

@@ -1,39 +1,68 @@
-//! Summary of a sweep and the table that it prints.
+//! Summary and document of a sweep.
 
 use super::super::Manifest;
-use super::super::quantity::quantity;
 use super::super::summary::PointSummary;
 use super::PointRecord;
 use super::matrix::OperatingMatrix;
 use super::swept::{printed, short};
+use crate::chart::extremes;
+use crate::output::{Cell, Described, Document, Format, Section, Table, columns, significant};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
-use std::fmt::Write as _;
 
-/// A number of a point's summary.
-type NumberOf = fn(&PointSummary) -> Option<f64>;
+/// A point with the summaries of its analyses.
+struct PointRow<'a> {
+    record: &'a PointRecord,
+    own: Vec<PointSummary>,
+}
 
-/// What a person wants first of a point: the key whose caption the column has, and the number.
-const FIRST_COLUMNS: [(&str, NumberOf); 18] = [
-    ("main_frequency_hz", |s| s.own.main_frequency_hz),
-    ("harmonic", |s| s.own.harmonic.map(|n| n as f64)),
-    ("status.stick", |s| s.own.status.stick),
-    ("status.slip", |s| s.own.status.slip),
-    ("status.open", |s| s.own.status.open),
-    ("critical_friction", |s| s.critical_frictions.first()?.critical_friction),
-    ("harmonic", |s| s.critical_frictions.first()?.harmonic.map(|n| n as f64)),
-    ("harmonic", |s| s.cycles.first()?.harmonic.map(|n| n as f64)),
-    ("main_frequency_hz", |s| s.cycles.first()?.main_frequency_hz),
-    ("status.stick", |s| s.cycles.first()?.status.stick),
-    ("status.open", |s| s.cycles.first()?.status.open),
-    ("harmonic", |s| s.cycles.get(1)?.harmonic.map(|n| n as f64)),
-    ("main_frequency_hz", |s| s.cycles.get(1)?.main_frequency_hz),
-    ("status.stick", |s| s.cycles.get(1)?.status.stick),
-    ("status.open", |s| s.cycles.get(1)?.status.open),
-    ("winner", |s| s.winner.map(|n| n as f64)),
-    ("boundary.low", |s| s.boundary.low),
-    ("boundary.high", |s| s.boundary.high),
-];
+/// What a person wants first of a point.
+type First = Vec<PointSummary>;
+
+/// A number of the first summary that has it.
+fn first<T>(point: &First, of: impl Fn(&PointSummary) -> Option<T>) -> Option<T> {
+    point.iter().find_map(of)
+}
+
+/// The lowest critical friction; the first friction of the analysis is only a bound of it.
+fn critical(point: &First) -> Option<Cell> {
+    let crossing = first(point, |s| s.critical_frictions.first().copied())?;
+    let value = crossing.critical_friction?;
+    Some(match crossing.unstable_from_start {
+        true => Cell::Text(format!("<={}", Format::Fixed(6).number(value))),
+        false => value.into(),
+    })
+}
+
+columns! {
+    /// What a person wants first of a point.
+    FIRST: point as First;
+    main_frequency_hz: "main frequency" = first(point, |s| s.own.main_frequency_hz), IfAny "main frequency" Fixed(2);
+    harmonic: "nodal diameters" = first(point, |s| s.own.harmonic), IfAny "n" Count;
+    stick: "stick" = first(point, |s| s.own.status.stick), IfAny "stick" Fixed(3);
+    slip: "slip" = first(point, |s| s.own.status.slip), IfAny "slip" Fixed(3);
+    open: "open" = first(point, |s| s.own.status.open), IfAny "open" Fixed(3);
+    critical_friction: "critical friction" = critical(point), IfAny "critical friction" Fixed(6);
+    critical_n: "its nodal diameters" = first(point, |s| s.critical_frictions.first()?.harmonic), IfAny "n" Count;
+    first_n: "nodal diameters of the first cycle" = first(point, |s| s.cycles.first()?.harmonic), IfAny "n" Count;
+    first_hz: "its frequency" = first(point, |s| s.cycles.first()?.main_frequency_hz), IfAny "main frequency" Fixed(2);
+    first_stick: "its stick" = first(point, |s| s.cycles.first()?.status.stick), IfAny "stick" Fixed(3);
+    first_open: "its open" = first(point, |s| s.cycles.first()?.status.open), IfAny "open" Fixed(3);
+    second_n: "nodal diameters of the second cycle" = first(point, |s| s.cycles.get(1)?.harmonic), IfAny "n" Count;
+    second_hz: "its frequency" = first(point, |s| s.cycles.get(1)?.main_frequency_hz), IfAny "main frequency" Fixed(2);
+    second_stick: "its stick" = first(point, |s| s.cycles.get(1)?.status.stick), IfAny "stick" Fixed(3);
+    second_open: "its open" = first(point, |s| s.cycles.get(1)?.status.open), IfAny "open" Fixed(3);
+    winner: "wave that always wins" = first(point, |s| s.winner), IfAny "n that always wins" Count;
+    low: "ratio below" = first(point, |s| s.boundary.low), IfAny "ratio below" Fixed(3);
+    high: "ratio above" = first(point, |s| s.boundary.high), IfAny "ratio above" Fixed(3);
+}
+
+columns! {
+    /// How a point ends.
+    ENDS: point as First;
+    end: "end of a transient" = first(point, |s| s.end_state.clone()), IfAny "ends in" Plain;
+    settled: "whether it has settled" = first(point, |s| s.settled), IfAny "settled" Plain;
+}
 
 /// Names of the ends of a transient that are no limit cycle although it vibrates.
 pub(in crate::results) const TWO_FREQUENCY: &str = "two-frequency";
@@ -147,7 +176,7 @@ impl SweepReport<'_> {
 }
 
 /// `summary.json` of `frictionsim sweep`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct SweepSummary {
     /// `sweep`.
     pub command: String,
@@ -180,7 +209,7 @@ pub struct SweepSummary {
 }
 
 /// A point that failed, and why.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct FailedPoint {
     /// Its number, from 1.
     pub point: usize,
@@ -217,107 +246,92 @@ impl SweepSummary {
     }
 }
 
-/// The report as text: a row for each point of a small sweep, what failed, what is missing.
-pub fn print(report: &SweepReport<'_>) -> String {
-    let mut out = String::new();
-    if !report.title.is_empty() {
-        let _ = writeln!(out, "{}", report.title);
-    }
-    if report.records.len() <= MOST_ROWS {
-        write_rows(&mut out, &rows(report));
-    }
-    if let Some(sentence) = OperatingMatrix::of(report.records).sentence() {
-        let _ = writeln!(out, "{sentence}");
-    }
-    for (error, points) in report.errors() {
-        let _ = writeln!(out, "failed: {}: {error}", number_ranges(&points));
-    }
+/// Tables and sentences of a sweep: what failed, what is missing, what a person wants first of every point.
+pub fn document(report: &SweepReport<'_>, is_page: bool) -> Document {
+    let matrix = OperatingMatrix::of(report.records);
+    let errors = report.errors();
+    let errors =
+        errors.iter().map(|(error, points)| format!("failed: {}: {error}", number_ranges(points)));
     let missing = report.missing();
-    let _ = writeln!(
-        out,
-        "{} of {} points finished, {} of them failed{}",
-        report.records.len(),
-        report.count,
-        report.failed().count(),
-        match missing.is_empty() {
-            true => String::new(),
-            false => format!("; missing: {}", number_ranges(&missing)),
+    let missing = (!missing.is_empty()).then(|| format!("missing: {}", number_ranges(&missing)));
+    // Pages of the same points are the same bytes.
+    let rate = report.points_per_core_hour().filter(|_| !is_page);
+    let rate = rate.map(|rate| ("points per core-hour", format!("{rate:.0}")));
+    let results = Section::new("Results")
+        .text([format!("{} at each point.", report.analyses.join(" and "))])
+        .text(matrix.sentence())
+        .text(errors)
+        .text(missing)
+        .facts(ranges(report))
+        .facts(rate);
+    let modes = Some(matrix.table(report.keys)).filter(|_| is_page);
+    let points =
+        Some(points_table(report)).filter(|_| is_page || report.records.len() <= MOST_ROWS);
+    Document::new(report.title, "Study")
+        .section(results)
+        .section(Section::new("Study").figures([""]))
+        .section(Section::new("Points").tables(modes).tables(points))
+        .notes(&report.notes())
+}
+
+/// The points, those that failed without numbers.
+fn rows<'a>(report: &SweepReport<'a>) -> Vec<PointRow<'a>> {
+    let row = |record: &'a PointRecord| PointRow {
+        own: match record.error {
+            Some(_) => Vec::new(),
+            None => record.summaries.values().map(PointSummary::of).collect(),
+        },
+        record,
+    };
+    report.records.iter().map(row).collect()
+}
+
+/// The heads of the swept keys: keys of one short name are told by their whole names.
+fn heads(keys: &[String]) -> impl Iterator<Item = (&String, &str)> {
+    let is_alone = |key: &str| keys.iter().filter(|other| short(other) == short(key)).count() == 1;
+    keys.iter().map(move |key| (key, if is_alone(key) { short(key) } else { key }))
+}
+
+/// How far the study is, and the range of every quantity that a person wants first.
+fn ranges(report: &SweepReport<'_>) -> Vec<(String, String)> {
+    let finished = format!("{} of {}", report.records.len(), report.count);
+    let failed = report.failed().count().to_string();
+    let mut out = vec![("points".to_owned(), finished), ("failed".to_owned(), failed)];
+    let rows = rows(report);
+    let mut add = |head: String, numbers: Vec<f64>| {
+        if let (false, (low, high)) = (numbers.is_empty(), extremes(numbers.iter().copied())) {
+            let [low, high] = [low, high].map(|value| significant(value, 6));
+            out.push((head, if low == high { low } else { format!("{low} to {high}") }));
         }
-    );
-    if let Some(rate) = report.points_per_core_hour() {
-        let _ = write!(out, "{rate:.0} points per core-hour");
-        // The wall time of gathering says nothing of the points.
-        let _ = match report.ran {
-            Some(_) => writeln!(out, ", {:.1} s", report.wall_s),
-            None => writeln!(out),
-        };
+    };
+    for (key, head) in heads(report.keys) {
+        let values = rows.iter().filter_map(|row| row.record.swept.get(key)?.as_f64());
+        add(head.to_owned(), values.collect());
     }
-    for note in report.notes() {
-        let _ = writeln!(out, "{note}");
+    for column in FIRST {
+        let values = rows.iter().filter_map(|row| (column.cell)(&row.own).number());
+        add(column.heading(), values.collect());
     }
     out
 }
 
-/// Column names, then a row for each finished point, with what a person wants first.
-pub(super) fn rows(report: &SweepReport<'_>) -> Vec<Vec<String>> {
-    let summaries: Vec<Vec<PointSummary>> = report
-        .records
-        .iter()
-        .map(|record| record.summaries.values().map(PointSummary::of).collect())
-        .collect();
-    let number = |point: &[PointSummary], of: NumberOf| point.iter().find_map(of);
-    // A column that no point has a number for is left out.
-    let columns: Vec<&(&str, NumberOf)> = FIRST_COLUMNS
-        .iter()
-        .filter(|(_, of)| summaries.iter().any(|point| number(point, *of).is_some()))
-        .collect();
-    let mut table = vec![vec!["point".to_owned()]];
-    // Keys of one short name are told by their whole names.
-    let is_alone =
-        |key: &str| report.keys.iter().filter(|other| short(other) == short(key)).count() == 1;
-    let head = |key: &String| if is_alone(key) { short(key).to_owned() } else { key.clone() };
-    table[0].extend(report.keys.iter().map(head));
-    table[0].extend(columns.iter().map(|(key, _)| quantity(key).label()));
-    let end_of = |point: &[PointSummary]| point.iter().find_map(|s| s.end_state.clone());
-    let has_ends = summaries.iter().any(|point| end_of(point).is_some());
-    if has_ends {
-        table[0].extend(["ends in".to_owned(), "settled".to_owned()]);
-    }
-    for (record, point) in report.records.iter().zip(&summaries) {
-        let mut row = vec![record.point.to_string()];
-        row.extend(record.swept.values().map(printed));
-        // The first friction of the analysis is no critical one.
-        let mut crossings = point.iter().filter_map(|summary| summary.critical_frictions.first());
-        let is_bound = crossings.next().is_some_and(|first| first.unstable_from_start);
-        row.extend(columns.iter().map(|(key, of)| match (&record.error, number(point, *of)) {
-            (Some(_), _) => "failed".to_owned(),
-            (None, None) => String::new(),
-            (None, Some(n)) if is_bound && *key == "critical_friction" => {
-                format!("<={}", quantity(key).number(n))
-            }
-            (None, Some(n)) => quantity(key).number(n),
-        }));
-        if has_ends {
-            let settled = point.iter().find_map(|summary| summary.settled);
-            let settled = settled.map(|settled| if settled { "yes" } else { "no" });
-            let end = end_of(point).unwrap_or_default();
-            row.extend([end, settled.unwrap_or_default().to_owned()]);
-        }
-        table.push(row);
+/// What a person wants first of every point; `points.csv` has all.
+fn points_table(report: &SweepReport<'_>) -> Table {
+    let rows = rows(report);
+    let points = rows.iter().map(|row| row.record.point);
+    let mut table = Table::new("", "Finished points (every quantity: points.csv)").column(
+        "",
+        Some(("point", Format::Count)),
+        points,
+    );
+    for (key, head) in heads(report.keys) {
+        let values = rows.iter().map(|row| row.record.swept.get(key).map(printed));
+        table = table.column("", Some((head, Format::Plain)), values);
     }
     table
-}
-
-/// Aligned columns.
-fn write_rows(out: &mut String, table: &[Vec<String>]) {
-    for row in table {
-        for (at, text) in row.iter().enumerate() {
-            let width = table.iter().map(|row| row[at].chars().count()).max();
-            let _ = write!(out, "{text:>width$}  ", width = width.unwrap_or(0));
-        }
-        out.truncate(out.trim_end_matches(' ').len());
-        out.push('\n');
-    }
+        .columns(FIRST, rows.iter().map(|row| &row.own))
+        .columns(ENDS, rows.iter().map(|row| &row.own))
+        .shown_column("outcome", rows.iter().map(|row| row.record.error.as_ref().map(|_| "failed")))
 }
 
 /// Ascending numbers with runs drawn together: `1-4, 7`.

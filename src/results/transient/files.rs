@@ -3,11 +3,12 @@
 use super::contact::encode_contact;
 use super::{TransientReport, TransientSummary, summary};
 use crate::fem::{nodal_stress, revolved_stress, solid_stress};
+use crate::output::columns;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::pvd::{PvdEntry, write_pvd};
 use crate::results::record::write_record;
 use crate::results::summary::write_summary;
-use crate::results::table::{Table, format_number};
+use crate::results::table::{Table, format_number, write_rows};
 use crate::results::vtu::{EncodedMesh, Field, solid_vectors, write_vtu};
 use crate::transient::{Recorder, SampleRow, Snapshot};
 use std::io::{self, Write};
@@ -115,27 +116,30 @@ fn write_probe(
     table.finish()
 }
 
+/// Energies (J) and powers (W) of a sample, in the order of the table.
+type Energies = [f64; 12];
+
+columns! {
+    /// A sample of the energies; the last two of contacts with springs or dashpots.
+    pub(in crate::results) ENERGY: row as Energies;
+    time_s: "time" = row[0];
+    kinetic_j: "kinetic energy" = row[1];
+    strain_j: "strain energy" = row[2];
+    external_w: "power of the drive, mean over the sample interval, as the others" = row[3];
+    stick_w: "power given to the body by nodes that stick" = row[4];
+    slide_w: "power given to the body by nodes that slide" = row[5];
+    contact_dissipated_w: "power lost to friction" = row[6];
+    material_damping_w: "power lost in the body" = row[7];
+    normal_contact_w: "power of the normal contact forces" = row[8];
+    balance_residual: "residual of the energy balance, relative to the largest energy or work so far" = row[9];
+    contact_j: "energy in the springs of the contact" = row[10];
+    contact_damping_w: "power lost in the dashpots of the contact" = row[11];
+}
+
 fn write_energy(out: &mut dyn Write, report: &TransientReport<'_>) -> io::Result<()> {
-    let mut columns = vec![
-        "time_s",
-        "kinetic_j",
-        "strain_j",
-        "external_w",
-        "stick_w",
-        "slide_w",
-        "contact_dissipated_w",
-        "material_damping_w",
-        "normal_contact_w",
-        "balance_residual",
-    ];
-    let has_springs = report.record.has_contact_springs();
-    if has_springs {
-        columns.extend(["contact_j", "contact_damping_w"]);
-    }
-    let mut table = Table::new(out, &columns)?;
-    for row in &report.record.rows {
+    let rows = report.record.rows.iter().map(|row| {
         let powers = row.powers.scaled(report.thickness);
-        let mut numbers = vec![
+        [
             row.time,
             report.thickness * row.kinetic_energy,
             report.thickness * row.strain_energy,
@@ -146,22 +150,28 @@ fn write_energy(out: &mut dyn Write, report: &TransientReport<'_>) -> io::Result
             report.thickness * row.material_damping,
             powers.normal,
             row.balance_residual,
-        ];
-        if has_springs {
-            numbers.extend([report.thickness * row.contact_energy, powers.damping]);
-        }
-        table.numbers(&numbers)?;
-    }
-    table.finish()
+            report.thickness * row.contact_energy,
+            powers.damping,
+        ]
+    });
+    let has_springs = report.record.has_contact_springs();
+    write_rows(out, if has_springs { ENERGY } else { &ENERGY[..10] }, rows)
+}
+
+/// Time and `[stick, slip, open]` of a sample.
+type Fractions = (f64, [f64; 3]);
+
+columns! {
+    /// A sample of the contact.
+    pub(in crate::results) STATUS: row as Fractions;
+    time_s: "time" = row.0;
+    stick: "fraction of the contact nodes that stick" = row.1[0];
+    slip: "fraction that slips" = row.1[1];
+    open: "fraction that is open" = row.1[2];
 }
 
 fn write_contact(out: &mut dyn Write, rows: &[SampleRow]) -> io::Result<()> {
-    let mut table = Table::new(out, &["time_s", "stick", "slip", "open"])?;
-    for row in rows {
-        let [stick, slip, open] = row.counts.fractions();
-        table.numbers(&[row.time, stick, slip, open])?;
-    }
-    table.finish()
+    write_rows(out, STATUS, rows.iter().map(|row| (row.time, row.counts.fractions())))
 }
 
 /// Complex amplitude of each harmonic of the contact edge's tangential displacement: `n = 0..=8`, and of the higher

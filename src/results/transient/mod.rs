@@ -5,22 +5,21 @@ mod contact;
 mod energy;
 mod figures;
 mod files;
-mod print;
 mod record;
-mod report;
 mod run;
 mod signals;
 mod solid;
 mod stages;
 mod summary;
+mod tables;
 
 pub use checkpoint::{CHECKPOINT, Checkpoint, CheckpointError, read_checkpoint, write_checkpoint};
 pub use figures::draw_run;
 pub use files::write;
-pub use print::print;
-pub use report::{draw, html_report};
+pub(super) use files::{ENERGY, STATUS};
 pub use run::RunFigures;
 pub use summary::{TransientSummary, summary};
+pub use tables::{PredictedGrowth, document, draw};
 
 use crate::fem::MaterialField;
 use crate::mesh::{Mesh, SolidSector};

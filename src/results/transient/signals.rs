@@ -98,7 +98,7 @@ impl RunFigures<'_> {
         }
     }
 
-    /// The status of all contact nodes over time; a strobed map says so.
+    /// The status of all contact nodes over time; a map of some instants says so.
     fn status_panel(&self, time: Axis, range: (f64, f64), caption: String) -> Option<Panel> {
         if self.is_assembly() {
             // Nodes of surfaces have no order along an edge.
@@ -112,14 +112,9 @@ impl RunFigures<'_> {
             .iter()
             .flat_map(|frame| places.iter().map(|&place| frame.status[place]))
             .collect();
-        let (map, strobe) = status_map(&times, places.len(), &codes, range)?;
-        let caption = match strobe {
-            Some(interval) => format!(
-                "{caption} at instants {} ms apart (stripes drift as under a stroboscope)",
-                significant(interval * 1e3, 3)
-            ),
-            None => caption,
-        };
+        let (map, apart) = status_map(&times, places.len(), &codes, range)?;
+        let apart = apart.map(|s| format!(" at instants {} ms apart", significant(s * 1e3, 3)));
+        let caption = caption + &apart.unwrap_or_default();
         Some(
             Panel::new(time, place_axis(self.mesh.has_round_contact()))
                 .plain()

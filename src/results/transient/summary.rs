@@ -1,6 +1,7 @@
 //! `summary.json` of a transient.
 
 use super::TransientReport;
+use crate::output::Described;
 use crate::results::extent::Extent;
 use crate::results::manifest::Manifest;
 use crate::results::summary::{MeanPowers, StatusFractions, present};
@@ -11,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// `summary.json` of `frictionsim transient`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct TransientSummary {
     /// `transient`.
     pub command: String,
@@ -100,7 +101,7 @@ pub struct TransientSummary {
 }
 
 /// The velocity that was added.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct PerturbationSummary {
     /// Circumferential harmonics.
     pub harmonics: Vec<usize>,
@@ -117,7 +118,7 @@ pub struct PerturbationSummary {
 }
 
 /// One number for all harmonics, or one for each.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum OneOrEach {
     /// For all.
@@ -137,7 +138,7 @@ impl OneOrEach {
 }
 
 /// Differences between the largest and the smallest block mean over the last fifth.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct DriftSummary {
     /// Of the amplitude of any harmonic, relative to the largest.
     pub amplitude: f64,
@@ -148,7 +149,7 @@ pub struct DriftSummary {
 }
 
 /// Growth of one harmonic, with 95 % intervals.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct GrowthSummary {
     /// Circumferential harmonic; absent for a body without symmetry.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -167,7 +168,7 @@ pub struct GrowthSummary {
 }
 
 /// Motion of a probe over the last fifth; accelerations are means over the sample interval.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct ProbeSummary {
     /// Where it is, if it was asked for by its place.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -182,7 +183,7 @@ pub struct ProbeSummary {
 }
 
 /// A place that was asked for, and its nearest node.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct PlaceSummary {
     /// The place, `x` and `y`, m.
     pub asked_m: [f64; 2],
@@ -191,7 +192,7 @@ pub struct PlaceSummary {
 }
 
 /// Motion in one direction.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
 pub struct MotionSummary {
     /// Half the range of the displacement, m.
     pub displacement_amplitude_m: f64,
@@ -206,7 +207,7 @@ pub fn summary(report: &TransientReport<'_>, manifest: &Manifest) -> TransientSu
     let (plan, analysis) = (&report.plan, report.analysis);
     let (end, settling) = (&analysis.last_fifth, &analysis.settling);
     let watts = |power: f64| present(power * report.thickness);
-    let [stick, slip, open] = end.status.map(present);
+
     let two = match settling.state {
         EndState::TwoFrequency(two) => Some(two),
         _ => None,
@@ -236,7 +237,7 @@ pub fn summary(report: &TransientReport<'_>, manifest: &Manifest) -> TransientSu
         main_frequency_hz: end.main_frequency_hz,
         main_harmonic: end.main_harmonic,
         main_amplitude_m: end.main_amplitude,
-        status: StatusFractions { stick, slip, open },
+        status: StatusFractions::of(end.status),
         power_w: MeanPowers {
             external: watts(end.powers.external),
             stick: watts(end.powers.stick),

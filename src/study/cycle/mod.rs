@@ -31,7 +31,10 @@ use crate::cycle::{
 use crate::fem::lumped_masses;
 use crate::fem::operator::SimdLevel;
 use crate::mesh::AnnulusMesh;
-use crate::results::cycle::{Absence, CycleFrame, CycleReport, CycleResult, known};
+use crate::results::cycle::{
+    Absence, CycleFrame, CycleReport, CycleResult, Search, SoughtCycle, TwoWaveResult, WaveSearch,
+    known,
+};
 use along::{along, changes};
 use families::{Sought, continuation, critical_value, next_onset, solvers};
 use rayon::prelude::*;
@@ -123,34 +126,29 @@ impl<'a> CycleStudy<'a> {
     }
 
     /// Everything that there is to report of the results.
-    pub fn report(&self, results: Vec<CycleResult>, wall_s: f64) -> CycleReport<'_> {
+    pub fn report(
+        &self,
+        results: Vec<CycleResult>,
+        two_waves: Vec<TwoWaveResult>,
+        wall_s: f64,
+    ) -> CycleReport<'_> {
         CycleReport {
             title: &self.case.title,
             mesh: &self.annulus.mesh,
-            inner_radius: self.annulus.specification.inner_radius,
+            solid: None,
             thickness: self.case.thickness,
             extent: extent_of(self.case),
             friction_coefficient: self.point.contact.friction_coefficient,
-            lowest_onset: self.onsets.first().copied(),
             critical: self.critical,
-            results,
-            two_waves: Vec::new(),
+            search: Search::Waves(WaveSearch {
+                inner_radius: self.annulus.specification.inner_radius,
+                contact: self.point.contact,
+                lowest_onset: self.onsets.first().copied(),
+                results,
+                two_waves,
+            }),
             wall_s,
         }
-    }
-
-    /// That there is no cycle is an answer where steady sliding is stable, else a failure.
-    ///
-    /// # Errors
-    /// [`StudyError::NoCycle`].
-    pub fn refuse_nothing(report: &CycleReport<'_>) -> Result<(), StudyError> {
-        let is_found = report.results.iter().any(|result| result.cycle.is_ok());
-        if is_found || report.stable_sliding().is_some() {
-            return Ok(());
-        }
-        let absences = report.results.iter().filter_map(|r| r.cycle.as_ref().err());
-        let reasons: Vec<&str> = absences.map(|absence| absence.reason.as_str()).collect();
-        Err(StudyError::NoCycle(reasons.join("; ")))
     }
 
     fn onsets_of(&self, harmonic: usize) -> Vec<Onset> {
@@ -266,6 +264,23 @@ pub fn limit_cycle(case: &Case, family: Family) -> Result<(CycleSolver, LimitCyc
     let solver = CycleSolver::born_at(&model, family, &onset, phases)?;
     let cycle = solver.find(&operating_point(case))?;
     Ok((solver, cycle))
+}
+
+/// That there is no cycle is an answer where steady sliding is stable, else a failure.
+///
+/// # Errors
+/// [`StudyError::NoCycle`].
+pub fn refuse_nothing(report: &CycleReport<'_>) -> Result<(), StudyError> {
+    let cycles = report.cycles();
+    if report.is_stable() || cycles.iter().any(|own| own.cycle.is_some()) {
+        return Ok(());
+    }
+    let reason = |own: &SoughtCycle| {
+        let reason = own.error.as_ref().or(own.absent.as_ref())?;
+        Some(format!("{}: {reason}", own.name))
+    };
+    let reasons: Vec<String> = cycles.iter().filter_map(reason).collect();
+    Err(StudyError::NoCycle(reasons.join("; ")))
 }
 
 /// Where a case stands among the limit cycles of its disc.

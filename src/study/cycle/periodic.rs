@@ -18,7 +18,9 @@ use crate::cycle::periodic::{
 };
 use crate::cycle::{CriticalValue, Parameter};
 use crate::fem::operator::{SimdLevel, StiffnessOperator};
-use crate::results::periodic::{FoundCycle, PeriodicReport, PeriodicResult, SoughtMode};
+use crate::results::cycle::{
+    CycleReport, FoundCycle, MotionSearch, PeriodicResult, Search, SoughtMode,
+};
 use crate::transient::{OperatorChoice, TransientError, TransientModel};
 pub use basin::boundary_of_modes;
 use rayon::prelude::*;
@@ -319,37 +321,24 @@ impl<'a> PeriodicStudy<'a> {
     }
 
     /// Everything that there is to report of the results.
-    pub fn report(&self, results: Vec<PeriodicResult>, wall_s: f64) -> PeriodicReport<'_> {
-        PeriodicReport {
+    pub fn report(&self, results: Vec<PeriodicResult>, wall_s: f64) -> CycleReport<'_> {
+        CycleReport {
             title: &self.case.title,
             mesh: &self.stepped.mesh,
             solid: self.stepped.sector.as_ref(),
-            interface: self.body().interface(),
             thickness: self.stepped.thickness(self.case),
             extent: extent_of(self.case),
             friction_coefficient: self.case.contact.sliding.friction_coefficient,
-            modes: self.steady.modes.len(),
-            highest_hz: self.steady.modes.last().map_or(0.0, ComplexMode::frequency_hz),
-            least_stable: self.least_stable,
             critical: self.critical,
-            results,
+            search: Search::Motions(MotionSearch {
+                interface: self.body().interface(),
+                modes: self.steady.modes.len(),
+                highest_hz: self.steady.modes.last().map_or(0.0, ComplexMode::frequency_hz),
+                least_stable: self.least_stable,
+                results,
+            }),
             wall_s,
         }
-    }
-
-    /// That there is no cycle is an answer where steady sliding is stable, else a failure.
-    ///
-    /// # Errors
-    /// [`StudyError::NoCycle`].
-    pub fn refuse_nothing(report: &PeriodicReport<'_>) -> Result<(), StudyError> {
-        if report.is_stable() || report.results.iter().any(|result| result.outcome.is_ok()) {
-            return Ok(());
-        }
-        let reasons = report.results.iter().filter_map(|result| {
-            let reason = result.outcome.as_ref().err()?;
-            Some(format!("{}: {reason}", result.mode))
-        });
-        Err(StudyError::NoCycle(reasons.collect::<Vec<_>>().join("; ")))
     }
 }
 

@@ -16,7 +16,6 @@ mod attached;
 mod base;
 mod confirm;
 mod fields;
-mod front;
 mod modal;
 mod places;
 mod shown;
@@ -27,7 +26,7 @@ use crate::case::{Case, ModificationKind};
 use crate::cea::CeaError;
 use crate::fem::lumped_masses;
 use crate::mesh::Mesh;
-use crate::results::improve::{Candidate, FrontPoint, Sizes, State, TargetFields, TargetMode};
+use crate::results::improve::{Candidate, Sizes, State, TargetFields, TargetMode};
 pub(super) use base::refuse_bodies;
 use base::{Base, Outlook, state, target_modes};
 use confirm::{keys_of, run_again, verdict};
@@ -56,8 +55,6 @@ pub struct Improvement {
     pub sizes: Sizes,
     /// Modifications, the best first.
     pub candidates: Vec<Candidate>,
-    /// Mass against critical friction, where the case asks for it.
-    pub front: Vec<FrontPoint>,
     /// What there is to say.
     pub notes: Vec<String>,
 }
@@ -117,7 +114,6 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
     });
     let mut candidates: Vec<Candidate> = candidates.collect();
     promote(&mut candidates);
-    let front = front::front(&search, &modal)?;
     if base.multiple > 0 {
         notes.push(format!(
             "{} of the modes coincide with another one and are left out of the predictions",
@@ -139,7 +135,6 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
             offset_m: budget.offset,
         },
         candidates,
-        front,
         notes,
     })
 }

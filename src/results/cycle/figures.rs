@@ -1,17 +1,17 @@
-//! The figures of limit cycles of a body without symmetry, from their record.
+//! The figures of limit cycles, from their record.
 
-use super::branch_figure::branch_figure;
-use super::record::{MotionRecord, PeriodicRecord};
+use super::record::{CycleRecord, HistoryRow, MotionRecord};
 use crate::chart::{
-    Axis, ChartError, ColourMap, Figure, INK, Line, MUTED, Marker, Panel, Rule, SERIES, Stroke,
+    Axis, ChartError, ColourMap, Figure, INK, Line, MUTED, Marker, Motion, MotionKind, MotionState,
+    Panel, Rule, SERIES, Stroke, plain,
 };
 use crate::contact::ContactStatus;
 use crate::fem::MaterialField;
 use crate::mesh::{Mesh, SolidFace, SolidSector};
-use crate::results::charts::palette::status_ground;
+use crate::results::charts::palette::{status_ground, status_of_code};
 use crate::results::charts::{
-    ContactVelocity, Disc, FieldFrame, contact_figure, field_figure, open_contact_figure,
-    place_axis, shear_stress_figure, speeds_on_top, status_curves, status_map,
+    ContactVelocity, Disc, FieldFrame, MovingBody, contact_figure, field_figure,
+    open_contact_figure, place_axis, shear_stress_figure, speeds_on_top, status_curves, status_map,
 };
 use crate::results::drawing::{Declaration, DrawingOptions, draw_all};
 use crate::results::report::NamedFigure;
@@ -21,11 +21,13 @@ use std::f64::consts::TAU;
 pub(super) const FIELD_LIMIT: usize = 8;
 /// Periods of a history.
 const PERIODS: usize = 2;
+/// Amplitude along the normal, over that along the contact, below which it is round-off.
+const ROUND_OFF: f64 = 1e-9;
 
 /// Limit cycles and what their figures show besides.
-pub struct PeriodicFigures<'a> {
+pub struct CycleFigures<'a> {
     /// The record.
-    pub record: &'a PeriodicRecord,
+    pub record: &'a CycleRecord,
     /// The mesh; of a body of revolution in three dimensions the section across the axis.
     pub mesh: &'a Mesh,
     /// One sector of a body of revolution in three dimensions.
@@ -36,16 +38,13 @@ pub struct PeriodicFigures<'a> {
     pub materials: &'a dyn MaterialField,
 }
 
-/// Amplitude along the normal, over that along the contact, below which it is round-off.
-const ROUND_OFF: f64 = 1e-9;
-
 /// Draws the cycles: contact over the period and at one instant, history, closed curves and harmonics of each, then the
 /// fields of all.
 ///
 /// # Errors
 /// That of a figure that cannot be drawn although there is something to draw.
 pub fn draw_cycles(
-    data: &PeriodicFigures<'_>,
+    data: &CycleFigures<'_>,
     options: &DrawingOptions,
 ) -> Result<Vec<NamedFigure>, ChartError> {
     let mut figures: Vec<Declaration<'_>> = Vec::new();
@@ -54,15 +53,14 @@ pub fn draw_cycles(
         figures.push(Box::new(move || Ok(data.at_one_instant(motion))));
         figures.push(Box::new(move || Ok(data.history(motion))));
         figures.push(Box::new(move || Ok(data.orbit(motion))));
-        figures.push(Box::new(move || Ok(harmonics(motion))));
-        figures.push(Box::new(move || branch_figure(motion)));
+        figures.push(Box::new(move || harmonics(motion)));
     }
     figures.push(Box::new(|| data.velocity()));
     figures.push(Box::new(|| data.shear_stress()));
     draw_all(figures, options)
 }
 
-impl PeriodicFigures<'_> {
+impl CycleFigures<'_> {
     /// Which contact nodes the figures over the angle show: of several rings of nodes the middle one.
     fn is_shown(&self, node: usize) -> bool {
         let rings = self.solid.map_or(1, |sector| sector.rings.len());
@@ -70,12 +68,13 @@ impl PeriodicFigures<'_> {
     }
 
     fn shown<T: Copy>(&self, values: &[T]) -> Vec<T> {
-        let places = (0..values.len()).filter(|&i| self.is_shown(i % self.record.nodes.len()));
+        let count = self.record.nodes.len().max(1);
+        let places = (0..values.len()).filter(|&i| self.is_shown(i % count));
         places.map(|i| values[i]).collect()
     }
 
     /// Whether it is of solid bodies of a mesh.
-    pub(super) fn is_assembly(&self) -> bool {
+    fn is_assembly(&self) -> bool {
         self.solid.is_none() && self.mesh.dimension == 3
     }
 
@@ -89,45 +88,62 @@ impl PeriodicFigures<'_> {
         }
     }
 
-    /// The status of all contact nodes over one period.
+    /// The status of all contact nodes over one period; that of a wave is its history.
     fn status(&self, motion: &MotionRecord) -> Result<Figure, ChartError> {
-        let ends = (motion.times[0], motion.times[motion.times.len() - 1]);
+        if motion.diameters > 0 {
+            return Err(ChartError::empty("statuses over a period"));
+        }
+        let times = motion.over_time(|row| row.time_s);
         let codes = self.shown(&motion.status);
-        let map = status_map(&motion.times, codes.len() / motion.times.len(), &codes, ends);
+        let map = status_map(
+            &times,
+            codes.len() / times.len(),
+            &codes,
+            (times[0], times[times.len() - 1]),
+        );
         let (map, _) = map.ok_or_else(|| ChartError::empty("statuses over a period"))?;
         let caption = format!(
             "Contact status of every contact node over one period of the limit cycle of {}.",
-            motion.hertz()
+            motion.whose()
         );
         let panel =
             Panel::new(Axis::time(), self.places()).plain().height(120.0).layer(map).legend();
-        Ok(Figure::new(format!("status-{}", motion.tag()), caption).panel(panel))
+        Ok(Figure::new(format!("status-{}", motion.tag), caption).panel(panel))
     }
 
-    /// The contact at time zero.
+    /// The contact at time zero; of a wave around the whole circle, where a node at angle `theta` is in phase `n theta`.
     fn at_one_instant(&self, motion: &MotionRecord) -> Figure {
         if self.is_assembly() {
             return self.on_surfaces(motion);
         }
-        let [pressure, shear, velocity] = motion.edge.each_ref().map(|own| self.shown(own));
+        let n = motion.diameters.max(1);
+        let around = |values: &[f64]| self.shown(&values.repeat(n));
+        let [pressure, shear, velocity] = motion.edge.each_ref().map(|own| around(own));
         let velocity = match self.mesh.opposite {
             Some(_) => ContactVelocity::Absolute(&velocity, f64::NAN),
             None => ContactVelocity::Absolute(&velocity, self.shown_speed(motion)),
         };
-        let statuses = self.shown(&motion.first_statuses());
-        let name = format!("contact-{}", motion.tag());
+        let statuses = self.shown(&motion.first_statuses().repeat(n));
+        let name = format!("contact-{}", motion.tag);
         if !self.mesh.has_round_contact() {
             let caption = format!(
                 "Limit cycle of {} at one instant along the contact edge: tractions (a), velocity (b), on a ground coloured by \
                  status.",
-                motion.hertz()
+                motion.whose()
             );
-            let names = (name, caption, heading(motion));
+            let names = (name, caption, motion.heading());
             return open_contact_figure(names, &statuses, [&pressure, &shear], velocity);
         }
+        let (turns, wave) = match motion.diameters {
+            0 => (String::new(), ""),
+            n => (
+                format!("; the pattern turns against the rotor at 1/{n} of the frequency"),
+                ", wave ↻",
+            ),
+        };
         let caption = format!(
-            "Limit cycle of {} at one instant: status around the circle (a), tractions (b), velocity (c).",
-            motion.hertz()
+            "Limit cycle of {} at one instant: status around the circle (a), tractions (b), velocity (c){turns}.",
+            motion.whose()
         );
         let first = self.record.angles.first().copied();
         let counterface = match self.solid {
@@ -135,7 +151,7 @@ impl PeriodicFigures<'_> {
             _ => "cylinder *Ωa*",
         };
         contact_figure(
-            ((name, caption, heading(motion)), counterface),
+            ((name, caption, motion.heading() + wave), counterface),
             (first.unwrap_or(0.0), &statuses),
             [&pressure, &shear],
             velocity,
@@ -152,110 +168,145 @@ impl PeriodicFigures<'_> {
         motion.counterface_speed * radius(rings / 2) / radius(motion.node % rings)
     }
 
-    /// What the node that moves most goes through in two periods, on a ground coloured by its status.
+    /// The contact node of the history in words.
+    fn node(&self, motion: &MotionRecord) -> String {
+        let node = self.record.nodes.get(motion.node).map(|&node| node as usize);
+        match (node, self.solid) {
+            (None, _) => "a contact node".to_owned(),
+            (Some(node), Some(_)) => format!("contact node {}", node + 1),
+            (Some(node), None) => format!("contact node {}", self.mesh.node_label(node)),
+        }
+    }
+
+    /// What the node goes through in two periods, on a ground coloured by its status.
     fn history(&self, motion: &MotionRecord) -> Figure {
         let repeated = Repeated::new(motion);
-        let metres = |name: &str| Axis::new(name, "m").prefixed();
-        let displacement = |name: &str, values: &[f64], caption: &str| {
-            let line = Line::through(repeated.curve(values)).solid(INK, 1.1);
-            repeated.panel(metres(name), 62.0, caption).layer(line)
+        let [normal, along] = directions(motion);
+        let line = |of: fn(&HistoryRow) -> f64, colour| {
+            Line::through(repeated.curve(&motion.over_time(of))).solid(colour, 1.1)
         };
-        let line = |values: &[f64], colour, name: &str| {
-            Line::through(repeated.curve(values)).solid(colour, 1.1).name(name)
+        let displacement = |direction: &str, of, caption: &str| {
+            let metres = Axis::new(&format!("*u*_{{{direction}}}"), "m").prefixed();
+            repeated.panel(metres, 62.0, caption).layer(line(of, INK))
         };
-        let [u_n, u_t] = &motion.displacement;
-        let [v_n, v_t] = &motion.velocity;
-
         // What a node that sticks moves with, and the limits of friction, where they are numbers.
         let counterface = (self.mesh.opposite.is_none())
             .then(|| Rule::horizontal(motion.counterface_speed).stretching().name("counterface"));
         let limit = |sign: f64| {
             let friction = sign * motion.friction_coefficient.unwrap_or(f64::NAN);
-            let limit: Vec<f64> = motion.pressure.iter().map(|p| friction * p).collect();
+            let limit = motion.over_time(|row| friction * row.pressure_pa);
             Line::through(repeated.curve(&limit)).stroke(Stroke::dashed(MUTED, 0.9))
         };
-        let law = [limit(1.0).name("Coulomb limit ±*μp*"), limit(-1.0)];
-        let law = law.into_iter();
+        let law = [limit(1.0).name("Coulomb limit ±*μp*"), limit(-1.0)].into_iter();
         let law = law.filter(|_| motion.friction_coefficient.is_some());
         let caption = format!(
-            "Contact node {} through two periods of the limit cycle of {}.",
-            self.node_label(motion),
-            motion.hertz()
+            "Two periods of {} in the limit cycle of {}.",
+            self.node(motion),
+            motion.whose()
         );
         let traction = Axis::new("traction", "Pa").prefixed();
-        Figure::new(format!("history-{}", motion.tag()), caption)
+        Figure::new(format!("history-{}", motion.tag), caption)
             .shared_x()
-            .panel(displacement("*u*_{t}", u_t, "displacement along the contact"))
-            .panel(displacement("*u*_{n}", u_n, "normal displacement"))
+            .panel(displacement(along, |row| row.displacement[1], "displacement along the contact"))
+            .panel(displacement(normal, |row| row.displacement[0], "normal displacement"))
             .panel(
                 repeated
                     .panel(Axis::new("*v*", "m/s"), 78.0, "velocity")
                     .layers(counterface)
-                    .layer(line(v_n, SERIES[2], "normal *v*_{n}"))
-                    .layer(line(v_t, SERIES[0], "tangential *v*_{t}")),
+                    .layer(
+                        line(|row| row.velocity[0], SERIES[2])
+                            .name(format!("normal *v*_{{{normal}}}")),
+                    )
+                    .layer(
+                        line(|row| row.velocity[1], SERIES[0])
+                            .name(format!("tangential *v*_{{{along}}}")),
+                    ),
             )
             .panel(
                 repeated
                     .panel(traction, 90.0, "tractions")
                     .layers(law)
-                    .layer(line(&motion.pressure, INK, "pressure *p*"))
-                    .layer(line(&motion.shear, SERIES[1], "friction traction *τ*")),
+                    .layer(line(|row| row.pressure_pa, INK).name("pressure *p*"))
+                    .layer(line(|row| row.shear_pa, SERIES[1]).name("friction traction *τ*")),
             )
     }
 
-    /// The closed curves of the node that moves most: velocity over displacement, along the contact and normal, and its path.
+    /// The closed curves of the node: velocity over displacement, along the contact and normal, and its path.
     fn orbit(&self, motion: &MotionRecord) -> Figure {
-        let ([u_n, u_t], [v_n, v_t]) = (&motion.displacement, &motion.velocity);
+        let [normal, along] = directions(motion);
         let statuses = motion.node_statuses();
         let status: Vec<ContactStatus> = statuses.iter().chain(statuses.first()).copied().collect();
-        let loop_of = |caption: &str, x: (&str, &[f64]), y: (&str, &str, &[f64])| {
-            let points = || x.1.iter().copied().zip(y.2.iter().copied());
+        type Of = fn(&HistoryRow) -> f64;
+        let loop_of = |caption: &str, x: (String, Of), y: (String, &str, Of)| {
+            let (xs, ys) = (motion.over_time(x.1), motion.over_time(y.2));
+            let points = || xs.iter().copied().zip(ys.iter().copied());
             let closed: Vec<(f64, f64)> = points().chain(points().next()).collect();
-            let axis = |name: &str, unit: &str| Axis::new(name, unit).prefixed();
-            Panel::new(axis(x.0, "m"), axis(y.0, y.1))
+            Panel::new(Axis::new(&x.0, "m").prefixed(), Axis::new(&y.0, y.1).prefixed())
                 .height(128.0)
                 .caption(caption)
                 .layers(status_curves(&closed, &status))
                 .layer(Line::through(closed).solid(INK, 0.0).arrows(3))
         };
         let caption = format!(
-            "Phase plots, along the contact (a) and normal to it (b), and path (c) of contact node {} in the limit cycle of {}.",
-            self.node_label(motion),
-            motion.hertz()
+            "Phase plots, along the contact (a) and normal to it (b), and path (c) of {} in the limit cycle of {}.",
+            self.node(motion),
+            motion.whose()
         );
-        let along = ("displacement *u*_{t}", &u_t[..]);
-        let normal = ("displacement *u*_{n}", &u_n[..]);
-        Figure::new(format!("orbit-{}", motion.tag()), caption)
+        let moved = |way: &str| format!("displacement *u*_{{{way}}}");
+        let speed = |way: &str| format!("velocity *v*_{{{way}}}");
+        let (u_n, u_t): (Of, Of) = (|row| row.displacement[0], |row| row.displacement[1]);
+        let (v_n, v_t): (Of, Of) = (|row| row.velocity[0], |row| row.velocity[1]);
+        Figure::new(format!("orbit-{}", motion.tag), caption)
             .columns(3)
-            .panel(loop_of("along the contact", along, ("velocity *v*_{t}", "m/s", v_t)))
-            .panel(loop_of("normal", normal, ("velocity *v*_{n}", "m/s", v_n)))
-            .panel(loop_of("path", along, (normal.0, "m", normal.1)))
+            .panel(loop_of("along the contact", (moved(along), u_t), (speed(along), "m/s", v_t)))
+            .panel(loop_of("normal", (moved(normal), u_n), (speed(normal), "m/s", v_n)))
+            .panel(loop_of("path", (moved(along), u_t), (moved(normal), "m", u_n)))
     }
 
-    fn node_label(&self, motion: &MotionRecord) -> usize {
-        let node = self.record.nodes.get(motion.node).copied().unwrap_or(0) as usize;
-        match self.solid {
-            Some(_) => node + 1,
-            None => self.mesh.node_label(node),
+    /// Contact status at time zero of every node of the edge; of a wave that of the nearest phase.
+    fn around(&self, motion: &MotionRecord) -> Vec<u8> {
+        let nodes = self.mesh.contact_edge().nodes.len();
+        let points = motion.status.len().max(1);
+        let nearest =
+            |node: usize| (2 * motion.diameters * node * points + nodes) / (2 * nodes) % points;
+        match motion.diameters {
+            0 => motion.first_statuses().into_iter().map(|status| status as u8).collect(),
+            _ => (0..nodes).filter_map(|node| motion.status.get(nearest(node)).copied()).collect(),
         }
+    }
+
+    fn shown_cycles(&self) -> impl Iterator<Item = &MotionRecord> {
+        self.record.cycles.iter().take(FIELD_LIMIT)
+    }
+
+    /// The waves in motion, without the steady state that they ride on.
+    fn turning(&self) -> Motion {
+        let body = MovingBody::new(self.mesh);
+        let states = self.shown_cycles().map(|wave| MotionState {
+            name: plain(&wave.heading()),
+            frequency_hz: wave.frequency_hz,
+            kind: MotionKind::Turning {
+                displacement: body.wave(&wave.displacement_field),
+                turn: -wave.counterface_speed.signum() * TAU / wave.diameters as f64,
+                status: self.around(wave),
+            },
+        });
+        Motion { states: states.collect(), ..body.at_rest() }
     }
 
     fn velocity(&self) -> Result<Figure, ChartError> {
         if self.is_assembly() {
             return self.velocity_of_bodies();
         }
-        let frames = self.record.cycles.iter().take(FIELD_LIMIT);
-        let frames = frames.map(|motion| -> FieldFrame {
+        let frames = self.shown_cycles().map(|motion| -> FieldFrame {
             let velocity = &motion.velocity_field;
             match self.solid {
                 // A ring of statuses shows one edge.
-                Some(sector) => {
-                    let speeds = speeds_on_top(sector, velocity);
-                    (heading(motion), speeds, Vec::new())
-                }
+                Some(sector) => (motion.heading(), speeds_on_top(sector, velocity), Vec::new()),
                 None => {
                     let speeds = velocity.chunks_exact(2).map(|v| v[0].hypot(v[1])).collect();
-                    (heading(motion), speeds, motion.first_statuses())
+                    let codes = self.around(motion).into_iter();
+                    (motion.heading(), speeds, codes.map(status_of_code).collect())
                 }
             }
         });
@@ -263,21 +314,28 @@ impl PeriodicFigures<'_> {
             ("velocity", "Velocity modulus and contact status of the limit cycles at one instant.");
         let axis = Axis::new("velocity |*v*|", "m/s");
         let disc = Disc::new(self.mesh);
-        field_figure(caption, &disc, &axis, ColourMap::Viridis, frames.collect())
+        let figure = field_figure(caption, &disc, &axis, ColourMap::Viridis, frames.collect())?;
+        let is_wave = self.record.cycles.iter().any(|own| own.diameters > 0);
+        Ok(if is_wave { figure.motion(self.turning()) } else { figure })
     }
 
     fn shear_stress(&self) -> Result<Figure, ChartError> {
         if self.solid.is_some() || self.is_assembly() {
             return Err(ChartError::empty("shear stress of a plane body"));
         }
-        let cycles = self.record.cycles.iter().take(FIELD_LIMIT);
-        let fields = cycles.map(|motion| (heading(motion), &motion.displacement_field[..]));
+        let cycles = self.shown_cycles();
+        let fields = cycles.map(|motion| (motion.heading(), &motion.displacement_field[..]));
         let caption = "Shear stress of the limit cycles at one instant.";
         shear_stress_figure(caption, &Disc::new(self.mesh), self.materials, fields)
     }
 }
 
-/// A few periods of the node that moves most.
+/// Names of the directions normal to the contact and along it: radius and angle of the disc of a wave.
+fn directions(motion: &MotionRecord) -> [&'static str; 2] {
+    if motion.diameters > 0 { ["r", "θ"] } else { ["n", "t"] }
+}
+
+/// A few periods of the node of the history.
 struct Repeated {
     interval: f64,
     samples: usize,
@@ -286,7 +344,7 @@ struct Repeated {
 
 impl Repeated {
     fn new(motion: &MotionRecord) -> Self {
-        let count = motion.times.len();
+        let count = motion.history.len();
         let samples = PERIODS * count + 1;
         let own = motion.node_statuses().into_iter().cycle().take(samples);
         Self {
@@ -315,11 +373,15 @@ impl Repeated {
     }
 }
 
-/// Amplitudes of the harmonics in time.
-fn harmonics(motion: &MotionRecord) -> Figure {
+/// Amplitudes of the harmonics in time of a motion of the whole mesh.
+fn harmonics(motion: &MotionRecord) -> Result<Figure, ChartError> {
+    let [normal, along] = &motion.harmonics;
+    if along.is_empty() {
+        return Err(ChartError::empty("harmonics in time"));
+    }
     let caption = format!(
         "Harmonics of the motion of the contact nodes in the limit cycle of {}: root mean square over the nodes.",
-        motion.hertz()
+        motion.whose()
     );
     let line = |values: &[f64], colour, name: &str| {
         let frequencies = (1..=values.len()).map(|k| k as f64 * motion.frequency_hz);
@@ -328,22 +390,12 @@ fn harmonics(motion: &MotionRecord) -> Figure {
             .marked(Marker::Circle, 1.6)
             .name(name)
     };
-    let [normal, along] = &motion.harmonics;
     let amplitude = Axis::new("amplitude", "m").logarithmic();
-    let panel = Panel::new(Axis::kilohertz(), amplitude).height(110.0).layer(line(
-        along,
-        SERIES[0],
-        "along the contact",
-    ));
+    let panel = Panel::new(Axis::kilohertz(), amplitude).height(110.0);
+    let panel = panel.layer(line(along, SERIES[0], "along the contact"));
     // Rigid contact that stays closed leaves round-off along the normal.
     let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
-    let panel = match largest(normal) > ROUND_OFF * largest(along) {
-        true => panel.layer(line(normal, SERIES[2], "normal")),
-        false => panel,
-    };
-    Figure::new(format!("harmonics-{}", motion.tag()), caption).panel(panel)
-}
-
-pub(super) fn heading(motion: &MotionRecord) -> String {
-    format!("mode {}, {:.2} kHz", motion.mode, motion.frequency_hz * 1e-3)
+    let has_normal = largest(normal) > ROUND_OFF * largest(along);
+    let normal = has_normal.then(|| line(normal, SERIES[2], "normal"));
+    Ok(Figure::new(format!("harmonics-{}", motion.tag), caption).panel(panel.layers(normal)))
 }

@@ -1,6 +1,6 @@
 //! A branch of limit cycles as a curve that may turn back.
 
-use super::record::BranchRecord;
+use super::branches::BranchRecord;
 use crate::chart::{Line, Stroke};
 
 /// A point of a curve: part `weight` of the way from cycle `before` to the next.
@@ -126,13 +126,10 @@ mod tests {
             key: "contact.rotation_speed_rpm".into(),
             values: values.to_vec(),
             own_value: values[0],
-            frequency_hz: values.to_vec(),
-            amplitude: values.to_vec(),
-            status: Default::default(),
-            shares: Default::default(),
             stable: stable.to_vec(),
             growth_rate: growth_rate.to_vec(),
             folds: folds.to_vec(),
+            ..BranchRecord::default()
         }
     }
 

@@ -1,12 +1,12 @@
 //! Pictures of the limit cycles of solid bodies: their surfaces.
 
-use super::figures::{FIELD_LIMIT, PeriodicFigures, heading};
+use super::figures::{CycleFigures, FIELD_LIMIT};
 use super::record::MotionRecord;
 use crate::chart::{Axis, ChartError, Figure};
 use crate::contact::ContactStatus;
 use crate::results::charts::{contact_surfaces, speeds_of_bodies};
 
-impl PeriodicFigures<'_> {
+impl CycleFigures<'_> {
     /// Pressure on each contact surface at time zero, seen from outside along its mean normal; grey where it is open.
     pub(super) fn on_surfaces(&self, motion: &MotionRecord) -> Figure {
         let [pressure, ..] = &motion.edge;
@@ -21,9 +21,9 @@ impl PeriodicFigures<'_> {
         let axis = || Axis::new("contact pressure", "Pa").prefixed().between(0.0, largest);
         let caption = format!(
             "Limit cycle of {} at one instant: contact pressure on each contact surface, seen from outside; grey where it is open.",
-            motion.hertz()
+            motion.whose()
         );
-        let name = format!("contact-{}", motion.tag());
+        let name = format!("contact-{}", motion.tag);
         let surfaces = (self.mesh, &self.surfaces[..]);
         contact_surfaces((&name, &caption), surfaces, (&values, &[]), &axis)
     }
@@ -31,7 +31,7 @@ impl PeriodicFigures<'_> {
     /// Speed over the surface of the bodies at time zero, each picture with colours of its own.
     pub(super) fn velocity_of_bodies(&self) -> Result<Figure, ChartError> {
         let cycles = self.record.cycles.iter().take(FIELD_LIMIT);
-        let frames = cycles.map(|motion| (heading(motion), &motion.velocity_field[..]));
+        let frames = cycles.map(|motion| (motion.heading(), &motion.velocity_field[..]));
         let caption = "Velocity modulus of the limit cycles at one instant.";
         speeds_of_bodies(self.mesh, caption, frames)
     }

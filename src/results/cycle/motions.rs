@@ -1,0 +1,452 @@
+//! Motions of the whole mesh as limit cycles.
+
+use super::branches::{BranchRecord, BranchRow, FamilyRecord, SteppedRow};
+use super::record::{HistoryRow, MotionRecord};
+use super::summary::{
+    BranchSummary, ConfirmationRun, ConfirmationSummary, CycleMotion, CycleName, ExternalPower,
+    KnownStability, ModeOfCycle, ModeSummary, MotionBranch, Perturbation, SoughtCycle,
+    SoundSummary, StabilityChangeSummary, StabilitySummary, SteppedMotion,
+};
+use super::{CycleReport, MotionSearch, Told};
+use crate::chart::extremes;
+use crate::contact::{ContactInterface, ContactStatus};
+use crate::cycle::Verdict;
+use crate::cycle::periodic::{
+    BranchMotion, ContactInstant, FloquetMultiplier, FloquetMultipliers, MotionConfirmation,
+    PeriodicBranch, PeriodicMotion, PeriodicPowers, REMAINDER, Sound,
+};
+use crate::results::npz::NpzArchive;
+use crate::results::summary::{MeanPowers, StatusFractions, present};
+use std::f64::consts::TAU;
+use std::fmt;
+use std::io;
+
+/// A mode of steady sliding.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SoughtMode {
+    /// Number by frequency, from 1, among the modes of the case's own friction coefficient.
+    pub number: usize,
+    /// Frequency, Hz.
+    pub frequency_hz: f64,
+    /// Growth rate, 1/s.
+    pub growth_rate: f64,
+}
+
+/// `mode 15`.
+impl fmt::Display for SoughtMode {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "mode {}", self.number)
+    }
+}
+
+impl From<SoughtMode> for ModeSummary {
+    fn from(mode: SoughtMode) -> Self {
+        Self {
+            mode: mode.number,
+            mode_frequency_hz: mode.frequency_hz,
+            growth_rate_per_s: mode.growth_rate,
+        }
+    }
+}
+
+/// A limit cycle and what is known of it.
+#[derive(Clone, Debug)]
+pub struct FoundCycle {
+    /// The motion.
+    pub motion: PeriodicMotion,
+    /// What its flat faces radiate, of a body that has any.
+    pub sound: Option<Sound>,
+    /// Harmonics in which it is told.
+    pub harmonic_count: usize,
+    /// Its multipliers, where they were asked for, or why there are none.
+    pub stability: Option<Result<FloquetMultipliers, String>>,
+    /// A transient that started beside it, where one was asked for.
+    pub confirmation: Option<MotionConfirmation>,
+    /// The branch through it over the parameter of the case, where one was asked for.
+    pub branch: Option<PeriodicBranch>,
+}
+
+/// What the search from one mode has led to.
+#[derive(Clone, Debug)]
+pub struct PeriodicResult {
+    /// The mode.
+    pub mode: SoughtMode,
+    /// The cycle, or why there is none.
+    pub outcome: Result<FoundCycle, String>,
+    /// Mode that has led to the same cycle before.
+    pub same_as: Option<usize>,
+    /// Case key and value at which the search has started from its mode, where no mode grows at the case's own.
+    pub start: Option<(&'static str, f64)>,
+    /// Wall time, s.
+    pub wall_s: f64,
+}
+
+/// A contact node over the period.
+pub(in crate::results) struct ContactNode {
+    pub node: usize,
+    pub place: [f64; 3],
+    pub shares: [f64; 3],
+    pub mean_pressure: f64,
+    pub mean_shear: f64,
+    /// Half the range of the displacement along the normal and along the counterface, m.
+    pub amplitude: [f64; 2],
+}
+
+impl MotionSearch {
+    /// Whether no mode looked at grows at the case's own operating point.
+    pub(super) fn is_stable(&self) -> bool {
+        self.least_stable.is_none_or(|mode| mode.growth_rate <= 0.0)
+    }
+}
+
+fn mean_powers(powers: &PeriodicPowers, thickness: f64) -> MeanPowers {
+    let powers = powers.scaled(thickness);
+    let contact = &powers.contact;
+    MeanPowers {
+        external: present(contact.external),
+        stick: present(contact.stick),
+        slide: present(contact.slide),
+        contact_dissipated: present(contact.contact_dissipated),
+        material_damping: present(powers.material_damping),
+        normal_contact: present(contact.normal),
+        contact_damping: (contact.damping != 0.0).then_some(contact.damping),
+    }
+}
+
+/// What a multiplier is.
+fn perturbation(own: &FloquetMultiplier) -> Perturbation {
+    Perturbation {
+        growth_rate_per_s: own.growth_rate,
+        beat_hz: Some(own.beat_hz),
+        modulus: Some(own.multiplier.norm()),
+        argument_rad: Some(own.multiplier.arg()),
+        leads_to: (own.verdict() == Verdict::Unstable).then(|| own.kind().to_owned()),
+        uncertainty_per_s: present(own.uncertainty),
+        ..Perturbation::default()
+    }
+}
+
+fn stability(found: &Result<FloquetMultipliers, String>) -> StabilitySummary {
+    match found {
+        Err(error) => StabilitySummary::Failed { error: error.clone() },
+        Ok(found) => StabilitySummary::Known(Box::new(KnownStability {
+            shift: found.shift.map(|shift| shift.norm()),
+            ..KnownStability::new(found.verdict(), found.leading().map(perturbation))
+        })),
+    }
+}
+
+impl FoundCycle {
+    fn summary(&self, report: &CycleReport<'_>, search: &MotionSearch) -> CycleMotion {
+        let motion = &self.motion;
+        let told = motion.harmonics.iter().take(self.harmonic_count);
+        let threshold = self.branch.as_ref().and_then(PeriodicBranch::threshold);
+        CycleMotion {
+            main_frequency_hz: motion.frequency_hz,
+            status: StatusFractions::of(motion.fractions),
+            power_w: mean_powers(&motion.powers, report.thickness),
+            balance_residual: motion.powers.balance_residual(),
+            amplitude_m: Some(motion.amplitude),
+            velocity_level_db: Some(motion.velocity_level()),
+            harmonics: told.clone().map(|harmonic| harmonic.amplitude[1]).collect(),
+            stepped: Some(SteppedMotion {
+                residual: motion.residual,
+                periods: motion.periods,
+                steps: motion.steps,
+                contact_node: report.node_label(search.interface.nodes[motion.node]),
+                kick_velocity: threshold.map(PeriodicMotion::kick_velocity),
+                sound: self.sound.as_ref().map(|sound| SoundSummary {
+                    power_w: sound.power(),
+                    level_db: sound.level(),
+                    area_m2: sound.area,
+                    harmonics_w: sound.harmonics.clone(),
+                }),
+                harmonic_count: self.harmonic_count,
+                harmonic_remainder: told.clone().next_back().map_or(1.0, |last| last.remainder),
+            }),
+        }
+    }
+
+    fn confirmed(&self, run: &MotionConfirmation, thickness: f64) -> ConfirmationSummary {
+        ConfirmationSummary::Ran(ConfirmationRun {
+            periods: run.periods,
+            agrees: run.agrees(&self.motion),
+            main_frequency_hz: present(run.main_frequency_hz),
+            main_harmonic: None,
+            status: StatusFractions::of(run.status),
+            power_w: ExternalPower { external: present(run.external_power * thickness) },
+            e_folds: run.e_folds,
+        })
+    }
+}
+
+fn branch_summary(branch: &PeriodicBranch) -> BranchSummary {
+    let in_units = |value: f64| branch.parameter.in_key_units(value);
+    let coexistence = branch.coexistence().into_iter();
+    let changes = branch.stability_changes().into_iter();
+    BranchSummary {
+        key: branch.parameter.key().to_owned(),
+        cycles: branch.motions.len(),
+        range: branch.range().map(|ends| ends.map(in_units)),
+        folds: branch.folds().into_iter().map(in_units).collect(),
+        ends: branch.ends.map(|end| end.describe().to_owned()),
+        stability_changes: changes.map(|at| StabilityChangeSummary::At(in_units(at))).collect(),
+        waves: None,
+        motions: Some(MotionBranch {
+            onsets: branch.onsets.iter().map(|&at| in_units(at)).collect(),
+            coexistence: coexistence.map(|ends| ends.map(in_units)).collect(),
+        }),
+    }
+}
+
+fn branch_row(branch: &PeriodicBranch, own: &BranchMotion, thickness: f64) -> BranchRow {
+    let known = own.stability.as_ref().and_then(|found| found.as_ref().ok());
+    BranchRow {
+        value: branch.parameter.in_key_units(own.value),
+        harmonic: None,
+        main_frequency_hz: own.motion.frequency_hz,
+        fractions: own.motion.fractions,
+        powers: mean_powers(&own.motion.powers, thickness),
+        amplitude_m: own.motion.amplitude,
+        balance_residual: own.motion.powers.scaled(thickness).balance_residual(),
+        growth_rate: own.growth_rate(),
+        verdict: known.map(FloquetMultipliers::verdict),
+        stepped: Some(SteppedRow {
+            velocity_level_db: own.motion.velocity_level(),
+            residual: own.motion.residual,
+            periods: own.motion.periods,
+            fold: own.is_fold,
+        }),
+    }
+}
+
+impl PeriodicResult {
+    /// The cycle, where this mode is the first to lead to it.
+    pub fn own(&self) -> Option<&FoundCycle> {
+        let found = self.outcome.as_ref().ok();
+        found.filter(|_| self.same_as.is_none())
+    }
+
+    /// Part of a file name: `mode15`.
+    pub fn tag(&self) -> String {
+        format!("mode{}", self.mode.number)
+    }
+
+    /// What the summary says of it.
+    pub(super) fn sought(&self, report: &CycleReport<'_>, search: &MotionSearch) -> SoughtCycle {
+        let found = self.own();
+        SoughtCycle {
+            name: CycleName::Mode(ModeOfCycle {
+                mode: self.mode.into(),
+                same_as: self.same_as,
+                sought_from: self.start.map(|(_, value)| value),
+            }),
+            wall_s: self.wall_s,
+            cycle: found.map(|found| found.summary(report, search)),
+            absent: None,
+            error: self.outcome.as_ref().err().cloned(),
+            confirmation: found.and_then(|found| {
+                Some(found.confirmed(found.confirmation.as_ref()?, report.thickness))
+            }),
+            stability: found.and_then(|found| Some(stability(found.stability.as_ref()?))),
+            branch: found.and_then(|found| found.branch.as_ref().map(branch_summary)),
+        }
+    }
+
+    /// That the harmonics asked for do not tell the motion, if so, and how many would.
+    pub(super) fn coarse_harmonics(&self) -> Option<String> {
+        let found = self.own()?;
+        let left = found.motion.harmonics[..found.harmonic_count].last()?.remainder;
+        let enough = found.motion.harmonics_within(REMAINDER);
+        (found.harmonic_count < enough).then(|| {
+            format!(
+                "{}: {} harmonics leave {left:.1e} of the motion of the contact: {enough} leave less than a thousandth (raise \
+                 cycle.harmonic_count, or leave it out)",
+                self.mode, found.harmonic_count,
+            )
+        })
+    }
+
+    fn branch_rows(&self, thickness: f64) -> Option<(&PeriodicBranch, Vec<BranchRow>)> {
+        let branch = self.own()?.branch.as_ref()?;
+        let rows = branch.motions.iter().map(|own| branch_row(branch, own, thickness));
+        Some((branch, rows.collect()))
+    }
+
+    /// What the figures of branches show of it.
+    pub(super) fn family_record(&self, report: &CycleReport<'_>) -> Option<FamilyRecord> {
+        let (branch, rows) = self.branch_rows(report.thickness)?;
+        let motion = &self.own()?.motion;
+        let in_units = |value: f64| branch.parameter.in_key_units(value);
+        Some(FamilyRecord {
+            harmonic: 0,
+            onset: 0,
+            mode: Some(self.mode.number),
+            onsets: Vec::new(),
+            cycle: Some([motion.frequency_hz, motion.amplitude]),
+            branch: Some(BranchRecord {
+                own_value: in_units(branch.own),
+                folds: branch.folds().into_iter().map(in_units).collect(),
+                sliding_onsets: branch.onsets.iter().map(|&at| in_units(at)).collect(),
+                coexistence: (branch.coexistence().into_iter())
+                    .map(|ends| ends.map(in_units))
+                    .collect(),
+                threshold: branch.threshold().map(|own| [own.amplitude, own.kick_velocity()]),
+                ..BranchRecord::of(branch.parameter.key(), report.extent, &rows)
+            }),
+        })
+    }
+
+    /// The tables of its cycle and branch.
+    ///
+    /// # Errors
+    /// Those of the archive.
+    pub(super) fn told(
+        &self,
+        report: &CycleReport<'_>,
+        search: &MotionSearch,
+    ) -> io::Result<Option<Told>> {
+        let Some(found) = self.own() else {
+            return Ok(None);
+        };
+        let motion = &found.motion;
+        let known = found.stability.as_ref().and_then(|found| found.as_ref().ok());
+        let multipliers = known.into_iter().flat_map(|found| &found.multipliers);
+        let nodes = (0..search.interface.len()).map(|place| {
+            let node = search.interface.nodes[place];
+            contact_node(motion, place, (report.node_label(node), report.position(node)))
+        });
+        let harmonics = motion.harmonics.iter().take(found.harmonic_count).enumerate();
+        Ok(Some(Told {
+            tag: self.tag(),
+            is_wave: false,
+            history: history(motion),
+            nodes: nodes.collect(),
+            archive: Some(encode_contact(&search.interface, motion)?),
+            harmonics: harmonics
+                .map(|(k, own)| (k + 1, (k + 1) as f64 * motion.frequency_hz, *own))
+                .collect(),
+            has_exponents: known.is_some(),
+            key: found.branch.as_ref().map(|branch| branch.parameter.key()),
+            exponents: multipliers.map(|own| (None, perturbation(own))).collect(),
+            branch: self.branch_rows(report.thickness).map(|(_, rows)| rows),
+        }))
+    }
+
+    /// What the figures show of its cycle.
+    pub(super) fn motion_record(&self) -> Option<MotionRecord> {
+        let found = self.own()?;
+        let motion = &found.motion;
+        let first = motion.instants.first()?;
+        let told = &motion.harmonics[..found.harmonic_count];
+        let [displacement_field, velocity_field] = match motion.frames.first() {
+            Some(frame) => frame.fields.clone(),
+            None => [Vec::new(), Vec::new()],
+        };
+        let codes = motion.instants.iter().flat_map(|at| &at.status);
+        Some(MotionRecord {
+            tag: self.tag(),
+            diameters: 0,
+            mode: self.mode.number,
+            frequency_hz: motion.frequency_hz,
+            history: history(motion),
+            status: codes.map(|status| *status as u8).collect(),
+            node: motion.node,
+            counterface_speed: motion.counterface_speed,
+            friction_coefficient: motion.friction_coefficient,
+            edge: [
+                first.pressure.clone(),
+                first.shear.clone(),
+                first.velocity.iter().map(|v| v[1]).collect(),
+            ],
+            harmonics: [0, 1].map(|c| told.iter().map(|own| own.amplitude[c]).collect()),
+            displacement_field,
+            velocity_field,
+        })
+    }
+}
+
+impl CycleReport<'_> {
+    /// Where a node of the whole body is, m.
+    fn position(&self, node: u32) -> [f64; 3] {
+        let Some(sector) = self.solid else {
+            return self.mesh.nodes[node as usize];
+        };
+        let (own, turn) =
+            (node as usize % sector.node_count(), node as usize / sector.node_count());
+        let (sine, cosine) = sector.angle(own, turn).sin_cos();
+        let place = &sector.nodes[own];
+        [place.radius * cosine, place.radius * sine, place.height]
+    }
+
+    /// Label of a node of the whole body in the case's own counting.
+    fn node_label(&self, node: u32) -> usize {
+        match self.solid {
+            Some(_) => node as usize + 1,
+            None => self.mesh.node_label(node as usize),
+        }
+    }
+}
+
+/// Contact and motion over the period of the contact node that moves most.
+fn history(motion: &PeriodicMotion) -> Vec<HistoryRow> {
+    let node = motion.node;
+    let row = |at: &ContactInstant| HistoryRow {
+        phase_rad: TAU * at.time * motion.frequency_hz,
+        time_s: at.time,
+        status: at.status[node] as u8,
+        pressure_pa: at.pressure[node],
+        shear_pa: at.shear[node],
+        displacement: at.displacement[node],
+        velocity: at.velocity[node],
+    };
+    motion.instants.iter().map(row).collect()
+}
+
+/// Means and amplitudes of a contact node, by its place among those of the contact.
+fn contact_node(motion: &PeriodicMotion, i: usize, node: (usize, [f64; 3])) -> ContactNode {
+    let instants = &motion.instants;
+    let mean = |values: &dyn Fn(&ContactInstant) -> f64| {
+        instants.iter().map(values).sum::<f64>() / instants.len() as f64
+    };
+    let half_range = |component: usize| {
+        let (low, high) = extremes(instants.iter().map(|at| at.displacement[i][component]));
+        0.5 * (high - low)
+    };
+    ContactNode {
+        node: node.0,
+        place: node.1,
+        shares: motion.shares[i],
+        mean_pressure: mean(&|at| at.pressure[i]),
+        mean_shear: mean(&|at| at.shear[i]),
+        amplitude: [0, 1].map(half_range),
+    }
+}
+
+/// The arrays `time_s (F)`, `angle_rad (N)`, `status (F, N)`, `pressure_pa (F, N)`, `shear_pa (F, N)`, `u_n_m (F, N)` and
+/// `u_t_m (F, N)` for `F` instants and `N` contact nodes, with the codes of `status`, as in the `contact.npz` of a transient.
+fn encode_contact(interface: &ContactInterface, motion: &PeriodicMotion) -> io::Result<Vec<u8>> {
+    let instants = &motion.instants;
+    let shape = [instants.len(), interface.len()];
+    let mut archive = NpzArchive::default();
+    archive.array("time_s", &shape[..1], instants.iter().map(|at| at.time))?;
+    archive.array("angle_rad", &shape[1..], interface.angles.iter().copied())?;
+    let status = instants.iter().flat_map(|at| &at.status);
+    archive.array("status", &shape, status.map(|status| *status as u8))?;
+    let pressure = instants.iter().flat_map(|at| at.pressure.iter().copied());
+    archive.array("pressure_pa", &shape, pressure)?;
+    let shear = instants.iter().flat_map(|at| at.shear.iter().copied());
+    archive.array("shear_pa", &shape, shear)?;
+    for (component, name) in ["u_n_m", "u_t_m"].into_iter().enumerate() {
+        let motion = instants.iter().flat_map(|at| &at.displacement);
+        archive.array(name, &shape, motion.map(|u| u[component]))?;
+    }
+    for (name, code) in [
+        ("status_open", ContactStatus::Open),
+        ("status_stick", ContactStatus::Stick),
+        ("status_slip", ContactStatus::Slip),
+    ] {
+        archive.array(name, &[], std::iter::once(code as u8))?;
+    }
+    archive.finish()
+}

@@ -1,0 +1,167 @@
+//! Record of a search for limit cycles, from which its figures are drawn again.
+
+use super::branches::FamilyRecord;
+use super::two_waves::TwoWaveRecord;
+use super::{CycleReport, Search};
+use crate::contact::ContactStatus;
+use crate::results::charts::palette::status_of_code;
+use crate::results::record::Record;
+use serde::{Deserialize, Serialize};
+
+/// More instants and nodes than any cycle has.
+const MOST_CELLS: usize = 100_000_000;
+/// More nodal diameters than any mesh has.
+const MOST_DIAMETERS: usize = 100_000;
+
+/// Everything that the figures show.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CycleRecord {
+    /// One entry for each cycle.
+    pub cycles: Vec<MotionRecord>,
+    /// Branches, by what leads to them.
+    pub families: Vec<FamilyRecord>,
+    /// Branches of two waves that live together.
+    pub two_waves: Vec<TwoWaveRecord>,
+    /// Nodes of the contact of motions of the whole mesh, counted from 0.
+    pub nodes: Vec<u32>,
+    /// Their angles, rad.
+    pub angles: Vec<f64>,
+}
+
+/// One limit cycle.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MotionRecord {
+    /// Part of a file name: `n2` or `mode15`.
+    pub tag: String,
+    /// Nodal diameters of a wave; 0 of a motion of the whole mesh.
+    pub diameters: usize,
+    /// Number of the mode that leads to a motion of the whole mesh; 0 of a wave.
+    pub mode: usize,
+    /// Frequency, Hz.
+    pub frequency_hz: f64,
+    /// Contact and motion over the period: of the contact node that moves most, of a wave of any.
+    pub history: Vec<HistoryRow>,
+    /// Statuses of all contact nodes, instant by instant, of a wave along the phase: 0 open, 1 stick, 2 slip.
+    pub status: Vec<u8>,
+    /// Contact node that moves most, among those of the edge.
+    pub node: usize,
+    /// Speed of the counterface there, m/s.
+    pub counterface_speed: f64,
+    /// Friction coefficient there; none where it falls with the slip speed.
+    pub friction_coefficient: Option<f64>,
+    /// Pressure (Pa), shear (Pa) and velocity along the counterface (m/s) of all contact nodes at time zero, of a wave along
+    /// the phase.
+    pub edge: [Vec<f64>; 3],
+    /// Amplitudes of the harmonics along the normal and along the counterface, m; none of a wave.
+    pub harmonics: [Vec<f64>; 2],
+    /// Displacement of every dof in nodal frames at time zero, m.
+    pub displacement_field: Vec<f64>,
+    /// Velocity, m/s.
+    pub velocity_field: Vec<f64>,
+}
+
+/// A contact node at one instant.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct HistoryRow {
+    /// Phase, rad.
+    pub phase_rad: f64,
+    /// Time, s.
+    pub time_s: f64,
+    /// Status: 0 open, 1 stick, 2 slip.
+    pub status: u8,
+    /// Contact pressure, Pa.
+    pub pressure_pa: f64,
+    /// Contact shear, Pa.
+    pub shear_pa: f64,
+    /// Displacement along the normal and along the counterface, m.
+    pub displacement: [f64; 2],
+    /// Velocity, m/s.
+    pub velocity: [f64; 2],
+}
+
+impl Record for CycleRecord {
+    const MAGIC: [u8; 8] = *b"FRICSIMY";
+    const VERSION: u32 = 5;
+
+    fn inconsistency(&self) -> Option<&'static str> {
+        let fits = |own: &MotionRecord| {
+            let is_wave = own.diameters > 0;
+            own.is_whole() && (is_wave || own.edge[0].len() == self.nodes.len())
+        };
+        let is_whole = self.angles.len() == self.nodes.len()
+            && self.cycles.iter().all(fits)
+            && self.families.iter().all(FamilyRecord::is_whole)
+            && self.two_waves.iter().all(TwoWaveRecord::is_whole);
+        (!is_whole).then_some("its instants, nodes, harmonics and branches do not fit together")
+    }
+}
+
+impl CycleRecord {
+    /// What the figures show of a report.
+    pub fn of(report: &CycleReport<'_>) -> Self {
+        let families = report.curves();
+        match &report.search {
+            Search::Waves(search) => Self {
+                cycles: search.results.iter().filter_map(|own| own.motion_record(search)).collect(),
+                families,
+                two_waves: search.two_waves.iter().filter_map(TwoWaveRecord::of).collect(),
+                nodes: Vec::new(),
+                angles: Vec::new(),
+            },
+            Search::Motions(search) => Self {
+                cycles: search.results.iter().filter_map(|own| own.motion_record()).collect(),
+                families,
+                two_waves: Vec::new(),
+                nodes: search.interface.nodes.clone(),
+                angles: search.interface.angles.clone(),
+            },
+        }
+    }
+}
+
+impl MotionRecord {
+    fn is_whole(&self) -> bool {
+        let (count, nodes) = (self.history.len(), self.edge[0].len());
+        let cells = if self.diameters > 0 { Some(count) } else { count.checked_mul(nodes) };
+        count > 0
+            && self.node < nodes
+            && self.diameters <= MOST_DIAMETERS
+            && cells.is_some_and(|cells| cells <= MOST_CELLS && self.status.len() == cells)
+            && self.edge.iter().all(|edge| edge.len() == nodes)
+            && self.harmonics[0].len() == self.harmonics[1].len()
+            && self.displacement_field.len() == self.velocity_field.len()
+    }
+
+    /// Whose it is: `2 nodal diameters`, or its frequency.
+    pub(super) fn whose(&self) -> String {
+        match self.diameters {
+            0 => format!("{:.2} Hz", self.frequency_hz),
+            n => format!("{n} nodal diameters"),
+        }
+    }
+
+    /// The heading of its pictures.
+    pub(super) fn heading(&self) -> String {
+        let name = match self.diameters {
+            0 => format!("mode {}", self.mode),
+            n => format!("*n* = {n}"),
+        };
+        format!("{name}, {:.2} kHz", self.frequency_hz * 1e-3)
+    }
+
+    /// Status of the node of the history, over time.
+    pub(super) fn node_statuses(&self) -> Vec<ContactStatus> {
+        self.history.iter().map(|row| status_of_code(row.status)).collect()
+    }
+
+    /// One quantity of the history.
+    pub(super) fn over_time(&self, of: impl Fn(&HistoryRow) -> f64) -> Vec<f64> {
+        self.history.iter().map(of).collect()
+    }
+
+    /// Status of all contact nodes at time zero, of a wave along the phase.
+    pub(super) fn first_statuses(&self) -> Vec<ContactStatus> {
+        let first = self.status.iter().take(self.edge[0].len());
+        first.map(|&code| status_of_code(code)).collect()
+    }
+}

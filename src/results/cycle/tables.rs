@@ -1,0 +1,295 @@
+//! Columns of limit cycles, and the document of a search.
+
+use super::Told;
+use super::branches::BRANCH;
+use super::motions::ContactNode;
+use super::record::HistoryRow;
+use super::summary::{
+    ConfirmationSummary, CycleMotion, CycleSummary, KnownStability, Perturbation, SoughtCycle,
+    StabilitySummary,
+};
+use super::two_waves::TwoWaveSummary;
+use crate::cycle::periodic::MotionHarmonic;
+use crate::output::{Document, Section, Table, columns, fixed};
+use crate::results::charts::palette::status_of_code;
+
+columns! {
+    /// What leads to a cycle.
+    pub(in crate::results) NAMES: own as SoughtCycle;
+    mode: "number of the mode that leads to it, of a body without rotating waves" = own.name.mode().map(|own| own.mode.mode), IfAny "mode" Count;
+    harmonic: "nodal diameters of a wave" = own.name.wave().map(|own| own.harmonic), IfAny "n" Count;
+    onset: "onset of that harmonic at which the wave is born, from 1" = own.name.wave().map(|own| own.onset), IfAny "onset" Count;
+}
+
+columns! {
+    /// What a cycle is.
+    pub(in crate::results) MOTION: own as SoughtCycle;
+    main_frequency_hz: "frequency" = own.of(|cycle| Some(cycle.main_frequency_hz)), Always "main frequency" Fixed(2);
+    amplitude_m: "amplitude along the counterface" = own.of(|cycle| cycle.amplitude_m), Always "amplitude" Scientific(3);
+    stick: "fraction of the contact that sticks" = own.of(|cycle| cycle.status.stick), Always "stick" Percent(1);
+    slip: "fraction that slips" = own.of(|cycle| cycle.status.slip), Always "slip" Percent(1);
+    open: "fraction that is open" = own.of(|cycle| cycle.status.open), Always "open" Percent(1);
+}
+
+columns! {
+    /// Where its power goes.
+    pub(in crate::results) POWERS: own as SoughtCycle;
+    external_w: "power of the counterface" = own.of(|cycle| cycle.power_w.external), Always "power of the counterface" Fixed(2);
+    stick_w: "of it given to the body by nodes that stick" = own.of(|cycle| cycle.power_w.stick), Always "while sticking" Fixed(2);
+    slide_w: "of it given to the body by nodes that slide" = own.of(|cycle| cycle.power_w.slide), Always "while sliding" Fixed(2);
+    contact_dissipated_w: "power lost to friction" = own.of(|cycle| cycle.power_w.contact_dissipated), Always "dissipated in the contact" Fixed(2);
+    material_damping_w: "power lost in the body" = own.of(|cycle| cycle.power_w.material_damping), Always "material damping" Fixed(2);
+    normal_contact_w: "power of the normal contact forces" = own.of(|cycle| cycle.power_w.normal_contact), Always "normal contact" Fixed(2);
+    balance_residual: "residual of the energy balance, relative to the power of the counterface" = own.of(|cycle| Some(cycle.balance_residual)), Always "balance" Scientific(1);
+}
+
+columns! {
+    /// What is known of it.
+    pub(in crate::results) KNOWN: own as SoughtCycle;
+    velocity_level_db: "level of the velocity, root mean square over time and mass, over 5e-8 m/s" = own.of(|cycle| cycle.velocity_level_db), IfAny "velocity level" Fixed(1);
+    sound_power_db: "level of the sound power over 1e-12 W, estimated" = own.of(|cycle| Some(cycle.stepped.as_ref()?.sound.as_ref()?.level_db)), IfAny "sound power" Fixed(1);
+    stable: "whether small perturbations decay; empty where that is undecided or was not asked for" = own.known().and_then(|known| known.is_stable), IfAny "stable" Plain;
+    growth_rate_per_s: "growth rate of the leading perturbation" = own.known().and_then(|known| Some(known.leading.as_ref()?.growth_rate_per_s)), IfAny "leading growth" Fixed(1);
+    kick_velocity: "velocity of a kick, m/s, beyond which stable sliding tips into the cycle" = own.of(|cycle| cycle.stepped.as_ref()?.kick_velocity), IfAny "kick that tips sliding (m/s)" Scientific(3);
+}
+
+columns! {
+    /// Why there is no cycle.
+    pub(in crate::results) ERRORS: own as SoughtCycle;
+    error: "why none was found" = own.error.clone();
+}
+
+columns! {
+    /// What leads to a cycle, for people.
+    BESIDE: own as SoughtCycle;
+    phases: "phases" = own.name.wave().map(|own| own.phases).filter(|&phases| phases > 0), IfAny "phases" Count;
+    critical: "friction above which the wave grows" = own.name.wave().and_then(|own| own.critical_friction), IfAny "grows above" Fixed(5);
+    mode_hz: "frequency of the mode" = own.name.mode().map(|own| own.mode.mode_frequency_hz), IfAny "its frequency" Fixed(2);
+    mode_per_s: "growth rate of the mode" = own.name.mode().map(|own| own.mode.growth_rate_per_s), IfAny "its growth rate" Fixed(1);
+}
+
+columns! {
+    /// What a transient says, and why there is none, for people.
+    SAID: own as SoughtCycle;
+    transient_hz: "frequency of a transient from it" = own.run().and_then(|run| run.main_frequency_hz), IfAny "transient from it" Fixed(2);
+    stays: "whether a transient stays on it" = own.agrees(), IfAny "a transient stays on it" Plain;
+    absence: "why there is none" = own.absence(), IfAny "why there is none" Plain;
+}
+
+columns! {
+    /// A contact node at one instant.
+    pub(in crate::results) HISTORY: row as HistoryRow;
+    phase_rad: "phase" = row.phase_rad;
+    time_s: "time" = row.time_s;
+    status: "stick, slip or open" = status_of_code(row.status).name();
+    pressure_pa: "contact pressure" = row.pressure_pa;
+    shear_pa: "contact shear" = row.shear_pa;
+}
+
+columns! {
+    /// Its motion on the disc of a wave.
+    pub(in crate::results) WAVE_PATH: row as HistoryRow;
+    u_r_m: "radial displacement" = row.displacement[0];
+    u_theta_m: "tangential displacement" = row.displacement[1];
+    v_r_m_per_s: "radial velocity" = row.velocity[0];
+    v_theta_m_per_s: "tangential velocity" = row.velocity[1];
+}
+
+columns! {
+    /// Its motion on any other body.
+    pub(in crate::results) PATH: row as HistoryRow;
+    u_n_m: "displacement along the normal" = row.displacement[0];
+    u_t_m: "displacement along the counterface" = row.displacement[1];
+    v_n_m_per_s: "velocity along the normal" = row.velocity[0];
+    v_t_m_per_s: "velocity along the counterface" = row.velocity[1];
+}
+
+columns! {
+    /// A contact node over the period.
+    pub(in crate::results) CONTACT_NODES: own as ContactNode;
+    node: "number of the node" = own.node;
+    x_m: "its place" = own.place[0];
+    y_m: "its place" = own.place[1];
+    z_m: "its place, of bodies in three dimensions" = own.place[2];
+    stick: "share of the period in which it sticks" = own.shares[0];
+    slip: "share in which it slips" = own.shares[1];
+    open: "share in which it is open" = own.shares[2];
+    mean_pressure_pa: "mean contact pressure" = own.mean_pressure;
+    mean_shear_pa: "mean contact shear" = own.mean_shear;
+    amplitude_n_m: "half the range of its displacement along the normal" = own.amplitude[0];
+    amplitude_t_m: "half the range along the counterface" = own.amplitude[1];
+}
+
+/// Number and frequency of a harmonic, and its motion.
+type Harmonic = (usize, f64, MotionHarmonic);
+
+columns! {
+    /// A harmonic in time.
+    pub(in crate::results) HARMONICS: row as Harmonic;
+    harmonic: "number of the harmonic" = row.0;
+    frequency_hz: "its frequency" = row.1;
+    amplitude_n_m: "amplitude along the normal, root mean square over the contact nodes" = row.2.amplitude[0];
+    amplitude_t_m: "amplitude along the counterface" = row.2.amplitude[1];
+    remainder: "share of the vibration that the harmonics up to this one leave" = row.2.remainder;
+}
+
+columns! {
+    /// A small perturbation.
+    pub(in crate::results) EXPONENTS: own as Perturbation;
+    class: "class of the harmonics that it holds, of a wave" = own.class;
+    growth_rate_per_s: "growth rate" = own.growth_rate_per_s;
+    wave_frequency_rad_per_s: "frequency in the frame of the wave" = own.wave_frequency_rad_per_s;
+    harmonic: "circumferential harmonic at which it moves the edge most, of a wave" = own.harmonic;
+    frequency_hz: "frequency in the fixed frame, of a wave" = own.frequency_hz;
+    beat_hz: "distance of its frequency from the nearest harmonic, of motions of the whole mesh" = own.beat_hz;
+    modulus: "modulus of its multiplier, of motions of the whole mesh" = own.modulus;
+    argument_rad: "argument of its multiplier, of motions of the whole mesh" = own.argument_rad;
+    uncertainty_per_s: "uncertainty of the growth rate" = own.uncertainty_per_s;
+}
+
+impl Told {
+    /// Its tables.
+    pub(super) fn tables(&self, is_solid: bool) -> Vec<Table> {
+        let name = |what: &str| format!("{what}-{}.csv", self.tag);
+        let mut tables = Vec::new();
+        if !self.history.is_empty() {
+            let table = Table::new(name("cycle"), "").columns(HISTORY, &self.history);
+            let path = if self.is_wave { WAVE_PATH } else { PATH };
+            tables.push(table.columns(path, &self.history));
+        }
+        if !self.nodes.is_empty() {
+            let (plane, rest) = (&CONTACT_NODES[..3], &CONTACT_NODES[4..]);
+            let table = Table::new(name("contact"), "").columns(plane, &self.nodes);
+            let height = if is_solid { &CONTACT_NODES[3..4] } else { &[] };
+            tables.push(table.columns(height, &self.nodes).columns(rest, &self.nodes));
+        }
+        if !self.harmonics.is_empty() {
+            tables.push(Table::new(name("harmonics"), "").columns(HARMONICS, &self.harmonics));
+        }
+        if self.has_exponents {
+            let exponents = self.exponents.iter().map(|own| &own.1);
+            let mut table = Table::new(name("stability"), "");
+            if self.is_wave {
+                let values = self.exponents.iter().map(|own| own.0);
+                table = table.column(self.key.unwrap_or("point"), None, values);
+            }
+            let of_kind = |column: &&str| match self.is_wave {
+                true => ["beat_hz", "modulus", "argument_rad"].contains(column),
+                false => {
+                    let waves = ["class", "wave_frequency_rad_per_s", "harmonic", "frequency_hz"];
+                    waves.contains(column)
+                }
+            };
+            let others = EXPONENTS.iter().map(|column| column.key).filter(of_kind);
+            let table = table.columns(EXPONENTS, exponents);
+            tables.push(others.fold(table, Table::without_empty));
+        }
+        if let (Some(rows), Some(key)) = (&self.branch, self.key) {
+            let values = rows.iter().map(|row| row.value);
+            let table = Table::new(name("branch"), "").column(key, None, values);
+            let others = match self.is_wave {
+                true => &["velocity_level_db", "stability", "residual", "periods", "fold"][..],
+                false => &["harmonic"],
+            };
+            let table = table.columns(BRANCH, rows);
+            tables.push(others.iter().fold(table, |table, key| table.without_empty(key)));
+        }
+        tables
+    }
+}
+
+impl SoughtCycle {
+    /// A quantity of the cycle, where there is one.
+    fn of<T>(&self, of: impl Fn(&CycleMotion) -> Option<T>) -> Option<T> {
+        of(self.cycle.as_ref()?)
+    }
+
+    /// Its stability, where it is known.
+    pub(super) fn known(&self) -> Option<&KnownStability> {
+        match self.stability.as_ref()? {
+            StabilitySummary::Known(known) => Some(known),
+            StabilitySummary::Failed { .. } => None,
+        }
+    }
+
+    /// The transient that started on it, if one ran.
+    pub(super) fn run(&self) -> Option<&super::ConfirmationRun> {
+        match self.confirmation.as_ref()? {
+            ConfirmationSummary::Ran(run) => Some(run),
+            ConfirmationSummary::Failed { .. } => None,
+        }
+    }
+
+    pub(super) fn agrees(&self) -> Option<bool> {
+        Some(match self.confirmation.as_ref()? {
+            ConfirmationSummary::Ran(run) => run.agrees,
+            ConfirmationSummary::Failed { agrees, .. } => *agrees,
+        })
+    }
+
+    /// Why there is no cycle of its own.
+    fn absence(&self) -> Option<String> {
+        let same = self.name.mode().and_then(|own| own.same_as);
+        let same = same.map(|other| format!("the cycle of mode {other}"));
+        self.error.clone().or(self.absent.clone()).or(same)
+    }
+
+    /// What decides, in a line.
+    fn fact(&self) -> (String, String) {
+        let Some(cycle) = &self.cycle else {
+            return (self.name.to_string(), self.absence().unwrap_or_default());
+        };
+        let mut text = format!("{} Hz", fixed(cycle.main_frequency_hz, 2));
+        if let Some(known) = self.known() {
+            text += &format!(", {}", known.verdict);
+        }
+        (self.name.to_string(), text)
+    }
+}
+
+impl CycleSummary {
+    /// Tables and sentences of a search.
+    pub fn document(&self) -> Document {
+        let cycles = &self.cycles;
+        let motions = Table::new("", "Limit cycles at the case's own operating point")
+            .columns(NAMES, cycles)
+            .columns(BESIDE, cycles)
+            .columns(MOTION, cycles)
+            .columns(KNOWN, cycles)
+            .columns(SAID, cycles);
+        let found: Vec<&SoughtCycle> = cycles.iter().filter(|own| own.cycle.is_some()).collect();
+        let powers = Table::new("", "Their powers")
+            .columns(NAMES, found.iter().copied())
+            .columns(POWERS, found.iter().copied());
+        let file = Table::new("cycle.csv", "")
+            .columns(NAMES, cycles)
+            .columns(MOTION, cycles)
+            .columns(POWERS, cycles)
+            .columns(KNOWN, cycles)
+            .columns(ERRORS, cycles);
+        let results =
+            match self.steady_sliding_stable && found.is_empty() {
+                true => Section::new("Results"),
+                false => Section::new("Results")
+                    .facts(cycles.iter().map(SoughtCycle::fact))
+                    .tables([motions, powers, TwoWaveSummary::shown(&self.two_waves)]),
+            };
+        let names = ["status", "contact", "history", "orbit", "harmonics", "velocity", "shear"];
+        let pairs = self.two_waves.iter().filter_map(TwoWaveSummary::ends_text);
+        Document::new(&self.title, "Limit cycles")
+            .section(results)
+            .section(
+                Section::new("Limit cycles")
+                    .text(cycles.iter().flat_map(SoughtCycle::sentences))
+                    .figures(names),
+            )
+            .section(
+                Section::new("Branches")
+                    .text(cycles.iter().filter_map(SoughtCycle::branch_sentence))
+                    .text(pairs)
+                    .figures(["branch"]),
+            )
+            .file(file)
+            .notes(&self.notes)
+    }
+}

@@ -1,0 +1,351 @@
+//! Rotating waves of a disc as limit cycles.
+
+use super::branches::{BranchRecord, BranchRow, FamilyRecord};
+use super::record::{HistoryRow, MotionRecord};
+use super::summary::{
+    BranchSummary, ConfirmationRun, ConfirmationSummary, CycleMotion, CycleName, ExternalPower,
+    KnownStability, ModeOfChange, OnsetSummary, Perturbation, SoughtCycle, StabilityChangeSummary,
+    StabilitySummary, WaveBranch, WaveOfCycle,
+};
+use super::{CycleFrame, CycleReport, Told, WaveSearch};
+use crate::chart::extremes;
+use crate::cycle::periodic::velocity_level;
+use crate::cycle::{
+    Confirmation, CycleBranch, CycleStability, Family, FloquetExponent, LimitCycle, Onset,
+    StabilityChange, Verdict,
+};
+use crate::results::summary::{MeanPowers, StatusFractions, present};
+use std::f64::consts::TAU;
+
+/// Why a family has no cycle at the case's own operating point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Absence {
+    /// In words.
+    pub reason: String,
+    /// Whether that is so because steady sliding is stable against its wave.
+    pub is_stable: bool,
+}
+
+/// What is known of the stability of a cycle.
+pub type Finding = Option<Result<CycleStability, String>>;
+
+/// Its analysis, where there is one.
+pub fn known(finding: &Finding) -> Option<&CycleStability> {
+    finding.as_ref().and_then(|finding| finding.as_ref().ok())
+}
+
+/// The limit cycle of one harmonic, and its branch.
+#[derive(Clone, Debug)]
+pub struct CycleResult {
+    /// Which limit cycle.
+    pub family: Family,
+    /// Every onset of the harmonic, by rising friction; the cycle is born at that of its family.
+    pub onsets: Vec<Onset>,
+    /// The cycle at the case's own operating point, or why there is none.
+    pub cycle: Result<LimitCycle, Absence>,
+    /// The whole field at times over one period, from zero on; empty where there is no cycle.
+    pub frames: Vec<CycleFrame>,
+    /// Root mean square of the velocity of that cycle over the mass that moves, m/s.
+    pub velocity: Option<f64>,
+    /// Points along the phase.
+    pub phases: usize,
+    /// A transient that started on that cycle, where one was asked for.
+    pub confirmation: Option<Result<Confirmation, String>>,
+    /// Stability of that cycle, where it was asked for.
+    pub stability: Finding,
+    /// Stability of each cycle of the branch, where it was asked for; else empty.
+    pub branch_stability: Vec<Finding>,
+    /// Where the branch changes its stability, in its order.
+    pub stability_changes: Vec<StabilityChange>,
+    /// The branch over the case's parameter, where one was asked for and there is a cycle to start from.
+    pub branch: Option<CycleBranch>,
+    /// Wall time of cycle and branch, s.
+    pub wall_s: f64,
+}
+
+impl WaveSearch {
+    /// Whether steady sliding is stable against every wave looked at.
+    pub(super) fn is_stable(&self, friction: f64) -> bool {
+        let is_stable =
+            |result: &CycleResult| matches!(&result.cycle, Err(absence) if absence.is_stable);
+        let onset = self.lowest_onset.as_ref();
+        self.results.iter().all(is_stable)
+            && onset.is_none_or(|onset| onset.friction_coefficient >= friction)
+    }
+}
+
+/// Amplitude of the wave's own harmonic of the edge's tangential displacement, m; half the peak-to-peak motion where the
+/// summary's harmonics do not reach.
+fn amplitude(cycle: &LimitCycle) -> f64 {
+    match cycle.harmonics.get(cycle.harmonic) {
+        Some(&amplitude) => amplitude,
+        None => {
+            let (low, high) = extremes(cycle.points.iter().map(|point| point.displacement[1]));
+            0.5 * (high - low)
+        }
+    }
+}
+
+fn powers(cycle: &LimitCycle, thickness: f64) -> MeanPowers {
+    let powers = cycle.powers.scaled(thickness);
+    MeanPowers {
+        external: present(powers.external),
+        stick: present(powers.stick),
+        slide: present(powers.slide),
+        contact_dissipated: present(powers.contact_dissipated),
+        material_damping: present(powers.material_damping),
+        normal_contact: present(powers.normal_contact),
+        contact_damping: None,
+    }
+}
+
+/// Value of the parameter of a branch at a cycle, in units of its key.
+fn value(branch: &CycleBranch, cycle: &LimitCycle) -> f64 {
+    branch.parameter.in_key_units(branch.parameter.of(&cycle.state.point))
+}
+
+/// What an exponent is.
+fn perturbation(own: &FloquetExponent) -> Perturbation {
+    Perturbation {
+        growth_rate_per_s: own.exponent.re,
+        class: Some(own.class),
+        wave_frequency_rad_per_s: Some(own.exponent.im),
+        harmonic: Some(own.harmonic),
+        frequency_hz: Some(own.frequency_hz),
+        uncertainty_per_s: present(own.uncertainty),
+        ..Perturbation::default()
+    }
+}
+
+/// What the exponents say, in the summary; nothing where they were not asked for.
+fn stability(finding: &Finding) -> Option<StabilitySummary> {
+    Some(match finding.as_ref()? {
+        Err(error) => StabilitySummary::Failed { error: error.clone() },
+        Ok(found) => StabilitySummary::Known(Box::new(KnownStability {
+            growing_harmonics: Some(found.growing_harmonics()),
+            ..KnownStability::new(found.verdict(), found.leading().map(perturbation))
+        })),
+    })
+}
+
+impl CycleResult {
+    /// The onset that the cycle is born at.
+    pub fn birth(&self) -> Option<&Onset> {
+        self.onsets.get(self.family.onset - 1)
+    }
+
+    /// What the summary says of it.
+    pub(super) fn sought(&self, report: &CycleReport<'_>, search: &WaveSearch) -> SoughtCycle {
+        let absence = self.cycle.as_ref().err();
+        let reason = |is_stable: bool| {
+            let absence = absence.filter(|absence| absence.is_stable == is_stable);
+            absence.map(|absence| absence.reason.clone())
+        };
+        SoughtCycle {
+            name: CycleName::Wave(WaveOfCycle {
+                harmonic: self.family.harmonic,
+                onset: self.family.onset,
+                critical_friction: self.birth().map(|onset| onset.friction_coefficient),
+                direction: self.birth().map(|onset| onset.direction),
+                phases: self.phases,
+                onsets: self.onsets.iter().map(OnsetSummary::from).collect(),
+            }),
+            wall_s: self.wall_s,
+            cycle: self.cycle.as_ref().ok().map(|cycle| CycleMotion {
+                main_frequency_hz: cycle.frequency_hz(),
+                status: StatusFractions::of(cycle.fractions),
+                power_w: powers(cycle, report.thickness),
+                balance_residual: cycle.powers.balance_residual(),
+                amplitude_m: present(amplitude(cycle)),
+                velocity_level_db: self.velocity.map(velocity_level),
+                harmonics: cycle.harmonics.to_vec(),
+                stepped: None,
+            }),
+            absent: reason(true),
+            error: reason(false),
+            confirmation: self.confirmed(report.thickness),
+            stability: stability(&self.stability),
+            branch: self.branch.as_ref().map(|branch| self.branch(branch, search.inner_radius)),
+        }
+    }
+
+    /// What a transient that started on the cycle says, where there are both.
+    fn confirmed(&self, thickness: f64) -> Option<ConfirmationSummary> {
+        let confirmation = self.confirmation.as_ref()?;
+        let (cycle, found) = match (&self.cycle, confirmation) {
+            (Ok(cycle), Ok(found)) => (cycle, found),
+            (_, Err(error)) => {
+                return Some(ConfirmationSummary::Failed { agrees: false, error: error.clone() });
+            }
+            (Err(_), Ok(_)) => return None,
+        };
+        Some(ConfirmationSummary::Ran(ConfirmationRun {
+            periods: found.periods,
+            agrees: found.agrees(cycle),
+            main_frequency_hz: found.main_frequency_hz,
+            main_harmonic: found.main_harmonic,
+            status: StatusFractions::of(found.status),
+            power_w: ExternalPower { external: present(found.external_power * thickness) },
+            e_folds: found.e_folds,
+        }))
+    }
+
+    fn branch(&self, branch: &CycleBranch, inner_radius: f64) -> BranchSummary {
+        let in_units = |value: f64| branch.parameter.in_key_units(value);
+        let (low, high) = extremes(branch.cycles.iter().map(|cycle| value(branch, cycle)));
+        let saturation = branch.cycles.iter().find_map(|own| own.saturation_speed(inner_radius));
+        let changes = self.stability_changes.iter();
+        let changes = changes.map(|change| {
+            StabilityChangeSummary::By(ModeOfChange {
+                at: in_units(change.value),
+                harmonic: change.harmonic,
+                frequency_hz: change.frequency_hz,
+                to_two_frequencies: change.harmonic != self.family.harmonic,
+            })
+        });
+        BranchSummary {
+            key: branch.parameter.key().to_owned(),
+            cycles: branch.cycles.len(),
+            range: (low <= high).then_some([low, high]),
+            folds: branch.folds.iter().map(|&fold| in_units(fold)).collect(),
+            ends: branch.ends.map(|end| end.describe().to_owned()),
+            stability_changes: changes.collect(),
+            waves: Some(WaveBranch {
+                saturation_speed_rpm: saturation.map(|speed| speed * 60.0 / TAU),
+                factorizations: branch.factorizations,
+            }),
+            motions: None,
+        }
+    }
+
+    /// The exponents of the cycle at the case's own operating point, then along the branch, each with the value of its parameter.
+    fn exponents(&self) -> Vec<(Option<f64>, Perturbation)> {
+        let mut findings: Vec<(f64, &Finding)> = Vec::new();
+        match (&self.branch, &self.cycle) {
+            (Some(branch), Ok(own)) => {
+                findings.push((value(branch, own), &self.stability));
+                let along = branch.cycles.iter().map(|cycle| value(branch, cycle));
+                findings.extend(along.zip(&self.branch_stability));
+            }
+            _ => findings.push((0.0, &self.stability)),
+        }
+        let rows = findings.into_iter().flat_map(|(at, finding)| {
+            let exponents = known(finding).into_iter().flat_map(|found| &found.exponents);
+            exponents.map(move |own| (Some(at), perturbation(own)))
+        });
+        rows.collect()
+    }
+
+    /// The rows of its branch.
+    fn branch_rows(&self, thickness: f64) -> Option<(&CycleBranch, Vec<BranchRow>)> {
+        let branch = self.branch.as_ref()?;
+        let rows = branch.cycles.iter().enumerate().map(|(at, cycle)| {
+            let found = self.branch_stability.get(at).and_then(known);
+            BranchRow {
+                value: value(branch, cycle),
+                harmonic: Some(cycle.harmonic),
+                main_frequency_hz: cycle.frequency_hz(),
+                fractions: cycle.fractions,
+                powers: powers(cycle, thickness),
+                amplitude_m: amplitude(cycle),
+                balance_residual: cycle.powers.balance_residual(),
+                growth_rate: found.and_then(CycleStability::leading).map(|own| own.exponent.re),
+                verdict: found.map(CycleStability::verdict),
+                stepped: None,
+            }
+        });
+        Some((branch, rows.collect()))
+    }
+
+    /// What the figures of branches show of it.
+    pub(super) fn family_record(&self, report: &CycleReport<'_>) -> FamilyRecord {
+        let own = self.cycle.as_ref().ok();
+        let rows = self.branch_rows(report.thickness).zip(own);
+        FamilyRecord {
+            harmonic: self.family.harmonic,
+            onset: self.family.onset,
+            mode: None,
+            onsets: (self.onsets.iter())
+                .map(|onset| [onset.friction_coefficient, onset.frequency / TAU])
+                .collect(),
+            cycle: own.map(|cycle| [cycle.frequency_hz(), amplitude(cycle)]),
+            branch: rows.map(|((branch, rows), own)| BranchRecord {
+                own_value: value(branch, own),
+                folds: (branch.folds.iter())
+                    .map(|&fold| branch.parameter.in_key_units(fold))
+                    .collect(),
+                ..BranchRecord::of(branch.parameter.key(), report.extent, &rows)
+            }),
+        }
+    }
+
+    /// The tables of its cycle and branch.
+    pub(super) fn told(&self, report: &CycleReport<'_>) -> Told {
+        let rows = self.branch_rows(report.thickness);
+        Told {
+            tag: self.family.tag(),
+            is_wave: true,
+            history: self.cycle.as_ref().map_or_else(|_| Vec::new(), history),
+            nodes: Vec::new(),
+            archive: None,
+            harmonics: Vec::new(),
+            has_exponents: self.stability.is_some(),
+            key: self.branch.as_ref().map(|branch| branch.parameter.key()),
+            exponents: self.exponents(),
+            branch: rows.map(|(_, rows)| rows),
+        }
+    }
+
+    /// What the figures show of its cycle.
+    pub(super) fn motion_record(&self, search: &WaveSearch) -> Option<MotionRecord> {
+        let cycle = self.cycle.as_ref().ok()?;
+        let [displacement_field, velocity_field] = self.frames.first()?.fields.clone();
+        let points = &cycle.points;
+        Some(MotionRecord {
+            tag: self.family.tag(),
+            diameters: self.family.harmonic,
+            mode: 0,
+            frequency_hz: cycle.frequency_hz(),
+            history: history(cycle),
+            status: points.iter().map(|point| point.status as u8).collect(),
+            node: 0,
+            counterface_speed: search.contact.rotation_speed * search.inner_radius,
+            friction_coefficient: Some(search.contact.friction_coefficient),
+            edge: [
+                points.iter().map(|point| point.pressure).collect(),
+                points.iter().map(|point| point.shear).collect(),
+                points.iter().map(|point| point.velocity[1]).collect(),
+            ],
+            harmonics: [Vec::new(), Vec::new()],
+            displacement_field,
+            velocity_field,
+        })
+    }
+}
+
+/// Contact and motion of the edge along the phase, which is also the history of the contact node at angle zero.
+fn history(cycle: &LimitCycle) -> Vec<HistoryRow> {
+    let row = |point: &crate::cycle::PhasePoint| HistoryRow {
+        phase_rad: point.phase,
+        time_s: point.phase / cycle.state.frequency,
+        status: point.status as u8,
+        pressure_pa: point.pressure,
+        shear_pa: point.shear,
+        displacement: point.displacement,
+        velocity: point.velocity,
+    };
+    cycle.points.iter().map(row).collect()
+}
+
+impl KnownStability {
+    /// Of a verdict and the leading perturbation.
+    pub(super) fn new(verdict: Verdict, leading: Option<Perturbation>) -> Self {
+        Self {
+            verdict: verdict.word().to_owned(),
+            is_stable: (verdict != Verdict::Undecided).then_some(verdict == Verdict::Stable),
+            growing_harmonics: None,
+            leading,
+            shift: None,
+        }
+    }
+}

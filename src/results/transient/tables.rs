@@ -1,0 +1,254 @@
+//! Tables and sentences of a transient, and its page.
+
+use super::summary::{GrowthSummary, MotionSummary, TransientSummary};
+use super::{RunFigures, draw_run};
+use crate::output::{Document, Format, Section, Table, columns, fixed};
+use crate::results::drawing::{DrawingError, DrawingOptions};
+use crate::results::finding::write_page;
+use crate::results::folder::OutputFolder;
+use crate::transient::EndState;
+
+/// Periods of the main vibration between two contact frames beyond which they do not show it.
+const COARSE_FRAMES: f64 = 0.25;
+
+/// Node, direction and motion of a probe.
+type ProbeRow = (String, &'static str, MotionSummary);
+
+columns! {
+    /// A probe in one direction.
+    PROBES: row as ProbeRow;
+    node: "node" = row.0.clone(), Always "node" Plain;
+    direction: "direction" = row.1, Always "direction" Plain;
+    rms_m_per_s2: "root mean square of the acceleration" = row.2.acceleration_rms_m_per_s2, Always "root mean square" Fixed(0);
+    peak_m_per_s2: "peak of the acceleration" = row.2.acceleration_peak_m_per_s2, Always "peak" Fixed(0);
+}
+
+/// A vibration in the linear stage: its harmonic, its growth or why it has none, the rate of the eigenvalue analysis.
+type GrowthRow = (String, Result<GrowthSummary, String>, Option<f64>);
+
+columns! {
+    /// A vibration in the linear stage.
+    GROWTH: row as GrowthRow;
+    vibration: "harmonic, or the strongest" = row.0.clone(), Always "vibration" Plain;
+    rate_per_s: "rate" = row.1.as_ref().ok().map(|own| own.rate_per_s), IfAny "rate" Fixed(2);
+    low_per_s: "low end" = row.1.as_ref().ok().map(|own| own.rate_low_per_s), IfAny "95 % from" Fixed(2);
+    high_per_s: "high end" = row.1.as_ref().ok().map(|own| own.rate_high_per_s), IfAny "to" Fixed(2);
+    predicted_per_s: "rate of the eigenvalue analysis" = row.2, IfAny "rate of the eigenvalue analysis" Fixed(2);
+    frequency_hz: "frequency" = row.1.as_ref().ok().map(|own| own.frequency_hz), IfAny "frequency" Fixed(1);
+    travels: "way" = row.1.as_ref().ok().and_then(|own| Some(if own.direction? > 0 { "with the rotor" } else { "against the rotor" })), IfAny "travels" Plain;
+    reason: "why none" = row.1.as_ref().err().cloned(), IfAny "why there is none" Plain;
+}
+
+/// Growth rates of the eigenvalue analysis, 1/s.
+#[derive(Clone, Copy, Default)]
+pub struct PredictedGrowth<'a> {
+    /// By harmonic.
+    pub harmonics: &'a [(usize, f64)],
+    /// Of the mode of a body without symmetry that grows.
+    pub mode: Option<f64>,
+}
+
+/// Draws every figure that the run has data for and writes the page.
+///
+/// # Errors
+/// Those of the folder; a figure that cannot be drawn although there is something to draw.
+pub fn draw(
+    folder: &OutputFolder,
+    run: &RunFigures<'_>,
+    summary: &TransientSummary,
+    options: &DrawingOptions,
+) -> Result<(), DrawingError> {
+    let state = run.analysis.settling.state;
+    let mode = run.growing_mode().map(|(_, rate)| rate);
+    let predicted = PredictedGrowth { harmonics: &run.growth_rates, mode };
+    let document = document(summary, state, predicted);
+    write_page(folder, document, draw_run(run, options)?, folder.manifest(), options)
+}
+
+/// Tables and sentences of a run.
+pub fn document(
+    summary: &TransientSummary,
+    state: EndState,
+    predicted: PredictedGrowth<'_>,
+) -> Document {
+    let heading = match state {
+        EndState::LimitCycle => "Limit cycle",
+        EndState::TwoFrequency(_) => "Vibration of two frequencies",
+        EndState::SteadySliding => "Steady sliding",
+        EndState::AtRest | EndState::Separated => "Rest",
+        EndState::Unsettled => "End of the run, not settled",
+    };
+    let end = format!(
+        "{}. The numbers are means over the last fifth of the run.",
+        capitalized(&ending(summary, state))
+    );
+    let extent = summary.extent.note().map(|note| format!("{note}."));
+    Document::new(&summary.title, "Transient")
+        .section(Section::new("Results").text([end]).text(extent).facts(facts(summary)))
+        .section(
+            Section::new("Course of the run")
+                .text([course(summary)])
+                .text(warnings(summary))
+                .text(places(summary))
+                .figures([""]),
+        )
+        .section(Section::new(heading).tables([motions(summary), growth(summary, predicted)]))
+        .notes(&summary.notes)
+}
+
+fn capitalized(sentence: &str) -> String {
+    let mut letters = sentence.chars();
+    match letters.next() {
+        Some(first) => first.to_uppercase().chain(letters).collect(),
+        None => String::new(),
+    }
+}
+
+/// Where the run has come to, as a sentence.
+fn ending(summary: &TransientSummary, state: EndState) -> String {
+    let end = format!("the run ends {}", state.phrase());
+    let end = match (summary.frequencies_hz, summary.envelope_ratio) {
+        (Some([first, second]), Some(ratio)) => format!(
+            "{end}: {} and {} Hz, its envelope swings by a factor of {}",
+            fixed(first, 1),
+            fixed(second, 1),
+            fixed(ratio, 2)
+        ),
+        _ => end,
+    };
+    match (summary.settled_from_s, &summary.unsettled_because) {
+        (Some(from), _) => format!("{end}, settled from {from:.6} s on"),
+        (None, Some(reason)) => format!("{end}: {reason}"),
+        (None, None) => end,
+    }
+}
+
+fn course(summary: &TransientSummary) -> String {
+    let end = if summary.finished { "complete" } else { "stopped before its end" };
+    let first = match summary.first_nonlinearity_s {
+        Some(time) => {
+            format!("the first contact node sticks or opens at {} ms", fixed(1e3 * time, 3))
+        }
+        None => "no vibration grows until a contact node sticks or opens".into(),
+    };
+    format!(
+        "{} ms in {} steps of {} µs ({end}), from {}, {} operator; {first}; the energy \
+         balance closes to {:.1e}.",
+        fixed(1e3 * summary.end_time_s, 3),
+        summary.steps,
+        fixed(1e6 * summary.time_step_s, 4),
+        summary.initial,
+        summary.operator,
+        summary.max_balance_residual,
+    )
+}
+
+/// What makes the numbers doubtful.
+fn warnings(summary: &TransientSummary) -> Vec<String> {
+    let steep = summary.ambiguous_friction.map(|share| {
+        format!(
+            "In {} % of the contact-node steps the friction law is too steep for the time step, and nodes jump between stick and \
+             slip: reduce transient.time_step or raise contact.decay_speed.",
+            fixed(100.0 * share, 3)
+        )
+    });
+    let open = summary.unconverged_steps.map(|steps| {
+        format!(
+            "Forces between the bodies had not converged in {steps} of {} steps: there they are approximate, though the energy \
+             closes; many contact nodes meet one node of the other body: exchange the two sides of the contact, or refine the \
+             other body.",
+            summary.steps
+        )
+    });
+    let periods = summary.main_frequency_hz.map(|f| f * summary.contact_interval_s);
+    let coarse = periods.is_some_and(|periods| periods > COARSE_FRAMES).then(|| {
+        format!(
+            "contact.npz has a frame every {:.2e} s, too few for a wave of that frequency: set output.contact_interval.",
+            summary.contact_interval_s
+        )
+    });
+    [steep, open, coarse].into_iter().flatten().collect()
+}
+
+/// The nodes of probes that were asked for by their place.
+fn places(summary: &TransientSummary) -> Vec<String> {
+    let places = summary.probes.iter().filter_map(|(node, probe)| {
+        let place = probe.place?;
+        let [[x, y], [p, q]] = [place.asked_m, place.at_m].map(|at| at.map(|c| fixed(1e3 * c, 3)));
+        Some(format!("Probe at ({x}, {y}) mm: node {node} at ({p}, {q}) mm."))
+    });
+    places.collect()
+}
+
+/// What decides, over the last fifth of the run.
+fn facts(summary: &TransientSummary) -> Vec<(String, String)> {
+    let (status, power) = (&summary.status, &summary.power_w);
+    let entry = |name: &str, value: Option<f64>, format: Format, unit: &str| {
+        Some((name.to_owned(), format.text(value?, unit)))
+    };
+    let unit = summary.extent.unit("W");
+    let watts = |name: &str, value: Option<f64>| entry(name, value, Format::Fixed(2), &unit);
+    let share = |name: &str, value: Option<f64>| {
+        Some((name.to_owned(), format!("{} %", fixed(100.0 * value?, 2))))
+    };
+    let settled = match (summary.settled, summary.settled_from_s) {
+        (true, Some(time)) => format!("from {} ms on", fixed(1e3 * time, 3)),
+        (true, None) => "yes".to_owned(),
+        (false, _) => "no".to_owned(),
+    };
+    let rows = [
+        entry("main frequency", summary.main_frequency_hz, Format::Fixed(2), "Hz"),
+        summary.main_harmonic.map(|n| ("nodal diameters".to_owned(), n.to_string())),
+        entry(
+            "second frequency",
+            summary.frequencies_hz.map(|both| both[1]),
+            Format::Fixed(2),
+            "Hz",
+        ),
+        entry("largest over smallest envelope", summary.envelope_ratio, Format::Fixed(2), ""),
+        Some(("settled".to_owned(), settled)),
+        share("contact nodes that stick", status.stick),
+        share("contact nodes that slip", status.slip),
+        share("contact nodes that are open", status.open),
+        watts("external power", power.external),
+        watts("stick power", power.stick),
+        watts("slide power", power.slide),
+        watts("dissipated in the contact", power.contact_dissipated),
+        watts("dissipated in the body", power.material_damping),
+        watts("normal contact power", power.normal_contact),
+        watts("dissipated in dashpots of the contact", power.contact_damping),
+    ];
+    rows.into_iter().flatten().collect()
+}
+
+/// Accelerations of the probes over the last fifth of the run.
+fn motions(summary: &TransientSummary) -> Table {
+    let rows = summary.probes.iter().flat_map(|(node, motion)| {
+        let directions = [
+            ("radial", Some(motion.radial)),
+            ("tangential", Some(motion.tangential)),
+            ("axial", motion.axial),
+        ];
+        directions.into_iter().filter_map(|(name, motion)| Some((node.clone(), name, motion?)))
+    });
+    let rows: Vec<ProbeRow> = rows.collect();
+    Table::new("", "Accelerations over the last fifth of the run").columns(PROBES, &rows)
+}
+
+fn growth(summary: &TransientSummary, predicted: PredictedGrowth<'_>) -> Table {
+    let rate = |harmonic: Option<usize>| match harmonic {
+        Some(n) => predicted.harmonics.iter().find(|own| own.0 == n).map(|own| own.1),
+        None => predicted.mode,
+    };
+    let fitted = summary.growth.iter().map(|own| {
+        let name = own.harmonic.map_or("strongest".to_owned(), |n| format!("n = {n}"));
+        (name, Ok(*own), rate(own.harmonic))
+    });
+    let others = summary.no_growth.iter().map(|(vibration, reason)| {
+        let harmonic = vibration.strip_prefix('n').and_then(|n| n.parse().ok());
+        let name = harmonic.map_or(vibration.clone(), |n| format!("n = {n}"));
+        (name, Err(reason.clone()), harmonic.and_then(|n| rate(Some(n))))
+    });
+    let rows: Vec<GrowthRow> = fitted.chain(others).collect();
+    Table::new("", "Growth in the linear stage").columns(GROWTH, &rows)
+}
