@@ -28,7 +28,7 @@ const END: f64 = 0.2;
 /// Blocks in the last fifth of a run that does not vibrate.
 const QUIET_BLOCKS: usize = 8;
 
-/// Growth or decay of a harmonic from the first to the last quarter of the last fifth that is no accident.
+/// Growth of a harmonic from the first to the last quarter of the last fifth that is no accident.
 const GROWTH: f64 = 1.2;
 
 /// What a run ends in.
@@ -151,7 +151,7 @@ pub enum Unsettled {
 }
 
 /// Whether a run has settled: over its last fifth amplitude, frequency and status drift by less than 1 %, and no
-/// small vibration grows. A vibration that dies out counts as none once it is below 1 % of the deformation.
+/// small vibration grows.
 ///
 /// Compared are the means of blocks of eight periods, or of whole beats where there are two frequencies. A modulation that is
 /// longer than a fifth of the run is not seen, and neither is growth from below round-off.
@@ -190,7 +190,7 @@ impl Settling {
     /// Reads a record.
     pub fn of(record: &Recorder) -> Self {
         let fifth = last_fifth(record);
-        let main = main_vibration(record, fifth.clone()).filter(|_| !dies_out(record, &fifth));
+        let main = main_vibration(record, fifth.clone());
         match Self::judge(record, &fifth, main) {
             Ok(settled) => settled,
             Err(reason) => Self {
@@ -312,31 +312,15 @@ fn state(record: &Recorder, rows: &[SampleRow], main: Option<(usize, f64)>) -> E
     }
 }
 
-/// Vibration of a harmonic in each quarter of the last fifth, root mean squares, m.
-fn quarters(record: &Recorder, fifth: &Range<usize>, harmonic: usize) -> [f64; 4] {
-    let quarter = fifth.len() / 4;
-    std::array::from_fn(|k| {
-        let start = fifth.start + k * quarter;
-        rms(&series(record, start..start + quarter, harmonic).unwrap_or_default())
-    })
-}
-
-/// Whether the strongest vibration shrinks from quarter to quarter, and all are small beside the deformation already.
-fn dies_out(record: &Recorder, fifth: &Range<usize>) -> bool {
-    let small = LARGEST_DRIFT * record.largest_motion(fifth.clone());
-    let all: Vec<_> = record.followed_harmonics().map(|n| quarters(record, fifth, n)).collect();
-    let strongest = all.iter().max_by(|a, b| a[3].total_cmp(&b[3]));
-    all.iter().all(|sizes| sizes[0] < small)
-        && strongest.is_some_and(|sizes| {
-            sizes.windows(2).all(|pair| pair[1] < pair[0]) && sizes[0] > GROWTH * sizes[3]
-        })
-}
-
 /// A harmonic above round-off that grows from quarter to quarter.
 fn growing(record: &Recorder, fifth: &Range<usize>) -> Option<Unsettled> {
     let floor = round_off_floor(record.largest_motion(fifth.clone()));
+    let quarter = fifth.len() / 4;
     record.followed_harmonics().find_map(|harmonic| {
-        let sizes = quarters(record, fifth, harmonic);
+        let sizes: [f64; 4] = std::array::from_fn(|k| {
+            let start = fifth.start + k * quarter;
+            rms(&series(record, start..start + quarter, harmonic).unwrap_or_default())
+        });
         let is_rising = sizes.windows(2).all(|pair| pair[1] > pair[0]);
         (is_rising && sizes[3] > GROWTH * sizes[0] && sizes[3] > floor).then_some(
             Unsettled::Growing {

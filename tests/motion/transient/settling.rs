@@ -104,15 +104,6 @@ fn a_run_that_stops_where_it_has_settled_is_the_beginning_of_the_longer_one() {
 }
 
 #[test]
-fn a_vibration_that_dies_out_ends_in_steady_sliding() {
-    // What the expansion excites decays at 325 1/s: 4e-4 of it is left after 24 ms.
-    let (record, _) = run(610.0, &settings(0.03, &[]), &RecorderSettings::default());
-    let analysis = TransientAnalysis::of(&record, &[]);
-    assert!(analysis.last_fifth.main_frequency_hz.is_some());
-    assert_eq!(analysis.settling.state, EndState::SteadySliding, "{:?}", analysis.settling);
-}
-
-#[test]
 fn steady_sliding_rest_and_separation_are_ends_of_their_own() {
     let quiet = settings(0.07, &[]);
     let state = |rpm: f64| {
