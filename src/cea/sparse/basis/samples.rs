@@ -55,11 +55,12 @@ impl BasisBuilder<'_> {
     }
 
     /// Begins the sample at `mu`, anew, with the rigid motions: in a span without them, what corrections have of them looks like modes.
+    /// Modes of a decomposition are not corrected.
     fn begin_sample(&mut self, mu: f64) {
         self.model.drop_sample(mu);
         self.sampled.retain(|held| *held != mu);
         self.sampled.push(mu);
-        if self.rigid > 0 {
+        if self.rigid > 0 && !self.may_decompose() {
             self.model.hold_coordinates(mu, Mat::identity(self.model.dimension(), self.rigid));
         }
     }
@@ -80,6 +81,8 @@ impl BasisBuilder<'_> {
     pub fn improve_at(&mut self, mu: f64) -> Result<bool, CeaError> {
         match self.linearization {
             _ if !self.is_sampling => Ok(self.refine_at(mu)?.is_some()),
+            // A decomposition leaves nothing to correct.
+            _ if self.sampled.contains(&mu) && self.may_decompose() => Ok(false),
             _ if self.sampled.contains(&mu) => self.refine_sample(mu),
             Linearization::Reduced(..) => {
                 self.begin_sample(mu);
@@ -167,12 +170,15 @@ impl BasisBuilder<'_> {
         Ok(())
     }
 
-    /// Corrects `modes` that the basis holds nearly at `mu`, from the second time on those that it holds now; whether there was
-    /// anything to correct.
+    /// Corrects `modes` that the basis holds nearly at `mu`, from the second time on those that it holds now, or takes up those of a
+    /// decomposition; whether there was anything to correct.
     ///
     /// # Errors
     /// If a dense decomposition fails.
     pub fn correct_at(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
+        if self.may_decompose() {
+            return self.improve_at(mu);
+        }
         self.take_up(mu, modes);
         self.refine_sample(mu)
     }
