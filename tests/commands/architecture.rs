@@ -45,7 +45,7 @@ const BUDGETS: &[(&str, usize)] = &[
     ("crates/signal", 6_632),
     ("src/app", 5_970),
     ("src/case", 12_625),
-    ("src/cea", 11_425),
+    ("src/cea", 11_431),
     ("src/contact", 2_658),
     ("src/cycle", 8_617),
     ("src/fem", 5_007),
@@ -58,7 +58,7 @@ const BUDGETS: &[(&str, usize)] = &[
     ("src/prestress", 5_475),
     ("src/results", 21_320),
     ("src/study", 12_764),
-    ("src/transient", 5_009),
+    ("src/transient", 4_993),
 ];
 
 /// Lines of a file before its unit tests.
