@@ -120,10 +120,11 @@ impl<T> Column<T> {
     }
 }
 
-/// Declares columns: `NAME: row as Type; key: "meaning" = cell, Always "label" Fixed(2); ...`.
+/// Declares columns: `NAME: row as Type; key: "meaning" = cell, Always "label" Fixed(2); ...`; a constant may stand for a
+/// meaning.
 macro_rules! columns {
     ($(#[$meta:meta])* $vis:vis $name:ident: $row:ident as $type:ty;
-     $($key:ident: $meaning:literal = $cell:expr $(, $when:ident $label:literal $format:expr)?;)+) => {
+     $($key:ident: $meaning:tt = $cell:expr $(, $when:ident $label:literal $format:expr)?;)+) => {
         $(#[$meta])*
         $vis const $name: &[$crate::output::Column<$type>] = {
             #[allow(unused_imports)]

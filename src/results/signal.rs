@@ -9,6 +9,7 @@ pub use summary::{
     Superharmonic,
 };
 
+use super::cea::{BRANCH, DIRECTION};
 use super::{FolderError, OutputFolder};
 use crate::output::{Document, Section, Table, columns, csv, fixed, significant};
 use crate::signal::AmplitudeSpectrum;
@@ -28,8 +29,8 @@ columns! {
     nearest_mode: "number of the mode beside it, from 1" = row.2.nearest_mode.as_ref().map(|mode| mode.mode);
     mode_frequency_hz: "frequency of that mode" = row.2.nearest_mode.as_ref().map(|mode| mode.frequency_hz);
     harmonic: "its nodal diameters; none without symmetry" = row.2.nearest_mode.as_ref().and_then(|mode| mode.harmonic);
-    branch: "its rank within the harmonic, else among all, from 0" = row.2.nearest_mode.as_ref().map(|mode| mode.branch);
-    direction: "1 travels with the rotor, -1 against it, 0 stands" = row.2.nearest_mode.as_ref().and_then(|mode| mode.direction);
+    branch: BRANCH = row.2.nearest_mode.as_ref().map(|mode| mode.branch);
+    direction: DIRECTION = row.2.nearest_mode.as_ref().and_then(|mode| mode.direction);
 }
 
 columns! {

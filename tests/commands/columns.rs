@@ -59,6 +59,13 @@ fn check(command: &str, input: &[&str], set: &[&str]) {
         if name.ends_with(".csv") {
             let mut table = csv::Reader::from_path(&path).unwrap();
             names.extend(table.headers().unwrap().iter().map(str::to_owned));
+            // Branches are counted from 1, as their column says.
+            if let Some(place) = names.iter().position(|name| name == "branch") {
+                // Empty where a row has none.
+                let rows =
+                    table.records().filter_map(|row| row.unwrap()[place].parse::<usize>().ok());
+                assert!(rows.min().is_none_or(|lowest| lowest >= 1), "{command}: {name}");
+            }
         } else if name == "summary.json" {
             let text = fs::read(&path).unwrap();
             keys("", &serde_json::from_slice(&text).unwrap(), &mut names);
@@ -73,6 +80,8 @@ fn check(command: &str, input: &[&str], set: &[&str]) {
             continue;
         };
         read += 1;
+        let branch = own.entries.iter().find(|entry| entry.key == "branch");
+        assert!(branch.is_none_or(|entry| entry.meaning.ends_with("from 1")), "{command}: {name}");
         for name in names {
             assert!(own.knows(&name), "{command}: {} has {name}, which is not declared", own.file);
         }

@@ -1,5 +1,6 @@
 //! `map.csv` and its chart: critical friction over a second parameter.
 
+use super::{BRANCH, DIRECTION, HARMONIC};
 use crate::cea::UnstableInterval;
 use crate::cea::cyclic::StabilityMapPoint;
 use crate::chart::{ChartError, Figure};
@@ -34,9 +35,9 @@ pub(in crate::results) struct MapRow {
 columns! {
     /// A branch at a value.
     pub(in crate::results) MAP: row as MapRow;
-    harmonic: "number of nodal diameters; none without symmetry" = row.harmonic;
-    branch: "rank within the harmonic, else among all, from 0" = row.onset.as_ref().map(|own| own.branch);
-    direction: "1 travels with the rotor, -1 against it, 0 stands; none without symmetry" = row.direction;
+    harmonic: HARMONIC = row.harmonic;
+    branch: BRANCH = row.onset.as_ref().map(|own| own.branch);
+    direction: DIRECTION = row.direction;
     critical_friction: "friction coefficient above which the branch is unstable" = row.onset.as_ref().map(|own| own.critical_friction);
     frequency_hz: "frequency there" = row.onset.as_ref().map(|own| own.frequency_hz);
     restabilized_friction: "friction coefficient above which it is stable again" = row.onset.as_ref().and_then(|own| own.restabilized).map(|end| end.0);

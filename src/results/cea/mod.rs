@@ -31,7 +31,7 @@ pub use locus::NamedDamping;
 pub(super) use map::MAP;
 pub use map::MapReport;
 pub use mode_name::ModeName;
-pub(super) use mode_name::{BRANCHES, NAMES};
+pub(super) use mode_name::{BRANCH, BRANCHES, DIRECTION, HARMONIC, NAMES};
 pub(super) use reading::{CONTRIBUTIONS, COUPLINGS};
 pub use reading::{Contribution, Coupling, MeshError, Reading, Source};
 pub(super) use sensitivity::ROWS;

@@ -13,11 +13,19 @@ pub struct ModeName {
     pub frequency_hz: f64,
     /// Circumferential harmonic; none without symmetry.
     pub harmonic: Option<usize>,
-    /// Branch, from 0.
+    /// Branch, from 1.
     pub branch: usize,
     /// +1 travels with the rotor, -1 against it, 0 stands; none without symmetry.
     pub direction: Option<i8>,
 }
+
+/// What the columns say that tell modes apart, in every table.
+pub(in crate::results) const HARMONIC: &str = "number of nodal diameters; none without symmetry";
+/// The same of branches.
+pub(in crate::results) const BRANCH: &str = "rank within the harmonic, else among all, from 1";
+/// The same of the direction of travel.
+pub(in crate::results) const DIRECTION: &str =
+    "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
 
 columns! {
     /// A mode in tables of what is read from it.
@@ -25,12 +33,12 @@ columns! {
     friction_coefficient: "friction coefficient" = mode.friction_coefficient;
     mode: "number by frequency at that friction, from 1" = mode.mode;
     frequency_hz: "frequency of the mode" = mode.frequency_hz;
-    harmonic: "number of nodal diameters; none without symmetry" = mode.harmonic;
+    harmonic: HARMONIC = mode.harmonic;
 }
 
 columns! {
     /// Its branch.
     pub(in crate::results) BRANCHES: mode as ModeName;
-    branch: "rank within the harmonic, else among all, from 0" = mode.branch;
-    direction: "1 travels with the rotor, -1 against it, 0 stands; none without symmetry" = mode.direction;
+    branch: BRANCH = mode.branch;
+    direction: DIRECTION = mode.direction;
 }

@@ -1,6 +1,6 @@
 //! `sensitivities.csv`: which parameter decides whether a mode grows.
 
-use super::direction_name;
+use super::{BRANCH, DIRECTION, HARMONIC, direction_name};
 use crate::linalg::c64;
 use crate::output::{Format, Table, columns, fixed};
 use std::f64::consts::TAU;
@@ -49,9 +49,9 @@ columns! {
     /// A branch; derivatives follow, two for each parameter.
     pub(in crate::results) ROWS: row as SensitivityRow;
     friction_coefficient: "friction coefficient" = row.friction_coefficient;
-    harmonic: "number of nodal diameters; none without symmetry" = row.harmonic;
-    branch: "rank within the harmonic, else among all, from 0" = row.branch;
-    direction: "1 travels with the rotor, -1 against it, 0 stands; none without symmetry" = row.direction;
+    harmonic: HARMONIC = row.harmonic;
+    branch: BRANCH = row.branch;
+    direction: DIRECTION = row.direction;
     growth_rate_per_s: "growth rate of the mode" = row.eigenvalue.re;
     frequency_hz: "its frequency" = row.eigenvalue.im / TAU;
 }

@@ -2,7 +2,7 @@
 
 use super::coupling::sentences;
 use super::summary::{CriticalFriction, ModeSummary, friction_values, onsets};
-use super::{CeaReport, MeshError, direction_name};
+use super::{BRANCH, CeaReport, DIRECTION, HARMONIC, MeshError, direction_name};
 use crate::cea::{ComplexMode, FrictionPoint};
 use crate::output::{Document, Section, Table, columns, fixed};
 use std::f64::consts::TAU;
@@ -60,9 +60,9 @@ columns! {
     frequency_hz: "imaginary part of the eigenvalue over 2 pi" = row.own.frequency_hz, Always "frequency" Fixed(2);
     damping_factor: "damping factor; negative where the mode grows" = row.damping_factor, Always "damping factor" Scientific(3);
     growth_rate_per_s: "real part of the eigenvalue" = row.growth_rate, Always "growth rate" Fixed(2);
-    harmonic: "number of nodal diameters; none without symmetry" = row.own.harmonic, IfAny "n" Count;
-    branch: "rank within the harmonic, else among all, from 0" = row.own.branch, Always "branch" Count;
-    direction: "1 travels with the rotor, -1 against it, 0 stands; none without symmetry" = row.own.direction;
+    harmonic: HARMONIC = row.own.harmonic, IfAny "n" Count;
+    branch: BRANCH = row.own.branch, Always "branch" Count;
+    direction: DIRECTION = row.own.direction;
     unstable: "whether the mode grows" = row.own.unstable;
     residual: "relative residual of the eigenpair" = row.residual;
     contact_share: "share of the kinetic energy at the contact" = row.own.contact_share;
@@ -91,9 +91,9 @@ columns! {
 columns! {
     /// A branch that turns unstable.
     pub(in crate::results) ONSETS: onset as CriticalFriction;
-    harmonic: "number of nodal diameters; none without symmetry" = onset.harmonic, IfAny "n" Count;
-    branch: "rank within the harmonic, else among all, from 0" = onset.branch, Always "branch" Count;
-    direction: "1 travels with the rotor, -1 against it, 0 stands; none without symmetry" = onset.direction;
+    harmonic: HARMONIC = onset.harmonic, IfAny "n" Count;
+    branch: BRANCH = onset.branch, Always "branch" Count;
+    direction: DIRECTION = onset.direction;
     critical_friction: "friction coefficient above which the branch is unstable" = onset.critical_friction, Always "unstable above" Fixed(6);
     frequency_hz: "frequency there" = onset.frequency_hz, Always "frequency" Fixed(2);
     restabilized_friction: "friction coefficient above which it is stable again" = onset.restabilized_friction, IfAny "stable again above" Fixed(6);

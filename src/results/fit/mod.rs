@@ -5,6 +5,7 @@ mod summary;
 
 pub use summary::{BLOCK, FitSummary, FittedParameter, LineSummary, ModeSummary, SearchSummary};
 
+use super::cea::{BRANCH, DIRECTION, HARMONIC};
 use super::drawing::Declaration;
 use super::{Finding, Manifest};
 use crate::output::{Document, Section, Table, columns};
@@ -21,9 +22,9 @@ columns! {
 columns! {
     /// A mode of the model.
     pub(super) MODES: mode as ModeSummary;
-    harmonic: "number of nodal diameters; none without symmetry" = mode.harmonic, IfAny "n" Count;
-    branch: "rank within the harmonic, else among all, from 0" = mode.branch, Always "branch" Count;
-    direction: "1 travels with the rotor, -1 against it, 0 stands" = mode.direction;
+    harmonic: HARMONIC = mode.harmonic, IfAny "n" Count;
+    branch: BRANCH = mode.branch, Always "branch" Count;
+    direction: DIRECTION = mode.direction;
     frequency_hz: "frequency of the mode" = mode.frequency_hz, Always "frequency" Fixed(2);
     real_hz: "real part of the eigenvalue over 2 pi" = mode.real_hz, Always "real part" Fixed(2);
 }

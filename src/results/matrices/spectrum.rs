@@ -2,6 +2,7 @@
 
 use crate::cea::QuadraticMode;
 use crate::output::{Table, columns};
+use crate::results::cea::BRANCH;
 use crate::results::finding::write_table;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::manifest::Manifest;
@@ -65,7 +66,7 @@ columns! {
     damping_factor: "damping factor" = -row.1.eigenvalue.re / row.1.eigenvalue.norm(), Always "damping factor" Fixed(6);
     growth_rate_per_s: "real part" = row.1.eigenvalue.re, Always "growth" Scientific(5);
     harmonic: "none" = None::<usize>;
-    branch: "rank, from 0" = row.0;
+    branch: BRANCH = row.0 + 1;
     direction: "none" = None::<i8>;
     unstable: "whether it grows" = row.1.eigenvalue.re > 0.0;
     residual: "relative residual" = row.1.residual;

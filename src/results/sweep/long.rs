@@ -3,7 +3,7 @@
 use super::PointRecord;
 use super::table::cell;
 use crate::output::{Column, Table, columns};
-use crate::results::cea::{ModeSummary, ONSETS, UnstableMode};
+use crate::results::cea::{BRANCH, DIRECTION, HARMONIC, ModeSummary, ONSETS, UnstableMode};
 use crate::results::cycle::{BranchRecord, FamilyRecord};
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -13,9 +13,9 @@ columns! {
     pub(in crate::results) UNSTABLE: mode as UnstableMode;
     friction_coefficient: "friction coefficient" = mode.friction_coefficient, Always "friction" Plain;
     mode: "number by frequency at that friction, from 1" = mode.mode, Always "mode" Count;
-    harmonic: "number of nodal diameters; none without symmetry" = mode.harmonic, IfAny "n" Count;
-    branch: "rank within the harmonic, else among all, from 0" = mode.branch;
-    direction: "1 travels with the rotor, -1 against it, 0 stands; none without symmetry" = mode.direction;
+    harmonic: HARMONIC = mode.harmonic, IfAny "n" Count;
+    branch: BRANCH = mode.branch;
+    direction: DIRECTION = mode.direction;
     frequency_hz: "frequency" = mode.frequency_hz, Always "frequency" Fixed(2);
     growth_rate_per_s: "growth rate" = mode.growth_rate_per_s, Always "growth rate" Fixed(2);
     damping_factor: "damping factor, below 0" = mode.damping_factor;
@@ -25,9 +25,9 @@ columns! {
 columns! {
     /// A mode at the friction coefficient of the case.
     pub(in crate::results) OWN_MODES: mode as ModeSummary;
-    harmonic: "number of nodal diameters; none without symmetry" = mode.harmonic;
-    branch: "rank within the harmonic, else among all, from 0" = mode.branch;
-    direction: "1 travels with the rotor, -1 against it, 0 stands; none without symmetry" = mode.direction;
+    harmonic: HARMONIC = mode.harmonic;
+    branch: BRANCH = mode.branch;
+    direction: DIRECTION = mode.direction;
     real_hz: "real part of the eigenvalue over 2 pi" = mode.real_hz;
     frequency_hz: "imaginary part over 2 pi" = mode.frequency_hz;
     unstable: "whether it grows" = mode.unstable;

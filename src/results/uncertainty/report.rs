@@ -4,6 +4,7 @@ use super::figures::{indices, robust, uncertainty};
 use super::summary::{DesignCurve, FamilySummary, Index, UncertaintySummary};
 use super::{Onset, Sample};
 use crate::output::{Document, Format, Section, Table, columns};
+use crate::results::cea::{BRANCH, DIRECTION};
 use crate::results::drawing::{Declaration, DrawingError, DrawingOptions, draw_all, figure_files};
 use crate::results::report::Report;
 use crate::results::sweep::SweepFolder;
@@ -20,8 +21,8 @@ columns! {
     pub(in crate::results) ONSETS: onset as Onset;
     critical_friction: "lowest critical friction of the sample" = onset.critical_friction;
     harmonic: "nodal diameters of its mode; none without symmetry" = onset.harmonic;
-    branch: "rank of its mode within the harmonic, else among all, from 0" = onset.branch;
-    direction: "1 travels with the rotor, -1 against it, 0 stands" = onset.direction;
+    branch: BRANCH = onset.branch;
+    direction: DIRECTION = onset.direction;
     frequency_hz: "frequency at the onset" = onset.frequency_hz;
     unstable_from_start: "whether it is unstable at the lowest friction already" = onset.unstable_from_start;
 }
