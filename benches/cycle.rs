@@ -3,7 +3,8 @@
 //! `cargo bench --bench cycle`. Prints, for one and two nodal diameters, the time to find the cycle at 610 rpm from its
 //! birth, the time from a cycle to a neighbour at a speed 2 % higher or 20 % lower (fastest of several), that of its
 //! stability, and the time of the branch over 61 speeds from 10 to 6000 rpm. Then 60 cycles of the shipped case on 300 x 13
-//! elements (8,400 unknowns, 300 contact nodes), where friction falls with speed, over friction and over speed.
+//! elements (8,400 unknowns, 300 contact nodes), where friction falls with speed, over friction and over speed. Without `--bench`
+//! (as `cargo test --benches` calls it) branches have three values, and everything is done once.
 
 use frictionsim::case::Case;
 use frictionsim::cea::Unwatched;
@@ -15,6 +16,11 @@ use frictionsim::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind};
 use frictionsim::study::cycle::PeriodicStudy;
 use std::f64::consts::TAU;
 use std::time::{Duration, Instant};
+
+/// A count where something is measured, else a small one.
+fn counted(full: usize, small: usize) -> usize {
+    if std::env::args().any(|argument| argument == "--bench") { full } else { small }
+}
 
 fn main() {
     let specification = AnnulusSpecification {
@@ -61,8 +67,9 @@ fn main() {
         let stability = fastest(|| {
             solver.stability(&cycle).expect("exponents");
         });
-        let speeds: Vec<f64> =
-            (0..61).map(|i| 10.0 * 600f64.powf(f64::from(i) / 60.0) * TAU / 60.0).collect();
+        let speeds: Vec<f64> = (61 - counted(61, 3)..61)
+            .map(|i| 10.0 * 600f64.powf(i as f64 / 60.0) * TAU / 60.0)
+            .collect();
         let start = Instant::now();
         let branch = solver.follow(&cycle, Parameter::RotationSpeed, &speeds);
         println!(
@@ -77,7 +84,7 @@ fn main() {
 
 /// 60 cycles as motions of the whole mesh along a key.
 fn whole_mesh(key: &str, range: [f64; 2]) {
-    let [from, to] = range;
+    let ([from, to], count) = (range, counted(60, 3));
     let overrides = [
         "mesh.circumferential_elements=300".to_owned(),
         "mesh.radial_elements=13".to_owned(),
@@ -85,7 +92,7 @@ fn whole_mesh(key: &str, range: [f64; 2]) {
         "contact.decay_speed=0.5".to_owned(),
         "cycle.stability=\"none\"".to_owned(),
         "cycle.confirmation_periods=0".to_owned(),
-        format!("cycle.continuation={{ key=\"{key}\", from={from}, to={to}, count=60 }}"),
+        format!("cycle.continuation={{ key=\"{key}\", from={from}, to={to}, count={count} }}"),
     ];
     let bytes = std::fs::read("cases/limit-cycle.toml").expect("a shipped case");
     let text = String::from_utf8(bytes).expect("text");
@@ -108,7 +115,7 @@ fn whole_mesh(key: &str, range: [f64; 2]) {
 }
 
 fn fastest(mut work: impl FnMut()) -> Duration {
-    let times = (0..5).map(|_| {
+    let times = (0..counted(5, 1)).map(|_| {
         let start = Instant::now();
         work();
         start.elapsed()
