@@ -91,7 +91,7 @@ impl CycleReport<'_> {
             |critical| format!("it loses its stability at {critical}"),
         );
         format!(
-            "steady sliding is stable at contact.friction_coefficient = {} as far as {} modes up to {:.0} Hz tell, so no limit cycle \
+            "steady sliding is stable at friction {} as far as {} modes up to {:.0} Hz tell, so no limit cycle \
              is sought: none of them grows{slowest} ({advice})",
             self.friction_coefficient, search.modes, search.highest_hz,
         )
