@@ -97,7 +97,10 @@ impl<'a> BasisBuilder<'a> {
         watch: &'a dyn SweepWatch,
     ) -> Self {
         let mut model = ReducedModel::empty(tangent, linearization);
-        model.extend(modes.clone(), 1e-8);
+        // Rigid motions on their own: samples hold the first columns, and a block is put in the order of its remainders.
+        let (first, others) = modes.split_at_col(rigid);
+        model.extend(first.to_owned(), 1e-8);
+        model.extend(others.to_owned(), 1e-8);
         Self {
             tangent,
             linearization,
