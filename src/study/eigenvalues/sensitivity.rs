@@ -30,8 +30,6 @@ const INERT: [&str; 6] = [
     "normal_damping",
     "tangential_damping",
 ];
-/// Part of the modulus by which modes beyond the listed ones are looked for along.
-const MARGIN: f64 = 1.02;
 
 /// Sensitivities of a body.
 pub struct BodySensitivities {
@@ -92,7 +90,7 @@ type Rates = (Vec<Option<c64>>, Option<String>);
 /// the semi-analytical method.
 ///
 /// # Errors
-/// Those of the base state and of the Krylov iterations.
+/// Those of the base state.
 pub fn body_sensitivities(
     case: &Case,
     cea: &Cea,
@@ -118,7 +116,7 @@ pub fn body_sensitivities(
             let pressed = waves.tangent.pressed().to_vec();
             Pairs::Waves(wave_pairs(&waves.tangent, &wanted), pressed)
         }
-        None => whole_pairs(case, cea, sweep, (modes.len(), &targets))?,
+        None => whole_pairs(case, cea, (modes.len(), &targets))?,
     };
     let found = pairs.each();
 
@@ -253,7 +251,6 @@ fn modes_at(sweep: &FrictionSweep, friction: f64, has_harmonics: bool) -> Vec<Li
 fn whole_pairs(
     case: &Case,
     cea: &Cea,
-    sweep: &FrictionSweep,
     (own, targets): (usize, &[Target]),
 ) -> Result<Pairs, StudyError> {
     let (modes, onsets) = targets.split_at(own);
@@ -268,8 +265,7 @@ fn whole_pairs(
     let frictions: Vec<f64> = places.iter().map(|place| place.friction).collect();
     let base = Linearized::of(case, cea, &frictions, None)?;
     for (k, place) in places.iter_mut().enumerate() {
-        let count = count_up_to(sweep, &place.targets);
-        place.pairs = mode_pairs(base.tangent(k), place.friction, &place.targets, count)?;
+        place.pairs = mode_pairs(base.tangent(k), place.friction, &place.targets);
     }
     Ok(Pairs::Whole(base, places))
 }
@@ -337,16 +333,6 @@ impl Linearized {
             structural.map_or_else(Vec::new, |p| p.evaluate(mu)),
         ]
     }
-}
-
-/// How many modes there may be up to the highest of some eigenvalues, at any friction coefficient of a sweep.
-fn count_up_to(sweep: &FrictionSweep, targets: &[c64]) -> usize {
-    let highest = targets.iter().map(|t| t.norm()).fold(0.0, f64::max);
-    let points = sweep.points.iter().map(|point| {
-        let modes = point.modes.iter();
-        modes.filter(|mode| mode.eigenvalue.norm() <= MARGIN * highest).count()
-    });
-    points.max().unwrap_or(0).max(targets.len()) + 2
 }
 
 /// The terms of a difference quotient with their weights: on either side of a value, or on one side where the other is refused,
