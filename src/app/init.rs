@@ -1,6 +1,6 @@
 //! `frictionsim init`: a commented case to start from.
 
-use super::profile::{Profile, Redraw};
+use super::profile::Profile;
 use super::shipped::{ShippedCase, ShippedFile, all_cases, all_files};
 use super::{Failure, terminal};
 use crate::case::{case_from, reference};
@@ -66,7 +66,6 @@ pub const PROFILE: Profile = Profile {
         ),
         ("frictionsim init --all", "every shipped case, in the folder cases"),
     ],
-    redraw: Redraw::Nothing,
 };
 
 /// Runs the subcommand.
