@@ -1,8 +1,7 @@
 //! `frictionsim basin`: which of two motions wins.
 
-use super::profile::{Profile, Redraw, redraw};
+use super::profile::Profile;
 use super::{Failure, RunOptions, Session, terminal};
-use crate::results::basin::BasinSummary;
 use crate::study::basin::summary;
 use clap::Args;
 
@@ -24,7 +23,6 @@ pub const PROFILE: Profile = Profile {
         "frictionsim basin disc.toml",
         "which of two waves wins, by the ratio of their amplitudes at saturation",
     )],
-    redraw: Redraw::OfFolder(redraw::<BasinSummary>),
 };
 
 /// Runs the subcommand.

@@ -1,15 +1,13 @@
 //! `frictionsim cea`: complex eigenvalues of steady sliding over the friction coefficient.
 
-use super::profile::{Profile, Redraw};
+use super::profile::Profile;
 use super::{Failure, RunOptions, Session, superelement, terminal};
 use crate::case::{Case, Cea};
-use crate::cea::{SweepProgress, SweepStage, Unwatched};
+use crate::cea::{SweepProgress, SweepStage};
 use crate::results::cea::{CeaReport, KeptSteps, View, document, draw, write, write_universal};
-use crate::results::{DrawingOptions, OutputFolder, read_summary};
 use crate::study::eigenvalues::{self, Progress, SlidingModel, Solution, Solver, refuse_no_modes};
 use clap::Args;
 use indicatif::ProgressBar;
-use serde_json::Value;
 
 /// Which modes turn unstable, at which friction and why
 ///
@@ -51,7 +49,6 @@ pub const PROFILE: Profile = Profile {
             "for scripts",
         ),
     ],
-    redraw: Redraw::OfCase(redraw),
 };
 
 /// Runs the subcommand.
@@ -116,8 +113,7 @@ fn run_with(
     let solution = solve(&session, cea, &model, &steps)?;
     refuse_no_modes(case, cea, &solution.sweep)?;
 
-    let map =
-        cea.map.as_ref().map(|map| eigenvalues::watched_map(case, cea, map, &steps)).transpose()?;
+    let map = cea.map.as_ref().map(|map| eigenvalues::map(case, cea, map, &steps)).transpose()?;
     bar.finish_and_clear();
     let field = model.base_field(case);
     let report = CeaReport {
@@ -134,28 +130,6 @@ fn run_with(
     steps.discard()?;
     let view = if session.options.output.verbose > 0 { View::Whole } else { View::Short };
     session.options.output.finish(folder, &document(&report, view).to_text(), &summary)
-}
-
-/// Draws the figures of a folder again: solves the case anew, which the same case answers with the same
-/// bytes; how long the run took is in its summary.
-///
-/// # Errors
-/// As [`run`].
-pub fn redraw(folder: &OutputFolder, case: &Case, options: &DrawingOptions) -> Result<(), Failure> {
-    let summary: Value = read_summary(folder.path())?;
-    let cea = case.require_cea()?;
-    let model = SlidingModel::new(case, cea)?;
-    let solution = eigenvalues::solve(case, cea, &model, &Unwatched)?;
-    let field = model.base_field(case);
-    let map = cea.map.as_ref();
-    let map = map.map(|map| eigenvalues::map(case, cea, map)).transpose()?;
-    let wall_s = summary["wall_s"].as_f64().unwrap_or(f64::NAN);
-    let report = CeaReport {
-        map: map.as_ref(),
-        ..eigenvalues::report(case, cea, &model, &solution, &field, wall_s)
-    };
-    draw(folder, &report, &eigenvalues::dampings(case, &model), options)?;
-    Ok(())
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! `frictionsim check`: is the case valid, and what would it cost?
 
 use super::options::CaseChanges;
-use super::profile::{Profile, Redraw};
+use super::profile::Profile;
 use super::session::{gibibytes, machine_memory, read_case};
 use super::{Failure, superelement, terminal};
 use crate::case::{Case, Convergence, Cost, FreeSystem, StudyCost};
@@ -31,7 +31,6 @@ pub struct Arguments {
 pub const PROFILE: Profile = Profile {
     files: &[],
     examples: &[("frictionsim check *.toml", "are these cases valid, and what do they cost?")],
-    redraw: Redraw::Nothing,
 };
 
 /// Runs the subcommand: every case is checked, whatever the others are like.

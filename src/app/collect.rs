@@ -1,7 +1,7 @@
 //! `frictionsim collect`: the table over the points that a sweep has finished so far.
 
 use super::figure_options::FigureOptions;
-use super::profile::{Profile, Redraw};
+use super::profile::Profile;
 use super::recorded_case::recorded_case;
 use super::session::start_threads;
 use super::sweep::{Finished, SweepPlan, drawing, gather};
@@ -36,7 +36,6 @@ pub struct Arguments {
 pub const PROFILE: Profile = Profile {
     files: &[("points.csv", "one row for each finished point")],
     examples: &[("frictionsim collect study", "gather what the shards have finished")],
-    redraw: Redraw::Nothing,
 };
 
 /// Runs the subcommand.

@@ -1,24 +1,23 @@
 //! `frictionsim compare`: runs side by side.
 
 use super::options::OutputOptions;
-use super::profile::{Profile, Redraw};
+use super::profile::Profile;
 use super::{Failure, terminal};
 use crate::results::compare::{
     ComparedRun, ComparisonSummary, document, file, overlaid, print, shared,
 };
 use crate::results::{
-    DrawingError, Manifest, REPORT, read_manifest, read_summary, write_page, write_summary,
-    write_table,
+    DrawingError, Manifest, Page, Record, read_manifest, read_record, read_summary, write_page,
+    write_summary, write_table,
 };
 use clap::{Args, ValueHint};
-use frictionsim_bounds::{RESULT, read_text};
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 /// Set finished runs side by side: numbers and curves
 ///
-/// Reads summary.json and report.html of each results folder; nothing is computed again. The other folders are compared with
+/// Reads summary.json and figures.bin of each results folder; nothing is computed again. The other folders are compared with
 /// the first one. Without --out the results are in results/compare, in a folder named after the runs.
 #[derive(Args)]
 pub struct Arguments {
@@ -33,7 +32,6 @@ pub struct Arguments {
 pub const PROFILE: Profile = Profile {
     files: &[("compare.csv", "every shared number, with differences")],
     examples: &[("frictionsim compare a/cea b/cea", "two runs side by side")],
-    redraw: Redraw::Nothing,
 };
 
 /// Runs the subcommand.
@@ -44,7 +42,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     terminal::start_log(arguments.output.quiet, arguments.output.verbose);
     let names = names_of(&arguments.folders);
     let runs = arguments.folders.iter().zip(names).map(|(path, name)| {
-        let page = read_text(&path.join(REPORT), RESULT).ok();
+        let page = read_record::<Page>(path).ok();
         Ok(ComparedRun { name, manifest: read_manifest(path)?, summary: read_summary(path)?, page })
     });
     let runs: Vec<ComparedRun> = runs.collect::<Result<_, Failure>>()?;
@@ -58,8 +56,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     for run in runs.iter().filter(|run| run.page.is_none()) {
         tracing::warn!(
-            "{} has no {REPORT}, so its figures are left out: frictionsim plot draws it",
-            run.name
+            "{} has no {}, so its figures are left out: run it again with figures",
+            run.name,
+            Page::FILE
         );
     }
     let manifest = manifest_of(&arguments.folders, &runs);
@@ -73,8 +72,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = output.open_folder(&manifest, false)?;
     write_table(&folder, &file(&runs, &quantities))?;
     if let Some(drawing) = arguments.output.drawing() {
-        let figures = overlaid(&runs, &drawing).map_err(DrawingError::from)?;
-        write_page(&folder, document(&runs, &quantities), figures, &manifest, &drawing)?;
+        let figures = overlaid(&runs).map_err(DrawingError::from)?;
+        write_page(&folder, document(&runs, &quantities), figures, &drawing)?;
     }
     let table = print(&runs, &quantities);
     let summary = ComparisonSummary {

@@ -1,6 +1,6 @@
 //! `frictionsim convergence`: a case on several meshes and with several time steps.
 
-use super::profile::{Profile, Redraw, redraw};
+use super::profile::Profile;
 use super::{Failure, RunOptions, Session, cycle, terminal};
 use crate::case::Analysis;
 use crate::results::convergence::ConvergenceSummary;
@@ -22,7 +22,6 @@ pub struct Arguments {
 pub const PROFILE: Profile = Profile {
     files: &[("convergence.csv", "one row for each quantity on each level")],
     examples: &[("frictionsim convergence disc.toml", "observed orders and extrapolated values")],
-    redraw: Redraw::OfFolder(redraw::<ConvergenceSummary>),
 };
 
 /// Runs the subcommand.

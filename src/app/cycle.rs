@@ -1,13 +1,12 @@
 //! `frictionsim cycle`: limit cycles found directly, and followed over a parameter.
 
-use super::profile::{Profile, Redraw};
+use super::profile::Profile;
 use super::session::{available_memory, gibibytes};
 use super::{Failure, RunOptions, Session, terminal};
-use crate::case::{Body, Case};
-use crate::mesh::SolidSector;
+use crate::case::Case;
+use crate::results::OutputFolder;
 use crate::results::cea::KeptSteps;
-use crate::results::cycle::{CycleFigures, CycleRecord, CycleReport, CycleSummary, PeriodicResult};
-use crate::results::{DrawingOptions, OutputFolder, read_record, read_summary, refuse_misfit};
+use crate::results::cycle::{CycleFigures, CycleRecord, CycleReport, PeriodicResult};
 use crate::study::cycle::{CycleStudy, PeriodicStudy, refuse_nothing};
 use clap::Args;
 use serde_json::Value;
@@ -51,7 +50,6 @@ pub const PROFILE: Profile = Profile {
             "cycle-modeK.csv, contact-modeK.csv, .npz, harmonics-modeK.csv",
             "of a body without symmetry: the contact over one period, its nodes, harmonics in time",
         ),
-        ("record.bin", "what the figures are drawn from"),
     ],
     examples: &[
         ("frictionsim cycle disc.toml", "the limit cycles of a case, without time stepping"),
@@ -60,7 +58,6 @@ pub const PROFILE: Profile = Profile {
             "go on where a search on any other body was interrupted",
         ),
     ],
-    redraw: Redraw::OfCase(redraw),
 };
 
 /// Runs the subcommand.
@@ -147,55 +144,18 @@ fn written(
     }
     let (summary, object) = report.write(folder)?;
     if let Some(drawing) = session.options.output.drawing() {
-        draw_record(folder, &session.case, &summary, &drawing)?;
+        let bodies = session.case.body.assembly().into_iter();
+        let surfaces = bodies.flat_map(|body| &body.contacts);
+        let data = CycleFigures {
+            record: &CycleRecord::of(report),
+            mesh: report.mesh,
+            solid: report.solid,
+            surfaces: surfaces.map(|own| (own.name.clone(), own.surface)).collect(),
+            materials: session.case.materials(),
+        };
+        summary.draw(folder, &data, &drawing)?;
     }
     Ok((summary.document().to_text(), object))
-}
-
-/// Draws the figures of a folder again, from its `record.bin`.
-///
-/// # Errors
-/// As [`draw_record`].
-fn redraw(folder: &OutputFolder, case: &Case, options: &DrawingOptions) -> Result<(), Failure> {
-    draw_record(folder, case, &read_summary(folder.path())?, options)
-}
-
-/// Draws the figures and the report of the record in the folder.
-///
-/// # Errors
-/// A folder without a whole record; those of the drawing and of the folder.
-fn draw_record(
-    folder: &OutputFolder,
-    case: &Case,
-    summary: &CycleSummary,
-    options: &DrawingOptions,
-) -> Result<(), Failure> {
-    let record: CycleRecord = read_record(folder.path())?;
-    let sector = match &case.body {
-        Body::Revolution(body) => {
-            Some(SolidSector::generate(&body.specification).map_err(Failure::usage)?)
-        }
-        _ => None,
-    };
-    let mesh = case.mesh().map_err(Failure::usage)?;
-    let whole = sector
-        .as_ref()
-        .map_or(mesh.node_count(), |sector| sector.node_count() * sector.sector_count());
-    let dofs = case.body.dimension() * whole;
-    let is_own = record.nodes.iter().all(|&node| (node as usize) < whole)
-        && record.cycles.iter().all(|motion| {
-            motion.displacement_field.len() == dofs && motion.velocity_field.len() == dofs
-        });
-    refuse_misfit(folder.path(), is_own)?;
-    let contacts = case.body.assembly().into_iter().flat_map(|body| &body.contacts);
-    let data = CycleFigures {
-        record: &record,
-        mesh: &mesh,
-        solid: sector.as_ref(),
-        surfaces: contacts.map(|own| (own.name.clone(), own.surface)).collect(),
-        materials: case.materials(),
-    };
-    Ok(summary.draw(folder, &data, options)?)
 }
 
 /// Refuses phases whose dense matrices do not fit the machine's memory.

@@ -1,9 +1,9 @@
 //! `frictionsim fit`: parameters of a case from measured modes.
 
 use super::limits::{input_name, read_input};
-use super::profile::{Profile, Redraw, redraw};
+use super::profile::Profile;
 use super::{Failure, RunOptions, Session, terminal};
-use crate::results::fit::{BLOCK, FitSummary};
+use crate::results::fit::BLOCK;
 use crate::signal::reader::{MeasuredShape, read_modes, read_shapes};
 use crate::study::fit::{MeasuredShapes, fit_case_with_shapes, refuse_too_few, summarize};
 use clap::{Args, ValueHint};
@@ -46,7 +46,6 @@ pub const PROFILE: Profile = Profile {
             "the same where shapes tell close modes apart",
         ),
     ],
-    redraw: Redraw::OfFolder(redraw::<FitSummary>),
 };
 
 /// Runs the subcommand.

@@ -1,15 +1,13 @@
 //! `frictionsim frf`: frequency response of the model between two nodes.
 
-use super::profile::{Profile, Redraw};
+use super::profile::Profile;
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, Frf};
 use crate::frf::Terminal;
 use crate::results::{
-    DrawingOptions, OutputFolder, RESPONSE_TABLE, ResponseSummary, draw_response_report,
-    read_response_table, read_summary, write_response, write_summary, write_universal_response,
+    ResponseSummary, draw_response_report, write_response, write_summary, write_universal_response,
 };
 use crate::signal::FrequencyResponse;
-use crate::signal::reader::{ResponseOptions, read_response};
 use crate::study::response::{FrequencyStudy, Response};
 use clap::Args;
 
@@ -30,7 +28,6 @@ pub const PROFILE: Profile = Profile {
         ("frf.unv", "the response as a universal file (output.universal)"),
     ],
     examples: &[("frictionsim frf hammer-test.toml", "response of the model between two nodes")],
-    redraw: Redraw::OfFolder(redraw),
 };
 
 /// Runs the subcommand.
@@ -84,19 +81,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let path = folder.destination().to_owned();
     folder.finish()?;
     session.print(&summary.document().to_text(), &object, &path)
-}
-
-/// Draws the figure and the report of a folder from its `frf.csv` and its summary.
-///
-/// # Errors
-/// A folder without a whole table and summary; those of the drawing and of the folder.
-pub fn redraw(folder: &OutputFolder, options: &DrawingOptions) -> Result<(), Failure> {
-    let summary: ResponseSummary = read_summary(folder.path())?;
-    let name = folder.path().join(RESPONSE_TABLE).display().to_string();
-    let reading = ResponseOptions::default();
-    let file = read_response(&read_response_table(folder)?, &name, &reading)?;
-    draw_response_report(folder, &file.responses[0].response, &summary, options)?;
-    Ok(())
 }
 
 fn described(case: &Case, frf: &Frf, computed: &Response) -> String {

@@ -3,15 +3,12 @@
 use super::Failure;
 use super::measurement::{Measurement, SideFile};
 use super::options::OutputOptions;
-use super::profile::{Profile, Redraw};
+use super::profile::Profile;
 use crate::results::identification::{
     DAMPING_BLOCK, IdentificationRecord, IdentificationSummary, document, identification,
     write_fits,
 };
-use crate::results::{
-    DrawingError, DrawingOptions, OutputFolder, draw_all, read_record, read_summary, write_page,
-    write_record, write_summary, write_tables,
-};
+use crate::results::{write_page, write_summary, write_tables};
 use crate::signal::reader::{ResponseOptions, read_response, write_response};
 use crate::signal::{FrequencyResponse, IdentificationOptions, ResponseQuantity, identify};
 use clap::{Args, ValueEnum, ValueHint};
@@ -76,10 +73,8 @@ pub const PROFILE: Profile = Profile {
     files: &[
         ("modes.csv, fit.csv", "frequencies and damping factors, and the fit through them"),
         ("damping.toml", "a [damping] block to paste into a case"),
-        ("record.bin", "what the figures are drawn from"),
     ],
     examples: &[("frictionsim identify FRF.csv --json", "Rayleigh coefficients with intervals")],
-    redraw: Redraw::OfFolder(redraw),
 };
 
 /// Runs the subcommand.
@@ -122,37 +117,15 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     folder.write(DAMPING_BLOCK, |out| out.write_all(block.as_bytes()))?;
     write_tables(&folder, &document(&summary))?;
     let object = write_summary(&folder, &summary)?;
-    let record = IdentificationRecord::of(&responses[0], &found);
-    write_record(&folder, &record)?;
     if let Some(copy) = copy {
         let text: String = file.responses.iter().map(write_response).collect();
         copy.write(text.as_bytes())?;
     }
     if let Some(drawing) = arguments.output.drawing() {
-        draw(&folder, &record, &summary, &drawing)?;
+        let record = IdentificationRecord::of(&responses[0], &found);
+        write_page(&folder, document(&summary), vec![identification(&record)], &drawing)?;
     }
     arguments.output.finish(folder, &document(&summary).to_text(), &object)
-}
-
-/// Draws the figure and the report of a folder from its `record.bin` and its summary.
-///
-/// # Errors
-/// A folder without a whole record or summary; those of the folder.
-pub fn redraw(folder: &OutputFolder, options: &DrawingOptions) -> Result<(), Failure> {
-    let record: IdentificationRecord = read_record(folder.path())?;
-    let summary: IdentificationSummary = read_summary(folder.path())?;
-    draw(folder, &record, &summary, options)
-}
-
-fn draw(
-    folder: &OutputFolder,
-    record: &IdentificationRecord,
-    summary: &IdentificationSummary,
-    options: &DrawingOptions,
-) -> Result<(), Failure> {
-    let figures = draw_all(vec![Box::new(|| Ok(identification(record)))], options);
-    let figures = figures.map_err(DrawingError::from)?;
-    Ok(write_page(folder, document(summary), figures, &summary.manifest, options)?)
 }
 
 /// The frequency range, checked.

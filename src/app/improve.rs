@@ -1,12 +1,11 @@
 //! `frictionsim improve`: where a modification silences unstable modes.
 
-use super::profile::{Profile, Redraw};
+use super::profile::Profile;
 use super::{Failure, RunOptions, Session, terminal};
-use crate::case::Case;
 use crate::results::improve::{ImproveSummary, document, draw, write};
-use crate::results::{DrawingOptions, OutputFolder, read_summary, write_summary};
+use crate::results::write_summary;
 use crate::study::extent_of;
-use crate::study::improve::{Improvement, improve};
+use crate::study::improve::improve;
 use clap::Args;
 
 /// Find changes that silence the unstable modes
@@ -34,7 +33,6 @@ pub const PROFILE: Profile = Profile {
             "where five grams do",
         ),
     ],
-    redraw: Redraw::OfCase(redraw),
 };
 
 /// Runs the subcommand.
@@ -70,16 +68,4 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let object = write_summary(&folder, &summary)?;
     session.options.output.finish(folder, &document(&summary).to_text(), &object)
-}
-
-/// Draws the figures of a folder again: fields are found anew, the list is that of the summary.
-///
-/// # Errors
-/// As [`run`]; a folder without a whole summary.
-pub fn redraw(folder: &OutputFolder, case: &Case, options: &DrawingOptions) -> Result<(), Failure> {
-    let summary: ImproveSummary = read_summary(folder.path())?;
-    let mut case = case.clone();
-    case.improve.confirm = 0;
-    let Improvement { mesh, fields, .. } = improve(&case)?;
-    Ok(draw(folder, &summary, &mesh, &fields, options)?)
 }

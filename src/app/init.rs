@@ -1,6 +1,6 @@
 //! `frictionsim init`: a commented case to start from.
 
-use super::profile::{Profile, Redraw};
+use super::profile::Profile;
 use super::shipped::{ShippedCase, ShippedFile, all_cases, all_files};
 use super::{Failure, terminal};
 use crate::case::{case_from, reference};
@@ -9,88 +9,38 @@ use std::fmt::Write as _;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// A shipped case under a name of its own.
-struct Template {
-    name: &'static str,
-    /// The shipped case that it is.
-    case: &'static str,
-    meaning: &'static str,
-}
-
-const fn template(name: &'static str, case: &'static str, meaning: &'static str) -> Template {
-    Template { name, case, meaning }
-}
-
-const TEMPLATES: &[Template] = &[
-    template(
-        "cea",
-        "polycarbonate-disc.toml",
-        "complex eigenvalues of a disc over the friction coefficient",
-    ),
-    template(
-        "transient",
-        "polycarbonate-610rpm.toml",
-        "contact transient from first expansion to limit cycle",
-    ),
-    template("sweep", "speed-friction-study.toml", "transients over rotation speed and friction"),
-    template(
-        "convergence",
-        "convergence.toml",
-        "eigenvalues, a transient and a limit cycle over mesh and time step",
-    ),
-    template(
-        "cycle",
-        "limit-cycle.toml",
-        "limit cycles over the rotation speed, without time stepping",
-    ),
-    template("basin", "basin.toml", "which of two stable limit cycles a transient ends on"),
-    template("frf", "hammer-test.toml", "frequency response of a free disc, as in a hammer test"),
-    template("fit", "fit-table-1.toml", "material and contact stiffness from measured modes"),
-    template(
-        "uncertainty",
-        "squeal-probability.toml",
-        "probability of squeal where parameters scatter",
-    ),
-    template(
-        "mesh",
-        "sliding-block.toml",
-        "a part of your own from a Gmsh mesh, on a moving plane",
-    ),
-    template("two-bodies", "pad-on-disc.toml", "a pad on a disc from a mesh, both deformable"),
-    template(
-        "three-dimensions",
-        "ring-on-disc.toml",
-        "a disc in three dimensions under a rotating ring",
-    ),
+/// Short names of shipped cases.
+const SHORT_NAMES: &[(&str, &str)] = &[
+    ("cea", "polycarbonate-disc"),
+    ("transient", "polycarbonate-610rpm"),
+    ("sweep", "speed-friction-study"),
+    ("cycle", "limit-cycle"),
+    ("frf", "hammer-test"),
+    ("fit", "fit-table-1"),
+    ("uncertainty", "squeal-probability"),
+    ("mesh", "sliding-block"),
+    ("two-bodies", "pad-on-disc"),
+    ("three-dimensions", "ring-on-disc"),
 ];
 
-/// The template that is made from the declarations of the keys.
+/// The case that is made from the declarations of the keys.
 const REFERENCE: &str = "reference";
-
-/// Other names of templates.
-const SYNONYMS: &[(&str, &str)] = &[
-    ("3d", "three-dimensions"),
-    ("block", "mesh"),
-    ("disc", "cea"),
-    ("eigenvalues", "cea"),
-    ("pad", "two-bodies"),
-];
 
 /// Write a commented case to start from
 #[derive(Args)]
 pub struct Arguments {
-    /// Template or shipped case; see --list
+    /// Shipped case or its short name; see --list
     #[arg(default_value = "cea")]
     template: String,
     /// Mesh file to start from: an input file of Abaqus or CalculiX, Nastran bulk data, a universal file or a Gmsh mesh; the case
     /// has everything that the file holds
     #[arg(long, value_name = "MESH", value_hint = ValueHint::FilePath, conflicts_with = "template")]
     from: Option<PathBuf>,
-    /// File to write, `-` for stdout [default: <TEMPLATE>.toml]; meshes and tables of the template go beside it. With --all
+    /// File to write, `-` for stdout [default: <TEMPLATE>.toml]; its meshes and tables go beside it. With --all
     /// the folder [default: cases]
     #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
     out: Option<PathBuf>,
-    /// List the templates and the shipped cases
+    /// List the shipped cases and their short names
     #[arg(long)]
     list: bool,
     /// Write every shipped case with its meshes and tables
@@ -116,7 +66,6 @@ pub const PROFILE: Profile = Profile {
         ),
         ("frictionsim init --all", "every shipped case, in the folder cases"),
     ],
-    redraw: Redraw::Nothing,
 };
 
 /// Runs the subcommand.
@@ -133,11 +82,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(mesh) = &arguments.from {
         return start_from(mesh, arguments);
     }
-    let template = match arguments.template.as_str() {
-        REFERENCE => None,
-        name => Some(find(name)?),
-    };
-    let name = template.map_or(REFERENCE, |(name, _)| name);
+    let name = arguments.template.as_str();
+    let case = if name == REFERENCE { None } else { Some(find(name)?) };
     let path = match &arguments.out {
         Some(path) => path.clone(),
         None => PathBuf::from(format!("{name}.toml")),
@@ -147,43 +93,30 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         Some(name) if !is_stdout => name.to_string_lossy().into_owned(),
         _ => format!("{name}.toml"),
     };
-    let text = match &template {
-        Some((_, case)) => case.named(&shown),
+    let text = match &case {
+        Some(case) => case.named(&shown),
         None => reference::template(),
     };
     if is_stdout {
         return terminal::print(&text);
     }
     let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
-    let beside = template.map_or(Vec::new(), |(_, case)| case.files());
+    let beside = case.map_or(Vec::new(), |case| case.files());
     let mut files = vec![(path, text.as_bytes())];
     files.extend(missing(&folder, beside));
     write_files(&files, arguments.force)
 }
 
-/// Every template and every other shipped case with its meaning, one on a line.
+/// Every shipped case with its short name and its title, one on a line.
 fn list() -> String {
-    let mut text = String::new();
-    let mut line = |name: &str, meaning: &str| {
-        let _ = writeln!(text, "{name:<LONGEST_NAME$}  {meaning}");
-    };
-    for template in TEMPLATES {
-        line(template.name, template.meaning);
-    }
-    line(REFERENCE, "every key of a case with its default and meaning");
-    for case in other_cases() {
-        line(case.name(), case.title());
-    }
-    text
-}
-
-/// Width of the names in the list.
-const LONGEST_NAME: usize = 18;
-
-/// The shipped cases that are no templates.
-fn other_cases() -> impl Iterator<Item = ShippedCase> {
-    let is_template = |case: &ShippedCase| TEMPLATES.iter().any(|own| own.case == case.file);
-    all_cases().into_iter().filter(move |case| !is_template(case))
+    let cases = all_cases();
+    let line = |name: &str, short: &str, title: &str| format!("{name:<40}  {short:<16}  {title}\n");
+    let short = |case: &ShippedCase| SHORT_NAMES.iter().find(|pair| pair.1 == case.name());
+    let lines = cases
+        .iter()
+        .map(|case| line(case.name(), short(case).map_or("", |pair| pair.0), case.title()));
+    let all = "every key of a case with its default and meaning";
+    lines.chain([line(REFERENCE, "", all)]).collect()
 }
 
 /// Writes the folder of the shipped cases.
@@ -247,17 +180,16 @@ fn start_from(mesh: &Path, arguments: &Arguments) -> Result<(), Failure> {
     terminal::print(&format!("{}\n", path.display()))
 }
 
-/// The case that a name stands for, a template's or a shipped case's, and the name of the file to write.
-fn find(name: &str) -> Result<(&str, ShippedCase), Failure> {
-    let synonym = SYNONYMS.iter().find(|pair| pair.0 == name);
-    let name = synonym.map_or(name, |pair| pair.1);
-    let template = TEMPLATES.iter().find(|template| template.name == name);
-    let file = template.map_or(format!("{name}.toml"), |template| template.case.to_owned());
-    let case = ShippedCase::find(&file);
-    case.map(|case| (name, case)).ok_or_else(|| {
-        let names = TEMPLATES.iter().map(|template| template.name);
-        let others = other_cases().map(|case| case.name());
-        let names: Vec<&str> = names.chain([REFERENCE]).chain(others).collect();
+/// The shipped case of a name or short name.
+fn find(name: &str) -> Result<ShippedCase, Failure> {
+    let short = SHORT_NAMES.iter().find(|pair| pair.0 == name);
+    let own = short.map_or(name, |pair| pair.1);
+    let cases = all_cases();
+    let case = cases.iter().find(|case| case.name() == own);
+    case.copied().ok_or_else(|| {
+        let short = SHORT_NAMES.iter().map(|pair| pair.0);
+        let names = short.chain([REFERENCE]).chain(cases.iter().map(ShippedCase::name));
+        let names: Vec<&str> = names.collect();
         Failure::usage(format!("no template \"{name}\": choose one of {}", names.join(", ")))
     })
 }
@@ -294,17 +226,10 @@ mod tests {
     use crate::case::Case;
 
     #[test]
-    fn every_template_is_a_shipped_case() {
-        for template in TEMPLATES {
-            assert!(ShippedCase::find(template.case).is_some(), "{}", template.name);
-        }
+    fn every_short_name_is_a_shipped_case() {
+        assert!(SHORT_NAMES.iter().all(|(short, _)| find(short).is_ok()));
+        assert!(find("nothing").is_err());
         let case = Case::parse(REFERENCE, reference::template().as_bytes(), &[]);
         assert!(case.is_ok(), "{}", case.unwrap_err());
-    }
-
-    #[test]
-    fn other_names_lead_to_templates() {
-        assert!(SYNONYMS.iter().all(|(other, _)| find(other).is_ok()));
-        assert!(find("nothing").is_err());
     }
 }

@@ -1,7 +1,7 @@
 //! `frictionsim mac`: modal assurance of measured shapes.
 
 use super::limits::{input_name, read_input};
-use super::profile::{Profile, Redraw, redraw};
+use super::profile::Profile;
 use super::{Failure, RunOptions, Session, terminal};
 use crate::results::mac::MacSummary;
 use crate::signal::reader::read_shapes;
@@ -34,7 +34,6 @@ pub const PROFILE: Profile = Profile {
         "frictionsim mac disc.toml shapes.unv --scale 0.001",
         "which mode of the model is which measured one?",
     )],
-    redraw: Redraw::OfFolder(redraw::<MacSummary>),
 };
 
 /// Runs the subcommand.

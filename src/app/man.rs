@@ -22,10 +22,11 @@ pub struct Arguments {
 }
 
 /// Files that every command with an output folder writes.
-const EVERYWHERE: [(&str, &str); 3] = [
+const EVERYWHERE: [(&str, &str); 4] = [
     ("summary.json", "the results in short, and what they were made from"),
     ("manifest.json", "case, overrides, version; names and checksums of all files"),
     ("report.html, figures/", "tables and figures"),
+    ("figures.bin", "what the figures show, for plot and compare"),
 ];
 
 const EXIT_STATUS: [(&str, &str); 4] = [

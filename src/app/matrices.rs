@@ -1,6 +1,6 @@
 //! `frictionsim matrices`: the matrices of a case, for other programs.
 
-use super::profile::{Profile, Redraw};
+use super::profile::Profile;
 use super::{Failure, RunOptions, Session};
 use crate::results::matrices::{MatricesSummary, print, write_matrices};
 use crate::results::{WholeMesh, write_summary};
@@ -52,7 +52,6 @@ pub const PROFILE: Profile = Profile {
             "M, C and K at one friction coefficient",
         ),
     ],
-    redraw: Redraw::Nothing,
 };
 
 /// Runs the subcommand.

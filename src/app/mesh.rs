@@ -1,6 +1,6 @@
 //! `frictionsim mesh`: the mesh alone.
 
-use super::profile::{Profile, Redraw};
+use super::profile::Profile;
 use super::{Failure, RunOptions, Session};
 use crate::case::{AssemblyBody, Case, ModeSelection};
 use crate::chart::Figure;
@@ -9,7 +9,7 @@ use crate::results::mesh::{
     Measured, MeshStatistics, MeshSummary, SolidMeshStatistics, draw, plane_figure, solid_figure,
     write_mesh, write_revolution,
 };
-use crate::results::{DrawingOptions, OutputFolder, read_summary, write_summary};
+use crate::results::{OutputFolder, write_summary};
 use clap::Args;
 use std::collections::BTreeMap;
 
@@ -24,7 +24,6 @@ pub struct Arguments {
 pub const PROFILE: Profile = Profile {
     files: &[("mesh.vtu", "nodes, elements, node numbers, edges")],
     examples: &[("frictionsim mesh disc.toml", "look at a mesh before a run")],
-    redraw: Redraw::OfCase(redraw),
 };
 
 /// Runs the subcommand.
@@ -99,11 +98,11 @@ fn finish<S: Measured>(
     session: &Session,
     folder: OutputFolder,
     summary: &MeshSummary<S>,
-    figure: impl Fn() -> Figure + Sync + Send,
+    figure: impl FnOnce() -> Figure,
 ) -> Result<(), Failure> {
     let output = &session.options.output;
     if let Some(drawing) = output.drawing() {
-        draw(&folder, summary, figure, &drawing)?;
+        draw(&folder, summary, figure(), &drawing)?;
     }
     let object = write_summary(&folder, summary)?;
     output.finish(folder, &summary.document().to_text(), &object)
@@ -120,22 +119,6 @@ fn roles(assembly: &AssemblyBody) -> BTreeMap<usize, &'static str> {
         roles.insert(contact.surface, "contact");
     }
     roles
-}
-
-/// Draws the picture of a folder again.
-///
-/// # Errors
-/// Those of the drawing and of the folder.
-pub fn redraw(folder: &OutputFolder, case: &Case, options: &DrawingOptions) -> Result<(), Failure> {
-    if let Some(assembly) = case.body.assembly() {
-        let summary: MeshSummary<SolidMeshStatistics> = read_summary(folder.path())?;
-        let drawn = || solid_figure(&assembly.mesh, &case.title, &roles(assembly));
-        return Ok(draw(folder, &summary, drawn, options)?);
-    }
-    let mesh = case.mesh().map_err(Failure::usage)?;
-    let summary: MeshSummary<MeshStatistics> = read_summary(folder.path())?;
-    let drawn = || plane_figure(&mesh, &case.title, &case.output.probes);
-    Ok(draw(folder, &summary, drawn, options)?)
 }
 
 /// Shear wavelength at the highest frequency that the case asks modes for, m.

@@ -1,12 +1,13 @@
 //! `frictionsim plot`: the figures of a results folder once more.
 
 use super::figure_options::FigureOptions;
-use super::profile::{Profile, Redraw};
-use super::recorded_case::recorded_case;
+use super::profile::Profile;
 use super::session::start_threads;
-use super::{Failure, profile, terminal};
+use super::{Failure, terminal};
+use crate::results::sweep::SweepFolder;
 use crate::results::{
-    DrawingOptions, FolderError, Manifest, OutputFolder, read_manifest, read_summary,
+    DrawingOptions, FolderError, Manifest, OutputFolder, Page, Record, read_manifest, read_record,
+    read_summary,
 };
 use clap::{ArgAction, Args, ValueHint};
 use serde_json::Value;
@@ -14,9 +15,8 @@ use std::path::{Path, PathBuf};
 
 /// Draw the figures of a results folder again
 ///
-/// Writes the figures and report.html to the same bytes as the run, and leaves every other file as it is. A sweep is drawn
-/// from its points, an frf from its table, all others from their record.bin. A cea is solved again from the case in
-/// manifest.json.
+/// Draws figures.bin, which keeps what the run has drawn, to the same bytes or in another size, and report.html. Leaves
+/// every other file as it is.
 #[derive(Args)]
 pub struct Arguments {
     /// Results folder
@@ -36,7 +36,6 @@ pub struct Arguments {
 pub const PROFILE: Profile = Profile {
     files: &[("figures/*.svg, figures/*.png", "the figures, drawn again")],
     examples: &[("frictionsim plot results/disc/cea --dpi 300", "for print")],
-    redraw: Redraw::Nothing,
 };
 
 /// Runs the subcommand.
@@ -64,30 +63,22 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
-/// Draws the figures of a folder as its command does.
+/// Draws the page that a folder keeps as data.
 ///
 /// # Errors
 /// As [`run`].
 pub fn redraw(path: &Path, manifest: &Manifest, options: &DrawingOptions) -> Result<(), Failure> {
-    let command = manifest.command.as_str();
-    let redraw = profile(command).map_or(&Redraw::Nothing, |profile| &profile.redraw);
-    match redraw {
-        Redraw::Nothing => {
-            let reason =
-                format!("it belongs to frictionsim {command}, which has no figures to draw again");
-            let path = path.to_owned();
-            return Err(FolderError::NotResults { path, reason }.into());
-        }
-        Redraw::OfPoints(redraw) => return redraw(path, options),
-        Redraw::OfFolder(_) | Redraw::OfCase(_) => {}
+    if !path.join(Page::FILE).exists() {
+        let reason = format!("it has no {}: run it again, with figures", Page::FILE);
+        return Err(FolderError::NotResults { path: path.to_owned(), reason }.into());
+    }
+    let page: Page = read_record(path)?;
+    if let command @ ("sweep" | "uncertainty") = manifest.command.as_str() {
+        return Ok(SweepFolder::find_of(path, command)?.0.draw(&page, options)?);
     }
     // A run that is not finished has no summary.
     let _: Value = read_summary(path)?;
     let folder = OutputFolder::reopen(path)?;
-    match redraw {
-        Redraw::OfFolder(redraw) => redraw(&folder, options)?,
-        Redraw::OfCase(redraw) => redraw(&folder, &recorded_case(path, manifest)?, options)?,
-        Redraw::Nothing | Redraw::OfPoints(_) => {}
-    }
+    page.draw(&folder, options)?;
     Ok(folder.finish()?)
 }

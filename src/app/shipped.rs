@@ -18,11 +18,6 @@ pub struct ShippedCase {
 pub type ShippedFile = (&'static str, &'static [u8]);
 
 impl ShippedCase {
-    /// The shipped case of a file name.
-    pub fn find(file: &str) -> Option<Self> {
-        all_cases().into_iter().find(|case| case.file == file)
-    }
-
     /// The file name without its extension.
     pub fn name(&self) -> &'static str {
         self.file.strip_suffix(".toml").unwrap_or(self.file)

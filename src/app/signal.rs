@@ -2,7 +2,7 @@
 
 use super::measurement::{Measurement, SideFile};
 use super::options::OutputOptions;
-use super::profile::{Profile, Redraw};
+use super::profile::Profile;
 use super::session::read_case;
 use super::{Failure, terminal};
 use crate::case::{Case, Cea};
@@ -12,10 +12,7 @@ use crate::results::signal::{
     ChannelRecord, ChannelSummary, ModeSummary, SignalRecord, SignalSummary, document,
     draw as draw_figures, write_spectra,
 };
-use crate::results::{
-    DrawingError, DrawingOptions, OutputFolder, read_record, read_summary, write_page,
-    write_record, write_summary, write_tables,
-};
+use crate::results::{DrawingError, write_page, write_summary, write_tables};
 use crate::signal::reader::{
     Channel, SignalFile, SignalOptions, read_signal, slowdown, write_signal, write_wav,
 };
@@ -91,10 +88,8 @@ pub const PROFILE: Profile = Profile {
     files: &[
         ("peaks.csv", "main peaks of each channel"),
         ("spectrum-N.csv", "spectrum of each channel"),
-        ("record.bin", "what the figures are drawn from"),
     ],
     examples: &[("frictionsim signal microphone.csv --case disc.toml", "which mode squeals")],
-    redraw: Redraw::OfFolder(redraw),
 };
 
 /// Runs the subcommand.
@@ -165,10 +160,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     write_spectra(&folder, &spectra)?;
     write_tables(&folder, &document(&summary))?;
     let object = write_summary(&folder, &summary)?;
-    let record = record(arguments, &file, &summary, &modes, spectra);
-    write_record(&folder, &record)?;
     if let Some(drawing) = arguments.output.drawing() {
-        draw_all(&folder, &record, &summary, &drawing)?;
+        let shown = record(arguments, &file, &summary, &modes, spectra);
+        let (figures, left_out) = draw_figures(&shown, &summary).map_err(DrawingError::from)?;
+        left_out.iter().for_each(|reason| tracing::warn!("{reason}"));
+        write_page(&folder, document(&summary), figures, &drawing)?;
     }
     let aside = write_copies(arguments, &copies, &file)?;
     arguments.output.finish(folder, &(document(&summary).to_text() + &aside), &object)
@@ -319,29 +315,6 @@ fn record(
             })
             .collect(),
     }
-}
-
-/// Draws the figures and the report of a folder from its `record.bin` and its summary.
-///
-/// # Errors
-/// A folder without a whole record or summary; those of the drawing and of the folder.
-pub fn redraw(folder: &OutputFolder, options: &DrawingOptions) -> Result<(), Failure> {
-    let record: SignalRecord = read_record(folder.path())?;
-    let summary: SignalSummary = read_summary(folder.path())?;
-    draw_all(folder, &record, &summary, options)
-}
-
-fn draw_all(
-    folder: &OutputFolder,
-    record: &SignalRecord,
-    summary: &SignalSummary,
-    options: &DrawingOptions,
-) -> Result<(), Failure> {
-    let (figures, left_out) = draw_figures(record, summary, options).map_err(DrawingError::from)?;
-    for reason in left_out {
-        tracing::warn!("{reason}");
-    }
-    Ok(write_page(folder, document(summary), figures, &summary.manifest, options)?)
 }
 
 /// Options that change the result.

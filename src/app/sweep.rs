@@ -8,8 +8,7 @@ pub use crate::study::{Shard, SweepPlan};
 pub use progress::SweepProgress;
 pub use workers::{PointRunner, SweepRun};
 
-use super::profile::{Profile, Redraw};
-use super::recorded_case::recorded_case;
+use super::profile::Profile;
 use super::share::ShareOptions;
 use super::transient::linear_stage;
 use super::{Failure, RunOptions, Session, terminal};
@@ -19,7 +18,6 @@ use crate::results::sweep::{SweepSummary, document, draw, long_tables, write_poi
 use crate::results::{DrawingOptions, Manifest};
 use clap::Args;
 use serde_json::Value;
-use std::path::Path;
 
 /// Run any analysis on a grid of parameters
 ///
@@ -45,7 +43,6 @@ pub const PROFILE: Profile = Profile {
         ("frictionsim sweep study.toml --out study --shard 2/8", "one of eight processes"),
         ("frictionsim sweep study.toml --resume", "go on after Ctrl-C"),
     ],
-    redraw: Redraw::OfPoints(redraw),
 };
 
 /// Runs the subcommand.
@@ -200,18 +197,4 @@ pub fn gather(
     let summary = summary_object(report, manifest)?;
     folder.write_summary(&summary)?;
     Ok(summary)
-}
-
-/// Draws the figures of the points that a sweep has finished so far.
-///
-/// # Errors
-/// A folder that is no sweep's or cannot be written.
-pub fn redraw(path: &Path, options: &DrawingOptions) -> Result<(), Failure> {
-    let (folder, manifest) = SweepFolder::find(path)?;
-    let case = recorded_case(path, &manifest)?;
-    let plan = SweepPlan::new(&case)?;
-    let finished = Finished::of(&case, &plan, &folder)?;
-    let report = finished.report(None, 0.0);
-    draw(&folder, &report, &manifest, &drawing(&case, &plan, options))?;
-    Ok(())
 }

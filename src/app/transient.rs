@@ -6,7 +6,7 @@ mod watch;
 
 pub use figures::linear_stage;
 
-use super::profile::{Profile, Redraw};
+use super::profile::Profile;
 use super::{Failure, RunOptions, Session};
 use crate::fem::operator::StiffnessOperator;
 use crate::linalg::interruption;
@@ -68,13 +68,12 @@ pub const PROFILE: Profile = Profile {
         ("harmonics.csv", "amplitudes of the nodal diameters over time"),
         ("snapshots.pvd, snapshots/*.vtu", "fields at the times asked for"),
         ("checkpoint.bin", "state of an interrupted run, for --resume"),
-        ("record.bin", "what the figures are drawn from"),
+        ("record.bin", "what a longer run goes on from"),
     ],
     examples: &[
         ("frictionsim transient run.toml", "from first expansion to limit cycle"),
         ("frictionsim transient run.toml --resume", "go on after Ctrl-C"),
     ],
-    redraw: Redraw::OfCase(figures::redraw),
 };
 
 /// Runs the subcommand.

@@ -1,6 +1,6 @@
 //! `frictionsim uncertainty`: how likely is squeal, and which parameter decides it.
 
-use super::profile::{Profile, Redraw};
+use super::profile::Profile;
 use super::share::ShareOptions;
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, find_key};
@@ -8,12 +8,10 @@ use crate::results::sweep::{Found, PointClock, PointRecord, SweepFolder};
 use crate::results::uncertainty::{
     Sample, UncertaintySummary, document, draw_report, samples_table,
 };
-use crate::results::{DrawingOptions, Manifest, object};
+use crate::results::{Manifest, object};
 use crate::study::uncertainty::{BLOCK, Design, Sampler, curves, summarize};
 use clap::Args;
-use frictionsim_bounds::{RESULT, read_file};
 use serde_json::{Map, Value};
-use std::path::Path;
 use std::time::Instant;
 
 /// Name of the samples in the file of a block.
@@ -55,7 +53,6 @@ pub const PROFILE: Profile = Profile {
             "which design is silent with 95 % probability?",
         ),
     ],
-    redraw: Redraw::OfPoints(redraw),
 };
 
 /// Runs the subcommand.
@@ -120,19 +117,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         }
     }
     session.print(&document(&summary).to_text(), &object, folder.path())
-}
-
-/// Draws the figures and the report of a folder from its summary.
-///
-/// # Errors
-/// A folder without a whole summary; those of the folder.
-pub fn redraw(path: &Path, options: &DrawingOptions) -> Result<(), Failure> {
-    let folder = SweepFolder::find_of(path, "uncertainty")?.0;
-    let bytes = read_file(&path.join("summary.json"), RESULT)?;
-    let summary: UncertaintySummary = serde_json::from_slice(&bytes).map_err(|error| {
-        Failure::usage(format!("{}: its summary.json is damaged: {error}", path.display()))
-    })?;
-    Ok(draw_report(&folder, &summary, options)?)
 }
 
 /// The finished samples in their order, and how many blocks are missing.

@@ -1,9 +1,10 @@
 //! What a result says: sections with numbers, sentences, tables and the names of figures.
 
 use super::table::Table;
+use serde::{Deserialize, Serialize};
 
 /// A part of a document.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Section {
     /// Heading.
     pub heading: String,
@@ -16,7 +17,7 @@ pub struct Section {
     /// Tables.
     pub tables: Vec<Table>,
     /// What the names of its figures begin with.
-    pub figures: Vec<&'static str>,
+    pub figures: Vec<String>,
 }
 
 impl Section {
@@ -56,13 +57,13 @@ impl Section {
     /// The same with the figures whose names begin so.
     #[must_use]
     pub fn figures(mut self, names: impl IntoIterator<Item = &'static str>) -> Self {
-        self.figures.extend(names);
+        self.figures.extend(names.into_iter().map(str::to_owned));
         self
     }
 }
 
 /// What a result says, for the terminal and for the page.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Document {
     /// Title.
     pub title: String,
@@ -70,7 +71,8 @@ pub struct Document {
     pub sections: Vec<Section>,
     /// What a reader must know, at the end.
     pub notes: Vec<String>,
-    /// Tables that are files only.
+    /// Tables that are files only; a page does not keep them.
+    #[serde(skip)]
     pub only_files: Vec<Table>,
 }
 
@@ -106,6 +108,11 @@ impl Document {
     pub fn files(&self) -> impl Iterator<Item = &Table> {
         let tables = self.sections.iter().flat_map(|section| &section.tables);
         tables.chain(&self.only_files).filter(|table| !table.file.is_empty())
+    }
+
+    /// Whether its tables are whole.
+    pub fn is_whole(&self) -> bool {
+        self.sections.iter().flat_map(|section| &section.tables).all(Table::is_whole)
     }
 
     /// As text: the part that decides comes last, and its tables stand beside the prompt.

@@ -1,7 +1,9 @@
 //! Numbers for people, and the units that the endings of keys say.
 
+use serde::{Deserialize, Serialize};
+
 /// How a number is written for people.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Format {
     /// As few digits as say it.
     Plain,

@@ -2,12 +2,13 @@
 
 use super::csv;
 use super::number::{Format, unit_of};
+use serde::{Deserialize, Serialize};
 use std::borrow::Borrow;
 use std::fmt::Write as _;
 use std::io;
 
 /// What stands in one place of a table.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Cell {
     /// Nothing: it does not apply.
     None,
@@ -81,7 +82,7 @@ cells! {
 }
 
 /// Whether people see a column.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Shown {
     /// In every table.
     Always,
@@ -164,7 +165,7 @@ pub fn entries<T>(prefix: &str, columns: &[Column<T>]) -> Vec<Entry> {
 }
 
 /// The head of a column in a table.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Head {
     /// Name in CSV.
     pub key: String,
@@ -187,7 +188,7 @@ impl Head {
 }
 
 /// A table of cells.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Table {
     /// Its file, if it is one.
     pub file: String,
@@ -297,6 +298,11 @@ impl Table {
             self.rows.resize(at + 1, Vec::new());
         }
         &mut self.rows[at]
+    }
+
+    /// Whether every row has a cell for each column.
+    pub fn is_whole(&self) -> bool {
+        self.rows.iter().all(|row| row.len() == self.heads.len())
     }
 
     fn is_empty_at(&self, column: usize) -> bool {

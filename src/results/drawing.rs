@@ -1,9 +1,13 @@
 //! Figures as files: SVG and PNG side by side in `figures/`, and the report that holds them all.
 
 use super::folder::{FolderError, OutputFolder};
+use super::manifest::Manifest;
+use super::record::Record;
 use super::report::{NamedFigure, Report};
 use crate::chart::{ChartError, Drawing, Figure};
+use crate::output::Document;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// Resolution of the PNG files unless asked otherwise, dots per inch.
 pub const DOTS_PER_INCH: f64 = 200.0;
@@ -49,24 +53,17 @@ impl Default for DrawingOptions {
 /// Declares a figure.
 pub type Declaration<'a> = Box<dyn Fn() -> Result<Figure, ChartError> + Sync + Send + 'a>;
 
-/// Draws the figures side by side and keeps what had something to draw, in order.
+/// Declares the figures side by side and keeps those that have something to draw, in order.
 ///
 /// # Errors
-/// That of a figure that cannot be drawn although there is something to draw.
-pub fn draw_all(
-    declarations: Vec<Declaration<'_>>,
-    options: &DrawingOptions,
-) -> Result<Vec<NamedFigure>, ChartError> {
-    let draw = |declare: Declaration<'_>| {
-        let figure = declare()?;
-        let svg = figure.to_svg(options.width_mm)?;
-        let data = figure.data();
-        let (name, caption) = (figure.name, figure.caption);
-        Ok(NamedFigure { name, caption, svg, data })
+/// That of a figure that cannot be declared although there is something to draw.
+pub fn declared(declarations: Vec<Declaration<'_>>) -> Result<Vec<Figure>, ChartError> {
+    let all: Vec<_> = declarations.into_par_iter().map(|declare| declare()).collect();
+    let is_kept = |own: &Result<Figure, ChartError>| match own {
+        Ok(figure) => figure.has_data(),
+        Err(error) => !matches!(error, ChartError::Empty { .. }),
     };
-    let drawn: Vec<_> = declarations.into_par_iter().map(draw).collect();
-    let is_drawn = |drawing: &Result<_, _>| !matches!(drawing, Err(ChartError::Empty { .. }));
-    drawn.into_iter().filter(is_drawn).collect()
+    all.into_iter().filter(is_kept).collect()
 }
 
 /// A figure that could not be drawn or written.
@@ -80,70 +77,87 @@ pub enum DrawingError {
     Folder(#[from] FolderError),
 }
 
-/// A figure as a file.
+/// A file of the results.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct FigureFile {
-    /// Name in the results folder: `figures/NAME.svg`, `.png` or `.pdf`.
+pub struct ResultFile {
+    /// Name in the results folder.
     pub name: String,
     /// Its bytes.
     pub bytes: Vec<u8>,
 }
 
-/// Every figure in every format asked for, in order.
-///
-/// # Errors
-/// Those of the formats.
-pub fn figure_files(
-    figures: &[NamedFigure],
-    options: &DrawingOptions,
-) -> Result<Vec<FigureFile>, ChartError> {
-    let rendered: Result<Vec<Vec<FigureFile>>, ChartError> = figures
-        .par_iter()
-        .map(|figure| {
-            let drawing = Drawing::parse(&figure.svg)?;
-            let file = |format: &Format| {
-                let (extension, bytes) = match format {
-                    Format::Svg => ("svg", figure.svg.clone().into_bytes()),
-                    Format::Png => ("png", drawing.to_png(options.dots_per_inch)?),
-                    Format::Pdf => ("pdf", drawing.to_pdf()?),
-                };
-                let name = format!("{FIGURES}{}.{extension}", figure.name);
-                Ok(FigureFile { name, bytes })
-            };
-            options.formats.iter().map(file).collect()
-        })
-        .collect();
-    Ok(rendered?.into_iter().flatten().collect())
+/// A page as data, `figures.bin`: what was drawn, to be drawn again at any size.
+#[derive(Serialize, Deserialize)]
+pub struct Page {
+    /// Tables and sentences.
+    document: Document,
+    /// Its figures.
+    pub figures: Vec<Figure>,
+    /// What the result was made from.
+    manifest: Manifest,
 }
 
-/// Writes the files of each figure.
-///
-/// # Errors
-/// Those of the raster image and of the folder.
-pub fn write_figures(
-    folder: &OutputFolder,
-    figures: &[NamedFigure],
-    options: &DrawingOptions,
-) -> Result<(), DrawingError> {
-    for file in figure_files(figures, options)? {
-        folder.write_bulk(&file.name, |out| out.write_all(&file.bytes))?;
+impl Record for Page {
+    const FILE: &str = "figures.bin";
+    const MAGIC: [u8; 8] = *b"FRICSIMF";
+    const VERSION: u32 = 1;
+
+    fn inconsistency(&self) -> Option<&'static str> {
+        let is_whole = self.document.is_whole() && self.figures.iter().all(Figure::is_whole);
+        (!is_whole).then_some("its numbers do not fit together")
     }
-    Ok(())
 }
 
-/// Writes `report.html` and the figures of all its sections.
-///
-/// # Errors
-/// As [`write_figures`].
-pub fn write_report(
-    folder: &OutputFolder,
-    report: &Report,
-    options: &DrawingOptions,
-) -> Result<(), DrawingError> {
-    for section in &report.sections {
-        write_figures(folder, &section.1, options)?;
+impl Page {
+    /// The page of a document and its figures.
+    pub fn new(document: Document, figures: Vec<Figure>, manifest: &Manifest) -> Self {
+        Self { document, figures, manifest: manifest.clone() }
     }
-    let html = report.to_html();
-    folder.write(REPORT, |out| out.write_all(html.as_bytes()))?;
-    Ok(())
+
+    /// Every figure in every format asked for, `figures/NAME.svg` and so on, and `report.html`.
+    ///
+    /// # Errors
+    /// Those of the formats.
+    pub fn files(&self, options: &DrawingOptions) -> Result<Vec<ResultFile>, ChartError> {
+        let drawn = |figure: &Figure| {
+            let svg = figure.to_svg(options.width_mm)?;
+            let (name, caption) = (figure.name.clone(), figure.caption.clone());
+            let figure = NamedFigure { name, caption, svg, data: figure.data() };
+            Ok((files_of(&figure, options)?, figure))
+        };
+        let drawn: Result<Vec<_>, ChartError> = self.figures.par_iter().map(drawn).collect();
+        let (files, figures): (Vec<Vec<ResultFile>>, Vec<NamedFigure>) = drawn?.into_iter().unzip();
+        let bytes = Report::of(self.document.clone(), figures, &self.manifest).to_html().into();
+        let report = ResultFile { name: REPORT.to_owned(), bytes };
+        Ok(files.into_iter().flatten().chain([report]).collect())
+    }
+
+    /// Writes [`Self::files`].
+    ///
+    /// # Errors
+    /// Those of the formats and of the folder.
+    pub fn draw(
+        &self,
+        folder: &OutputFolder,
+        options: &DrawingOptions,
+    ) -> Result<(), DrawingError> {
+        for file in self.files(options)? {
+            folder.write_bulk(&file.name, |out| out.write_all(&file.bytes))?;
+        }
+        Ok(())
+    }
+}
+
+/// A figure in every format asked for.
+fn files_of(figure: &NamedFigure, options: &DrawingOptions) -> Result<Vec<ResultFile>, ChartError> {
+    let drawing = Drawing::parse(&figure.svg)?;
+    let file = |format: &Format| {
+        let (extension, bytes) = match format {
+            Format::Svg => ("svg", figure.svg.clone().into_bytes()),
+            Format::Png => ("png", drawing.to_png(options.dots_per_inch)?),
+            Format::Pdf => ("pdf", drawing.to_pdf()?),
+        };
+        Ok(ResultFile { name: format!("{FIGURES}{}.{extension}", figure.name), bytes })
+    };
+    options.formats.iter().map(file).collect()
 }

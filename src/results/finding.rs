@@ -1,9 +1,10 @@
 //! What a command found: its document and figures become the files of its folder.
 
-use super::drawing::{Declaration, DrawingError, DrawingOptions, draw_all, write_report};
-use super::report::{NamedFigure, Report};
+use super::drawing::{Declaration, DrawingError, DrawingOptions, Page, declared};
+use super::record::write_record;
 use super::summary::write_summary;
 use super::{FolderError, Manifest, OutputFolder};
+use crate::chart::Figure;
 use crate::output::{Described, Document, Key, Table, describe_field};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -32,22 +33,10 @@ pub fn write_finding(
 ) -> Result<Value, DrawingError> {
     write_tables(folder, &finding.document())?;
     if let Some(options) = options {
-        draw_finding(folder, finding, options)?;
+        let figures = declared(finding.figures())?;
+        write_page(folder, finding.document(), figures, options)?;
     }
     Ok(write_summary(folder, finding)?)
-}
-
-/// Draws the figures and the page.
-///
-/// # Errors
-/// Those of the folder and of the drawing.
-pub fn draw_finding(
-    folder: &OutputFolder,
-    finding: &impl Finding,
-    options: &DrawingOptions,
-) -> Result<(), DrawingError> {
-    let figures = draw_all(finding.figures(), options)?;
-    write_page(folder, finding.document(), figures, finding.manifest(), options)
 }
 
 /// Writes the tables of a document that are files.
@@ -66,18 +55,19 @@ pub fn write_table(folder: &OutputFolder, table: &Table) -> Result<(), FolderErr
     folder.write(&table.file, |out| table.write_csv(out)).map(drop)
 }
 
-/// Writes the page of a document and its figures.
+/// Writes the page of a document, its figures, and both as data.
 ///
 /// # Errors
-/// Those of the folder and of the raster image.
+/// Those of the formats and of the folder.
 pub fn write_page(
     folder: &OutputFolder,
     document: Document,
-    figures: Vec<NamedFigure>,
-    manifest: &Manifest,
+    figures: Vec<Figure>,
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
-    write_report(folder, &Report::of(document, figures, manifest), options)
+    let page = Page::new(document, figures, folder.manifest());
+    write_record(folder, &page)?;
+    page.draw(folder, options)
 }
 
 impl Described for crate::signal::Estimate {

@@ -41,19 +41,17 @@ use store::{folder, framed, manifest, record, reopening, whole_file};
 
 pub use crate::output::csv::{Table, format_number};
 pub use drawing::{
-    DOTS_PER_INCH, DrawingError, DrawingOptions, FigureFile, Format, REPORT, draw_all,
-    figure_files, write_figures, write_report,
+    DOTS_PER_INCH, DrawingError, DrawingOptions, Format, Page, ResultFile, declared,
 };
 pub use extent::Extent;
-pub use finding::{Finding, draw_finding, write_finding, write_page, write_table, write_tables};
+pub use finding::{Finding, write_finding, write_page, write_table, write_tables};
 pub use pvd::{PvdEntry, write_pvd};
 pub use response::{
-    RESPONSE_TABLE, ResponseSummary, draw_response_report, read_response_table, write_response,
-    write_universal_response,
+    ResponseSummary, draw_response_report, write_response, write_universal_response,
 };
 pub use store::{
     FolderError, Manifest, OutputFolder, Record, Replace, is_result, read_manifest, read_record,
-    refuse_misfit, write_record,
+    record_bytes,
 };
 pub use summary::{object, read_summary, write_summary};
 pub use vtu::{EncodedMesh, Field, cartesian_vectors, write_vtu};

@@ -2,10 +2,7 @@
 
 mod numbers;
 mod page;
-mod reading;
 mod script;
-
-pub use reading::{ReadFigure, read_figures};
 
 use super::Manifest;
 use crate::chart::FigureData;

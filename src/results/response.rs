@@ -1,11 +1,10 @@
 //! Table, figure and report of a computed frequency response.
 
 use super::Manifest;
-use super::drawing::{DrawingError, DrawingOptions, draw_all};
+use super::drawing::{DrawingError, DrawingOptions};
 use super::finding::{write_page, write_table};
 use super::folder::{FolderError, OutputFolder};
 use super::identification::unit_of;
-use super::reopening::read_own;
 use crate::chart::{Axis, Figure, INK, Line, Marker, Panel, Points, SERIES};
 use crate::linalg::c64;
 use crate::output::{Described, Document, Section, Table};
@@ -45,16 +44,8 @@ pub struct ResponseSummary {
     pub manifest: Manifest,
 }
 
-/// The table of a results folder, as it was written.
-///
-/// # Errors
-/// [`FolderError::NotResults`] if it is missing or damaged; those of the file system.
-pub fn read_response_table(folder: &OutputFolder) -> Result<Vec<u8>, FolderError> {
-    read_own(folder.path(), RESPONSE_TABLE)
-}
-
 /// Name of the table of a response in its folder; `frictionsim identify` reads it.
-pub const RESPONSE_TABLE: &str = "frf.csv";
+const RESPONSE_TABLE: &str = "frf.csv";
 
 /// Writes frequency, real and imaginary part.
 ///
@@ -103,8 +94,7 @@ pub fn draw_response_report(
     summary: &ResponseSummary,
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
-    let figures = draw_all(vec![Box::new(|| Ok(response_figure(response)))], options)?;
-    write_page(folder, summary.document(), figures, folder.manifest(), options)
+    write_page(folder, summary.document(), vec![response_figure(response)], options)
 }
 
 impl ResponseSummary {

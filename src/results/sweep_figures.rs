@@ -4,9 +4,8 @@ use super::basin::basin_map;
 use super::charts::palette::{OPEN, SLIP, STICK};
 use super::charts::{CriticalBranch, ModeLine, critical_friction};
 use super::cycle::{FamilyRecord, NamedFamily, draw_branches};
-use super::drawing::{Declaration, DrawingOptions, draw_all};
+use super::drawing::{Declaration, declared};
 use super::parameter::{parameter_axis, parameter_name};
-use super::report::NamedFigure;
 use super::sweep::{PointRecord, TWO_FREQUENCY, UNSETTLED, operating_matrix, swept_text};
 use crate::chart::{
     Axis, ChartError, Figure, Fill, INK, Line, Marker, Panel, Points, Rule, Scale, Stroke, literal,
@@ -36,8 +35,7 @@ pub fn draw_sweep(
     records: &[PointRecord],
     (friction_coefficient, highest_friction): (f64, f64),
     modes: &[ModeLine],
-    options: &DrawingOptions,
-) -> Result<Vec<NamedFigure>, ChartError> {
+) -> Result<Vec<Figure>, ChartError> {
     let study = Study::of(records);
     let study = &study;
     let declarations: Vec<Declaration<'_>> = vec![
@@ -47,11 +45,11 @@ pub fn draw_sweep(
         Box::new(move || basin_map(records)),
         Box::new(move || operating_matrix(records)),
     ];
-    let mut figures = draw_all(declarations, options)?;
+    let mut figures = declared(declarations)?;
     let mut families = cycle_families(records);
     families.sort_by_key(|(_, family)| (family.mode, family.family()));
     let families: Vec<NamedFamily<'_>> = families.iter().map(|(l, f)| (l.clone(), f)).collect();
-    figures.extend(draw_branches(&families, &[], options)?);
+    figures.extend(draw_branches(&families, &[])?);
     Ok(figures)
 }
 

@@ -38,12 +38,12 @@ fn rust_files(folder: &Path, files: &mut Vec<PathBuf>) {
 /// after a merge that conflicts here, the failure names the numbers to write.
 const BUDGETS: &[(&str, usize)] = &[
     ("crates/bounds", 196),
-    ("crates/chart", 4_845),
+    ("crates/chart", 4_988),
     ("crates/described", 81),
     ("crates/formats", 6_857),
     ("crates/linalg", 4_469),
     ("crates/signal", 6_632),
-    ("src/app", 5_970),
+    ("src/app", 5_629),
     ("src/case", 12_625),
     ("src/cea", 11_434),
     ("src/contact", 2_658),
@@ -54,10 +54,10 @@ const BUDGETS: &[(&str, usize)] = &[
     ("src/lib.rs", 103),
     ("src/main.rs", 5),
     ("src/mesh", 4_601),
-    ("src/output", 810),
+    ("src/output", 825),
     ("src/prestress", 5_475),
-    ("src/results", 21_333),
-    ("src/study", 12_764),
+    ("src/results", 21_119),
+    ("src/study", 12_746),
     ("src/transient", 4_993),
 ];
 

@@ -73,12 +73,22 @@ impl Bench {
 
     /// Runs `command` on `inputs` alone.
     pub fn run_on(&self, command: &str, inputs: &[&Path], overrides: &[&str]) -> Answer {
+        self.answer(command, inputs, overrides, "--no-figures")
+    }
+
+    /// Runs `command` under `overrides` and draws its figures.
+    pub fn run_drawn(&self, command: &str, overrides: &[&str]) -> Answer {
+        let case = self.folder.path().join("case.toml");
+        self.answer(command, &[case.as_path()], overrides, "--format=svg")
+    }
+
+    fn answer(&self, command: &str, inputs: &[&Path], overrides: &[&str], figures: &str) -> Answer {
         let out =
             tempfile::Builder::new().prefix("run").tempdir_in(self.folder.path()).unwrap().keep();
         let mut program = Command::new(env!("CARGO_BIN_EXE_frictionsim"));
         program.arg(command).args(inputs).arg("--json");
         if command != "check" {
-            program.args(["-qq", "--no-figures", "--force", "--out"]).arg(&out);
+            program.args(["-qq", figures, "--force", "--out"]).arg(&out);
         }
         for setting in overrides {
             program.args(["--set", setting]);

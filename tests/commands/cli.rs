@@ -497,11 +497,11 @@ fn options_may_stand_before_the_command() {
 fn a_case_from_standard_input_has_a_folder_of_its_own() {
     let folder = folder();
     let mut command = frictionsim(&folder);
-    command.args(["mesh", "-", "--no-figures"]).args(COARSE).write_stdin(fs::read(disc()).unwrap());
+    command.args(["mesh", "-", "-q"]).args(COARSE).write_stdin(fs::read(disc()).unwrap());
     command.assert().code(0);
     let results = folder.path().join("results/stdin/mesh");
     assert!(results.join("summary.json").exists());
-    // It is drawn again from what the manifest holds.
+    // It is drawn again from the folder alone.
     let plot = frictionsim(&folder).arg("plot").arg(&results).assert();
     plot.code(0);
     let bad = frictionsim(&folder).args(["mesh", "-"]).write_stdin("title = 3").assert();

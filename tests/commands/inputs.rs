@@ -392,7 +392,6 @@ fn results_outlive_a_forced_run_that_fails_and_are_replaced_by_one_that_ends() {
     let after = listing();
     assert!(after.contains(&"eigenvalues.csv".to_owned()), "{after:?}");
     assert!(!after.contains(&".replacing".to_owned()), "{after:?}");
-    frictionsim(&folder, &["plot", "out"]).assert().code(0);
 }
 
 #[test]

@@ -3,9 +3,10 @@
 use super::numbers::prefixed;
 use super::ruler::{Ruler, Tick};
 use super::scale::{Scale, extremes};
+use serde::{Deserialize, Serialize};
 
 /// How the ends of an axis follow from the data.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 enum Ends {
     /// Room at either end, as a fraction of the range.
     Room(f64),
@@ -16,7 +17,7 @@ enum Ends {
 }
 
 /// One axis of a panel: quantity, unit, scale, ends.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
     quantity: String,
     unit: String,

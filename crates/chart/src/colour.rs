@@ -1,5 +1,8 @@
 //! Colours and colour maps.
 
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
 /// Text, axes and outlines.
 pub const INK: &str = "#222222";
 /// Grid lines.
@@ -11,16 +14,29 @@ pub const MUTED: &str = "#666666";
 pub const SERIES: [&str; 7] =
     ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"];
 
-/// Red, green and blue of `#rrggbb`.
-pub fn channels(hex: &str) -> [u8; 3] {
-    [1, 3, 5].map(|at| {
-        let digits = hex.get(at..at + 2);
-        digits.map_or(0, |digits| u8::from_str_radix(digits, 16).unwrap_or(0))
-    })
+/// Red, green and blue.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Colour(pub [u8; 3]);
+
+impl From<&str> for Colour {
+    /// The colour of `#rrggbb`; black of any other text.
+    fn from(hex: &str) -> Self {
+        Self([1, 3, 5].map(|at| {
+            let digits = hex.get(at..at + 2);
+            digits.map_or(0, |digits| u8::from_str_radix(digits, 16).unwrap_or(0))
+        }))
+    }
+}
+
+impl fmt::Display for Colour {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self([red, green, blue]) = self;
+        write!(out, "#{red:02x}{green:02x}{blue:02x}")
+    }
 }
 
 /// A perceptually uniform colour map.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ColourMap {
     /// Dark blue to yellow, for amplitudes.
     Viridis,

@@ -8,9 +8,10 @@ use super::ruler::{Ruler, widest};
 use super::scale::extremes;
 use super::svg::{Rect, Stroke, Svg};
 use super::text::{Anchor, TextStyle};
+use serde::{Deserialize, Serialize};
 
 /// A range of values shown by the colours of a map.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Colours {
     /// Quantity and unit.
     pub axis: Axis,

@@ -1,8 +1,10 @@
 //! The numbers behind a figure, for readers who can do more than look: zoom, values under the pointer, tables, motion.
 
+use super::colour::Colour;
 use super::motion::Motion;
 use super::ruler::Ruler;
 use super::text::plain;
+use serde::{Deserialize, Serialize};
 
 /// Everything of a figure that a page with scripts can show besides the drawing.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -90,7 +92,7 @@ pub struct Series {
     /// How it is shown.
     pub kind: SeriesKind,
     /// Colour, `#rrggbb`.
-    pub colour: &'static str,
+    pub colour: Colour,
     /// Abscissae.
     pub xs: Vec<f64>,
     /// Ordinates.
@@ -123,7 +125,7 @@ impl PartialEq for Series {
 }
 
 /// Points that move with a parameter: eigenvalues over friction.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Steps {
     /// The parameter, in plain text.
     pub quantity: String,
@@ -134,7 +136,7 @@ pub struct Steps {
 }
 
 /// A point that moves.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mark {
     /// Place, in the units of the program.
     pub place: (f64, f64),

@@ -12,10 +12,11 @@ use super::path::Path;
 use super::scale::extremes;
 use super::svg::{Stroke, Svg};
 use super::text::plain;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// The nodes around an element, with its mid-side nodes between its corners where it has any.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Cell {
     /// Nodes in order around the element.
     pub ring: Vec<u32>,
@@ -24,7 +25,7 @@ pub struct Cell {
 }
 
 /// What a field is drawn over: elements and boundary curves, by the nodes they have.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Mesh {
     /// The elements.
     pub cells: Vec<Cell>,
@@ -35,7 +36,7 @@ pub struct Mesh {
 }
 
 /// Values at the nodes of a mesh, as colours.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Field {
     mesh: Arc<Mesh>,
     positions: Vec<[f64; 2]>,
@@ -134,6 +135,10 @@ fn triangle(image: &mut IndexedImage, [a, b, c]: [[f64; 3]; 3], levels: usize) {
 }
 
 impl Layer for Field {
+    fn is_whole(&self) -> bool {
+        (2..=Palette::FINE).contains(&self.levels)
+    }
+
     fn extent(&self, see: &mut dyn FnMut(f64, f64)) {
         let known = self.positions.iter().zip(&self.values).filter(|(_, value)| value.is_finite());
         known.for_each(|(&[x, y], _)| see(x, y));
@@ -171,7 +176,7 @@ impl Layer for Field {
         vec![Series {
             name: String::new(),
             kind: SeriesKind::Field,
-            colour: INK,
+            colour: INK.into(),
             xs: self.positions.iter().map(|place| place[0]).collect(),
             ys: self.positions.iter().map(|place| place[1]).collect(),
             values: Some((

@@ -10,6 +10,7 @@ use super::motion::Motion;
 use super::panel::Panel;
 use super::svg::{POINTS_PER_MM, Svg};
 use super::text::plain;
+use serde::{Deserialize, Serialize};
 
 /// Width across two columns of a journal page, mm.
 const TWO_COLUMNS: f64 = 178.0;
@@ -17,6 +18,7 @@ const TWO_COLUMNS: f64 = 178.0;
 const ONE_COLUMN: f64 = 85.0;
 
 /// A drawing of one or more panels, with its name and caption.
+#[derive(Serialize, Deserialize)]
 pub struct Figure {
     /// File name without extension, ASCII.
     pub name: String,
@@ -120,6 +122,16 @@ impl Figure {
         Self { steps: Some(steps), ..self }
     }
 
+    /// Whether its lists are as long as they must be and its counts are in range, as those of one that was read must be.
+    pub fn is_whole(&self) -> bool {
+        self.grid.is_whole() && self.grid.panels().all(Panel::is_whole)
+    }
+
+    /// Whether some panel has a point of data to show.
+    pub fn has_data(&self) -> bool {
+        self.grid.panels().any(Panel::has_data)
+    }
+
     /// The numbers behind the drawing.
     pub fn data(&self) -> FigureData {
         let mut steps = self.steps.clone();
@@ -141,7 +153,7 @@ impl Figure {
     /// # Errors
     /// [`ChartError::Empty`] if no panel has data.
     pub fn to_svg(&self, width_mm: Option<f64>) -> Result<String, ChartError> {
-        if !self.grid.panels().any(Panel::has_data) {
+        if !self.has_data() {
             return Err(ChartError::empty(&self.name));
         }
         let width_mm = width_mm.unwrap_or(self.grid.width_mm);

@@ -1,5 +1,6 @@
 //! Filled areas.
 
+use super::colour::Colour;
 use super::data::{Series, SeriesKind};
 use super::decimation::COLUMNS_PER_POINT;
 use super::frame::Frame;
@@ -8,33 +9,34 @@ use super::legend::Key;
 use super::path::Path;
 use super::svg::Svg;
 use super::text::plain;
+use serde::{Deserialize, Serialize};
 
 /// A filled area between two curves over the same rising abscissae.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Fill {
     /// Abscissa, one bound, the other.
     points: Vec<[f64; 3]>,
     is_range: bool,
-    colour: &'static str,
+    colour: Colour,
     opacity: f64,
     name: Option<String>,
 }
 
 impl Fill {
     /// The area between two curves.
-    pub fn between(xs: &[f64], one: &[f64], other: &[f64], colour: &'static str) -> Self {
+    pub fn between(xs: &[f64], one: &[f64], other: &[f64], colour: impl Into<Colour>) -> Self {
         let points = xs.iter().zip(one.iter().zip(other));
         let points = points.map(|(&x, (&a, &b))| [x, a, b]).collect();
-        Self { points, is_range: false, colour, opacity: 1.0, name: None }
+        Self { points, is_range: false, colour: colour.into(), opacity: 1.0, name: None }
     }
 
     /// The area between a level and a curve.
-    pub fn from(level: f64, xs: &[f64], ys: &[f64], colour: &'static str) -> Self {
+    pub fn from(level: f64, xs: &[f64], ys: &[f64], colour: impl Into<Colour>) -> Self {
         Self::between(xs, &vec![level; xs.len()], ys, colour)
     }
 
     /// The range that a quickly varying series covers.
-    pub fn range_of(xs: &[f64], ys: &[f64], colour: &'static str) -> Self {
+    pub fn range_of(xs: &[f64], ys: &[f64], colour: impl Into<Colour>) -> Self {
         Self { is_range: true, ..Self::between(xs, ys, ys, colour) }
     }
 

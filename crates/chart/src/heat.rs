@@ -8,9 +8,10 @@ use super::image::{IndexedImage, Palette};
 use super::layer::Layer;
 use super::legend::Key;
 use super::svg::Svg;
+use serde::{Deserialize, Serialize};
 
 /// Values over a grid of equal cells, as colours.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Heat {
     x: (f64, f64),
     y: (f64, f64),
@@ -76,6 +77,11 @@ fn downwards<T>(columns: usize, rows: usize, of: impl Fn(usize, usize) -> T) -> 
 }
 
 impl Layer for Heat {
+    fn is_whole(&self) -> bool {
+        let Self { image, palette, .. } = self;
+        image.width.checked_mul(image.height) == Some(image.pixels.len()) && palette.holds(image)
+    }
+
     fn extent(&self, see: &mut dyn FnMut(f64, f64)) {
         if self.image.width * self.image.height > 0 {
             see(self.x.0, self.y.0);

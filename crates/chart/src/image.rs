@@ -1,9 +1,10 @@
 //! Small images inside drawings: palettes, and pixels in their colours.
 
-use super::colour::{ColourMap, channels};
+use super::colour::{Colour, ColourMap};
+use serde::{Deserialize, Serialize};
 
 /// Colours of an image by index; one index more is transparent.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Palette(Vec<[u8; 4]>);
 
 impl Palette {
@@ -21,12 +22,19 @@ impl Palette {
 
     /// Colours written as `#rrggbb`.
     pub fn of_colours(colours: &[&str]) -> Self {
-        Self::of(colours.iter().map(|colour| channels(colour)))
+        Self::of(colours.iter().map(|&colour| Colour::from(colour).0))
     }
 
-    fn of(colours: impl Iterator<Item = [u8; 3]>) -> Self {
+    /// These colours.
+    pub(super) fn of(colours: impl Iterator<Item = [u8; 3]>) -> Self {
         let opaque = colours.map(|[r, g, b]| [r, g, b, 255]);
         Self(opaque.chain([[255, 255, 255, 0]]).collect())
+    }
+
+    /// Whether it has a colour for each pixel of an image.
+    pub(super) fn holds(&self, image: &IndexedImage) -> bool {
+        (1..=256).contains(&self.0.len())
+            && image.pixels.iter().all(|&pixel| usize::from(pixel) < self.0.len())
     }
 
     /// The transparent index.
@@ -47,7 +55,7 @@ impl Palette {
 }
 
 /// An image of palette indices, row by row from the top.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct IndexedImage {
     pub width: usize,
     pub height: usize,

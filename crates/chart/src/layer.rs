@@ -5,9 +5,11 @@ use super::data::{LabelData, RuleData, Series};
 use super::frame::Frame;
 use super::legend::Key;
 use super::svg::Svg;
+use super::{Bars, Field, Fill, Heat, Label, Line, Points, Rule, Shapes, Surface};
+use serde::{Deserialize, Serialize};
 
 /// A side of a panel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Side {
     /// Beyond its right edge.
     Right,
@@ -58,8 +60,42 @@ pub trait Layer: Send + Sync {
         None
     }
 
+    /// Whether its lists are as long as they must be and its indices have something behind them.
+    fn is_whole(&self) -> bool {
+        true
+    }
+
     /// Its numbers.
     fn series(&self) -> Vec<Series> {
         Vec::new()
     }
 }
+
+/// Declares [`Drawn`] by its kinds.
+macro_rules! drawn {
+    ($($kind:ident),+) => {
+        /// A layer of any kind.
+        #[derive(Serialize, Deserialize)]
+        pub enum Drawn {
+            $(#[doc = "See the type of this name."] $kind($kind),)+
+        }
+
+        $(impl From<$kind> for Drawn {
+            fn from(layer: $kind) -> Self {
+                Self::$kind(layer)
+            }
+        })+
+
+        impl std::ops::Deref for Drawn {
+            type Target = dyn Layer;
+
+            fn deref(&self) -> &Self::Target {
+                match self {
+                    $(Self::$kind(layer) => layer,)+
+                }
+            }
+        }
+    };
+}
+
+drawn!(Bars, Field, Fill, Heat, Label, Line, Points, Rule, Shapes, Surface);

@@ -1,5 +1,7 @@
 //! Layout of the panels of a figure: a grid whose data areas line up.
 
+use serde::{Deserialize, Serialize};
+
 mod placed;
 
 use super::colour::MUTED;
@@ -19,6 +21,7 @@ const GAP: f64 = 6.0;
 const NOTE_SIZE: f64 = 6.25;
 
 /// What a figure has in a grid, row by row, with all that tells where it stands.
+#[derive(Serialize, Deserialize)]
 pub(super) struct Grid {
     /// Width of the page that it is meant for, mm.
     pub width_mm: f64,
@@ -51,6 +54,13 @@ impl Grid {
             notes: Vec::new(),
             foot: None,
         }
+    }
+
+    pub fn is_whole(&self) -> bool {
+        let weights = &self.weights;
+        self.columns > 0
+            && (weights.is_empty() || weights.len() == self.columns)
+            && weights.iter().chain([&self.width_mm]).all(|w| *w > 0.0 && w.is_finite())
     }
 
     /// The panels in reading order.

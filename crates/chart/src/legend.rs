@@ -1,18 +1,19 @@
 //! Legends.
 
-use super::colour::INK;
+use super::colour::{Colour, INK};
 use super::frame::LABEL_SIZE;
 use super::marker::Marker;
 use super::path::Path;
 use super::svg::{Stroke, Svg};
 use super::text::{self, TextStyle};
+use serde::{Deserialize, Serialize};
 
 /// What stands before the name of a legend entry: any of a line, a data point, a filled patch.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Key {
     pub(super) stroke: Option<Stroke>,
-    pub(super) marker: Option<(Marker, &'static str)>,
-    pub(super) patch: Option<(&'static str, f64)>,
+    pub(super) marker: Option<(Marker, Colour)>,
+    pub(super) patch: Option<(Colour, f64)>,
 }
 
 impl Key {
@@ -22,8 +23,8 @@ impl Key {
     }
 
     /// A filled patch; opacity from 0 to 1.
-    pub fn patch(colour: &'static str, opacity: f64) -> Self {
-        Self { stroke: None, marker: None, patch: Some((colour, opacity)) }
+    pub fn patch(colour: impl Into<Colour>, opacity: f64) -> Self {
+        Self { stroke: None, marker: None, patch: Some((colour.into(), opacity)) }
     }
 
     fn draw(&self, svg: &mut Svg, left: f64, middle: f64) {

@@ -46,7 +46,7 @@ mod svg;
 mod text;
 
 pub use axis::Axis;
-pub use colour::{ColourMap, GRID, INK, MUTED, SERIES, channels};
+pub use colour::{Colour, ColourMap, GRID, INK, MUTED, SERIES};
 pub use data::{
     AxisData, FigureData, LabelData, Mark, PanelData, RuleData, Series, SeriesKind, Steps,
 };
@@ -57,7 +57,7 @@ pub use fill::Fill;
 pub use frame::Frame;
 pub use heat::Heat;
 pub use image::Palette;
-pub use layer::{Layer, Side};
+pub use layer::{Drawn, Side};
 pub use legend::Key;
 pub use line::{Line, Points};
 pub use marker::{Marker, look};

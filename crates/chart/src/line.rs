@@ -1,6 +1,6 @@
 //! Curves and data points.
 
-use super::colour::{INK, SERIES};
+use super::colour::{Colour, INK, SERIES};
 use super::data::{Series, SeriesKind};
 use super::decimation::{COLUMNS_PER_POINT, keep_extremes, simplify};
 use super::frame::Frame;
@@ -10,12 +10,13 @@ use super::marker::{Marker, look};
 use super::path::Path;
 use super::svg::{Stroke, Svg};
 use super::text::plain;
+use serde::{Deserialize, Serialize};
 
 /// Deviation that no reader sees, points.
 const INVISIBLE: f64 = 0.03;
 
 /// A curve; one with rising abscissae is thinned with its extremes kept, values that are not finite break it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Line {
     xs: Vec<f64>,
     ys: Vec<f64>,
@@ -46,7 +47,7 @@ impl Line {
     }
 
     /// The same, full, in a colour and with a width in points.
-    pub fn solid(self, colour: &'static str, width: f64) -> Self {
+    pub fn solid(self, colour: impl Into<Colour>, width: f64) -> Self {
         self.stroke(Stroke::solid(colour, width))
     }
 
@@ -58,7 +59,7 @@ impl Line {
     /// The same as the `index`-th of several series, with its colour and dashes.
     pub fn nth(mut self, index: usize) -> Self {
         let (colour, _, dash) = look(index);
-        self.stroke = Stroke { colour, dash, ..self.stroke };
+        self.stroke = Stroke { colour: colour.into(), ..self.stroke }.dashes(dash);
         self
     }
 
@@ -102,6 +103,10 @@ impl Line {
 }
 
 impl Layer for Line {
+    fn is_whole(&self) -> bool {
+        self.xs.len() == self.ys.len()
+    }
+
     fn extent(&self, see: &mut dyn FnMut(f64, f64)) {
         self.points().for_each(|(x, y)| see(x, y));
     }
@@ -142,9 +147,9 @@ impl Layer for Line {
         let is_shown = self.stroke.width > 0.0 && !self.xs.is_empty();
         let series = Series {
             name: exported_name(self.label.as_ref(), self.name.as_ref()),
-            kind: match self.stroke.dash {
-                [] => SeriesKind::Line,
-                _ => SeriesKind::Dashed,
+            kind: match self.stroke.is_dashed() {
+                false => SeriesKind::Line,
+                true => SeriesKind::Dashed,
             },
             colour: self.stroke.colour,
             xs: self.xs.clone(),
@@ -190,12 +195,12 @@ fn arrow_heads(path: &mut Path, points: &[(f64, f64)], count: usize) {
 }
 
 /// Data points, whole even at the ends of an axis.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Points {
     points: Vec<(f64, f64)>,
     marker: Marker,
     radius: f64,
-    colour: &'static str,
+    colour: Colour,
     name: Option<String>,
     label: Option<String>,
     rows: Vec<usize>,
@@ -211,7 +216,7 @@ impl Points {
             points,
             marker: Marker::Disc,
             radius: 2.0,
-            colour: SERIES[0],
+            colour: SERIES[0].into(),
             name: None,
             label: None,
             rows: Vec::new(),
@@ -236,8 +241,8 @@ impl Points {
     }
 
     /// The same with a marker of this radius, points, and colour.
-    pub fn marker(self, marker: Marker, radius: f64, colour: &'static str) -> Self {
-        Self { marker, radius, colour, ..self }
+    pub fn marker(self, marker: Marker, radius: f64, colour: impl Into<Colour>) -> Self {
+        Self { marker, radius, colour: colour.into(), ..self }
     }
 
     /// The same, each point standing for the row of a table with this number.

@@ -1,11 +1,12 @@
 //! Shapes of data points, and the looks by which series are told apart.
 
-use super::colour::SERIES;
+use super::colour::{Colour, SERIES};
 use super::path::Path;
 use super::svg::{Stroke, Svg};
+use serde::{Deserialize, Serialize};
 
 /// Shape of a data point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Marker {
     /// Filled disc.
     Disc,
@@ -47,7 +48,7 @@ impl Marker {
         svg: &mut Svg,
         places: impl IntoIterator<Item = (f64, f64)>,
         radius: f64,
-        colour: &'static str,
+        colour: Colour,
     ) {
         let mut path = Path::new();
         for place in places {

@@ -7,9 +7,10 @@ use super::layer::{Layer, Side};
 use super::legend::Key;
 use super::svg::{Stroke, Svg};
 use super::text::{self, Anchor, TextStyle, plain};
+use serde::{Deserialize, Serialize};
 
 /// A line across the panel at one value.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Rule {
     value: f64,
     is_horizontal: bool,
@@ -117,7 +118,7 @@ impl Layer for Rule {
 }
 
 /// Text at a point of the data.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Label {
     place: (f64, f64),
     offset: (f64, f64),

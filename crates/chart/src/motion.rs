@@ -1,7 +1,10 @@
 //! A body in motion: what a page with scripts animates.
 
+use super::colour::Colour;
+use serde::{Deserialize, Serialize};
+
 /// A body and what it shows: motions, or its parts.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Motion {
     /// 2 for a plane body, 3 for a solid one that the reader turns.
     pub dimension: usize,
@@ -18,7 +21,7 @@ pub struct Motion {
 }
 
 /// One motion, or one way to tell parts.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MotionState {
     /// Its name in plain text.
     pub name: String,
@@ -29,7 +32,7 @@ pub struct MotionState {
 }
 
 /// How a body moves.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum MotionKind {
     /// `Re((real + i imaginary) exp(i omega t))` of every node, along x, y and z, to any scale.
     Harmonic {
@@ -52,6 +55,6 @@ pub enum MotionKind {
         /// The part of each cell.
         part_of: Vec<u32>,
         /// Colour and name of each part; "" for one that is not there.
-        parts: Vec<(&'static str, String)>,
+        parts: Vec<(Colour, String)>,
     },
 }

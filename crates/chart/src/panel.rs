@@ -1,27 +1,29 @@
 //! One plot: two axes and the layers between them.
 
 use super::axis::Axis;
-use super::colour::{INK, MUTED};
+use super::colour::{Colour, INK, MUTED};
 use super::colour_bar::Colours;
 use super::data::{AxisData, LabelData, PanelData, RuleData, Series};
 use super::frame::{
     Frame, LABEL_SIZE, TICK, TITLE_SIZE, draw_grid, draw_x_axis, draw_y_axis, vertical_count,
 };
-use super::layer::{Layer, Side};
+use super::layer::{Drawn, Side};
 use super::legend::{Key, Legend};
 use super::marks::{RIM_SIZE, draw_rim_labels};
 use super::ruler::{Ruler, Tick, widest};
 use super::scale::extremes;
 use super::svg::{Stroke, Svg};
 use super::text::{self, Anchor, TextStyle, plain};
+use serde::{Deserialize, Serialize};
 
 /// A plot of a figure.
+#[derive(Serialize, Deserialize)]
 pub struct Panel {
     pub(super) x: Axis,
     pub(super) y: Axis,
-    layers: Vec<Box<dyn Layer>>,
+    layers: Vec<Drawn>,
     pub(super) caption: String,
-    pub(super) headings: Vec<(String, &'static str)>,
+    pub(super) headings: Vec<(String, Colour)>,
     pub(super) height: f64,
     pub(super) is_plane: bool,
     pub(super) is_bare: bool,
@@ -63,13 +65,13 @@ impl Panel {
     }
 
     /// The same with one more layer over those it has.
-    pub fn layer(mut self, layer: impl Layer + 'static) -> Self {
-        self.layers.push(Box::new(layer));
+    pub fn layer(mut self, layer: impl Into<Drawn>) -> Self {
+        self.layers.push(layer.into());
         self
     }
 
     /// The same with more layers.
-    pub fn layers<L: Layer + 'static>(self, layers: impl IntoIterator<Item = L>) -> Self {
+    pub fn layers<L: Into<Drawn>>(self, layers: impl IntoIterator<Item = L>) -> Self {
         layers.into_iter().fold(self, Self::layer)
     }
 
@@ -84,8 +86,8 @@ impl Panel {
     }
 
     /// The same with a line of heading in a colour.
-    pub fn heading_in(mut self, colour: &'static str, line: impl Into<String>) -> Self {
-        self.headings.push((line.into(), colour));
+    pub fn heading_in(mut self, colour: impl Into<Colour>, line: impl Into<String>) -> Self {
+        self.headings.push((line.into(), colour.into()));
         self
     }
 
@@ -112,6 +114,13 @@ impl Panel {
     /// The same beside so many rows of other panels.
     pub fn beside(self, rows: usize) -> Self {
         Self { span: rows.max(1), ..self }
+    }
+
+    pub(super) fn is_whole(&self) -> bool {
+        self.span > 0
+            && self.height > 0.0
+            && self.height.is_finite()
+            && self.layers.iter().all(|layer| layer.is_whole())
     }
 
     /// Whether it has a point of data to show.

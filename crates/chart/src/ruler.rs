@@ -3,9 +3,10 @@
 use super::numbers::signed;
 use super::scale::Scale;
 use super::text;
+use serde::{Deserialize, Serialize};
 
 /// One labelled tick.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tick {
     /// Where, in the unit shown.
     pub value: f64,

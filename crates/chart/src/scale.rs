@@ -1,7 +1,9 @@
 //! Linear and logarithmic scales.
 
+use serde::{Deserialize, Serialize};
+
 /// Linear or logarithmic.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Scale {
     /// Equal steps.
     Linear,

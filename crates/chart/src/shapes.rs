@@ -1,25 +1,26 @@
 //! Bars and filled shapes.
 
-use super::colour::INK;
+use super::colour::{Colour, INK};
 use super::frame::{Frame, LABEL_SIZE};
 use super::layer::Layer;
 use super::legend::Key;
 use super::path::Path;
 use super::svg::{Rect, Svg};
 use super::text::{self, Anchor, TextStyle};
+use serde::{Deserialize, Serialize};
 
 /// Lying bars of equal thickness, each with a label inside where it fits.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Bars {
     /// From, to, ordinate of the middle, label.
     bars: Vec<(f64, f64, f64, String)>,
-    colour: &'static str,
+    colour: Colour,
 }
 
 impl Bars {
     /// Bars from one abscissa to another at an ordinate, each with a label in mark-up.
-    pub fn new(bars: Vec<(f64, f64, f64, String)>, colour: &'static str) -> Self {
-        Self { bars, colour }
+    pub fn new(bars: Vec<(f64, f64, f64, String)>, colour: impl Into<Colour>) -> Self {
+        Self { bars, colour: colour.into() }
     }
 }
 
@@ -58,21 +59,23 @@ impl Layer for Bars {
 }
 
 /// Filled areas, one path for each style.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Shapes {
-    polygons: Vec<(Vec<(f64, f64)>, &'static str)>,
-    bands: Vec<(f64, f64, &'static str)>,
+    polygons: Vec<(Vec<(f64, f64)>, Colour)>,
+    bands: Vec<(f64, f64, Colour)>,
     names: Vec<(Key, String)>,
 }
 
 impl Shapes {
     /// Polygons, each in a colour.
-    pub fn polygons(polygons: Vec<(Vec<(f64, f64)>, &'static str)>) -> Self {
+    pub fn polygons(polygons: Vec<(Vec<(f64, f64)>, &str)>) -> Self {
+        let polygons = polygons.into_iter().map(|(at, colour)| (at, colour.into())).collect();
         Self { polygons, ..Self::default() }
     }
 
     /// Bands over the whole height, each from one abscissa to another in a colour.
-    pub fn bands(bands: Vec<(f64, f64, &'static str)>) -> Self {
+    pub fn bands(bands: Vec<(f64, f64, &str)>) -> Self {
+        let bands = bands.into_iter().map(|(from, to, colour)| (from, to, colour.into())).collect();
         Self { bands, ..Self::default() }
     }
 
@@ -104,7 +107,7 @@ impl Layer for Shapes {
         let place = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
             points.iter().map(|&(x, y)| frame.at(x, y)).collect()
         };
-        let mut colours: Vec<&'static str> = self.polygons.iter().map(|p| p.1).collect();
+        let mut colours: Vec<Colour> = self.polygons.iter().map(|p| p.1).collect();
         colours.dedup();
         for colour in colours {
             let mut path = Path::new();

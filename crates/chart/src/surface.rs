@@ -1,13 +1,14 @@
 //! The shaded surface of solid bodies, hidden parts hidden, coloured by values at its nodes.
 
 use super::axis::Axis;
-use super::colour::{ColourMap, channels};
+use super::colour::{Colour, ColourMap};
 use super::colour_bar::Colours;
 use super::frame::Frame;
 use super::image::{IndexedImage, Palette};
 use super::layer::Layer;
 use super::legend::Key;
 use super::svg::Svg;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// Colours of the values, and one more for faces without a value ...
@@ -24,7 +25,7 @@ const PIXELS_PER_POINT: f64 = 3.0;
 const LIGHT: [f64; 3] = [-0.35, 0.5, 0.79];
 
 /// Triangles and edges of a surface by their nodes.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SurfaceMesh {
     /// Corners, the outside to the viewer where they run counter-clockwise.
     pub triangles: Vec<[u32; 3]>,
@@ -33,7 +34,7 @@ pub struct SurfaceMesh {
 }
 
 /// A surface seen along the third axis of its positions.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Surface {
     mesh: Arc<SurfaceMesh>,
     positions: Vec<[f64; 3]>,
@@ -41,12 +42,12 @@ pub struct Surface {
 }
 
 /// What colours a surface.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 enum Paint {
     /// Values at the nodes.
     Values(Vec<f64>, Box<Colours>),
     /// The part that each triangle belongs to; colour and name of each part, with "" for one that the legend leaves out.
-    Parts(Vec<usize>, Vec<(&'static str, String)>),
+    Parts(Vec<usize>, Vec<(Colour, String)>),
 }
 
 impl Surface {
@@ -69,7 +70,7 @@ impl Surface {
         mesh: Arc<SurfaceMesh>,
         positions: Vec<[f64; 3]>,
         part_of: Vec<usize>,
-        parts: Vec<(&'static str, String)>,
+        parts: Vec<(Colour, String)>,
     ) -> Self {
         Self { mesh, positions, paint: Paint::Parts(part_of, parts) }
     }
@@ -93,20 +94,16 @@ impl Surface {
     fn palette(&self) -> Palette {
         let values = (0..LEVELS).map(|level| match &self.paint {
             Paint::Values(_, colours) => colours.map.at((level as f64 + 0.5) / LEVELS as f64),
-            Paint::Parts(_, parts) => channels(parts.get(level).map_or(NEUTRAL, |part| part.0)),
+            Paint::Parts(_, parts) => parts.get(level).map_or(NEUTRAL.into(), |part| part.0).0,
         });
-        let bases: Vec<[u8; 3]> = values.chain([channels(NEUTRAL)]).collect();
+        let bases: Vec<[u8; 3]> = values.chain([Colour::from(NEUTRAL).0]).collect();
         let shaded = bases.iter().flat_map(|base| {
             (0..SHADES).map(|shade| {
                 let brightness = 0.42 + 0.58 * shade as f64 / (SHADES - 1) as f64;
                 base.map(|channel| (f64::from(channel) * brightness).round() as u8)
             })
         });
-        let hex: Vec<String> = shaded
-            .chain([channels(EDGE)])
-            .map(|[r, g, b]| format!("#{r:02x}{g:02x}{b:02x}"))
-            .collect();
-        Palette::of_colours(&hex.iter().map(String::as_str).collect::<Vec<_>>())
+        Palette::of(shaded.chain([Colour::from(EDGE).0]))
     }
 
     /// Fills every triangle in front of what is there, then draws the edges that are not hidden.
@@ -221,6 +218,11 @@ impl Canvas {
 }
 
 impl Layer for Surface {
+    fn is_whole(&self) -> bool {
+        let nodes = self.mesh.triangles.iter().flatten().chain(self.mesh.edges.as_flattened());
+        nodes.max().is_none_or(|node| (*node as usize) < self.positions.len())
+    }
+
     fn extent(&self, see: &mut dyn FnMut(f64, f64)) {
         let [low, high] = self.window(0.0);
         see(low[0], low[1]);
@@ -246,7 +248,7 @@ impl Layer for Surface {
             return Vec::new();
         };
         let named = parts.iter().filter(|(_, name)| !name.is_empty());
-        let keys = named.map(|(colour, name)| (Key::patch(colour, 1.0), name.clone()));
+        let keys = named.map(|(colour, name)| (Key::patch(*colour, 1.0), name.clone()));
         keys.collect()
     }
 }
@@ -294,7 +296,7 @@ mod tests {
     #[test]
     fn parts_have_one_colour_each_and_a_name_in_the_legend() {
         let mesh = SurfaceMesh { triangles: vec![[0, 1, 2], [0, 2, 3]], edges: Vec::new() };
-        let parts = vec![("#ff0000", "disc".to_owned()), ("#00ff00", String::new())];
+        let parts = vec![("#ff0000".into(), "disc".to_owned()), ("#00ff00".into(), String::new())];
         let surface = Surface::of_parts(Arc::new(mesh), vec![[0.0; 3]; 4], vec![1, 0], parts);
         assert_eq!(surface.levels(0, &[0, 1, 2]), [1.5; 3]);
         assert_eq!(surface.levels(1, &[0, 2, 3]), [0.5; 3]);

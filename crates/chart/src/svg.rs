@@ -3,10 +3,12 @@
 //! One user unit is one typographic point (1/72 inch). Coordinates are written with two decimals,
 //! so equal input gives equal bytes.
 
+use super::colour::Colour;
 use super::path::Path;
 use super::text::{Anchor, FONT_FAMILY, SCRIPT_SIZE, TextStyle, parse, plain};
 use base64::prelude::{BASE64_STANDARD, Engine};
-use std::fmt::Write;
+use serde::{Deserialize, Serialize};
+use std::fmt::{Display, Write};
 
 /// Points for each millimetre.
 pub const POINTS_PER_MM: f64 = 72.0 / 25.4;
@@ -51,32 +53,42 @@ impl Rect {
 }
 
 /// How a line is drawn.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Stroke {
-    /// CSS colour.
-    pub colour: &'static str,
+    /// Its colour.
+    pub colour: Colour,
     /// Width, points.
     pub width: f64,
-    /// Dash pattern, points; empty for a full line.
-    pub dash: &'static [f64],
+    /// Dashes and gaps, points, up to the first zero; zeros for a full line.
+    pub dash: [f64; 4],
     /// 0 transparent to 1 opaque.
     pub opacity: f64,
 }
 
 impl Stroke {
     /// A full opaque line.
-    pub fn solid(colour: &'static str, width: f64) -> Self {
-        Self { colour, width, dash: &[], opacity: 1.0 }
+    pub fn solid(colour: impl Into<Colour>, width: f64) -> Self {
+        Self { colour: colour.into(), width, dash: [0.0; 4], opacity: 1.0 }
     }
 
     /// A dashed opaque line.
-    pub fn dashed(colour: &'static str, width: f64) -> Self {
-        Self { dash: &[3.0, 2.0], ..Self::solid(colour, width) }
+    pub fn dashed(colour: impl Into<Colour>, width: f64) -> Self {
+        Self::solid(colour, width).dashes(&[3.0, 2.0])
     }
 
     /// A dotted opaque line.
-    pub fn dotted(colour: &'static str, width: f64) -> Self {
-        Self { dash: &[1.0, 1.6], ..Self::solid(colour, width) }
+    pub fn dotted(colour: impl Into<Colour>, width: f64) -> Self {
+        Self::solid(colour, width).dashes(&[1.0, 1.6])
+    }
+
+    /// The same line with at most four dashes and gaps.
+    pub fn dashes(self, pattern: &[f64]) -> Self {
+        Self { dash: std::array::from_fn(|at| pattern.get(at).copied().unwrap_or(0.0)), ..self }
+    }
+
+    /// Whether it is no full line.
+    pub fn is_dashed(&self) -> bool {
+        self.dash[0] > 0.0
     }
 
     /// The same line with another opacity.
@@ -91,8 +103,9 @@ impl Stroke {
             self.colour,
             number(self.width)
         );
-        if !self.dash.is_empty() {
-            let parts: Vec<String> = self.dash.iter().map(|&d| number(d)).collect();
+        if self.is_dashed() {
+            let parts = self.dash.iter().take_while(|&&length| length > 0.0);
+            let parts: Vec<String> = parts.map(|&length| number(length)).collect();
             let _ = write!(out, r#" stroke-dasharray="{}""#, parts.join(" "));
         }
         if self.opacity < 1.0 {
@@ -191,7 +204,7 @@ impl Svg {
     }
 
     /// A filled path without outline; `opacity` from 0 to 1.
-    pub fn fill_path(&mut self, path: &Path, colour: &str, opacity: f64) {
+    pub fn fill_path(&mut self, path: &Path, colour: impl Display, opacity: f64) {
         if path.is_empty() {
             return;
         }
@@ -203,7 +216,7 @@ impl Svg {
     }
 
     /// A filled rectangle with an optional outline.
-    pub fn rectangle(&mut self, rect: &Rect, fill: &str, stroke: Option<&Stroke>) {
+    pub fn rectangle(&mut self, rect: &Rect, fill: impl Display, stroke: Option<&Stroke>) {
         let place = rect.attributes();
         let _ = write!(self.body, r#"<rect {place} fill="{fill}""#);
         // `Stroke` writes fill="none"; a filled outline needs its own attributes.

@@ -1,5 +1,7 @@
 //! Text: the embedded font, its widths, and a small mark-up for symbols and indices.
 
+use super::colour::{Colour, INK};
+use serde::{Deserialize, Serialize};
 use skrifa::instance::{LocationRef, Size};
 use skrifa::{FontRef, MetadataProvider};
 use std::sync::LazyLock;
@@ -19,7 +21,7 @@ pub const FACES: [&[u8]; 3] = [
 pub(super) const SCRIPT_SIZE: f64 = 0.72;
 
 /// Which point of the text its position names.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Anchor {
     /// The left end.
     Start,
@@ -30,7 +32,7 @@ pub enum Anchor {
 }
 
 /// How text is set.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TextStyle {
     /// Size, points.
     pub size: f64,
@@ -39,7 +41,7 @@ pub struct TextStyle {
     /// Rotation about its position, degrees clockwise.
     pub rotation: f64,
     /// Colour.
-    pub colour: &'static str,
+    pub colour: Colour,
     /// Bold face.
     pub bold: bool,
     /// A white outline that keeps text readable over data.
@@ -53,7 +55,7 @@ impl TextStyle {
             size,
             anchor: Anchor::Start,
             rotation: 0.0,
-            colour: super::colour::INK,
+            colour: INK.into(),
             bold: false,
             halo: false,
         }
@@ -72,8 +74,8 @@ impl TextStyle {
     }
 
     /// The same in another colour.
-    pub fn coloured(mut self, colour: &'static str) -> Self {
-        self.colour = colour;
+    pub fn coloured(mut self, colour: impl Into<Colour>) -> Self {
+        self.colour = colour.into();
         self
     }
 

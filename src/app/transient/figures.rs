@@ -1,15 +1,12 @@
-//! Figures of a transient: after the run, and again from its record.
+//! Figures of a transient.
 
 use crate::app::Failure;
 use crate::case::Case;
-use crate::fem::operator::SimdLevel;
 use crate::results::transient::{RunFigures, TransientSummary, draw};
-use crate::results::{DrawingOptions, OutputFolder, read_record, read_summary, refuse_misfit};
+use crate::results::{DrawingOptions, OutputFolder};
 use crate::study::transient::TransientStudy;
 use crate::study::{LinearStage, extent_of};
 use crate::transient::Recorder;
-use serde::Deserialize;
-use serde_json::Value;
 
 /// The modes that the figures mark; where there are none to be had, the log says why.
 pub fn linear_stage(case: &Case) -> LinearStage {
@@ -48,23 +45,4 @@ pub(super) fn draw_record(
     };
     draw(folder, &run, summary, options)?;
     Ok(())
-}
-
-/// Draws the figures of a folder again, from its `record.bin`.
-///
-/// # Errors
-/// A folder without a whole record; those of the drawing and of the folder.
-pub fn redraw(folder: &OutputFolder, case: &Case, options: &DrawingOptions) -> Result<(), Failure> {
-    let summary: Value = read_summary(folder.path())?;
-    let study = TransientStudy::new(case, SimdLevel::Scalar)?;
-    let record: Recorder = read_record(folder.path())?;
-    let fits = study.is_of(&record);
-    refuse_misfit(folder.path(), fits)?;
-    let summary = TransientSummary::deserialize(&summary).map_err(|error| {
-        let path = folder.path().display();
-        Failure::usage(format!(
-            "the summary.json of {path} is of another version ({error}): run it again"
-        ))
-    })?;
-    draw_record(folder, &study, &record, &summary, options)
 }

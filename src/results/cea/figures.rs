@@ -15,7 +15,7 @@ use crate::fem::NodalStress;
 use crate::mesh::Counterface;
 use crate::results::charts::Disc;
 use crate::results::charts::palette::{STABLE, UNSTABLE};
-use crate::results::drawing::{Declaration, DrawingError, DrawingOptions, draw_all};
+use crate::results::drawing::{Declaration, DrawingError, DrawingOptions, declared};
 use crate::results::folder::OutputFolder;
 use crate::results::write_page;
 use std::f64::consts::TAU;
@@ -60,8 +60,7 @@ pub fn draw(
     if let Some(map) = report.map {
         figures.push(Box::new(|| map.figure()));
     }
-    let figures = draw_all(figures, options)?;
-    write_page(folder, document(report, View::Page), figures, folder.manifest(), options)
+    write_page(folder, document(report, View::Page), declared(figures)?, options)
 }
 
 /// Frequency and damping factor over friction of each pair of waves that turns unstable, that with the rotor and that against

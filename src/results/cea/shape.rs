@@ -102,7 +102,7 @@ fn shape_panel(disc: &Disc<'_>, mesh: &Mesh, shape: &ModeShape<'_>, lines: &[Str
     let magnification = DEFLECTION * 0.5 * (high[0] - low[0]) / largest;
     let axis = Axis::new("", "").between(0.0, largest);
     let colour = shape.colour();
-    let stroke = Stroke { dash: &[1.5, 1.2], ..Stroke::solid(MUTED, 0.45) };
+    let stroke = Stroke::solid(MUTED, 0.45).dashes(&[1.5, 1.2]);
     // What is free at its rim leaves the place that it has at rest.
     let room = if mesh.is_cyclic { 0.02 } else { 0.04 + 2.0 * DEFLECTION };
     let panel = lines.iter().fold(disc.panel(room), |panel, line| panel.heading_in(colour, line));

@@ -91,7 +91,7 @@ impl<'a> MovingBody<'a> {
     ) -> MotionKind {
         MotionKind::Parts {
             part_of: self.faces.iter().map(|face| part_of(face) as u32).collect(),
-            parts: parts.iter().map(|(colour, name)| (*colour, plain(name))).collect(),
+            parts: parts.iter().map(|(colour, name)| ((*colour).into(), plain(name))).collect(),
         }
     }
 

@@ -99,6 +99,7 @@ impl<'a> SolidView<'a> {
         let positions = self.mesh.nodes.iter().map(place).collect();
         let of_face = |face: &BoundaryFace| vec![part_of(face); triangles(face).len()];
         let part_of = self.faces.iter().flat_map(of_face).collect();
+        let parts = parts.into_iter().map(|(colour, name)| (colour.into(), name)).collect();
         Surface::of_parts(Arc::new(shown), positions, part_of, parts)
     }
 

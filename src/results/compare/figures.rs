@@ -2,27 +2,36 @@
 
 use super::ComparedRun;
 use crate::chart::{
-    Axis, ChartError, Figure, INK, Line, Marker, Panel, PanelData, Points, Scale, SeriesKind,
-    Stroke, literal, look,
+    Axis, ChartError, Figure, INK, Line, Marker, Panel, PanelData, Points, Scale, Series,
+    SeriesKind, Stroke, literal, look,
 };
-use crate::results::drawing::{Declaration, DrawingOptions, draw_all};
-use crate::results::report::{NamedFigure, ReadFigure, read_figures};
+use crate::results::drawing::{Declaration, declared};
 
 /// Most curves of one panel that are told apart.
 const MOST_CURVES: usize = 24;
+
+/// The curves and points of a figure of one run.
+struct Curves {
+    name: String,
+    panels: Vec<PanelData>,
+}
 
 /// Each figure that several runs have, with the curves of all of them.
 ///
 /// # Errors
 /// That of a figure that cannot be drawn although there is something to draw.
-pub fn overlaid(
-    runs: &[ComparedRun],
-    options: &DrawingOptions,
-) -> Result<Vec<NamedFigure>, ChartError> {
-    let pages: Vec<(&str, Vec<ReadFigure>)> = runs
-        .iter()
-        .map(|run| (run.name.as_str(), run.page.as_deref().map(read_figures).unwrap_or_default()))
-        .collect();
+pub fn overlaid(runs: &[ComparedRun]) -> Result<Vec<Figure>, ChartError> {
+    let curves = |figure: &Figure| {
+        let mut panels = figure.data().panels;
+        let is_curve = |series: &Series| series.kind != SeriesKind::Field;
+        panels.iter_mut().for_each(|panel| panel.series.retain(is_curve));
+        Curves { name: figure.name.clone(), panels }
+    };
+    let pages = runs.iter().map(|run| {
+        let figures = run.page.iter().flat_map(|page| &page.figures);
+        (run.name.as_str(), figures.map(curves).collect())
+    });
+    let pages: Vec<(&str, Vec<Curves>)> = pages.collect();
     let mut names: Vec<&str> = Vec::new();
     for figure in pages.iter().flat_map(|page| &page.1) {
         let count =
@@ -35,12 +44,12 @@ pub fn overlaid(
     let declarations = names.into_iter().map(|name| -> Declaration<'_> {
         Box::new(move || figure_of(name, pages).ok_or_else(|| ChartError::empty(name)))
     });
-    draw_all(declarations.collect(), options)
+    declared(declarations.collect())
 }
 
 /// A figure over all runs that have it; panels go together by their place, caption and axes.
-fn figure_of(name: &str, pages: &[(&str, Vec<ReadFigure>)]) -> Option<Figure> {
-    let own: Vec<(usize, &str, &ReadFigure)> = pages
+fn figure_of(name: &str, pages: &[(&str, Vec<Curves>)]) -> Option<Figure> {
+    let own: Vec<(usize, &str, &Curves)> = pages
         .iter()
         .enumerate()
         .filter_map(|(run, (title, figures))| {
@@ -115,7 +124,7 @@ fn panel_of(panel: &PanelData, runs: &[(usize, &str, &PanelData)]) -> Panel {
             out = match series.kind {
                 SeriesKind::Line | SeriesKind::Dashed => {
                     let dash = line_dash(series.kind, number(&lines).unwrap_or(0));
-                    let stroke = Stroke { dash, ..Stroke::solid(colour, 0.8) };
+                    let stroke = Stroke::solid(colour, 0.8).dashes(dash);
                     out.layer(Line::through(places()).stroke(stroke).label(label))
                 }
                 SeriesKind::Points | SeriesKind::Field => {
@@ -160,7 +169,7 @@ fn series_keys(runs: &[(usize, &str, &PanelData)], lines: &[&str], points: &[&st
             Some(_) => keyed,
             None => {
                 let number = lines.iter().position(|known| known == name).unwrap_or(0);
-                keyed.keyed(Stroke { dash: line_dash(own.kind, number), ..Stroke::solid(INK, 0.8) })
+                keyed.keyed(Stroke::solid(INK, 0.8).dashes(line_dash(own.kind, number)))
             }
         };
         Some(keyed.name(literal(name)))

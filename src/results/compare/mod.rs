@@ -4,13 +4,12 @@ mod figures;
 
 pub use figures::overlaid;
 
-use super::Manifest;
+use super::{Manifest, Page};
 use crate::output::{Cell, Described, Document, Format, Section, Table, columns, unit_of};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 /// A finished run.
-#[derive(Clone, Debug)]
 pub struct ComparedRun {
     /// What it is called.
     pub name: String,
@@ -18,8 +17,8 @@ pub struct ComparedRun {
     pub manifest: Manifest,
     /// Its `summary.json`.
     pub summary: Value,
-    /// Its `report.html`, where it has one.
-    pub page: Option<String>,
+    /// Its figures, where it has any.
+    pub page: Option<Page>,
 }
 
 /// A number that every run has.
@@ -279,10 +278,7 @@ pub fn document(runs: &[ComparedRun], quantities: &[SharedQuantity]) -> Document
             ("shared numbers that differ", differing.len().to_string()),
             ("that are equal", equal.len().to_string()),
         ])
-        .text(
-            without
-                .map(|run| format!("{} has no report.html: frictionsim plot draws it.", run.name)),
-        )
+        .text(without.map(|run| format!("{} has no figures: run it again with figures.", run.name)))
         .tables([
             table_of(("", "Key results"), runs, &first_of(quantities)),
             Table::new("", "Inputs").columns(INPUTS, runs),

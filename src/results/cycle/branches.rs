@@ -9,10 +9,9 @@ use crate::output::{Described, columns, significant};
 use crate::results::charts::palette::{
     CONTACT_DISSIPATION, MATERIAL_DISSIPATION, NORMAL_POWER, SLIDE_POWER, STATUSES, STICK_POWER,
 };
-use crate::results::drawing::{Declaration, DrawingOptions, draw_all};
+use crate::results::drawing::{Declaration, declared};
 use crate::results::extent::Extent;
 use crate::results::parameter::parameter_axis;
-use crate::results::report::NamedFigure;
 use crate::results::summary::MeanPowers;
 use serde::{Deserialize, Serialize};
 
@@ -131,10 +130,6 @@ impl FamilyRecord {
     pub fn family(&self) -> Family {
         Family { harmonic: self.harmonic, onset: self.onset }
     }
-
-    pub(super) fn is_whole(&self) -> bool {
-        self.branch.as_ref().is_none_or(BranchRecord::is_whole)
-    }
 }
 
 impl BranchRecord {
@@ -171,16 +166,6 @@ impl BranchRecord {
             ..Self::default()
         }
     }
-
-    fn is_whole(&self) -> bool {
-        let count = self.values.len();
-        let mut columns = [&self.frequency_hz, &self.amplitude, &self.external]
-            .into_iter()
-            .chain(&self.status)
-            .chain(&self.shares);
-        let known = [self.stable.len(), self.growth_rate.len()];
-        columns.all(|column| column.len() == count) && known == [count; 2]
-    }
 }
 
 /// A family with what its name says besides the harmonic.
@@ -202,8 +187,7 @@ const POWERS: [(&str, &str); 5] = [
 pub fn draw_branches(
     families: &[NamedFamily<'_>],
     two_waves: &[TwoWaveRecord],
-    options: &DrawingOptions,
-) -> Result<Vec<NamedFigure>, ChartError> {
+) -> Result<Vec<Figure>, ChartError> {
     // A branch of a single cycle is no curve.
     let curves: Vec<Curve<'_>> = families
         .iter()
@@ -215,7 +199,7 @@ pub fn draw_branches(
     let curves = &curves[..];
     let figures: Vec<Declaration<'_>> =
         vec![Box::new(|| frequencies(curves, two_waves)), Box::new(|| shares(curves))];
-    draw_all(figures, options)
+    declared(figures)
 }
 
 /// The branch of one family.

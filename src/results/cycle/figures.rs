@@ -13,8 +13,7 @@ use crate::results::charts::{
     ContactVelocity, Disc, FieldFrame, MovingBody, contact_figure, field_figure,
     open_contact_figure, place_axis, shear_stress_figure, speeds_on_top, status_curves, status_map,
 };
-use crate::results::drawing::{Declaration, DrawingOptions, draw_all};
-use crate::results::report::NamedFigure;
+use crate::results::drawing::{Declaration, declared};
 use std::f64::consts::TAU;
 
 /// Whole-field pictures of one kind, at most.
@@ -43,10 +42,7 @@ pub struct CycleFigures<'a> {
 ///
 /// # Errors
 /// That of a figure that cannot be drawn although there is something to draw.
-pub fn draw_cycles(
-    data: &CycleFigures<'_>,
-    options: &DrawingOptions,
-) -> Result<Vec<NamedFigure>, ChartError> {
+pub fn draw_cycles(data: &CycleFigures<'_>) -> Result<Vec<Figure>, ChartError> {
     let mut figures: Vec<Declaration<'_>> = Vec::new();
     for motion in &data.record.cycles {
         figures.push(Box::new(move || data.status(motion)));
@@ -57,7 +53,7 @@ pub fn draw_cycles(
     }
     figures.push(Box::new(|| data.velocity()));
     figures.push(Box::new(|| data.shear_stress()));
-    draw_all(figures, options)
+    declared(figures)
 }
 
 impl CycleFigures<'_> {

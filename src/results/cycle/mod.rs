@@ -38,7 +38,6 @@ use crate::results::extent::Extent;
 use crate::results::finding::{write_page, write_table, write_tables};
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::manifest::Manifest;
-use crate::results::record::write_record;
 use crate::results::summary::{CriticalSummary, write_summary};
 use branches::BranchRow;
 use motions::ContactNode;
@@ -215,7 +214,6 @@ impl CycleReport<'_> {
             let mut pairs = search.two_waves.iter().filter_map(|own| own.table(self.thickness));
             pairs.try_for_each(|table| write_table(folder, &table))?;
         }
-        write_record(folder, &CycleRecord::of(self))?;
         let summary = self.summary(folder.manifest());
         write_tables(folder, &summary.document())?;
         let object = write_summary(folder, &summary)?;
@@ -236,8 +234,8 @@ impl CycleSummary {
     ) -> Result<(), DrawingError> {
         let families: Vec<NamedFamily<'_>> =
             data.record.families.iter().map(|own| (String::new(), own)).collect();
-        let mut figures = figures::draw_cycles(data, options)?;
-        figures.extend(draw_branches(&families, &data.record.two_waves, options)?);
-        write_page(folder, self.document(), figures, folder.manifest(), options)
+        let mut figures = figures::draw_cycles(data)?;
+        figures.extend(draw_branches(&families, &data.record.two_waves)?);
+        write_page(folder, self.document(), figures, options)
     }
 }

@@ -1,20 +1,13 @@
-//! Record of a search for limit cycles, from which its figures are drawn again.
+//! What the figures of a search for limit cycles show.
 
 use super::branches::FamilyRecord;
 use super::two_waves::TwoWaveRecord;
 use super::{CycleReport, Search};
 use crate::contact::ContactStatus;
 use crate::results::charts::palette::status_of_code;
-use crate::results::record::Record;
-use serde::{Deserialize, Serialize};
-
-/// More instants and nodes than any cycle has.
-const MOST_CELLS: usize = 100_000_000;
-/// More nodal diameters than any mesh has.
-const MOST_DIAMETERS: usize = 100_000;
 
 /// Everything that the figures show.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct CycleRecord {
     /// One entry for each cycle.
     pub cycles: Vec<MotionRecord>,
@@ -29,7 +22,7 @@ pub struct CycleRecord {
 }
 
 /// One limit cycle.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct MotionRecord {
     /// Part of a file name: `n2` or `mode15`.
     pub tag: String,
@@ -61,7 +54,7 @@ pub struct MotionRecord {
 }
 
 /// A contact node at one instant.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HistoryRow {
     /// Phase, rad.
     pub phase_rad: f64,
@@ -77,23 +70,6 @@ pub struct HistoryRow {
     pub displacement: [f64; 2],
     /// Velocity, m/s.
     pub velocity: [f64; 2],
-}
-
-impl Record for CycleRecord {
-    const MAGIC: [u8; 8] = *b"FRICSIMY";
-    const VERSION: u32 = 5;
-
-    fn inconsistency(&self) -> Option<&'static str> {
-        let fits = |own: &MotionRecord| {
-            let is_wave = own.diameters > 0;
-            own.is_whole() && (is_wave || own.edge[0].len() == self.nodes.len())
-        };
-        let is_whole = self.angles.len() == self.nodes.len()
-            && self.cycles.iter().all(fits)
-            && self.families.iter().all(FamilyRecord::is_whole)
-            && self.two_waves.iter().all(TwoWaveRecord::is_whole);
-        (!is_whole).then_some("its instants, nodes, harmonics and branches do not fit together")
-    }
 }
 
 impl CycleRecord {
@@ -120,18 +96,6 @@ impl CycleRecord {
 }
 
 impl MotionRecord {
-    fn is_whole(&self) -> bool {
-        let (count, nodes) = (self.history.len(), self.edge[0].len());
-        let cells = if self.diameters > 0 { Some(count) } else { count.checked_mul(nodes) };
-        count > 0
-            && self.node < nodes
-            && self.diameters <= MOST_DIAMETERS
-            && cells.is_some_and(|cells| cells <= MOST_CELLS && self.status.len() == cells)
-            && self.edge.iter().all(|edge| edge.len() == nodes)
-            && self.harmonics[0].len() == self.harmonics[1].len()
-            && self.displacement_field.len() == self.velocity_field.len()
-    }
-
     /// Whose it is: `2 nodal diameters`, or its frequency.
     pub(super) fn whose(&self) -> String {
         match self.diameters {

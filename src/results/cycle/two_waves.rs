@@ -98,7 +98,7 @@ columns! {
 }
 
 /// Motions of two waves along a branch, in its order.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct TwoWaveRecord {
     /// Their harmonics.
     pub harmonics: [usize; 2],
@@ -111,11 +111,6 @@ pub struct TwoWaveRecord {
 }
 
 impl TwoWaveRecord {
-    pub(super) fn is_whole(&self) -> bool {
-        let mut columns = self.frequency_hz.iter().chain(&self.amplitude);
-        columns.all(|column| column.len() == self.values.len())
-    }
-
     pub(super) fn of(result: &TwoWaveResult) -> Option<Self> {
         let branch = result.outcome.as_ref().ok()?.branch.as_ref()?;
         let column = |of: &dyn Fn(&TwoWaveMotion) -> f64| branch.motions.iter().map(of).collect();

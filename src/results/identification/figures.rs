@@ -1,17 +1,15 @@
-//! The figure of an identified damping, and what is kept to draw it again.
+//! The figure of an identified damping.
 
 use crate::chart::{
     Axis, Figure, Fill, INK, Line, Marker, Panel, Points, Rule, SERIES, Stroke, extremes,
     significant,
 };
-use crate::results::Record;
 use crate::results::charts::palette::UNSTABLE;
 use crate::signal::{FrequencyResponse, Identification, ResponseQuantity};
-use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// Everything that the figure shows.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct IdentificationRecord {
     /// Frequencies of the response, Hz.
     pub frequencies_hz: Vec<f64>,
@@ -29,18 +27,6 @@ pub struct IdentificationRecord {
     pub mass_coefficient: [f64; 3],
     /// `beta_R` and its 95 % interval, s.
     pub stiffness_coefficient: [f64; 3],
-}
-
-impl Record for IdentificationRecord {
-    const MAGIC: [u8; 8] = *b"FRICSIMI";
-    const VERSION: u32 = 2;
-
-    fn inconsistency(&self) -> Option<&'static str> {
-        let count = self.frequencies_hz.len();
-        let rises = self.frequencies_hz.windows(2).all(|pair| pair[0] < pair[1]);
-        let is_whole = rises && count == self.magnitude.len() && count == self.fitted.len();
-        (!is_whole).then_some("its frequencies and magnitudes do not fit together")
-    }
 }
 
 impl IdentificationRecord {

@@ -6,7 +6,7 @@ use crate::chart::{
 };
 use crate::mesh::Mesh;
 use crate::results::charts::{Disc, SolidView};
-use crate::results::drawing::{Declaration, draw_all};
+use crate::results::drawing::{Declaration, declared};
 use crate::results::{DrawingError, DrawingOptions, OutputFolder, write_page};
 use std::f64::consts::PI;
 
@@ -35,8 +35,8 @@ pub fn draw(
         let own = own.clone();
         Box::new(move || target_figure(summary, mesh, &own))
     };
-    let figures = draw_all(order.into_iter().take(MOST).map(declare).collect(), options)?;
-    write_page(folder, document(summary), figures, folder.manifest(), options)
+    let figures = declared(order.into_iter().take(MOST).map(declare).collect())?;
+    write_page(folder, document(summary), figures, options)
 }
 
 /// The derivatives of one growth rate over the body, a panel for each kind of modification.

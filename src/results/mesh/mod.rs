@@ -10,7 +10,7 @@ pub use plane_figure::figure as plane_figure;
 pub use solid::{SolidBoundary, SolidMeshStatistics, SolidRegion};
 pub use solid_figure::figure as solid_figure;
 
-use super::drawing::{DrawingError, DrawingOptions, draw_all};
+use super::drawing::{DrawingError, DrawingOptions};
 use super::finding::write_page;
 use super::folder::{FolderError, OutputFolder};
 use super::manifest::Manifest;
@@ -186,9 +186,8 @@ fn numbers(size: &MeshSize, shape: &ElementShapes) -> Vec<(String, String)> {
 pub fn draw<S: Measured>(
     folder: &OutputFolder,
     summary: &MeshSummary<S>,
-    figure: impl Fn() -> Figure + Sync + Send,
+    figure: Figure,
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
-    let figures = draw_all(vec![Box::new(|| Ok(figure()))], options)?;
-    write_page(folder, summary.document(), figures, folder.manifest(), options)
+    write_page(folder, summary.document(), vec![figure], options)
 }

@@ -1,10 +1,10 @@
 //! The numbers of a page, packed: one list of arrays, each kept once, behind each other in one compressed block.
 
 use base64::prelude::{BASE64_STANDARD, Engine};
-use flate2::{Compression, read::DeflateDecoder, write::DeflateEncoder};
+use flate2::{Compression, write::DeflateEncoder};
 use serde_json::{Value, json};
 use std::collections::HashMap;
-use std::io::{Read, Write};
+use std::io::Write;
 
 /// Arrays in the order in which they were first asked for.
 #[derive(Default)]
@@ -88,44 +88,47 @@ fn planes<const N: usize>(values: &[[u8; N]]) -> Vec<u8> {
     (0..N).flat_map(|plane| values.iter().map(move |value| value[plane])).collect()
 }
 
-/// The arrays again, from what [`Numbers::finish`] gave; nothing where they do not fit together.
-pub fn read(entries: &[Value], block: &str) -> Option<Vec<Vec<f64>>> {
-    let deflated = BASE64_STANDARD.decode(block).ok()?;
-    let mut bytes = Vec::new();
-    DeflateDecoder::new(deflated.as_slice()).read_to_end(&mut bytes).ok()?;
-    let mut start = 0_usize;
-    let mut array = |entry: &Value| {
-        let (kind, count) = (entry[0].as_str()?, entry[1].as_u64()? as usize);
-        let width = match kind {
-            "p" => 0,
-            "b" => 1,
-            "l" => 2,
-            _ => 4,
-        };
-        let planes = bytes.get(start..start.checked_add(count.checked_mul(width)?)?)?;
-        start += planes.len();
-        let word = |i: usize| {
-            (0..width)
-                .fold(0, |word, plane| word | u32::from(planes[plane * count + i]) << (8 * plane))
-        };
-        let [first, second] = [2, 3].map(|at| entry[at].as_f64().unwrap_or(f64::NAN));
-        let value = |i: usize| match kind {
-            "p" => first + i as f64 * second,
-            "b" => f64::from(word(i) as u8 as i8) / 127.0 * first,
-            "l" if word(i) == u32::from(u16::MAX) => f64::NAN,
-            "l" => first + f64::from(word(i)) / f64::from(u16::MAX - 1) * (second - first),
-            "i" => f64::from(word(i)),
-            _ => f64::from(f32::from_bits(word(i))),
-        };
-        // An edited page must not ask for more than it holds.
-        (count <= 1 << 28).then(|| (0..count).map(value).collect())
-    };
-    entries.iter().map(&mut array).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use flate2::read::DeflateDecoder;
+    use std::io::Read;
+
+    /// The arrays again, from what [`Numbers::finish`] gave; nothing where they do not fit together.
+    fn read(entries: &[Value], block: &str) -> Option<Vec<Vec<f64>>> {
+        let deflated = BASE64_STANDARD.decode(block).ok()?;
+        let mut bytes = Vec::new();
+        DeflateDecoder::new(deflated.as_slice()).read_to_end(&mut bytes).ok()?;
+        let mut start = 0_usize;
+        let mut array = |entry: &Value| {
+            let (kind, count) = (entry[0].as_str()?, entry[1].as_u64()? as usize);
+            let width = match kind {
+                "p" => 0,
+                "b" => 1,
+                "l" => 2,
+                _ => 4,
+            };
+            let planes = bytes.get(start..start.checked_add(count.checked_mul(width)?)?)?;
+            start += planes.len();
+            let word = |i: usize| {
+                (0..width).fold(0, |word, plane| {
+                    word | u32::from(planes[plane * count + i]) << (8 * plane)
+                })
+            };
+            let [first, second] = [2, 3].map(|at| entry[at].as_f64().unwrap_or(f64::NAN));
+            let value = |i: usize| match kind {
+                "p" => first + i as f64 * second,
+                "b" => f64::from(word(i) as u8 as i8) / 127.0 * first,
+                "l" if word(i) == u32::from(u16::MAX) => f64::NAN,
+                "l" => first + f64::from(word(i)) / f64::from(u16::MAX - 1) * (second - first),
+                "i" => f64::from(word(i)),
+                _ => f64::from(f32::from_bits(word(i))),
+            };
+            // An edited page must not ask for more than it holds.
+            (count <= 1 << 28).then(|| (0..count).map(value).collect())
+        };
+        entries.iter().map(&mut array).collect()
+    }
 
     #[test]
     fn packed_numbers_come_back() {

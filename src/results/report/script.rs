@@ -91,7 +91,7 @@ fn of_series(series: &Series, numbers: &mut Numbers) -> Value {
     let mut out = json!({
         "name": series.name,
         "kind": kind,
-        "colour": series.colour,
+        "colour": series.colour.to_string(),
         "x": numbers.floats(&xs),
         "y": numbers.floats(&ys),
         "of": series.xs.len(),
@@ -167,7 +167,8 @@ fn of_motion(motion: &Motion, numbers: &mut Numbers) -> Value {
             }
             MotionKind::Parts { part_of, parts } => {
                 out["partOf"] = numbers.indices(part_of.iter().copied()).into();
-                out["parts"] = parts.iter().map(|part| json!([part.0, part.1])).collect();
+                out["parts"] =
+                    parts.iter().map(|part| json!([part.0.to_string(), part.1])).collect();
             }
         }
         out
@@ -195,7 +196,7 @@ mod tests {
         let series = Series {
             name: "acceleration".into(),
             kind: SeriesKind::Line,
-            colour: INK,
+            colour: INK.into(),
             xs: (0..count).map(|i| 2e-6 * i as f64).collect(),
             ys: (0..count).map(|i| (0.1 * i as f64).sin()).collect(),
             values: None,

@@ -1,19 +1,16 @@
-//! The figures of an analysed time signal, and what is kept to draw them again.
+//! The figures of an analysed time signal.
 
 use super::summary::SignalSummary;
 use crate::chart::{ChartError, Figure, literal};
-use crate::results::Record;
 use crate::results::charts::{
     ModeLine, run_axis, signal_panel, spectrogram_panels, spectrum_panel,
 };
-use crate::results::drawing::{Declaration, DrawingOptions, draw_all};
-use crate::results::report::NamedFigure;
+use crate::results::drawing::{Declaration, declared};
 use crate::signal::{SpectrogramOptions, spectrogram};
-use serde::{Deserialize, Serialize};
 use std::sync::Mutex;
 
 /// Everything that the figures show.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SignalRecord {
     /// Sampling rate, Hz.
     pub sampling_rate: f64,
@@ -29,27 +26,8 @@ pub struct SignalRecord {
     pub channels: Vec<ChannelRecord>,
 }
 
-impl Record for SignalRecord {
-    const MAGIC: [u8; 8] = *b"FRICSIMS";
-    const VERSION: u32 = 1;
-
-    fn inconsistency(&self) -> Option<&'static str> {
-        let is_whole = |channel: &ChannelRecord| {
-            let rises = channel.frequencies_hz.windows(2).all(|pair| pair[0] < pair[1]);
-            let (from, to) = channel.interval_s;
-            rises && from <= to && channel.frequencies_hz.len() == channel.amplitudes.len()
-        };
-        let is_positive = |value: f64| value > 0.0 && value.is_finite();
-        let positive = [self.sampling_rate, self.window, self.max_frequency_hz];
-        let is_whole = positive.into_iter().all(is_positive)
-            && self.start.is_finite()
-            && self.channels.iter().all(is_whole);
-        (!is_whole).then_some("its rates, samples and spectra do not fit together")
-    }
-}
-
 /// One channel.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ChannelRecord {
     /// Name as in the table.
     pub name: String,
@@ -70,8 +48,7 @@ pub struct ChannelRecord {
 pub fn draw(
     record: &SignalRecord,
     summary: &SignalSummary,
-    options: &DrawingOptions,
-) -> Result<(Vec<NamedFigure>, Vec<String>), ChartError> {
+) -> Result<(Vec<Figure>, Vec<String>), ChartError> {
     let left_out = Mutex::new(Vec::new());
     let left_out = &left_out;
     let mut figures: Vec<Declaration<'_>> = Vec::new();
@@ -89,7 +66,7 @@ pub fn draw(
         let main_hz = found.and_then(|channel| channel.main_frequency_hz);
         figures.push(Box::new(move || Ok(spectrum(record, channel, index + 1, main_hz))));
     }
-    let figures = draw_all(figures, options)?;
+    let figures = declared(figures)?;
     let mut left_out = left_out.lock().map_or(Vec::new(), |reasons| reasons.clone());
     left_out.sort();
     Ok((figures, left_out))

@@ -11,5 +11,5 @@ pub(crate) mod whole_file;
 pub use error::FolderError;
 pub use folder::{OutputFolder, Replace};
 pub use manifest::Manifest;
-pub use record::{Record, read_record, refuse_misfit, write_record};
+pub use record::{Record, read_record, record_bytes};
 pub use reopening::{is_result, read_manifest};

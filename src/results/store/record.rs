@@ -1,4 +1,4 @@
-//! `record.bin`: what a command keeps, bit by bit, to draw its figures again; the tables have the same numbers for people.
+//! Data that a command keeps bit by bit: what goes on from there, and what is drawn again.
 
 use super::error::FolderError;
 use super::folder::OutputFolder;
@@ -9,19 +9,29 @@ use serde::de::DeserializeOwned;
 use std::io;
 use std::path::Path;
 
-/// Name of the record in its folder.
-const RECORD: &str = "record.bin";
-
-/// Data that a command keeps to draw its figures again.
+/// Data that a command keeps bit by bit.
 pub trait Record: Serialize + DeserializeOwned {
+    /// Its file.
+    const FILE: &str;
     /// How the file begins: which command it belongs to.
     const MAGIC: [u8; 8];
     /// Format of the data.
     const VERSION: u32;
 
-    /// What does not fit together: lists that must be of one length, codes and sizes out of range. Whoever draws the
+    /// What does not fit together: lists that must be of one length, codes and sizes out of range. Whoever reads the
     /// record relies on `None`.
     fn inconsistency(&self) -> Option<&'static str>;
+}
+
+/// The bytes of the file.
+///
+/// # Errors
+/// Data that cannot be encoded.
+pub fn record_bytes<T: Record>(record: &T) -> io::Result<Vec<u8>> {
+    let payload = postcard::to_stdvec(record).map_err(io::Error::other)?;
+    let mut bytes = Vec::new();
+    framed::write(&mut bytes, T::MAGIC, T::VERSION, &payload)?;
+    Ok(bytes)
 }
 
 /// Writes the record of a run.
@@ -29,25 +39,7 @@ pub trait Record: Serialize + DeserializeOwned {
 /// # Errors
 /// Those of the folder.
 pub fn write_record<T: Record>(folder: &OutputFolder, record: &T) -> Result<(), FolderError> {
-    folder.write_bulk(RECORD, |out| {
-        let payload = postcard::to_stdvec(record).map_err(io::Error::other)?;
-        framed::write(out, T::MAGIC, T::VERSION, &payload)
-    })?;
-    Ok(())
-}
-
-/// Refuses a record that is not one of its case's mesh.
-///
-/// # Errors
-/// [`FolderError::NotResults`].
-pub fn refuse_misfit(folder: &Path, fits: bool) -> Result<(), FolderError> {
-    if fits {
-        return Ok(());
-    }
-    Err(FolderError::NotResults {
-        path: folder.to_owned(),
-        reason: format!("its {RECORD} is damaged (it is not of the case's mesh): run it again"),
-    })
+    folder.write_bulk(T::FILE, |out| out.write_all(&record_bytes(record)?)).map(drop)
 }
 
 /// Reads the record of a folder.
@@ -56,12 +48,12 @@ pub fn refuse_misfit(folder: &Path, fits: bool) -> Result<(), FolderError> {
 /// [`FolderError::NotResults`] if it is missing, damaged or of another version; those of the file
 /// system.
 pub fn read_record<T: Record>(folder: &Path) -> Result<T, FolderError> {
-    let path = folder.join(RECORD);
+    let path = folder.join(T::FILE);
     let unusable = |reason: String| FolderError::NotResults { path: folder.to_owned(), reason };
     let bytes = match read_file(&path, RESULT) {
         Ok(bytes) => bytes,
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
-            return Err(unusable(format!("it has no {RECORD}: run it again")));
+            return Err(unusable(format!("it has no {}: run it again", T::FILE)));
         }
         Err(error) => return Err(FolderError::io("read", &path, error)),
     };
@@ -74,12 +66,13 @@ pub fn read_record<T: Record>(folder: &Path) -> Result<T, FolderError> {
     });
     record.map_err(|defect| {
         let wanted = T::VERSION;
+        let file = T::FILE;
         unusable(match defect {
             Defect::Version(found) => format!(
-                "its {RECORD} has format {found}, this version reads format {wanted}: run it again"
+                "its {file} has format {found}, this version reads format {wanted}: run it again"
             ),
             Defect::Damage(reason) => {
-                format!("its {RECORD} is damaged ({reason}): run it again")
+                format!("its {file} is damaged ({reason}): run it again")
             }
         })
     })

@@ -1,12 +1,10 @@
 //! Figures and `report.html` of a study.
 
 use super::super::charts::ModeLine;
-use super::super::report::Report;
 use super::super::sweep_figures::draw_sweep;
-use super::super::{DrawingError, DrawingOptions, Manifest, figure_files};
+use super::super::{DrawingError, DrawingOptions, Manifest, Page};
 use super::report::document;
 use super::{SweepFolder, SweepReport};
-use crate::results::drawing::REPORT;
 
 /// What the figures of a study need besides its points.
 #[derive(Clone, Debug)]
@@ -30,11 +28,7 @@ pub fn draw(
     drawing: &SweepDrawing,
 ) -> Result<(), DrawingError> {
     let frictions = (report.friction_coefficient, drawing.highest_friction);
-    let figures = draw_sweep(report.records, frictions, &drawing.references, &drawing.options)?;
-    for file in figure_files(&figures, &drawing.options)? {
-        folder.write(&file.name, |out| out.write_all(&file.bytes))?;
-    }
-    let html = Report::of(document(report, true), figures, manifest).to_html();
-    folder.write(REPORT, |out| out.write_all(html.as_bytes()))?;
-    Ok(())
+    let figures = draw_sweep(report.records, frictions, &drawing.references)?;
+    let page = Page::new(document(report, true), figures, manifest);
+    folder.write_page(&page, &drawing.options)
 }

@@ -1,10 +1,12 @@
 //! The results folder of a sweep, which several processes may share.
 
-use super::super::Manifest;
+use super::super::drawing::{DrawingError, DrawingOptions, Page};
 use super::super::folder::{
     FolderError, OutputFolder, Replace, check_owner, refuse_foreign, remove_files, write_contents,
 };
 use super::super::framed::write_sealed;
+use super::super::manifest::Manifest;
+use super::super::record::{Record, record_bytes};
 use super::super::reopening::{Contents, MANIFEST, own_value, read_contents};
 use super::super::whole_file::{is_temporary, write_whole};
 use super::company::{Company, open_lock, share};
@@ -17,7 +19,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Files over all points.
-const OVER_ALL: [&str; 7] = [
+const OVER_ALL: [&str; 8] = [
     "points.csv",
     "samples.csv",
     "stability.csv",
@@ -25,6 +27,7 @@ const OVER_ALL: [&str; 7] = [
     "branches.csv",
     "summary.json",
     "report.html",
+    "figures.bin",
 ];
 /// Figures over all points.
 const FIGURES: [&str; 8] = [
@@ -280,6 +283,26 @@ impl SweepFolder {
     ) -> Result<(), FolderError> {
         let path = self.path.join(name);
         write_whole(&path, true, fill).map_err(|e| FolderError::io("write", &path, e))?;
+        Ok(())
+    }
+
+    /// Writes a page, its figures, and both as data.
+    ///
+    /// # Errors
+    /// Those of the formats and of the file system.
+    pub fn write_page(&self, page: &Page, options: &DrawingOptions) -> Result<(), DrawingError> {
+        self.write(Page::FILE, |out| out.write_all(&record_bytes(page)?))?;
+        self.draw(page, options)
+    }
+
+    /// Draws a page.
+    ///
+    /// # Errors
+    /// As [`Self::write_page`].
+    pub fn draw(&self, page: &Page, options: &DrawingOptions) -> Result<(), DrawingError> {
+        for file in page.files(options)? {
+            self.write(&file.name, |out| out.write_all(&file.bytes))?;
+        }
         Ok(())
     }
 

@@ -9,8 +9,7 @@ use crate::results::charts::{
     ContactVelocity, Disc, FieldFrame, contact_figure, field_figure, open_contact_figure,
     shear_stress_figure, speeds_of_bodies, speeds_on_top, status_curves,
 };
-use crate::results::drawing::{Declaration, DrawingOptions, draw_all};
-use crate::results::report::NamedFigure;
+use crate::results::drawing::{Declaration, declared};
 use crate::transient::{EndState, Snapshot};
 
 /// Whole-field pictures of one kind, at most.
@@ -20,10 +19,7 @@ const FIELD_LIMIT: usize = 8;
 ///
 /// # Errors
 /// That of a figure that cannot be drawn although there is something to draw.
-pub fn draw_run(
-    run: &RunFigures<'_>,
-    options: &DrawingOptions,
-) -> Result<Vec<NamedFigure>, ChartError> {
+pub fn draw_run(run: &RunFigures<'_>) -> Result<Vec<Figure>, ChartError> {
     let mut figures: Vec<Declaration<'_>> = Vec::new();
     for probe in 0..run.record.probes.len() {
         figures.push(Box::new(move || Ok(run.overview(probe))));
@@ -35,7 +31,7 @@ pub fn draw_run(
     figures.push(Box::new(|| run.trajectories()));
     figures.push(Box::new(|| run.contact()));
     figures.push(Box::new(|| Ok(super::energy::energy(run))));
-    draw_all(figures, options)
+    declared(figures)
 }
 
 impl RunFigures<'_> {

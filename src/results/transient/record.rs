@@ -1,9 +1,10 @@
-//! Record of a transient, from which its figures are drawn again.
+//! Record of a transient, from which a longer run goes on.
 
 use crate::results::record::Record;
 use crate::transient::Recorder;
 
 impl Record for Recorder {
+    const FILE: &str = "record.bin";
     const MAGIC: [u8; 8] = *b"FRICSIMR";
     const VERSION: u32 = 4;
 

@@ -229,7 +229,7 @@ impl RunFigures<'_> {
         };
         let shown = amplitudes.iter().filter(|(n, _)| is_shown(**n));
         let lines = shown.map(|(&n, own)| {
-            let stroke = Stroke { dash: look(n).2, ..Stroke::solid(look(n).0, 0.8) };
+            let stroke = Stroke::solid(look(n).0, 0.8).dashes(look(n).2);
             Line::new(&times, own).stroke(stroke).name(format!("*n* = {n}"))
         });
         // What the start leaves behind has died out by a third of the stage.

@@ -62,7 +62,7 @@ pub fn draw(
     let mode = run.growing_mode().map(|(_, rate)| rate);
     let predicted = PredictedGrowth { harmonics: &run.growth_rates, mode };
     let document = document(summary, state, predicted);
-    write_page(folder, document, draw_run(run, options)?, folder.manifest(), options)
+    write_page(folder, document, draw_run(run)?, options)
 }
 
 /// Tables and sentences of a run.

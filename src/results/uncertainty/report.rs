@@ -5,8 +5,7 @@ use super::summary::{DesignCurve, FamilySummary, Index, UncertaintySummary};
 use super::{Onset, Sample};
 use crate::output::{Document, Format, Section, Table, columns};
 use crate::results::cea::{BRANCH, DIRECTION};
-use crate::results::drawing::{Declaration, DrawingError, DrawingOptions, draw_all, figure_files};
-use crate::results::report::Report;
+use crate::results::drawing::{Declaration, DrawingError, DrawingOptions, Page, declared};
 use crate::results::sweep::SweepFolder;
 
 columns! {
@@ -105,12 +104,8 @@ pub fn draw_report(
     if let Some(designs) = &summary.robust {
         declarations.push(Box::new(|| Ok(robust(designs))));
     }
-    let figures = draw_all(declarations, options)?;
-    for file in figure_files(&figures, options)? {
-        folder.write(&file.name, |out| out.write_all(&file.bytes))?;
-    }
-    let html = Report::of(document(summary), figures, &summary.manifest).to_html();
-    Ok(folder.write("report.html", |out| out.write_all(html.as_bytes()))?)
+    let page = Page::new(document(summary), declared(declarations)?, &summary.manifest);
+    folder.write_page(&page, options)
 }
 
 /// Tables and sentences.

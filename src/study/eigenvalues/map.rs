@@ -4,7 +4,7 @@ use super::model::{Model, Solver, mode_limit};
 use super::{Progress, StudyError};
 use crate::case::{Case, Cea, CeaMap, find_key};
 use crate::cea::cyclic;
-use crate::cea::{PartWatch, SweepProgress, SweepStage, Unwatched};
+use crate::cea::{PartWatch, SweepProgress, SweepStage};
 use crate::results::cea::MapReport;
 use crate::study::tangent_options;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -13,19 +13,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 type Point = (usize, Case, Solver);
 
 /// The stability map that a case asks for: every value makes a case of its own, validated like any other, and solved by the
-/// solver of its body.
+/// solver of its body. `watch` hears when a point is done and keeps the steps.
 ///
 /// # Errors
 /// A value that makes no valid case; a method that the body does not have.
-pub fn map(case: &Case, cea: &Cea, map: &CeaMap) -> Result<MapReport, StudyError> {
-    watched_map(case, cea, map, &Unwatched)
-}
-
-/// [`map`], of which `watch` hears when a point is done and keeps the steps.
-///
-/// # Errors
-/// As [`map`].
-pub fn watched_map(
+pub fn map(
     case: &Case,
     cea: &Cea,
     map: &CeaMap,

@@ -278,16 +278,6 @@ impl<'a> TransientStudy<'a> {
         settings::study_error(self.case, error)
     }
 
-    /// Whether a record can be one of this body.
-    pub fn is_of(&self, record: &Recorder) -> bool {
-        let components = self.body().components();
-        record.fits(
-            components * self.stepped.node_count(),
-            components,
-            self.body().interface().len(),
-        )
-    }
-
     /// Speed of the counterface where figures show the contact, m/s: of several rings of nodes at the middle one.
     pub fn shown_speed(&self) -> f64 {
         let speed = self.case.contact.sliding.rotation_speed;

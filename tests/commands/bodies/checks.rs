@@ -475,7 +475,7 @@ fn convergence(bench: &Bench, _: Option<&Bench>) -> Cell {
 
 /// What is drawn again is there.
 fn plot(bench: &Bench, _: Option<&Bench>) -> Cell {
-    let (_, folder) = needed!(bench.run("cea", &["cea.friction_coefficients=[0.0,0.3]"]));
+    let (_, folder) = needed!(bench.run_drawn("cea", &["cea.friction_coefficients=[0.0,0.3]"]));
     match bench.redraw(&folder) {
         Ok(()) => {
             verdict(folder.join("locus.svg").exists() || folder.join("figures").exists(), || {

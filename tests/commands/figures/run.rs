@@ -2,12 +2,13 @@
 
 use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use crate::figures::check;
+use frictionsim::chart::Figure;
 use frictionsim::contact::SlidingContact;
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::mesh::{AnnulusMesh, ElementKind};
+use frictionsim::results::Extent;
 use frictionsim::results::charts::ModeLine;
 use frictionsim::results::transient::{RunFigures, draw_run};
-use frictionsim::results::{DrawingOptions, Extent};
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
     TimeStep, TransientAnalysis, TransientModel, TransientSettings,
@@ -60,7 +61,7 @@ fn a_run_gets_every_figure_of_its_record() {
         mode_rates: Vec::new(),
     };
     let started = std::time::Instant::now();
-    let figures = draw_run(&data, &DrawingOptions::default()).unwrap();
+    let figures = draw_run(&data).unwrap();
     println!("{} figures of a run drawn in {:?}", figures.len(), started.elapsed());
     let expected: [(&str, &[&str]); 10] = [
         ("overview-196", &["node 196", "time t (ms)"]),
@@ -77,13 +78,14 @@ fn a_run_gets_every_figure_of_its_record() {
     assert_eq!(figures.len(), expected.len());
     for (figure, (name, labels)) in figures.iter().zip(expected) {
         assert_eq!(figure.name, name);
-        check(&format!("run-{name}"), &figure.svg, labels);
+        check(&format!("run-{name}"), &figure.to_svg(None).unwrap(), labels);
     }
     // One column of a page.
-    let narrow = DrawingOptions { width_mm: Some(85.0), ..DrawingOptions::default() };
-    for figure in draw_run(&data, &narrow).unwrap() {
-        check(&format!("run-{}-column", figure.name), &figure.svg, &[]);
+    for figure in &figures {
+        check(&format!("run-{}-column", figure.name), &figure.to_svg(Some(85.0)).unwrap(), &[]);
     }
-    let again = draw_run(&data, &DrawingOptions::default()).unwrap();
-    assert_eq!(figures, again);
+    let drawn = |figures: &[Figure]| -> Vec<String> {
+        figures.iter().map(|figure| figure.to_svg(None).unwrap()).collect()
+    };
+    assert_eq!(drawn(&figures), drawn(&draw_run(&data).unwrap()));
 }

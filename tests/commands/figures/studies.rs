@@ -1,7 +1,6 @@
 //! Figures of parameter studies, from their points.
 
 use crate::figures::check;
-use frictionsim::results::DrawingOptions;
 use frictionsim::results::charts::ModeLine;
 use frictionsim::results::sweep::PointRecord;
 use frictionsim::results::sweep_figures::draw_sweep;
@@ -46,7 +45,7 @@ fn points_over_speed_show_harmonics_selection_and_end_of_stick() {
         .collect();
     let modes = [(9901.0, "mode 5, *n* = 2"), (7660.0, "mode 3, *n* = 1")];
     let modes = modes.map(|(frequency_hz, label)| ModeLine { frequency_hz, label: label.into() });
-    let figures = draw_sweep(&records, (0.3, 1.0), &modes, &DrawingOptions::default()).unwrap();
+    let figures = draw_sweep(&records, (0.3, 1.0), &modes).unwrap();
     let names: Vec<&str> = figures.iter().map(|f| f.name.as_str()).collect();
     assert_eq!(names, ["frequencies", "status"]);
     let expected = [
@@ -58,12 +57,12 @@ fn points_over_speed_show_harmonics_selection_and_end_of_stick() {
         "at μ = 0.3",
         "rotation speed Ω (rpm)",
     ];
-    check("study-frequency", &figures[0].svg, &expected);
+    check("study-frequency", &figures[0].to_svg(None).unwrap(), &expected);
     // A mode that is far from every frequency found takes no room.
-    assert!(!figures[0].svg.contains("7.66 kHz"));
+    assert!(!figures[0].to_svg(None).unwrap().contains("7.66 kHz"));
     check(
         "study-status",
-        &figures[1].svg,
+        &figures[1].to_svg(None).unwrap(),
         &["contact nodes (%)", "ω+: no stick", "stick", "slip", "open"],
     );
 }
@@ -80,9 +79,13 @@ fn points_over_any_key_have_frequencies_and_status_too() {
             )
         })
         .collect();
-    let figures = draw_sweep(&records, (0.3, 1.0), &[], &DrawingOptions::default()).unwrap();
+    let figures = draw_sweep(&records, (0.3, 1.0), &[]).unwrap();
     assert_eq!(figures.len(), 2);
-    check("study-interference", &figures[0].svg, &["interference δ", "main frequency f (kHz)"]);
+    check(
+        "study-interference",
+        &figures[0].to_svg(None).unwrap(),
+        &["interference δ", "main frequency f (kHz)"],
+    );
 }
 
 #[test]
@@ -105,11 +108,11 @@ fn eigenvalue_analyses_over_one_key_become_a_critical_friction_line_for_each_bra
             )
         })
         .collect();
-    let figures = draw_sweep(&records, (0.3, 1.0), &[], &DrawingOptions::default()).unwrap();
+    let figures = draw_sweep(&records, (0.3, 1.0), &[]).unwrap();
     assert_eq!(figures.len(), 1);
     check(
         "critical-friction",
-        &figures[0].svg,
+        &figures[0].to_svg(None).unwrap(),
         &["stiffness damping βR (s)", "n = 2, branch 0", "stable", "μ (–)"],
     );
 }

@@ -6,6 +6,7 @@
 use crate::disc::annulus;
 use crate::msh::{FORMS, write_msh};
 use frictionsim::case::Case;
+use frictionsim::cea::Unwatched;
 use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::results::uncertainty::document;
 use frictionsim::study::eigenvalues::{map, modes_and_onsets, modes_at_own_friction};
@@ -89,7 +90,7 @@ fn the_map_of_a_body_without_symmetry_has_the_onsets_of_its_eigenvalue_analysis(
     let folder = folder();
     let body = case(&folder, "oval.msh", &[]);
     let cea = body.cea.clone().unwrap();
-    let found = map(&body, &cea, cea.map.as_ref().unwrap()).unwrap();
+    let found = map(&body, &cea, cea.map.as_ref().unwrap(), &Unwatched).unwrap();
     let mut seen = 0;
     for point in &found.points {
         let set = format!("material.density={}", point.value);
@@ -115,7 +116,7 @@ fn imported_disc_has_the_map_of_the_generated_one() {
     let of = |mesh: &str| {
         let case = case(&folder, mesh, &[]);
         let cea = case.cea.clone().unwrap();
-        let found = map(&case, &cea, cea.map.as_ref().unwrap()).unwrap().points;
+        let found = map(&case, &cea, cea.map.as_ref().unwrap(), &Unwatched).unwrap().points;
         let lowest = found.iter().map(|point| {
             let onset = point.lowest_onset().expect("an onset");
             [onset.critical_friction, onset.frequency_hz]
@@ -192,7 +193,7 @@ fn no_study_solves_an_imported_body_by_sectors() {
     let refusal = |text: String| {
         assert!(text.contains("needs a body of equal sectors"), "{text}");
     };
-    let found = map(&body, &cea, cea.map.as_ref().unwrap());
+    let found = map(&body, &cea, cea.map.as_ref().unwrap(), &Unwatched);
     refusal(found.unwrap_err().messages().join("; "));
     refusal(modes_and_onsets(&body).unwrap_err().messages().join("; "));
     let sampler = Sampler::new(&body).map(|_| ());

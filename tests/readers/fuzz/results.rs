@@ -16,7 +16,7 @@ const SMALL: [&str; 6] = [
     "mesh.circumferential_elements=24",
     "--set",
     "mesh.radial_elements=4",
-    "--no-figures",
+    "--format=svg",
     "-qq",
 ];
 
@@ -33,7 +33,7 @@ fn case(name: &str) -> String {
 /// One finished folder of a command with the files that `plot` reads.
 fn finished(folder: &Path, command: &str) -> PathBuf {
     let (disc, run) = (case("polycarbonate-disc.toml"), case("polycarbonate-610rpm.toml"));
-    let (cycle, hammer) = (case("limit-cycle.toml"), case("hammer-test.toml"));
+    let cycle = case("limit-cycle.toml");
     // Without the transient, which takes seconds.
     let convergence = folder.join("convergence.toml").display().to_string();
     let text = fs::read_to_string(case("convergence.toml")).unwrap();
@@ -77,9 +77,6 @@ fn finished(folder: &Path, command: &str) -> PathBuf {
         "convergence" => {
             with(&["convergence", &convergence], &["--set", "convergence.analyses=[\"cea\"]"])
         }
-        "frf" => {
-            with(&["frf", &hammer], &["--set", "frf.force_node=5", "--set", "frf.response_node=5"])
-        }
         "sweep" => {
             with(&["sweep", &disc], &["--set", "sweep.\"contact.interference\"=[2e-5, 3e-5]"])
         }
@@ -116,30 +113,30 @@ fn plot(folder: &Path) -> bool {
     manifest.is_ok_and(|manifest| redraw(folder, &manifest, &coarse).is_ok())
 }
 
-/// Holds `plot` to changed records of a command. The manifest's checksum of the record is made to fit, too.
-fn hold_records(command: &str) {
+/// Holds `plot` to changed figures of a command.
+fn hold_figures(command: &str) {
     let scratch = tempfile::tempdir().unwrap();
     let folder = finished(scratch.path(), command);
-    let original = fs::read(folder.join("record.bin")).unwrap();
+    let original = fs::read(folder.join("figures.bin")).unwrap();
     assert!(plot(&folder), "{command}: the folder as it was written");
     hold(
-        &format!("record-{command}"),
+        &format!("figures-{command}"),
         |random| record_of(random, &original),
         |bytes| {
-            fs::write(folder.join("record.bin"), bytes).unwrap();
+            fs::write(folder.join("figures.bin"), bytes).unwrap();
             plot(&folder);
         },
     );
 }
 
 #[test]
-fn no_record_of_a_transient_makes_plot_panic() {
-    hold_records("transient");
+fn no_figures_of_a_transient_make_plot_panic() {
+    hold_figures("transient");
 }
 
 #[test]
-fn no_record_of_limit_cycles_makes_plot_panic() {
-    hold_records("cycle");
+fn no_figures_of_limit_cycles_make_plot_panic() {
+    hold_figures("cycle");
 }
 
 #[test]
@@ -181,26 +178,9 @@ fn no_checkpoint_makes_its_reader_panic() {
 }
 
 #[test]
-fn a_damaged_table_of_a_response_is_never_drawn() {
-    let scratch = tempfile::tempdir().unwrap();
-    let folder = finished(scratch.path(), "frf");
-    let original = fs::read(folder.join("frf.csv")).unwrap();
-    assert!(plot(&folder), "the folder as it was written");
-    hold(
-        "frf.csv",
-        |random| text(random, std::slice::from_ref(&original)),
-        |bytes| {
-            fs::write(folder.join("frf.csv"), bytes).unwrap();
-            assert!(bytes == original || !plot(&folder), "drawn although it was changed");
-        },
-    );
-}
-
-#[test]
 fn a_damaged_manifest_or_summary_is_never_used() {
     let scratch = tempfile::tempdir().unwrap();
     let [mesh, convergence] = ["mesh", "convergence"].map(|name| finished(scratch.path(), name));
-    // The figures of a convergence study are drawn from its summary.
     for (folder, name) in
         [(&mesh, "manifest.json"), (&mesh, "summary.json"), (&convergence, "summary.json")]
     {

@@ -1,6 +1,7 @@
 //! What stands above the data area of a panel, and the room that it takes.
 
 use super::Placed;
+use crate::colour::Colour;
 use crate::frame::{LABEL_SIZE, on_sheet};
 use crate::legend::LINE_HEIGHT;
 use crate::ruler::Ruler;
@@ -49,8 +50,8 @@ impl Placed<'_> {
     }
 
     /// Lines of its headings with their colours; a letter at the left stands in the same line.
-    fn heading_lines(&self, has_letter: bool) -> Vec<(String, &'static str)> {
-        let wrapped = |(line, colour): &(String, &'static str)| {
+    fn heading_lines(&self, has_letter: bool) -> Vec<(String, Colour)> {
+        let wrapped = |(line, colour): &(String, Colour)| {
             let letters = if has_letter { 2.0 * LETTER_WIDTH } else { 0.0 };
             let room = (self.part.1 - letters).max(LETTER_WIDTH);
             let lines = text::wrapped(line, (HEADING_SIZE, false), room);
@@ -118,7 +119,7 @@ impl Placed<'_> {
         };
         for (row, (line, colour)) in headings.iter().enumerate() {
             let y = last - (lines - 1 - row) as f64 * 1.25 * HEADING_SIZE;
-            let style = TextStyle::new(HEADING_SIZE).anchored(Anchor::Middle).coloured(colour);
+            let style = TextStyle::new(HEADING_SIZE).anchored(Anchor::Middle).coloured(*colour);
             let middle = on_sheet(svg, area.x + 0.5 * area.width, line, HEADING_SIZE);
             svg.text(middle, y, line, &style);
         }
