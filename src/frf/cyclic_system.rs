@@ -1,11 +1,11 @@
 //! Harmonics of a body of equal sectors in the state that is excited.
 
-use super::harmonic::{Damping, Harmonic, evaluate, held_harmonic};
+use super::harmonic::{Damping, Harmonic, held_harmonic};
 use super::{Direction, FrfError, Terminal};
 use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
 use crate::fem::{ElasticMaterial, MassKind, RayleighDamping, sector, solid};
 use crate::mesh::{BoundaryCondition, SectorMesh, SolidSector};
-use crate::prestress::{MovingHarmonic, SectorTangent, SolidTangent, supports};
+use crate::prestress::{MovingHarmonic, WaveTangent, supports};
 
 /// [`super::FrfSystem`] of an annulus or of a body of revolution, as the matrices of its circumferential harmonics.
 #[derive(Clone, Debug)]
@@ -22,8 +22,8 @@ pub struct CyclicSystem {
 #[derive(Clone, Debug)]
 enum State {
     Body(Box<Body>),
-    Annulus(Box<SectorTangent>, f64),
-    Revolution(Box<SolidTangent>, f64),
+    /// Small motions around steady sliding at a friction coefficient.
+    Sliding(Box<WaveTangent>, f64),
 }
 
 /// A body without contact and prestress.
@@ -67,22 +67,18 @@ impl CyclicSystem {
         Self::of_annulus(&sector, State::Body(Box::new(body)), sector::wave_dofs(&sector))
     }
 
-    /// Small motions around steady sliding at a friction coefficient.
-    pub fn sliding(tangent: &SectorTangent, friction_coefficient: f64) -> Self {
-        let sector = tangent.sector();
-        let unknowns = tangent.unknowns();
-        let mut dofs = sector::wave_dofs(sector);
-        dofs.count = unknowns.len();
-        dofs.unknown_of.fill(None);
-        for (unknown, &dof) in unknowns.iter().enumerate() {
-            dofs.unknown_of[dof] = Some(unknown);
+    /// Small motions around steady sliding at a friction coefficient, in space the dashpot `mu p_0 / V` across the sliding
+    /// included.
+    ///
+    /// In rigid contact the motion along the normal of pressed nodes is no unknown; the force of excitation acts on the
+    /// body, not through the contact. A distance between two bodies is no place to strike or to observe.
+    pub fn sliding(tangent: &WaveTangent, friction_coefficient: f64) -> Self {
+        Self {
+            nodes: tangent.nodes.clone(),
+            components: tangent.components,
+            dofs: tangent.places(),
+            state: State::Sliding(Box::new(tangent.clone()), friction_coefficient),
         }
-        // A distance between two bodies is no place to strike or to observe.
-        for node in sector.contact_nodes().filter(|&node| sector.opposite(node).is_some()) {
-            dofs.unknown_of[2 * node] = None;
-        }
-        let state = State::Annulus(Box::new(tangent.clone()), friction_coefficient);
-        Self::of_annulus(sector, state, dofs)
     }
 
     fn of_annulus(sector: &SectorMesh, state: State, dofs: WaveDofs) -> Self {
@@ -111,21 +107,6 @@ impl CyclicSystem {
             damping,
         };
         Self::of_revolution(&sector, State::Body(Box::new(body)), solid::wave_dofs(&sector))
-    }
-
-    /// Small motions of a body of revolution around steady sliding at a friction coefficient, the dashpot `mu p_0 / V`
-    /// across the sliding included.
-    ///
-    /// In rigid contact the motion along the normal of pressed nodes is no unknown; the force of excitation acts on the
-    /// body, not through the contact.
-    pub fn solid_sliding(tangent: &SolidTangent, friction_coefficient: f64) -> Self {
-        let (own, rigid) = (tangent.unknown_of(), tangent.rigid());
-        let is_still = |unknown: usize| rigid.iter().any(|(normal, ..)| *normal == unknown);
-        let WaveDofs { half_bandwidth, sectors, .. } = solid::wave_dofs(tangent.sector());
-        let is_held = |dof: usize| own[dof].is_none_or(is_still);
-        let dofs = WaveDofs::new(own.len(), is_held, half_bandwidth, sectors);
-        let state = State::Revolution(Box::new(tangent.clone()), friction_coefficient);
-        Self::of_revolution(tangent.sector(), state, dofs)
     }
 
     fn of_revolution(sector: &SolidSector, state: State, dofs: WaveDofs) -> Self {
@@ -199,41 +180,16 @@ impl CyclicSystem {
                 let matrices = [&body.mass, &body.stiffness].map(fold);
                 held_harmonic(matrices, supports, body.damping, is_standing)
             }
-            State::Annulus(tangent, friction) => {
-                sliding_harmonic(tangent, *friction, (n, is_standing))
-            }
-            State::Revolution(tangent, friction) => {
+            State::Sliding(tangent, friction) => {
+                let harmonic = tangent.harmonic(n);
                 let MovingHarmonic { half_bandwidth, mass, damping, stiffness } =
-                    tangent.harmonic(n).at(*friction);
-                let damping = Damping::Band(damping);
+                    harmonic.at(*friction);
+                let damping = match harmonic.damping {
+                    Some(_) => Damping::Band(damping),
+                    None => Damping::Proportional(harmonic.rayleigh),
+                };
                 Harmonic { half_bandwidth, mass, stiffness, damping, is_standing }
             }
         }
-    }
-}
-
-/// Small motions around steady sliding in the plane.
-fn sliding_harmonic(
-    tangent: &SectorTangent,
-    friction_coefficient: f64,
-    (n, is_standing): (usize, bool),
-) -> Harmonic {
-    let mu = friction_coefficient;
-    let harmonic = tangent.harmonic(n);
-    Harmonic {
-        half_bandwidth: harmonic.mass[0].half_bandwidth(),
-        mass: evaluate(&harmonic.mass, mu),
-        stiffness: evaluate(&harmonic.stiffness, mu),
-        damping: match &harmonic.damping {
-            Some(damping) => {
-                let mut band = evaluate(damping, mu);
-                let dashpots = harmonic.friction_dashpots.iter();
-                let values = dashpots.flat_map(|dashpots| evaluate(dashpots, mu));
-                band.iter_mut().zip(values).for_each(|(c, v)| *c += v * mu);
-                Damping::Band(band)
-            }
-            None => Damping::Proportional(harmonic.rayleigh),
-        },
-        is_standing,
     }
 }

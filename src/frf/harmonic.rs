@@ -29,32 +29,21 @@ pub(super) fn held_harmonic(
     damping: RayleighDamping,
     is_standing: bool,
 ) -> Harmonic {
+    let complex =
+        |matrix: &BandedMatrix| matrix.values().iter().map(|v| c64::new(*v, 0.0)).collect();
     let mut damped = Damping::Proportional(damping);
     if let Some([springs, mut band]) = supports {
         // A support couples no two nodes, but its matrices have the shape of all.
         band.add_scaled(damping.mass_coefficient, &mass);
         band.add_scaled(damping.stiffness_coefficient, &stiffness);
         stiffness.add_scaled(1.0, &springs);
-        damped = Damping::Band(evaluate(&[band], 0.0));
+        damped = Damping::Band(complex(&band));
     }
     Harmonic {
         half_bandwidth: mass.half_bandwidth(),
-        mass: evaluate(&[mass], 0.0),
-        stiffness: evaluate(&[stiffness], 0.0),
+        mass: complex(&mass),
+        stiffness: complex(&stiffness),
         damping: damped,
         is_standing,
     }
-}
-
-/// `sum_p P_p (i mu)^p`.
-pub(super) fn evaluate(polynomial: &[BandedMatrix], friction_coefficient: f64) -> Vec<c64> {
-    let mut band = vec![c64::new(0.0, 0.0); polynomial[0].values().len()];
-    let mut power = c64::new(1.0, 0.0);
-    for coefficient in polynomial {
-        for (sum, value) in band.iter_mut().zip(coefficient.values()) {
-            *sum += power * *value;
-        }
-        power *= c64::new(0.0, friction_coefficient);
-    }
-    band
 }

@@ -9,7 +9,7 @@ use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::contact::{ContactStiffness, NormalLaw};
 use frictionsim::fem::{ElasticMaterial, PlaneFormulation};
 use frictionsim::mesh::{ElementKind, SectorMesh};
-use frictionsim::prestress::{DampingModel, SectorTangent, WaveTangent};
+use frictionsim::prestress::{DampingModel, WaveTangent};
 
 const FRICTION: f64 = 0.35;
 
@@ -27,8 +27,7 @@ fn swept(model: &CyclicModel, frictions: &[f64], limit_hz: f64) -> CyclicSweep {
 fn tangent(model: &CyclicModel) -> WaveTangent {
     let sector = SectorMesh::generate(&model.specification).unwrap();
     let CyclicModel { material, options, contact, .. } = model;
-    let tangent = SectorTangent::linearize(&sector, material, options, contact);
-    WaveTangent::Plane(Box::new(tangent.unwrap()))
+    WaveTangent::of_annulus(&sector, material, options, contact).unwrap()
 }
 
 /// One eigenvalue of a changed model, by following its branch.
