@@ -6,7 +6,7 @@ use super::{PrestressError, SectorSliding, TangentOptions, WaveTangent};
 use crate::contact::SlidingContact;
 use crate::fem::fold::SectorMatrix;
 use crate::fem::sector;
-use crate::fem::{MaterialField, RegionMaterial};
+use crate::fem::{ElasticMaterial, MassKind, MaterialField, RayleighDamping, RegionMaterial};
 use crate::mesh::SectorMesh;
 use std::f64::consts::PI;
 
@@ -57,14 +57,28 @@ impl WaveTangent {
             },
             contact: edge.terms(options),
         };
-        let half_step = |&node: &usize| (node, sector.half_step(node));
-        let layout = SectorLayout {
-            components: 2,
-            nodes: sector.sector_node_of[..sector.node_count()].iter().map(half_step).collect(),
-            dofs: sector::wave_dofs(sector),
-        };
         let parts = (terms, edge.dofs(options));
-        Ok(Self::new(layout, parts, options, base.sliding_direction))
+        Ok(Self::new(layout(sector), parts, options, base.sliding_direction))
+    }
+
+    /// An annulus without contact and prestress.
+    pub fn of_free_annulus(
+        sector: &SectorMesh,
+        material: &ElasticMaterial,
+        mass: MassKind,
+        damping: RayleighDamping,
+    ) -> Self {
+        let matrices = [sector::mass(sector, material, mass), sector::stiffness(sector, material)];
+        Self::alone(layout(sector), matrices, sector::each_support(sector), (mass, damping))
+    }
+}
+
+fn layout(sector: &SectorMesh) -> SectorLayout {
+    let half_step = |&node: &usize| (node, sector.half_step(node));
+    SectorLayout {
+        components: 2,
+        nodes: sector.sector_node_of[..sector.node_count()].iter().map(half_step).collect(),
+        dofs: sector::wave_dofs(sector),
     }
 }
 

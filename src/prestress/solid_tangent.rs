@@ -5,9 +5,9 @@ use super::solid_contact::contact_terms;
 use super::wave_tangent::{RegionTerms, SectorLayout, WaveContact, WaveTerms};
 use super::{PrestressError, SolidSliding, TangentOptions, WaveTangent};
 use crate::contact::SlidingContact;
-use crate::fem::ElasticMaterial;
 use crate::fem::fold::SectorMatrix;
 use crate::fem::solid;
+use crate::fem::{ElasticMaterial, MassKind, RayleighDamping};
 use crate::mesh::SolidSector;
 
 impl WaveTangent {
@@ -35,21 +35,39 @@ impl WaveTangent {
             false => Default::default(),
         };
         let mass = solid::mass(sector, material, options.mass);
-        let supports = each_support(sector).into_iter();
         let terms = WaveTerms {
             regions: vec![RegionTerms { mass, elastic, stress, damping: None }],
-            supports: supports.map(|(name, own)| (name.to_owned(), own)).collect(),
+            supports: supports_of(sector),
             turning,
             contact: contact_terms(&base, sector, &options.contact),
         };
-        let layout = SectorLayout {
-            components: 3,
-            nodes: sector.nodes.iter().map(|node| node.half_step).enumerate().collect(),
-            dofs: solid::wave_dofs(sector),
-        };
         let parts = (terms, rings(sector, &base, options));
-        Ok(Self::new(layout, parts, options, base.sliding_direction))
+        Ok(Self::new(layout(sector), parts, options, base.sliding_direction))
     }
+
+    /// A body of revolution without contact and prestress.
+    pub fn of_free_revolution(
+        sector: &SolidSector,
+        material: &ElasticMaterial,
+        mass: MassKind,
+        damping: RayleighDamping,
+    ) -> Self {
+        let matrices = [solid::mass(sector, material, mass), solid::stiffness(sector, material)];
+        Self::alone(layout(sector), matrices, supports_of(sector), (mass, damping))
+    }
+}
+
+fn layout(sector: &SolidSector) -> SectorLayout {
+    SectorLayout {
+        components: 3,
+        nodes: sector.nodes.iter().map(|node| node.half_step).enumerate().collect(),
+        dofs: solid::wave_dofs(sector),
+    }
+}
+
+fn supports_of(sector: &SolidSector) -> Vec<(String, [SectorMatrix; 2])> {
+    let all = each_support(sector).into_iter();
+    all.map(|(name, own)| (name.to_owned(), own)).collect()
 }
 
 /// The dofs of the contact, ring by ring. Those of a ring are free to move along the normal, else they would not belong to it.

@@ -2,8 +2,9 @@
 
 use super::solid_contact::ContactTerms;
 use super::{DampingModel, FrictionPolynomial, HarmonicTangent, TangentOptions};
+use crate::contact::ContactStiffness;
 use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
-use crate::fem::{DofMap, RayleighDamping};
+use crate::fem::{DofMap, MassKind, RayleighDamping};
 use crate::linalg::banded::BandedMatrix;
 use crate::linalg::c64;
 
@@ -49,7 +50,7 @@ pub struct WaveTangent {
 }
 
 /// What the matrices are made of.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct WaveTerms {
     pub regions: Vec<RegionTerms>,
     /// Name, springs and dashpots of each supported boundary.
@@ -72,7 +73,7 @@ pub(super) struct RegionTerms {
 }
 
 /// The contact of one sector, by its dofs.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct WaveContact {
     /// Component along the normal.
     pub normal: usize,
@@ -98,6 +99,25 @@ pub(super) struct SectorLayout {
 }
 
 impl WaveTangent {
+    /// A body without contact and prestress, `C = alpha_R M + beta_R K` and the dashpots of its supports.
+    pub(super) fn alone(
+        layout: SectorLayout,
+        [mass, elastic]: [SectorMatrix; 2],
+        supports: Vec<(String, [SectorMatrix; 2])>,
+        (mass_kind, damping): (MassKind, RayleighDamping),
+    ) -> Self {
+        let options = TangentOptions {
+            mass: mass_kind,
+            geometric_stiffness: false,
+            damping,
+            damping_model: DampingModel::WholeTangent,
+            contact: ContactStiffness::default(),
+        };
+        let region = RegionTerms { mass, elastic, stress: Default::default(), damping: None };
+        let terms = WaveTerms { regions: vec![region], supports, ..WaveTerms::default() };
+        Self::new(layout, (terms, WaveContact::default()), &options, 1.0)
+    }
+
     pub(super) fn new(
         layout: SectorLayout,
         (terms, mut contact): (WaveTerms, WaveContact),
