@@ -33,24 +33,13 @@ pub struct SectorSliding {
 }
 
 impl SectorSliding {
-    /// Solves the equilibrium with the elastic stiffness of one sector.
+    /// Solves the equilibrium with the elastic stiffness of one sector; with a contact that stiffens with pressure, if there is a
+    /// `law`: `N_i = w_i p(delta - u_n)`.
     ///
     /// # Errors
     /// [`PrestressError::Separation`] where a node would open, [`PrestressError::Singular`] for a
     /// stiffness that is not positive definite.
     pub fn solve(
-        sector: &SectorMesh,
-        elastic: &SectorMatrix,
-        contact: &SlidingContact,
-    ) -> Result<Self, PrestressError> {
-        Self::solve_with(sector, elastic, contact, None)
-    }
-
-    /// [`Self::solve`] with a contact that stiffens with pressure, if there is a `law`: `N_i = w_i p(delta - u_n)`.
-    ///
-    /// # Errors
-    /// As [`Self::solve`].
-    pub fn solve_with(
         sector: &SectorMesh,
         elastic: &SectorMatrix,
         contact: &SlidingContact,

@@ -35,7 +35,7 @@ impl WaveTangent {
         let springs = supports.iter().map(|(_, [springs, _])| springs);
         let supported = elastic[1..].iter().chain(springs);
         let supported = supported.fold(elastic[0].clone(), |sum, own| sum.plus(own));
-        let base = SectorSliding::solve_with(sector, &supported, contact, options.contact.law)?;
+        let base = SectorSliding::solve(sector, &supported, contact, options.contact.law)?;
 
         let stress = |own: &Vec<RegionMaterial>| match options.geometric_stiffness {
             true => [&base.pressed_displacement, &base.sheared_displacement]

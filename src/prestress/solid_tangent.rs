@@ -25,7 +25,7 @@ impl WaveTangent {
             return Err(PrestressError::AtRest);
         }
         let elastic = solid::stiffness(sector, material);
-        let base = SolidSliding::solve_with(sector, &elastic, contact, options.contact.base_law())?;
+        let base = SolidSliding::solve(sector, &elastic, contact, options.contact.base_law())?;
         let stress = |displacement| solid::geometric_stiffness(sector, material, displacement);
         let (stress, turning) = match options.geometric_stiffness {
             true => (

@@ -22,7 +22,7 @@ mod solid;
 mod sweep;
 mod vectors;
 
-pub use map::{CyclicModel, StabilityMapPoint, map_of, solid_stability_map, stability_map};
+pub use map::{StabilityMapPoint, map_of};
 pub use sensitivity::{Beside, WavePair, wave_pairs, wave_responses};
 pub use solid::{Overdamped, SolidModel, SolidSweep, solid_sweep, solid_sweep_with_waves};
 pub use sweep::{Coverage, CyclicSweep, onsets, sweep, sweep_with_waves};

@@ -66,7 +66,7 @@ impl SlidingModel {
                 let materials = &annulus.materials;
                 let stiffness = supported_stiffness(&sector, materials);
                 let law = options.contact.law;
-                let base = SectorSliding::solve_with(&sector, &stiffness, sliding, law)?;
+                let base = SectorSliding::solve(&sector, &stiffness, sliding, law)?;
                 let base = SteadySliding::from_sector(&mesh, &sector, &base, sliding);
                 (Arc::new(mesh.mesh), SteadyState::Plane(Box::new(base)))
             }
