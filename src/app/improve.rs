@@ -2,8 +2,7 @@
 
 use super::profile::Profile;
 use super::{Failure, RunOptions, Session, terminal};
-use crate::results::improve::{ImproveSummary, document, draw, write};
-use crate::results::write_summary;
+use crate::results::improve::{ImproveSummary, document, figures, write};
 use crate::study::extent_of;
 use crate::study::improve::improve;
 use clap::Args;
@@ -63,9 +62,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         manifest: session.manifest.clone(),
     };
     write(&folder, &summary, &found.mesh, &found.fields)?;
-    if let Some(drawing) = session.options.output.drawing() {
-        draw(&folder, &summary, &found.mesh, &found.fields, &drawing)?;
-    }
-    let object = write_summary(&folder, &summary)?;
-    session.options.output.finish(folder, &document(&summary).to_text(), &object)
+    let document = document(&summary);
+    let text = document.to_text();
+    let figures = || figures(&summary, &found.mesh, &found.fields);
+    session.options.output.finish_result(folder, &text, document, &summary, figures)
 }
