@@ -37,7 +37,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     for case in cycles.flat_map(|of| &of.cases) {
         cycle::check_memory(case)?;
     }
-    let folder = session.open_folder()?;
+    let folder = session.open_folder(false)?;
     terminal::catch_signals(terminal::NOTHING_KEPT);
 
     let count = levels.iter().map(|of| of.cases.len() as u64).sum();

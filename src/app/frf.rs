@@ -37,7 +37,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let case = &session.case;
     let frf = case.require_frf()?;
     session.check_memory(case.memory("frf").0)?;
-    let folder = session.open_folder()?;
+    let folder = session.open_folder(false)?;
     terminal::catch_signals(terminal::NOTHING_KEPT);
     let bar = terminal::progress(session.options.output.is_quiet(), 0, "frequencies");
     let computed = FrequencyStudy::new(case)?.solve(&|lines| {

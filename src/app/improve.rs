@@ -40,11 +40,9 @@ pub const PROFILE: Profile = Profile {
 /// A bad case, nothing that grows, an output folder that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let session = Session::start("improve", &arguments.options)?;
-    let cost = session.case.cost();
-    let solver_bytes = cost.cea.map_or(0.0, |cea| cea.memory_bytes);
-    session.check_memory(cost.mesh_memory_bytes + solver_bytes)?;
+    session.check_memory(session.case.memory("cea").0)?;
     session.case.require_cea()?;
-    let folder = session.open_folder()?;
+    let folder = session.open_folder(false)?;
     terminal::catch_signals(terminal::NOTHING_KEPT);
     let found = improve(&session.case)?;
     let summary = ImproveSummary {

@@ -34,7 +34,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let session = Session::start("mesh", &arguments.options)?;
     let case = &session.case;
     session.check_memory(case.cost().mesh_memory_bytes)?;
-    let folder = session.open_folder()?;
+    let folder = session.open_folder(false)?;
     if let Some(assembly) = case.body.assembly() {
         return run_solid(&session, folder, assembly);
     }
