@@ -4,7 +4,7 @@
 //! birth, the time from a cycle to a neighbour at a speed 2 % higher or 20 % lower (fastest of several), that of its
 //! stability, and the time of the branch over 61 speeds from 10 to 6000 rpm. Then 60 cycles of the shipped case on 300 x 13
 //! elements (8,400 unknowns, 300 contact nodes), where friction falls with speed, over friction and over speed. Without `--bench`
-//! (as `cargo test --benches` calls it) branches have three values, and everything is done once.
+//! (as `cargo test --benches` calls it) meshes are coarse, branches have three values, and everything is done once.
 
 use frictionsim::case::Case;
 use frictionsim::cea::Unwatched;
@@ -26,8 +26,8 @@ fn main() {
     let specification = AnnulusSpecification {
         inner_radius: 0.0205,
         outer_radius: 0.0905,
-        circumferential_elements: 180,
-        radial_elements: 35,
+        circumferential_elements: counted(180, 60),
+        radial_elements: counted(35, 12),
         radial_grading: 1.0,
         element: ElementKind::Quad4,
         outer: BoundaryCondition::Clamped,
@@ -86,8 +86,8 @@ fn main() {
 fn whole_mesh(key: &str, range: [f64; 2]) {
     let ([from, to], count) = (range, counted(60, 3));
     let overrides = [
-        "mesh.circumferential_elements=300".to_owned(),
-        "mesh.radial_elements=13".to_owned(),
+        format!("mesh.circumferential_elements={}", counted(300, 72)),
+        format!("mesh.radial_elements={}", counted(13, 5)),
         "contact.static_friction_ratio=1.3".to_owned(),
         "contact.decay_speed=0.5".to_owned(),
         "cycle.stability=\"none\"".to_owned(),

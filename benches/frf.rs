@@ -1,6 +1,7 @@
 //! Cost of frequency responses of the disc of 180 x 35 elements at 1000 frequencies, one thread.
 //!
-//! `cargo bench --bench frf`. Matrices and meshes are made outside the measured time.
+//! `cargo bench --bench frf`. Matrices and meshes are made outside the measured time. Without `--bench` (as `cargo test
+//! --benches` calls it) it takes 60 x 11 elements at 50 frequencies.
 
 use divan::Bencher;
 use frictionsim::contact::{ContactStiffness, SlidingContact};
@@ -22,16 +23,26 @@ fn main() {
     divan::main();
 }
 
-const SPECIFICATION: AnnulusSpecification = AnnulusSpecification {
-    inner_radius: 0.0205,
-    outer_radius: 0.0905,
-    circumferential_elements: 180,
-    radial_elements: 35,
-    radial_grading: 1.0,
-    element: ElementKind::Quad4,
-    outer: BoundaryCondition::Clamped,
-    shaft: None,
-};
+/// Whether something is measured.
+fn is_measured() -> bool {
+    std::env::args().any(|argument| argument == "--bench")
+}
+
+fn specification() -> AnnulusSpecification {
+    let (circumferential_elements, radial_elements) =
+        if is_measured() { (180, 35) } else { (60, 11) };
+    AnnulusSpecification {
+        inner_radius: 0.0205,
+        outer_radius: 0.0905,
+        circumferential_elements,
+        radial_elements,
+        radial_grading: 1.0,
+        element: ElementKind::Quad4,
+        outer: BoundaryCondition::Clamped,
+        shaft: None,
+    }
+}
+
 const MATERIAL: ElasticMaterial = ElasticMaterial {
     young_modulus: 2.5e9,
     poisson_ratio: 0.3805,
@@ -48,7 +59,11 @@ const CONTACT: SlidingContact = SlidingContact {
     rotation_speed: 63.9,
 };
 const FORCE: Terminal = Terminal { node: 5, direction: Direction::Radial };
-const RESPONSE: Terminal = Terminal { node: 36 * 40 + 20, direction: Direction::Tangential };
+/// In the middle of the ring.
+fn response() -> Terminal {
+    let node = if is_measured() { 36 * 40 + 20 } else { 12 * 10 + 5 };
+    Terminal { node, direction: Direction::Tangential }
+}
 
 fn options() -> TangentOptions {
     TangentOptions {
@@ -61,7 +76,7 @@ fn options() -> TangentOptions {
 }
 
 fn cyclic_system(boundary: &str) -> CyclicSystem {
-    let sector = SectorMesh::generate(&SPECIFICATION).expect("a valid mesh");
+    let sector = SectorMesh::generate(&specification()).expect("a valid mesh");
     if boundary == "sliding" {
         let tangent = SectorTangent::linearize(&sector, &MATERIAL, &options(), &CONTACT)
             .expect("contact stays closed");
@@ -72,7 +87,7 @@ fn cyclic_system(boundary: &str) -> CyclicSystem {
 }
 
 fn whole_system(boundary: &str) -> FrfSystem {
-    let annulus = AnnulusMesh::generate(&SPECIFICATION).expect("a valid mesh");
+    let annulus = AnnulusMesh::generate(&specification()).expect("a valid mesh");
     if boundary == "sliding" {
         let stiffness = assemble_stiffness(&annulus.mesh, &MATERIAL);
         let base = SteadySliding::solve(&annulus.mesh, &stiffness, &CONTACT)
@@ -86,7 +101,8 @@ fn whole_system(boundary: &str) -> FrfSystem {
 }
 
 fn frequencies() -> Vec<f64> {
-    (1..=1000).map(|line| 10.0 * f64::from(line)).collect()
+    let count = if is_measured() { 1000 } else { 50 };
+    (1..=count).map(|line| 10.0 * f64::from(line)).collect()
 }
 
 fn on_one_thread<T: Send>(work: impl Fn() -> T + Sync + Send) -> T {
@@ -98,14 +114,14 @@ fn on_one_thread<T: Send>(work: impl Fn() -> T + Sync + Send) -> T {
 #[divan::bench(args = ["free", "clamped", "sliding"], max_time = 4)]
 fn cyclic(bencher: Bencher<'_, '_>, boundary: &str) {
     let (system, f) = (cyclic_system(boundary), frequencies());
-    bencher.bench(|| on_one_thread(|| cyclic_response(&system, FORCE, RESPONSE, &f).unwrap()));
+    bencher.bench(|| on_one_thread(|| cyclic_response(&system, FORCE, response(), &f).unwrap()));
 }
 
 /// Sparse solution of the whole mesh.
 #[divan::bench(args = ["free", "clamped", "sliding"], sample_count = 1)]
 fn direct(bencher: Bencher<'_, '_>, boundary: &str) {
     let (system, f) = (whole_system(boundary), frequencies());
-    let [force, response] = [FORCE, RESPONSE].map(|t| system.unknown(t, "node").unwrap());
+    let [force, response] = [FORCE, response()].map(|t| system.unknown(t, "node").unwrap());
     bencher.bench(|| on_one_thread(|| direct_response(&system, force, response, &f).unwrap()));
 }
 
@@ -113,7 +129,7 @@ fn direct(bencher: Bencher<'_, '_>, boundary: &str) {
 #[divan::bench(args = ["free", "clamped", "sliding"], max_time = 4)]
 fn reduced(bencher: Bencher<'_, '_>, boundary: &str) {
     let (system, f) = (whole_system(boundary), frequencies());
-    let [force, response] = [FORCE, RESPONSE].map(|t| system.unknown(t, "node").unwrap());
+    let [force, response] = [FORCE, response()].map(|t| system.unknown(t, "node").unwrap());
     let settings = ReductionSettings::default();
     bencher.bench(|| {
         on_one_thread(|| reduced_response(&system, force, response, &f, &settings).unwrap())

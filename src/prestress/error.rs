@@ -43,7 +43,7 @@ pub enum PrestressError {
     },
     /// The complementarity problem has no solution that could be found.
     #[error(
-        "there is no state of steady sliding at contact.friction_coefficient = {friction_coefficient}: every choice of \
+        "there is no state of steady sliding at friction {friction_coefficient}: every choice of \
          pressed and open contact nodes pulls one or lets one penetrate (friction this large has no such state, or \
          several); lower the friction coefficient"
     )]

@@ -85,14 +85,14 @@ impl CycleReport<'_> {
         });
         let advice = self.critical.map_or_else(
             || {
-                "raise the friction coefficient; `cea` over cea.friction_coefficients finds the onsets"
+                "raise the friction coefficient, or cea.modes; `cea` over cea.friction_coefficients finds the onsets"
                     .to_owned()
             },
             |critical| format!("it loses its stability at {critical}"),
         );
         format!(
-            "steady sliding is stable at contact.friction_coefficient = {}, so no limit cycle is born there: none of {} modes up to \
-             {:.0} Hz grows{slowest} ({advice})",
+            "steady sliding is stable at friction {} as far as {} modes up to {:.0} Hz tell, so no limit cycle \
+             is sought: none of them grows{slowest} ({advice})",
             self.friction_coefficient, search.modes, search.highest_hz,
         )
     }
