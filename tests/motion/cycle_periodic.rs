@@ -176,7 +176,7 @@ fn below_the_onset_steady_sliding_is_said_to_be_stable() {
     assert!(refuse_nothing(&report).is_ok());
     let text = report.stable_sliding().unwrap();
     assert!(
-        text.contains("none of 10 modes") && text.contains("friction_coefficient = 0.5"),
+        text.contains("as far as 10 modes") && text.contains("stable at friction 0.5"),
         "{text}"
     );
     // The critical friction that it tells of: a mode grows above it, none below.

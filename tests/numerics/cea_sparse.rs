@@ -17,7 +17,9 @@ use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::{DofMap, MassKind, RayleighDamping, assemble_stiffness};
 use frictionsim::linalg::dense::random_columns;
 use frictionsim::linalg::dense_eigen::real_eigen;
-use frictionsim::linalg::{DenseLu, KrylovSchurSettings, MatrixPolynomial, krylov_schur};
+use frictionsim::linalg::{
+    BlockOperator, DenseLu, KrylovSchurSettings, MatrixPolynomial, krylov_schur,
+};
 use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
 use std::f64::consts::TAU;
@@ -234,6 +236,28 @@ fn quadratic_and_reduced_problem_have_one_spectrum() {
     }
 }
 
+/// Modes by rising frequency from the `wanted` largest eigenvalues of the operator with the factors of `K(mu)`.
+fn exact_modes(
+    tangent: &SlidingTangent,
+    linearization: Linearization,
+    mu: f64,
+    wanted: usize,
+) -> Vec<c64> {
+    let matrices = StructureMatrices::at(tangent, linearization, mu);
+    let cache = FactorCache::default();
+    let factors = StiffnessFactors::general(&tangent.stiffness, &cache, mu).unwrap();
+    let operator = ShiftInverted::new(&matrices, &factors);
+    let settings =
+        KrylovSchurSettings { wanted, tolerance: 1e-11, max_applications: 5000, dense_up_to: 0 };
+    let start = random_columns(operator.dimension(), 3, 0x5eed);
+    let pairs = krylov_schur(&operator, start, &|_| true, &settings).unwrap();
+    assert!(pairs.residuals.iter().all(|residual| *residual <= 1e-11));
+    let found = pairs.values.iter();
+    let mut exact: Vec<c64> = found.filter_map(|&s| linearization.eigenvalue(s)).collect();
+    exact.sort_by(|a, b| a.im.total_cmp(&b.im));
+    exact
+}
+
 /// The sweep's common basis against a Krylov-Schur iteration with the factors of `K(mu)` itself.
 #[test]
 fn sweep_agrees_with_krylov_schur_at_the_same_friction() {
@@ -241,17 +265,7 @@ fn sweep_agrees_with_krylov_schur_at_the_same_friction() {
     let mu = 0.6;
     let result = run(&tangent, &[mu], ModeLimit::Lowest(24));
     let linearization = Linearization::of(&tangent, 1e5, Centre::default());
-    let operator = ShiftInverted {
-        matrices: &StructureMatrices::at(&tangent, linearization, mu),
-        factors: &StiffnessFactors::general(&tangent.stiffness, &FactorCache::default(), mu)
-            .unwrap(),
-    };
-    let settings =
-        KrylovSchurSettings { wanted: 30, tolerance: 1e-12, block: 3, max_applications: 5000 };
-    let pairs = krylov_schur(&operator, &settings).unwrap();
-    let mut exact: Vec<c64> =
-        pairs.values.iter().filter_map(|&s| linearization.eigenvalue(s)).collect();
-    exact.sort_by(|a, b| a.im.total_cmp(&b.im));
+    let exact = exact_modes(&tangent, linearization, mu, 30);
     for (mode, exact) in result.points[0].modes.iter().zip(&exact) {
         assert!((mode.eigenvalue - exact).norm() < 1e-9 * exact.norm());
         assert!(mode.residual < 1e-12);
@@ -269,17 +283,7 @@ fn sweep_with_general_damping_agrees_with_krylov_schur_at_every_friction() {
     let linearization = Linearization::of(&tangent, 1e5, Centre::default());
     for point in &result.points[1..] {
         let mu = point.friction_coefficient;
-        let operator = ShiftInverted {
-            matrices: &StructureMatrices::at(&tangent, linearization, mu),
-            factors: &StiffnessFactors::general(&tangent.stiffness, &FactorCache::default(), mu)
-                .unwrap(),
-        };
-        let settings =
-            KrylovSchurSettings { wanted: 24, tolerance: 1e-11, block: 3, max_applications: 5000 };
-        let pairs = krylov_schur(&operator, &settings).unwrap();
-        let found = pairs.values.iter();
-        let mut exact: Vec<c64> = found.filter_map(|&s| linearization.eigenvalue(s)).collect();
-        exact.sort_by(|a, b| a.im.total_cmp(&b.im));
+        let exact = exact_modes(&tangent, linearization, mu, 24);
         assert_eq!(point.modes.len(), 8);
         for (mode, exact) in point.modes.iter().zip(&exact) {
             let error = (mode.eigenvalue - exact).norm() / exact.norm();

@@ -232,13 +232,16 @@ pub struct Orthonormalized {
 
 /// Orthonormalizes the columns of `w` against an orthonormal `basis` and one another.
 ///
-/// Block classical Gram-Schmidt, twice, then modified Gram-Schmidt, twice, within the block. A column
-/// that keeps less than `drop_below` of its length is left out: its coefficients stand, its remainder
+/// Block classical Gram-Schmidt, twice, then modified Gram-Schmidt, twice, within the block; both once more for a column of which
+/// little is left then. A column that keeps less than `drop_below` of its length is left out: its coefficients stand, its remainder
 /// is lost.
 #[inline]
 pub fn orthonormalize(basis: MatRef<'_, f64>, w: Mat<f64>, drop_below: f64) -> Orthonormalized {
     orthonormalize_down_to(basis, w, |length| drop_below * length)
 }
+
+/// Part of a column that is left of it below which round-off of what was taken away may be seen beside it.
+const SHORT_REMAINDER: f64 = 0.1;
 
 /// [`orthonormalize`] with the bound on the remainder of a column as a function of its length.
 fn orthonormalize_down_to(
@@ -257,7 +260,17 @@ fn orthonormalize_down_to(
     let mut within = Mat::<f64>::zeros(count, count);
     let mut kept: Vec<usize> = Vec::with_capacity(count);
     for j in 0..count {
-        for _ in 0..2 {
+        for pass in 0..3 {
+            // What the block takes away leaves round-off along the basis, which a short remainder does not bear.
+            if pass == 2 && norm(column(w.as_ref(), j)) > SHORT_REMAINDER * lengths[j] {
+                break;
+            }
+            if pass == 2 {
+                let own = w.as_mut().subcols_mut(j, 1);
+                let overlap = transpose_product(basis, own.as_ref());
+                add_product(own, -1.0, basis, overlap.as_ref());
+                (0..basis.ncols()).for_each(|i| against[(i, j)] += overlap[(i, 0)]);
+            }
             for (slot, &k) in kept.iter().enumerate() {
                 let (q, v) = two_columns(&mut w, k, j);
                 let overlap = dot(q, v);
@@ -364,6 +377,24 @@ mod tests {
         let gram = transpose_product(result.columns.as_ref(), result.columns.as_ref());
         assert!((gram - Mat::<f64>::identity(3, 3)).norm_max() < 1e-14);
         assert!(transpose_product(basis.as_ref(), result.columns.as_ref()).norm_max() < 1e-15);
+    }
+
+    /// Consistency check: columns that differ by little are orthonormal to the basis, too, and add up to what was given.
+    #[test]
+    fn short_remainders_within_a_block_stay_orthogonal_to_the_basis() {
+        let none = Mat::zeros(50, 0);
+        let basis = orthonormalize(none.as_ref(), random_columns(50, 20, 1), 1e-10).columns;
+        let first = random_columns(50, 1, 2);
+        let apart = random_columns(50, 4, 3);
+        let w = Mat::from_fn(50, 4, |i, j| first[(i, 0)] + 1e-11 * j as f64 * apart[(i, j)]);
+        let result = orthonormalize(basis.as_ref(), w.clone(), 1e-13);
+        assert_eq!(result.columns.ncols(), 4);
+        assert!(transpose_product(basis.as_ref(), result.columns.as_ref()).norm_max() < 1e-14);
+        let gram = transpose_product(result.columns.as_ref(), result.columns.as_ref());
+        assert!((gram - Mat::<f64>::identity(4, 4)).norm_max() < 1e-14);
+        let back = product(basis.as_ref(), result.against.as_ref())
+            + product(result.columns.as_ref(), result.within.as_ref());
+        assert!((back - w).norm_max() < 1e-14);
     }
 
     /// Consistency check: what is hardly beyond a basis is orthonormal to it, too.

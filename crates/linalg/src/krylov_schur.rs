@@ -1,13 +1,17 @@
 //! Block Krylov-Schur iteration for the eigenvalues of largest modulus of a real operator.
 
 use super::dense::{
-    GrowingColumns, Orthonormalized, add_product, orthonormalize, product, random_columns,
-    transpose_product,
+    GrowingColumns, Orthonormalized, add_product, orthonormalize, product, transpose_product,
 };
 use super::dense_eigen::{RealEigen, real_eigen};
 use super::gram::orthonormal_columns;
 use super::{LinalgError, interruption};
 use faer::{Mat, MatRef, c64};
+
+/// Columns of the basis, for each eigenvalue wanted, at the first look at the projected problem: with fewer nothing has converged.
+const FIRST_LOOK: usize = 2;
+/// Columns of the basis, for each eigenvalue wanted, from which on it is restarted: with fewer, restarts cost more than they save.
+const LARGEST_BASIS: usize = 3;
 
 /// A real linear operator that is applied to blocks of vectors.
 pub trait BlockOperator {
@@ -17,17 +21,18 @@ pub trait BlockOperator {
     fn apply(&self, x: MatRef<'_, f64>) -> Mat<f64>;
 }
 
-/// Settings of [`krylov_schur`].
+/// What [`krylov_schur`] looks for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KrylovSchurSettings {
     /// Eigenvalues wanted, largest modulus first; one more where their number would split a conjugate pair.
     pub wanted: usize,
     /// Bound on `|S x - theta x| / |theta x|`.
     pub tolerance: f64,
-    /// Width of the random start block.
-    pub block: usize,
-    /// Operator applications (in vectors) after which the iteration gives up.
+    /// Operator applications (in vectors) after which the pairs are given as they are.
     pub max_applications: usize,
+    /// Dimension up to which a dense decomposition is as cheap, and misses nothing; up to three times as large, one stands in for an
+    /// iteration that does not converge.
+    pub dense_up_to: usize,
 }
 
 /// Real eigenpairs in real storage, largest modulus first.
@@ -40,88 +45,93 @@ pub struct RealPairs {
     pub values: Vec<c64>,
     /// Vectors of unit length (pair: of the complex vector), `dimension x values.len()`.
     pub vectors: Mat<f64>,
-    /// `|S x - theta x| / |theta|` of each.
+    /// `|S x - theta x| / |theta|` of each, before the last application; zeros of a dense decomposition.
     pub residuals: Vec<f64>,
-    /// Operator applications spent, in vectors.
-    pub applications: usize,
 }
 
-/// Eigenvalues of largest modulus of `S`, with vectors.
+/// Eigenvalues of largest modulus of `S` among those that `is_wanted` holds for, with vectors; a conjugate pair is asked for by its
+/// member with `Im > 0`.
 ///
-/// Block Arnoldi, `S Q = Q H + Q' B`, with thick restarts; the vectors returned are one application of
-/// `S` further than the Ritz vectors, which damps what the operator damps. The start is
-/// pseudo-random and always the same. Complete up to the multiplicity that the block width resolves at once; a multiple eigenvalue beyond it converges
-/// later, through round-off.
+/// Block Arnoldi, `S Q = Q H + Q' B`, from the `start`, with thick restarts. The vectors returned, `Q H y + Q' B y`, are one application
+/// of `S` further than the Ritz vectors `Q y`, which damps what the operator damps. Complete up to the multiplicity that the block
+/// width resolves at once; a multiple eigenvalue beyond it converges later, through round-off. Pairs that have not converged after
+/// `max_applications` are returned as they are: their residuals tell.
 ///
 /// # Errors
-/// If pairs remain unconverged after `max_applications`; none of them is returned then.
+/// [`LinalgError::DenseEigen`].
 ///
 /// Source: G. W. Stewart, A Krylov-Schur algorithm for large eigenproblems, SIAM J. Matrix Anal.
 /// Appl. 23 (2001); here in blocks, and with an orthonormal basis of the Ritz subspace for the Schur
 /// vectors.
 pub fn krylov_schur(
     operator: &dyn BlockOperator,
+    start: Mat<f64>,
+    is_wanted: &dyn Fn(c64) -> bool,
     settings: &KrylovSchurSettings,
 ) -> Result<RealPairs, LinalgError> {
-    let n = operator.dimension();
-    let (count, seed) = (settings.wanted, random_columns(n, settings.block.min(n), 0x5eed));
-    if 2 * count + 8 * seed.ncols() >= n {
-        return whole(operator, count);
+    let (n, width) = (operator.dimension(), start.ncols());
+    if n <= settings.dense_up_to || LARGEST_BASIS * settings.wanted + 8 * width >= n {
+        return whole(operator, is_wanted, settings.wanted);
     }
-    let mut process = BlockArnoldi::new(operator, seed);
-    let mut looked_at = 0;
+    let mut process = BlockArnoldi::new(operator, start);
+    let mut next_look = FIRST_LOOK * settings.wanted;
     loop {
         interruption::check();
         process.expand();
-        let too_small = process.dimension() < count;
-        // A dense decomposition costs as much as many applications: look when the basis has grown by a tenth.
-        let too_early = 10 * process.dimension() < 11 * looked_at;
-        if (too_small || too_early) && !process.is_exhausted() {
+        let is_spent = process.applications >= settings.max_applications;
+        if process.dimension() < next_look && !process.is_exhausted() && !is_spent {
             continue;
         }
-        looked_at = process.dimension();
-        let eigen = real_eigen(process.projection.as_ref(), false, count)?;
+        // A dense decomposition costs as much as many applications: look when the basis has grown by a tenth.
+        next_look = (11 * process.dimension()).div_ceil(10);
+        let eigen = real_eigen(process.projection.as_ref(), false, settings.wanted)?;
+        let chosen = leading(&eigen.values, is_wanted, settings.wanted);
+        let residuals = process.residuals(&eigen, &chosen);
+        let is_converged = residuals.iter().all(|residual| *residual <= settings.tolerance);
+        if is_spent && !is_converged && n <= 3 * settings.dense_up_to {
+            return whole(operator, is_wanted, settings.wanted);
+        }
+        let is_complete = chosen.len() >= settings.wanted && is_converged;
+        if is_complete || process.is_exhausted() || is_spent {
+            return Ok(process.finish(&eigen, &chosen, residuals));
+        }
+
+        // What is larger than the last one wanted stays, wanted or not, and a third of the rest.
         let order = by_modulus(&eigen.values);
-        let residuals = process.ritz_residuals(&eigen);
-        let wanted = wanted_count(&eigen, &order, count);
-        let is_converged = |i: &&usize| residuals[**i] <= settings.tolerance;
-        let converged = order[..wanted].iter().filter(is_converged).count();
-        if converged == wanted || process.is_exhausted() {
-            return process.finish(&eigen, &order[..wanted], settings);
-        }
-        if process.applications >= settings.max_applications {
-            return Err(LinalgError::NotConverged {
-                converged,
-                wanted,
-                tolerance: settings.tolerance,
-                applications: process.applications,
-            });
-        }
-        let target = wanted.max(process.width());
-        let limit = 2 * target + 8 * process.width();
-        if process.dimension() + process.width() > limit.min(n) {
+        let last =
+            chosen.last().map_or(0, |&own| 1 + order.iter().position(|&i| i == own).unwrap_or(0));
+        let target = last.max(settings.wanted).max(process.width());
+        if process.dimension() + process.width() > LARGEST_BASIS * target + 8 * process.width() {
             let keep = target + (process.dimension() - target) / 3;
             process.restart(&eigen, &order[..keep.min(order.len())]);
-            looked_at = process.dimension();
+            next_look = (11 * process.dimension()).div_ceil(10);
         }
     }
 }
 
-/// The `count` largest pairs of a small operator by a dense decomposition: a basis of twice their number would be nearly all of
-/// its space.
-fn whole(operator: &dyn BlockOperator, count: usize) -> Result<RealPairs, LinalgError> {
+/// The pairs of a small operator by a dense decomposition.
+fn whole(
+    operator: &dyn BlockOperator,
+    is_wanted: &dyn Fn(c64) -> bool,
+    wanted: usize,
+) -> Result<RealPairs, LinalgError> {
     let n = operator.dimension();
     let matrix = operator.apply(Mat::identity(n, n).as_ref());
-    let eigen = real_eigen(matrix.as_ref(), false, count)?;
-    let order = by_modulus(&eigen.values);
-    let own = wanted_count(&eigen, &order, count);
-    let chosen = &order[..own];
-    let values: Vec<c64> = chosen.iter().map(|&i| eigen.values[i]).collect();
-    let ritz = Mat::from_fn(n, own, |i, j| eigen.right[(i, chosen[j])]);
-    let mut vectors = product(matrix.as_ref(), ritz.as_ref());
-    let residuals = pair_residuals(&values, &ritz, &vectors);
-    normalize_pairs(&values, &mut vectors);
-    Ok(RealPairs { values, vectors, residuals, applications: n })
+    let eigen = real_eigen(matrix.as_ref(), false, n)?;
+    let chosen = leading(&eigen.values, is_wanted, wanted);
+    let ritz = Mat::from_fn(n, chosen.len(), |i, j| eigen.right[(i, chosen[j])]);
+    let vectors = product(matrix.as_ref(), ritz.as_ref());
+    let residuals = vec![0.0; chosen.len()];
+    Ok(normalized(&eigen, &chosen, vectors, residuals))
+}
+
+/// The `wanted` leading ones of the eigenvalues that `is_wanted` holds for, pairs unbroken.
+fn leading(values: &[c64], is_wanted: &dyn Fn(c64) -> bool, wanted: usize) -> Vec<usize> {
+    let mut order = by_modulus(values);
+    order.retain(|&i| is_wanted(c64::new(values[i].re, values[i].im.abs())));
+    let splits_pair = order.get(wanted.wrapping_sub(1)).is_some_and(|&i| values[i].im > 0.0);
+    order.truncate(wanted + usize::from(splits_pair));
+    order
 }
 
 /// Indices of the eigenvalues, largest modulus first, pairs unbroken.
@@ -130,13 +140,6 @@ fn by_modulus(values: &[c64]) -> Vec<usize> {
     // A stable sort: the two members of a pair have bitwise equal modulus and stay neighbours.
     order.sort_by(|&a, &b| values[b].norm().total_cmp(&values[a].norm()));
     order
-}
-
-/// How many leading eigenvalues are wanted, of those that there are.
-fn wanted_count(eigen: &RealEigen, order: &[usize], count: usize) -> usize {
-    let count = count.min(order.len());
-    let splits_pair = count > 0 && eigen.values[order[count - 1]].im > 0.0;
-    count + usize::from(splits_pair)
 }
 
 /// `S Q = Q H + Q' B` with `[Q Q']` orthonormal.
@@ -209,18 +212,17 @@ impl<'a> BlockArnoldi<'a> {
         self.coupling = coupling;
     }
 
-    /// `|B y| / |theta|` of every Ritz pair, `|y| = 1`.
-    fn ritz_residuals(&self, eigen: &RealEigen) -> Vec<f64> {
+    /// `|B y| / |theta|`, `|y| = 1`, of the Ritz pairs `chosen`.
+    fn residuals(&self, eigen: &RealEigen, chosen: &[usize]) -> Vec<f64> {
         let overflow = product(self.coupling.as_ref(), eigen.right.as_ref());
-        (0..eigen.values.len())
-            .map(|i| {
-                let (first, last) = pair_columns(&eigen.values, i);
-                let norm = |m: &Mat<f64>| {
-                    (first..=last).map(|j| m.col(j).squared_norm_l2()).sum::<f64>().sqrt()
-                };
-                norm(&overflow) / (norm(&eigen.right) * eigen.values[i].norm())
-            })
-            .collect()
+        let residual = |&i: &usize| {
+            let (first, last) = pair_columns(&eigen.values, i);
+            let norm = |m: &Mat<f64>| {
+                (first..=last).map(|j| m.col(j).squared_norm_l2()).sum::<f64>().sqrt()
+            };
+            norm(&overflow) / (norm(&eigen.right) * eigen.values[i].norm())
+        };
+        chosen.iter().map(residual).collect()
     }
 
     /// Shrinks the basis to the Ritz vectors `kept`, with the next block unchanged.
@@ -240,33 +242,14 @@ impl<'a> BlockArnoldi<'a> {
         self.coupling = product(self.coupling.as_ref(), vectors.as_ref());
     }
 
-    /// Purified eigenvectors of the chosen Ritz pairs, each held to the tolerance once more.
-    fn finish(
-        mut self,
-        eigen: &RealEigen,
-        chosen: &[usize],
-        settings: &KrylovSchurSettings,
-    ) -> Result<RealPairs, LinalgError> {
-        let values: Vec<c64> = chosen.iter().map(|&i| eigen.values[i]).collect();
-        let coefficients =
-            Mat::from_fn(self.dimension(), chosen.len(), |i, j| eigen.right[(i, chosen[j])]);
-        let ritz = product(self.basis.columns(), coefficients.as_ref());
-        let mut vectors = self.operator.apply(ritz.as_ref());
-        self.applications += chosen.len();
-        let residuals = pair_residuals(&values, &ritz, &vectors);
-        // The explicit residual has a floor of round-off that the recurrence does not see.
-        let bound = settings.tolerance.max(1e-10);
-        let converged = residuals.iter().filter(|&&r| r <= bound).count();
-        if converged < values.len() {
-            return Err(LinalgError::NotConverged {
-                converged,
-                wanted: values.len(),
-                tolerance: bound,
-                applications: self.applications,
-            });
-        }
-        normalize_pairs(&values, &mut vectors);
-        Ok(RealPairs { values, vectors, residuals, applications: self.applications })
+    /// The `chosen` Ritz pairs, one application of the operator further.
+    fn finish(self, eigen: &RealEigen, chosen: &[usize], residuals: Vec<f64>) -> RealPairs {
+        let ritz = Mat::from_fn(self.dimension(), chosen.len(), |i, j| eigen.right[(i, chosen[j])]);
+        let within = product(self.projection.as_ref(), ritz.as_ref());
+        let beyond = product(self.coupling.as_ref(), ritz.as_ref());
+        let mut vectors = product(self.basis.columns(), within.as_ref());
+        add_product(vectors.as_mut(), 1.0, self.next.as_ref(), beyond.as_ref());
+        normalized(eigen, chosen, vectors, residuals)
     }
 }
 
@@ -299,35 +282,118 @@ fn pair_columns(values: &[c64], i: usize) -> (usize, usize) {
     }
 }
 
-/// `|S x - theta x| / |theta x|` of each pair from `x` and `S x`.
-fn pair_residuals(values: &[c64], x: &Mat<f64>, image: &Mat<f64>) -> Vec<f64> {
-    (0..values.len())
-        .map(|i| {
-            let (first, last) = pair_columns(values, i);
-            let theta = values[first];
-            let (mut error, mut length) = (0.0, 0.0);
-            for row in 0..x.nrows() {
-                let at = |m: &Mat<f64>| {
-                    let imaginary = if last > first { m[(row, last)] } else { 0.0 };
-                    c64::new(m[(row, first)], imaginary)
-                };
-                error += (at(image) - theta * at(x)).norm_sqr();
-                length += (theta * at(x)).norm_sqr();
-            }
-            (error / length).sqrt()
-        })
-        .collect()
-}
-
-/// Scales each vector, real or complex, to unit length.
-fn normalize_pairs(values: &[c64], vectors: &mut Mat<f64>) {
+/// The `chosen` pairs with these vectors, real or complex, scaled to unit length.
+fn normalized(
+    eigen: &RealEigen,
+    chosen: &[usize],
+    mut vectors: Mat<f64>,
+    residuals: Vec<f64>,
+) -> RealPairs {
+    let values: Vec<c64> = chosen.iter().map(|&i| eigen.values[i]).collect();
     let mut i = 0;
     while i < values.len() {
-        let (first, last) = pair_columns(values, i);
+        let (first, last) = pair_columns(&values, i);
         let length = (first..=last).map(|j| vectors.col(j).squared_norm_l2()).sum::<f64>().sqrt();
         for j in first..=last {
             vectors.col_mut(j).iter_mut().for_each(|v| *v /= length);
         }
         i = last + 1;
+    }
+    RealPairs { values, vectors, residuals }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dense::random_columns;
+
+    /// `[A B; I 0]`: eigenvalues `s` with `s^2 w = s A w + B w`.
+    struct Companion(Mat<f64>);
+
+    impl BlockOperator for Companion {
+        fn dimension(&self) -> usize {
+            self.0.nrows()
+        }
+
+        fn apply(&self, x: MatRef<'_, f64>) -> Mat<f64> {
+            product(self.0.as_ref(), x)
+        }
+    }
+
+    /// A lightly damped unsymmetric problem with frequencies `1, 2, ...`, and four motions of large `|s|` that decay and hardly oscillate,
+    /// `|Im s| / |s| = 0.03`.
+    fn oscillators(size: usize) -> Companion {
+        let (r, s) = (random_columns(size, size, 3), random_columns(size, size, 4));
+        let decay = |i: usize| (i + 4 >= size).then(|| -5.0 - (size - i) as f64);
+        let is_free = |i: usize, j: usize| decay(i).or(decay(j)).is_none();
+        let damped = |i: usize, j: usize| match decay(i).filter(|_| i == j) {
+            Some(p) => 2.0 * p,
+            None if is_free(i, j) => -2e-3 * r[(i, j)] / ((1 + i) * (1 + j)) as f64,
+            None => 0.0,
+        };
+        let inert = |i: usize, j: usize| match decay(i).filter(|_| i == j) {
+            Some(p) => -p * p * (1.0 + 0.03 * 0.03),
+            None if is_free(i, j) => {
+                let own = f64::from(u8::from(i == j)) / ((1 + i) as f64).powi(2);
+                1e-2 * s[(i, j)] / ((1 + i) * (1 + j)) as f64 - own
+            }
+            None => 0.0,
+        };
+        Companion(Mat::from_fn(2 * size, 2 * size, |i, j| match (i < size, j < size) {
+            (true, true) => damped(i, j),
+            (true, false) => inert(i, j - size),
+            (false, _) => f64::from(u8::from(i - size == j)),
+        }))
+    }
+
+    fn oscillates(s: c64) -> bool {
+        s.im > 0.1 * s.norm()
+    }
+
+    fn settings(max_applications: usize, dense_up_to: usize) -> KrylovSchurSettings {
+        KrylovSchurSettings { wanted: 16, tolerance: 1e-12, max_applications, dense_up_to }
+    }
+
+    /// Independent check: by the iteration and by a dense decomposition the same pairs, whose vectors satisfy the equation; what is not
+    /// wanted takes no places.
+    #[test]
+    fn pairs_that_are_wanted_agree_with_a_dense_decomposition() {
+        let operator = oscillators(150);
+        let [found, exact] = [0, 300].map(|dense_up_to| {
+            let start = random_columns(300, 2, 1);
+            krylov_schur(&operator, start, &oscillates, &settings(4000, dense_up_to)).unwrap()
+        });
+        assert_eq!((found.values.len(), exact.values.len()), (16, 16));
+        assert!(found.residuals.iter().all(|residual| *residual <= 1e-12));
+        let images = operator.apply(found.vectors.as_ref());
+        for (k, (s, other)) in found.values.iter().zip(&exact.values).enumerate() {
+            assert!((s - other).norm() < 1e-10 * s.norm(), "{s} {other}");
+            // Of the oscillators 1, 2, ... the first eight, coupled to a hundredth.
+            assert!((s.norm().recip() - (k / 2 + 1) as f64).abs() < 0.2, "{s}");
+            if s.im > 0.0 {
+                let at = |m: &Mat<f64>, i: usize| c64::new(m[(i, k)], m[(i, k + 1)]);
+                let errors =
+                    (0..300).map(|i| (at(&images, i) - s * at(&found.vectors, i)).norm_sqr());
+                assert!(errors.sum::<f64>().sqrt() < 1e-10 * s.norm());
+            }
+        }
+    }
+
+    /// Exact: with its applications spent an iteration gives the pairs that it has, and their residuals tell.
+    #[test]
+    fn spent_iteration_gives_the_pairs_it_has() {
+        let operator = oscillators(150);
+        let start = random_columns(300, 2, 1);
+        let found = krylov_schur(&operator, start, &oscillates, &settings(40, 0)).unwrap();
+        assert!(found.values.len() <= 16 && found.residuals.iter().any(|own| *own > 1e-12));
+    }
+
+    #[test]
+    fn invariant_subspace_ends_the_iteration_with_what_there_is() {
+        let diagonal = Mat::from_fn(90, 90, |i, j| f64::from(u8::from(i == j && i < 3)) * 2.0);
+        let start = Mat::from_fn(90, 2, |i, j| f64::from(u8::from(i == j)));
+        let operator = Companion(diagonal);
+        let found = krylov_schur(&operator, start, &|s| s.norm() > 1.0, &settings(400, 0)).unwrap();
+        assert_eq!(found.values, [c64::new(2.0, 0.0); 2]);
     }
 }

@@ -5,7 +5,6 @@
 pub mod banded;
 pub mod dense;
 pub mod dense_eigen;
-pub mod dense_few;
 mod dense_lu;
 mod distribution;
 mod error;
@@ -17,7 +16,6 @@ mod krylov_schur;
 mod lanczos;
 mod pattern;
 mod polynomial;
-mod quadratic_krylov;
 mod sparse_cholesky;
 mod sparse_ldl;
 mod sparse_lu;
@@ -34,10 +32,6 @@ pub use krylov_schur::{BlockOperator, KrylovSchurSettings, RealPairs, krylov_sch
 pub use lanczos::{LanczosPairs, LanczosSettings, SymmetricPencil, block_lanczos};
 pub use pattern::SparsityPattern;
 pub use polynomial::{FrictionWeights, MatrixPolynomial};
-pub use quadratic_krylov::{
-    QuadraticKrylovSettings, QuadraticOperator, QuadraticPairs, STANDSTILL, is_vibration,
-    quadratic_krylov,
-};
 pub use sparse_cholesky::SparseCholesky;
 pub use sparse_ldl::{LdlAnalysis, SparseLdl};
 pub use sparse_lu::{ComplexSparseLu, LuAnalysis, SparseLu};

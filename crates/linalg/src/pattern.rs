@@ -119,16 +119,6 @@ impl SparsityPattern {
         positions.map(|&position| values[position as usize]).collect()
     }
 
-    /// Values in the order of the pattern, of values sorted by rows.
-    #[inline]
-    pub fn by_columns(&self, sorted: &[f64]) -> Vec<f64> {
-        let mut values = vec![0.0; sorted.len()];
-        for (&position, value) in self.row_positions.iter().zip(sorted) {
-            values[position as usize] = *value;
-        }
-        values
-    }
-
     /// Index of `(row, column)` among the nonzeros, if it is one.
     #[inline]
     pub fn position(&self, row: usize, column: usize) -> Option<usize> {

@@ -114,26 +114,10 @@ impl SparsityPattern {
         })
     }
 
-    /// `A^T x + B^T y` for each pair of columns, as [`Self::multiply_sum`] but for nonzeros in the order of the pattern.
-    #[inline]
-    pub fn multiply_transpose_sum(&self, values: [&[f64]; 2], x: [MatRef<'_, f64>; 2]) -> Mat<f64> {
-        gathered(self.dimension(), x, |column, [x, y]| {
-            let nonzeros = self.column(column);
-            let [a, b] = values;
-            nonzeros.map(|(at, i)| a[at] * x[i] + b[at] * y[i]).sum()
-        })
-    }
-
     /// `A^T x` for each column of `x`, with `A` given by its nonzero `values`.
     #[inline]
     pub fn multiply_transpose(&self, values: &[f64], x: MatRef<'_, f64>) -> Mat<f64> {
-        let [y] = self.by_lanes(x, |input, index| {
-            let mut sum = [0.0; LANES];
-            for (position, row) in self.column(index) {
-                sum = add_multiple(sum, values[position], input[row]);
-            }
-            [sum]
-        });
+        let [y] = self.multiply_transpose_each([values], x);
         y
     }
 
@@ -211,8 +195,6 @@ mod tests {
         let sorted = p.pattern().by_rows(&halves);
         let sum = p.pattern().multiply_sum([&sorted, &sorted], twice);
         assert!((sum - product(a.as_ref(), x.as_ref())).norm_max() < 1e-14);
-        let sum = p.pattern().multiply_transpose_sum([&halves, &halves], twice);
-        assert!((sum - product(a.transpose(), x.as_ref())).norm_max() < 1e-14);
         let yt = p.pattern().multiply_transpose(&values, x.as_ref());
         assert!((yt - product(a.transpose(), x.as_ref())).norm_max() < 1e-14);
     }

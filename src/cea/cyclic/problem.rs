@@ -2,9 +2,10 @@
 
 use super::path::Eigenpair;
 use super::vectors::{ZERO, add, dot, largest, product};
+use crate::cea::counted::STANDSTILL;
 use crate::fem::RayleighDamping;
 use crate::linalg::banded::{BandedLu, BandedMatrix};
-use crate::linalg::{Mat, STANDSTILL, c64};
+use crate::linalg::{Mat, c64};
 use crate::prestress::{FrictionPolynomial, HarmonicTangent, evaluate};
 
 pub(super) const I: c64 = c64::new(0.0, 1.0);

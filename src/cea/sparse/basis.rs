@@ -12,11 +12,13 @@ use super::reduced::ReducedModel;
 use super::structure::{ShiftInverted, StructureMatrices};
 use crate::cea::{CeaError, SweepProgress, SweepStage, SweepWatch};
 use crate::linalg::dense::{
-    column, column_mut, column_norms, columns_of, dot, from_columns, join_columns,
+    column, column_mut, column_norms, columns_of, dot, from_columns, join_columns, join_rows,
     orthonormal_complement, random_columns,
 };
-use crate::linalg::{KrylovSchurSettings, LinalgError, MatrixPolynomial, krylov_schur};
-use crate::linalg::{Mat, Scale};
+use crate::linalg::{
+    BlockOperator, KrylovSchurSettings, LinalgError, MatrixPolynomial, krylov_schur,
+};
+use crate::linalg::{Mat, Scale, c64};
 use crate::prestress::SlidingTangent;
 use std::borrow::Cow;
 
@@ -33,11 +35,17 @@ const STEPS_PER_DECADE: f64 = 0.7;
 const KRYLOV_TOLERANCE: f64 = 1e-3;
 /// Friction values whose modes make up the compressed basis, besides the ends.
 const CHEBYSHEV_POINTS: usize = 5;
-/// Residual of the iteration whose vectors the basis takes up, relative to the shift-inverted operator.
+/// Residual of the iteration whose vectors the basis takes up, relative to the shift-inverted operator. The ladder improves what is
+/// left of it where damping is not proportional; where it is, nothing is left.
 const SAMPLE_RESIDUAL: f64 = 1e-8;
+const PROPORTIONAL_RESIDUAL: f64 = 1e-11;
+/// Size of the operator up to which a dense decomposition is as cheap as that iteration.
+const DENSE_UP_TO: usize = 400;
 /// Part of such a vector, of unit length, that is worth keeping.
 const SAMPLE_TOLERANCE: f64 = 1e-10;
-/// Start vectors of an iteration that does not rely on the basis.
+/// Start vectors of an iteration: modes may come in pairs of equal eigenvalue, and factors are read once for both ...
+const START_WIDTH: usize = 2;
+/// ... and of one that does not rely on the basis.
 const SEARCH_WIDTH: usize = 4;
 /// Corrections of a single mode in a row.
 const MAX_CORRECTIONS: usize = 16;
@@ -97,7 +105,10 @@ impl<'a> BasisBuilder<'a> {
         watch: &'a dyn SweepWatch,
     ) -> Self {
         let mut model = ReducedModel::empty(tangent, linearization);
-        model.extend(modes.clone(), 1e-8);
+        // Rigid motions on their own: samples hold the first columns, and a block is put in the order of its remainders.
+        let (first, others) = modes.split_at_col(rigid);
+        model.extend(first.to_owned(), 1e-8);
+        model.extend(others.to_owned(), 1e-8);
         Self {
             tangent,
             linearization,
@@ -272,45 +283,92 @@ impl<'a> BasisBuilder<'a> {
         open.with_energy(corrections)
     }
 
-    /// Adds the dominant vectors at `mu` from a Krylov-Schur iteration of its own, independent of the
-    /// basis so far, with the factors of `K(mu)`; `extra` modes beyond the usual count.
+    /// Adds the lowest modes at `mu` from an iteration of its own, independent of the basis so far, with the factors of `K(mu)`;
+    /// `extra` modes beyond the usual count.
     ///
     /// # Errors
-    /// If `K(mu)` is singular or the iteration does not converge.
+    /// If `K(mu)` is singular or a dense decomposition fails.
     pub fn search(&mut self, mu: f64, extra: usize) -> Result<(), CeaError> {
-        let unknowns = self.tangent.stiffness.dimension();
-        let wanted = (self.count + extra + self.rigid).min(unknowns);
+        // What was held there may span what looks like a mode and is none.
         if let Linearization::Companion { .. } = self.linearization {
-            let width = SEARCH_WIDTH.min(unknowns);
-            let start = [3, 4].map(|seed| random_columns(unknowns, width, seed));
-            // What was held there may span what looks like a mode and is none.
             self.model.drop_sample(mu);
-            self.sample(mu, wanted, |_| start)?;
-            return Ok(());
         }
-        let vectors = self.step(mu, |builder| builder.dominant_vectors(mu, wanted))?;
-        self.model.extend(vectors.clone(), COMPRESSED);
-        if self.is_sampling {
-            self.model.hold_sample(mu, &vectors);
-        }
+        self.sample(mu, self.leading_count() + extra, None)?;
         Ok(())
     }
 
-    /// The `wanted` dominant vectors of the reduced problem at `mu`.
-    fn dominant_vectors(&self, mu: f64, wanted: usize) -> Result<Mat<f64>, CeaError> {
-        let unknowns = self.tangent.stiffness.dimension();
+    /// Adds the vectors of the `count` lowest motions at `mu` from a Krylov-Schur iteration with the factors of `K(mu)`, which begins
+    /// with a few combinations of the `leading` vectors of the basis, or with any; whether the basis grew.
+    ///
+    /// # Errors
+    /// As [`Self::search`].
+    fn sample(&mut self, mu: f64, count: usize, leading: Option<usize>) -> Result<bool, CeaError> {
+        let vectors = self.step(mu, |builder| builder.dominant_vectors(mu, count, leading))?;
+        let has_grown = self.model.extend(vectors.clone(), SAMPLE_TOLERANCE).ncols() > 0;
+        if self.is_sampling {
+            self.model.hold_sample(mu, &vectors);
+        }
+        Ok(has_grown)
+    }
+
+    /// The vectors of [`Self::sample`]: of the quadratic problem real and imaginary part of each mode, of the reduced one each.
+    fn dominant_vectors(
+        &self,
+        mu: f64,
+        count: usize,
+        leading: Option<usize>,
+    ) -> Result<Mat<f64>, CeaError> {
         let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
-        let factors = StiffnessFactors::general(&self.stiffness, &self.cache, mu)?;
-        let operator = ShiftInverted { matrices: &matrices, factors: &factors };
+        let factors = match mu {
+            0.0 if self.linearization.is_symmetric(self.tangent) => {
+                StiffnessFactors::frictionless(&self.stiffness)?
+            }
+            _ => StiffnessFactors::general(&self.stiffness, &self.cache, mu)?,
+        };
+        let operator = ShiftInverted::new(&matrices, &factors);
+
+        // The start.
+        let unknowns = matrices.dimension();
+        let start = [1, 2].map(|seed| match leading {
+            Some(leading) => self.model.expand(random_columns(leading, START_WIDTH, seed).as_ref()),
+            None => random_columns(unknowns, SEARCH_WIDTH.min(unknowns), 2 + seed),
+        });
+        let (start, wanted, tolerance) = match self.linearization {
+            Linearization::Reduced(..) => (start[0].clone(), count, PROPORTIONAL_RESIDUAL),
+            Linearization::Companion { .. } => {
+                let [x, y] = start.each_ref().map(Mat::as_ref);
+                (join_rows(x, y), 2 * count, SAMPLE_RESIDUAL)
+            }
+        };
         let settings = KrylovSchurSettings {
             wanted,
-            tolerance: 1e-11,
-            block: SEARCH_WIDTH,
-            max_applications: 100 * (wanted + 20),
+            tolerance,
+            max_applications: 10 * (wanted + 20),
+            dense_up_to: DENSE_UP_TO,
         };
-        let mut vectors = krylov_schur(&operator, &settings)?.vectors;
-        vectors.truncate(unknowns, wanted);
+        let is_companion = matches!(self.linearization, Linearization::Companion { .. });
+        let is_wanted = |s: c64| !is_companion || self.linearization.eigenvalue(s.conj()).is_some();
+        let mut vectors = krylov_schur(&operator, start, &is_wanted, &settings)?.vectors;
+        match self.linearization {
+            // Once more, which damps round-off along the stiffest waves of the mesh.
+            Linearization::Reduced(..) => {
+                vectors = operator.apply(vectors.as_ref());
+                scale_to_unit_length(&mut vectors);
+            }
+            Linearization::Companion { .. } => {
+                vectors = vectors.get(..unknowns, ..).to_owned();
+                turn_to_real(&mut vectors);
+            }
+        }
         Ok(vectors)
+    }
+}
+
+/// Scales columns to unit length, but for those of zeros.
+fn scale_to_unit_length(columns: &mut Mat<f64>) {
+    let lengths = column_norms(columns.as_ref());
+    for (j, length) in lengths.into_iter().enumerate().filter(|(_, l)| *l > 0.0) {
+        column_mut(columns, j).iter_mut().for_each(|v| *v /= length);
     }
 }
 

@@ -3,7 +3,6 @@
 use super::NEARLY_CRITICAL;
 use super::edge::ContactEdge;
 use super::mode::ReducedMode;
-use super::packed::ComplexColumns;
 use super::point::SolvedPoint;
 use super::reduced::ReducedModel;
 use crate::linalg::{ComplexDenseLu, LinalgError};
@@ -128,24 +127,8 @@ fn split_degenerate(
             .count();
         if size > 1 {
             let cluster = &mut modes[first..first + size];
-            let columns = ComplexColumns::of(cluster, model.dimension());
-            let gram =
-                cluster_matrix(cluster, &columns, lambda * 2.0, [&at.mass, &at.damping], None);
-            let coefficients = [&rate.mass, &rate.damping];
-            let change =
-                cluster_matrix(cluster, &columns, lambda, coefficients, Some(&rate.stiffness));
-            let gram = ComplexDenseLu::factorize(gram);
-            let mut operator = change;
-            let lost = rate.structural.iter().map(|h| (c64::new(0.0, 1.0), h));
-            let tabled = rate.tabled.iter().map(|(gain, k)| (gain.at(lambda), k));
-            for (factor, matrix) in lost.chain(tabled) {
-                let image = columns.mapped(matrix);
-                for i in 0..size {
-                    for j in 0..size {
-                        operator[(i, j)] -= factor * image.dot(&cluster[i].left, j);
-                    }
-                }
-            }
+            let gram = ComplexDenseLu::factorize(at.overlaps(cluster, cluster));
+            let mut operator = -rate.pencil_forms(cluster, cluster);
             gram.solve_in_place(operator.as_mut());
             rotate(cluster, &operator, &gram)?;
             // What each mode's own frequency does to it is a matter of single modes.
@@ -156,27 +139,6 @@ fn split_degenerate(
         first += size.max(1);
     }
     Ok(())
-}
-
-/// `W^T (factor A + B) X` or, with a stiffness, `-W^T (factor^2 A + factor B + K) X`.
-fn cluster_matrix(
-    cluster: &[ReducedMode],
-    columns: &ComplexColumns,
-    factor: c64,
-    [a, b]: [&Mat<f64>; 2],
-    stiffness: Option<&Mat<f64>>,
-) -> Mat<c64> {
-    let (ax, bx) = (columns.mapped(a), columns.mapped(b));
-    let kx = stiffness.map(|k| columns.mapped(k));
-    Mat::from_fn(cluster.len(), cluster.len(), |i, j| {
-        let left = &cluster[i].left;
-        match &kx {
-            None => factor * ax.dot(left, j) + bx.dot(left, j),
-            Some(kx) => {
-                -(factor * factor * ax.dot(left, j) + factor * bx.dot(left, j) + kx.dot(left, j))
-            }
-        }
-    })
 }
 
 /// Replaces the vectors of a cluster by the eigenvectors of `operator`, biorthonormal ones.
@@ -330,20 +292,11 @@ fn match_modes(
     Ok(links.into_iter().map(|link| link.ok_or(middle)).collect())
 }
 
+/// `|w_i^T N x'_j| |w'_j^T N x_i|`, see [`track`].
 fn overlaps(from: ModesAt<'_>, to: ModesAt<'_>, model: &ReducedModel) -> Mat<f64> {
     let at = model.at(0.5 * (from.0 + to.0));
-    let forms = |modes: &[ReducedMode]| {
-        let columns = ComplexColumns::of(modes, model.dimension());
-        (columns.mapped(&at.mass), columns.mapped(&at.damping))
-    };
-    let (old, new) = (forms(from.1), forms(to.1));
-    Mat::from_fn(from.1.len(), to.1.len(), |i, j| {
-        let (a, b) = (&from.1[i], &to.1[j]);
-        let sum = a.eigenvalue + b.eigenvalue;
-        let forward = sum * new.0.dot(&a.left, j) + new.1.dot(&a.left, j);
-        let backward = sum * old.0.dot(&b.left, i) + old.1.dot(&b.left, i);
-        (forward * backward).norm()
-    })
+    let [forward, backward] = [at.overlaps(from.1, to.1), at.overlaps(to.1, from.1)];
+    Mat::from_fn(from.1.len(), to.1.len(), |i, j| (forward[(i, j)] * backward[(j, i)]).norm())
 }
 
 /// Links whose overlap is large and whose eigenvalues agree with their derivatives.

@@ -1,11 +1,14 @@
 //! The full problem at one friction coefficient, with complex factors of its own.
 
-use crate::linalg::{ComplexSparseLu, LinalgError, LuAnalysis, c64};
+use crate::linalg::{ComplexSparseLu, LinalgError, LuAnalysis, SparsityPattern, c64};
 use crate::prestress::{SlidingTangent, TabledGain};
+use std::sync::{Arc, OnceLock};
 
 /// `T(lambda) = lambda^2 M + lambda C + K + i H + sum_p g_p K_p` at one friction coefficient, `g_p` at the frequency of `lambda`.
 pub struct FullProblem<'a> {
-    analysis: LuAnalysis,
+    pattern: &'a Arc<SparsityPattern>,
+    /// Made for the first factors.
+    analysis: OnceLock<Result<LuAnalysis, LinalgError>>,
     /// Nonzero values of `K`, `C` and `M`.
     values: [Vec<f64>; 3],
     /// Those of `H`; empty without structural damping.
@@ -16,31 +19,26 @@ pub struct FullProblem<'a> {
 
 impl<'a> FullProblem<'a> {
     /// The problem of `tangent` at friction coefficient `mu`.
-    ///
-    /// # Errors
-    /// If the analysis of the pattern fails.
-    pub fn at(tangent: &'a SlidingTangent, mu: f64) -> Result<Self, LinalgError> {
+    pub fn at(tangent: &'a SlidingTangent, mu: f64) -> Self {
         let all = [&tangent.stiffness, &tangent.damping, &tangent.mass];
         let structural = tangent.structural.as_ref();
         let tabled = tangent.tabled.iter();
-        Ok(Self {
-            analysis: LuAnalysis::new(tangent.stiffness.pattern())?,
+        Self {
+            pattern: tangent.stiffness.pattern(),
+            analysis: OnceLock::new(),
             values: all.map(|p| p.evaluate(mu)),
             structural: structural.map_or_else(Vec::new, |p| p.evaluate(mu)),
             tabled: tabled.map(|part| (&part.gain, part.stiffness.evaluate(mu))).collect(),
-        })
+        }
     }
 
     /// Number of unknowns.
     pub fn dimension(&self) -> usize {
-        self.analysis.pattern().dimension()
+        self.pattern.dimension()
     }
 
-    /// LU factors of `T(lambda)`.
-    ///
-    /// # Errors
-    /// If it is singular.
-    pub fn factors(&self, lambda: c64) -> Result<ComplexSparseLu, LinalgError> {
+    /// Nonzero values of `T(lambda)`.
+    fn pencil(&self, lambda: c64) -> Vec<c64> {
         let [stiffness, damping, mass] = &self.values;
         let terms = stiffness.iter().zip(damping).zip(mass);
         let pencil = terms.map(|((k, c), m)| lambda * (lambda * *m + *c) + *k);
@@ -50,6 +48,32 @@ impl<'a> FullProblem<'a> {
         for (factor, own) in tabled.chain([lost]) {
             pencil.iter_mut().zip(own).for_each(|(value, own)| *value += factor * *own);
         }
-        ComplexSparseLu::factorize(&self.analysis, pencil)
+        pencil
+    }
+
+    /// LU factors of `T(lambda)`.
+    ///
+    /// # Errors
+    /// If it is singular.
+    pub fn factors(&self, lambda: c64) -> Result<ComplexSparseLu, LinalgError> {
+        let analysis = self.analysis.get_or_init(|| LuAnalysis::new(self.pattern));
+        ComplexSparseLu::factorize(analysis.as_ref().map_err(Clone::clone)?, self.pencil(lambda))
+    }
+
+    /// `T(lambda)^T w`.
+    pub fn transposed_times(&self, lambda: c64, w: &[c64]) -> Vec<c64> {
+        let values = self.pencil(lambda);
+        let along = |j: usize| self.pattern.column(j).map(|(at, i)| values[at] * w[i]).sum();
+        (0..self.dimension()).map(along).collect()
+    }
+
+    /// `w^T (2 lambda M + C) x`.
+    pub fn slope(&self, lambda: c64, w: &[c64], x: &[c64]) -> c64 {
+        let [_, damping, mass] = &self.values;
+        let along = |j: usize| -> c64 {
+            let nonzeros = self.pattern.column(j);
+            nonzeros.map(|(at, i)| w[i] * (2.0 * lambda * mass[at] + damping[at])).sum()
+        };
+        (0..self.dimension()).map(|j| along(j) * x[j]).sum()
     }
 }

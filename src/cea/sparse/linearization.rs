@@ -1,7 +1,8 @@
 //! Linearization of the quadratic eigenproblem.
 
+use crate::cea::counted::is_vibration;
 use crate::fem::RayleighDamping;
-use crate::linalg::{MatrixPolynomial, c64, is_vibration};
+use crate::linalg::{MatrixPolynomial, c64};
 use crate::prestress::SlidingTangent;
 use std::borrow::Cow;
 

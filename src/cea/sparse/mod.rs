@@ -4,7 +4,7 @@
 //!    `K - sigma M` proves that none is missing.
 //! 2. [`BasisBuilder`]: one basis that holds the modes of all friction coefficients. Where damping is proportional it
 //!    grows by residuals; otherwise it takes up the modes at a few friction coefficients, each from a Krylov iteration
-//!    on the quadratic problem ([`crate::linalg::quadratic_krylov`]), chosen where residuals are largest.
+//!    ([`crate::linalg::krylov_schur`]), chosen where residuals are largest.
 //! 3. [`PointSolver`]: the projected problem at each friction coefficient, in parallel; every mode is
 //!    held to its residual in the full matrices. Where one fails a ladder is climbed: corrections by the factors without friction, then
 //!    by factors of the full problem beside the modes ([`FullProblem`]); strongly damped motions that fail then take no places.

@@ -3,7 +3,6 @@
 use super::RESIDUAL_BOUND;
 use super::branches::TrackedBranch;
 use super::mode::ReducedMode;
-use super::packed::ComplexColumns;
 use super::point::{PointSolver, SolvedPoint};
 use super::reduced::ReducedModel;
 use crate::cea::onset::{BranchSolver, Instability, instabilities};
@@ -162,21 +161,14 @@ impl OnsetFinder<'_> {
         let nearer = usize::from((to.mu - mu).abs() < (mu - from.mu).abs());
         let start = ReducedMode { eigenvalue: guess.eigenvalue, ..ends[nearer].mode.clone() };
         let mode = self.model.mode_near(mu, &start)?;
-        self.are_same(mu, &mode, &[&from.mode, &to.mode]).then_some(mode)
+        self.are_same(mu, &mode, &ends.map(|end| end.mode.clone())).then_some(mode)
     }
 
     /// Whether `mode` at `mu` overlaps with each of `others`.
-    fn are_same(&self, mu: f64, mode: &ReducedMode, others: &[&ReducedMode]) -> bool {
-        let at = self.model.at(mu);
-        let all = std::iter::once(mode).chain(others.iter().copied());
-        let modes: Vec<ReducedMode> = all.cloned().collect();
-        let columns = ComplexColumns::of(&modes, self.model.dimension());
-        let (mass, damping) = (columns.mapped(&at.mass), columns.mapped(&at.damping));
-        let along = |i: usize, j: usize| {
-            let sum = modes[i].eigenvalue + modes[j].eigenvalue;
-            sum * mass.dot(&modes[i].left, j) + damping.dot(&modes[i].left, j)
-        };
-        (1..modes.len()).all(|other| (along(0, other) * along(other, 0)).norm() > SAME)
+    fn are_same(&self, mu: f64, mode: &ReducedMode, others: &[ReducedMode]) -> bool {
+        let (at, own) = (self.model.at(mu), std::slice::from_ref(mode));
+        let [forward, backward] = [at.overlaps(own, others), at.overlaps(others, own)];
+        (0..others.len()).all(|j| (forward[(0, j)] * backward[(j, 0)]).norm() > SAME)
     }
 }
 
@@ -209,22 +201,19 @@ impl BranchSolver for OnsetFinder<'_> {
         }
         let mut modes = self.model.solve(mu, self.points[0].modes.len())?;
         let at = self.model.at(mu);
-        let columns = ComplexColumns::of(&modes, self.model.dimension());
-        let (mass, damping) = (columns.mapped(&at.mass), columns.mapped(&at.damping));
-        let overlap = |end: &ReducedMode, j: usize| {
-            let sum = end.eigenvalue + modes[j].eigenvalue;
-            let along = sum * mass.dot(&end.left, j) + damping.dot(&end.left, j);
+        let ends = [from, to].map(|end| end.mode.clone());
+        let overlaps = at.overlaps(&ends, &modes);
+        let overlap = |end: usize, j: usize| {
             // Left vectors of ends near an exceptional point are long.
-            let length: f64 = end.left.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt();
-            along.norm() / length
+            let length: f64 = ends[end].left.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt();
+            overlaps[(end, j)].norm() / length
         };
         // Near an exceptional point slopes are infinite, and the cubic is no guess: the straight line is.
         let t = ((mu - from.mu) / (to.mu - from.mu)).clamp(0.0, 1.0);
         let expected = from.mode.eigenvalue * (1.0 - t) + to.mode.eigenvalue * t;
         let score = |j: usize| {
             let distance = (modes[j].eigenvalue - expected).norm() / expected.norm();
-            let ends = [&from.mode, &to.mode];
-            ends.iter().map(|end| overlap(end, j)).sum::<f64>() / (1e-4 + distance)
+            (overlap(0, j) + overlap(1, j)) / (1e-4 + distance)
         };
         let best = (0..modes.len()).max_by(|&i, &j| score(i).total_cmp(&score(j)));
         Ok(best.map(|best| {
@@ -232,7 +221,7 @@ impl BranchSolver for OnsetFinder<'_> {
             // That was in the span of samples, if there are any: the whole basis knows better.
             let is_coarse = self.model.has_samples();
             let fine = is_coarse.then(|| self.model.mode_near(mu, &coarse)).flatten();
-            let fine = fine.filter(|fine| self.are_same(mu, fine, &[&coarse]));
+            let fine = fine.filter(|fine| self.are_same(mu, fine, std::slice::from_ref(&coarse)));
             let mode = fine.unwrap_or(coarse);
             State { mu, mode }
         }))

@@ -1,37 +1,25 @@
 //! Complex vectors of modes in real matrices, for real arithmetic.
 
 use super::mode::ReducedMode;
-use crate::linalg::dense::{column, dot, product};
+use crate::linalg::dense::{column, dot, product, transpose_product};
 use crate::linalg::{Mat, c64};
 
-/// Complex columns as two real matrices, so that products with real matrices are real products.
-pub struct ComplexColumns {
-    real: Mat<f64>,
-    imaginary: Mat<f64>,
-}
-
-impl ComplexColumns {
-    /// The right vectors of `modes`, continued by zeros to `dimension` entries.
-    pub fn of(modes: &[ReducedMode], dimension: usize) -> Self {
-        let part = |of: fn(&c64) -> f64| {
-            Mat::from_fn(dimension, modes.len(), |i, j| modes[j].right.get(i).map_or(0.0, of))
-        };
-        Self { real: part(|v| v.re), imaginary: part(|v| v.im) }
-    }
-
-    /// `P` times each column.
-    pub fn mapped(&self, p: &Mat<f64>) -> Self {
-        Self {
-            real: product(p.as_ref(), self.real.as_ref()),
-            imaginary: product(p.as_ref(), self.imaginary.as_ref()),
-        }
-    }
-
-    /// `y^T` times column `j`, no conjugation.
-    pub fn dot(&self, y: &[c64], j: usize) -> c64 {
-        let (re, im) = (column(self.real.as_ref(), j), column(self.imaginary.as_ref(), j));
-        y.iter().zip(re.iter().zip(im)).map(|(y, (&p, &q))| y * c64::new(p, q)).sum()
-    }
+/// `w_i^T P x_j` of the left vectors of some modes and the right ones of others, by one product of real matrices.
+pub fn forms(lefts: &[ReducedMode], p: &Mat<f64>, rights: &[ReducedMode]) -> Mat<c64> {
+    // Real parts of all, then imaginary ones; coordinates go on with zeros.
+    let parts = |modes: &[ReducedMode], of: fn(&ReducedMode) -> &Vec<c64>| {
+        let count = modes.len();
+        Mat::from_fn(p.nrows(), 2 * count, |i, j| {
+            let value = of(&modes[j % count]).get(i);
+            value.map_or(0.0, |v| if j < count { v.re } else { v.im })
+        })
+    };
+    let image = product(p.as_ref(), parts(rights, |mode| &mode.right).as_ref());
+    let all = transpose_product(parts(lefts, |mode| &mode.left).as_ref(), image.as_ref());
+    let (a, b) = (lefts.len(), rights.len());
+    Mat::from_fn(a, b, |i, j| {
+        c64::new(all[(i, j)] - all[(a + i, b + j)], all[(i, b + j)] + all[(a + i, j)])
+    })
 }
 
 /// Where a vector is among packed columns.

@@ -1,6 +1,7 @@
 //! The projected matrices at one friction coefficient, and single modes of them.
 
 use super::mode::ReducedMode;
+use super::packed::forms;
 use crate::fem::own_frequency_step;
 use crate::linalg::dense::{column, column_mut, product, transpose_product};
 use crate::linalg::{ComplexDenseLu, Mat, Scale, c64};
@@ -90,62 +91,76 @@ impl ProjectedMatrices {
     /// thesis, TU Berlin (2008).
     pub fn mode_near(&self, guess: &ReducedMode) -> Option<ReducedMode> {
         let m = self.mass.nrows();
-        let column = |v: &[c64]| Mat::from_fn(m, 1, |i, _| v.get(i).copied().unwrap_or_default());
-        let (mut right, mut left) = (column(&guess.right), column(&guess.left));
-        let mut lambda = guess.eigenvalue;
+        let mut mode = guess.clone();
         // Where stiffness follows the frequency the vectors gain fewer digits in a step.
         let steps = QUOTIENT_STEPS * if self.tabled.is_empty() { 1 } else { 3 };
         for _ in 0..steps {
+            let lambda = mode.eigenvalue;
             let slope = Mat::from_fn(m, m, |i, j| {
                 lambda * (2.0 * self.mass[(i, j)]) + self.damping[(i, j)]
             });
             let lu = ComplexDenseLu::factorize(self.pencil(lambda));
-            (right, left) = (&slope * &right, slope.transpose() * &left);
+            let column =
+                |v: &[c64]| Mat::from_fn(m, 1, |i, _| v.get(i).copied().unwrap_or_default());
+            let mut right = &slope * column(&mode.right);
+            let mut left = slope.transpose() * column(&mode.left);
             lu.solve_in_place(right.as_mut());
             lu.solve_transpose_in_place(left.as_mut());
-            for vector in [&mut right, &mut left] {
-                let length = vector.norm_l2();
-                vector.col_mut(0).iter_mut().for_each(|v| *v /= length);
-            }
-            let step = self.quotient_step(lambda, &right, &left);
-            lambda -= step;
+            let unit = |v: Mat<c64>| v.col(0).iter().map(|own| own / v.norm_l2()).collect();
+            (mode.right, mode.left) = (unit(right), unit(left));
+
+            // What the eigenvalue is too large by, to first order.
+            let own = std::slice::from_ref(&mode);
+            let slope = self.overlaps(own, own)[(0, 0)];
+            let change = self.pencil_forms(own, own)[(0, 0)] / slope;
+            let step = self.followed(&mode, change, slope);
+            mode.eigenvalue -= step;
             if !(step.norm() < guess.eigenvalue.norm()) {
                 return None;
             }
-            if step.norm() <= QUOTIENT_TOLERANCE * lambda.norm() {
-                let entries = |v: &Mat<c64>| v.col(0).iter().copied().collect();
-                return Some(ReducedMode {
-                    eigenvalue: lambda,
-                    inverse_value: guess.inverse_value,
-                    derivative: c64::new(0.0, 0.0),
-                    right: entries(&right),
-                    left: entries(&left),
-                });
+            if step.norm() <= QUOTIENT_TOLERANCE * mode.eigenvalue.norm() {
+                return Some(mode);
             }
         }
         None
     }
 
-    /// What an eigenvalue is too large by, to first order, for these vectors: `w^T T(lambda) x / w^T T'(lambda) x`.
-    fn quotient_step(&self, lambda: c64, right: &Mat<c64>, left: &Mat<c64>) -> c64 {
-        let m = self.mass.nrows();
-        let form = |p: &Mat<f64>| -> c64 {
-            let image = |i: usize| -> c64 { (0..m).map(|j| right[(j, 0)] * p[(i, j)]).sum() };
-            (0..m).map(|i| left[(i, 0)] * image(i)).sum()
+    /// `w_i^T T(lambda_j) x_j`, or with the derivatives by friction `w_i^T T'(lambda_j) x_j`.
+    pub fn pencil_forms(&self, lefts: &[ReducedMode], rights: &[ReducedMode]) -> Mat<c64> {
+        let one = |_: c64| c64::new(1.0, 0.0);
+        let mut sum = Mat::zeros(lefts.len(), rights.len());
+        let mut add = |p: &Mat<f64>, factor: &dyn Fn(c64) -> c64| {
+            let own = forms(lefts, p, rights);
+            for (j, mode) in rights.iter().enumerate() {
+                let factor = factor(mode.eigenvalue);
+                (0..lefts.len()).for_each(|i| sum[(i, j)] += factor * own[(i, j)]);
+            }
         };
-        let [a, b, mut c] = [&self.mass, &self.damping, &self.stiffness].map(form);
-        c += c64::new(0.0, 1.0) * self.structural.as_ref().map_or(c64::new(0.0, 0.0), form);
-        let slope = a * lambda * 2.0 + b;
-        let mut own = c64::new(0.0, 0.0);
-        for (gain, stiffness) in &self.tabled {
-            let form = form(stiffness);
-            c += gain.at(lambda) * form;
-            own += gain.slope(lambda) * form;
-        }
-        let step = ((a * lambda + b) * lambda + c) / slope;
+        add(&self.mass, &|lambda| lambda * lambda);
+        add(&self.damping, &|lambda| lambda);
+        add(&self.stiffness, &one);
+        self.structural.iter().for_each(|h| add(h, &|_| c64::new(0.0, 1.0)));
+        self.tabled.iter().for_each(|(gain, k)| add(k, &|lambda| gain.at(lambda)));
+        sum
+    }
+
+    /// `w_i^T ((lambda_i + lambda_j) M + C) x_j`: zero for different modes of one problem.
+    pub fn overlaps(&self, lefts: &[ReducedMode], rights: &[ReducedMode]) -> Mat<c64> {
+        let [inert, damped] = [&self.mass, &self.damping].map(|p| forms(lefts, p, rights));
+        Mat::from_fn(lefts.len(), rights.len(), |i, j| {
+            (lefts[i].eigenvalue + rights[j].eigenvalue) * inert[(i, j)] + damped[(i, j)]
+        })
+    }
+
+    /// The change of the eigenvalue of a mode where it would be `change` at fixed stiffness, and `w^T T'(lambda) x` of its vectors is
+    /// `slope` then.
+    pub fn followed(&self, mode: &ReducedMode, change: c64, slope: c64) -> c64 {
+        let own = std::slice::from_ref(mode);
+        let parts = self.tabled.iter();
+        let parts = parts.map(|(gain, k)| gain.slope(mode.eigenvalue) * forms(own, k, own)[(0, 0)]);
         match self.tabled.is_empty() {
-            true => step,
-            false => own_frequency_step(step, own / slope),
+            true => change,
+            false => own_frequency_step(change, parts.sum::<c64>() / slope),
         }
     }
 }

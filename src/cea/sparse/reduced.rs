@@ -4,10 +4,8 @@ mod dense;
 
 use super::linearization::Linearization;
 use super::mode::ReducedMode;
-use super::packed::ComplexColumns;
 use super::projected::{ProjectedMatrices, horner, weighted};
 use super::term::Term;
-use crate::fem::own_frequency_step;
 use crate::linalg::dense::{
     GrowingColumns, column, join_columns, orthonormal_complement, product, transpose_product,
 };
@@ -375,35 +373,16 @@ impl ReducedModel {
     /// `w^T (2 lambda M + C) x = 1`; where stiffness depends on frequency, the mode's own follows
     /// ([`own_frequency_step`]).
     pub(super) fn complete(&self, modes: &mut [ReducedMode], at: &ProjectedMatrices, mu: f64) {
-        let rate = self.derivative_at(mu);
-        let right = ComplexColumns::of(modes, self.dimension());
-        let [m, c] = [&at.mass, &at.damping].map(|p| right.mapped(p));
-        let [dk, dc, dm] = [&rate.stiffness, &rate.damping, &rate.mass].map(|p| right.mapped(p));
-        let dh = rate.structural.as_ref().map(|p| right.mapped(p));
-        let parts = at.tabled.iter().zip(&rate.tabled);
-        let parts = parts.map(|((gain, k), (_, dk))| (gain, right.mapped(k), right.mapped(dk)));
-        let parts: Vec<_> = parts.collect();
-        for (j, mode) in modes.iter_mut().enumerate() {
-            let lambda = mode.eigenvalue;
+        for mode in modes.iter_mut() {
             let length = mode.right.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt();
             mode.right.iter_mut().for_each(|v| *v /= length);
-            let along = |columns: &ComplexColumns| columns.dot(&mode.left, j) / length;
-            let scale = lambda * 2.0 * along(&m) + along(&c);
-            let lost = dh.as_ref().map_or(c64::new(0.0, 0.0), along);
-            let mut change = lambda * lambda * along(&dm)
-                + lambda * along(&dc)
-                + along(&dk)
-                + c64::new(0.0, 1.0) * lost;
-            let mut own = c64::new(0.0, 0.0);
-            for (gain, k, dk) in &parts {
-                change += gain.at(lambda) * along(dk);
-                own += gain.slope(lambda) * along(k);
-            }
-            mode.derivative = match parts.is_empty() {
-                true => -change / scale,
-                false => own_frequency_step(-change / scale, own / scale),
-            };
-            mode.left.iter_mut().for_each(|v| *v /= scale);
+        }
+        let changes = self.derivative_at(mu).pencil_forms(modes, modes);
+        let slopes = at.overlaps(modes, modes);
+        for (j, mode) in modes.iter_mut().enumerate() {
+            let (change, slope) = (changes[(j, j)], slopes[(j, j)]);
+            mode.derivative = at.followed(mode, -change / slope, slope);
+            mode.left.iter_mut().for_each(|v| *v /= slope);
         }
     }
 

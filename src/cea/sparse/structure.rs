@@ -4,10 +4,9 @@ use super::factors::StiffnessFactors;
 use super::linearization::Linearization;
 use super::packed::PackedEntry;
 use crate::linalg::dense::{column, column_mut, join_rows};
-use crate::linalg::{BlockOperator, MatrixPolynomial, QuadraticOperator, SparsityPattern};
-use crate::linalg::{Mat, MatRef, Scale, c64};
+use crate::linalg::{BlockOperator, MatrixPolynomial, SparsityPattern};
+use crate::linalg::{Mat, MatRef, c64};
 use crate::prestress::{SlidingTangent, TabledStiffness};
-use std::borrow::Cow;
 use std::sync::Arc;
 
 /// `K`, `C` and `M` at one friction coefficient, or their coefficients of one power of it.
@@ -45,18 +44,6 @@ impl<'a> StructureMatrices<'a> {
             structural: structural.map(of),
             tabled: tabled.map(|part| (part, of(&part.stiffness))).collect(),
             linearization,
-        }
-    }
-
-    /// Values of what takes the place of `C` about the centre, `C + 2 c M`.
-    fn centred_damping(&self) -> Cow<'_, [f64]> {
-        let [_, damping, mass] = &self.values;
-        match self.linearization {
-            Linearization::Companion { centre, .. } if centre.shift > 0.0 => {
-                let pairs = damping.iter().zip(mass);
-                Cow::Owned(pairs.map(|(c, m)| c + 2.0 * centre.shift * m).collect())
-            }
-            _ => Cow::Borrowed(damping),
         }
     }
 
@@ -181,110 +168,43 @@ fn add_complex_multiple(
 ///                                                  nu
 /// ```
 pub struct ShiftInverted<'a> {
-    /// Matrices at the friction coefficient of the factors.
-    pub matrices: &'a StructureMatrices<'a>,
-    /// Factors of what takes the place of `K`.
-    pub factors: &'a StiffnessFactors,
+    matrices: &'a StructureMatrices<'a>,
+    factors: &'a StiffnessFactors,
+    /// Nonzero values by rows of `M`, or of `-omega C` and `-omega^2 M`.
+    values: Vec<Vec<f64>>,
+}
+
+impl<'a> ShiftInverted<'a> {
+    /// The operator of `matrices` at the friction coefficient of the `factors` of what takes the place of `K`.
+    pub fn new(matrices: &'a StructureMatrices<'a>, factors: &'a StiffnessFactors) -> Self {
+        let [_, damping, mass] = &matrices.values;
+        let values = match matrices.linearization {
+            Linearization::Reduced(..) => vec![mass.clone()],
+            Linearization::Companion { frequency_scale: omega, centre } => {
+                let pairs = damping.iter().zip(mass);
+                let centred = pairs.map(|(c, m)| -omega * (c + 2.0 * centre.shift * m));
+                vec![centred.collect(), mass.iter().map(|m| -omega * omega * m).collect()]
+            }
+        };
+        Self { matrices, factors, values }
+    }
 }
 
 impl BlockOperator for ShiftInverted<'_> {
     fn dimension(&self) -> usize {
-        let n = self.matrices.pattern.dimension();
-        match self.matrices.linearization {
-            Linearization::Reduced(..) => n,
-            Linearization::Companion { .. } => 2 * n,
-        }
+        self.values.len() * self.matrices.dimension()
     }
 
     fn apply(&self, z: MatRef<'_, f64>) -> Mat<f64> {
-        let (damping, mass) = (self.matrices.centred_damping(), &self.matrices.values[2]);
-        let product = |values: &[f64], x| {
-            let [image] = self.matrices.pattern.multiply_sorted([values], x);
-            image
-        };
-        match self.matrices.linearization {
-            Linearization::Reduced(..) => {
-                let mut image = product(mass, z);
-                self.factors.solve_in_place(&mut image);
-                image
-            }
-            Linearization::Companion { frequency_scale: omega, .. } => {
-                let (x, y) = z.split_at_row(self.matrices.pattern.dimension());
-                let mut top =
-                    Scale(-omega) * product(&damping, x) - Scale(omega * omega) * product(mass, y);
-                self.factors.solve_in_place(&mut top);
-                join_rows(top.as_ref(), x)
-            }
-        }
-    }
-}
-
-/// The upper blocks of [`ShiftInverted`] of the quadratic problem, `A = -omega K^-1 C` and `B = -omega^2 K^-1 M`.
-pub struct Companion<'a> {
-    pattern: &'a SparsityPattern,
-    factors: &'a StiffnessFactors,
-    /// Nonzero values of `-omega C` and `-omega^2 M`, by rows, transposed by columns.
-    values: [Vec<f64>; 2],
-    is_transposed: bool,
-}
-
-impl<'a> Companion<'a> {
-    /// The blocks of `matrices`, whose `K` has these `factors`.
-    pub fn new(
-        matrices: &'a StructureMatrices<'_>,
-        factors: &'a StiffnessFactors,
-        frequency_scale: f64,
-    ) -> Self {
-        Self::oriented(matrices, factors, frequency_scale, false)
-    }
-
-    /// The blocks of the transposed matrices: their vectors are the left ones.
-    pub fn transposed(
-        matrices: &'a StructureMatrices<'_>,
-        factors: &'a StiffnessFactors,
-        frequency_scale: f64,
-    ) -> Self {
-        Self::oriented(matrices, factors, frequency_scale, true)
-    }
-
-    fn oriented(
-        matrices: &'a StructureMatrices<'_>,
-        factors: &'a StiffnessFactors,
-        frequency_scale: f64,
-        is_transposed: bool,
-    ) -> Self {
-        let (damping, mass) = (matrices.centred_damping(), &matrices.values[2]);
-        let scaled = |factor: f64, values: &[f64]| -> Vec<f64> {
-            values.iter().map(|v| factor * v).collect()
-        };
-        let values =
-            [scaled(-frequency_scale, &damping), scaled(-frequency_scale * frequency_scale, mass)];
-        Self {
-            pattern: matrices.pattern,
-            factors,
-            values: match is_transposed {
-                true => values.map(|values| matrices.pattern.by_columns(&values)),
-                false => values,
-            },
-            is_transposed,
-        }
-    }
-}
-
-impl QuadraticOperator for Companion<'_> {
-    fn dimension(&self) -> usize {
-        self.pattern.dimension()
-    }
-
-    fn apply(&self, x: MatRef<'_, f64>, y: MatRef<'_, f64>) -> Mat<f64> {
-        let [damping, mass] = &self.values;
-        if self.is_transposed {
-            let mut image = self.pattern.multiply_transpose_sum([damping, mass], [x, y]);
-            self.factors.solve_transpose_in_place(&mut image);
+        let pattern = self.matrices.pattern;
+        let [damping, mass] = &self.values[..] else {
+            let [mut image] = pattern.multiply_sorted([&self.values[0]], z);
+            self.factors.solve_in_place(&mut image);
             return image;
-        }
-        let mut image = self.pattern.multiply_sum([damping, mass], [x, y]);
-        self.factors.solve_in_place(&mut image);
-        image
+        };
+        let (x, y) = z.split_at_row(pattern.dimension());
+        let mut top = pattern.multiply_sum([damping, mass], [x, y]);
+        self.factors.solve_in_place(&mut top);
+        join_rows(top.as_ref(), x)
     }
 }

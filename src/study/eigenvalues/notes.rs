@@ -187,7 +187,7 @@ pub(super) fn ended_notes(sweep: &FrictionSweep) -> Vec<String> {
         .collect();
     let open = (!open.is_empty()).then(|| {
         let which = number(open.len(), "mode has", "modes have");
-        format!("{which} not converged and not listed ({})", listed(open))
+        format!("{which} not converged: left out is what lies at {}", listed(open))
     });
     let rigid = (sweep.rigid_motions > 0).then(|| {
         let which = number(sweep.rigid_motions, "rigid motion", "rigid motions");

@@ -14,9 +14,6 @@ use crate::results::cea::{OnsetRates, SensitivityReport, SensitivityRow};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
-/// Part of the modulus by which modes beyond the listed ones are looked for along.
-const MARGIN: f64 = 1.02;
-
 /// Sensitivities of a body.
 pub struct BodySensitivities {
     /// What is reported.
@@ -66,7 +63,7 @@ struct Place {
 /// the semi-analytical method.
 ///
 /// # Errors
-/// Those of the base state and of the Krylov iterations.
+/// Those of the base state.
 pub fn body_sensitivities(
     case: &Case,
     cea: &Cea,
@@ -92,7 +89,7 @@ pub fn body_sensitivities(
             let pressed = waves.tangent.pressed().to_vec();
             Pairs::Waves(wave_pairs(&waves.tangent, &wanted), pressed)
         }
-        None => whole_pairs(case, cea, sweep, (modes.len(), &targets))?,
+        None => whole_pairs(case, cea, (modes.len(), &targets))?,
     };
     let found = pairs.each();
 
@@ -213,7 +210,6 @@ fn modes_at(sweep: &FrictionSweep, friction: f64, has_harmonics: bool) -> Vec<Li
 fn whole_pairs(
     case: &Case,
     cea: &Cea,
-    sweep: &FrictionSweep,
     (own, targets): (usize, &[Target]),
 ) -> Result<Pairs, StudyError> {
     let (modes, onsets) = targets.split_at(own);
@@ -228,8 +224,7 @@ fn whole_pairs(
     let frictions: Vec<f64> = places.iter().map(|place| place.friction).collect();
     let base = Linearized::of(case, cea, &frictions, None)?;
     for (k, place) in places.iter_mut().enumerate() {
-        let count = count_up_to(sweep, &place.targets);
-        place.pairs = mode_pairs(base.tangent(k), place.friction, &place.targets, count)?;
+        place.pairs = mode_pairs(base.tangent(k), place.friction, &place.targets);
     }
     Ok(Pairs::Whole(base, places))
 }
@@ -247,16 +242,6 @@ impl Pairs {
             }
         }
     }
-}
-
-/// How many modes there may be up to the highest of some eigenvalues, at any friction coefficient of a sweep.
-fn count_up_to(sweep: &FrictionSweep, targets: &[c64]) -> usize {
-    let highest = targets.iter().map(|t| t.norm()).fold(0.0, f64::max);
-    let points = sweep.points.iter().map(|point| {
-        let modes = point.modes.iter();
-        modes.filter(|mode| mode.eigenvalue.norm() <= MARGIN * highest).count()
-    });
-    points.max().unwrap_or(0).max(targets.len()) + 2
 }
 
 /// Why a target has no derivatives.

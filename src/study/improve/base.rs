@@ -153,7 +153,7 @@ impl<'a> Base<'a> {
         // Left and right vectors of all listed modes.
         let state = model.state_of().last().copied().unwrap_or(0);
         let tangent = model.tangent(case, state)?;
-        let pairs = mode_pairs(&tangent, friction, &targets, targets.len() + 2)?;
+        let pairs = mode_pairs(&tangent, friction, &targets);
         let multiple = pairs.iter().filter(|pair| pair.is_none()).count();
         let modes = pairs.into_iter().flatten().map(|pair| PairedMode {
             right: tangent.displacement(&pair.right),

@@ -344,7 +344,7 @@ fn dynamic_factors(base: &Base<'_>) -> Result<[(f64, ComplexSparseLu); 3], Linal
     let frequencies = || targets.iter().map(|mode| mode.eigenvalue().im);
     let low = frequencies().fold(f64::INFINITY, f64::min);
     let high = frequencies().fold(0.0, f64::max);
-    let problem = FullProblem::at(&base.tangent, base.friction)?;
+    let problem = FullProblem::at(&base.tangent, base.friction);
     let factors = |omega: f64| Ok((omega, problem.factors(c64::new(0.0, omega))?));
     let [below, above] = [BESIDE[0] * low, BESIDE[1] * high];
     let amid = (below * above).sqrt();

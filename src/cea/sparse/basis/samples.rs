@@ -1,19 +1,18 @@
 //! A basis of the modes at a few friction coefficients, each from an iteration of its own.
 
 use super::{
-    BasisBuilder, LOSSY_ROUNDS, MAX_CORRECTIONS, SAMPLE_RESIDUAL, SAMPLE_TOLERANCE,
-    VECTOR_TOLERANCE, turn_to_real,
+    BasisBuilder, LOSSY_ROUNDS, MAX_CORRECTIONS, SAMPLE_TOLERANCE, VECTOR_TOLERANCE,
+    scale_to_unit_length, turn_to_real,
 };
 use crate::cea::CeaError;
-use crate::cea::sparse::factors::StiffnessFactors;
 use crate::cea::sparse::full_problem::FullProblem;
 use crate::cea::sparse::linearization::Linearization;
 use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::sparse::packed::PackedModes;
-use crate::cea::sparse::structure::{Companion, StructureMatrices};
+use crate::cea::sparse::structure::StructureMatrices;
 use crate::cea::sparse::{GROUP_WIDTH, TRACKING_MARGIN};
-use crate::linalg::dense::{column_mut, column_norms, random_columns};
-use crate::linalg::{LinalgError, Mat, QuadraticKrylovSettings, c64, quadratic_krylov};
+use crate::linalg::dense::column_norms;
+use crate::linalg::{LinalgError, Mat, c64};
 use rayon::prelude::*;
 
 /// Complex factors of one round of corrections: more of them cost more than the rounds that they save.
@@ -26,9 +25,6 @@ const HISTORY: usize = 3;
 const MOST_DENSE: usize = 300;
 /// Samples between two friction values, at places where branches were lost, after which more of them are no help.
 const MOST_BETWEEN: usize = 8;
-/// Start vectors of an iteration: modes may come in pairs of equal eigenvalue, and factors are read once for both.
-const START_WIDTH: usize = 2;
-
 impl BasisBuilder<'_> {
     /// Takes up the modes at each of few `values` (friction coefficients, ascending) of proportional damping: without friction
     /// they are known.
@@ -50,7 +46,7 @@ impl BasisBuilder<'_> {
     }
 
     /// Leading vectors of the basis that are motions without friction: rigid ones and modes.
-    fn leading_count(&self) -> usize {
+    pub(super) fn leading_count(&self) -> usize {
         self.rigid + self.count
     }
 
@@ -86,26 +82,17 @@ impl BasisBuilder<'_> {
             _ if self.sampled.contains(&mu) => self.refine_sample(mu),
             Linearization::Reduced(..) => {
                 self.begin_sample(mu);
-                let vectors =
-                    self.step(mu, |builder| builder.dominant_vectors(mu, builder.leading_count()))?;
-                let has_grown = self.model.extend(vectors.clone(), SAMPLE_TOLERANCE).ncols() > 0;
-                self.model.hold_sample(mu, &vectors);
-                Ok(has_grown)
+                self.sample(mu, self.leading_count(), None)
             }
             Linearization::Companion { .. } => {
                 self.begin_sample(mu);
                 if self.may_decompose() {
                     return self.sample_densely(mu);
                 }
-                // Combinations of the modes without friction, which the basis holds first.
+                // From combinations of the modes without friction, which the basis holds first.
                 let known = self.model.dimension();
-                let frictionless = self.leading_count().min(known);
-                let has_grown = self.sample(mu, self.leading_count(), |builder| {
-                    [1, 2].map(|seed| {
-                        let mixed = random_columns(frictionless, START_WIDTH, seed);
-                        builder.model.expand(mixed.as_ref())
-                    })
-                })?;
+                let leading = self.leading_count().min(known);
+                let has_grown = self.sample(mu, self.leading_count(), Some(leading))?;
                 // The iteration leaves structural damping and tables out: its vectors are a start.
                 if self.is_lossy() {
                     self.refine_lossy(mu, known)?;
@@ -209,7 +196,7 @@ impl BasisBuilder<'_> {
 
     /// The corrections of [`Self::shift`], two real columns each. Neighbours in frequency share factors.
     fn shifted_corrections(&self, mu: f64, modes: &[ReducedMode]) -> Result<Mat<f64>, LinalgError> {
-        let problem = FullProblem::at(self.tangent, mu)?;
+        let problem = FullProblem::at(self.tangent, mu);
         let unknowns = problem.dimension();
         // Residuals in the full matrices.
         let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
@@ -263,52 +250,6 @@ impl BasisBuilder<'_> {
         2 * below + usize::from(self.sampled.contains(&mu))
     }
 
-    /// Adds the vectors of the `modes` lowest modes of the quadratic problem at `mu`, found from what `start` gives; whether
-    /// the basis grew.
-    pub(super) fn sample(
-        &mut self,
-        mu: f64,
-        modes: usize,
-        start: impl FnOnce(&Self) -> [Mat<f64>; 2],
-    ) -> Result<bool, CeaError> {
-        let vectors =
-            self.step(mu, |builder| builder.quadratic_modes(mu, modes, &start(builder)))?;
-        let has_grown = self.model.extend(vectors.clone(), SAMPLE_TOLERANCE).ncols() > 0;
-        self.model.hold_sample(mu, &vectors);
-        Ok(has_grown)
-    }
-
-    /// Vectors of the `modes` lowest modes of the quadratic problem at `mu`, two real columns each.
-    fn quadratic_modes(
-        &self,
-        mu: f64,
-        modes: usize,
-        [x, y]: &[Mat<f64>; 2],
-    ) -> Result<Mat<f64>, CeaError> {
-        let Linearization::Companion { frequency_scale, centre } = self.linearization else {
-            return Ok(Mat::zeros(self.tangent.stiffness.dimension(), 0));
-        };
-        let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
-        let is_symmetric = self.linearization.is_symmetric(self.tangent);
-        let factors = match mu {
-            0.0 if is_symmetric => StiffnessFactors::frictionless(&self.stiffness)?,
-            _ => StiffnessFactors::general(&self.stiffness, &self.cache, mu)?,
-        };
-        let operator = Companion::new(&matrices, &factors, frequency_scale);
-        let settings = QuadraticKrylovSettings {
-            pairs: modes,
-            // Residuals tell of each mode whether it converged: the ladder takes up what is left.
-            least: 0,
-            tolerance: SAMPLE_RESIDUAL,
-            max_applications: 20 * (modes + 10),
-            centre: centre.shift / frequency_scale,
-        };
-        let found = quadratic_krylov(&operator, [x.as_ref(), y.as_ref()], &settings)?;
-        let mut vectors = found.vectors;
-        turn_to_real(&mut vectors);
-        Ok(vectors)
-    }
-
     /// Adds the corrections of the modes at a sampled `mu` to the basis and to the sample; whether there were any.
     fn refine_sample(&mut self, mu: f64) -> Result<bool, CeaError> {
         let mut corrections = self.step(mu, |builder| {
@@ -320,11 +261,7 @@ impl BasisBuilder<'_> {
             let preconditioner = updated.as_ref().unwrap_or(preconditioner);
             Ok::<_, LinalgError>(builder.corrections(preconditioner, &modes, mu))
         })?;
-        let lengths = column_norms(corrections.as_ref());
-        for (j, length) in lengths.into_iter().enumerate().filter(|(_, l)| *l > 0.0) {
-            let entries = column_mut(&mut corrections, j).iter_mut();
-            entries.for_each(|v| *v /= length);
-        }
+        scale_to_unit_length(&mut corrections);
         let has_any = corrections.ncols() > 0;
         if has_any {
             self.model.extend(corrections.clone(), VECTOR_TOLERANCE);
