@@ -2,6 +2,7 @@
 
 mod dense;
 
+use super::MULTIPLE;
 use super::linearization::Linearization;
 use super::mode::ReducedMode;
 use super::projected::{ProjectedMatrices, horner, weighted};
@@ -19,8 +20,6 @@ use rayon::prelude::*;
 const NEIGHBOURS: usize = 4;
 /// Length of coordinates, of vectors of unit length, below which a space holds them already.
 const SAME_SPACE: f64 = 1e-9;
-/// Relative distance of eigenvalues below which they are one multiple eigenvalue.
-const MULTIPLE: f64 = 1e-7;
 
 /// Columns continued by zeros to `rows` entries.
 fn lengthened(columns: &Mat<f64>, rows: usize) -> Mat<f64> {
