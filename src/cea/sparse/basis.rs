@@ -9,7 +9,7 @@ use super::open_residuals::OpenResiduals;
 use super::packed::PackedModes;
 use super::reduced::ReducedModel;
 use super::structure::{ShiftInverted, StructureMatrices};
-use super::{GROUP_WIDTH, SEARCH_WIDTH};
+use super::{GROUP_WIDTH, SAME_SPACE, SEARCH_WIDTH};
 use crate::cea::{CeaError, SweepProgress, SweepStage, SweepWatch};
 use crate::linalg::dense::{
     column, column_mut, column_norms, columns_of, dot, from_columns, join_columns, join_rows,
@@ -290,7 +290,7 @@ impl<'a> BasisBuilder<'a> {
     /// As [`Self::search`].
     fn sample(&mut self, mu: f64, count: usize, leading: Option<usize>) -> Result<bool, CeaError> {
         let vectors = self.step(mu, |builder| builder.dominant_vectors(mu, count, leading))?;
-        let has_grown = self.model.extend(vectors.clone(), VECTOR_TOLERANCE).ncols() > 0;
+        let has_grown = self.model.extend(vectors.clone(), SAME_SPACE).ncols() > 0;
         if self.is_sampling {
             self.model.hold_sample(mu, &vectors);
         }

@@ -7,7 +7,7 @@ use crate::cea::sparse::linearization::Linearization;
 use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::sparse::packed::PackedModes;
 use crate::cea::sparse::structure::StructureMatrices;
-use crate::cea::sparse::{GROUP_WIDTH, TRACKING_MARGIN};
+use crate::cea::sparse::{GROUP_WIDTH, SAME_SPACE, TRACKING_MARGIN};
 use crate::linalg::{LinalgError, Mat, c64};
 use rayon::prelude::*;
 
@@ -116,7 +116,7 @@ impl BasisBuilder<'_> {
             let vectors: Vec<Vec<c64>> = modes.into_iter().map(|mode| mode.right).collect();
             Ok::<_, LinalgError>(real_columns(unknowns, &vectors))
         })?;
-        let has_grown = self.model.extend(vectors.clone(), VECTOR_TOLERANCE).ncols() > 0;
+        let has_grown = self.model.extend(vectors.clone(), SAME_SPACE).ncols() > 0;
         self.model.hold_sample(mu, &vectors);
         Ok(has_grown)
     }
@@ -178,7 +178,7 @@ impl BasisBuilder<'_> {
     /// If the analysis of the matrices fails.
     pub fn shift(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
         let vectors = self.step(mu, |builder| builder.shifted_corrections(mu, modes))?;
-        let has_grown = self.model.extend(vectors.clone(), VECTOR_TOLERANCE).ncols() > 0;
+        let has_grown = self.model.extend(vectors.clone(), SAME_SPACE).ncols() > 0;
         if self.sampled.contains(&mu) {
             self.model.hold_sample(mu, &vectors);
         }
