@@ -1,7 +1,7 @@
 //! Cost of a case, estimated without running it.
 //!
 //! Memory and time come from operation counts and typical rates of one modern core, to within a
-//! factor of about two; the run itself measures the real ones.
+//! factor of about two. The run itself measures the real ones.
 
 mod estimate;
 mod memory;

@@ -1,5 +1,6 @@
-//! Complex eigenvalues of the steady sliding of a case: its model, the sweep over friction by the solver it gets, the map
-//! over a second parameter, and the spectrum alone for those who study it.
+//! Complex eigenvalues of the steady sliding of a case: its model, and the sweep over friction by
+//! the solver it gets. The map over a second parameter, and the spectrum alone for those who study
+//! it.
 //!
 //! ```no_run
 //! use frictionsim::case::Case;
