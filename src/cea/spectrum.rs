@@ -68,8 +68,8 @@ pub struct ModeVectors {
 /// A mode as a wave of its harmonic.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModeWave {
-    /// The unknowns of the wave `+n` that has the eigenvalue [`Self::root`]: those of [`crate::prestress::HarmonicTangent`] of
-    /// an annulus, all of [`crate::prestress::SolidHarmonic`] of a body of revolution.
+    /// The unknowns of the wave `+n` that has the eigenvalue [`Self::root`]: those of
+    /// [`crate::prestress::HarmonicTangent`].
     pub unknowns: Vec<c64>,
     /// Whether the mode is the wave `-n`, the conjugate of these unknowns with the conjugate eigenvalue.
     pub is_backward: bool,

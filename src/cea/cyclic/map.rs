@@ -1,25 +1,7 @@
 //! Critical friction as a function of a second parameter.
 
-use super::{SolidModel, solid_sweep, sweep};
 use crate::cea::{CeaError, ModeLimit, SweepRequest, UnstableInterval};
-use crate::contact::SlidingContact;
-use crate::fem::AnnulusMaterials;
-use crate::mesh::AnnulusSpecification;
-use crate::prestress::TangentOptions;
 use rayon::prelude::*;
-
-/// Everything that a cyclic analysis is made from.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CyclicModel {
-    /// The annulus and its mesh.
-    pub specification: AnnulusSpecification,
-    /// Its material, and that of its shaft.
-    pub material: AnnulusMaterials,
-    /// Choices of the linearisation.
-    pub options: TangentOptions,
-    /// The cylinder.
-    pub contact: SlidingContact,
-}
 
 /// The unstable intervals for one value of the second parameter.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,36 +32,10 @@ impl StabilityMapPoint {
 /// Number of friction steps of each point; crossings are located exactly between them.
 const FRICTION_STEPS: usize = 8;
 
-/// Critical friction coefficients over values of a second parameter, up to `largest_friction`.
+/// Critical friction coefficients over values of a second parameter, up to `largest_friction`, by the function that solves a model.
 ///
 /// `models` pairs each value of the parameter with the model that it makes. A point that fails is data, the
 /// others go on. Parallel over values; the result does not depend on the number of threads.
-pub fn stability_map(
-    models: &[(f64, CyclicModel)],
-    limit: ModeLimit,
-    largest_friction: f64,
-) -> Vec<StabilityMapPoint> {
-    let solve = |model: &CyclicModel, request: &SweepRequest<'_>| {
-        let found =
-            sweep(&model.specification, &model.material, &model.options, &model.contact, request);
-        found.map(|found| found.sweep.intervals)
-    };
-    map_of(models, limit, largest_friction, solve)
-}
-
-/// [`stability_map`] of bodies of revolution in three dimensions.
-pub fn solid_stability_map(
-    models: &[(f64, SolidModel)],
-    limit: ModeLimit,
-    largest_friction: f64,
-) -> Vec<StabilityMapPoint> {
-    let solve = |model: &SolidModel, request: &SweepRequest<'_>| {
-        solid_sweep(model, request).map(|found| found.sweep.intervals)
-    };
-    map_of(models, limit, largest_friction, solve)
-}
-
-/// [`stability_map`] of models of any kind by the function that solves one.
 pub fn map_of<M: Sync>(
     models: &[(f64, M)],
     limit: ModeLimit,

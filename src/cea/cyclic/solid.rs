@@ -13,7 +13,6 @@ mod error;
 mod modes_below;
 mod reduction;
 mod rest;
-mod shape;
 mod sweep;
 
 pub use damped::Overdamped;

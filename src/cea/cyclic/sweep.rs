@@ -12,7 +12,7 @@ use crate::cea::{
 use crate::contact::SlidingContact;
 use crate::fem::MaterialField;
 use crate::mesh::{AnnulusSpecification, SectorMesh};
-use crate::prestress::{SectorTangent, TangentOptions};
+use crate::prestress::{TangentOptions, WaveTangent};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
@@ -46,7 +46,7 @@ pub struct CyclicSweep {
     /// Which harmonics were solved, and why.
     pub coverage: Coverage,
     /// The linearisation, for sensitivities.
-    pub tangent: SectorTangent,
+    pub tangent: WaveTangent,
 }
 
 /// Branches are followed from this much above the highest frequency wanted: friction may carry a mode
@@ -86,7 +86,7 @@ pub fn sweep_with_waves(
     let grid = request.rising_grid()?;
     request.limit.check()?;
     let sector = SectorMesh::generate(specification)?;
-    let tangent = SectorTangent::linearize(&sector, material, options, contact)?;
+    let tangent = WaveTangent::of_annulus(&sector, material, options, contact)?;
     let mut margin = MARGIN;
     let mut failure = None;
     for _ in 0..MARGIN_ATTEMPTS {
@@ -124,7 +124,7 @@ pub fn onsets(
     let grid = request.rising_grid()?;
     request.limit.check()?;
     let sector = SectorMesh::generate(specification)?;
-    let tangent = SectorTangent::linearize(&sector, material, options, contact)?;
+    let tangent = WaveTangent::of_annulus(&sector, material, options, contact)?;
     let found = solve(&tangent, (request, &[]), &grid, MARGIN, Some(harmonics))?;
     let unproven = Verdict { proven: Vec::new(), counted: Vec::new(), missed: None };
     Ok(finish(tangent, found, unproven).sweep)
@@ -149,7 +149,7 @@ struct Found {
 }
 
 fn solve(
-    tangent: &SectorTangent,
+    tangent: &WaveTangent,
     (request, waves_at): (&SweepRequest<'_>, &[f64]),
     grid: &[f64],
     margin: f64,
@@ -173,7 +173,7 @@ fn solve(
     let mut followed = followed?;
     followed.retain(|paths| !paths.paths.is_empty());
     let producer = ShapeProducer {
-        sliding_direction: tangent.base().sliding_direction,
+        sliding_direction: tangent.sliding_direction,
         expand: &|n, waves, x| expand(tangent, n, waves, x),
         waves_at,
         unknowns: &|_, x| x.to_vec(),
@@ -194,7 +194,7 @@ fn solve(
     })
 }
 
-fn finish(tangent: SectorTangent, found: Found, verdict: Verdict) -> CyclicSweep {
+fn finish(tangent: WaveTangent, found: Found, verdict: Verdict) -> CyclicSweep {
     let Found { followed, points, limit, margin } = found;
     let coverage = Coverage {
         largest_harmonic: tangent.largest_harmonic(),
@@ -205,7 +205,7 @@ fn finish(tangent: SectorTangent, found: Found, verdict: Verdict) -> CyclicSweep
         margin_hz: margin / TAU,
         factorizations: followed.iter().map(|paths| paths.factorizations).sum(),
     };
-    let (sweep, branches) = together(points, &followed, tangent.base().sliding_direction);
+    let (sweep, branches) = together(points, &followed, tangent.sliding_direction);
     CyclicSweep { sweep, branches, coverage, tangent }
 }
 
@@ -235,11 +235,11 @@ pub(super) fn together(
 }
 
 /// Harmonics that have a mode with `kappa < limit` without friction: all are looked at.
-fn harmonics_below(tangent: &SectorTangent, limit: f64) -> Vec<usize> {
+fn harmonics_below(tangent: &WaveTangent, limit: f64) -> Vec<usize> {
     (0..=tangent.largest_harmonic())
         .into_par_iter()
         .filter(|&n| {
-            let [mass, stiffness] = tangent.harmonic_at_rest(n);
+            let [mass, stiffness] = tangent.at_rest(n);
             rest::count_below(&mass, &stiffness, limit) > 0
         })
         .collect()
@@ -248,7 +248,7 @@ fn harmonics_below(tangent: &SectorTangent, limit: f64) -> Vec<usize> {
 /// `kappa` at rest up to which the modes wanted lie, and the harmonics with modes below the margin
 /// above it (possibly a few without).
 fn select(
-    tangent: &SectorTangent,
+    tangent: &WaveTangent,
     limit: ModeLimit,
     margin: f64,
 ) -> Result<(f64, Vec<usize>), CeaError> {
@@ -262,20 +262,20 @@ fn select(
 }
 
 fn select_lowest(
-    tangent: &SectorTangent,
+    tangent: &WaveTangent,
     asked: usize,
     margin: f64,
 ) -> Result<(f64, Vec<usize>), CeaError> {
     let waves = |n: usize| if tangent.is_standing(n) { 1 } else { 2 };
     let all = 0..=tangent.largest_harmonic();
-    let total = all.map(|n| waves(n) * tangent.dimension()).sum();
+    let total = all.map(|n| waves(n) * tangent.unknowns().len()).sum();
     if asked > total {
         return Err(CeaError::TooManyModes { asked, total });
     }
     // A few low harmonics that have enough modes bound the limit from above.
     let few: Vec<_> =
-        (0..=tangent.largest_harmonic().min(7)).map(|n| (n, tangent.harmonic_at_rest(n))).collect();
-    let enough = few.iter().map(|(n, _)| waves(*n) * tangent.dimension()).sum::<usize>();
+        (0..=tangent.largest_harmonic().min(7)).map(|n| (n, tangent.at_rest(n))).collect();
+    let enough = few.iter().map(|(n, _)| waves(*n) * tangent.unknowns().len()).sum::<usize>();
     let enough = enough.min(asked);
     let mut bound = 1e6;
     let count = |bound: f64| -> usize {
@@ -292,7 +292,7 @@ fn select_lowest(
         let mut found: Vec<f64> = candidates
             .par_iter()
             .flat_map_iter(|&n| {
-                let [mass, stiffness] = tangent.harmonic_at_rest(n);
+                let [mass, stiffness] = tangent.at_rest(n);
                 let pairs = rest::eigenpairs_below(&mass, &stiffness, bound);
                 pairs.into_iter().flat_map(move |(kappa, _)| vec![kappa; waves(n)])
             })

@@ -7,7 +7,7 @@ use crate::case::{Annulus, Body, Case, CaseErrors, Cea, CeaMethod, ModeSelection
 use crate::cea::cyclic::{self, Coverage, Overdamped, SolidModel, SolidSweep};
 use crate::cea::{CeaError, FrictionSweep, ModeBranch, ModeLimit, SweepRequest};
 use crate::mesh::{SectorMesh, SolidSector};
-use crate::prestress::{SectorTangent, SlidingTangent, SolidTangent, TangentOptions, WaveTangent};
+use crate::prestress::{SlidingTangent, TangentOptions, WaveTangent};
 use crate::study::tangent_options;
 
 /// The eigenvalue solver that a body gets.
@@ -263,15 +263,12 @@ impl Model {
                 let request = (request, waves_at);
                 let found = cyclic::sweep_with_waves(grid, materials, options, sliding, request)?;
                 Ok(Spectrum {
-                    dofs: found.tangent.dimension() * found.tangent.sector().sector_count(),
+                    dofs: found.tangent.unknowns().len() * found.tangent.sector_count(),
                     notes: Vec::new(),
                     coverage: Some(found.coverage),
                     overdamped: Vec::new(),
                     sweep: found.sweep,
-                    waves: Some(Waves {
-                        tangent: WaveTangent::Plane(Box::new(found.tangent)),
-                        branches: found.branches,
-                    }),
+                    waves: Some(Waves { tangent: found.tangent, branches: found.branches }),
                     is_by_diameters: false,
                 })
             }
@@ -283,10 +280,7 @@ impl Model {
                     coverage: Some(found.coverage),
                     overdamped: found.overdamped,
                     sweep: found.sweep,
-                    waves: Some(Waves {
-                        tangent: WaveTangent::Solid(Box::new(found.tangent)),
-                        branches: found.branches,
-                    }),
+                    waves: Some(Waves { tangent: found.tangent, branches: found.branches }),
                     is_by_diameters: false,
                 })
             }
@@ -383,14 +377,12 @@ impl Model {
             Self::Sectors(annulus, options) => {
                 let sector = SectorMesh::generate(&annulus.specification)?;
                 let (materials, sliding) = (&annulus.materials, &case.contact.sliding);
-                let tangent = SectorTangent::linearize(&sector, materials, options, sliding)?;
-                Some(WaveTangent::Plane(Box::new(tangent)))
+                Some(WaveTangent::of_annulus(&sector, materials, options, sliding)?)
             }
             Self::SolidSectors(model) => {
                 let SolidModel { specification, material, options, contact } = &**model;
                 let sector = SolidSector::generate(specification)?;
-                let tangent = SolidTangent::linearize(&sector, material, options, contact)?;
-                Some(WaveTangent::Solid(Box::new(tangent)))
+                Some(WaveTangent::of_revolution(&sector, material, options, contact)?)
             }
             Self::Whole(_) | Self::Assembly(_) => None,
         })
