@@ -33,7 +33,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let session = Session::start("basin", &arguments.options)?;
     session.check_memory(session.case.cost().mesh_memory_bytes)?;
     session.case.require_basin()?;
-    let folder = session.open_folder()?;
+    let folder = session.open_folder(false)?;
     terminal::catch_signals(terminal::NOTHING_KEPT);
     let summary = summary(&session.case, &session.manifest)?;
     session.options.output.finish_finding(folder, &summary)

@@ -94,13 +94,8 @@ fn run_with(
     let session = Session::start("cea", &arguments.options)?;
     let case = &session.case;
     let cea = case.require_cea()?;
-    let cost = case.cost();
-    let solver_bytes = cost.cea.map_or(0.0, |cea| cea.memory_bytes);
-    session.check_memory(cost.mesh_memory_bytes + solver_bytes)?;
-    let folder = match arguments.resume {
-        true => session.reopen_folder()?,
-        false => session.open_folder()?,
-    };
+    session.check_memory(case.memory("cea").0)?;
+    let folder = session.open_folder(arguments.resume)?;
     let bar = terminal::progress(session.options.output.is_quiet(), 0, "modes at rest");
     let heard = |progress| show(&bar, progress);
     let steps = KeptSteps::new(&folder, arguments.resume, &heard)?;

@@ -7,8 +7,7 @@ use crate::results::compare::{
     ComparedRun, ComparisonSummary, document, file, overlaid, print, shared,
 };
 use crate::results::{
-    DrawingError, Manifest, Page, Record, read_manifest, read_record, read_summary, write_page,
-    write_summary, write_table,
+    Manifest, Page, Record, read_manifest, read_record, read_summary, write_table,
 };
 use clap::{Args, ValueHint};
 use sha2::{Digest, Sha256};
@@ -71,19 +70,14 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let folder = output.open_folder(&manifest, false)?;
     write_table(&folder, &file(&runs, &quantities))?;
-    if let Some(drawing) = arguments.output.drawing() {
-        let figures = overlaid(&runs).map_err(DrawingError::from)?;
-        write_page(&folder, document(&runs, &quantities), figures, &drawing)?;
-    }
-    let table = print(&runs, &quantities);
+    let (text, document) = (print(&runs, &quantities), document(&runs, &quantities));
     let summary = ComparisonSummary {
         command: "compare".into(),
-        runs: runs.into_iter().map(|run| run.name).collect(),
+        runs: runs.iter().map(|run| run.name.clone()).collect(),
         quantities,
         manifest,
     };
-    let summary = write_summary(&folder, &summary)?;
-    output.finish(folder, &table, &summary)
+    output.finish_result(folder, &text, document, &summary, || overlaid(&runs))
 }
 
 /// `results/compare/A-B`, after the names of the runs; where that holds another comparison, with the beginning of its own hash.

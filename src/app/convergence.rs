@@ -4,7 +4,7 @@ use super::profile::Profile;
 use super::{Failure, RunOptions, Session, cycle, terminal};
 use crate::case::Analysis;
 use crate::results::convergence::ConvergenceSummary;
-use crate::results::write_finding;
+use crate::results::{Finding, declared};
 use crate::study::convergence::{Levels, levels, solve};
 use clap::Args;
 
@@ -37,7 +37,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     for case in cycles.flat_map(|of| &of.cases) {
         cycle::check_memory(case)?;
     }
-    let folder = session.open_folder()?;
+    let folder = session.open_folder(false)?;
     terminal::catch_signals(terminal::NOTHING_KEPT);
 
     let count = levels.iter().map(|of| of.cases.len() as u64).sum();
@@ -52,6 +52,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         manifest: folder.manifest().clone(),
     };
     let output = &session.options.output;
-    let object = write_finding(&folder, &summary, output.drawing().as_ref())?;
-    output.finish(folder, &summary.told(output.verbose > 0).to_text(), &object)
+    let text = summary.told(output.verbose > 0).to_text();
+    let figures = || declared(summary.figures());
+    output.finish_result(folder, &text, summary.document(), &summary, figures)
 }

@@ -75,19 +75,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
-/// Takes the folder of a search.
-fn opened(session: &Session, is_continued: bool) -> Result<OutputFolder, Failure> {
-    match is_continued {
-        true => session.reopen_folder(),
-        false => session.open_folder(),
-    }
-}
-
 /// Searches for rotating waves.
 fn waves(session: &Session, is_continued: bool) -> Result<(), Failure> {
     check_memory(&session.case)?;
     let study = CycleStudy::new(&session.case, session.simd)?;
-    let folder = opened(session, is_continued)?;
+    let folder = session.open_folder(is_continued)?;
     let families = study.family_count() as u64;
     let bar = terminal::progress(session.options.output.is_quiet(), families, "families");
     let steps = KeptSteps::new(&folder, is_continued, &|_| {})?;
@@ -107,7 +99,7 @@ fn waves(session: &Session, is_continued: bool) -> Result<(), Failure> {
 /// Searches for motions of the whole mesh.
 fn motions(session: &Session, is_continued: bool) -> Result<(), Failure> {
     let study = PeriodicStudy::new(&session.case, session.simd)?;
-    let folder = opened(session, is_continued)?;
+    let folder = session.open_folder(is_continued)?;
     let steps = KeptSteps::new(&folder, is_continued, &|_| {})?;
     let sought = study.sought_count() as u64;
     let bar = terminal::progress(session.options.output.is_quiet(), sought, "modes");

@@ -62,7 +62,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let shapes = shapes.as_deref().map(|shapes| MeasuredShapes { shapes, scale: arguments.scale });
     session.check_memory(session.case.cost().mesh_memory_bytes)?;
     refuse_too_few(&session.case, &lines)?;
-    let folder = session.open_folder()?;
+    let folder = session.open_folder(false)?;
     terminal::catch_signals(terminal::NOTHING_KEPT);
 
     let case = &session.case;

@@ -4,9 +4,7 @@ use super::profile::Profile;
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, Frf};
 use crate::frf::Terminal;
-use crate::results::{
-    ResponseSummary, draw_response_report, write_response, write_summary, write_universal_response,
-};
+use crate::results::{ResponseSummary, response_figure, write_response, write_universal_response};
 use crate::signal::FrequencyResponse;
 use crate::study::response::{FrequencyStudy, Response};
 use clap::Args;
@@ -39,7 +37,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let case = &session.case;
     let frf = case.require_frf()?;
     session.check_memory(case.memory("frf").0)?;
-    let folder = session.open_folder()?;
+    let folder = session.open_folder(false)?;
     terminal::catch_signals(terminal::NOTHING_KEPT);
     let bar = terminal::progress(session.options.output.is_quiet(), 0, "frequencies");
     let computed = FrequencyStudy::new(case)?.solve(&|lines| {
@@ -67,22 +65,15 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         wall_s: session.wall_seconds(),
         manifest: session.manifest.clone(),
     };
-    let object = write_summary(&folder, &summary)?;
-    if !session.options.output.no_figures {
-        let response = FrequencyResponse::new(frf.frequencies_hz.clone(), values, frf.quantity);
-        let response = response.map_err(Failure::run)?;
-        draw_response_report(
-            &folder,
-            &response,
-            &summary,
-            &session.options.output.figures.drawing(),
-        )?;
-    }
-    let path = folder.destination().to_owned();
-    folder.finish()?;
-    session.print(&summary.document().to_text(), &object, &path)
+    let document = summary.document();
+    let text = document.to_text();
+    let response = FrequencyResponse::new(frf.frequencies_hz.clone(), values, frf.quantity);
+    let response = response.map_err(Failure::run)?;
+    let figures = || Ok(vec![response_figure(&response)]);
+    session.options.output.finish_result(folder, &text, document, &summary, figures)
 }
 
+/// What was computed, in a sentence.
 fn described(case: &Case, frf: &Frf, computed: &Response) -> String {
     let place = |t: Terminal| {
         let direction = t.direction.name();

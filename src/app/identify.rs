@@ -8,7 +8,6 @@ use crate::results::identification::{
     DAMPING_BLOCK, IdentificationRecord, IdentificationSummary, document, identification,
     write_fits,
 };
-use crate::results::{write_page, write_summary, write_tables};
 use crate::signal::reader::{ResponseOptions, read_response, write_response};
 use crate::signal::{FrequencyResponse, IdentificationOptions, ResponseQuantity, identify};
 use clap::{Args, ValueEnum, ValueHint};
@@ -115,17 +114,15 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     write_fits(&folder, &file.responses, &found.fit)?;
     let block = summary.damping_block();
     folder.write(DAMPING_BLOCK, |out| out.write_all(block.as_bytes()))?;
-    write_tables(&folder, &document(&summary))?;
-    let object = write_summary(&folder, &summary)?;
     if let Some(copy) = copy {
         let text: String = file.responses.iter().map(write_response).collect();
         copy.write(text.as_bytes())?;
     }
-    if let Some(drawing) = arguments.output.drawing() {
-        let record = IdentificationRecord::of(&responses[0], &found);
-        write_page(&folder, document(&summary), vec![identification(&record)], &drawing)?;
-    }
-    arguments.output.finish(folder, &document(&summary).to_text(), &object)
+    let document = document(&summary);
+    let text = document.to_text();
+    let record = IdentificationRecord::of(&responses[0], &found);
+    let figures = || Ok(vec![identification(&record)]);
+    arguments.output.finish_result(folder, &text, document, &summary, figures)
 }
 
 /// The frequency range, checked.

@@ -2,8 +2,7 @@
 
 use super::profile::Profile;
 use super::{Failure, RunOptions, Session, terminal};
-use crate::results::improve::{ImproveSummary, document, draw, write};
-use crate::results::write_summary;
+use crate::results::improve::{ImproveSummary, document, figures, write};
 use crate::study::extent_of;
 use crate::study::improve::improve;
 use clap::Args;
@@ -41,11 +40,9 @@ pub const PROFILE: Profile = Profile {
 /// A bad case, nothing that grows, an output folder that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let session = Session::start("improve", &arguments.options)?;
-    let cost = session.case.cost();
-    let solver_bytes = cost.cea.map_or(0.0, |cea| cea.memory_bytes);
-    session.check_memory(cost.mesh_memory_bytes + solver_bytes)?;
+    session.check_memory(session.case.memory("cea").0)?;
     session.case.require_cea()?;
-    let folder = session.open_folder()?;
+    let folder = session.open_folder(false)?;
     terminal::catch_signals(terminal::NOTHING_KEPT);
     let found = improve(&session.case)?;
     let summary = ImproveSummary {
@@ -63,9 +60,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         manifest: session.manifest.clone(),
     };
     write(&folder, &summary, &found.mesh, &found.fields)?;
-    if let Some(drawing) = session.options.output.drawing() {
-        draw(&folder, &summary, &found.mesh, &found.fields, &drawing)?;
-    }
-    let object = write_summary(&folder, &summary)?;
-    session.options.output.finish(folder, &document(&summary).to_text(), &object)
+    let document = document(&summary);
+    let text = document.to_text();
+    let figures = || figures(&summary, &found.mesh, &found.fields);
+    session.options.output.finish_result(folder, &text, document, &summary, figures)
 }

@@ -49,11 +49,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     // Results belong to case, shapes and scale.
     let identity = format!("{} {:?}", session.manifest.case_hash, arguments.scale);
     session.manifest.case_hash = super::fit::joint_hash(&identity, &bytes);
-    let cost = session.case.cost();
-    let solver_bytes = cost.cea.map_or(0.0, |cea| cea.memory_bytes);
-    session.check_memory(cost.mesh_memory_bytes + solver_bytes)?;
+    session.check_memory(session.case.memory("cea").0)?;
     session.case.require_cea()?;
-    let folder = session.open_folder()?;
+    let folder = session.open_folder(false)?;
     terminal::catch_signals(terminal::NOTHING_KEPT);
     let found = assurance(&session.case, &shapes, arguments.scale)?;
     let summary = MacSummary {

@@ -62,7 +62,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let session = Session::start("matrices", &arguments.options)?;
     let case = &session.case;
     session.check_memory(case.cost().mesh_memory_bytes)?;
-    let folder = session.open_folder()?;
+    let folder = session.open_folder(false)?;
     let system = matrices(case, arguments.friction)?;
     let system = match arguments.friction {
         Some(_) => system.at_one_friction(),

@@ -3,13 +3,13 @@
 use super::profile::Profile;
 use super::{Failure, RunOptions, Session};
 use crate::case::{AssemblyBody, Case, ModeSelection};
-use crate::chart::Figure;
+use crate::chart::{ChartError, Figure};
 use crate::mesh::{AnnulusMesh, SolidSector, SolidSpecification};
+use crate::results::OutputFolder;
 use crate::results::mesh::{
-    Measured, MeshStatistics, MeshSummary, SolidMeshStatistics, draw, plane_figure, solid_figure,
+    Measured, MeshStatistics, MeshSummary, SolidMeshStatistics, plane_figure, solid_figure,
     write_mesh, write_revolution,
 };
-use crate::results::{OutputFolder, write_summary};
 use clap::Args;
 use std::collections::BTreeMap;
 
@@ -34,7 +34,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let session = Session::start("mesh", &arguments.options)?;
     let case = &session.case;
     session.check_memory(case.cost().mesh_memory_bytes)?;
-    let folder = session.open_folder()?;
+    let folder = session.open_folder(false)?;
     if let Some(assembly) = case.body.assembly() {
         return run_solid(&session, folder, assembly);
     }
@@ -63,7 +63,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         not_used: case.taken.not_used(),
         manifest: session.manifest.clone(),
     };
-    finish(&session, folder, &summary, || plane_figure(&mesh, &case.title, &case.output.probes))
+    let figures = || Ok(vec![plane_figure(&mesh, &case.title, &case.output.probes)]);
+    finish(&session, folder, &summary, figures)
 }
 
 /// The mesh of solid bodies.
@@ -90,7 +91,7 @@ fn run_solid(
         not_used: case.taken.not_used(),
         manifest: session.manifest.clone(),
     };
-    finish(session, folder, &summary, || solid_figure(mesh, &case.title, &roles))
+    finish(session, folder, &summary, || Ok(vec![solid_figure(mesh, &case.title, &roles)]))
 }
 
 /// Draws, writes the summary and prints.
@@ -98,14 +99,11 @@ fn finish<S: Measured>(
     session: &Session,
     folder: OutputFolder,
     summary: &MeshSummary<S>,
-    figure: impl FnOnce() -> Figure,
+    figures: impl FnOnce() -> Result<Vec<Figure>, ChartError>,
 ) -> Result<(), Failure> {
-    let output = &session.options.output;
-    if let Some(drawing) = output.drawing() {
-        draw(&folder, summary, figure(), &drawing)?;
-    }
-    let object = write_summary(&folder, summary)?;
-    output.finish(folder, &summary.document().to_text(), &object)
+    let document = summary.document();
+    let text = document.to_text();
+    session.options.output.finish_result(folder, &text, document, summary, figures)
 }
 
 /// Boundaries that slide or are glued, in a word.

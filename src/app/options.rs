@@ -4,12 +4,15 @@ use super::figure_options::FigureOptions;
 use super::limits::STANDARD_INPUT;
 use super::{Failure, terminal};
 use crate::case::unset;
+use crate::chart::{ChartError, Figure};
 use crate::fem::operator::SimdLevel;
+use crate::output::Document;
 use crate::results::{
-    DrawingOptions, Finding, Manifest, OutputFolder, Replace, is_result, read_manifest,
-    write_finding,
+    DrawingError, DrawingOptions, Finding, Manifest, OutputFolder, Replace, declared, is_result,
+    read_manifest, write_page, write_summary, write_tables,
 };
 use clap::{ArgAction, Args, ValueEnum, ValueHint};
+use serde::Serialize;
 use serde_json::{Value, json};
 use std::path::{Component, Path, PathBuf};
 
@@ -185,17 +188,39 @@ impl OutputOptions {
         self.print(table, summary, &path)
     }
 
-    /// Writes the files of a finding, completes the folder and prints.
+    /// Writes the tables, the figures, the page and the summary of a result, completes the folder and prints `text`.
     ///
     /// # Errors
     /// Those of the folder, of the drawing and of stdout.
+    pub fn finish_result(
+        &self,
+        folder: OutputFolder,
+        text: &str,
+        document: Document,
+        summary: &impl Serialize,
+        figures: impl FnOnce() -> Result<Vec<Figure>, ChartError>,
+    ) -> Result<(), Failure> {
+        write_tables(&folder, &document)?;
+        if let Some(options) = self.drawing() {
+            let figures = figures().map_err(DrawingError::from)?;
+            write_page(&folder, document, figures, &options)?;
+        }
+        let object = write_summary(&folder, summary)?;
+        self.finish(folder, text, &object)
+    }
+
+    /// As [`Self::finish_result`] for a finding.
+    ///
+    /// # Errors
+    /// As [`Self::finish_result`].
     pub fn finish_finding(
         &self,
         folder: OutputFolder,
         finding: &impl Finding,
     ) -> Result<(), Failure> {
-        let object = write_finding(&folder, finding, self.drawing().as_ref())?;
-        self.finish(folder, &finding.document().to_text(), &object)
+        let document = finding.document();
+        let text = document.to_text();
+        self.finish_result(folder, &text, document, finding, || declared(finding.figures()))
     }
 
     /// Says what a run would do; the end of a dry run.

@@ -66,12 +66,12 @@ impl Session {
         Ok(Self { case, options: options.clone(), manifest, simd, start })
     }
 
-    /// Takes the output folder; it belongs to one effective case.
+    /// Takes the output folder; it belongs to one effective case. `is_continued`: that of a run that goes on.
     ///
     /// # Errors
     /// Those of [`OutputOptions::open_folder`](super::options::OutputOptions::open_folder).
-    pub fn open_folder(&self) -> Result<OutputFolder, Failure> {
-        let folder = self.options.output.open_folder(&self.manifest, false)?;
+    pub fn open_folder(&self, is_continued: bool) -> Result<OutputFolder, Failure> {
+        let folder = self.options.output.open_folder(&self.manifest, is_continued)?;
         self.keep_mesh(folder)
     }
 
@@ -87,15 +87,6 @@ impl Session {
             folder.write(&name, |out| out.write_all(&table.bytes))?;
         }
         Ok(folder)
-    }
-
-    /// Takes the output folder of a run that goes on: it must hold this very case.
-    ///
-    /// # Errors
-    /// As [`Session::open_folder`].
-    pub fn reopen_folder(&self) -> Result<OutputFolder, Failure> {
-        let folder = self.options.output.open_folder(&self.manifest, true)?;
-        self.keep_mesh(folder)
     }
 
     /// Wall time since the start, s.

@@ -12,7 +12,6 @@ use crate::results::signal::{
     ChannelRecord, ChannelSummary, ModeSummary, SignalRecord, SignalSummary, document,
     draw as draw_figures, write_spectra,
 };
-use crate::results::{DrawingError, write_page, write_summary, write_tables};
 use crate::signal::reader::{
     Channel, SignalFile, SignalOptions, read_signal, slowdown, write_signal, write_wav,
 };
@@ -158,16 +157,15 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         manifest: folder.manifest().clone(),
     };
     write_spectra(&folder, &spectra)?;
-    write_tables(&folder, &document(&summary))?;
-    let object = write_summary(&folder, &summary)?;
-    if let Some(drawing) = arguments.output.drawing() {
-        let shown = record(arguments, &file, &summary, &modes, spectra);
-        let (figures, left_out) = draw_figures(&shown, &summary).map_err(DrawingError::from)?;
-        left_out.iter().for_each(|reason| tracing::warn!("{reason}"));
-        write_page(&folder, document(&summary), figures, &drawing)?;
-    }
     let aside = write_copies(arguments, &copies, &file)?;
-    arguments.output.finish(folder, &(document(&summary).to_text() + &aside), &object)
+    let document = document(&summary);
+    let text = document.to_text() + &aside;
+    arguments.output.finish_result(folder, &text, document, &summary, || {
+        let shown = record(arguments, &file, &summary, &modes, spectra);
+        let (figures, left_out) = draw_figures(&shown, &summary)?;
+        left_out.iter().for_each(|reason| tracing::warn!("{reason}"));
+        Ok(figures)
+    })
 }
 
 /// Length of the spectrogram's window, s.

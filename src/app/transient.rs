@@ -83,9 +83,7 @@ pub const PROFILE: Profile = Profile {
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let session = Session::start("transient", &arguments.options)?;
     let study = TransientStudy::new(&session.case, session.simd)?;
-    let cost = session.case.cost();
-    let record_bytes = cost.transient.map_or(0.0, |cost| cost.memory_bytes);
-    session.check_memory(cost.mesh_memory_bytes + record_bytes)?;
+    session.check_memory(session.case.memory("transient").0)?;
     let operator = study.operator()?;
     // Whatever is wrong with the case is said before the folder is touched.
     let fresh = study.start(operator.as_ref())?;
@@ -186,7 +184,7 @@ fn step(
 }
 
 fn open(session: &Session) -> Result<OutputFolder, Failure> {
-    let folder = session.open_folder()?;
+    let folder = session.open_folder(false)?;
     // A checkpoint of an earlier run must not outlive the results it belongs to.
     folder.discard(CHECKPOINT)?;
     Ok(folder)

@@ -73,9 +73,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let uncertainty = case.require_uncertainty()?;
     let sampler = Sampler::new(&case)?;
     let workers = session.manifest.threads as f64;
-    let cost = case.cost();
-    let solver = cost.cea.map_or(0.0, |cea| cea.memory_bytes);
-    session.check_memory(workers * (cost.mesh_memory_bytes + solver))?;
+    session.check_memory(workers * case.memory("cea").0)?;
     let count = uncertainty.samples.div_ceil(BLOCK);
     let blocks = arguments.share.pieces(count);
     let output = &arguments.options.output;

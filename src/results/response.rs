@@ -1,8 +1,7 @@
 //! Table, figure and report of a computed frequency response.
 
 use super::Manifest;
-use super::drawing::{DrawingError, DrawingOptions};
-use super::finding::{write_page, write_table};
+use super::finding::write_table;
 use super::folder::{FolderError, OutputFolder};
 use super::identification::unit_of;
 use crate::chart::{Axis, Figure, INK, Line, Marker, Panel, Points, SERIES};
@@ -84,19 +83,6 @@ pub fn write_universal_response(
     Ok(())
 }
 
-/// Draws magnitude and phase into `figures/`, as SVG and PNG, and writes `report.html`.
-///
-/// # Errors
-/// Those of the drawing and of the folder.
-pub fn draw_response_report(
-    folder: &OutputFolder,
-    response: &FrequencyResponse,
-    summary: &ResponseSummary,
-    options: &DrawingOptions,
-) -> Result<(), DrawingError> {
-    write_page(folder, summary.document(), vec![response_figure(response)], options)
-}
-
 impl ResponseSummary {
     /// What was computed, and its figure.
     pub fn document(&self) -> Document {
@@ -167,7 +153,7 @@ fn maxima(magnitude: &[f64]) -> Vec<usize> {
 }
 
 /// Magnitude and phase of a response over the frequency.
-fn response_figure(response: &FrequencyResponse) -> Figure {
+pub fn response_figure(response: &FrequencyResponse) -> Figure {
     let (frequencies, values) = (response.frequencies_hz(), response.values());
     let magnitude: Vec<f64> = values.iter().map(|h| h.norm()).collect();
     let limit = 180.0 + PHASE_MARGIN;

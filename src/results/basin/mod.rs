@@ -211,8 +211,4 @@ impl Finding for BasinSummary {
     fn figures(&self) -> Vec<Declaration<'_>> {
         vec![Box::new(|| figures::search(self))]
     }
-
-    fn manifest(&self) -> &Manifest {
-        &self.manifest
-    }
 }

@@ -243,8 +243,4 @@ impl Finding for ConvergenceSummary {
     fn figures(&self) -> Vec<Declaration<'_>> {
         vec![Box::new(|| Ok(figures::convergence(&self.series)))]
     }
-
-    fn manifest(&self) -> &Manifest {
-        &self.manifest
-    }
 }

@@ -5,9 +5,9 @@ mod summary;
 
 pub use summary::{BLOCK, FitSummary, FittedParameter, LineSummary, ModeSummary, SearchSummary};
 
+use super::Finding;
 use super::cea::{BRANCH, DIRECTION, HARMONIC};
 use super::drawing::Declaration;
-use super::{Finding, Manifest};
 use crate::output::{Document, Section, Table, columns};
 
 columns! {
@@ -99,9 +99,5 @@ impl Finding for FitSummary {
 
     fn figures(&self) -> Vec<Declaration<'_>> {
         vec![Box::new(|| Ok(figures::fit(self)))]
-    }
-
-    fn manifest(&self) -> &Manifest {
-        &self.manifest
     }
 }

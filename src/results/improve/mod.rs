@@ -8,7 +8,7 @@ use super::{Extent, Manifest};
 use crate::output::Described;
 use serde::{Deserialize, Serialize};
 
-pub use figures::draw;
+pub use figures::figures;
 pub use files::write;
 pub use tables::document;
 pub(super) use tables::{BESIDE, CANDIDATES, EFFECTS, STATES, VERDICTS};

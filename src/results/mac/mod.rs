@@ -141,8 +141,4 @@ impl Finding for MacSummary {
     fn figures(&self) -> Vec<Declaration<'_>> {
         vec![Box::new(|| figures::matrix(self))]
     }
-
-    fn manifest(&self) -> &Manifest {
-        &self.manifest
-    }
 }

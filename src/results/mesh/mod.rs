@@ -10,12 +10,10 @@ pub use plane_figure::figure as plane_figure;
 pub use solid::{SolidBoundary, SolidMeshStatistics, SolidRegion};
 pub use solid_figure::figure as solid_figure;
 
-use super::drawing::{DrawingError, DrawingOptions};
-use super::finding::write_page;
 use super::folder::{FolderError, OutputFolder};
 use super::manifest::Manifest;
 use super::vtu::{EncodedMesh, Field, write_vtu};
-use crate::chart::{Figure, literal};
+use crate::chart::literal;
 use crate::mesh::{BoundaryCondition, Mesh, MeshQuality};
 use crate::output::{Described, Document, Format, Section, fixed, significant};
 use serde::de::DeserializeOwned;
@@ -177,17 +175,4 @@ fn numbers(size: &MeshSize, shape: &ElementShapes) -> Vec<(String, String)> {
         ("largest aspect ratio".to_owned(), fixed(shape.largest_aspect_ratio, 2)),
         ("worst Jacobian".to_owned(), significant(shape.worst_jacobian, 5)),
     ]
-}
-
-/// Draws `figures/mesh` and writes `report.html`.
-///
-/// # Errors
-/// Those of the drawing and of the folder.
-pub fn draw<S: Measured>(
-    folder: &OutputFolder,
-    summary: &MeshSummary<S>,
-    figure: Figure,
-    options: &DrawingOptions,
-) -> Result<(), DrawingError> {
-    write_page(folder, summary.document(), vec![figure], options)
 }

@@ -30,7 +30,7 @@ pub use assembly::AssemblyModel;
 pub use dampings::dampings;
 pub use map::map;
 pub use model::{Model, Solver, Spectrum, Waves, asked_modes, mode_limit, no_cyclic_losses};
-pub(super) use sensitivity::rates_of_waves;
+pub(super) use sensitivity::rates::rates_of_waves;
 pub use sensitivity::{BodySensitivities, body_sensitivities};
 pub use sliding::{SlidingModel, SteadyState};
 pub use solid::SolidBody;
