@@ -24,5 +24,5 @@ mod vectors;
 
 pub use map::{StabilityMapPoint, map_of};
 pub use sensitivity::{Beside, WavePair, wave_pairs, wave_responses};
-pub use solid::{Overdamped, SolidModel, SolidSweep, solid_sweep, solid_sweep_with_waves};
-pub use sweep::{Coverage, CyclicSweep, onsets, sweep, sweep_with_waves};
+pub use solid::{SolidModel, solid_sweep, solid_sweep_with_waves};
+pub use sweep::{Coverage, Overdamped, WaveSweep, onsets, sweep, sweep_with_waves};

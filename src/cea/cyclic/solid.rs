@@ -15,5 +15,4 @@ mod reduction;
 mod rest;
 mod sweep;
 
-pub use damped::Overdamped;
-pub use sweep::{SolidModel, SolidSweep, solid_sweep, solid_sweep_with_waves};
+pub use sweep::{SolidModel, solid_sweep, solid_sweep_with_waves};

@@ -36,15 +36,34 @@ pub struct Coverage {
     pub factorizations: usize,
 }
 
+/// Motions that decay without oscillating, at one friction coefficient.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Overdamped {
+    /// Friction coefficient `mu`.
+    pub friction_coefficient: f64,
+    /// Number of motions: real eigenvalues, those with a frequency below a tenth of their size, and creep of the contact.
+    pub count: usize,
+    /// Their slowest and fastest decay, 1/s.
+    pub decay: [f64; 2],
+}
+
 /// A sweep with everything that the symmetry reveals.
 #[derive(Clone, Debug)]
-pub struct CyclicSweep {
+pub struct WaveSweep {
     /// Modes at each friction value and unstable intervals of the branches that have one of them.
     pub sweep: FrictionSweep,
     /// The branches of all modes that occur in the sweep.
     pub branches: Vec<ModeBranch>,
     /// Which harmonics were solved, and why.
     pub coverage: Coverage,
+    /// Unknowns of all harmonics.
+    pub dofs: usize,
+    /// What the reduction of the harmonics of a body in three dimensions leaves out of an eigenvalue, relative to it: the largest
+    /// estimate at the largest friction coefficient.
+    pub reduction_error: f64,
+    /// At each friction value, rising: motions up to the margin of the coverage that do not oscillate, where friction damps the motion
+    /// across the sliding strongly; each wave of a pair counts singly. None in the plane.
+    pub overdamped: Vec<Overdamped>,
     /// The linearisation, for sensitivities.
     pub tangent: WaveTangent,
 }
@@ -68,7 +87,7 @@ pub fn sweep(
     options: &TangentOptions,
     contact: &SlidingContact,
     request: &SweepRequest<'_>,
-) -> Result<CyclicSweep, CeaError> {
+) -> Result<WaveSweep, CeaError> {
     sweep_with_waves(specification, material, options, contact, (request, &[]))
 }
 
@@ -82,7 +101,7 @@ pub fn sweep_with_waves(
     options: &TangentOptions,
     contact: &SlidingContact,
     (request, waves_at): (&SweepRequest<'_>, &[f64]),
-) -> Result<CyclicSweep, CeaError> {
+) -> Result<WaveSweep, CeaError> {
     let grid = request.rising_grid()?;
     request.limit.check()?;
     let sector = SectorMesh::generate(specification)?;
@@ -194,7 +213,7 @@ fn solve(
     })
 }
 
-fn finish(tangent: WaveTangent, found: Found, verdict: Verdict) -> CyclicSweep {
+fn finish(tangent: WaveTangent, found: Found, verdict: Verdict) -> WaveSweep {
     let Found { followed, points, limit, margin } = found;
     let coverage = Coverage {
         largest_harmonic: tangent.largest_harmonic(),
@@ -206,7 +225,15 @@ fn finish(tangent: WaveTangent, found: Found, verdict: Verdict) -> CyclicSweep {
         factorizations: followed.iter().map(|paths| paths.factorizations).sum(),
     };
     let (sweep, branches) = together(points, &followed, tangent.sliding_direction);
-    CyclicSweep { sweep, branches, coverage, tangent }
+    WaveSweep {
+        sweep,
+        branches,
+        coverage,
+        dofs: tangent.unknowns().len() * tangent.sector_count(),
+        reduction_error: 0.0,
+        overdamped: Vec::new(),
+        tangent,
+    }
 }
 
 /// A sweep of its points and the paths that they are of, and the branches that have one of the modes.

@@ -4,7 +4,7 @@ use super::assembly::{self, AssemblyModel};
 use super::states::{StatesSweep, WholeMesh};
 use super::{Progress, StudyError};
 use crate::case::{Annulus, Body, Case, CaseErrors, Cea, CeaMethod, ModeSelection, Revolution};
-use crate::cea::cyclic::{self, Coverage, Overdamped, SolidModel, SolidSweep};
+use crate::cea::cyclic::{self, Coverage, Overdamped, SolidModel, WaveSweep};
 use crate::cea::{CeaError, FrictionSweep, ModeBranch, ModeLimit, SweepRequest};
 use crate::mesh::{SectorMesh, SolidSector};
 use crate::prestress::{SlidingTangent, TangentOptions, WaveTangent};
@@ -183,6 +183,19 @@ fn spectrum_of(found: StatesSweep, mut notes: Vec<String>) -> Spectrum {
     }
 }
 
+/// The spectrum of a body that was solved harmonic by harmonic.
+fn spectrum_of_waves(found: WaveSweep, notes: Vec<String>) -> Spectrum {
+    Spectrum {
+        dofs: found.dofs,
+        notes,
+        coverage: Some(found.coverage),
+        overdamped: found.overdamped,
+        sweep: found.sweep,
+        waves: Some(Waves { tangent: found.tangent, branches: found.branches }),
+        is_by_diameters: false,
+    }
+}
+
 impl Model {
     /// The model of a case for its eigenvalue analysis.
     ///
@@ -262,27 +275,12 @@ impl Model {
                 let sliding = &case.contact.sliding;
                 let request = (request, waves_at);
                 let found = cyclic::sweep_with_waves(grid, materials, options, sliding, request)?;
-                Ok(Spectrum {
-                    dofs: found.tangent.unknowns().len() * found.tangent.sector_count(),
-                    notes: Vec::new(),
-                    coverage: Some(found.coverage),
-                    overdamped: Vec::new(),
-                    sweep: found.sweep,
-                    waves: Some(Waves { tangent: found.tangent, branches: found.branches }),
-                    is_by_diameters: false,
-                })
+                Ok(spectrum_of_waves(found, Vec::new()))
             }
             Self::SolidSectors(model) => {
                 let found = cyclic::solid_sweep_with_waves(model, request, waves_at)?;
-                Ok(Spectrum {
-                    dofs: found.dofs,
-                    notes: vec![reduction_note(&found, request)],
-                    coverage: Some(found.coverage),
-                    overdamped: found.overdamped,
-                    sweep: found.sweep,
-                    waves: Some(Waves { tangent: found.tangent, branches: found.branches }),
-                    is_by_diameters: false,
-                })
+                let note = reduction_note(&found, request);
+                Ok(spectrum_of_waves(found, vec![note]))
             }
             Self::Whole(whole) => {
                 let found = whole.sweep(case, request, progress)?;
@@ -406,7 +404,7 @@ impl Model {
 }
 
 /// What the reduction of the harmonics leaves out.
-fn reduction_note(found: &SolidSweep, request: &SweepRequest<'_>) -> String {
+fn reduction_note(found: &WaveSweep, request: &SweepRequest<'_>) -> String {
     let frictions = request.friction_coefficients.iter();
     format!(
         "each harmonic is solved in a small space (residuals are those there): relative error of an eigenvalue up to {:.1e}, \

@@ -4,7 +4,7 @@ use crate::cea_cyclic::model::paper_options;
 use crate::disc::{POLYCARBONATE, annulus, contact};
 use crate::waves::{STEP, difference, is_of, pairs, rates};
 use faer::c64;
-use frictionsim::cea::cyclic::{CyclicSweep, WavePair, sweep};
+use frictionsim::cea::cyclic::{WavePair, WaveSweep, sweep};
 use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::contact::{ContactStiffness, NormalLaw, SlidingContact};
 use frictionsim::fem::{AnnulusMaterials, ElasticMaterial, PlaneFormulation};
@@ -22,7 +22,7 @@ struct CyclicModel {
     contact: SlidingContact,
 }
 
-fn swept(model: &CyclicModel, frictions: &[f64], limit_hz: f64) -> CyclicSweep {
+fn swept(model: &CyclicModel, frictions: &[f64], limit_hz: f64) -> WaveSweep {
     let request = SweepRequest {
         friction_coefficients: frictions,
         limit: ModeLimit::MaxFrequency(limit_hz),

@@ -3,7 +3,7 @@
 use crate::disc::{DAMPING, POLYCARBONATE, annulus};
 use crate::friction_law::falling;
 use crate::waves::{STEP, is_of, pairs, rates};
-use frictionsim::cea::cyclic::{self, CyclicSweep};
+use frictionsim::cea::cyclic::{self, WaveSweep};
 use frictionsim::cea::{ComplexMode, FrictionSweep, ModeLimit, SweepRequest, sparse};
 use frictionsim::contact::{ContactStiffness, FrictionDecay, SlidingContact};
 use frictionsim::fem::{ElasticMaterial, MassKind, assemble_stiffness};
@@ -31,7 +31,7 @@ fn swept(
     options: &TangentOptions,
     contact: &SlidingContact,
     frictions: &[f64],
-) -> CyclicSweep {
+) -> WaveSweep {
     let request = SweepRequest {
         friction_coefficients: frictions,
         limit: ModeLimit::Lowest(18),

@@ -5,7 +5,7 @@
 
 use crate::solids::model::disc;
 use assert_cmd::Command;
-use frictionsim::cea::cyclic::{SolidModel, SolidSweep, solid_sweep};
+use frictionsim::cea::cyclic::{SolidModel, WaveSweep, solid_sweep};
 use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::linalg::{ComplexDenseLu, Mat, c64};
 use frictionsim::mesh::{BoundaryCondition, ElementKind, SolidContact, SolidSector};
@@ -25,7 +25,7 @@ fn turning(element: ElementKind, divisions: [usize; 3], rpm: f64) -> SolidModel 
     model
 }
 
-fn solved(model: &SolidModel) -> SolidSweep {
+fn solved(model: &SolidModel) -> WaveSweep {
     let request = SweepRequest {
         friction_coefficients: &[FRICTION],
         limit: ModeLimit::MaxFrequency(LIMIT),
@@ -36,7 +36,7 @@ fn solved(model: &SolidModel) -> SolidSweep {
 }
 
 /// Listed eigenvalues of harmonic `n`.
-fn listed(found: &SolidSweep, n: usize) -> Vec<c64> {
+fn listed(found: &WaveSweep, n: usize) -> Vec<c64> {
     let modes = found.sweep.points[0].modes.iter();
     modes.filter(|mode| mode.harmonic == n).map(|mode| mode.eigenvalue).collect()
 }
@@ -100,7 +100,7 @@ fn distance(values: &[c64], others: &[c64]) -> f64 {
 }
 
 /// What the small space leaves out is all that may differ.
-fn assert_equal(found: &SolidSweep, n: usize, exact: &[c64], what: &str) {
+fn assert_equal(found: &WaveSweep, n: usize, exact: &[c64], what: &str) {
     let listed = listed(found, n);
     assert!(!exact.is_empty(), "{what}, n = {n}");
     assert_eq!(listed.len(), exact.len(), "{what}, n = {n}");

@@ -1,7 +1,7 @@
 //! A sweep over the friction coefficient in three dimensions.
 
 use super::across::Across;
-use super::damped::{Overdamped, Range, follow_damped};
+use super::damped::{Range, follow_damped};
 use super::error::{ReducedPair, reduction_error};
 use super::modes_below::{AtRest, bound, modes_below, wanted};
 use super::reduction::Reduction;
@@ -11,8 +11,8 @@ use crate::cea::cyclic::modes::{ShapeProducer, expand, point};
 use crate::cea::cyclic::path::Waves;
 use crate::cea::cyclic::paths::{HarmonicPaths, follow_pairs};
 use crate::cea::cyclic::problem::HarmonicProblem;
-use crate::cea::cyclic::sweep::together;
-use crate::cea::{CeaError, FrictionPoint, FrictionSweep, ModeBranch, SweepRequest};
+use crate::cea::cyclic::sweep::{Overdamped, WaveSweep, together};
+use crate::cea::{CeaError, FrictionPoint, SweepRequest};
 use crate::contact::SlidingContact;
 use crate::fem::ElasticMaterial;
 use crate::linalg::c64;
@@ -32,27 +32,6 @@ pub struct SolidModel {
     pub options: TangentOptions,
     /// The rotor.
     pub contact: SlidingContact,
-}
-
-/// A sweep with everything that the symmetry reveals.
-#[derive(Clone, Debug)]
-pub struct SolidSweep {
-    /// Modes at each friction value and unstable intervals of the branches that have one of them.
-    pub sweep: FrictionSweep,
-    /// Which harmonics were solved.
-    pub coverage: Coverage,
-    /// Unknowns of all harmonics.
-    pub dofs: usize,
-    /// What the reduction of the harmonics leaves out of an eigenvalue, relative to it: the largest estimate at the largest friction
-    /// coefficient.
-    pub reduction_error: f64,
-    /// Every branch followed that has one of the modes.
-    pub branches: Vec<ModeBranch>,
-    /// At each friction value, rising: motions up to the margin of the coverage that do not oscillate, where friction damps the motion
-    /// across the sliding strongly; each wave of a pair counts singly.
-    pub overdamped: Vec<Overdamped>,
-    /// The linearisation, for sensitivities.
-    pub tangent: WaveTangent,
 }
 
 /// Branches are followed from this much above the highest frequency wanted.
@@ -88,7 +67,7 @@ struct Solved {
 ///
 /// # Errors
 /// [`CeaError`] where there is no sliding equilibrium, or a branch cannot be followed.
-pub fn solid_sweep(model: &SolidModel, request: &SweepRequest<'_>) -> Result<SolidSweep, CeaError> {
+pub fn solid_sweep(model: &SolidModel, request: &SweepRequest<'_>) -> Result<WaveSweep, CeaError> {
     solid_sweep_with_waves(model, request, &[])
 }
 
@@ -100,7 +79,7 @@ pub fn solid_sweep_with_waves(
     model: &SolidModel,
     request: &SweepRequest<'_>,
     waves_at: &[f64],
-) -> Result<SolidSweep, CeaError> {
+) -> Result<WaveSweep, CeaError> {
     let grid = request.rising_grid()?;
     request.limit.check()?;
     let sector = SolidSector::generate(&model.specification)?;
@@ -153,7 +132,7 @@ pub fn solid_sweep_with_waves(
         margin_hz: margin.sqrt() / TAU,
         factorizations: followed.iter().map(|paths| paths.factorizations).sum(),
     };
-    Ok(SolidSweep {
+    Ok(WaveSweep {
         sweep,
         coverage,
         dofs: tangent.dof_count() * tangent.sector_count(),
