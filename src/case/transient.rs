@@ -6,6 +6,7 @@ use super::body::{Body, Revolution};
 use super::diagnostic::CaseErrors;
 use super::node::{Nodes, PlacedNode};
 use super::reader::Section;
+use super::{refusal, refuse};
 use crate::contact::SlidingContact;
 use crate::mesh::{Counterface, SolidContact};
 use crate::prestress::BaseChoice;
@@ -89,22 +90,18 @@ impl Case {
     /// Refuses what an assembly cannot have in a transient, nor in a limit cycle, which is one.
     pub(super) fn check_stepped(&self, assembly: &AssemblyBody) -> Result<(), CaseErrors> {
         if assembly.base == BaseChoice::Closed {
-            return Err(self.error_at(
-                "contacts",
-                "contacts with state = \"closed\" are free of stress: without a normal force \
-                 there is no friction to step in time",
-                "steps in time need state = \"solved\"",
-                "press the bodies together (condition = \"pressure\"), or leave `state` out",
-            ));
+            return Err(refusal!(self, "contacts",
+                "contacts with state = \"closed\" are free of stress: without a normal force there \
+                 is no friction to step in time";
+                "steps in time need state = \"solved\"";
+                "press the bodies together (condition = \"pressure\"), or leave `state` out"));
         }
         if assembly.motions.iter().any(|motion| motion.inertia.is_some()) {
-            return Err(self.error_at(
-                "motion",
-                "rotation_terms are not stepped in time: the gyroscopic forces of the last \
-                 half step would feed the motion",
-                "with rotation_terms = false",
-                "use `frictionsim cea`, or leave rotation_terms out",
-            ));
+            return Err(refusal!(self, "motion",
+                "rotation_terms are not stepped in time: the gyroscopic forces of the last half \
+                 step would feed the motion";
+                "with rotation_terms = false";
+                "use `frictionsim cea`, or leave rotation_terms out"));
         }
         Ok(())
     }
@@ -127,14 +124,9 @@ pub(super) fn transient(
     if let TimeStep::Seconds(step) = time_step
         && step > duration
     {
-        section.reject(
-            "time_step",
-            format!(
-                "transient.time_step = {step:?} s is above transient.duration = {duration:?} s"
-            ),
-            format!("at most {duration:?}"),
-            None,
-        );
+        refuse!(section, "time_step",
+            "transient.time_step = {step:?} s is above transient.duration = {duration:?} s";
+            "at most {duration:?}");
     }
     let initial = initial(&section, body);
     let expansion_time = section.number("expansion_time");
@@ -178,12 +170,9 @@ fn initial(section: &Section<'_>, body: Option<&Body>) -> InitialState {
     let [given, onset] = keys.map(|key| section.optional_count(key));
     let InitialState::LimitCycle { .. } = initial else {
         for (key, _) in keys.iter().zip([given, onset]).filter(|pair| pair.1.is_some()) {
-            section.reject(
-                key,
-                format!("transient.{key} is given, but the run does not start on a limit cycle"),
-                "only with initial = \"limit-cycle\"",
-                None,
-            );
+            refuse!(section, key,
+                "transient.{key} is given, but the run does not start on a limit cycle";
+                "only with initial = \"limit-cycle\"");
         }
         return initial;
     };
@@ -191,14 +180,9 @@ fn initial(section: &Section<'_>, body: Option<&Body>) -> InitialState {
     let sectors = body.and_then(Body::sector_count);
     if let Some(sectors) = sectors.filter(|sectors| harmonic > sectors / 2) {
         let highest = sectors / 2;
-        section.reject(
-            "limit_cycle_harmonic",
-            format!(
-                "transient.limit_cycle_harmonic = {harmonic} is above the mesh's highest, {highest}"
-            ),
-            format!("at most half of {sectors} elements"),
-            None,
-        );
+        refuse!(section, "limit_cycle_harmonic",
+            "transient.limit_cycle_harmonic = {harmonic} is above the mesh's highest, {highest}";
+            "at most half of {sectors} elements");
     }
     InitialState::LimitCycle { harmonic, onset: onset.unwrap_or(1) }
 }

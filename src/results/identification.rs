@@ -106,9 +106,6 @@ pub fn document(summary: &IdentificationSummary) -> Document {
 }
 
 /// Writes `fit.csv` (`fit-2.csv` and so on for further responses).
-///
-/// # Errors
-/// Those of the folder.
 pub fn write_fits(
     folder: &OutputFolder,
     responses: &[NamedResponse],

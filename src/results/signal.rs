@@ -92,9 +92,6 @@ pub fn document(summary: &SignalSummary) -> Document {
 }
 
 /// Writes a spectrum for each channel.
-///
-/// # Errors
-/// Those of the folder.
 pub fn write_spectra(
     folder: &OutputFolder,
     spectra: &[AmplitudeSpectrum],

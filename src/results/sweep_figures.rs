@@ -28,9 +28,6 @@ const NO_STICK: f64 = 0.005;
 ///
 /// `modes` are unstable modes at `friction_coefficient`, the case's own; `highest_friction` is the largest of its eigenvalue
 /// analysis.
-///
-/// # Errors
-/// That of a figure that cannot be drawn although there is something to draw.
 pub fn draw_sweep(
     records: &[PointRecord],
     (friction_coefficient, highest_friction): (f64, f64),

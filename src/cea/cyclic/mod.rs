@@ -10,7 +10,6 @@ mod collision;
 mod completeness;
 mod definite;
 mod follow;
-mod map;
 mod modes;
 mod path;
 mod paths;
@@ -21,7 +20,6 @@ mod solid;
 mod sweep;
 mod vectors;
 
-pub use map::{CyclicModel, StabilityMapPoint, map_of, solid_stability_map, stability_map};
 pub use sensitivity::{Beside, WavePair, wave_pairs, wave_responses};
 pub use solid::{Overdamped, SolidModel, SolidSweep, solid_sweep, solid_sweep_with_waves};
 pub use sweep::{Coverage, CyclicSweep, onsets, sweep, sweep_with_waves};

@@ -139,9 +139,6 @@ impl BaseField {
 
 /// Writes `prestress.csv` (contact nodes) and `prestress.vtu` (displacement and stress of all nodes; status, pressure and
 /// friction traction of the contact edge; friction coefficient and power of the whole).
-///
-/// # Errors
-/// Those of the folder.
 pub fn write_base(
     folder: &OutputFolder,
     mesh: &Mesh,

@@ -267,13 +267,10 @@ fn words(report: &CeaReport<'_>, view: View) -> Vec<String> {
         let [first, last] = [values.first(), values.last()].map(|v| v.copied().unwrap_or(0.0));
         format!("No mode turns unstable for friction from {first} to {last}.")
     });
-    let map = report.map.map(|map| format!("{}.", map.print()));
     // Pages of the same case are the same bytes.
     let time = (view != View::Page).then(|| format!("{:.3} s.", report.wall_s));
-    [Some(solved), time, Some(steady), note, map, mesh_errors(report), none]
-        .into_iter()
-        .flatten()
-        .collect()
+    let all = [Some(solved), time, Some(steady), note, mesh_errors(report), none];
+    all.into_iter().flatten().collect()
 }
 
 /// The largest error of the mesh in a frequency, and that of the lowest critical friction, where they were estimated.

@@ -181,9 +181,6 @@ const POWERS: [(&str, &str); 5] = [
 ];
 
 /// Draws frequency, amplitude, statuses and powers along the branches of several families.
-///
-/// # Errors
-/// That of a figure that cannot be drawn although there is something to draw.
 pub fn draw_branches(
     families: &[NamedFamily<'_>],
     two_waves: &[TwoWaveRecord],

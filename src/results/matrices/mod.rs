@@ -271,9 +271,6 @@ impl MatricesSummary {
 
 /// Writes every matrix in both formats, the two tables and what multiplies what; at one friction coefficient the Matrix Market
 /// files alone.
-///
-/// # Errors
-/// Those of the folder.
 pub fn write_matrices(
     folder: &OutputFolder,
     system: &ExportedSystem,

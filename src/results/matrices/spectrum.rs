@@ -80,9 +80,6 @@ impl FreeSpectrum {
     }
 
     /// Writes `eigenvalues.csv` and the summary.
-    ///
-    /// # Errors
-    /// Those of the folder.
     pub fn write(&self, folder: &OutputFolder, wall_s: f64) -> Result<Value, FolderError> {
         write_table(folder, &self.table())?;
         write_summary(

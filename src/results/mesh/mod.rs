@@ -135,9 +135,6 @@ fn caption(title: &str) -> String {
 }
 
 /// Writes `mesh.vtu` with node numbers, the nodes of the contact marked, what is held, and the region of each element.
-///
-/// # Errors
-/// Those of the folder.
 pub fn write_mesh(
     folder: &OutputFolder,
     mesh: &Mesh,

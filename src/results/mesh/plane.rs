@@ -207,9 +207,6 @@ impl MeshStatistics {
 const COUNTERFACE: &str = "counterface";
 
 /// Writes the bricks of a body of revolution.
-///
-/// # Errors
-/// Those of the folder.
 pub fn write_revolution(folder: &OutputFolder, sector: &SolidSector) -> Result<(), FolderError> {
     let per_sector = sector.node_count();
     let count = per_sector * sector.sector_count();

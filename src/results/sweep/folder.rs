@@ -204,9 +204,6 @@ impl SweepFolder {
     }
 
     /// Reads a finished point.
-    ///
-    /// # Errors
-    /// Those of the file system.
     pub fn read(&self, point: usize) -> Result<Found, FolderError> {
         let path = self.point_path(point);
         let bytes = match read_file(&path, RESULT) {
@@ -237,9 +234,6 @@ impl SweepFolder {
     /// Claims a point for this process; `None` if another one has it.
     ///
     /// A claimed point may have been finished a moment ago: look before running it.
-    ///
-    /// # Errors
-    /// Those of the file system.
     pub fn claim(&self, point: usize) -> Result<Option<Claim>, FolderError> {
         let path = self.path.join(POINTS).join(format!("{CLAIM}{point:06}"));
         let file = open_lock(&path)?;
@@ -262,9 +256,6 @@ impl SweepFolder {
     }
 
     /// Writes `summary.json`.
-    ///
-    /// # Errors
-    /// Those of the file system.
     pub fn write_summary(&self, summary: &Value) -> Result<(), FolderError> {
         self.write("summary.json", |out| {
             serde_json::to_writer_pretty(&mut *out, summary)?;
@@ -287,9 +278,6 @@ impl SweepFolder {
     }
 
     /// Writes a page, its figures, and both as data.
-    ///
-    /// # Errors
-    /// Those of the formats and of the file system.
     pub fn write_page(&self, page: &Page, options: &DrawingOptions) -> Result<(), DrawingError> {
         self.write(Page::FILE, |out| out.write_all(&record_bytes(page)?))?;
         self.draw(page, options)

@@ -49,9 +49,6 @@ pub struct PredictedGrowth<'a> {
 }
 
 /// Draws every figure that the run has data for and writes the page.
-///
-/// # Errors
-/// Those of the folder; a figure that cannot be drawn although there is something to draw.
 pub fn draw(
     folder: &OutputFolder,
     run: &RunFigures<'_>,

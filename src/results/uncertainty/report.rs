@@ -89,9 +89,6 @@ pub fn samples_table(keys: &[String], samples: &[Sample], largest_friction: f64)
 }
 
 /// Draws the figures into `figures/` and writes `report.html`.
-///
-/// # Errors
-/// Those of the folder and of the drawing.
 pub fn draw_report(
     folder: &SweepFolder,
     summary: &UncertaintySummary,

@@ -4,14 +4,23 @@ use crate::cea_cyclic::model::paper_options;
 use crate::disc::{POLYCARBONATE, annulus, contact};
 use crate::waves::{STEP, difference, is_of, pairs, rates};
 use faer::c64;
-use frictionsim::cea::cyclic::{CyclicModel, CyclicSweep, WavePair, sweep};
+use frictionsim::cea::cyclic::{CyclicSweep, WavePair, sweep};
 use frictionsim::cea::{ModeLimit, SweepRequest};
-use frictionsim::contact::{ContactStiffness, NormalLaw};
-use frictionsim::fem::{ElasticMaterial, PlaneFormulation};
-use frictionsim::mesh::{ElementKind, SectorMesh};
-use frictionsim::prestress::{DampingModel, SectorTangent, WaveTangent};
+use frictionsim::contact::{ContactStiffness, NormalLaw, SlidingContact};
+use frictionsim::fem::{AnnulusMaterials, ElasticMaterial, PlaneFormulation};
+use frictionsim::mesh::{AnnulusSpecification, ElementKind, SectorMesh};
+use frictionsim::prestress::{DampingModel, SectorTangent, TangentOptions, WaveTangent};
 
 const FRICTION: f64 = 0.35;
+
+/// What an analysis by sectors is made from.
+#[derive(Clone, Copy)]
+struct CyclicModel {
+    specification: AnnulusSpecification,
+    material: AnnulusMaterials,
+    options: TangentOptions,
+    contact: SlidingContact,
+}
 
 fn swept(model: &CyclicModel, frictions: &[f64], limit_hz: f64) -> CyclicSweep {
     let request = SweepRequest {
