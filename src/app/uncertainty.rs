@@ -133,17 +133,9 @@ fn run_block(
     manifest: &Manifest,
     block: usize,
 ) -> Result<(), Failure> {
-    let is_finished = || Ok::<_, Failure>(matches!(folder.read(block)?, Found::Point(_)));
-    if is_finished()? {
-        return Ok(());
-    }
-    let Some(_claim) = folder.claim(block)? else {
+    let Some(_claim) = folder.take(block)? else {
         return Ok(());
     };
-    // Another process may have finished it between the look and the claim.
-    if is_finished()? {
-        return Ok(());
-    }
     let start = Instant::now();
     let samples = serde_json::to_value(sampler.block(block)).map_err(Failure::run)?;
     let record = PointRecord {

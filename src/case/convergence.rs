@@ -2,8 +2,8 @@
 
 use super::body::{Body, Revolution, node_count};
 use super::reader::Section;
-use super::refuse;
 use super::words::Analysis;
+use super::{caution, refuse};
 use crate::mesh::{AnnulusSpecification, BodyError, Mesh, ShaftSpecification, SolidSpecification};
 use std::sync::Arc;
 
@@ -254,26 +254,18 @@ fn check_meshes(
             radial as f64 / annulus.radial_elements as f64,
         ];
         if (a / r - 1.0).abs() > UNEVEN {
-            section.warn(
-                "factors",
-                format!(
-                    "{name}, refines by {a:.3} around and {r:.3} along the radius after rounding: \
-                     the observed order suffers from that"
-                ),
-                "uneven after rounding",
-            );
+            caution!(section, "factors",
+                "{name}, refines by {a:.3} around and {r:.3} along the radius after rounding: the \
+                 observed order suffers from that";
+                "uneven after rounding");
         }
         let layers = solid.map_or(1, |solid| solid.axial_elements) as f64;
         let z = (layers * factor).round() / layers;
         if solid.is_some() && (z / a - 1.0).abs() > UNEVEN {
-            section.warn(
-                "factors",
-                format!(
-                    "{name}, refines by {a:.3} around and {z:.3} over the thickness after rounding: the observed order suffers \
-                     from that"
-                ),
-                "uneven after rounding",
-            );
+            caution!(section, "factors",
+                "{name}, refines by {a:.3} around and {z:.3} over the thickness after rounding: \
+                 the observed order suffers from that";
+                "uneven after rounding");
         }
         previous = Some((factor, mesh));
     }

@@ -224,11 +224,22 @@ macro_rules! diagnosis {
 
 /// Refuses a key of a section: `refuse!(section, key, what; label; remedy)`; behind `=>` what is wrong follows the key's name.
 macro_rules! refuse {
-    ($section:expr, $key:expr => $message:literal $(, $part:expr)*; $($rest:tt)*) => {
-        $crate::case::refuse!($section, $key, "{} {}", $section.name($key),
+    ($($said:tt)*) => { $crate::case::at_key!(reject, $($said)*) };
+}
+
+/// As [`refuse!`] what is no error but what the user should hear of.
+macro_rules! caution {
+    ($($said:tt)*) => { $crate::case::at_key!(warn, $($said)*) };
+}
+
+macro_rules! at_key {
+    ($method:ident, $section:expr, $key:expr => $message:literal $(, $part:expr)*; $($rest:tt)*) => {
+        $crate::case::said!($method, $section, $key, "{} {}", $section.name($key),
             format_args!($message $(, $part)*); $($rest)*)
     };
-    ($section:expr, $($said:tt)*) => { $crate::case::said!(reject, $section, $($said)*) };
+    ($method:ident, $section:expr, $($said:tt)*) => {
+        $crate::case::said!($method, $section, $($said)*)
+    };
 }
-pub(super) use {diagnosis, refuse};
+pub(super) use {at_key, caution, diagnosis, refuse};
 pub(crate) use {refusal, said};

@@ -2,8 +2,8 @@
 
 use super::node::Nodes;
 use super::reader::Section;
-use super::refuse;
 use super::words::FrfMethod;
+use super::{caution, refuse};
 use crate::fem::MassKind;
 use crate::frf::{Direction, FrfBoundary, Terminal};
 use crate::signal::ResponseQuantity;
@@ -77,11 +77,7 @@ pub(super) fn read(root: &Section<'_>, nodes: &Nodes<'_>) -> Option<Frf> {
         noise_seed: section.count("noise_seed"),
     };
     if section.has("noise_seed") && frf.noise == 0.0 {
-        section.warn(
-            "noise_seed",
-            "frf.noise_seed is not used: frf.noise is 0".to_owned(),
-            "no noise",
-        );
+        caution!(section, "noise_seed", "frf.noise_seed is not used: frf.noise is 0"; "no noise");
     }
     section.close();
     Some(frf)

@@ -7,12 +7,12 @@ use super::modifications::{Modification, reshaped};
 use super::opposite::{check_meeting, opposite_curve};
 use super::raw::{MeshBytes, RawCase};
 use super::reader::Section;
-use super::refuse;
 use super::shown::first_of;
 use super::suggestion;
 use super::tables::{TableFiles, modulus_table};
 use super::value::quote;
 use super::words::CounterfaceWord;
+use super::{caution, refuse};
 use crate::fem::{ElasticMaterial, RayleighDamping, RegionMaterial, TabledMaterial};
 use crate::mesh::{
     BodyError, BodyPart, BodySpecification, CounterfaceSpecification, CyclicSymmetry, FileMesh,
@@ -99,15 +99,9 @@ pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
         &["direction", "speed"]
     };
     for key in idle.iter().filter(|key| section.has(key)) {
-        section.warn(
-            key,
-            format!(
-                "{} is not used: the counterface is a {}",
-                section.name(key),
-                if is_plane { "plane" } else { "cylinder" }
-            ),
-            "no effect",
-        );
+        caution!(section, key =>
+            "is not used: the counterface is a {}", if is_plane { "plane" } else { "cylinder" };
+            "no effect");
     }
     ContactPlace { solid: SolidContact::Inner, boundary, counterface, opposite, plane_speed }
 }

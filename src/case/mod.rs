@@ -68,7 +68,7 @@ pub use convergence::Convergence;
 pub use cost::{CeaCost, Cost, CycleCost, FrfCost, RunCost, StudyCost, TransientCost};
 pub use cycle::{Continuation, Cycle};
 pub use diagnostic::{CaseErrors, Diagnostic, Location, Remedy, Source};
-use diagnostic::{diagnosis, refuse};
+use diagnostic::{at_key, caution, diagnosis, refuse};
 pub(crate) use diagnostic::{refusal, said};
 pub use file_sections::FileSection;
 pub use fit::{Fit, FitParameter};
@@ -191,6 +191,7 @@ impl Case {
                  transient of this case cannot run"
                     .to_owned(),
                 "no transient",
+                None,
             );
         }
         let cycle = cycle::cycle(&root, body.as_ref());

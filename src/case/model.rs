@@ -11,10 +11,10 @@ use super::imported::{self, BodyParts, ImportError};
 use super::modifications::{self, Modification};
 use super::raw::{MeshBytes, RawCase};
 use super::reader::Section;
-use super::refuse;
 use super::solid;
 use super::tables::{TableFiles, modulus_table};
 use super::words::{FilePart, UnitsWord};
+use super::{caution, refuse};
 use crate::fem::{ElasticMaterial, RayleighDamping, RegionMaterial, TabledMaterial};
 use crate::mesh::{BoundaryCondition, CounterfaceSpecification, ElementKind};
 
@@ -221,11 +221,7 @@ fn ignore_generated(geometry: &Section<'_>, mesh: &Section<'_>) {
     let given = radii.iter().map(|key| (geometry, key));
     let given = given.chain(counts.iter().chain(&shape).map(|key| (mesh, key)));
     for (section, key) in given.filter(|(section, key)| section.has(key)) {
-        section.warn(
-            key,
-            format!("{} is not used: mesh.file describes the body", section.name(key)),
-            "no effect",
-        );
+        caution!(section, key => "is not used: mesh.file describes the body"; "no effect");
     }
 }
 

@@ -2,8 +2,8 @@
 
 use super::interference::interference;
 use super::reader::Section;
-use super::refuse;
 use super::words::CounterfaceWord;
+use super::{caution, refuse};
 use crate::contact::{RigidCounterface, RigidMotion, RigidShape};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
@@ -25,11 +25,7 @@ pub(super) fn rigid_counterface(section: &Section<'_>) -> RigidCounterface {
         }
     };
     if shape == RigidShape::Plane && radius.is_some() {
-        section.warn(
-            "radius",
-            format!("{} is not used: the counterface is a plane", section.name("radius")),
-            "no effect",
-        );
+        caution!(section, "radius" => "is not used: the counterface is a plane"; "no effect");
     }
     let axis = triple(section, "axis").unwrap_or([0.0, 0.0, 1.0]);
     RigidCounterface {

@@ -4,7 +4,7 @@ use super::boundaries::NamedCondition;
 use super::diagnostic::CaseErrors;
 use super::reader::Section;
 use super::{Case, suggestion};
-use super::{refusal, refuse};
+use super::{caution, refusal, refuse};
 use crate::fem::{ElasticMaterial, PlaneFormulation};
 use crate::mesh::{AnnulusSpecification, BoundaryCondition, SolidContact, SolidFace};
 
@@ -15,13 +15,10 @@ pub(super) fn is_solid(material: &ElasticMaterial) -> bool {
 
 /// Says that the stress of the base state is left out of the modes.
 pub(super) fn warn_of_stress(cea: &Section<'_>) {
-    cea.warn(
-        "geometric_stiffness",
-        "solid bodies on their whole mesh have no geometric stiffness: \
-         the stress of the base state is left out of their modes"
-            .to_owned(),
-        "no effect; set it to false",
-    );
+    caution!(cea, "geometric_stiffness",
+        "solid bodies on their whole mesh have no geometric stiffness: the stress of the base \
+         state is left out of their modes";
+        "no effect; set it to false");
 }
 
 /// Elements over the thickness; `None` in the plane, where they are an error.
@@ -156,17 +153,6 @@ pub(super) fn conditions(
 }
 
 impl Case {
-    /// Refuses an analysis that plane bodies only have.
-    ///
-    /// # Errors
-    /// A case of a three-dimensional body.
-    pub fn require_plane(&self, what: &str) -> Result<(), CaseErrors> {
-        match self.body.revolution() {
-            None => Ok(()),
-            Some(_) => Err(self.not_plane(what)),
-        }
-    }
-
     /// The error of an analysis that takes plane bodies only.
     pub(super) fn not_plane(&self, what: &str) -> CaseErrors {
         refusal!(self, "material.formulation",

@@ -88,7 +88,7 @@ pub(super) fn modulus_table(
             "{}: {file}:{line}: {what}; the modulus of a passive material rises with the frequency",
             section.name("table")
         );
-        section.warn("table", message, "falls with the frequency");
+        section.warn("table", message, "falls with the frequency", None);
     }
     let rows = rows.iter().map(|row| [row.frequency_hz, row.young_modulus, row.loss_factor]);
     let key = section.name("table");

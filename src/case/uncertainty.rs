@@ -3,8 +3,8 @@
 use super::diagnostic::CaseErrors;
 use super::parameters::{ModelParameter, entries, number, only, refuse_twice};
 use super::reader::Section;
-use super::refuse;
 use super::value::{RawEntry, RawValue};
+use super::{caution, refuse};
 use crate::linalg::Distribution;
 
 /// Share of a distribution beyond what its key can take from which on it is refused.
@@ -180,14 +180,10 @@ fn uncertain(
     }
     // What a sample meets once in a million is not worth a word.
     if beyond > 1e-6 {
-        section.warn(
-            key,
-            format!(
-                "{:.4} % of {word} = [{a}, {b}] of {key} lies where the key {rule}: samples are drawn from the rest",
-                100.0 * beyond
-            ),
-            "reaches forbidden values",
-        );
+        caution!(section, key,
+            "{:.4} % of {word} = [{a}, {b}] of {key} lies where the key {rule}: samples are drawn \
+             from the rest", 100.0 * beyond;
+            "reaches forbidden values");
     }
     UncertainParameter { parameter, distribution, range }
 }

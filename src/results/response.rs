@@ -9,11 +9,11 @@ use crate::linalg::c64;
 use crate::output::{Described, Document, Section, Table};
 use crate::signal::reader::{self, NamedResponse};
 use crate::signal::{FrequencyResponse, ResponseQuantity};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::io;
 
 /// `summary.json` of `frictionsim frf`.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct ResponseSummary {
     /// `frf`.
     pub command: String,

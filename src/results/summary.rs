@@ -7,13 +7,13 @@ use super::folder::{FolderError, OutputFolder};
 use super::reopening::{SUMMARY, read_own};
 use crate::cycle::CriticalValue;
 use crate::output::Described;
+use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::path::Path;
 
 /// Where along a parameter steady sliding loses its stability.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct CriticalSummary {
     /// Key of the case.
     pub key: String,
@@ -36,7 +36,7 @@ impl From<CriticalValue> for CriticalSummary {
 }
 
 /// Fractions of the contact nodes, averaged over the interval that a summary is of.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize)]
 pub struct StatusFractions {
     /// Sticking.
     pub stick: Option<f64>,
@@ -47,7 +47,7 @@ pub struct StatusFractions {
 }
 
 /// Mean powers of a whole disc, W; equations (9) to (12).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize)]
 pub struct MeanPowers {
     /// Of the motor.
     pub external: Option<f64>,
@@ -62,12 +62,12 @@ pub struct MeanPowers {
     /// Of the normal contact forces.
     pub normal_contact: Option<f64>,
     /// Lost in the dashpots of a contact that has some.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_damping: Option<f64>,
 }
 
 /// Amplitude ratios between which the winner of two waves changes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize)]
 pub struct Bounds {
     /// Largest ratio at which the first wave wins; without `high` it wins at every ratio tried.
     pub low: Option<f64>,

@@ -246,6 +246,18 @@ impl SweepFolder {
         Ok(Some(Claim { path, _lock: file }))
     }
 
+    /// Claims a point for this process; `None` where it is finished or another one has it.
+    pub fn take(&self, point: usize) -> Result<Option<Claim>, FolderError> {
+        let is_finished =
+            || -> Result<bool, FolderError> { Ok(matches!(self.read(point)?, Found::Point(_))) };
+        if is_finished()? {
+            return Ok(None);
+        }
+        let claim = self.claim(point)?;
+        // Another process may have finished it between the look and the claim.
+        Ok(if is_finished()? { None } else { claim })
+    }
+
     /// Writes a finished point, whole or not at all, and before it what the clock says of it.
     ///
     /// # Errors

@@ -6,7 +6,7 @@ use super::matrix::OperatingMatrix;
 use super::swept::{printed, short};
 use crate::chart::extremes;
 use crate::output::{Cell, Described, Document, Format, Section, Table, columns, significant};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use serde_json::{Map, Value};
 
 /// What the first summary of a point says that has it; nothing of a point that failed.
@@ -35,19 +35,25 @@ fn critical(point: &PointRecord) -> Cell {
 columns! {
     /// What a person wants first of a point.
     FIRST: point as PointRecord;
-    main_frequency_hz: "main frequency" = first(point, "/main_frequency_hz"), IfAny "main frequency" Fixed(2);
+    main_frequency_hz: "main frequency"
+        = first(point, "/main_frequency_hz"), IfAny "main frequency" Fixed(2);
     harmonic: "nodal diameters" = first(point, "/main_harmonic"), IfAny "n" Count;
     stick: "stick" = first(point, "/status/stick"), IfAny "stick" Fixed(3);
     slip: "slip" = first(point, "/status/slip"), IfAny "slip" Fixed(3);
     open: "open" = first(point, "/status/open"), IfAny "open" Fixed(3);
     critical_friction: "critical friction" = critical(point), IfAny "critical friction" Fixed(6);
-    critical_n: "its nodal diameters" = first(point, "/critical_frictions/0/harmonic"), IfAny "n" Count;
-    first_n: "nodal diameters of the first cycle" = first(point, "/cycles/0/harmonic"), IfAny "n" Count;
-    first_hz: "its frequency" = first(point, "/cycles/0/main_frequency_hz"), IfAny "main frequency" Fixed(2);
+    critical_n: "its nodal diameters"
+        = first(point, "/critical_frictions/0/harmonic"), IfAny "n" Count;
+    first_n: "nodal diameters of the first cycle"
+        = first(point, "/cycles/0/harmonic"), IfAny "n" Count;
+    first_hz: "its frequency"
+        = first(point, "/cycles/0/main_frequency_hz"), IfAny "main frequency" Fixed(2);
     first_stick: "its stick" = first(point, "/cycles/0/status/stick"), IfAny "stick" Fixed(3);
     first_open: "its open" = first(point, "/cycles/0/status/open"), IfAny "open" Fixed(3);
-    second_n: "nodal diameters of the second cycle" = first(point, "/cycles/1/harmonic"), IfAny "n" Count;
-    second_hz: "its frequency" = first(point, "/cycles/1/main_frequency_hz"), IfAny "main frequency" Fixed(2);
+    second_n: "nodal diameters of the second cycle"
+        = first(point, "/cycles/1/harmonic"), IfAny "n" Count;
+    second_hz: "its frequency"
+        = first(point, "/cycles/1/main_frequency_hz"), IfAny "main frequency" Fixed(2);
     second_stick: "its stick" = first(point, "/cycles/1/status/stick"), IfAny "stick" Fixed(3);
     second_open: "its open" = first(point, "/cycles/1/status/open"), IfAny "open" Fixed(3);
     winner: "wave that always wins" = first(point, "/winner"), IfAny "n that always wins" Count;
@@ -174,7 +180,7 @@ impl SweepReport<'_> {
 }
 
 /// `summary.json` of `frictionsim sweep`.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct SweepSummary {
     /// `sweep`.
     pub command: String,
@@ -207,7 +213,7 @@ pub struct SweepSummary {
 }
 
 /// A point that failed, and why.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct FailedPoint {
     /// Its number, from 1.
     pub point: usize,
