@@ -19,8 +19,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The [`guide`] is for users of the program, [`study`] has every analysis as a handful of calls, and the rest of this page is
-//! for readers of the code.
+//! The [`guide`] is for users of the program. [`study`] has every analysis as a handful of calls.
+//! The rest of this page is for readers of the code.
 //!
 //! # How a run goes
 //!

@@ -1,7 +1,7 @@
 //! Cost of a case, estimated without running it.
 //!
-//! Memory comes from the sizes of matrices and records, to within a factor of about two. Time is a count of operations at one
-//! rate: its order of magnitude.
+//! Memory comes from the sizes of matrices and records, to within a factor of about two. Time is a
+//! count of operations at one rate: its order of magnitude.
 
 mod estimate;
 mod memory;

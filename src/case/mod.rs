@@ -1,8 +1,8 @@
 //! Case files: TOML to validated SI values.
 //!
 //! [`RawCase`] is exactly what the TOML says, overrides included; [`Case`] is the same thing
-//! validated: every section a struct in the terms of the lower floors, every rule between keys
-//! checked, all errors reported at once as [`CaseErrors`].
+//! validated. Every section is a struct in the terms of the lower floors, and every rule between
+//! keys is checked. All errors are reported at once as [`CaseErrors`].
 
 mod assembly;
 mod attachments;

@@ -1,9 +1,10 @@
-//! What a case takes from its mesh file beside the mesh: materials, ties, contact pairs, conditions and motions, as the sections
-//! that a case would have for them.
+//! Materials, ties, contact pairs, conditions and motions that a case takes from its mesh file, as
+//! the sections that it would have for them.
 //!
-//! Sections of the case win: a key that it gives is not taken. A boundary to which the case gives a condition, a contact or a tie
-//! whose surfaces it names and a motion whose axis it gives stand as the case has them alone; elastic constants are taken
-//! together, and so are the two coefficients of Rayleigh's damping.
+//! Sections of the case win: a key that it gives is not taken. The case alone says the condition of
+//! a boundary that has one there. The same holds for a contact or a tie whose surfaces it names,
+//! and for a motion whose axis it gives. Elastic constants are taken together, and so are the two
+//! coefficients of Rayleigh's damping.
 
 use super::diagnostic::{Diagnostic, Location};
 use super::file_sections::{FileSection, item, sections};

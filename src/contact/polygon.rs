@@ -30,3 +30,20 @@ pub(super) fn clipped(subject: Vec<Vector2<f64>>, window: &[Vector2<f64>]) -> Ve
     }
     polygon
 }
+
+/// A polygon without the corners that span less than `smallest` with their neighbours: where edges of two faces coincide, round-off
+/// decides how many of them clipping leaves, and with it where the quadrature points of the segment lie.
+pub(super) fn without_straight_corners(
+    mut polygon: Vec<Vector2<f64>>,
+    smallest: f64,
+) -> Vec<Vector2<f64>> {
+    let is_straight = |polygon: &[Vector2<f64>], i: usize| {
+        let count = polygon.len();
+        let corner = [(i + count - 1) % count, i, (i + 1) % count].map(|place| polygon[place]);
+        signed_area(&corner) <= smallest
+    };
+    while let Some(i) = (0..polygon.len()).find(|&i| is_straight(&polygon, i)) {
+        polygon.remove(i);
+    }
+    polygon
+}

@@ -1,6 +1,6 @@
 //! Faces of two surfaces that face each other, cut into the segments that both have.
 
-use super::polygon::{clipped, signed_area};
+use super::polygon::{clipped, signed_area, without_straight_corners};
 use super::{PairError, RigidCounterface, Row};
 use crate::mesh::{Boundary, BoundaryFace, Mesh};
 use nalgebra::{Matrix2, Vector2, Vector3};
@@ -359,8 +359,8 @@ fn shared_polygon(
     if signed_area(&shadow) < 0.0 {
         shadow.reverse();
     }
-    let polygon = clipped(flat(facet.corners()), &shadow);
     let smallest = SLIVER * facet.area.min(other.area);
+    let polygon = without_straight_corners(clipped(flat(facet.corners()), &shadow), smallest);
     (polygon.len() > 2 && signed_area(&polygon) > smallest).then_some(polygon)
 }
 

@@ -1,5 +1,5 @@
-//! Limit cycles in the mesh's own time stepping: what one period of the explicit transient does to a cycle, and to small
-//! perturbations that ride on it.
+//! Limit cycles in the mesh's own time stepping. What one period of the explicit transient does to
+//! a cycle, and to small perturbations that ride on it.
 
 use super::limit_cycle::{CyclePowers, LimitCycle};
 use super::{CycleError, CycleSolver};

@@ -1,7 +1,8 @@
 //! Element matrices of isoparametric elements in nodal frames, plane and solid alike.
 //!
-//! A plane element is integrated as a solid one of unit thickness whose gradients along z vanish: strains have six components,
-//! and the material says what they mean ([`ElasticMaterial::elasticity_at`]).
+//! A plane element is integrated as a solid one of unit thickness whose gradients along z vanish.
+//! Strains have six components; the material says what they mean
+//! ([`ElasticMaterial::elasticity_at`]).
 
 mod mass;
 mod strain;

@@ -1,7 +1,8 @@
 //! Matrices of one sector of the annulus: element stiffness and mass, supports, damping, geometric stiffness.
 //!
-//! Dofs are `2 k` radial and `2 k + 1` tangential of sector node `k`; nodes are numbered outwards, the contact edge first (see
-//! [`SectorMesh`]), so that the matrices of a wave are block-tridiagonal in the radius.
+//! Dofs are `2 k` radial and `2 k + 1` tangential of sector node `k`; nodes are numbered outwards,
+//! the contact edge first (see [`SectorMesh`]). So the matrices of a wave are block-tridiagonal in
+//! the radius.
 
 use super::element;
 use super::fold::{SectorMatrix, WaveDofs};

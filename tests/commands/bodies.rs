@@ -194,5 +194,7 @@ bodies! {
     body_of_revolution_with_contact_on_the_edge: "body of revolution, contact on the edge",
     body_of_revolution_with_contact_on_a_face: "body of revolution, contact on a face",
     solid_bodies_tied_and_sliding: "solid bodies, tied and sliding",
+    solid_bodies_that_squeal: "solid bodies, squealing",
+    solid_bodies_with_stiffening_contact: "solid bodies, stiffening contact",
     solid_of_sectors: "solid of sectors",
 }

@@ -176,10 +176,30 @@ fn the_readme_is_short_and_pages_keep_within_100_columns() {
     }
 }
 
+/// What modules and crates say of themselves at their heads.
+fn heads_of_modules() -> Vec<(String, String)> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut folders = vec![root.join("src"), root.join("crates")];
+    let mut heads = Vec::new();
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|end| end == "rs") {
+                let text = fs::read_to_string(&path).unwrap();
+                let head = text.lines().map_while(|line| line.strip_prefix("//!"));
+                heads.push((path.display().to_string(), head.collect::<Vec<_>>().join("\n")));
+            }
+        }
+    }
+    heads
+}
+
 /// A sentence ends at a full stop, a colon or a question mark before a space; what stands as code is one word.
 #[test]
-fn sentences_of_readme_and_guide_have_25_words_at_most() {
-    for (name, text) in pages() {
+fn sentences_of_readme_guide_and_modules_have_25_words_at_most() {
+    for (name, text) in pages().into_iter().chain(heads_of_modules()) {
         for paragraph in parts(&text).1 {
             let code = paragraph.split('`').enumerate();
             let plain: Vec<&str> =

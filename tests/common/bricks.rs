@@ -1,5 +1,6 @@
 //! Bodies of bricks side by side in one mesh file.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// A block of bricks; its sides are the surfaces `NAME_x0`, `NAME_x1`, `NAME_y0` ... of the file.
@@ -12,19 +13,52 @@ pub struct Block {
 
 /// The blocks as a file in MSH 2.2, every point moved by `place`. Nodes of different blocks are different nodes.
 pub fn file_of(blocks: &[Block], place: impl Fn([f64; 3]) -> [f64; 3]) -> Vec<u8> {
+    file_of_order(blocks, 1, place)
+}
+
+/// Corners of a brick in halves of its edges, and the edges in the order of Gmsh.
+const CORNERS: [[usize; 3]; 8] =
+    [[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [0, 0, 2], [2, 0, 2], [2, 2, 2], [0, 2, 2]];
+const EDGES: [[usize; 2]; 12] = [
+    [0, 1],
+    [0, 3],
+    [0, 4],
+    [1, 2],
+    [1, 5],
+    [2, 3],
+    [2, 6],
+    [3, 7],
+    [4, 5],
+    [4, 7],
+    [5, 6],
+    [6, 7],
+];
+
+/// The same of bricks with 8 nodes (`order` 1) or 20 nodes (`order` 2).
+pub fn file_of_order(
+    blocks: &[Block],
+    order: usize,
+    place: impl Fn([f64; 3]) -> [f64; 3],
+) -> Vec<u8> {
     let (mut names, mut nodes, mut elements) = (String::new(), String::new(), String::new());
     let (mut name_count, mut node_count, mut element_count) = (0, 0, 0);
     for block in blocks {
-        let [nx, ny, nz] = block.counts;
-        let first = node_count + 1;
-        let node = |i: usize, j: usize, k: usize| first + i + (nx + 1) * (j + (ny + 1) * k);
-        for k in 0..=nz {
-            for j in 0..=ny {
-                for i in 0..=nx {
-                    let share = [i as f64 / nx as f64, j as f64 / ny as f64, k as f64 / nz as f64];
-                    let at = |axis: usize| block.origin[axis] + block.size[axis] * share[axis];
+        let counts = block.counts;
+        // Nodes by their place in halves of an element; a brick of 20 nodes has none in faces or inside.
+        let step = if order == 1 { 2 } else { 1 };
+        let mut numbers = BTreeMap::new();
+        for k in (0..=2 * counts[2]).step_by(step) {
+            for j in (0..=2 * counts[1]).step_by(step) {
+                for i in (0..=2 * counts[0]).step_by(step) {
+                    if i % 2 + j % 2 + k % 2 > 1 {
+                        continue;
+                    }
+                    let half = [i, j, k];
+                    let share = |axis: usize| half[axis] as f64 / (2 * counts[axis]) as f64;
+                    let at = |axis: usize| block.origin[axis] + block.size[axis] * share(axis);
                     let [x, y, z] = place([at(0), at(1), at(2)]);
                     node_count += 1;
+                    numbers.insert(half, node_count);
                     writeln!(nodes, "{node_count} {x:?} {y:?} {z:?}").unwrap();
                 }
             }
@@ -38,13 +72,19 @@ pub fn file_of(blocks: &[Block], place: impl Fn([f64; 3]) -> [f64; 3]) -> Vec<u8
             let list = list.join(" ");
             writeln!(elements, "{element_count} {kind} 2 {group} {group} {list}").unwrap();
         };
-        for k in 0..nz {
-            for j in 0..ny {
-                for i in 0..nx {
-                    let ring = |k: usize| {
-                        [node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k)]
-                    };
-                    element(5, group, &[ring(k), ring(k + 1)].concat());
+        // Corners of an element or a face, and the middles of its edges behind them.
+        let with_middles = |corners: &[[usize; 3]], edges: &[[usize; 2]]| -> Vec<usize> {
+            let middle = |[a, b]: &[usize; 2]| {
+                std::array::from_fn(|axis| (corners[*a][axis] + corners[*b][axis]) / 2)
+            };
+            let middles = edges.iter().filter(|_| order == 2).map(middle);
+            corners.iter().copied().chain(middles).map(|half| numbers[&half]).collect()
+        };
+        for k in 0..counts[2] {
+            for j in 0..counts[1] {
+                for i in 0..counts[0] {
+                    let at = |[a, b, c]: [usize; 3]| [2 * i + a, 2 * j + b, 2 * k + c];
+                    element([5, 17][order - 1], group, &with_middles(&CORNERS.map(at), &EDGES));
                 }
             }
         }
@@ -57,11 +97,13 @@ pub fn file_of(blocks: &[Block], place: impl Fn([f64; 3]) -> [f64; 3]) -> Vec<u8
                     for b in 0..block.counts[v] {
                         let corner = |da: usize, db: usize| {
                             let mut index = [0; 3];
-                            (index[axis], index[u], index[v]) = (at, a + da, b + db);
-                            node(index[0], index[1], index[2])
+                            (index[axis], index[u], index[v]) =
+                                (2 * at, 2 * (a + da), 2 * (b + db));
+                            index
                         };
-                        let list = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
-                        element(3, name_count, &list);
+                        let corners = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
+                        let list = with_middles(&corners, &[[0, 1], [1, 2], [2, 3], [3, 0]]);
+                        element([3, 16][order - 1], name_count, &list);
                     }
                 }
             }

@@ -1,7 +1,8 @@
 //! Mesh files of Gmsh, Abaqus and CalculiX, Nastran and universal files, and matrices in the Matrix Market format.
 //!
-//! [`FileMesh::read_as`] reads a mesh of any format: nodes, elements by their [`ElementKind`], named curves, surfaces and sets
-//! of nodes, and what the file says of materials, conditions and contacts ([`ModelData`]).
+//! [`FileMesh::read_as`] reads a mesh of any format. It has nodes, elements by their
+//! [`ElementKind`], and named curves, surfaces and sets of nodes. What the file says of materials,
+//! conditions and contacts is its [`ModelData`].
 
 mod abaqus;
 mod collection;

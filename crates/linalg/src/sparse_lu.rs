@@ -1,7 +1,7 @@
 //! Sparse LU factors by elimination front by front: one symbolic analysis for all values of a pattern, real or complex.
 //!
-//! Unknowns of alike neighbours make a front, a dense matrix `F` of those that are eliminated in it (1) and those that they leave
-//! coupled (2). With the pivots chosen within a front,
+//! Unknowns of alike neighbours make a front. It is a dense matrix `F` of those that are eliminated
+//! in it (1) and those that they leave coupled (2). With the pivots chosen within a front,
 //!
 //! ```text
 //! P F11 = L U,    right = L^-1 P F12,    below = F21 U^-1,    F22 - below right,

@@ -1,8 +1,8 @@
 //! Past the friction coefficient at which two branches of a standing harmonic meet.
 //!
-//! The waves of a standing harmonic (`n = 0`, or the shortest on the mesh) see real matrices, so two real
-//! `kappa` can meet and go on as a conjugate pair, or the other way round. No derivative exists at that
-//! point; both are followed on the far side.
+//! The waves of a standing harmonic (`n = 0`, or the shortest on the mesh) see real matrices. So
+//! two real `kappa` can meet and go on as a conjugate pair, or the other way round. No derivative
+//! exists at that point; both are followed on the far side.
 
 use super::follow::Follower;
 use super::path::{Eigenpair, Path};

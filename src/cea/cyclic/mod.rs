@@ -1,9 +1,10 @@
 //! The eigenvalues of a rotationally symmetric annulus, harmonic by harmonic.
 //!
-//! In steady sliding all sectors of a uniform annulus are alike, so each circumferential harmonic `n`
-//! is a small banded problem of its own (see [`crate::prestress::SectorTangent`]). Without friction the
-//! problems are real and symmetric and inertia counts their modes, so none is missed; then each mode is
-//! followed continuously over the friction coefficient by two-sided Rayleigh quotient iteration.
+//! In steady sliding all sectors of a uniform annulus are alike. So each circumferential harmonic
+//! `n` is a small banded problem of its own (see [`crate::prestress::SectorTangent`]). Without
+//! friction the problems are real and symmetric, and inertia counts their modes: none is missed.
+//! Then each mode is followed continuously over the friction coefficient by two-sided Rayleigh
+//! quotient iteration.
 
 mod branch;
 mod collision;

@@ -39,8 +39,8 @@ const CHEBYSHEV_POINTS: usize = 5;
 /// left of it where damping is not proportional; where it is, nothing is left.
 const SAMPLE_RESIDUAL: f64 = 1e-8;
 const PROPORTIONAL_RESIDUAL: f64 = 1e-11;
-/// Size of the operator up to which a dense decomposition is as cheap as that iteration.
-const DENSE_UP_TO: usize = 400;
+/// Unknowns up to which a dense decomposition is as cheap as that iteration.
+const DENSE_UP_TO: usize = 150;
 /// Part of such a vector, of unit length, that is worth keeping.
 const SAMPLE_TOLERANCE: f64 = 1e-10;
 /// Start vectors of an iteration: modes may come in pairs of equal eigenvalue, and factors are read once for both ...
@@ -344,7 +344,7 @@ impl<'a> BasisBuilder<'a> {
             wanted,
             tolerance,
             max_applications: 10 * (wanted + 20),
-            dense_up_to: DENSE_UP_TO,
+            dense_up_to: DENSE_UP_TO * operator.dimension() / unknowns,
         };
         let is_companion = matches!(self.linearization, Linearization::Companion { .. });
         let is_wanted = |s: c64| !is_companion || self.linearization.eigenvalue(s.conj()).is_some();

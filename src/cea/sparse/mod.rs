@@ -3,17 +3,19 @@
 //! 1. [`FrictionlessModes`]: the lowest modes at `mu = 0` by block Lanczos iteration; the inertia of
 //!    `K - sigma M` proves that none is missing.
 //! 2. [`BasisBuilder`]: one basis that holds the modes of all friction coefficients. Where damping is proportional it
-//!    grows by residuals; otherwise it takes up the modes at a few friction coefficients, each from a Krylov iteration
-//!    ([`crate::linalg::krylov_schur`]), chosen where residuals are largest.
+//!    grows by residuals. Otherwise it takes up the modes at a few friction coefficients, chosen where residuals are
+//!    largest, each from a Krylov iteration ([`crate::linalg::krylov_schur`]).
 //! 3. [`PointSolver`]: the projected problem at each friction coefficient, in parallel; every mode is
-//!    held to its residual in the full matrices. Where one fails a ladder is climbed: corrections by the factors without friction, then
-//!    by factors of the full problem beside the modes ([`FullProblem`]); strongly damped motions that fail then take no places.
+//!    held to its residual in the full matrices. Where one fails a ladder is climbed: corrections by the factors
+//!    without friction, then by factors of the full problem beside the modes ([`FullProblem`]). Strongly damped
+//!    motions that fail then take no places.
 //! 4. [`track`]: branches continued from `mu = 0`, so that none is lost on the way.
 //! 5. [`ModeCounter`], where asked for: eigenvalues counted by the argument principle.
 //! 6. [`OnsetFinder`]: critical friction coefficients by root finding on the branches.
 //!
-//! [`sweep`] does all of this; [`sweep_by_diameters`] does it for a body with cyclic symmetry, by waves around it. Where stiffness depends on frequency every mode is solved at its own, in the projected problem and in
-//! its residual; the basis starts from the stiffness at the highest frequency wanted.
+//! [`sweep`] does all of this; [`sweep_by_diameters`] does it for a body with cyclic symmetry, by waves around it.
+//! Where stiffness depends on frequency every mode is solved at its own, in the projected problem and in its
+//! residual. The basis then starts from the stiffness at the highest frequency wanted.
 
 mod basis;
 mod branches;

@@ -1,8 +1,9 @@
 //! The stiffness operator of an explicit time step: `M^-1 K` with a lumped mass, applied without a
 //! factorization.
 //!
-//! Three implementations stand behind one trait: [`SparseOperator`] for any mesh, [`CyclicStencil`] for a uniform annulus,
-//! whose sectors share one stencil in polar frames, and [`SolidStencil`] for a body of revolution in three dimensions.
+//! Three implementations stand behind one trait. [`SparseOperator`] is for any mesh.
+//! [`CyclicStencil`] is for a uniform annulus, whose sectors share one stencil in polar frames.
+//! [`SolidStencil`] is for a body of revolution in three dimensions.
 
 mod block_rows;
 mod cyclic;

@@ -1,5 +1,5 @@
-//! Complex eigenvalues of the steady sliding of a case: its model, the sweep over friction by the solver it gets, and the
-//! spectrum alone for those who study it.
+//! Complex eigenvalues of the steady sliding of a case: its model, and the sweep over friction by
+//! the solver it gets. The spectrum alone is for those who study it.
 //!
 //! ```no_run
 //! use frictionsim::case::Case;

@@ -5,12 +5,13 @@
 //!                     + [s w_i f_i (1 - MAC_i,m(i)(theta))]^2
 //! ```
 //!
-//! The last is of lines with a measured shape, with the modal assurance criterion of that shape and the mode, and `s` the weight of
-//! shapes: it tells modes apart whose frequencies do not.
+//! The last is of lines with a measured shape: with the modal assurance criterion of that shape and
+//! the mode, and `s` the weight of shapes. It tells modes apart whose frequencies do not.
 //!
-//! `m(i)` is the mode of line `i`, assigned anew at every `theta` at the least sum. Parameters are sought on the scale of
-//! their bounds, 0 to 1, linear or logarithmic. The method of Levenberg and Marquardt starts from the best of several
-//! points; eigenvalues are differentiated by the model where it can and by central differences elsewhere.
+//! `m(i)` is the mode of line `i`, assigned anew at every `theta` at the least sum. Parameters are
+//! sought on the scale of their bounds, 0 to 1, linear or logarithmic. The method of Levenberg and
+//! Marquardt starts from the best of several points. Eigenvalues are differentiated by the model
+//! where it can, and by central differences elsewhere.
 
 mod case;
 mod estimate;

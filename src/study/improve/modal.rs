@@ -1,7 +1,8 @@
 //! What a change of the matrices does to the modes, all of them together.
 //!
-//! With right vectors `x_j` and left ones `w_i` of the modes and of their conjugates, `w_i^T (C + (lambda_i + lambda_j) M) x_j =
-//! delta_ij`, changes `dM`, `dC`, `dK` of any size leave, in the space of these modes, the eigenproblem
+//! Right vectors `x_j` and left ones `w_i` of the modes and of their conjugates have `w_i^T (C +
+//! (lambda_i + lambda_j) M) x_j = delta_ij`. Changes `dM`, `dC`, `dK` of any size leave, in the
+//! space of these modes, the eigenproblem
 //!
 //! ```text
 //! lambda (delta_ij + c_ij + (lambda_i + lambda_j) m_ij) y_j = (lambda_i delta_ij - k_ij + lambda_i lambda_j m_ij) y_j
@@ -10,9 +11,10 @@
 //!
 //! exact to the second order but for what modes beyond the listed ones give way. Friction is such a change too.
 //!
-//! What they give way at some dofs is the residual compliance `R`: that of the full problem at frequencies about the targets
-//! less that of the modes, `sum_k x_k w_k^T / (s - lambda_k)` over modes and conjugates. With it a change `D(s)` of these
-//! dofs is one of `D (1 + R D)^-1` in the space of the modes: a spring in series with what it stands on.
+//! What they give way at some dofs is the residual compliance `R`. It is that of the full problem
+//! at frequencies about the targets less that of the modes, `sum_k x_k w_k^T / (s - lambda_k)` over
+//! modes and conjugates. With it a change `D(s)` of these dofs is one of `D (1 + R D)^-1` in the
+//! space of the modes. It is a spring in series with what it stands on.
 
 mod onset;
 

@@ -73,8 +73,9 @@ fn two_bodies(around: usize) -> String {
     msh(&[ring(&|_| "disc"), shaft])
 }
 
-/// A slab that turns about a far axis, a lining pressed on it, and a backplate glued to the lining, whose meshes do not match.
-fn solids() -> (String, String) {
+/// A slab that turns about a far axis, a lining pressed on it, and a backplate glued to the lining, whose meshes do not match: on
+/// springs against the slab as `contact` says, held at a side of the plate by springs of `support` Pa/m.
+fn solids(contact: &str, support: &str) -> (String, String) {
     let block = |name, bottom, height, counts| Block {
         name,
         origin: [0.0, 0.0, bottom],
@@ -82,18 +83,18 @@ fn solids() -> (String, String) {
         counts,
     };
     let blocks = [
-        block("slab", -0.035, 0.02, [3, 2, 1]),
-        block("lining", -0.015, 0.01, [4, 3, 1]),
-        block("plate", -0.005, 0.005, [3, 3, 1]),
+        block("slab", -0.035, 0.02, [2, 2, 1]),
+        block("lining", -0.015, 0.01, [3, 2, 1]),
+        block("plate", -0.005, 0.005, [2, 2, 1]),
     ];
     let mesh = String::from_utf8(file_of(&blocks, |point| point)).expect("a file of text");
     let case = format!(
         "title = \"A kind of body\"\n[mesh]\nfile = \"body.msh\"\n[material]\n{POLYCARBONATE}
 [boundaries.slab_z0]\ncondition = \"clamped\"
 [boundaries.plate_z1]\ncondition = \"pressure\"\npressure = 1e5
-[boundaries.plate_x0]\ncondition = \"support\"\nnormal_stiffness = 1e12\ntangential_stiffness = 1e12
+[boundaries.plate_x0]\ncondition = \"support\"\nnormal_stiffness = {support}\ntangential_stiffness = {support}
 [motion.slab]\naxis = [0.0, 0.0, 1.0]\ncenter = [0.5, 0.1, 0.0]\nrotation_speed_rpm = 100.0
-[contacts.pad]\nsurface = \"lining_z0\"\ncounter = \"slab_z1\"\nfriction_coefficient = 0.3\nnormal_stiffness = 1e12
+[contacts.pad]\nsurface = \"lining_z0\"\ncounter = \"slab_z1\"\nfriction_coefficient = 0.3\n{contact}
 [ties.glue]\nsurface = \"lining_z1\"\ncounter = \"plate_z0\"\n{ANALYSES}"
     );
     (case, mesh)
@@ -139,7 +140,10 @@ pub fn kinds() -> Vec<Kind> {
             "axial_elements = 1\n[material]\nformulation = \"three-dimensional\"\n",
         )
     };
-    let (solids, solid_mesh) = solids();
+    let (slides, slides_mesh) = solids("normal_stiffness = 1e12", "1e12");
+    // Its own friction lies above the onset at 0.2.
+    let (squeals, squeals_mesh) = solids("normal_stiffness = 1e11", "1e10");
+    let (stiffens, stiffens_mesh) = solids(stiffening, "1e12");
     let (of_sectors, sector) = sectors();
     vec![
         kind("annulus", annulus("", "", "")),
@@ -212,7 +216,9 @@ pub fn kinds() -> Vec<Kind> {
                 "[boundaries.bottom]\ncondition = \"guide\"\n",
             ),
         ),
-        of_file("solid bodies, tied and sliding", solids, solid_mesh),
+        of_file("solid bodies, tied and sliding", slides, slides_mesh),
+        of_file("solid bodies, squealing", squeals, squeals_mesh),
+        of_file("solid bodies, stiffening contact", stiffens, stiffens_mesh),
         of_file("solid of sectors", of_sectors, sector),
     ]
 }

@@ -36,8 +36,8 @@ fn no_override_is_costly() {
     ] {
         let overrides: Vec<&str> = overrides.iter().map(String::as_str).collect();
         let seconds = seconds_to_read(STUDY, &overrides);
-        // Milliseconds where nobody else is at work.
-        assert!(seconds < Duration::from_secs(4), "{seconds:?}: {:.80}", overrides[0]);
+        // Milliseconds where nobody else is at work; hours where the numbers themselves are made.
+        assert!(seconds < Duration::from_secs(30), "{seconds:?}: {:.80}", overrides[0]);
     }
 }
 

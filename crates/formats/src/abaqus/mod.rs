@@ -1,9 +1,10 @@
 //! Reader of the input files of Abaqus and CalculiX.
 //!
-//! Solid and plane elements of first and second order, parts and instances, sets, surfaces, and the model data around them
-//! ([`ModelData`]). A region is the element set of a `*SOLID SECTION`. Names of what lies in an instance get its name in front,
-//! `PAD-1_LINING`; names are the same in any case of letters, as those programs have it, and keep the spelling of their
-//! definition. What has no meaning here is listed in [`ModelData::left_out`]; what would change the mesh is refused.
+//! Solid and plane elements of first and second order, parts and instances, sets, surfaces, and the
+//! model data around them ([`ModelData`]). A region is the element set of a `*SOLID SECTION`. Names
+//! of what lies in an instance get its name in front, `PAD-1_LINING`. Names are the same in any
+//! case of letters, as those programs have it, and keep the spelling of their definition. What has
+//! no meaning here is listed in [`ModelData::left_out`]; what would change the mesh is refused.
 //!
 //! Source: Abaqus Keywords Reference Guide; CalculiX CrunchiX USER'S MANUAL.
 

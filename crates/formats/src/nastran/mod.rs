@@ -1,9 +1,10 @@
 //! Reader of Nastran bulk data.
 //!
-//! `CTETRA`, `CHEXA` and `CPENTA` with corner nodes alone or with every mid-side node; a region is a property, called by its name
-//! in the comments of HyperMesh and ANSA, else `PSOLID_<number>`. Nastran has few named surfaces: the faces of `PLOAD4`
-//! (`PLOAD4_<set>`), of `BSURFS` (`BSURFS_<number>`), shells that cover faces (`PSHELL_<number>`), and the nodes of `SPC`
-//! (`SPC_<set>_<directions>`) become boundaries.
+//! `CTETRA`, `CHEXA` and `CPENTA` with corner nodes alone or with every mid-side node. A region is
+//! a property, called by its name in the comments of HyperMesh and ANSA, else `PSOLID_<number>`.
+//! Nastran has few named surfaces. Faces of `PLOAD4` (`PLOAD4_<set>`) and of `BSURFS`
+//! (`BSURFS_<number>`) become boundaries. So do shells that cover faces (`PSHELL_<number>`) and the
+//! nodes of `SPC` (`SPC_<set>_<directions>`).
 //!
 //! Source: MSC Nastran Quick Reference Guide.
 

@@ -1,8 +1,8 @@
 //! All eigenvalues of a harmonic whose motion across the sliding friction damps strongly.
 //!
-//! On the way from friction 0 such modes stop to oscillate, others begin to, and no branch need lead from one end of the range to
-//! the other. So all eigenvalues of the reduced problem are computed at every friction coefficient; branches are what leads from one
-//! to the next.
+//! On the way from friction 0 such modes stop to oscillate, and others begin to. No branch need
+//! lead from one end of the range to the other. So all eigenvalues of the reduced problem are
+//! computed at every friction coefficient; branches are what leads from one to the next.
 
 use crate::cea::CeaError;
 use crate::cea::cyclic::follow::{Follower, StepControl};

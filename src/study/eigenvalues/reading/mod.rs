@@ -7,9 +7,10 @@
 //! sigma = (Im p - omega c - h) / (2 omega m)
 //! ```
 //!
-//! as `M`, `C`, `K` of the bodies are symmetric; `h` is `eta k` of each region and support with a loss factor. `m`, `c`, `k` are sums
-//! over regions and supports, `p` over contacts: the growth rate is a sum of what each takes or feeds, without a remainder. Regions
-//! with the inertia of their rotation add `lambda i g + s`, and with it `-sigma g / (2 omega m)` to the growth rate.
+//! as `M`, `C`, `K` of the bodies are symmetric; `h` is `eta k` of each region and support with a
+//! loss factor. `m`, `c`, `k` are sums over regions and supports, `p` over contacts. So the growth
+//! rate is a sum of what each takes or feeds, without a remainder. Regions with the inertia of
+//! their rotation add `lambda i g + s`, and with it `-sigma g / (2 omega m)` to the growth rate.
 
 mod budget;
 mod feed;
