@@ -155,9 +155,6 @@ impl OutputOptions {
     }
 
     /// Prints the summary as JSON, or the table for people and where the files are.
-    ///
-    /// # Errors
-    /// Those of stdout.
     pub fn print(&self, table: &str, summary: &Value, folder: &Path) -> Result<(), Failure> {
         if self.json {
             terminal::print_json(summary)
@@ -174,9 +171,6 @@ impl OutputOptions {
     }
 
     /// Completes the output folder and prints as [`Self::print`].
-    ///
-    /// # Errors
-    /// Those of the folder and of stdout.
     pub fn finish(
         &self,
         folder: OutputFolder,
@@ -189,9 +183,6 @@ impl OutputOptions {
     }
 
     /// Writes the tables, the figures, the page and the summary of a result, completes the folder and prints `text`.
-    ///
-    /// # Errors
-    /// Those of the folder, of the drawing and of stdout.
     pub fn finish_result(
         &self,
         folder: OutputFolder,

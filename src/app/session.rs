@@ -75,10 +75,18 @@ impl Session {
         self.keep_mesh(folder)
     }
 
-    /// Puts the mesh file beside the results: they can be drawn again without the file in its place.
+    /// Takes the folder of a run that keeps nothing when it is interrupted, where the machine has the memory for it.
     ///
     /// # Errors
-    /// Those of the folder.
+    /// As [`Self::check_memory`] and [`Self::open_folder`].
+    pub fn begin(&self) -> Result<OutputFolder, Failure> {
+        self.check_memory(self.case.memory(&self.manifest.command).0)?;
+        let folder = self.open_folder(false)?;
+        terminal::catch_signals(terminal::NOTHING_KEPT);
+        Ok(folder)
+    }
+
+    /// Puts the mesh file beside the results: they can be drawn again without the file in its place.
     pub fn keep_mesh(&self, folder: OutputFolder) -> Result<OutputFolder, Failure> {
         if let Some(mesh) = &self.case.raw.mesh {
             folder.write(MESH, |out| out.write_all(&mesh.bytes))?;
@@ -104,9 +112,6 @@ impl Session {
     }
 
     /// Prints the summary as JSON, or the table for people and where the files are.
-    ///
-    /// # Errors
-    /// Those of stdout.
     pub fn print(
         &self,
         table: &str,

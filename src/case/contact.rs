@@ -5,6 +5,7 @@ use super::imported::{self, ContactPlace};
 use super::interference::interference;
 use super::normal_law::normal_law;
 use super::reader::Section;
+use super::refuse;
 use super::solid;
 use super::words::BaseContact;
 use crate::contact::{ContactStiffness, FrictionDecay, NormalLaw, SlidingContact};
@@ -68,33 +69,21 @@ pub(super) fn contact(
             let is_default = section.is_text(key, "inner") || section.is_text(key, "cylinder");
             let is_face = is_solid && key == "boundary";
             if section.has(key) && !is_default && !is_face {
-                section.reject(
-                    key,
-                    format!("contact.{key} is for a body from a mesh file (mesh.file)"),
-                    "not used by the built-in annulus",
-                    "leave it out",
-                );
+                refuse!(section, key, "contact.{key} is for a body from a mesh file (mesh.file)";
+                    "not used by the built-in annulus"; "leave it out");
             }
         }
         place.plane_speed = None;
     }
     let interference = interference(&section);
     if is_pressed && section.has("normal_force") {
-        section.reject(
-            "normal_force",
-            "contact.normal_force beside a boundary with a pressure",
-            "one of the two presses",
-            "leave the force out, or the pressure",
-        );
+        refuse!(section, "normal_force", "contact.normal_force beside a boundary with a pressure";
+            "one of the two presses"; "leave the force out, or the pressure");
     }
     // A pressure on a face may press a three-dimensional body; on a plane annulus it is an error of its own.
     if !is_solid && interference == 0.0 && !is_pressed {
-        section.reject(
-            "interference",
-            "contact.interference = 0.0 must be positive and finite",
-            "must be positive and finite",
-            "without it nothing presses the body",
-        );
+        refuse!(section, "interference", "contact.interference = 0.0 must be positive and finite";
+            "must be positive and finite"; "without it nothing presses the body");
     }
     let rotation_speed = match place.plane_speed {
         Some(speed) => {
@@ -104,14 +93,11 @@ pub(super) fn contact(
         None => section.number("rotation_speed_rpm") * TAU / 60.0,
     };
     if is_solid && rotation_speed == 0.0 && section.has("rotation_speed_rpm") {
-        section.reject(
-            "rotation_speed_rpm",
+        refuse!(section, "rotation_speed_rpm",
             "contact.rotation_speed_rpm = 0: at rest friction holds a three-dimensional body \
              across the sliding too, as by an infinite dashpot (mu p / V): there is no steady \
-             sliding",
-            "must not be zero in three dimensions",
-            "give a small positive speed instead",
-        );
+             sliding";
+            "must not be zero in three dimensions"; "give a small positive speed instead");
     }
     let stiffness = ContactStiffness {
         normal_stiffness: section.optional_number("normal_stiffness"),
@@ -135,15 +121,11 @@ pub(super) fn contact(
     let is_rigid = law.is_none()
         && (!section.has("normal_stiffness") || section.is_text("normal_stiffness", "rigid"));
     if is_rigid && stiffness.normal_damping > 0.0 {
-        section.reject(
-            "normal_damping",
-            format!(
-                "contact.normal_damping = {} has no effect on a rigid contact",
-                stiffness.normal_damping
-            ),
-            "needs contact.normal_stiffness",
-            "give contact.normal_stiffness, or leave normal_damping out",
-        );
+        refuse!(section, "normal_damping",
+            "contact.normal_damping = {} has no effect on a rigid \
+             contact", stiffness.normal_damping;
+            "needs contact.normal_stiffness";
+            "give contact.normal_stiffness, or leave normal_damping out");
     }
     if is_rigid {
         no_rigid_losses(&section, stiffness);
@@ -163,15 +145,9 @@ pub(super) fn contact(
 /// A contact without springs loses nothing in them.
 pub(super) fn no_rigid_losses(section: &Section<'_>, stiffness: &ContactStiffness) {
     if stiffness.loss_factor > 0.0 {
-        section.reject(
-            "loss_factor",
-            format!(
-                "{} has no effect on a rigid contact, which stores no energy",
-                section.name("loss_factor")
-            ),
-            "needs normal_stiffness",
-            "give normal_stiffness, or leave loss_factor out",
-        );
+        refuse!(section, "loss_factor" =>
+            "has no effect on a rigid contact, which stores no energy"; "needs normal_stiffness";
+            "give normal_stiffness, or leave loss_factor out");
     }
 }
 
@@ -181,21 +157,16 @@ pub(super) fn friction_decay(section: &Section<'_>) -> Option<FrictionDecay> {
     let decay_speed = section.optional_number("decay_speed");
     let decay = decay_speed.map(|decay_speed| FrictionDecay { static_ratio, decay_speed });
     if static_ratio > 1.0 && !section.has("decay_speed") {
-        section.reject(
-            "static_friction_ratio",
-            format!("{} = {static_ratio} needs decay_speed", section.name("static_friction_ratio")),
-            "falls over no speed",
-            "give the speed over which friction falls, for example decay_speed = 0.2",
-        );
+        refuse!(section, "static_friction_ratio" => "= {static_ratio} needs decay_speed";
+            "falls over no speed";
+            "give the speed over which friction falls, for example decay_speed = 0.2");
     }
     if decay.is_some() && !section.has("static_friction_ratio") {
-        section.reject(
-            "decay_speed",
-            "contact.decay_speed has no effect without contact.static_friction_ratio",
-            "friction does not fall",
-            "give static friction over kinetic, for example static_friction_ratio = 1.4, or \
-                 leave decay_speed out",
-        );
+        refuse!(section, "decay_speed",
+            "contact.decay_speed has no effect without contact.static_friction_ratio";
+            "friction does not fall";
+            "give static friction over kinetic, for example static_friction_ratio = 1.4, or leave \
+             decay_speed out");
     }
     decay.filter(|decay| decay.static_ratio > 1.0)
 }

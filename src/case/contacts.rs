@@ -4,6 +4,7 @@ use super::contact::{friction_decay, no_rigid_losses};
 use super::elastic::loss_factor;
 use super::normal_law::normal_law;
 use super::reader::Section;
+use super::refuse;
 use super::rigid_counterface::rigid_counterface;
 use super::tables::{TableFiles, topography};
 use super::words::BaseContact;
@@ -31,12 +32,10 @@ pub(super) fn short_form(section: &Section<'_>) -> NamedContact {
     refuse_generated(section, key, section.optional_text(key).is_some());
     let is_rigid_base = section.choice::<BaseContact>("base_state") == BaseContact::Rigid;
     if section.has("base_state") && is_rigid_base {
-        section.reject(
-            "base_state",
-            "contact.base_state = \"rigid\": the springs of a contact of solid bodies carry their base state",
-            "not of a body from a mesh of solid elements",
-            "leave it out",
-        );
+        refuse!(section, "base_state",
+            "contact.base_state = \"rigid\": the springs of a contact of solid bodies carry their \
+             base state";
+            "not of a body from a mesh of solid elements"; "leave it out");
     }
     let boundary = section.optional_text("boundary");
     let boundary = boundary.unwrap_or_else(|| "inner".to_owned());
@@ -53,12 +52,8 @@ pub(super) fn short_form(section: &Section<'_>) -> NamedContact {
 /// Refuses a key of `[contact]` that other bodies have.
 fn refuse_generated(section: &Section<'_>, key: &str, is_given: bool) {
     if is_given {
-        section.reject(
-            key,
-            format!("{} has no meaning for a mesh of solid elements", section.name(key)),
-            "of other bodies",
-            "leave it out; surfaces that slide on each other are named under [contacts.NAME]",
-        );
+        refuse!(section, key => "has no meaning for a mesh of solid elements"; "of other bodies";
+            "leave it out; surfaces that slide on each other are named under [contacts.NAME]");
     }
 }
 
@@ -72,15 +67,8 @@ pub(super) fn contact(
     bases.push(base);
     let topography = topography(section, tables);
     if base == BaseChoice::Closed && topography.is_some() {
-        section.reject(
-            "gap",
-            format!(
-                "{} has no effect on a contact that is closed and free of stress",
-                section.name("gap")
-            ),
-            "beside state = \"closed\"",
-            "leave one of the two out",
-        );
+        refuse!(section, "gap" => "has no effect on a contact that is closed and free of stress";
+            "beside state = \"closed\""; "leave one of the two out");
     }
     let counter = section.optional_text("counter");
     let counterpart = match section.has("counterface") {
@@ -92,12 +80,9 @@ pub(super) fn contact(
     };
     match (&counterpart, &counter) {
         (Counterpart::Surface(_), None) => section.missing("counter"),
-        (Counterpart::Rigid(_), Some(_)) => section.reject(
-            "counter",
-            format!("{} beside a rigid counterface", section.name("counter")),
-            "one of the two",
-            "leave `counter` out, or `counterface`",
-        ),
+        (Counterpart::Rigid(_), Some(_)) => refuse!(section, "counter" =>
+            "beside a rigid counterface"; "one of the two";
+            "leave `counter` out, or `counterface`"),
         _ => {}
     }
     NamedContact {
@@ -128,12 +113,9 @@ fn refuse_idle(section: &Section<'_>) {
         "normal_force",
     ];
     for key in idle.iter().filter(|key| section.has(key)) {
-        section.reject(
-            key,
-            format!("{} is for a rigid counterface", section.name(key)),
-            "needs counterface",
-            "give counterface = \"plane\", \"cylinder\" or \"sphere\" in place of `counter`, or leave it out",
-        );
+        refuse!(section, key => "is for a rigid counterface"; "needs counterface";
+            "give counterface = \"plane\", \"cylinder\" or \"sphere\" in place of `counter`, or \
+             leave it out");
     }
 }
 
@@ -157,12 +139,8 @@ fn sliding_surfaces(
         no_rigid_losses(section, &stiffness);
     }
     if stiffness.normal_stiffness.is_none() && stiffness.normal_damping > 0.0 {
-        section.reject(
-            "normal_damping",
-            format!("{} has no effect on a rigid contact", section.name("normal_damping")),
-            "needs normal_stiffness",
-            "give normal_stiffness, or leave normal_damping out",
-        );
+        refuse!(section, "normal_damping" => "has no effect on a rigid contact";
+            "needs normal_stiffness"; "give normal_stiffness, or leave normal_damping out");
     }
     SlidingSurfaces {
         name: String::new(),

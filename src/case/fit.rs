@@ -4,6 +4,7 @@ use super::diagnostic::CaseErrors;
 use super::parameters::{ModelParameter, entries, number, only, refuse_twice};
 use super::range::Spacing;
 use super::reader::Section;
+use super::refuse;
 use super::value::{RawEntry, RawValue};
 
 /// A parameter with the bounds between which it is sought.
@@ -42,7 +43,7 @@ pub(super) fn fit(root: &Section<'_>) -> Option<Fit> {
         .collect();
     refuse_twice(&inner, found.iter().map(|found| &found.parameter));
     if given && inner.is_given() && inner.remaining().is_empty() {
-        section.reject("parameters", "fit.parameters is empty", "at least one parameter", None);
+        refuse!(section, "parameters", "fit.parameters is empty"; "at least one parameter");
     }
     section.close();
     given.then_some(Fit { parameters: found, starts, shape_weight })

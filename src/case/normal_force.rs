@@ -6,6 +6,7 @@
 
 use super::body::Body;
 use super::diagnostic::CaseErrors;
+use super::refusal;
 use super::value::quote;
 use super::{Case, Revolution};
 use crate::contact::{Counterpart, SlidingContact};
@@ -120,12 +121,10 @@ fn solve(case: &mut Case, wanted: &Wanted) -> Result<bool, CaseErrors> {
     if excess(case, wanted, own)?.abs() <= 1e3 * TOLERANCE * target {
         return Ok(false);
     }
-    Err(case.error_at(
-        &wanted.key,
-        format!("{} = {target}: no interference presses with this force", wanted.key),
-        "not reached",
-        "a surface that overlaps the counterface in the mesh presses already; one that nothing holds gives way",
-    ))
+    Err(refusal!(case, &wanted.key,
+        "{} = {target}: no interference presses with this force", wanted.key; "not reached";
+        "a surface that overlaps the counterface in the mesh presses already; one that nothing \
+         holds gives way"))
 }
 
 /// The normal force of a contact pushed in so far, less the one that is wanted.

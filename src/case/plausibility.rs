@@ -1,5 +1,6 @@
 //! Values that are possible but that hardly anybody means: warnings, each with its reason.
 
+use super::diagnosis;
 use super::diagnostic::Diagnostic;
 use super::key::CaseKey;
 use super::keys::KEYS;
@@ -64,11 +65,6 @@ pub(super) fn implausible(case: &Case) -> Vec<Diagnostic> {
     .collect()
 }
 
-fn warning(case: &Case, key: &str, message: String, label: &str, help: &str) -> Diagnostic {
-    let at = case.raw.place(key);
-    Diagnostic::error(message, label.to_owned(), at, Some(help.to_owned()))
-}
-
 fn lengths(case: &Case) -> Option<Diagnostic> {
     let [least, most] = LENGTHS;
     let [shortest, longest] = LENGTHS.map(metres);
@@ -80,7 +76,7 @@ fn lengths(case: &Case) -> Option<Diagnostic> {
         if is_outside(width) {
             let message = format!("the mesh is {width:.4} m wide, {range} (mesh.scale)");
             let help = "coordinates are taken as metres: for a mesh in millimetres set mesh.units = \"mm-t-s\", or mesh.scale = 0.001";
-            return Some(warning(case, "mesh.scale", message, "metres?", help));
+            return Some(case.diagnosis("mesh.scale", message, "metres?", help));
         }
     }
     let mut radii = case.body.grid().into_iter().flat_map(|grid| {
@@ -88,7 +84,7 @@ fn lengths(case: &Case) -> Option<Diagnostic> {
     });
     if let Some((key, value)) = radii.find(|(_, value)| is_outside(*value)) {
         let message = format!("{key} = {value} m is {range}");
-        return Some(warning(case, key, message, "metres?", help));
+        return Some(case.diagnosis(key, message, "metres?", help));
     }
     let (key, value) = ("geometry.thickness", case.thickness);
     (value < least || value > LARGEST_THICKNESS).then(|| {
@@ -96,7 +92,7 @@ fn lengths(case: &Case) -> Option<Diagnostic> {
             "{key} = {value} m is outside the plausible range of {shortest} to {}",
             metres(LARGEST_THICKNESS)
         );
-        warning(case, key, message, "metres?", help)
+        case.diagnosis(key, message, "metres?", help)
     })
 }
 
@@ -112,13 +108,10 @@ fn metres(length: f64) -> String {
 /// Nodes of an imported mesh that lie on each other without being one.
 fn unmerged_nodes(case: &Case) -> Option<Diagnostic> {
     let found = case.body.imported()?.mesh.unmerged_nodes()?;
-    Some(warning(
-        case,
-        "mesh.file",
-        format!("{found}: the parts are not connected there"),
-        "parts that were not merged?",
-        "join the parts (BooleanFragments or Coherence in the Gmsh geometry, or Coherence Mesh;), unless this is a crack",
-    ))
+    Some(diagnosis!(case, "mesh.file", "{found}: the parts are not connected there";
+        "parts that were not merged?";
+        "join the parts (BooleanFragments or Coherence in the Gmsh geometry, or Coherence Mesh;), \
+         unless this is a crack"))
 }
 
 /// The worst element of an imported mesh.
@@ -132,20 +125,13 @@ fn element_shape(case: &Case) -> Option<Diagnostic> {
     let count = nodes.len() as f64;
     let sum = |axis: usize| nodes.iter().map(|&n| mesh.nodes[n as usize][axis]).sum::<f64>();
     let labels = nodes.iter().map(|&node| mesh.node_label(node as usize));
-    Some(warning(
-        case,
-        "mesh.file",
-        format!(
-            "the Jacobian of an element varies by a factor {:.3} (smallest over largest; below {SMALLEST_JACOBIAN} the \
-             element is badly shaped): that of nodes {} at ({:.6}, {:.6}) m",
-            quality.worst_jacobian,
-            first_of(labels, 9),
-            sum(0) / count,
-            sum(1) / count
-        ),
-        "a badly shaped element",
-        "mesh the surface again, finer where it curves, or with Mesh.Optimize = 1; stresses near it are not reliable",
-    ))
+    Some(diagnosis!(case, "mesh.file",
+        "the Jacobian of an element varies by a factor {:.3} (smallest over largest; below \
+         {SMALLEST_JACOBIAN} the element is badly shaped): that of nodes {} at ({:.6}, {:.6}) \
+         m", quality.worst_jacobian, first_of(labels, 9), sum(0) / count, sum(1) / count;
+        "a badly shaped element";
+        "mesh the surface again, finer where it curves, or with Mesh.Optimize = 1; stresses near \
+         it are not reliable"))
 }
 
 /// Seeded velocities whose strain, `v / c`, is not small.
@@ -159,17 +145,12 @@ fn seeds(case: &Case) -> Option<Diagnostic> {
     };
     let speed = bar_wave_speed(case);
     (largest > LARGEST_SEED * speed).then(|| {
-        warning(
-            case,
-            key,
-            format!(
-                "{key}: a seed of {largest:e} m/s is {:.3} of the speed of waves in the material, {speed:.0} m/s: its strains \
-                 are not small",
-                largest / speed
-            ),
-            "metres per second?",
-            "seeds of a linear stage are about 1e-3 m/s, or with relative = true a small share of the slip speed",
-        )
+        diagnosis!(case, key,
+            "{key}: a seed of {largest:e} m/s is {:.3} of the speed of waves in the material, \
+             {speed:.0} m/s: its strains are not small", largest / speed;
+            "metres per second?";
+            "seeds of a linear stage are about 1e-3 m/s, or with relative = true a small share of \
+             the slip speed")
     })
 }
 
@@ -213,8 +194,7 @@ fn wave_speed(case: &Case) -> Option<Diagnostic> {
         true => (&modulus_key, "pascals?"),
         false => (&density_key, "kg/m3?"),
     };
-    Some(warning(
-        case,
+    Some(case.diagnosis(
         key,
         format!(
             "{modulus_key} = {modulus:e} Pa and {density_key} = {density:e} kg/m3 give \
@@ -234,7 +214,7 @@ fn density(case: &Case) -> Option<Diagnostic> {
     (!is_said).then(|| {
         let [least, most] = [DENSITIES.start(), DENSITIES.end()];
         let message = format!("{key} = {value:?} kg/m3 is outside {least} to {most} kg/m3");
-        warning(case, &key, message, "kg/m3?", "a case is in SI: kg/m3, not g/cm3 or t/mm3")
+        case.diagnosis(&key, message, "kg/m3?", "a case is in SI: kg/m3, not g/cm3 or t/mm3")
     })
 }
 
@@ -252,8 +232,7 @@ fn speed(case: &Case) -> Option<Diagnostic> {
         let key = case.speed_key();
         let message =
             format!("{key}: the contact slides at {speed:.4} m/s, faster than {LARGEST_SPEED} m/s");
-        warning(
-            case,
+        case.diagnosis(
             key,
             message,
             "metres per second?",
@@ -269,8 +248,7 @@ fn poisson_ratio(case: &Case) -> Option<Diagnostic> {
         return None;
     }
     let key = material_key(case, "poisson_ratio");
-    Some(warning(
-        case,
+    Some(case.diagnosis(
         &key,
         format!(
             "{key} = {ratio} is nearly incompressible: the elements lock, and the \
@@ -293,15 +271,10 @@ fn friction(case: &Case) -> Option<Diagnostic> {
         ("cea.shapes_at", cea.map_or(0.0, |cea| largest(&cea.shapes_at))),
     ];
     let (key, value) = keys.into_iter().find(|(_, value)| *value > LARGEST_FRICTION)?;
-    Some(warning(
-        case,
-        key,
-        format!(
-            "{key} = {value} is above {LARGEST_FRICTION}, higher than that of any dry pair of materials"
-        ),
-        "above 2",
-        "a friction coefficient is a ratio, not a percentage",
-    ))
+    Some(diagnosis!(case, key,
+        "{key} = {value} is above {LARGEST_FRICTION}, higher than that of any dry pair of \
+         materials";
+        "above 2"; "a friction coefficient is a ratio, not a percentage"))
 }
 
 /// Half the mass of a contact element for each unit of edge (kg/m2), and the time step of the transient of a generated body.
@@ -328,16 +301,11 @@ fn unresolved_springs(case: &Case) -> Option<Diagnostic> {
         None => (at_rest, case.contact.stiffness_name().to_owned()),
     };
     (stiffness > most).then(|| {
-        warning(
-            case,
-            case.contact.stiffness_key(),
-            format!(
-                "{name} = {stiffness:e} Pa/m is more than the time step of the transient, {step:.2e} s, \
-                 resolves on this mesh, about {most:.1e} Pa/m: the status of contact nodes would flicker"
-            ),
-            "nearly rigid",
-            "use \"rigid\" for the transient, or a smaller transient.time_step",
-        )
+        diagnosis!(case, case.contact.stiffness_key(),
+            "{name} = {stiffness:e} Pa/m is more than the time step of the transient, {step:.2e} \
+             s, resolves on this mesh, about {most:.1e} Pa/m: the status of contact nodes would \
+             flicker";
+            "nearly rigid"; "use \"rigid\" for the transient, or a smaller transient.time_step")
     })
 }
 
@@ -349,17 +317,12 @@ fn steep_friction(case: &Case) -> Option<Diagnostic> {
     let fall = contact.friction_coefficient * decay.steepest_fall();
     let most = mass / (lame_pressure(case)? * fall);
     (step > most).then(|| {
-        warning(
-            case,
-            "contact.decay_speed",
-            format!(
-                "contact.decay_speed = {} m/s lets friction fall faster than the inertia of a contact node allows within \
-                 the time step of the transient, {step:.2e} s: nodes may jump between sticking and slipping",
-                decay.decay_speed
-            ),
-            "a steep law",
-            &format!("use a transient.time_step below about {most:.1e}, or a larger contact.decay_speed"),
-        )
+        diagnosis!(case, "contact.decay_speed",
+            "contact.decay_speed = {} m/s lets friction fall faster than the inertia of a contact \
+             node allows within the time step of the transient, {step:.2e} s: nodes may jump \
+             between sticking and slipping", decay.decay_speed;
+            "a steep law";
+            "use a transient.time_step below about {most:.1e}, or a larger contact.decay_speed")
     })
 }
 
@@ -388,7 +351,7 @@ fn interference(case: &Case) -> Option<Diagnostic> {
              displacements holds below {LARGEST_INTERFERENCE}",
             delta / a
         );
-        return Some(warning(case, key, share, "more than 5 %", help));
+        return Some(case.diagnosis(key, share, "more than 5 %", help));
     }
     let pressure = lame_pressure(case)?;
     let modulus = case.material.young_modulus;
@@ -399,7 +362,7 @@ fn interference(case: &Case) -> Option<Diagnostic> {
             pressure / modulus,
             modulus_key(case),
         );
-        warning(case, key, message, "a large pressure", help)
+        case.diagnosis(key, message, "a large pressure", help)
     })
 }
 
@@ -440,25 +403,17 @@ fn overlap(case: &Case) -> Option<Diagnostic> {
     );
     let help = "correct the radius or the center of the counterface, or mesh the round surface \
                 finer; an overlap that is meant belongs into interference";
-    Some(warning(case, &key, message, "less than the mesh's own overlap", help))
+    Some(case.diagnosis(&key, message, "less than the mesh's own overlap", help))
 }
 
 fn contact_stiffness(case: &Case) -> Option<Diagnostic> {
     let stiffness = case.contact.stiffness.normal_stiffness?;
     let scale = case.material.young_modulus / case.body.contact_length();
     (stiffness > LARGEST_STIFFNESS_RATIO * scale).then(|| {
-        warning(
-            case,
-            case.contact.stiffness_key(),
-            format!(
-                "{} = {stiffness:e} Pa/m is {:.1e} times the modulus over the \
-                 radius: the eigenvalues lose that many digits",
-                case.contact.stiffness_name(),
-                stiffness / scale
-            ),
-            "nearly rigid",
-            "use \"rigid\", which is exact",
-        )
+        diagnosis!(case, case.contact.stiffness_key(),
+            "{} = {stiffness:e} Pa/m is {:.1e} times the modulus over the radius: the eigenvalues \
+             lose that many digits", case.contact.stiffness_name(), stiffness / scale;
+            "nearly rigid"; "use \"rigid\", which is exact")
     })
 }
 
@@ -475,7 +430,7 @@ fn soft_contact(case: &Case) -> Option<Diagnostic> {
             stiffness / scale
         );
         let key = case.contact.stiffness_key();
-        warning(case, key, message, "nearly free", "stiffnesses are in Pa/m: N/mm3 are 1e9 Pa/m")
+        case.diagnosis(key, message, "nearly free", "stiffnesses are in Pa/m: N/mm3 are 1e9 Pa/m")
     })
 }
 
@@ -488,16 +443,10 @@ fn overdamping(case: &Case) -> Option<Diagnostic> {
     };
     let zeta = case.damping.rayleigh.damping_factor(std::f64::consts::TAU * limit);
     (zeta > 1.0).then(|| {
-        warning(
-            case,
-            "damping.stiffness_coefficient",
-            format!(
-                "damping.stiffness_coefficient and damping.mass_coefficient give a damping factor of \
-                 {zeta:.3} at {limit} Hz: modes there do not vibrate"
-            ),
-            "beyond critical",
-            "alpha is in 1/s and beta in s",
-        )
+        diagnosis!(case, "damping.stiffness_coefficient",
+            "damping.stiffness_coefficient and damping.mass_coefficient give a damping factor of \
+             {zeta:.3} at {limit} Hz: modes there do not vibrate";
+            "beyond critical"; "alpha is in 1/s and beta in s")
     })
 }
 

@@ -3,6 +3,7 @@
 use super::interference::interference;
 use super::reader::Section;
 use super::words::CounterfaceWord;
+use super::{caution, refuse};
 use crate::contact::{RigidCounterface, RigidMotion, RigidShape};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
@@ -16,24 +17,15 @@ pub(super) fn rigid_counterface(section: &Section<'_>) -> RigidCounterface {
         CounterfaceWord::Cylinder => RigidShape::Cylinder(radius),
         CounterfaceWord::Sphere => RigidShape::Sphere(radius),
         CounterfaceWord::Body => {
-            section.reject(
-                "counterface",
-                format!(
-                    "{} = \"body\" is for two plane bodies",
-                    section.name("counterface")
-                ),
-                "the mesh is of solid elements",
-                "name the surfaces that slide on each other under [contacts.NAME], as `surface` and `counter`",
-            );
+            refuse!(section, "counterface" => "= \"body\" is for two plane bodies";
+                "the mesh is of solid elements";
+                "name the surfaces that slide on each other under [contacts.NAME], as `surface` \
+                 and `counter`");
             RigidShape::Plane
         }
     };
     if shape == RigidShape::Plane && radius.is_some() {
-        section.warn(
-            "radius",
-            format!("{} is not used: the counterface is a plane", section.name("radius")),
-            "no effect",
-        );
+        caution!(section, "radius" => "is not used: the counterface is a plane"; "no effect");
     }
     let axis = triple(section, "axis").unwrap_or([0.0, 0.0, 1.0]);
     RigidCounterface {
@@ -53,12 +45,10 @@ fn motion(section: &Section<'_>) -> RigidMotion {
     }
     if section.has("rotation_speed_rpm") {
         let _ = section.optional_number("rotation_speed_rpm");
-        section.reject(
-            "rotation_speed_rpm",
-            "the counterface turns about its axis or slides along a straight line, not both",
-            "beside `speed` or `direction`",
-            "leave rotation_speed_rpm out, or `speed` and `direction`",
-        );
+        refuse!(section, "rotation_speed_rpm",
+            "the counterface turns about its axis or slides along a straight line, not both";
+            "beside `speed` or `direction`";
+            "leave rotation_speed_rpm out, or `speed` and `direction`");
     }
     let speed = speed.unwrap_or_else(|| section.number("speed"));
     if !section.has("direction") {
@@ -73,12 +63,7 @@ pub(super) fn triple(section: &Section<'_>, key: &str) -> Option<[f64; 3]> {
     match section.numbers(key).as_deref() {
         Some(&[x, y, z]) => Some([x, y, z]),
         Some(_) => {
-            section.reject(
-                key,
-                format!("{} needs three numbers", section.name(key)),
-                "must be [x, y, z]",
-                None,
-            );
+            refuse!(section, key => "needs three numbers"; "must be [x, y, z]");
             None
         }
         None => None,
@@ -89,12 +74,7 @@ pub(super) fn triple(section: &Section<'_>, key: &str) -> Option<[f64; 3]> {
 pub(super) fn unit(section: &Section<'_>, key: &str, direction: [f64; 3]) -> [f64; 3] {
     let direction = Vector3::from(direction);
     if direction.norm() == 0.0 {
-        section.reject(
-            key,
-            format!("{} = [0, 0, 0] points nowhere", section.name(key)),
-            "must not be zero",
-            None,
-        );
+        refuse!(section, key => "= [0, 0, 0] points nowhere"; "must not be zero");
         return [0.0, 0.0, 1.0];
     }
     direction.normalize().into()

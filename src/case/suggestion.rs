@@ -135,13 +135,23 @@ pub(super) fn nearest_key(name: &str) -> Option<&'static str> {
     synonym(last).map(|key| key.name).or_else(|| nearest(name, KEYS.iter().map(|key| key.name)))
 }
 
-/// A hint for a key that does not exist: a synonym, a near miss in its section, the same key of
+/// Keys of earlier versions, and what stands in their place.
+const GONE: &[(&str, &str)] = &[
+    ("cea.map", "a sweep of cea draws it: give the key and its values in [sweep]"),
+    ("improve.front", "a sweep of cea over modifications.NAME.mass draws it"),
+];
+
+/// A hint for a key that does not exist: one that is gone, a synonym, a near miss in its section, the same key of
 /// another section, or the keys there are.
 pub(super) fn suggest(section: &str, word: &str, known: &[&str]) -> Option<String> {
     let elsewhere = |key: &CaseKey| match key.section() {
         home if home == section => format!("did you mean `{}`?", key.short()),
         home => format!("did you mean `{}` of [{home}]?", key.short()),
     };
+    let full = format!("{section}.{word}");
+    if let Some((_, place)) = GONE.iter().find(|gone| gone.0 == full) {
+        return Some((*place).to_owned());
+    }
     if let Some(key) = synonym(word) {
         return Some(elsewhere(key));
     }
@@ -154,7 +164,6 @@ pub(super) fn suggest(section: &str, word: &str, known: &[&str]) -> Option<Strin
     if let Some(found) = KEYS.iter().find(|key| key.short() == word && !key.name.contains('*')) {
         return Some(elsewhere(found));
     }
-    let full = format!("{section}.{word}");
     if let Some(near) = nearest(&full, KEYS.iter().map(|key| key.name)).and_then(find) {
         return Some(elsewhere(near));
     }

@@ -17,25 +17,16 @@ pub trait Finding: Serialize {
 }
 
 /// Writes the tables of a document that are files.
-///
-/// # Errors
-/// Those of the folder.
 pub fn write_tables(folder: &OutputFolder, document: &Document) -> Result<(), FolderError> {
     document.files().try_for_each(|table| write_table(folder, table))
 }
 
 /// Writes a table as its file.
-///
-/// # Errors
-/// Those of the folder.
 pub fn write_table(folder: &OutputFolder, table: &Table) -> Result<(), FolderError> {
     folder.write(&table.file, |out| table.write_csv(out)).map(drop)
 }
 
 /// Writes the page of a document, its figures, and both as data.
-///
-/// # Errors
-/// Those of the formats and of the folder.
 pub fn write_page(
     folder: &OutputFolder,
     document: Document,

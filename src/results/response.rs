@@ -9,11 +9,11 @@ use crate::linalg::c64;
 use crate::output::{Described, Document, Section, Table};
 use crate::signal::reader::{self, NamedResponse};
 use crate::signal::{FrequencyResponse, ResponseQuantity};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::io;
 
 /// `summary.json` of `frictionsim frf`.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct ResponseSummary {
     /// `frf`.
     pub command: String,
@@ -47,9 +47,6 @@ pub struct ResponseSummary {
 const RESPONSE_TABLE: &str = "frf.csv";
 
 /// Writes frequency, real and imaginary part.
-///
-/// # Errors
-/// Those of the folder.
 pub fn write_response(
     folder: &OutputFolder,
     quantity: ResponseQuantity,
@@ -65,9 +62,6 @@ pub fn write_response(
 }
 
 /// Writes the response as a universal file, dataset 58.
-///
-/// # Errors
-/// Those of the folder.
 pub fn write_universal_response(
     folder: &OutputFolder,
     quantity: ResponseQuantity,

@@ -21,9 +21,6 @@ pub fn place(session: &Session) -> PathBuf {
 }
 
 /// Takes the folder of a run that goes on from its checkpoint, or starts over where `goes_on` is false.
-///
-/// # Errors
-/// Those of the folder.
 pub fn reopen(session: &Session, goes_on: bool) -> Result<OutputFolder, Failure> {
     let ours = &session.manifest;
     let (path, _) = session.options.output.destination(ours, true);

@@ -11,7 +11,6 @@ mod collision;
 mod completeness;
 mod definite;
 mod follow;
-mod map;
 mod modes;
 mod path;
 mod paths;
@@ -22,7 +21,6 @@ mod solid;
 mod sweep;
 mod vectors;
 
-pub use map::{StabilityMapPoint, map_of};
 pub use sensitivity::{Beside, WavePair, wave_pairs, wave_responses};
 pub use solid::{SolidModel, solid_sweep, solid_sweep_with_waves};
 pub use sweep::{Coverage, Overdamped, WaveSweep, onsets, sweep, sweep_with_waves};

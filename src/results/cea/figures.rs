@@ -26,10 +26,7 @@ const FOLLOWED_BRANCHES: usize = 4;
 
 /// Draws every figure that the report has data for into `figures/`, and writes `report.html`: eigenvalue locus with
 /// stability bars, pairs that turn unstable, base state, mode shapes, the branches that turn unstable at every friction
-/// value that has shapes, map. `dampings` are those that regions of the body have.
-///
-/// # Errors
-/// Those of the folder; a figure that cannot be drawn although there is something to draw.
+/// value that has shapes. `dampings` are those that regions of the body have.
 pub fn draw(
     folder: &OutputFolder,
     report: &CeaReport<'_>,
@@ -57,9 +54,6 @@ pub fn draw(
         if let Some(feed) = &reading.feed {
             figures.push(Box::new(move || feed.figure(report)));
         }
-    }
-    if let Some(map) = report.map {
-        figures.push(Box::new(|| map.figure()));
     }
     write_page(folder, document(report, View::Page), declared(figures)?, options)
 }

@@ -299,9 +299,6 @@ impl PeriodicResult {
     }
 
     /// The tables of its cycle and branch.
-    ///
-    /// # Errors
-    /// Those of the archive.
     pub(super) fn told(
         &self,
         report: &CycleReport<'_>,

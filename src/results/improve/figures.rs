@@ -13,9 +13,6 @@ use std::f64::consts::PI;
 const MOST: usize = 4;
 
 /// A figure for each target, the fastest first.
-///
-/// # Errors
-/// That of a figure that cannot be drawn although there is something to draw.
 pub fn figures(
     summary: &ImproveSummary,
     mesh: &Mesh,

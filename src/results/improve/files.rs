@@ -6,9 +6,6 @@ use crate::results::vtu::{EncodedMesh, Field, write_vtu};
 use crate::results::{FolderError, OutputFolder};
 
 /// Writes the fields over the mesh, and the keys of the best candidate.
-///
-/// # Errors
-/// Those of the folder.
 pub fn write(
     folder: &OutputFolder,
     summary: &ImproveSummary,

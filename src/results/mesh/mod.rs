@@ -16,11 +16,10 @@ use super::vtu::{EncodedMesh, Field, write_vtu};
 use crate::chart::literal;
 use crate::mesh::{BoundaryCondition, Mesh, MeshQuality};
 use crate::output::{Described, Document, Format, Section, fixed, significant};
-use serde::de::DeserializeOwned;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// `summary.json` of `frictionsim mesh`, with the statistics of the kind of body.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct MeshSummary<S> {
     /// `mesh`.
     pub command: String,
@@ -41,7 +40,7 @@ pub struct MeshSummary<S> {
 }
 
 /// Statistics of a mesh of any kind.
-pub trait Measured: Serialize + DeserializeOwned + Described {
+pub trait Measured: Serialize + Described {
     /// What there is to say of it.
     fn section(&self, results: Section) -> Section;
     /// Its counts.
@@ -62,7 +61,7 @@ impl<S: Measured> MeshSummary<S> {
 }
 
 /// Counts of a mesh.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct MeshSize {
     /// Nodes.
     pub nodes: usize,
@@ -75,7 +74,7 @@ pub struct MeshSize {
 }
 
 /// Sizes and shapes of the elements of a mesh.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct ElementShapes {
     /// Shortest edge of any element, m.
     pub smallest_edge_m: f64,
@@ -135,9 +134,6 @@ fn caption(title: &str) -> String {
 }
 
 /// Writes `mesh.vtu` with node numbers, the nodes of the contact marked, what is held, and the region of each element.
-///
-/// # Errors
-/// Those of the folder.
 pub fn write_mesh(
     folder: &OutputFolder,
     mesh: &Mesh,

@@ -3,7 +3,9 @@
 use super::assembly::{self, AssemblyModel};
 use super::states::{StatesSweep, WholeMesh};
 use super::{Progress, StudyError};
-use crate::case::{Annulus, Body, Case, CaseErrors, Cea, CeaMethod, ModeSelection, Revolution};
+use crate::case::{
+    Annulus, Body, Case, CaseErrors, Cea, CeaMethod, ModeSelection, Revolution, refusal,
+};
 use crate::cea::cyclic::{self, Coverage, Overdamped, SolidModel, WaveSweep};
 use crate::cea::{CeaError, FrictionSweep, ModeBranch, ModeLimit, SweepRequest};
 use crate::mesh::{SectorMesh, SolidSector};
@@ -35,12 +37,10 @@ impl Solver {
             (Body::Imported(_) | Body::Assembly(_), CeaMethod::Cyclic)
                 if !case.body.is_of_sectors() =>
             {
-                Err(case.error_at(
-                    "cea.method",
-                    "cea.method = \"cyclic\" needs a body of equal sectors",
-                    "the mesh file has the whole body",
-                    "give a mesh of one sector with mesh.sectors, or use \"auto\" or \"sparse\"",
-                ))
+                Err(refusal!(case, "cea.method",
+                    "cea.method = \"cyclic\" needs a body of equal sectors";
+                    "the mesh file has the whole body";
+                    "give a mesh of one sector with mesh.sectors, or use \"auto\" or \"sparse\""))
             }
             (Body::Annulus(_), CeaMethod::Cyclic) if is_lossy => {
                 Err(no_cyclic_losses(case, "cea.method = \"cyclic\""))
@@ -94,15 +94,11 @@ fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
         return Ok(());
     }
     let key = case.speed_key();
-    Err(case.error_at(
-        key,
-        format!(
-            "{key} = 0: the contact sticks at rest, and there is no steady sliding whose \
-             eigenvalues could be solved"
-        ),
-        "must not be zero for an eigenvalue analysis",
-        "give a speed, however small; its sign is the sense of the sliding",
-    ))
+    Err(refusal!(case, key,
+        "{key} = 0: the contact sticks at rest, and there is no steady sliding whose eigenvalues \
+         could be solved";
+        "must not be zero for an eigenvalue analysis";
+        "give a speed, however small; its sign is the sense of the sliding"))
 }
 
 /// Refuses to count modes where the argument principle does not apply.
