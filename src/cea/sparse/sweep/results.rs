@@ -22,13 +22,22 @@ impl SparseSweep<'_> {
         branches: &[TrackedBranch],
     ) -> Result<FrictionSweep, CeaError> {
         let frictions = request.friction_coefficients.iter();
-        let points = frictions
+        let points: Vec<FrictionPoint> = frictions
             .map(|&mu| {
                 let k = self.grid.partition_point(|&g| g < mu);
                 self.friction_point(k, request.shapes_at.contains(&mu), branches)
             })
             .collect();
         let mut found = self.intervals(branches)?;
+        // What grows from the start on, but no more than rounded matrices leave open wherever it was asked for, is not told.
+        found.retain(|own| {
+            let own = &own.interval;
+            let is_own =
+                |mode: &&ComplexMode| (mode.harmonic, mode.branch) == (own.harmonic, own.branch);
+            let mut modes = points.iter().flat_map(|point| &point.modes).filter(is_own).peekable();
+            let is_told = modes.peek().is_none() || modes.any(ComplexMode::is_unstable);
+            is_told || !own.unstable_from_start || own.restabilized.is_some()
+        });
         let critical = |own: &FoundInterval| own.interval.critical_friction;
         found.sort_by(|a, b| critical(a).total_cmp(&critical(b)));
         let vectors = |own: &FoundInterval| {
