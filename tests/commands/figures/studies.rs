@@ -94,7 +94,7 @@ fn eigenvalue_analyses_over_one_key_become_a_critical_friction_line_for_each_bra
         .map(|i| {
             let damping = 1e-7 * 1.8f64.powi(i);
             let entry = |harmonic: usize, factor: f64| {
-                json!({ "harmonic": harmonic, "branch": 0, "direction": -1,
+                json!({ "harmonic": harmonic, "branch": 0, "direction": -1, "unstable_from_start": false,
                         "critical_friction": factor * (damping * 1e7).sqrt() })
             };
             let mut found = vec![entry(1, 0.06)];
