@@ -65,8 +65,8 @@ impl Run for Arguments {
         let document = summary.document();
         let text = document.to_text();
         let response = FrequencyResponse::new(frf.frequencies_hz.clone(), values, frf.quantity);
-        let response = response.map_err(Failure::run)?;
-        let figures = || Ok(vec![response_figure(&response)]);
+        // A few lines are numbers, but no curve.
+        let figures = || Ok(response.iter().map(response_figure).collect());
         session.options.output.finish_result(folder, &text, document, &summary, figures)
     }
 }
