@@ -178,7 +178,8 @@ fn polished([mass, damping, stiffness, losses]: &[Mat<f64>; 4], start: c64) -> c
 /// Below which the analysis promises every mode: damping over critical damping.
 const PROMISED: f64 = 0.5;
 
-fn check(slider: &Slider) -> Result<(), TestCaseError> {
+/// Holds the modes to a dense decomposition, and each to Newton's method where that is not sharp enough, or `is_polished`.
+fn check(slider: &Slider, is_polished: bool) -> Result<(), TestCaseError> {
     let case = case_of(slider);
     let found = match modes_and_onsets(&case) {
         Ok(found) => found,
@@ -200,12 +201,11 @@ fn check(slider: &Slider) -> Result<(), TestCaseError> {
             all.iter().map(|other| (other - own).norm()).fold(f64::INFINITY, f64::min)
         };
         for own in &listed {
-            let goal = 1e-7 * own.norm();
             let error = match nearest(*own, &exact) {
-                error if error <= goal => continue,
+                error if !is_polished && error <= tolerance(*own) => continue,
                 _ => (polished(&problem, *own) - own).norm(),
             };
-            prop_assert!(error <= goal, "{own} at friction {friction}: {error:e} off");
+            prop_assert!(error <= 1e-7 * own.norm(), "{own} at friction {friction}: {error:e} off");
         }
         for mode in &point.modes {
             prop_assert!(mode.residual <= 1e-9, "residual {:e}", mode.residual);
@@ -229,7 +229,8 @@ fn bodies_that_slide_have_every_mode_below_half_of_critical_damping() {
     let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[11; 32]);
     let cases = sized(12, 200);
     let config = Config { cases, failure_persistence: None, ..Config::default() };
-    let outcome = TestRunner::new_with_rng(config, rng).run(&sliders(), |slider| check(&slider));
+    let outcome =
+        TestRunner::new_with_rng(config, rng).run(&sliders(), |slider| check(&slider, false));
     outcome.unwrap_or_else(|error| panic!("{error}"));
 }
 
@@ -249,6 +250,6 @@ fn slow_motions_close_together_keep_their_digits_beside_fast_modes() {
             speed: 1.0,
             modes,
         };
-        check(&slider).unwrap();
+        check(&slider, true).unwrap();
     }
 }
