@@ -4,15 +4,6 @@ use super::ModeCount;
 use crate::linalg::c64;
 use std::f64::consts::TAU;
 
-/// `|Im lambda| / |lambda|` below which a motion decays without oscillating: its damping factor is above 0.995. Motions beyond
-/// critical damping have real eigenvalues only where nothing couples two of them.
-pub(super) const STANDSTILL: f64 = 0.1;
-
-/// Whether an eigenvalue has a positive imaginary part and is that of a motion that oscillates or grows.
-pub(super) fn is_vibration(value: c64) -> bool {
-    value.im > 0.0 && (value.re > 0.0 || value.im > STANDSTILL * value.norm())
-}
-
 /// One eigenpair of `(lambda^2 M + lambda C + K_t) phi = 0`, equation (1) with the contact in it, with `Im(lambda) >= 0`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComplexMode {
@@ -252,16 +243,4 @@ pub struct EndedMode {
     /// The next friction coefficient, at which it could not be told from others; `None` where damping of friction takes it beyond the
     /// critical one.
     pub lost_before: Option<f64>,
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn growth_that_hardly_oscillates_is_sought_all_the_same() {
-        let [decay, growth] = [-1.0, 1.0].map(|re| c64::new(re, 0.03));
-        assert!(!is_vibration(decay) && is_vibration(growth));
-        assert!(!is_vibration(growth.conj()) && is_vibration(c64::new(-1.0, 0.2)));
-    }
 }

@@ -116,6 +116,23 @@ fn run(tangent: &SlidingTangent, values: &[f64], limit: ModeLimit) -> FrictionSw
     sweep(tangent, &request, &|_| {}).unwrap()
 }
 
+/// Consistency: what grows just above the modes asked for is told as a longer list has it, and nothing where nothing grows.
+#[test]
+fn an_unstable_mode_just_above_the_list_is_told() {
+    let tangent = Disc::coarse().tangent();
+    let values = [0.0, 0.15, 0.3];
+    let all = run(&tangent, &values, ModeLimit::Lowest(12));
+    let last = &all.points[2].modes;
+    assert!(!last[..2].iter().any(ComplexMode::is_unstable));
+    let beyond = run(&tangent, &values, ModeLimit::Lowest(2)).beyond.unwrap();
+    let listed = last.iter().find(|mode| {
+        (mode.frequency_hz() - beyond.frequency_hz).abs() < 1e-6 * beyond.frequency_hz
+    });
+    assert_eq!(beyond.friction_coefficient, 0.3);
+    assert!((listed.unwrap().growth_rate() - beyond.growth_rate).abs() < 1e-6 * beyond.growth_rate);
+    assert!(run(&tangent, &[0.0], ModeLimit::Lowest(2)).beyond.is_none());
+}
+
 /// `mu_c = (c^2 + ((A - B)/2)^2) / (c d)`: where the two eigenvalues of `K` meet.
 #[test]
 fn two_degrees_of_freedom_flutter_at_the_closed_form_friction() {

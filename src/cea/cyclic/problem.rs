@@ -2,7 +2,7 @@
 
 use super::path::Eigenpair;
 use super::vectors::{ZERO, add, dot, largest, product};
-use crate::cea::spectrum::STANDSTILL;
+use crate::cea::counted::STANDSTILL;
 use crate::fem::RayleighDamping;
 use crate::linalg::banded::{BandedLu, BandedMatrix};
 use crate::linalg::{Mat, c64};
