@@ -269,7 +269,7 @@ fn a_check_of_an_imported_body_estimates_its_own_size() {
     assert_eq!(body.dofs, disc.dofs);
     // The whole mesh costs more than its harmonics.
     let [cyclic, sparse] = [disc, body].map(|cost| cost.cea.unwrap().run.operations);
-    assert!(sparse > 3.0 * cyclic, "{sparse} {cyclic}");
+    assert!(sparse > cyclic, "{sparse} {cyclic}");
     let forced = case(&folder, "", &["cea.method=sparse"]).cost();
     assert_eq!(forced.cea.unwrap().run.operations, sparse);
 }
