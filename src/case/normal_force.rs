@@ -167,7 +167,7 @@ impl Case {
             Body::Annulus(annulus) => {
                 let mesh = SectorMesh::generate(&annulus.specification).map_err(in_words)?;
                 let stiffness = sector::supported_stiffness(&mesh, &annulus.materials);
-                let base = SectorSliding::solve_with(&mesh, &stiffness, &contact, law);
+                let base = SectorSliding::solve(&mesh, &stiffness, &contact, law);
                 let whole = self.thickness * mesh.sector_count() as f64;
                 base.map(|base| vec![whole * base.normal_forces.iter().sum::<f64>()])
             }
@@ -175,7 +175,7 @@ impl Case {
                 let mesh = SolidSector::generate(specification).map_err(in_words)?;
                 let elastic = solid::stiffness(&mesh, material);
                 let law = self.contact.stiffness.base_law();
-                let base = SolidSliding::solve_with(&mesh, &elastic, &contact, law);
+                let base = SolidSliding::solve(&mesh, &elastic, &contact, law);
                 let whole = mesh.sector_count() as f64;
                 let sum =
                     |base: SolidSliding| base.normal_forces.iter().map(|own| own.1).sum::<f64>();

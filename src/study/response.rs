@@ -23,7 +23,7 @@ use crate::linalg::{GaussianNoise, c64};
 use crate::mesh::{
     AnnulusSpecification, BoundaryCondition, Mesh, SectorMesh, SolidSector, SolidSpecification,
 };
-use crate::prestress::{BaseChoice, SectorTangent, SlidingTangent, SolidTangent, SteadySliding};
+use crate::prestress::{BaseChoice, SlidingTangent, SteadySliding, WaveTangent};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -252,7 +252,7 @@ fn annulus(
     let contact = &case.contact.sliding;
     if frf.boundary == FrfBoundary::Sliding {
         let options = tangent_options(case, frf.mass);
-        let tangent = SectorTangent::linearize(&sector, case.materials(), &options, contact)?;
+        let tangent = WaveTangent::of_annulus(&sector, case.materials(), &options, contact)?;
         return Ok(CyclicSystem::sliding(&tangent, contact.friction_coefficient));
     }
     let is_clamped = frf.boundary == FrfBoundary::Clamped;
@@ -269,8 +269,8 @@ fn solid(
     let contact = &case.contact.sliding;
     if frf.boundary == FrfBoundary::Sliding {
         let options = tangent_options(case, frf.mass);
-        let tangent = SolidTangent::linearize(&sector, &case.material, &options, contact)?;
-        return Ok(CyclicSystem::solid_sliding(&tangent, contact.friction_coefficient));
+        let tangent = WaveTangent::of_revolution(&sector, &case.material, &options, contact)?;
+        return Ok(CyclicSystem::sliding(&tangent, contact.friction_coefficient));
     }
     let is_clamped = frf.boundary == FrfBoundary::Clamped;
     let rayleigh = case.damping.rayleigh;

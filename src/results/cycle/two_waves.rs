@@ -74,7 +74,7 @@ columns! {
     stick: "fraction of the edge that sticks" = row.1.fractions[0];
     slip: "fraction that slips" = row.1.fractions[1];
     open: "fraction that is open" = row.1.fractions[2];
-    external_w: "power of the rotor" = row.1.powers.external * row.2;
+    external_w: "power of the rotor" = row.1.powers.contact.external * row.2;
     balance_residual: "residual of the energy balance, relative to it"
         = row.1.powers.balance_residual();
 }
@@ -159,7 +159,7 @@ impl TwoWaveResult {
             amplitudes_m: motion.map(|motion| motion.amplitudes),
             status: motion.map(|motion| motion.fractions),
             points: found.map(|found| found.sides),
-            external_w: motion.map(|motion| motion.powers.external * thickness),
+            external_w: motion.map(|motion| motion.powers.contact.external * thickness),
             balance_residual: motion.map(|motion| motion.powers.balance_residual()),
             transient_frequencies_hz: found
                 .and_then(|found| found.confirmation)

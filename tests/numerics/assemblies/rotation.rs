@@ -1,7 +1,9 @@
-//! Rings that turn, in the frame at rest.
+//! Rings that turn, in both frames.
 
-use super::{STEEL, boundary, eigenvalues, mesh_of};
+use super::{OPTIONS, STEEL, boundary, eigenvalues, mesh_of};
 use crate::bricks::{Block, file_of};
+use frictionsim::cea::sparse::sweep;
+use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::contact::Motion;
 use frictionsim::fem::{MassKind, RotationFrame, assemble_mass, assemble_supports};
 use frictionsim::mesh::{BoundaryCondition, ElasticSupport, Mesh};
@@ -116,6 +118,39 @@ fn waves_of_a_turning_ring_split_by_twice_the_harmonic_times_the_speed() {
             let bound = 3.0 * speed * speed / omega + 0.01 * shift;
             assert!(nearest.abs() < bound, "n = {n}: {nearest} {bound}");
         }
+    }
+}
+
+/// Theory: what nothing holds turns about its own axis in balance. A wave of two nodal diameters that stands at `omega` in the frame
+/// that turns with the ring travels at `omega -+ 2 Omega` in the frame at rest, and nothing grows.
+#[test]
+fn a_free_ring_turns_and_both_frames_tell_the_same_of_its_waves() {
+    let (mesh, seam) = ring([2, 40, 1], BoundaryCondition::Free);
+    let speed = 60.0;
+    let lowest = |frame: RotationFrame| -> [f64; 2] {
+        let motion = turning(speed, [0.0; 3], frame);
+        let (ties, closed) = (std::slice::from_ref(&seam), BaseChoice::Closed);
+        let assembly = Assembly::new(&mesh, &STEEL, ties, &[], &[motion], closed).unwrap();
+        let range = assembly.range(&[0.0]).unwrap();
+        let tangent = assembly.tangent(&range.states[0], &OPTIONS).unwrap();
+        let request = SweepRequest {
+            friction_coefficients: &[0.0],
+            limit: ModeLimit::Lowest(8),
+            shapes_at: &[],
+            count_modes: false,
+        };
+        let found = sweep(&tangent, &request, &|_| {}).unwrap();
+        assert!(found.intervals.is_empty(), "{:?}", found.intervals);
+        let own = found.points[0].modes.iter().map(|mode| mode.eigenvalue.im);
+        // Rigid motions go round at the speed of the frame.
+        let elastic: Vec<f64> = own.filter(|omega| *omega > 10.0 * speed).collect();
+        [elastic[0], elastic[1]]
+    };
+    let [at_rest, along] = [RotationFrame::Rest, RotationFrame::Turning].map(lowest);
+    println!("{at_rest:?} {along:?}");
+    for (expected, found) in [along[0] - 2.0 * speed, along[1] + 2.0 * speed].iter().zip(at_rest) {
+        // 40 elements around carry a wave of two diameters to (2 / 40)^2 of the shift.
+        assert!((found - expected).abs() < 0.01 * 2.0 * speed, "{found} {expected}");
     }
 }
 
