@@ -42,15 +42,15 @@ columns! {
     slip: "slip" = first(point, "/status/slip"), IfAny "slip" Fixed(3);
     open: "open" = first(point, "/status/open"), IfAny "open" Fixed(3);
     critical_friction: "critical friction" = critical(point), IfAny "critical friction" Fixed(6);
-    critical_n: "its nodal diameters"
+    critical_harmonic: "its nodal diameters"
         = first(point, "/critical_frictions/0/harmonic"), IfAny "n" Count;
-    first_n: "nodal diameters of the first cycle"
+    first_harmonic: "nodal diameters of the first cycle"
         = first(point, "/cycles/0/harmonic"), IfAny "n" Count;
     first_hz: "its frequency"
         = first(point, "/cycles/0/main_frequency_hz"), IfAny "main frequency" Fixed(2);
     first_stick: "its stick" = first(point, "/cycles/0/status/stick"), IfAny "stick" Fixed(3);
     first_open: "its open" = first(point, "/cycles/0/status/open"), IfAny "open" Fixed(3);
-    second_n: "nodal diameters of the second cycle"
+    second_harmonic: "nodal diameters of the second cycle"
         = first(point, "/cycles/1/harmonic"), IfAny "n" Count;
     second_hz: "its frequency"
         = first(point, "/cycles/1/main_frequency_hz"), IfAny "main frequency" Fixed(2);
