@@ -2,7 +2,7 @@
 
 use super::profile::Profile;
 use super::{Failure, RunOptions, Session, superelement, terminal};
-use crate::case::{Case, Cea};
+use crate::case::Cea;
 use crate::cea::{SweepProgress, SweepStage};
 use crate::results::cea::{CeaReport, KeptSteps, View, document, draw, write, write_universal};
 use crate::study::eigenvalues::{self, Progress, SlidingModel, Solution, Solver, refuse_no_modes};
@@ -77,12 +77,6 @@ fn show(bar: &ProgressBar, progress: SweepProgress) {
     bar.set_position(progress.solved as u64);
 }
 
-/// Whether the solver of a case keeps its steps: harmonics take seconds at most, and keep none.
-fn model_keeps(case: &Case, cea: &Cea) -> bool {
-    let solver = Solver::of(case, cea.method);
-    matches!(solver, Ok(Solver::WholeMesh | Solver::Assembly))
-}
-
 /// Runs the subcommand with a solver.
 ///
 /// # Errors
@@ -94,6 +88,7 @@ fn run_with(
     let session = Session::start("cea", &arguments.options)?;
     let case = &session.case;
     let cea = case.require_cea()?;
+    let solver = Solver::of_analysis(case, cea)?;
     let cost = case.cost();
     let solver_bytes = cost.cea.map_or(0.0, |cea| cea.memory_bytes);
     session.check_memory(cost.mesh_memory_bytes + solver_bytes)?;
@@ -104,9 +99,10 @@ fn run_with(
     let bar = terminal::progress(session.options.output.is_quiet(), 0, "modes at rest");
     let heard = |progress| show(&bar, progress);
     let steps = KeptSteps::new(&folder, arguments.resume, &heard)?;
-    terminal::catch_signals(match model_keeps(case, cea) {
-        true => KEPT,
-        false => terminal::NOTHING_KEPT,
+    // Harmonics take seconds at most, and keep no steps.
+    terminal::catch_signals(match solver {
+        Solver::WholeMesh | Solver::Assembly => KEPT,
+        _ => terminal::NOTHING_KEPT,
     });
 
     let model = SlidingModel::new(case, cea)?;

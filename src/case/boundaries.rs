@@ -10,17 +10,7 @@ pub(super) type NamedCondition = (String, BoundaryCondition);
 
 /// `[boundaries.*]`, in the order given.
 pub(super) fn all(root: &Section<'_>) -> Vec<NamedCondition> {
-    let all = root.section("boundaries", false);
-    let names: Vec<&str> = all.remaining().into_iter().map(|(name, _)| name).collect();
-    let named = names.into_iter().map(|name| {
-        let section = all.section(name, false);
-        let condition = condition(&section);
-        section.close();
-        (name.to_owned(), condition)
-    });
-    let named = named.collect();
-    all.close();
-    named
+    root.each("boundaries", condition)
 }
 
 fn condition(section: &Section<'_>) -> BoundaryCondition {
@@ -54,25 +44,15 @@ fn condition(section: &Section<'_>) -> BoundaryCondition {
             format!("change the condition to \"{needs}\", or leave {key} out"),
         );
     };
-    if word != ConditionWord::Support {
-        for key in [
-            "normal_stiffness",
-            "tangential_stiffness",
-            "axial_stiffness",
-            "normal_damping",
-            "tangential_damping",
-            "loss_factor",
-        ] {
-            if section.has(key) {
-                reject(key, "support");
-            }
+    let springs = "normal_stiffness tangential_stiffness axial_stiffness normal_damping tangential_damping loss_factor";
+    for (needed, needs, keys) in [
+        (ConditionWord::Support, "support", springs),
+        (ConditionWord::Fixed, "fixed", "directions"),
+        (ConditionWord::Pressure, "pressure", "pressure"),
+    ] {
+        if word != needed {
+            section.refused(keys).into_iter().for_each(|key| reject(key, needs));
         }
-    }
-    if word != ConditionWord::Fixed && section.has("directions") {
-        reject("directions", "fixed");
-    }
-    if word != ConditionWord::Pressure && section.has("pressure") {
-        reject("pressure", "pressure");
     }
     match word {
         ConditionWord::Clamped => BoundaryCondition::Clamped,
@@ -101,7 +81,7 @@ pub(super) fn no_axial_support(root: &Section<'_>, boundaries: &[NamedCondition]
             section.reject(
                 name,
                 format!("boundaries.{name}.axial_stiffness has no effect on a plane body"),
-                "needs material.formulation = \"three-dimensional\"",
+                "the body is plane",
                 "leave axial_stiffness out",
             );
         }

@@ -83,17 +83,17 @@ impl Case {
             return Ok(cycle);
         }
         let key = self.speed_key();
-        let value = self.raw.find(key).map(|item| item.value.to_string());
+        let value = self.raw.find(&key).map(|item| item.value.to_string());
         let value = value.unwrap_or_default();
         Err(match self.has_rotating_waves() {
             true => self.error_at(
-                key,
+                &key,
                 format!("{key} = {value}: limit cycles need a cylinder that turns"),
                 "must be positive here",
                 "a cylinder turning backwards gives the mirror image",
             ),
             false => self.error_at(
-                key,
+                &key,
                 format!(
                     "{key} = {value}: the contact sticks at rest, and no limit cycle lives there"
                 ),

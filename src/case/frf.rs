@@ -65,7 +65,7 @@ pub(super) fn read(root: &Section<'_>, nodes: &Nodes<'_>) -> Option<Frf> {
                 key,
                 format!("frf.{key} = \"{name}\": a plane body does not move along its axis"),
                 "the body is plane",
-                "use \"radial\" or \"tangential\", or material.formulation = \"three-dimensional\"",
+                "use \"radial\" or \"tangential\"",
             );
         }
         direction

@@ -140,6 +140,19 @@ impl CaseKey {
         matches!(self.kind, Kind::Number(_) | Kind::NumberOr(..) | Kind::Count(_) | Kind::Node)
     }
 
+    /// Whether it may have a value of this kind: a number, or anything else but a section.
+    pub(super) fn takes(&self, value: &RawValue) -> bool {
+        use Kind::{Choice, Choices, Directions, Flag, Parameter, Table, Text, Texts};
+        match value {
+            RawValue::Table(_) => false,
+            RawValue::Integer(_) | RawValue::Float(_) => !matches!(
+                self.kind,
+                Choice(_) | Choices(_) | Directions(_) | Flag | Parameter | Table(_) | Text | Texts
+            ),
+            _ => true,
+        }
+    }
+
     /// The name without its section.
     pub fn short(&self) -> &'static str {
         self.name.rsplit('.').next().unwrap_or(self.name)

@@ -51,10 +51,9 @@ fn motion(section: &Section<'_>) -> RigidMotion {
     if speed.is_none() && !section.has("direction") {
         return RigidMotion::Turning(section.number("rotation_speed_rpm") * TAU / 60.0);
     }
-    if section.has("rotation_speed_rpm") {
-        let _ = section.optional_number("rotation_speed_rpm");
+    for key in section.refused("rotation_speed_rpm") {
         section.reject(
-            "rotation_speed_rpm",
+            key,
             "the counterface turns about its axis or slides along a straight line, not both",
             "beside `speed` or `direction`",
             "leave rotation_speed_rpm out, or `speed` and `direction`",
@@ -62,7 +61,7 @@ fn motion(section: &Section<'_>) -> RigidMotion {
     }
     let speed = speed.unwrap_or_else(|| section.number("speed"));
     if !section.has("direction") {
-        section.missing("direction");
+        no_triple(section, "direction", "is missing beside `speed`");
     }
     let direction = triple(section, "direction").unwrap_or([1.0, 0.0, 0.0]);
     RigidMotion::Sliding(unit(section, "direction", direction).map(|x| x * speed))
@@ -73,16 +72,18 @@ pub(super) fn triple(section: &Section<'_>, key: &str) -> Option<[f64; 3]> {
     match section.numbers(key).as_deref() {
         Some(&[x, y, z]) => Some([x, y, z]),
         Some(_) => {
-            section.reject(
-                key,
-                format!("{} needs three numbers", section.name(key)),
-                "must be [x, y, z]",
-                None,
-            );
+            no_triple(section, key, "needs three numbers");
             None
         }
         None => None,
     }
+}
+
+/// Says what three numbers look like.
+fn no_triple(section: &Section<'_>, key: &str, what: &str) {
+    let message = format!("{} {what}", section.name(key));
+    let help = format!("for example `{key} = [1.0, 0.0, 0.0]`");
+    section.reject(key, message, "must be [x, y, z]", help);
 }
 
 /// The vector of length one along `direction`.

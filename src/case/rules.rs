@@ -140,19 +140,19 @@ pub(super) fn infeasible(case: &Case) -> Vec<Diagnostic> {
         );
     }
     let scale = case.material.young_modulus / case.body.contact_length();
-    if let Some(stiffness) = case.contact.stiffness.normal_stiffness
-        && stiffness > LARGEST_STIFFNESS * scale
-    {
+    let mut springs = case.springs().into_iter();
+    if let Some(springs) = springs.find(|own| own.stiffness > LARGEST_STIFFNESS * scale) {
         refuse(
-            case.contact.stiffness_key(),
+            &springs.key(),
             format!(
-                "{} = {stiffness:e} Pa/m is {:.1e} times the modulus over the \
+                "{} = {:e} Pa/m is {:.1e} times the modulus over the \
                  radius: round-off would drown the body",
-                case.contact.stiffness_name(),
-                stiffness / scale
+                springs.name(),
+                springs.stiffness,
+                springs.stiffness / scale
             ),
             format!("at most {:e}", LARGEST_STIFFNESS * scale),
-            "use \"rigid\", which is exact",
+            &case.rigid_remedy(&springs),
         );
     }
     errors

@@ -27,7 +27,7 @@ pub(super) fn shaft(
                 "shaft_radial_elements",
                 "mesh.shaft_radial_elements is for a deformable shaft, and the case has none",
                 "the cylinder is rigid",
-                "give geometry.shaft_inner_radius, or leave it out",
+                "give geometry.shaft_inner_radius and [materials.shaft], or leave it out",
             );
         }
         return None;
@@ -73,7 +73,7 @@ fn materials(
             ("shaft", true) => continue,
             ("shaft", false) => (
                 "[materials.shaft] is for a deformable shaft, and the case has none".to_owned(),
-                "give geometry.shaft_inner_radius, or leave the section out",
+                "give geometry.shaft_inner_radius and mesh.shaft_radial_elements, or leave the section out",
             ),
             _ => (
                 format!("[materials.{name}] is for a physical surface of a mesh file (mesh.file)"),

@@ -27,7 +27,7 @@ pub fn map(
     let largest_friction = frictions.fold(0.0_f64, |m, &mu| m.max(mu));
     let point = |(number, &value): (usize, &f64)| -> Result<(f64, Point), StudyError> {
         let set = [format!("{}={value:?}", map.key)];
-        let point = Case::from_raw(case.raw.with_overrides(&set)?)?;
+        let point = Case::read(case.raw.with_overrides(&set)?)?;
         let solver = Solver::of(&point, point.require_cea()?.method)?;
         Ok((value, (number, point, solver)))
     };

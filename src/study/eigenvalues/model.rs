@@ -95,7 +95,7 @@ fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
     }
     let key = case.speed_key();
     Err(case.error_at(
-        key,
+        &key,
         format!(
             "{key} = 0: the contact sticks at rest, and there is no steady sliding whose \
              eigenvalues could be solved"
