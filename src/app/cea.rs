@@ -2,7 +2,7 @@
 
 use super::profile::{Profile, Run};
 use super::{Failure, RunOptions, Session, superelement, terminal};
-use crate::case::{Case, Cea};
+use crate::case::Cea;
 use crate::cea::{SweepProgress, SweepStage};
 use crate::results::cea::{KeptSteps, View, document, draw, write, write_universal};
 use crate::study::eigenvalues::{self, Progress, SlidingModel, Solution, Solver, refuse_no_modes};
@@ -73,12 +73,6 @@ fn show(bar: &ProgressBar, progress: SweepProgress) {
     bar.set_position(progress.solved as u64);
 }
 
-/// Whether the solver of a case keeps its steps: harmonics take seconds at most, and keep none.
-fn model_keeps(case: &Case, cea: &Cea) -> bool {
-    let solver = Solver::of(case, cea.method);
-    matches!(solver, Ok(Solver::WholeMesh | Solver::Assembly))
-}
-
 /// Runs the subcommand with a solver.
 ///
 /// # Errors
@@ -90,14 +84,15 @@ fn run_with(
     let session = Session::start("cea", &arguments.options)?;
     let case = &session.case;
     let cea = case.require_cea()?;
+    let solver = Solver::of_analysis(case, cea)?;
     session.check_memory(case.memory("cea").0)?;
     let folder = session.open_folder(arguments.resume)?;
     let bar = terminal::progress(session.options.output.is_quiet(), 0, "modes at rest");
     let heard = |progress| show(&bar, progress);
     let steps = KeptSteps::new(&folder, arguments.resume, &heard)?;
-    terminal::catch_signals(match model_keeps(case, cea) {
-        true => KEPT,
-        false => terminal::NOTHING_KEPT,
+    terminal::catch_signals(match solver {
+        Solver::WholeMesh | Solver::Assembly => KEPT,
+        _ => terminal::NOTHING_KEPT,
     });
 
     let model = SlidingModel::new(case, cea)?;

@@ -105,6 +105,11 @@ impl Run for Arguments {
             let largest = summary.largest_friction;
             let table = samples_table(&sampler.keys(), &samples, largest);
             folder.write(&table.file, |out| table.write_csv(out))?;
+            let mut failed = samples.iter().filter_map(|sample| sample.error.as_deref());
+            if failed.clone().count() == samples.len() {
+                let first = failed.next().unwrap_or_default();
+                return Err(Failure::run(format!("no sample could be solved; the first: {first}")));
+            }
             folder.write_summary(&object)?;
             if let Some(drawing) = output.drawing() {
                 draw_report(&folder, &summary, &drawing)?;

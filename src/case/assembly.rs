@@ -2,7 +2,7 @@
 
 use super::Case;
 use super::boundaries::NamedCondition;
-use super::contact::Contact;
+use super::contact::{Contact, section_of};
 use super::contacts::{NamedContact, contact, short_form};
 use super::imported::{ImportError, whole_body};
 use super::modifications::{Modification, reshaped};
@@ -12,6 +12,7 @@ use super::refuse;
 use super::rigid_counterface::{triple, unit};
 use super::suggestion;
 use super::tables::TableFiles;
+use super::value::quote;
 use crate::contact::{
     ContactStiffness, Counterpart, Motion, RigidCounterface, RigidMotion, SlidingContact,
 };
@@ -309,14 +310,29 @@ impl AssemblyBody {
 }
 
 impl Case {
-    /// The key that says how fast the first contact slides.
-    pub fn speed_key(&self) -> &'static str {
-        let rigid = self.body.assembly().map(AssemblyBody::rigid_counterface);
-        match (rigid, self.raw.find("contact.speed")) {
-            (Some(None), _) => "motion",
-            (Some(Some(_)), None) if !self.raw.root.contains_key("contact") => "contacts",
-            (_, Some(_)) => "contact.speed",
-            (_, None) => "contact.rotation_speed_rpm",
+    /// A key of the first contact, by its full name.
+    pub(super) fn contact_key(&self, key: &str) -> String {
+        let first = self.body.assembly().and_then(|body| body.contacts.first());
+        format!("{}.{key}", first.map_or_else(|| "contact".to_owned(), section_of))
+    }
+
+    /// The key that says how fast the first contact slides; the section of all motions where nothing moves.
+    pub fn speed_key(&self) -> String {
+        if let Some(body) = self.body.assembly()
+            && body.rigid_counterface().is_none()
+        {
+            let turning = body.motions.first().and_then(|motion| motion.regions.first());
+            return turning.map_or_else(
+                || "motion".to_owned(),
+                |&region| {
+                    format!("motion.{}.rotation_speed_rpm", quote(&body.mesh.regions[region]))
+                },
+            );
+        }
+        let straight = self.contact_key("speed");
+        match self.number(&straight) {
+            Some(_) => straight,
+            None => self.contact_key("rotation_speed_rpm"),
         }
     }
 }

@@ -11,17 +11,7 @@ pub(super) type NamedCondition = (String, BoundaryCondition);
 
 /// `[boundaries.*]`, in the order given.
 pub(super) fn all(root: &Section<'_>) -> Vec<NamedCondition> {
-    let all = root.section("boundaries", false);
-    let names: Vec<&str> = all.remaining().into_iter().map(|(name, _)| name).collect();
-    let named = names.into_iter().map(|name| {
-        let section = all.section(name, false);
-        let condition = condition(&section);
-        section.close();
-        (name.to_owned(), condition)
-    });
-    let named = named.collect();
-    all.close();
-    named
+    root.each("boundaries", condition)
 }
 
 fn condition(section: &Section<'_>) -> BoundaryCondition {
@@ -47,25 +37,16 @@ fn condition(section: &Section<'_>) -> BoundaryCondition {
         refuse!(section, key => "has no effect here"; "needs condition = \"{needs}\"";
             "change the condition to \"{needs}\", or leave {key} out");
     };
-    if word != ConditionWord::Support {
-        for key in [
-            "normal_stiffness",
-            "tangential_stiffness",
-            "axial_stiffness",
-            "normal_damping",
-            "tangential_damping",
-            "loss_factor",
-        ] {
-            if section.has(key) {
-                reject(key, "support");
-            }
+    let springs = "normal_stiffness tangential_stiffness axial_stiffness normal_damping \
+                   tangential_damping loss_factor";
+    for (needed, needs, keys) in [
+        (ConditionWord::Support, "support", springs),
+        (ConditionWord::Fixed, "fixed", "directions"),
+        (ConditionWord::Pressure, "pressure", "pressure"),
+    ] {
+        if word != needed {
+            section.refused(keys).into_iter().for_each(|key| reject(key, needs));
         }
-    }
-    if word != ConditionWord::Fixed && section.has("directions") {
-        reject("directions", "fixed");
-    }
-    if word != ConditionWord::Pressure && section.has("pressure") {
-        reject("pressure", "pressure");
     }
     match word {
         ConditionWord::Clamped => BoundaryCondition::Clamped,
@@ -92,8 +73,7 @@ pub(super) fn no_axial_support(root: &Section<'_>, boundaries: &[NamedCondition]
         if matches!(condition, BoundaryCondition::Support(support) if support.axial_stiffness > 0.0)
         {
             refuse!(section, name,
-                "boundaries.{name}.axial_stiffness has no effect on a plane body";
-                "needs material.formulation = \"three-dimensional\""; "leave axial_stiffness out");
+                "boundaries.{name}.axial_stiffness has no effect on a plane body"; "the body is plane"; "leave axial_stiffness out");
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The section `[contact]`.
 
+use super::Case;
 use super::elastic::loss_factor;
 use super::imported::{self, ContactPlace};
 use super::interference::interference;
@@ -7,9 +8,11 @@ use super::normal_law::normal_law;
 use super::reader::Section;
 use super::refuse;
 use super::solid;
+use super::value::quote;
 use super::words::BaseContact;
 use crate::contact::{ContactStiffness, FrictionDecay, NormalLaw, SlidingContact};
 use crate::mesh::AnnulusSpecification;
+use crate::prestress::SlidingSurfaces;
 use std::f64::consts::TAU;
 
 /// `[contact]`.
@@ -21,20 +24,66 @@ pub struct Contact {
     pub stiffness: ContactStiffness,
 }
 
-impl Contact {
-    /// The key that its normal stiffness without pressure belongs to.
-    pub(super) fn stiffness_key(&self) -> &'static str {
-        match self.stiffness.law {
-            Some(NormalLaw::Exponential { .. }) => "contact.reference_pressure",
-            Some(NormalLaw::Cubic { .. }) | None => "contact.normal_stiffness",
+/// The section of a contact.
+pub(super) fn section_of(contact: &SlidingSurfaces) -> String {
+    match contact.is_short_form() {
+        true => "contact".to_owned(),
+        false => format!("contacts.{}", quote(&contact.name)),
+    }
+}
+
+/// The normal springs of a contact.
+pub(super) struct Springs {
+    /// The section of the contact.
+    pub section: String,
+    /// Their stiffness without pressure, Pa/m.
+    pub stiffness: f64,
+    /// How they stiffen.
+    pub law: Option<NormalLaw>,
+}
+
+impl Springs {
+    /// The key that their stiffness without pressure belongs to.
+    pub fn key(&self) -> String {
+        match self.law {
+            Some(NormalLaw::Exponential { .. }) => format!("{}.reference_pressure", self.section),
+            Some(NormalLaw::Cubic { .. }) | None => format!("{}.normal_stiffness", self.section),
         }
     }
 
     /// What it is.
-    pub(super) fn stiffness_name(&self) -> &'static str {
-        match self.stiffness.law {
-            Some(NormalLaw::Exponential { .. }) => "contact.reference_pressure / height",
-            Some(NormalLaw::Cubic { .. }) | None => "contact.normal_stiffness",
+    pub fn name(&self) -> String {
+        match self.law {
+            Some(NormalLaw::Exponential { .. }) => format!("{} / height", self.key()),
+            Some(NormalLaw::Cubic { .. }) | None => self.key(),
+        }
+    }
+}
+
+impl Case {
+    /// The springs of each contact that has them.
+    pub(super) fn springs(&self) -> Vec<Springs> {
+        let of = |section: String, own: &ContactStiffness, law| {
+            Some(Springs { section, stiffness: own.normal_stiffness?, law })
+        };
+        let Some(body) = self.body.assembly() else {
+            let own = &self.contact.stiffness;
+            return of("contact".to_owned(), own, own.law).into_iter().collect();
+        };
+        let contacts = body.contacts.iter();
+        contacts.filter_map(|own| of(section_of(own), &own.stiffness, own.law)).collect()
+    }
+
+    /// How a contact does without its springs: what needs them goes with them.
+    pub(super) fn rigid_remedy(&self, springs: &Springs) -> String {
+        let law = "normal_law cubic_stiffness reference_pressure height";
+        let keys = law.split(' ').chain(["normal_damping", "loss_factor", "base_state"]);
+        let keys = keys.map(|key| format!("{}.{key}", springs.section));
+        let given: Vec<String> = keys.filter(|key| self.raw.find(key).is_some()).collect();
+        let remedy = "use normal_stiffness = \"rigid\", which is exact";
+        match given.is_empty() {
+            true => remedy.to_owned(),
+            false => format!("{remedy}, and leave {} out", given.join(", ")),
         }
     }
 }
@@ -49,26 +98,17 @@ pub(super) fn contact(
     let section = root.section("contact", true);
     let mut place = imported::contact_place(&section);
     let (is_annulus, is_solid) = (annulus.is_some(), annulus.is_some_and(|given| given.1));
-    if let Some((annulus, is_solid)) = annulus {
-        place.solid = solid::contact(&section, annulus, is_solid);
-    } else {
-        let _ = ["ring_inner_radius", "ring_outer_radius"].map(|key| section.optional_number(key));
+    match annulus {
+        Some((annulus, true)) => place.solid = solid::contact(&section, annulus),
+        _ => solid::refuse_ring(&section),
     }
     if is_annulus {
-        for key in [
-            "boundary",
-            "counter_boundary",
-            "counterface",
-            "center",
-            "axis",
-            "radius",
-            "direction",
-            "speed",
-        ] {
+        let own = if is_solid { "" } else { "boundary" };
+        let others = "counter_boundary counterface center axis radius direction speed";
+        for key in section.refused(own).into_iter().chain(section.refused(others)) {
             // A default written out changes nothing.
             let is_default = section.is_text(key, "inner") || section.is_text(key, "cylinder");
-            let is_face = is_solid && key == "boundary";
-            if section.has(key) && !is_default && !is_face {
+            if !is_default {
                 refuse!(section, key, "contact.{key} is for a body from a mesh file (mesh.file)";
                     "not used by the built-in annulus"; "leave it out");
             }
@@ -99,15 +139,9 @@ pub(super) fn contact(
              sliding";
             "must not be zero in three dimensions"; "give a small positive speed instead");
     }
-    let stiffness = ContactStiffness {
-        normal_stiffness: section.optional_number("normal_stiffness"),
-        normal_damping: section.number("normal_damping"),
-        tangential_damping: section.number("tangential_damping"),
-        is_base_compliant: section.choice::<BaseContact>("base_state") == BaseContact::Compliant,
-        loss_factor: loss_factor(&section),
-        ..ContactStiffness::default()
-    };
-    let (law, stiffness) = normal_law(&section, stiffness);
+    let is_compliant = section.choice::<BaseContact>("base_state") == BaseContact::Compliant;
+    let stiffness = contact_stiffness(&section, is_compliant);
+    let is_rigid = stiffness.normal_stiffness.is_none();
     let contact = Contact {
         sliding: SlidingContact {
             decay: friction_decay(&section),
@@ -115,21 +149,8 @@ pub(super) fn contact(
             interference,
             rotation_speed,
         },
-        stiffness: ContactStiffness { law, ..stiffness },
+        stiffness,
     };
-    let stiffness = &contact.stiffness;
-    let is_rigid = law.is_none()
-        && (!section.has("normal_stiffness") || section.is_text("normal_stiffness", "rigid"));
-    if is_rigid && stiffness.normal_damping > 0.0 {
-        refuse!(section, "normal_damping",
-            "contact.normal_damping = {} has no effect on a rigid \
-             contact", stiffness.normal_damping;
-            "needs contact.normal_stiffness";
-            "give contact.normal_stiffness, or leave normal_damping out");
-    }
-    if is_rigid {
-        no_rigid_losses(&section, stiffness);
-    }
     if stiffness.is_base_compliant && (is_rigid || !is_solid) {
         let [label, help] = match is_solid {
             true => ["needs contact.normal_stiffness", "give it, or leave base_state out"],
@@ -142,13 +163,32 @@ pub(super) fn contact(
     (contact, place)
 }
 
-/// A contact without springs loses nothing in them.
-pub(super) fn no_rigid_losses(section: &Section<'_>, stiffness: &ContactStiffness) {
-    if stiffness.loss_factor > 0.0 {
-        refuse!(section, "loss_factor" =>
-            "has no effect on a rigid contact, which stores no energy"; "needs normal_stiffness";
-            "give normal_stiffness, or leave loss_factor out");
+/// The springs and dashpots of a contact, and how they stiffen; one without springs loses nothing in them.
+pub(super) fn contact_stiffness(
+    section: &Section<'_>,
+    is_base_compliant: bool,
+) -> ContactStiffness {
+    let stiffness = ContactStiffness {
+        normal_stiffness: section.optional_number("normal_stiffness"),
+        normal_damping: section.number("normal_damping"),
+        tangential_damping: section.number("tangential_damping"),
+        is_base_compliant,
+        loss_factor: loss_factor(section),
+        ..ContactStiffness::default()
+    };
+    let (law, stiffness) = normal_law(section, stiffness);
+    let idle = [
+        ("normal_damping", stiffness.normal_damping, ""),
+        ("loss_factor", stiffness.loss_factor, ", which stores no energy"),
+    ];
+    for (key, value, why) in idle {
+        if stiffness.normal_stiffness.is_none() && value > 0.0 {
+            let name = section.name(key);
+            refuse!(section, key, "{name} = {value} has no effect on a rigid contact{why}";
+                "needs normal_stiffness"; "give normal_stiffness, or leave {key} out");
+        }
     }
+    ContactStiffness { law, ..stiffness }
 }
 
 /// How friction falls with the slip speed; a ratio of one is a constant coefficient.

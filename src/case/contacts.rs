@@ -1,14 +1,12 @@
 //! The contacts of solid bodies: `[contacts.NAME]`, and `[contact]` with a rigid counterface.
 
-use super::contact::{friction_decay, no_rigid_losses};
-use super::elastic::loss_factor;
-use super::normal_law::normal_law;
+use super::contact::{contact_stiffness, friction_decay};
 use super::reader::Section;
 use super::refuse;
 use super::rigid_counterface::rigid_counterface;
 use super::tables::{TableFiles, topography};
 use super::words::BaseContact;
-use crate::contact::{ContactStiffness, Counterpart, PairFriction, Topography};
+use crate::contact::{Counterpart, PairFriction, Topography};
 use crate::prestress::{BaseChoice, SlidingSurfaces};
 use std::sync::Arc;
 
@@ -25,11 +23,10 @@ pub(super) struct NamedContact {
 
 /// `[contact]` of solid bodies: one contact with a rigid counterface.
 pub(super) fn short_form(section: &Section<'_>) -> NamedContact {
-    for key in ["ring_inner_radius", "ring_outer_radius"] {
-        refuse_generated(section, key, section.optional_number(key).is_some());
+    for key in section.refused("ring_inner_radius ring_outer_radius counter_boundary") {
+        refuse!(section, key => "has no meaning for a mesh of solid elements"; "of other bodies";
+            "leave it out; surfaces that slide on each other are named under [contacts.NAME]");
     }
-    let key = "counter_boundary";
-    refuse_generated(section, key, section.optional_text(key).is_some());
     let is_rigid_base = section.choice::<BaseContact>("base_state") == BaseContact::Rigid;
     if section.has("base_state") && is_rigid_base {
         refuse!(section, "base_state",
@@ -46,14 +43,6 @@ pub(super) fn short_form(section: &Section<'_>) -> NamedContact {
         keys: ["contact.boundary".to_owned(), String::new()],
         friction_coefficient: section.number("friction_coefficient"),
         surfaces: sliding_surfaces(section, counterpart, None),
-    }
-}
-
-/// Refuses a key of `[contact]` that other bodies have.
-fn refuse_generated(section: &Section<'_>, key: &str, is_given: bool) {
-    if is_given {
-        refuse!(section, key => "has no meaning for a mesh of solid elements"; "of other bodies";
-            "leave it out; surfaces that slide on each other are named under [contacts.NAME]");
     }
 }
 
@@ -96,26 +85,11 @@ pub(super) fn contact(
 
 /// Refuses the keys of a rigid counterface where there is none.
 fn refuse_idle(section: &Section<'_>) {
-    for key in ["axis", "center", "direction"] {
-        let _ = section.numbers(key);
-    }
-    for key in ["radius", "speed", "rotation_speed_rpm", "interference", "normal_force"] {
-        let _ = section.optional_number(key);
-    }
-    let idle = [
-        "axis",
-        "center",
-        "direction",
-        "radius",
-        "speed",
-        "rotation_speed_rpm",
-        "interference",
-        "normal_force",
-    ];
-    for key in idle.iter().filter(|key| section.has(key)) {
+    let shape = "axis center direction radius speed rotation_speed_rpm interference normal_force";
+    for key in section.refused(shape) {
         refuse!(section, key => "is for a rigid counterface"; "needs counterface";
-            "give counterface = \"plane\", \"cylinder\" or \"sphere\" in place of `counter`, or \
-             leave it out");
+            "leave it out; a rigid counterface has `counterface` in place of `counter`, with \
+             direction and speed, or with rotation_speed_rpm");
     }
 }
 
@@ -126,29 +100,14 @@ fn sliding_surfaces(
     topography: Option<Arc<Topography>>,
 ) -> SlidingSurfaces {
     let decay = friction_decay(section);
-    let stiffness = ContactStiffness {
-        normal_stiffness: section.optional_number("normal_stiffness"),
-        normal_damping: section.number("normal_damping"),
-        tangential_damping: section.number("tangential_damping"),
-        is_base_compliant: true,
-        loss_factor: loss_factor(section),
-        ..ContactStiffness::default()
-    };
-    let (law, stiffness) = normal_law(section, stiffness);
-    if stiffness.normal_stiffness.is_none() {
-        no_rigid_losses(section, &stiffness);
-    }
-    if stiffness.normal_stiffness.is_none() && stiffness.normal_damping > 0.0 {
-        refuse!(section, "normal_damping" => "has no effect on a rigid contact";
-            "needs normal_stiffness"; "give normal_stiffness, or leave normal_damping out");
-    }
+    let stiffness = contact_stiffness(section, true);
     SlidingSurfaces {
         name: String::new(),
         surface: 0,
         counter,
         friction: PairFriction { ratio: 1.0, decay },
         stiffness,
-        law,
+        law: stiffness.law,
         topography,
     }
 }

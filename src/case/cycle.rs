@@ -84,12 +84,14 @@ impl Case {
             return Ok(cycle);
         }
         let key = self.speed_key();
-        let value = self.raw.find(key).map(|item| item.value.to_string());
+        let value = self.raw.find(&key).map(|item| item.value.to_string());
         let value = value.unwrap_or_default();
         Err(match self.has_rotating_waves() {
-            true => refusal!(self, key, "{key} = {value}: limit cycles need a cylinder that turns";
-                "must be positive here"; "a cylinder turning backwards gives the mirror image"),
-            false => refusal!(self, key,
+            true => {
+                refusal!(self, &key, "{key} = {value}: limit cycles need a cylinder that turns";
+                "must be positive here"; "a cylinder turning backwards gives the mirror image")
+            }
+            false => refusal!(self, &key,
                 "{key} = {value}: the contact sticks at rest, and no limit cycle lives there";
                 "must not be zero here"; "give a speed; its sign is the sense of the sliding"),
         })

@@ -2,6 +2,7 @@
 
 use super::diagnostic::CaseErrors;
 use super::parameters::{ModelParameter, entries, number, only, refuse_twice};
+use super::plausibility::material_key;
 use super::range::Spacing;
 use super::reader::Section;
 use super::refuse;
@@ -41,7 +42,7 @@ pub(super) fn fit(root: &Section<'_>) -> Option<Fit> {
         .into_iter()
         .map(|(parameter, entry)| bounds(&inner, parameter, entry))
         .collect();
-    refuse_twice(&inner, found.iter().map(|found| &found.parameter));
+    refuse_twice(&inner, found.iter().flat_map(|found| found.parameter.keys()));
     if given && inner.is_given() && inner.remaining().is_empty() {
         refuse!(section, "parameters", "fit.parameters is empty"; "at least one parameter");
     }
@@ -109,8 +110,8 @@ impl super::Case {
     /// # Errors
     /// A case without `[fit]`, with what to add.
     pub fn require_fit(&self) -> Result<&Fit, CaseErrors> {
-        let remedy = "[fit]\nparameters = { \"material.poisson_ratio\" = [0.3, 0.45] }";
-        let fit = self.fit.as_ref();
-        fit.ok_or_else(|| self.lacks("fit", "parameter to fit", remedy))
+        let key = material_key(self, "poisson_ratio");
+        let remedy = format!("[fit.parameters]\n{key} = [0.2, 0.45]");
+        self.fit.as_ref().ok_or_else(|| self.lacks("fit", "parameter to fit", &remedy))
     }
 }

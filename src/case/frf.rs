@@ -60,8 +60,7 @@ pub(super) fn read(root: &Section<'_>, nodes: &Nodes<'_>) -> Option<Frf> {
             let name = direction.name();
             refuse!(section, key,
                 "frf.{key} = \"{name}\": a plane body does not move along its axis";
-                "the body is plane";
-                "use \"radial\" or \"tangential\", or material.formulation = \"three-dimensional\"");
+                "the body is plane"; "use \"radial\" or \"tangential\"");
         }
         direction
     };

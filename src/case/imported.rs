@@ -72,7 +72,8 @@ pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
         CounterfaceWord::Sphere => {
             refuse!(section, "counterface",
                 "contact.counterface = \"sphere\" is for a mesh of solid elements";
-                "the body is plane"; "use \"cylinder\" for a round contact curve");
+                "the body is plane"; "leave it out for a round contact curve; of a straight one \
+                 give \"plane\" with `speed`");
             (CounterfaceSpecification::Cylinder { center, radius }, None)
         }
         CounterfaceWord::Cylinder | CounterfaceWord::Body => {
@@ -87,18 +88,13 @@ pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
             (plane, Some(speed.unwrap_or_else(|| section.number("speed"))))
         }
     };
-    let _ = section.numbers("axis");
-    if section.has("axis") {
-        refuse!(section, "axis", "contact.axis is for a mesh of solid elements";
+    for key in section.refused("axis") {
+        refuse!(section, key, "contact.axis is for a mesh of solid elements";
             "a plane body turns about z"; "leave it out");
     }
     let is_plane = plane_speed.is_some();
-    let idle: &[&str] = if is_plane {
-        &["center", "radius", "rotation_speed_rpm"]
-    } else {
-        &["direction", "speed"]
-    };
-    for key in idle.iter().filter(|key| section.has(key)) {
+    let idle = if is_plane { "center radius rotation_speed_rpm" } else { "direction speed" };
+    for key in section.refused(idle) {
         caution!(section, key =>
             "is not used: the counterface is a {}", if is_plane { "plane" } else { "cylinder" };
             "no effect");
@@ -112,16 +108,13 @@ pub(super) fn materials(
     common: &ElasticMaterial,
     files: &mut TableFiles<'_>,
 ) -> Vec<(String, TabledMaterial)> {
-    let all = root.section("materials", false);
-    let names: Vec<&str> = all.remaining().into_iter().map(|(name, _)| name).collect();
-    let read = names.into_iter().map(|name| {
-        let section = all.section(name, false);
+    root.each("materials", |section| {
         let coefficients = [
             section.optional_number("mass_coefficient"),
             section.optional_number("stiffness_coefficient"),
         ];
-        let table = modulus_table(&section, files);
-        let elastic = elastic(&section, common.formulation, table.as_deref());
+        let table = modulus_table(section, files);
+        let elastic = elastic(section, common.formulation, table.as_deref());
         let damping = match coefficients {
             [None, None] => None,
             [mass, stiffness] => Some(RayleighDamping {
@@ -129,13 +122,8 @@ pub(super) fn materials(
                 stiffness_coefficient: stiffness.unwrap_or(0.0),
             }),
         };
-        section.close();
-        let own = RegionMaterial { elastic, damping };
-        (name.to_owned(), TabledMaterial { own, table })
-    });
-    let read = read.collect();
-    all.close();
-    read
+        TabledMaterial { own: RegionMaterial { elastic, damping }, table }
+    })
 }
 
 /// Everything that makes a body of a mesh file but the file.

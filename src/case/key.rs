@@ -140,6 +140,16 @@ impl CaseKey {
         matches!(self.kind, Kind::Number(_) | Kind::NumberOr(..) | Kind::Count(_) | Kind::Node)
     }
 
+    /// Whether it may have a value of this kind: a number, or anything else but a section.
+    pub(super) fn takes(&self, value: &RawValue) -> bool {
+        let is_list = matches!(self.kind, Kind::Numbers(_) | Kind::Counts(_) | Kind::Nodes);
+        match value {
+            RawValue::Table(_) => false,
+            RawValue::String(_) => !(is_list || self.is_numeric()),
+            _ => value.number().is_none() || is_list || self.is_numeric(),
+        }
+    }
+
     /// The name without its section.
     pub fn short(&self) -> &'static str {
         self.name.rsplit('.').next().unwrap_or(self.name)

@@ -167,11 +167,14 @@ impl Case {
         Ok(case)
     }
 
-    /// Validates everything but the values of swept keys.
-    fn read(mut raw: RawCase) -> Result<Self, CaseErrors> {
-        let findings = Findings::default();
+    /// Validates everything but the values that studies give to keys, as those of a case of a study.
+    ///
+    /// # Errors
+    /// [`CaseErrors`] with every error found.
+    pub fn read(mut raw: RawCase) -> Result<Self, CaseErrors> {
         let end = Location::new(0, raw.text.trim_end().len()..raw.text.trim_end().len());
         let (effective, taken) = taken::effective(&mut raw);
+        let findings = Findings::of(&effective);
         let root = Section::root(&findings, &effective, end);
         let title = title(&raw, root.optional_text("title").unwrap_or_default());
         let mut tables = tables::TableFiles::of(&raw);

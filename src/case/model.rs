@@ -16,7 +16,7 @@ use super::tables::{TableFiles, modulus_table};
 use super::words::{FilePart, UnitsWord};
 use super::{caution, refuse};
 use crate::fem::{ElasticMaterial, RayleighDamping, RegionMaterial, TabledMaterial};
-use crate::mesh::{BoundaryCondition, CounterfaceSpecification, ElementKind};
+use crate::mesh::{BoundaryCondition, CounterfaceSpecification};
 
 /// `[damping]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -150,7 +150,6 @@ fn assembly_model(
     (conditions, common, tables): (&[NamedCondition], &mut TabledMaterial, &mut TableFiles<'_>),
     (thickness, changes): (f64, &[Modification]),
 ) -> Model {
-    let _ = mesh.optional_count("axial_elements");
     let cea = root.section("cea", false);
     if cea.has("geometric_stiffness") && cea.flag("geometric_stiffness") {
         solid::warn_of_stress(&cea);
@@ -211,16 +210,11 @@ fn materials(
 
 /// Reads what describes a generated body, which has no effect beside `mesh.file`, and says so.
 fn ignore_generated(geometry: &Section<'_>, mesh: &Section<'_>) {
-    let radii = ["inner_radius", "outer_radius", "shaft_inner_radius"];
-    let _ = radii.map(|key| geometry.optional_number(key));
-    let counts =
-        ["circumferential_elements", "radial_elements", "axial_elements", "shaft_radial_elements"];
-    let _ = counts.map(|key| mesh.optional_count(key));
-    let (_, _): (_, ElementKind) = (mesh.number("radial_grading"), mesh.choice("element"));
-    let shape = ["radial_grading", "element"];
-    let given = radii.iter().map(|key| (geometry, key));
-    let given = given.chain(counts.iter().chain(&shape).map(|key| (mesh, key)));
-    for (section, key) in given.filter(|(section, key)| section.has(key)) {
+    let radii = geometry.refused("inner_radius outer_radius shaft_inner_radius");
+    let counts = "circumferential_elements radial_elements axial_elements shaft_radial_elements";
+    let counts = mesh.refused(counts).into_iter().chain(mesh.refused("radial_grading element"));
+    let given = radii.into_iter().map(|key| (geometry, key));
+    for (section, key) in given.chain(counts.map(|key| (mesh, key))) {
         caution!(section, key => "is not used: mesh.file describes the body"; "no effect");
     }
 }

@@ -5,16 +5,14 @@
 //! difference.
 
 use super::body::Body;
+use super::contact::section_of;
 use super::diagnostic::CaseErrors;
 use super::refusal;
-use super::value::quote;
 use super::{Case, Revolution};
 use crate::contact::{Counterpart, SlidingContact};
 use crate::fem::{assemble_stiffness, sector, solid};
 use crate::mesh::{SectorMesh, SolidSector};
-use crate::prestress::{
-    PrestressError, SectorSliding, SlidingSurfaces, SolidSliding, SteadySliding,
-};
+use crate::prestress::{PrestressError, SectorSliding, SolidSliding, SteadySliding};
 
 /// Factor of the steps up to an interference that presses enough.
 const STEP: f64 = 4.0;
@@ -59,19 +57,12 @@ pub(super) fn press(case: &mut Case) -> Result<(), CaseErrors> {
 }
 
 fn wanted(case: &Case) -> Vec<Wanted> {
-    let short = || "contact.normal_force".to_owned();
-    let keys: Vec<String> = match case.body.assembly() {
-        None => vec![short()],
-        Some(body) => body
-            .contacts
-            .iter()
-            .map(|contact| match contact.name.as_str() {
-                SlidingSurfaces::SHORT_FORM => short(),
-                name => format!("contacts.{}.normal_force", quote(name)),
-            })
-            .collect(),
+    let sections = match case.body.assembly() {
+        None => vec!["contact".to_owned()],
+        Some(body) => body.contacts.iter().map(section_of).collect(),
     };
-    let found = keys.into_iter().enumerate().filter_map(|(contact, key)| {
+    let keys = sections.into_iter().map(|section| format!("{section}.normal_force"));
+    let found = keys.enumerate().filter_map(|(contact, key)| {
         let force = case.number(&key)?;
         Some(Wanted { key, contact, force })
     });

@@ -1,8 +1,9 @@
 //! `--set KEY=VALUE` and `--unset KEY`: assignments laid over the case, keys taken away.
 
 use super::diagnostic::{Diagnostic, Location, Source};
+use super::keys;
+use super::suggestion::Scope;
 use super::value::{RawEntry, RawItem, RawTable, RawValue, convert, cut};
-use super::{keys, suggestion};
 use toml::de::{DeTable, DeValue};
 
 /// Path of an override: each key with its place.
@@ -80,7 +81,7 @@ fn remove(
     diagnostics: &mut Vec<Diagnostic>,
 ) {
     let parts: Vec<&str> = path.iter().map(|part| part.0.as_str()).collect();
-    let mut table = Some(root);
+    let mut table = Some(&mut *root);
     for part in &parts[..parts.len() - 1] {
         table = table.and_then(|table| match &mut table.get_mut(*part)?.item.value {
             RawValue::Table(inner) => Some(inner),
@@ -94,7 +95,7 @@ fn remove(
             format!("unknown key `{name}`"),
             "nothing to remove",
             Location::new(source, 0..name.len()),
-            suggestion::nearest_key(&name).map(|near| format!("did you mean `{near}`?")),
+            Scope::of(root).hint(&name, |_| true),
         ));
     }
 }

@@ -1,10 +1,10 @@
 //! Tables whose keys are dotted case keys of the model: what is fitted, what is uncertain.
 
 use super::diagnostic::{CaseErrors, Location};
-use super::key::{Bound, Kind};
+use super::key::{Bound, CaseKey, Kind};
+use super::keys;
 use super::reader::Section;
 use super::value::{RawEntry, RawTable, RawValue};
-use super::{keys, suggestion};
 
 /// Sections that make the model.
 const MODEL: &[&str] = &[
@@ -15,11 +15,10 @@ const MODEL: &[&str] = &[
     "materials",
     "damping",
     "contact",
+    "contacts",
+    "motion",
     "modifications",
 ];
-
-/// Sections that make the model of solid bodies that slide on each other, besides.
-const ASSEMBLY: &[&str] = &["contacts", "motion"];
 
 /// A continuous parameter of the model, and the keys that take the same value.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,20 +34,22 @@ pub struct ModelParameter {
 }
 
 impl ModelParameter {
+    /// The keys that take its value, each with the place of the first.
+    pub(super) fn keys(&self) -> impl Iterator<Item = (&String, &Location)> {
+        std::iter::once(&self.key).chain(&self.also).map(|key| (key, &self.at))
+    }
+
     /// The overrides that give it a value.
     pub fn overrides(&self, value: f64) -> impl Iterator<Item = String> + '_ {
-        let keys = std::iter::once(&self.key).chain(&self.also);
-        keys.map(move |key| format!("{key}={value:?}"))
+        self.keys().map(move |(key, _)| format!("{key}={value:?}"))
     }
 }
 
 /// Where a key's value may lie, if it is a continuous parameter of the model; else why not.
-fn bound_of(name: &str) -> Result<Bound, String> {
+fn bound_of(section: &Section<'_>, name: &str) -> Result<Bound, String> {
     let Some(key) = keys::find(name) else {
-        return Err(suggestion::nearest_key(name).map_or_else(
-            || "must be a dotted case key in quotes".to_owned(),
-            |near| format!("did you mean \"{near}\"?"),
-        ));
+        let near = section.findings.scope.hint(name, CaseKey::is_numeric);
+        return Err(near.unwrap_or_else(|| "must be a dotted case key in quotes".to_owned()));
     };
     let section = name.split('.').next().unwrap_or_default();
     match key.kind {
@@ -76,7 +77,7 @@ fn collect<'a>(
     entry: &'a RawEntry,
     found: &mut Vec<(ModelParameter, &'a RawEntry)>,
 ) {
-    match (&entry.item.value, bound_of(&name)) {
+    match (&entry.item.value, bound_of(section, &name)) {
         (_, Ok(bound)) => found.push((
             ModelParameter {
                 also: also(section, &name, entry),
@@ -114,7 +115,7 @@ fn also(section: &Section<'_>, name: &str, entry: &RawEntry) -> Vec<String> {
             section.reject_placed(&item.at, message, "not a key to tie", help);
         };
         match &item.value {
-            RawValue::String(key) => match bound_of(key) {
+            RawValue::String(key) => match bound_of(section, key) {
                 Ok(_) => keys.push(key.clone()),
                 Err(reason) => refuse(format!("{name} also sets \"{key}\""), &reason),
             },
@@ -157,21 +158,19 @@ pub(super) fn only(section: &Section<'_>, table: &RawTable, known: &[&str]) {
 /// Reports keys that two entries set.
 pub(super) fn refuse_twice<'a>(
     section: &Section<'_>,
-    parameters: impl Iterator<Item = &'a ModelParameter>,
+    keys: impl Iterator<Item = (&'a String, &'a Location)>,
 ) {
     let mut seen: Vec<&str> = Vec::new();
-    for parameter in parameters {
-        for key in std::iter::once(&parameter.key).chain(&parameter.also) {
-            if seen.contains(&key.as_str()) {
-                section.reject_placed(
-                    &parameter.at,
-                    format!("{key} is set twice"),
-                    "set by another entry already",
-                    "vary each key once",
-                );
-            }
-            seen.push(key);
+    for (key, at) in keys {
+        if seen.contains(&key.as_str()) {
+            section.reject_placed(
+                at,
+                format!("{key} is set twice"),
+                "set by another entry already",
+                "vary each key once",
+            );
         }
+        seen.push(key);
     }
 }
 
@@ -185,7 +184,7 @@ fn collect_numbers(prefix: &str, table: &RawTable, found: &mut Vec<(String, f64)
         let section = key.split('.').next().unwrap_or_default();
         match &entry.item.value {
             RawValue::Table(inner) => collect_numbers(&key, inner, found),
-            value if MODEL.contains(&section) || ASSEMBLY.contains(&section) => {
+            value if MODEL.contains(&section) => {
                 let kind = keys::find(&key).map(|key| &key.kind);
                 let is_continuous = matches!(kind, Some(Kind::Number(_) | Kind::NumberOr(..)));
                 found.extend(value.number().filter(|_| is_continuous).map(|v| (key, v)));
@@ -211,7 +210,7 @@ impl super::Case {
         for study in ["sweep", "fit", "uncertainty"] {
             raw.root.remove(study);
         }
-        Self::from_raw(raw).map_err(said)
+        Self::read(raw).map_err(said)
     }
 
     /// The continuous parameters of the model that the case gives as numbers, with these, by key; the friction

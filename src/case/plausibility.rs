@@ -1,5 +1,6 @@
 //! Values that are possible but that hardly anybody means: warnings, each with its reason.
 
+use super::contact::{Springs, section_of};
 use super::diagnosis;
 use super::diagnostic::Diagnostic;
 use super::key::CaseKey;
@@ -55,7 +56,6 @@ pub(super) fn implausible(case: &Case) -> Vec<Diagnostic> {
         interference(case),
         overlap(case),
         contact_stiffness(case),
-        soft_contact(case),
         unresolved_springs(case),
         steep_friction(case),
         overdamping(case),
@@ -75,7 +75,10 @@ fn lengths(case: &Case) -> Option<Diagnostic> {
         let width = 2.0 * case.body.size();
         if is_outside(width) {
             let message = format!("the mesh is {width:.4} m wide, {range} (mesh.scale)");
-            let help = "coordinates are taken as metres: for a mesh in millimetres set mesh.units = \"mm-t-s\", or mesh.scale = 0.001";
+            let help = match case.raw.find("mesh.scale") {
+                Some(_) => "mesh.scale makes metres of coordinates: of millimetres it is 0.001",
+                None => "metres are read: of millimetres set mesh.units = \"mm-t-s\"",
+            };
             return Some(case.diagnosis("mesh.scale", message, "metres?", help));
         }
     }
@@ -233,7 +236,7 @@ fn speed(case: &Case) -> Option<Diagnostic> {
         let message =
             format!("{key}: the contact slides at {speed:.4} m/s, faster than {LARGEST_SPEED} m/s");
         case.diagnosis(
-            key,
+            &key,
             message,
             "metres per second?",
             "speeds are in m/s, rotation speeds in 1/min",
@@ -289,23 +292,23 @@ fn edge_inertia(case: &Case) -> Option<[f64; 2]> {
 /// Springs whose own motion of the contact nodes the time step does not resolve, `k dt^2 > 4 m`: those of contact that stiffens
 /// at the pressure of rigid contact.
 fn unresolved_springs(case: &Case) -> Option<Diagnostic> {
-    let at_rest = case.contact.stiffness.normal_stiffness?;
+    let springs = case.springs().into_iter().next()?;
     let [mass, step] = edge_inertia(case)?;
     let most = 4.0 * mass / (step * step);
-    let pressed = case.contact.stiffness.law.zip(lame_pressure(case));
+    let pressed = springs.law.zip(lame_pressure(case));
     let (stiffness, name) = match pressed {
         Some((law, pressure)) => (
             law.stiffness(law.approach(pressure)),
             format!("the stiffness of the contact at {pressure:.1e} Pa"),
         ),
-        None => (at_rest, case.contact.stiffness_name().to_owned()),
+        None => (springs.stiffness, springs.name()),
     };
     (stiffness > most).then(|| {
-        diagnosis!(case, case.contact.stiffness_key(),
+        diagnosis!(case, &springs.key(),
             "{name} = {stiffness:e} Pa/m is more than the time step of the transient, {step:.2e} \
              s, resolves on this mesh, about {most:.1e} Pa/m: the status of contact nodes would \
              flicker";
-            "nearly rigid"; "use \"rigid\" for the transient, or a smaller transient.time_step")
+            "nearly rigid"; "{}, or a smaller transient.time_step", case.rigid_remedy(&springs))
     })
 }
 
@@ -380,11 +383,7 @@ fn overlap(case: &Case) -> Option<Diagnostic> {
                 // A measured surface says itself where it stands.
                 let rigid = own.counter.rigid().filter(|_| own.topography.is_none())?;
                 let depth = rigid.overlap(&body.mesh, &body.mesh.boundaries[own.surface])?;
-                let key = match own.is_short_form() {
-                    true => "contact.interference".to_owned(),
-                    false => format!("contacts.{}.interference", own.name),
-                };
-                Some((key, depth, rigid.interference))
+                Some((format!("{}.interference", section_of(own)), depth, rigid.interference))
             };
             body.contacts.iter().filter_map(overlap).collect()
         }
@@ -406,32 +405,26 @@ fn overlap(case: &Case) -> Option<Diagnostic> {
     Some(case.diagnosis(&key, message, "less than the mesh's own overlap", help))
 }
 
+/// Springs so stiff that they drown the body, or so soft that the contact hardly holds it.
 fn contact_stiffness(case: &Case) -> Option<Diagnostic> {
-    let stiffness = case.contact.stiffness.normal_stiffness?;
     let scale = case.material.young_modulus / case.body.contact_length();
-    (stiffness > LARGEST_STIFFNESS_RATIO * scale).then(|| {
-        diagnosis!(case, case.contact.stiffness_key(),
-            "{} = {stiffness:e} Pa/m is {:.1e} times the modulus over the radius: the eigenvalues \
-             lose that many digits", case.contact.stiffness_name(), stiffness / scale;
-            "nearly rigid"; "use \"rigid\", which is exact")
-    })
-}
-
-/// Springs so soft that the contact hardly holds the body.
-fn soft_contact(case: &Case) -> Option<Diagnostic> {
-    let stiffness = case.contact.stiffness.normal_stiffness?;
-    let scale = case.material.young_modulus / case.body.contact_length();
-    let is_soft =
-        stiffness < SMALLEST_STIFFNESS_RATIO * scale && case.contact.stiffness.law.is_none();
-    is_soft.then(|| {
-        let name = case.contact.stiffness_name();
-        let message = format!(
-            "{name} = {stiffness:e} Pa/m is {:.1e} times the modulus over the size of the contact: the body hardly feels it",
-            stiffness / scale
-        );
-        let key = case.contact.stiffness_key();
-        case.diagnosis(key, message, "nearly free", "stiffnesses are in Pa/m: N/mm3 are 1e9 Pa/m")
-    })
+    let unlikely = |springs: Springs| {
+        let (stiffness, share) = (springs.stiffness, springs.stiffness / scale);
+        let (what, label, help) = if share > LARGEST_STIFFNESS_RATIO {
+            let what = "radius: the eigenvalues lose that many digits";
+            (what, "nearly rigid", case.rigid_remedy(&springs))
+        } else if share < SMALLEST_STIFFNESS_RATIO && springs.law.is_none() {
+            let what = "size of the contact: the body hardly feels it";
+            (what, "nearly free", "stiffnesses are in Pa/m: N/mm3 are 1e9 Pa/m".to_owned())
+        } else {
+            return None;
+        };
+        let name = springs.name();
+        Some(diagnosis!(case, &springs.key(),
+            "{name} = {stiffness:e} Pa/m is {share:.1e} times the modulus over the {what}";
+            "{label}"; "{help}"))
+    };
+    case.springs().into_iter().find_map(unlikely)
 }
 
 /// `zeta = (alpha / omega + beta omega) / 2` at the highest frequency asked for, else where a bar as long as the body has its

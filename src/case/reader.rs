@@ -19,14 +19,21 @@ const MOST_UNKNOWN: usize = 10;
 /// Largest whole number that a key takes: products of two are safe in 64 bits.
 const LARGEST_COUNT: usize = u32::MAX as usize;
 
-/// Errors and warnings found so far.
-#[derive(Debug, Default)]
-pub(super) struct Findings {
+/// Errors and warnings found so far, and what the case may have.
+#[derive(Debug)]
+pub(super) struct Findings<'a> {
+    pub scope: suggestion::Scope<'a>,
     errors: RefCell<Vec<Diagnostic>>,
     warnings: RefCell<Vec<Diagnostic>>,
 }
 
-impl Findings {
+impl<'a> Findings<'a> {
+    /// Nothing found so far in a case.
+    pub fn of(root: &'a RawTable) -> Self {
+        let scope = suggestion::Scope::of(root);
+        Self { scope, errors: RefCell::default(), warnings: RefCell::default() }
+    }
+
     fn push(
         &self,
         message: impl Into<String>,
@@ -49,7 +56,7 @@ impl Findings {
 ///
 /// Kind, bound and default of a key are those of its declaration in [`keys::KEYS`].
 pub(super) struct Section<'a> {
-    findings: &'a Findings,
+    pub findings: &'a Findings<'a>,
     path: String,
     table: Option<&'a RawTable>,
     at: Location,
@@ -60,12 +67,12 @@ pub(super) struct Section<'a> {
 
 impl<'a> Section<'a> {
     /// The whole document; `at` is where missing sections are reported.
-    pub fn root(findings: &'a Findings, table: &'a RawTable, at: Location) -> Self {
+    pub fn root(findings: &'a Findings<'a>, table: &'a RawTable, at: Location) -> Self {
         Self::new(findings, String::new(), Some(table), at)
     }
 
     fn new(
-        findings: &'a Findings,
+        findings: &'a Findings<'a>,
         path: String,
         table: Option<&'a RawTable>,
         at: Location,
@@ -113,6 +120,14 @@ impl<'a> Section<'a> {
     /// Whether the case gives a key.
     pub fn has(&self, key: &str) -> bool {
         self.table.is_some_and(|table| table.contains_key(key))
+    }
+
+    /// Takes note of keys, apart by blanks, that the case cannot have, whatever their value: those that it gives all the same.
+    pub fn refused<'k>(&self, keys: &'k str) -> Vec<&'k str> {
+        let keys = keys.split_whitespace();
+        self.asked.borrow_mut().extend(keys.clone().map(str::to_owned));
+        self.findings.scope.refused.borrow_mut().extend(keys.clone().map(|key| self.name(key)));
+        keys.filter(|key| self.has(key)).collect()
     }
 
     /// Reports an error at a key, with the key's meaning as remedy unless another is given.
@@ -249,7 +264,10 @@ impl<'a> Section<'a> {
                         let parts: Vec<&str> = own.iter().map(|part| part.name).collect();
                         suggestion::suggest_part(key, &parts)
                     }
-                    None => suggestion::suggest(&self.path, key, &names),
+                    None => {
+                        let word = (key.as_str(), &entry.item.value);
+                        self.findings.scope.suggest(&self.path, word, &names)
+                    }
                 },
             );
         }

@@ -21,30 +21,25 @@ impl Case {
     /// # Errors
     /// A case without `[basin]`, a body that the transient cannot step, and keys of another kind of body.
     pub fn require_basin(&self) -> Result<&crate::cycle::BasinRequest, CaseErrors> {
-        let remedy = "[basin]\nharmonics = [1, 2]";
         self.refuse_losses_in_time("the search for a basin")?;
         self.refuse_what_has_no_cycle()?;
         let found = self.basin.as_ref();
-        let found = found.ok_or_else(|| self.lacks("basin", "search for a basin", remedy))?;
+        let found = found.ok_or_else(|| self.lacks("basin", "search for a basin", "[basin]"))?;
         // Each kind of body has keys of its own.
-        let is_wave = self.has_rotating_waves();
-        let (key, message, remedy) = match is_wave {
-            true => (
-                "basin.modes",
-                "basin.modes is not used: the limit cycles of this disc are rotating waves",
-                "name two of them by basin.harmonics",
-            ),
+        let (key, why, remedy) = match self.has_rotating_waves() {
+            true => {
+                ("basin.modes", "disc are rotating waves", "name two of them by basin.harmonics")
+            }
             false => (
                 "basin.harmonics",
-                "basin.harmonics is not used: the limit cycles of this body are motions of the whole mesh, born from its modes",
+                "body are motions of the whole mesh, born from its modes",
                 "name one or two modes by basin.modes, as `cycle` numbers them",
             ),
         };
+        let message = format!("{key} is not used: the limit cycles of this {why}");
         match self.raw.find(key) {
             None => Ok(found),
-            Some(_) => {
-                Err(self.error_at(key, message.to_owned(), "not used", Some(remedy.to_owned())))
-            }
+            Some(_) => Err(self.error_at(key, message, "not used", remedy)),
         }
     }
 
@@ -85,9 +80,9 @@ impl Case {
     /// # Errors
     /// A case without `[sweep]`, with what to add.
     pub fn require_sweep(&self) -> Result<&Sweep, CaseErrors> {
-        let remedy = "[sweep]\n\"contact.friction_coefficient\" = [0.2, 0.3, 0.4]";
-        let sweep = self.sweep.as_ref();
-        sweep.ok_or_else(|| self.lacks("sweep", "parameter study", remedy))
+        let key = self.contact_key("friction_coefficient");
+        let remedy = format!("[sweep]\n{key} = [0.2, 0.3, 0.4]");
+        self.sweep.as_ref().ok_or_else(|| self.lacks("sweep", "parameter study", &remedy))
     }
 
     /// The frequency response.
@@ -106,9 +101,8 @@ impl Case {
     /// # Errors
     /// A case without `[convergence]`, with what to add.
     pub fn require_convergence(&self) -> Result<&Convergence, CaseErrors> {
-        let remedy = "[convergence]\nfactors = [1, 1.5, 2.25]";
         let study = self.convergence.as_ref();
-        study.ok_or_else(|| self.lacks("convergence", "convergence study", remedy))
+        study.ok_or_else(|| self.lacks("convergence", "convergence study", "[convergence]"))
     }
 
     /// The plane annulus of an analysis that no other body has; `waves` says what needs its sectors, `search` what takes

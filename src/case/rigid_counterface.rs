@@ -43,16 +43,15 @@ fn motion(section: &Section<'_>) -> RigidMotion {
     if speed.is_none() && !section.has("direction") {
         return RigidMotion::Turning(section.number("rotation_speed_rpm") * TAU / 60.0);
     }
-    if section.has("rotation_speed_rpm") {
-        let _ = section.optional_number("rotation_speed_rpm");
-        refuse!(section, "rotation_speed_rpm",
+    for key in section.refused("rotation_speed_rpm") {
+        refuse!(section, key,
             "the counterface turns about its axis or slides along a straight line, not both";
             "beside `speed` or `direction`";
             "leave rotation_speed_rpm out, or `speed` and `direction`");
     }
     let speed = speed.unwrap_or_else(|| section.number("speed"));
     if !section.has("direction") {
-        section.missing("direction");
+        no_triple(section, "direction", "is missing beside `speed`");
     }
     let direction = triple(section, "direction").unwrap_or([1.0, 0.0, 0.0]);
     RigidMotion::Sliding(unit(section, "direction", direction).map(|x| x * speed))
@@ -63,11 +62,16 @@ pub(super) fn triple(section: &Section<'_>, key: &str) -> Option<[f64; 3]> {
     match section.numbers(key).as_deref() {
         Some(&[x, y, z]) => Some([x, y, z]),
         Some(_) => {
-            refuse!(section, key => "needs three numbers"; "must be [x, y, z]");
+            no_triple(section, key, "needs three numbers");
             None
         }
         None => None,
     }
+}
+
+/// Says what three numbers look like.
+fn no_triple(section: &Section<'_>, key: &str, what: &str) {
+    refuse!(section, key => "{what}"; "must be [x, y, z]"; "for example `{key} = [1.0, 0.0, 0.0]`");
 }
 
 /// The vector of length one along `direction`.

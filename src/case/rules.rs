@@ -106,13 +106,12 @@ pub(super) fn infeasible(case: &Case) -> Vec<Diagnostic> {
             "use initial = \"steady-sliding\", or leave contact.normal_law out"));
     }
     let scale = case.material.young_modulus / case.body.contact_length();
-    if let Some(stiffness) = case.contact.stiffness.normal_stiffness
-        && stiffness > LARGEST_STIFFNESS * scale
-    {
-        errors.push(diagnosis!(case, case.contact.stiffness_key(),
-            "{} = {stiffness:e} Pa/m is {:.1e} times the modulus over the radius: round-off would \
-             drown the body", case.contact.stiffness_name(), stiffness / scale;
-            "at most {:e}", LARGEST_STIFFNESS * scale; "use \"rigid\", which is exact"));
+    let mut springs = case.springs().into_iter();
+    if let Some(springs) = springs.find(|own| own.stiffness > LARGEST_STIFFNESS * scale) {
+        errors.push(diagnosis!(case, &springs.key(),
+            "{} = {:e} Pa/m is {:.1e} times the modulus over the radius: round-off would drown the \
+             body", springs.name(), springs.stiffness, springs.stiffness / scale;
+            "at most {:e}", LARGEST_STIFFNESS * scale; "{}", case.rigid_remedy(&springs)));
     }
     errors
 }

@@ -26,7 +26,8 @@ pub(super) fn shaft(
         if elements.is_some() {
             refuse!(mesh, "shaft_radial_elements",
                 "mesh.shaft_radial_elements is for a deformable shaft, and the case has none";
-                "the cylinder is rigid"; "give geometry.shaft_inner_radius, or leave it out");
+                "the cylinder is rigid";
+                "give geometry.shaft_inner_radius and [materials.shaft], or leave it out");
         }
         return None;
     };
@@ -63,7 +64,7 @@ fn materials(
             ("shaft", true) => continue,
             ("shaft", false) => (
                 "[materials.shaft] is for a deformable shaft, and the case has none".to_owned(),
-                "give geometry.shaft_inner_radius, or leave the section out",
+                "give geometry.shaft_inner_radius and mesh.shaft_radial_elements, or leave the section out",
             ),
             _ => (
                 format!("[materials.{name}] is for a physical surface of a mesh file (mesh.file)"),

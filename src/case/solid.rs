@@ -28,11 +28,10 @@ pub(super) fn axial_elements(
     is_solid: bool,
 ) -> Option<usize> {
     if !is_solid {
-        if mesh.has("axial_elements") {
-            refuse!(mesh, "axial_elements", "mesh.axial_elements has no effect on a plane body";
+        for key in mesh.refused("axial_elements") {
+            refuse!(mesh, key, "mesh.axial_elements has no effect on a plane body";
                 "needs material.formulation = \"three-dimensional\"";
-                "set that formulation, or leave mesh.axial_elements out");
-            let _ = mesh.optional_count("axial_elements");
+                "set that formulation and geometry.thickness, or leave mesh.axial_elements out");
         }
         return None;
     }
@@ -45,23 +44,24 @@ pub(super) fn axial_elements(
     Some(mesh.count("axial_elements"))
 }
 
-/// `contact.boundary` and the radii of a ring.
-pub(super) fn contact(
-    section: &Section<'_>,
-    annulus: &AnnulusSpecification,
-    is_solid: bool,
-) -> SolidContact {
+/// Refuses the radii of a ring on a plane body.
+pub(super) fn refuse_ring(section: &Section<'_>) {
+    for key in section.refused("ring_inner_radius ring_outer_radius") {
+        refuse!(section, key => "is for a ring on the top face of a three-dimensional body";
+            "of other bodies"; "leave it out");
+    }
+}
+
+/// `contact.boundary` of a three-dimensional body and the radii of a ring.
+pub(super) fn contact(section: &Section<'_>, annulus: &AnnulusSpecification) -> SolidContact {
     let radii = ["ring_inner_radius", "ring_outer_radius"].map(|key| section.optional_number(key));
-    let is_top = is_solid && section.is_text("boundary", "top");
-    if !is_top {
+    if !section.is_text("boundary", "top") {
         for key in ["ring_inner_radius", "ring_outer_radius"].iter().filter(|key| section.has(key))
         {
-            refuse!(section, key,
-                "contact.{key} is for a ring on the top face of a three-dimensional body";
-                "needs contact.boundary = \"top\"";
-                "set it (and material.formulation = \"three-dimensional\"), or leave {key} out");
+            refuse!(section, key, "contact.{key} is for a ring on the top face";
+                "needs contact.boundary = \"top\""; "set it, or leave {key} out");
         }
-        if is_solid && section.has("boundary") && !section.is_text("boundary", "inner") {
+        if section.has("boundary") && !section.is_text("boundary", "inner") {
             section.reject(
                 "boundary",
                 "contact.boundary of a three-dimensional body is \"inner\" or \"top\"",

@@ -2,86 +2,55 @@
 
 use super::key::CaseKey;
 use super::keys::{KEYS, find};
+use super::value::{RawTable, RawValue, table_of};
+use std::cell::RefCell;
+use std::collections::BTreeSet;
 
-/// Names that other programs and papers use, and what a case calls them.
+/// Names that other programs and papers use, and what sections of a case call them, likelier first.
+#[rustfmt::skip]
 const SYNONYMS: &[(&str, &str)] = &[
-    ("a", "geometry.inner_radius"),
-    ("alpha", "damping.mass_coefficient"),
-    ("alpha_r", "damping.mass_coefficient"),
-    ("angular_velocity", "contact.rotation_speed_rpm"),
-    ("b", "geometry.outer_radius"),
-    ("beta", "damping.stiffness_coefficient"),
-    ("beta_r", "damping.stiffness_coefficient"),
-    ("dt", "transient.time_step"),
-    ("e", "material.young_modulus"),
-    ("elastic_modulus", "material.young_modulus"),
-    ("end_time", "transient.duration"),
-    ("friction", "contact.friction_coefficient"),
-    ("height", "geometry.thickness"),
-    ("max_frequency", "cea.max_frequency_hz"),
-    ("mu", "contact.friction_coefficient"),
-    ("nu", "material.poisson_ratio"),
-    ("number_of_modes", "cea.modes"),
-    ("omega", "contact.rotation_speed_rpm"),
-    ("penalty", "contact.normal_stiffness"),
-    ("r_i", "geometry.inner_radius"),
-    ("r_o", "geometry.outer_radius"),
-    ("rho", "material.density"),
-    ("rotation_speed", "contact.rotation_speed_rpm"),
-    ("rpm", "contact.rotation_speed_rpm"),
-    ("speed", "contact.rotation_speed_rpm"),
-    ("step", "transient.time_step"),
-    ("t_end", "transient.duration"),
-    ("timestep", "transient.time_step"),
-    ("youngs_modulus", "material.young_modulus"),
+    ("a", "inner_radius"), ("alpha", "mass_coefficient"), ("alpha_r", "mass_coefficient"),
+    ("angular_velocity", "rotation_speed_rpm"), ("b", "outer_radius"),
+    ("beta", "stiffness_coefficient"), ("beta_r", "stiffness_coefficient"), ("dt", "time_step"),
+    ("e", "young_modulus"), ("elastic_modulus", "young_modulus"), ("end_time", "duration"),
+    ("force", "normal_force"), ("friction", "friction_coefficient"), ("height", "thickness"),
+    ("max_frequency", "max_frequency_hz"), ("mu", "friction_coefficient"),
+    ("normal_load", "normal_force"), ("nu", "poisson_ratio"), ("number_of_modes", "modes"),
+    ("omega", "rotation_speed_rpm"), ("omega", "speed"), ("penalty", "normal_stiffness"),
+    ("pressure", "normal_force"), ("r_i", "inner_radius"), ("r_o", "outer_radius"),
+    ("rho", "density"), ("rotation_speed", "rotation_speed_rpm"), ("rpm", "rotation_speed_rpm"),
+    ("rpm", "speed"), ("speed", "rotation_speed_rpm"), ("step", "time_step"), ("t_end", "duration"),
+    ("timestep", "time_step"), ("youngs_modulus", "young_modulus"),
 ];
 
 /// What other people call the parts of a range and of a place.
+#[rustfmt::skip]
 const PART_SYNONYMS: &[(&str, &str)] = &[
-    ("angle", "angle_deg"),
-    ("begin", "from"),
-    ("end", "to"),
-    ("number", "count"),
-    ("num", "count"),
-    ("n", "count"),
-    ("phi", "angle_deg"),
-    ("points", "count"),
-    ("r", "radius"),
-    ("scale", "spacing"),
-    ("start", "from"),
-    ("step", "count"),
-    ("steps", "count"),
-    ("stop", "to"),
-    ("theta", "angle_deg"),
-    ("x1", "x"),
-    ("x2", "y"),
+    ("angle", "angle_deg"), ("begin", "from"), ("end", "to"), ("number", "count"), ("num", "count"),
+    ("n", "count"), ("phi", "angle_deg"), ("points", "count"), ("r", "radius"),
+    ("scale", "spacing"), ("start", "from"), ("step", "count"), ("steps", "count"), ("stop", "to"),
+    ("theta", "angle_deg"), ("x1", "x"), ("x2", "y"),
 ];
 
 /// A hint for an unknown part of a range or of a place, which have the parts `known`.
-pub(super) fn suggest_part(word: &str, known: &[&str]) -> Option<String> {
+pub(super) fn suggest_part(word: &str, known: &[&str]) -> String {
     let plain = word.to_lowercase();
     let synonym = PART_SYNONYMS.iter().find(|pair| pair.0 == plain);
     let synonym = synonym.map(|pair| pair.1).filter(|meant| known.contains(meant));
     let far = |near: &&str| near.len() > 1 || plain.len() > 1 && plain.starts_with(*near);
     let near = synonym.or_else(|| nearest(&plain, known.iter().copied()).filter(far));
-    Some(match near {
+    match near {
         Some(near) => format!("did you mean `{near}`?"),
         None => format!("it takes {}", known.join(", ")),
-    })
+    }
 }
 
 /// Other words for the values of choices.
+#[rustfmt::skip]
 const WORD_SYNONYMS: &[(&str, &str)] = &[
-    ("compliance", "receptance"),
-    ("cpe4", "quad4"),
-    ("cpe8", "quad8"),
-    ("cps4", "quad4"),
-    ("cps8", "quad8"),
-    ("dynamic-flexibility", "receptance"),
-    ("inertance", "accelerance"),
-    ("logarithmic", "log"),
-    ("q4", "quad4"),
-    ("q8", "quad8"),
+    ("compliance", "receptance"), ("cpe4", "quad4"), ("cpe8", "quad8"), ("cps4", "quad4"),
+    ("cps8", "quad8"), ("dynamic-flexibility", "receptance"), ("inertance", "accelerance"),
+    ("logarithmic", "log"), ("q4", "quad4"), ("q8", "quad8"),
     ("sliding-equilibrium", "steady-sliding"),
 ];
 
@@ -122,17 +91,122 @@ pub(super) fn nearest_word<'a>(word: &str, words: &[&'a str]) -> Option<&'a str>
     exact.copied().or_else(|| nearest(&plain, words.iter().copied()))
 }
 
-/// The key that other people call `word`.
-fn synonym(word: &str) -> Option<&'static CaseKey> {
+/// What other people mean by `word`.
+fn synonyms(word: &str) -> Vec<&'static str> {
     let plain = word.to_lowercase().replace([' ', '-'], "_");
-    let pair = SYNONYMS.iter().find(|pair| pair.0 == plain)?;
-    find(pair.1)
+    SYNONYMS.iter().filter(|pair| pair.0 == plain).map(|pair| pair.1).collect()
 }
 
-/// The full name of the key nearest to a dotted name.
-pub(super) fn nearest_key(name: &str) -> Option<&'static str> {
-    let last = name.rsplit('.').next().unwrap_or(name);
-    synonym(last).map(|key| key.name).or_else(|| nearest(name, KEYS.iter().map(|key| key.name)))
+/// The candidate that `word` is, else that others call so.
+fn meant<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
+    let exact = |own: &str| candidates.iter().find(|known| **known == own).copied();
+    std::iter::once(word).chain(synonyms(word)).find_map(exact)
+}
+
+/// The candidate nearest to `word`, else the only one that begins with it.
+fn near<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
+    let mut begun = candidates.iter().filter(|key| word.len() > 2 && key.starts_with(word));
+    let short = begun.next().filter(|_| begun.next().is_none()).copied();
+    nearest(word, candidates.iter().copied()).or(short)
+}
+
+/// What a case may have: its sections and `[damping]`, which needs no other key, less the keys that
+/// its reader refuses whatever their value, as they belong to bodies and contacts of another kind.
+#[derive(Debug)]
+pub(super) struct Scope<'a> {
+    root: &'a RawTable,
+    pub refused: RefCell<BTreeSet<String>>,
+}
+
+impl<'a> Scope<'a> {
+    /// The sections of a case of which nothing is refused so far.
+    pub fn of(root: &'a RawTable) -> Self {
+        Self { root, refused: RefCell::default() }
+    }
+
+    /// The section of a path, if the case gives it.
+    fn table(&self, path: &str) -> Option<&'a RawTable> {
+        path.split('.').try_fold(self.root, table_of)
+    }
+
+    /// The keys of some kinds that the case may have, each with its section; those of sections with
+    /// names of their own come last.
+    fn keys(&self, fits: impl Fn(&CaseKey) -> bool) -> Vec<(String, &'static str)> {
+        let sections = |key: &CaseKey| -> Vec<String> {
+            let section = key.section();
+            match section.strip_suffix(".*") {
+                Some(group) => {
+                    let names = self.table(group).into_iter().flat_map(RawTable::keys);
+                    names.map(|name| full(group, name)).collect()
+                }
+                None if matches!(section, "" | "damping") => vec![section.to_owned()],
+                None => self.table(section).map(|_| section.to_owned()).into_iter().collect(),
+            }
+        };
+        let (named, plain): (Vec<&CaseKey>, Vec<_>) =
+            KEYS.iter().partition(|key| key.name.contains('*'));
+        let fitting = plain.into_iter().chain(named).filter(|key| fits(key));
+        let all = fitting.flat_map(|key| sections(key).into_iter().map(|own| (own, key.short())));
+        all.filter(|(own, key)| !self.refused.borrow().contains(&full(own, key))).collect()
+    }
+
+    /// The key of another section that a word means, with that section.
+    fn elsewhere(
+        &self,
+        (section, word): (&str, &str),
+        fits: impl Fn(&CaseKey) -> bool,
+    ) -> Option<(String, &'static str)> {
+        let mut keys = self.keys(fits);
+        keys.retain(|key| key.0 != section);
+        let found = meant(word, &keys.iter().map(|key| key.1).collect::<Vec<_>>())?;
+        keys.into_iter().find(|key| key.1 == found)
+    }
+
+    /// A hint for a dotted name that is no key: that of the key which is meant, of those that fit.
+    pub fn hint(&self, name: &str, fits: impl Fn(&CaseKey) -> bool) -> Option<String> {
+        let (section, word) = name.rsplit_once('.').unwrap_or(("", name));
+        let own = self.keys(&fits).into_iter().filter(|key| key.0 == section);
+        let own: Vec<&str> = own.map(|key| key.1).collect();
+        let found = match meant(word, &own).or_else(|| near(word, &own)) {
+            Some(own) => full(section, own),
+            None => self.elsewhere((section, word), fits).map(|key| full(&key.0, key.1))?,
+        };
+        Some(format!("did you mean \"{found}\"?"))
+    }
+
+    /// A hint for a key that does not exist: one that is gone, a synonym, a near miss in its section,
+    /// the same key of another section that the case has, or the keys there are.
+    pub fn suggest(
+        &self,
+        section: &str,
+        (word, value): (&str, &RawValue),
+        asked: &[&str],
+    ) -> String {
+        let name = full(section, word);
+        if let Some((_, place)) = GONE.iter().find(|gone| gone.0 == name) {
+            return (*place).to_owned();
+        }
+        let refused = self.refused.borrow();
+        let known = asked.iter().copied().filter(|key| !refused.contains(&full(section, key)));
+        let known: Vec<&str> = known.collect();
+        let elsewhere = self.elsewhere((section, word), |key| key.takes(value));
+        // A word that others use for a key elsewhere is no slip of the keyboard.
+        let is_slip = elsewhere.is_none() || synonyms(word).is_empty();
+        let slip = || near(word, &known).filter(|_| is_slip);
+        if let Some(found) = meant(word, &known).or_else(slip) {
+            let given = self.table(section).filter(|_| found == "normal_force");
+            let pushed = given.and_then(|given| given.get("interference"));
+            let instead = pushed.map_or("", |_| " in place of `interference`");
+            return format!("did you mean `{found}`{instead}?");
+        }
+        if let Some((home, found)) = elsewhere {
+            return format!("did you mean `{found}` of [{home}]?");
+        }
+        match section {
+            "" => format!("sections and keys here: {}", known.join(", ")),
+            _ => format!("keys of [{section}]: {}", known.join(", ")),
+        }
+    }
 }
 
 /// Keys of earlier versions, and what stands in their place.
@@ -141,37 +215,7 @@ const GONE: &[(&str, &str)] = &[
     ("improve.front", "a sweep of cea over modifications.NAME.mass draws it"),
 ];
 
-/// A hint for a key that does not exist: one that is gone, a synonym, a near miss in its section, the same key of
-/// another section, or the keys there are.
-pub(super) fn suggest(section: &str, word: &str, known: &[&str]) -> Option<String> {
-    let elsewhere = |key: &CaseKey| match key.section() {
-        home if home == section => format!("did you mean `{}`?", key.short()),
-        home => format!("did you mean `{}` of [{home}]?", key.short()),
-    };
-    let full = format!("{section}.{word}");
-    if let Some((_, place)) = GONE.iter().find(|gone| gone.0 == full) {
-        return Some((*place).to_owned());
-    }
-    if let Some(key) = synonym(word) {
-        return Some(elsewhere(key));
-    }
-    // A word that begins one key alone is short for it.
-    let mut begun = known.iter().filter(|key| word.len() > 2 && key.starts_with(word));
-    let abbreviated = begun.next().filter(|_| begun.next().is_none());
-    if let Some(near) = nearest(word, known.iter().copied()).or(abbreviated.copied()) {
-        return Some(format!("did you mean `{near}`?"));
-    }
-    if let Some(found) = KEYS.iter().find(|key| key.short() == word && !key.name.contains('*')) {
-        return Some(elsewhere(found));
-    }
-    if let Some(near) = nearest(&full, KEYS.iter().map(|key| key.name)).and_then(find) {
-        return Some(elsewhere(near));
-    }
-    let mut listed = known.to_vec();
-    listed.sort_unstable();
-    Some(if section.is_empty() {
-        format!("sections and keys here: {}", listed.join(", "))
-    } else {
-        format!("keys of [{section}]: {}", listed.join(", "))
-    })
+/// The full name of a key of a section.
+fn full(section: &str, key: &str) -> String {
+    if section.is_empty() { key.to_owned() } else { format!("{section}.{key}") }
 }

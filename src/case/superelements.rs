@@ -55,7 +55,7 @@ impl FreeSystem {
     /// [`CaseErrors`]: several superelements, a file that is not readable or no matrix, sizes that differ, an unknown without entries,
     /// a key that means nothing here.
     pub fn read(raw: RawCase) -> Result<Self, CaseErrors> {
-        let findings = Findings::default();
+        let findings = Findings::of(&raw.root);
         let end = raw.text.trim_end().len();
         let root = Section::root(&findings, &raw.root, Location::new(0, end..end));
         let title = root.optional_text("title").unwrap_or_default();

@@ -5,7 +5,7 @@ use super::key::Bound;
 use super::reader::Section;
 use super::value::{RawEntry, RawValue, range_count};
 use super::words::{Analysis, Combination};
-use super::{Case, RawCase, keys, parameters, suggestion};
+use super::{Case, keys, parameters};
 
 /// A swept key and its values.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,7 +93,8 @@ pub(super) fn read(root: &Section<'_>) -> Option<Sweep> {
     }
     let keys: Vec<SweptKey> =
         entries.into_iter().map(|(name, entry)| values(&section, name, entry)).collect();
-    refuse_twice(&section, &keys);
+    let set = keys.iter().flat_map(|key| key.names().map(move |name| (name, &key.at)));
+    parameters::refuse_twice(&section, set);
     if keys.is_empty() {
         section.reject_placed(
             &section.place(""),
@@ -128,10 +129,8 @@ fn swept<'a>(
             &entry.key_at,
             format!("unknown key `{name}` in [sweep]"),
             "not a case key that can be swept",
-            suggestion::nearest_key(&name).map_or_else(
-                || "a swept key is a dotted case key in quotes".to_owned(),
-                |near| format!("did you mean \"{near}\"?"),
-            ),
+            (section.findings.scope.hint(&name, |_| true))
+                .unwrap_or_else(|| "a swept key is a dotted case key in quotes".to_owned()),
         ),
     }
 }
@@ -196,38 +195,17 @@ fn also(section: &Section<'_>, key: &str, entry: &RawEntry) -> Vec<String> {
         };
         let is_key = keys::find(&name).is_some() && !name.starts_with("sweep.");
         if !is_key {
-            let near = suggestion::nearest_key(&name);
+            let near = section.findings.scope.hint(&name, |_| true);
             section.reject_placed(
                 &item.at,
                 format!("\"{key}\" in [sweep] also sets {name}"),
                 "not a case key that can be swept",
-                near.map_or_else(
-                    || "`also` names dotted case keys that take the same values".to_owned(),
-                    |near| format!("did you mean \"{near}\"?"),
-                ),
+                near.unwrap_or_else(|| "`also` names keys that take the same values".to_owned()),
             );
         }
         is_key.then_some(name)
     });
     names.collect()
-}
-
-/// Refuses keys that two entries set.
-fn refuse_twice(section: &Section<'_>, swept: &[SweptKey]) {
-    let mut seen: Vec<&String> = Vec::new();
-    for key in swept {
-        for name in key.names() {
-            if seen.contains(&name) {
-                section.reject_placed(
-                    &key.at,
-                    format!("[sweep] sets {name} twice"),
-                    "set by another entry already",
-                    "sweep each key once",
-                );
-            }
-            seen.push(name);
-        }
-    }
 }
 
 /// The values of a swept key.
@@ -274,37 +252,34 @@ fn check_lengths(section: &Section<'_>, sweep: &Sweep) {
     }
 }
 
-/// Checks each swept value on its own, all others as the case has them, so that a bad one is
-/// reported before anything runs. Where the lists are long only evenly spaced values are tried: the
-/// sweep itself reports the rest, point by point.
+/// Tries each value of a study on its own, all others as the case has them, so that a bad one is
+/// reported before anything runs: swept values, and the median of what is uncertain. Where the lists
+/// are long only evenly spaced values are tried: the sweep itself reports the rest, point by point.
 pub(super) fn check_values(case: &Case) -> Result<(), CaseErrors> {
-    let Some(sweep) = &case.sweep else {
-        return Ok(());
-    };
     // A point is read at the cost of its key lines and of the lists that they stand for.
     const EFFORT: usize = 400_000;
     let point = case.raw.sweep_point(&[])?;
     let each = 200 + RawValue::Table(point.root.clone()).length();
-    let most = (EFFORT / (each * sweep.keys.len().max(1))).clamp(2, 1000);
-    let mut errors = Vec::new();
-    for key in &sweep.keys {
+    let keys = case.sweep.iter().flat_map(|sweep| &sweep.keys);
+    let most = (EFFORT / (each * keys.clone().count().max(1))).clamp(2, 1000);
+    let swept = keys.flat_map(|key| {
         let last = key.values.len().saturating_sub(1);
         let tried = key.values.len().min(most);
-        for value in (0..tried).map(|i| &key.values[i * last / tried.max(2).saturating_sub(1)]) {
-            let change: Vec<String> = key.overrides(value).collect();
-            let result = point.with_overrides(&change).and_then(read_point);
-            if let Err(bad) = result {
-                for mut error in bad.diagnostics {
-                    error.message = format!("swept value {}: {}", change[0], error.message);
-                    error.at = key.at.clone();
-                    errors.push(error);
-                }
-            }
+        let tried = (0..tried).map(move |i| &key.values[i * last / tried.max(2).saturating_sub(1)]);
+        tried.map(|value| ("swept", key.overrides(value).collect::<Vec<_>>(), key.at.clone()))
+    });
+    let uncertain = case.uncertainty.iter().flat_map(|study| &study.parameters).map(|own| {
+        let overrides = own.parameter.overrides(own.value(0.5)).collect();
+        ("uncertain", overrides, own.parameter.at.clone())
+    });
+    let mut errors = Vec::new();
+    for (what, changes, at) in swept.chain(uncertain) {
+        let result = point.with_overrides(&changes).and_then(Case::read);
+        for mut error in result.err().into_iter().flat_map(|bad| bad.diagnostics) {
+            error.message = format!("{what} value {}: {}", changes[0], error.message);
+            error.at = at.clone();
+            errors.push(error);
         }
     }
     if errors.is_empty() { Ok(()) } else { Err(case.raw.errors(errors)) }
-}
-
-fn read_point(raw: RawCase) -> Result<(), CaseErrors> {
-    Case::read(raw).map(|_| ())
 }

@@ -10,7 +10,7 @@ use super::diagnostic::{Diagnostic, Location};
 use super::file_sections::{FileSection, item, sections};
 use super::imported;
 use super::raw::RawCase;
-use super::value::{RawEntry, RawItem, RawTable, RawValue};
+use super::value::{RawEntry, RawItem, RawTable, RawValue, table_of};
 use super::words::{FilePart, UnitsWord, words_of};
 use crate::mesh::LeftOut;
 use std::fmt::Write as _;
@@ -162,13 +162,6 @@ fn merge(root: &mut RawTable, mut section: FileSection, at: &Location) -> Option
         table.insert((*key).to_owned(), RawEntry { key_at: at.clone(), item });
     }
     Some(section)
-}
-
-fn table_of<'t>(table: &'t RawTable, name: &str) -> Option<&'t RawTable> {
-    match &table.get(name)?.item.value {
-        RawValue::Table(inner) => Some(inner),
-        _ => None,
-    }
 }
 
 /// The table of a name, made where there is none; none where the name stands for something else.

@@ -56,7 +56,7 @@ pub(super) fn uncertainty(root: &Section<'_>) -> Option<Uncertainty> {
         .into_iter()
         .map(|(parameter, entry)| uncertain(&inner, parameter, entry))
         .collect();
-    refuse_twice(&inner, found.iter().map(|found| &found.parameter));
+    refuse_twice(&inner, found.iter().flat_map(|found| found.parameter.keys()));
     if given && inner.is_given() && inner.remaining().is_empty() {
         refuse!(section, "distributions", "uncertainty.distributions is empty";
             "at least one parameter");
@@ -194,8 +194,9 @@ impl super::Case {
     /// # Errors
     /// A case without `[uncertainty]`, with what to add.
     pub fn require_uncertainty(&self) -> Result<&Uncertainty, CaseErrors> {
-        let remedy = "[uncertainty.distributions]\n\"contact.normal_stiffness\" = { log_normal = [7.4e12, 0.3] }";
+        let key = self.contact_key("friction_coefficient");
+        let remedy = format!("[uncertainty.distributions]\n{key} = {{ log_normal = [0.3, 0.1] }}");
         let uncertainty = self.uncertainty.as_ref();
-        uncertainty.ok_or_else(|| self.lacks("uncertainty", "uncertain parameter", remedy))
+        uncertainty.ok_or_else(|| self.lacks("uncertainty", "uncertain parameter", &remedy))
     }
 }

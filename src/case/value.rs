@@ -35,6 +35,14 @@ pub struct RawEntry {
 /// A TOML table in the order of its keys.
 pub type RawTable = BTreeMap<String, RawEntry>;
 
+/// The section of a name in a table.
+pub(super) fn table_of<'t>(table: &'t RawTable, name: &str) -> Option<&'t RawTable> {
+    match &table.get(name)?.item.value {
+        RawValue::Table(inner) => Some(inner),
+        _ => None,
+    }
+}
+
 /// A TOML value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RawValue {

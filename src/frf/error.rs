@@ -64,8 +64,7 @@ pub enum FrfError {
     },
     /// A plane body, along its axis.
     #[error(
-        "frf.{key} = {node} cannot move in axial direction: the body is plane; use \"radial\" or \"tangential\", or \
-         material.formulation = \"three-dimensional\""
+        "frf.{key} = {node} cannot move in axial direction: the body is plane; use \"radial\" or \"tangential\""
     )]
     InPlane {
         /// Case key.
@@ -74,7 +73,7 @@ pub enum FrfError {
         node: usize,
     },
     /// A frequency that is not positive.
-    #[error("frequency {value} Hz must be positive and finite: check frf.frequencies")]
+    #[error("frequency {value} Hz must be positive and finite: check frf.frequencies_hz")]
     Frequency {
         /// The value, Hz.
         value: f64,

@@ -208,7 +208,9 @@ impl Mesh {
                 let node = part.iter().position(|&p| p == k);
                 let node = node.expect("every part has a node");
                 let [x, y] = self.plane_node(node);
-                let names: Vec<&str> = self.boundaries.iter().map(|b| b.name.as_str()).collect();
+                let mut names: Vec<&str> =
+                    self.boundaries.iter().map(|b| b.name.as_str()).collect();
+                names.remove(self.contact);
                 let unmerged = match self.unmerged_nodes() {
                     Some(found) if parts > 1 => {
                         format!(
@@ -219,8 +221,8 @@ impl Mesh {
                 };
                 return Err(BodyError::Body(format!(
                     "nothing holds {} (with node {} at {x:.4e}, {y:.4e} m): it can move as a rigid body (sliding \
-                     friction holds nothing); give one of its boundaries ({}) condition = \"clamped\", \"support\" or \
-                     \"guide\" under [boundaries.NAME], or springs under [modifications.NAME]{unmerged}",
+                     friction holds nothing); give one of its boundaries ({}) condition = \"clamped\" under \
+                     [boundaries.NAME], or springs under [modifications.NAME]{unmerged}",
                     if parts > 1 { "a part of the body that touches no other" } else { "the body" },
                     self.labels.get(node).copied().unwrap_or(node + 1),
                     names.join(", ")

@@ -121,7 +121,7 @@ impl<'a> SweepPlan<'a> {
         let one_line = |errors: CaseErrors| one_line(&errors.messages().join("; "));
         let mut raw = self.case.raw.with_overrides(&overrides).map_err(one_line)?;
         raw.root.remove("sweep");
-        Case::from_raw(raw).map_err(one_line)
+        Case::read(raw).map_err(one_line)
     }
 }
 

@@ -337,7 +337,7 @@ fn keys_that_go_together_take_the_same_values_at_every_point() {
     let file = include_str!("../../cases/polycarbonate-disc.toml");
     for (also, said) in [
         ("[\"material.densty\"]", "did you mean \"material.density\"?"),
-        ("[\"contact.friction_coefficient\"]", "sets contact.friction_coefficient twice"),
+        ("[\"contact.friction_coefficient\"]", "contact.friction_coefficient is set twice"),
     ] {
         let sweep = format!(
             "\n[sweep]\n\"contact.friction_coefficient\" = [0.2]\n\"damping.mass_coefficient\" = {{ values = [1.0], also = {also} }}\n"

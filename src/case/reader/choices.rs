@@ -3,7 +3,7 @@
 use super::Section;
 use crate::case::value::{RawItem, RawValue};
 use crate::case::words::{self, Choice};
-use crate::case::{keys, refuse, suggestion};
+use crate::case::{CaseKey, keys, refuse, suggestion};
 
 impl Section<'_> {
     /// A list of words out of a few; empty where it is not given.
@@ -43,14 +43,11 @@ impl Section<'_> {
     pub fn parameter(&self, key: &str) -> String {
         let name = self.text(key);
         if self.is_some_text(key) && keys::find(&name).is_none_or(|known| !known.is_numeric()) {
-            let is_numeric = |known: &str| keys::find(known).is_some_and(|key| key.is_numeric());
             self.reject(
                 key,
                 format!("{} = \"{name}\" is not a numeric case key", self.name(key)),
                 "must name a key whose value is a number",
-                suggestion::nearest_key(&name)
-                    .filter(|near| is_numeric(near))
-                    .map(|near| format!("did you mean \"{near}\"?")),
+                self.findings.scope.hint(&name, CaseKey::is_numeric),
             );
         }
         name

@@ -94,7 +94,7 @@ fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
         return Ok(());
     }
     let key = case.speed_key();
-    Err(refusal!(case, key,
+    Err(refusal!(case, &key,
         "{key} = 0: the contact sticks at rest, and there is no steady sliding whose eigenvalues \
          could be solved";
         "must not be zero for an eigenvalue analysis";

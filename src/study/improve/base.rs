@@ -231,7 +231,7 @@ pub(in crate::study) fn refuse_bodies(case: &Case) -> Result<(), CaseErrors> {
         return Err(case.loss_error(
             "improve takes derivatives of conjugate pairs of modes, which structural damping K (1 + i eta) does not leave".to_owned(),
             "not in improve",
-            "give the damping by mass_coefficient and stiffness_coefficient: beta = eta / omega at the frequency of the mode",
+            "set it to 0 and give the damping by damping.stiffness_coefficient: beta = eta / omega at the frequency of the mode",
         ));
     }
     match &case.body {

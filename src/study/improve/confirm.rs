@@ -69,7 +69,7 @@ fn changed(base: &Base<'_>, keys: &[String]) -> Result<Case, String> {
     for study in ["sweep", "fit", "uncertainty", "convergence"] {
         raw.root.remove(study);
     }
-    Case::from_raw(raw).map_err(said)
+    Case::read(raw).map_err(said)
 }
 
 fn one_line(error: &StudyError) -> String {

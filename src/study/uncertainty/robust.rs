@@ -54,7 +54,7 @@ impl Design {
     pub fn case(&self, case: &Case, value: f64) -> Result<Case, StudyError> {
         let overrides = [format!("{}={value:?}", self.key)];
         let raw = case.raw.with_overrides(&overrides)?;
-        Ok(Case::from_raw(raw)?)
+        Ok(Case::read(raw)?)
     }
 }
 

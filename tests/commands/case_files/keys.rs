@@ -165,7 +165,7 @@ fn a_key_taken_away_makes_room_for_another() {
     valid(DISC, &[&unset("transient.duration")]);
     assert_reports(
         &report(DISC, &[&unset("cea.max_frequency")]),
-        &["--unset", "did you mean `cea.max_frequency_hz`?"],
+        &["--unset", "did you mean \"cea.max_frequency_hz\"?"],
     );
     assert_reports(
         &report(DISC, &[&unset("material.density")]),

@@ -6,6 +6,7 @@ mod keys;
 mod plausibility;
 mod sizes;
 mod solid;
+mod suggestions;
 
 use frictionsim::case::{
     Case, CaseErrors, CeaMethod, KEYS, ModeSelection, RawCase, Spacing, TimeStep, range_values,

@@ -95,7 +95,7 @@ impl Steady {
         for study in ["sweep", "fit", "uncertainty"] {
             raw.root.remove(study);
         }
-        let other = Case::from_raw(raw)?;
+        let other = Case::read(raw)?;
         Self::of(&other, &SteppedMesh::of(&other)?)
     }
 

@@ -164,7 +164,7 @@ pub(super) fn rates_of(case: &Case, cea: &Cea, pairs: &Pairs, (key, value): (&st
         let said = |messages: Vec<String>| messages.join("; ");
         let raw = case.raw.with_overrides(&set);
         let raw = raw.map_err(|errors| said(errors.messages()))?;
-        Case::from_raw(raw).map_err(|errors| said(errors.messages()))
+        Case::read(raw).map_err(|errors| said(errors.messages()))
     };
     let step = step_of(key, value);
     let (rates, reason) = match pairs {
