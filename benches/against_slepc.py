@@ -1,14 +1,17 @@
-"""The sparse sweep against SLEPc at each friction value: same matrices, same machine, one thread, processor time.
+"""`frictionsim cea` against SLEPc at each friction value: same matrices, same machine, one thread, processor time.
 
     apt-get install python3-slepc4py-real          # Debian, with the system's own python
+    cargo build --release
     /usr/bin/python3 benches/against_slepc.py [BODY ...]
 
 Without arguments all bodies below. SLEPc solves (lambda^2 M + lambda C + K) x = 0 by TOAR, or K x = kappa M x by
 Krylov-Schur where damping is proportional, shifted and inverted about zero, with whichever LU of PETSc, MUMPS, SuperLU
-and UMFPACK is fastest for the body, factorizations included. Ours does the whole sweep: modes without friction with the
-proof that none is missing, branches, onsets. AGAINST_SLEPC_BINARY names a bench that is built already.
+and UMFPACK is fastest for the body, factorizations included and nothing else. Ours is the whole command: case, mesh,
+steady sliding, modes without friction with the proof that none is missing, branches, onsets, tables. Matrices are
+those of `frictionsim matrices --friction`. FRICTIONSIM names another program than target/release/frictionsim.
 """
 
+import csv
 import glob
 import os
 import subprocess
@@ -16,63 +19,86 @@ import sys
 import tempfile
 import time
 
-os.environ.setdefault("OMP_NUM_THREADS", "1")
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "RAYON_NUM_THREADS"):
+    os.environ[name] = "1"
 # Where Debian keeps its bindings.
 sys.path += glob.glob("/usr/lib/*dir/*/*-real/lib/python3/dist-packages")
 import numpy as np
 from petsc4py import PETSc
 from slepc4py import SLEPc
 
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+PROGRAM = os.environ.get("FRICTIONSIM", f"{ROOT}/target/release/frictionsim")
+WHOLE = ['cea.method="sparse"']
 RIM = ["mesh.circumferential_elements=120", "mesh.radial_elements=24", 'material.formulation="plane-stress"',
        'boundaries.outer.condition="support"', "boundaries.outer.normal_stiffness=2e11",
        "boundaries.outer.tangential_stiffness=2e11"]
 ANNULUS = ["mesh.circumferential_elements=180", "mesh.radial_elements=35", 'mesh.element="quad4"',
            "cea.geometric_stiffness=false", "cea.friction_coefficients={ from = 0.0, to = 1.0, count = 21 }"]
 BODIES = {
-    "annulus": ("polycarbonate-disc", ANNULUS),
+    "annulus": ("polycarbonate-disc", WHOLE + ANNULUS),
     "test-bench": ("test-bench", []),
     "sliding-block": ("sliding-block", []),
     "pad-on-disc": ("pad-on-disc", []),
-    "supported-rim": ("polycarbonate-disc", RIM + ["cea.friction_coefficients=[0.3]"]),
+    "supported-rim": ("polycarbonate-disc", WHOLE + RIM + ["cea.friction_coefficients=[0.3]"]),
     "triangles": ("disc-triangles", []),
     "two-dampings": ("test-bench", ['boundaries.screws={ condition="clamped" }']),
     "dashpots": ("disc-triangles", ["contact.tangential_damping=200.0"]),
-    "falling-friction": ("falling-friction", []),
+    "falling-friction": ("falling-friction", WHOLE),
+    # Solid parts: a disc and two pads tied to backplates, damping by part; a block that slides slowly on a floor.
+    "brake": ("brake", []),
+    "brake-twelve-values": ("brake", ["cea.friction_coefficients={ from = 0.0, to = 0.55, count = 12 }"]),
+    "tread-block": ("tread-block", []),
 }
 PACKAGES = ("petsc", "mumps", "superlu", "umfpack")
 
 
-def request(folder):
-    """What is wanted: the numbers after each word."""
-    lines = (line.split() for line in open(f"{folder}/request.txt"))
-    return {words[0]: [float(w) for w in words[1:]] for words in lines}
+def run(*arguments):
+    """Processor time (s) and largest memory (MB) of a command of the program."""
+    process = subprocess.Popen([PROGRAM, *arguments, "-qq"], stdout=subprocess.DEVNULL)
+    _, status, used = os.wait4(process.pid, 0)
+    if status:
+        sys.exit(f"{' '.join(arguments)} failed")
+    return used.ru_utime + used.ru_stime, used.ru_maxrss / 1024
 
 
-def matrix(folder, name, mu):
-    """PETSc reads rows; the files hold columns, so this is the transpose, transposed back."""
-    pointers, rows = (np.fromfile(f"{folder}/{n}.i64", dtype=np.int64).astype(PETSc.IntType) for n in ("pointers", "rows"))
-    parts = sorted(f for f in os.listdir(folder) if f.startswith(name + "-"))
-    values = sum(np.fromfile(f"{folder}/{f}") * mu**p for p, f in enumerate(parts))
-    n = len(pointers) - 1
-    transposed = PETSc.Mat().createAIJ((n, n), csr=(pointers, rows, values))
-    transposed.assemble()
-    return transposed.transpose()
+def matrix(folder, name):
+    """A file of Matrix Market, and its entries."""
+    with open(f"{folder}/{name}.mtx") as file:
+        line = file.readline()
+        while line.startswith("%"):
+            line = file.readline()
+        size = int(line.split()[0])
+        rows, columns, values = np.fromstring(file.read(), sep=" ").reshape(-1, 3).T
+    order = np.lexsort((columns, rows))
+    rows, columns = (part[order].astype(PETSc.IntType) - 1 for part in (rows, columns))
+    pointers = np.searchsorted(rows, np.arange(size + 1)).astype(PETSc.IntType)
+    found = PETSc.Mat().createAIJ((size, size), csr=(pointers, columns, values[order]))
+    found.assemble()
+    return found
 
 
-def shift_and_invert(transform, package):
-    transform.setType(SLEPc.ST.Type.SINVERT)
-    linear = transform.getKSP()
-    linear.setType("preonly")
-    linear.getPC().setType("lu")
-    linear.getPC().setFactorSolverType(package)
+def proportional(stiffness, damping, mass):
+    """`alpha` and `beta` of `C = alpha M + beta K`, where that is what it is."""
+    def product(a, b):
+        x = a.createVecRight()
+        x.setArray(np.cos(np.arange(x.getSize())))
+        return (a * x).dot(b * x)
+
+    square, cross, other = product(mass, mass), product(mass, stiffness), product(stiffness, stiffness)
+    alpha, beta = np.linalg.solve([[square, cross], [cross, other]],
+                                  [product(mass, damping), product(stiffness, damping)])
+    left = damping.copy()
+    left.axpy(-alpha, mass, PETSc.Mat.Structure.DIFFERENT)
+    left.axpy(-beta, stiffness, PETSc.Mat.Structure.DIFFERENT)
+    return (alpha, beta) if left.norm() < 1e-9 * damping.norm() else None
 
 
-def solve(folder, mu, modes, package):
+def solve(folder, modes, package):
     """Processor time, eigenvalues with Im > 0, and the largest relative residual of the quadratic problem."""
-    stiffness, damping, mass = (matrix(folder, name, mu) for name in ("stiffness", "damping", "mass"))
-    proportional = request(folder).get("proportional")
-    if proportional:
+    stiffness, damping, mass = (matrix(folder, name) for name in "KCM")
+    coefficients = proportional(stiffness, damping, mass)
+    if coefficients:
         solver = SLEPc.EPS().create()
         solver.setOperators(stiffness, mass)
         solver.setProblemType(SLEPc.EPS.ProblemType.GNHEP)
@@ -87,7 +113,11 @@ def solve(folder, mu, modes, package):
         solver.setDimensions(2 * modes)
     solver.setTarget(0.0)
     solver.setTolerances(1e-8, 500)
-    shift_and_invert(solver.getST(), package)
+    transform = solver.getST()
+    transform.setType(SLEPc.ST.Type.SINVERT)
+    transform.getKSP().setType("preonly")
+    transform.getKSP().getPC().setType("lu")
+    transform.getKSP().getPC().setFactorSolverType(package)
     start = time.process_time()
     solver.solve()
     seconds = time.process_time() - start
@@ -96,16 +126,15 @@ def solve(folder, mu, modes, package):
     xr, xi = stiffness.createVecs()
     for i in range(solver.getConverged()):
         value = solver.getEigenpair(i, xr, xi)
-        if proportional:
-            alpha, beta = proportional
+        is_real = value.imag == 0
+        if coefficients:
+            alpha, beta = coefficients
             half = (alpha + beta * value) / 2
             root = 1j * np.sqrt(value - half * half + 0j)
             value = max(root - half, -root - half, key=lambda v: v.imag)
         if value.imag <= 0:
             continue
-        x = xr.getArray() + 1j * (xi.getArray() if value.imag else 0.0)
-        if proportional and solver.getEigenvalue(i).imag == 0:
-            x = xr.getArray() + 0j
+        x = xr.getArray() + (0j if is_real else 1j * xi.getArray())
 
         def times(m):
             parts = ((1, np.ascontiguousarray(x.real)), (1j, np.ascontiguousarray(x.imag)))
@@ -120,57 +149,53 @@ def solve(folder, mu, modes, package):
     return seconds, found[:modes], worst
 
 
-def fastest(folder, mu, modes):
-    """The package of least time, each in a process of its own."""
-    times = {}
+def fastest(folder, modes):
+    """The package of least time, and its largest memory (MB), each tried in a process of its own."""
+    tried = []
     for package in PACKAGES:
-        one = [sys.executable, os.path.abspath(__file__), "--one", folder, str(mu), str(modes), package]
-        done = subprocess.run(one, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-        if done.returncode == 0:
-            times[package] = float(done.stdout)
-    return min(times, key=times.get)
-
-
-def own(folder):
-    found = {}
-    for line in open(f"{folder}/eigenvalues.txt"):
-        mu, re, im = map(float, line.split())
-        found.setdefault(mu, []).append(complex(re, im))
-    return found
+        one = [sys.executable, os.path.abspath(__file__), "--one", folder, str(modes), package]
+        process = subprocess.Popen(one, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        said = process.stdout.read()
+        _, status, used = os.wait4(process.pid, 0)
+        if status == 0:
+            tried.append((float(said), package, used.ru_maxrss / 1024))
+    return min(tried)[1:]
 
 
 def compare(body):
     case, overrides = BODIES[body]
-    root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-    program = os.environ.get("AGAINST_SLEPC_BINARY")
-    command = [program] if program else ["cargo", "bench", "-q", "--bench", "against_slepc", "--"]
+    given = [f"{ROOT}/cases/{case}.toml"] + [word for text in overrides for word in ("--set", text)]
     with tempfile.TemporaryDirectory() as folder:
-        given = [folder, f"{root}/cases/{case}.toml"] + overrides
-        ours = subprocess.run(command + given, cwd=root, check=True, stdout=subprocess.PIPE, text=True).stdout
-        words = ours.split()
-        number = lambda name: float(words[words.index(name) + 1])
-        seconds, residual, difference, package = 0.0, 0.0, 0.0, None
-        for state in sorted(glob.glob(f"{folder}/state-*")):
-            for mu, modes in own(state).items():
-                package = package or fastest(state, mu, len(modes))
-                elapsed, found, worst = solve(state, mu, len(modes), package)
-                seconds += elapsed
-                residual = max(residual, worst)
-                for value in found:
-                    nearest = min(abs(value - mode) for mode in modes)
-                    # Modes at the cut may be in one list alone.
-                    if nearest < 1e-3 * abs(value):
-                        difference = max(difference, nearest / abs(value))
-        print(f"| {body} | {number('unknowns'):.0f} | {number('values'):.0f} | {number('seconds'):.2f} s, {number('residual'):.0e} "
-              f"| {seconds:.2f} s, {residual:.0e} ({package}) | {seconds / number('seconds'):.1f} | {difference:.0e} |", flush=True)
+        ours, memory = run("cea", *given, "--no-figures", "--out", f"{folder}/cea")
+        modes = {}
+        for row in csv.DictReader(open(f"{folder}/cea/eigenvalues.csv")):
+            value = complex(float(row["growth_rate_per_s"]), 2 * np.pi * float(row["frequency_hz"]))
+            modes.setdefault(row["friction_coefficient"], []).append((value, float(row["residual"])))
+        own_residual = max(residual for all in modes.values() for _, residual in all)
+        seconds, residual, difference, package, other = 0.0, 0.0, 0.0, None, 0.0
+        for friction, own in modes.items():
+            place = f"{folder}/{friction}"
+            run("matrices", *given, "--friction", friction, "--out", place)
+            if package is None:
+                package, other = fastest(place, len(own))
+            elapsed, found, worst = solve(place, len(own), package)
+            seconds, residual = seconds + elapsed, max(residual, worst)
+            for value in found:
+                nearest = min(abs(value - mode) for mode, _ in own)
+                # Modes at the cut may be in one list alone.
+                if nearest < 1e-3 * abs(value):
+                    difference = max(difference, nearest / abs(value))
+            unknowns = matrix(place, "M").getSize()[0]
+    print(f"| {body} | {unknowns} | {len(modes)} | {ours:.2f} s, {own_residual:.0e}, {memory:.0f} MB | {seconds:.2f} s, "
+          f"{residual:.0e}, {other:.0f} MB ({package}) | {seconds / ours:.1f} | {difference:.0e} |", flush=True)
 
 
 def main():
     if sys.argv[1:2] == ["--one"]:
-        folder, mu, modes, package = sys.argv[2:]
-        print(solve(folder, float(mu), int(modes), package)[0])
+        folder, modes, package = sys.argv[2:]
+        print(solve(folder, int(modes), package)[0])
         return
-    print("| body | unknowns | friction values | here | SLEPc | ratio | largest relative difference |\n|---|---|---|---|---|---|---|")
+    print("| body | unknowns | friction values | here, residual | SLEPc, residual | ratio | largest relative difference |\n|---|---|---|---|---|---|---|")
     for body in sys.argv[1:] or BODIES:
         compare(body)
 

@@ -6,7 +6,7 @@ mod disc;
 
 use disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use divan::Bencher;
-use frictionsim::cea::cyclic::{CyclicSweep, sweep};
+use frictionsim::cea::cyclic::{WaveSweep, sweep};
 use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::MassKind;
@@ -18,7 +18,7 @@ fn main() {
 }
 
 /// 30 modes of the disc with prestress, `values` friction coefficients from 0 to 1.
-fn solve(circumferential: usize, radial: usize, values: usize) -> CyclicSweep {
+fn solve(circumferential: usize, radial: usize, values: usize) -> WaveSweep {
     let coarser = if std::env::args().any(|argument| argument == "--bench") { 1 } else { 5 };
     let specification = annulus(ElementKind::Quad4, circumferential / coarser, radial / coarser);
     let options = TangentOptions {
@@ -40,7 +40,7 @@ fn solve(circumferential: usize, radial: usize, values: usize) -> CyclicSweep {
         .expect("the disc can be solved")
 }
 
-fn on_threads(threads: usize, work: impl Fn() -> CyclicSweep + Sync + Send) -> CyclicSweep {
+fn on_threads(threads: usize, work: impl Fn() -> WaveSweep + Sync + Send) -> WaveSweep {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     pool.expect("threads can be started").install(work)
 }

@@ -16,7 +16,7 @@ use frictionsim::mesh::{
     AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind, SectorMesh,
 };
 use frictionsim::prestress::{
-    DampingModel, SectorTangent, SlidingTangent, SteadySliding, TangentOptions,
+    DampingModel, SlidingTangent, SteadySliding, TangentOptions, WaveTangent,
 };
 
 fn main() {
@@ -78,7 +78,7 @@ fn options() -> TangentOptions {
 fn cyclic_system(boundary: &str) -> CyclicSystem {
     let sector = SectorMesh::generate(&specification()).expect("a valid mesh");
     if boundary == "sliding" {
-        let tangent = SectorTangent::linearize(&sector, &MATERIAL, &options(), &CONTACT)
+        let tangent = WaveTangent::of_annulus(&sector, &MATERIAL, &options(), &CONTACT)
             .expect("contact stays closed");
         return CyclicSystem::sliding(&tangent, CONTACT.friction_coefficient);
     }

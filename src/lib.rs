@@ -47,7 +47,7 @@
 //! | (2), (3) Rayleigh damping, `zeta = (alpha_R/omega + beta_R omega)/2` | [`fem::RayleighDamping`] |
 //! | (4) `lambda = -zeta omega ± i omega sqrt(1 - zeta^2)` | [`cea::ComplexMode::damping_factor`] |
 //! | steady sliding, `u_n = delta`, `T = s mu N` | [`prestress::SteadySliding`], [`prestress::SectorSliding`] |
-//! | small motions around it, `M(mu) q'' + C(mu) q' + K_t(mu) q = 0` | [`prestress::SlidingTangent`], [`prestress::SectorTangent`] |
+//! | small motions around it, `M(mu) q'' + C(mu) q' + K_t(mu) q = 0` | [`prestress::SlidingTangent`], [`prestress::WaveTangent`] |
 //! | `(lambda^2 M + lambda C + K_t) phi = 0` | [`cea::sparse`], [`cea::cyclic`] |
 //! | `Re lambda(mu) = 0` | [`cea::UnstableInterval`] |
 //! | `d lambda / d parameter` | [`study::eigenvalues`] |

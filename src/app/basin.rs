@@ -1,7 +1,7 @@
 //! `frictionsim basin`: which of two motions wins.
 
-use super::profile::Profile;
-use super::{Failure, RunOptions, Session, terminal};
+use super::profile::{Profile, Run};
+use super::{Failure, RunOptions, Session};
 use crate::study::basin::summary;
 use clap::Args;
 
@@ -16,25 +16,20 @@ pub struct Arguments {
     options: RunOptions,
 }
 
-/// What the rest of the program asks of this command.
-pub const PROFILE: Profile = Profile {
-    files: &[("basin.csv", "one row for each transient of the search")],
-    examples: &[(
-        "frictionsim basin disc.toml",
-        "which of two waves wins, by the ratio of their amplitudes at saturation",
-    )],
-};
+impl Run for Arguments {
+    const PROFILE: Profile = Profile {
+        files: &[("basin.csv", "one row for each transient of the search")],
+        examples: &[(
+            "frictionsim basin disc.toml",
+            "which of two waves wins, by the ratio of their amplitudes at saturation",
+        )],
+    };
 
-/// Runs the subcommand.
-///
-/// # Errors
-/// A bad case, steady sliding that is stable, an output folder that cannot be written.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let session = Session::start("basin", &arguments.options)?;
-    session.check_memory(session.case.cost().mesh_memory_bytes)?;
-    session.case.require_basin()?;
-    let folder = session.open_folder()?;
-    terminal::catch_signals(terminal::NOTHING_KEPT);
-    let summary = summary(&session.case, &session.manifest)?;
-    session.options.output.finish_finding(folder, &summary)
+    fn run(&self) -> Result<(), Failure> {
+        let session = Session::start("basin", &self.options)?;
+        session.case.require_basin()?;
+        let folder = session.begin()?;
+        let summary = summary(&session.case, &session.manifest)?;
+        session.options.output.finish_finding(folder, &summary)
+    }
 }

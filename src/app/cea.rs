@@ -1,10 +1,10 @@
 //! `frictionsim cea`: complex eigenvalues of steady sliding over the friction coefficient.
 
-use super::profile::Profile;
+use super::profile::{Profile, Run};
 use super::{Failure, RunOptions, Session, superelement, terminal};
 use crate::case::Cea;
 use crate::cea::{SweepProgress, SweepStage};
-use crate::results::cea::{CeaReport, KeptSteps, View, document, draw, write, write_universal};
+use crate::results::cea::{KeptSteps, View, document, draw, write, write_universal};
 use crate::study::eigenvalues::{self, Progress, SlidingModel, Solution, Solver, refuse_no_modes};
 use clap::Args;
 use indicatif::ProgressBar;
@@ -26,43 +26,40 @@ pub struct Arguments {
 /// What an interrupted run leaves.
 const KEPT: &str = "friction values that are done are kept: the same command with --resume goes on";
 
-/// What the rest of the program asks of this command.
-pub const PROFILE: Profile = Profile {
-    files: &[
-        ("eigenvalues.csv", "one row for each mode and friction value"),
-        ("stability.csv", "one row for each crossing into instability"),
-        ("sensitivities.csv", "derivatives of eigenvalues and onsets by parameters"),
-        (
-            "contributions.csv, coupling.csv",
-            "what each part, support and contact adds to growth; which modes couple",
-        ),
-        ("feed.csv, feed.vtu", "where on the contact surfaces unstable modes are fed"),
-        ("prestress.csv, prestress.vtu", "steady sliding, node by node"),
-        ("modes.pvd, modes/*.vtu", "mode shapes, real and imaginary part"),
-        ("modes.unv", "mesh and mode shapes as a universal file (output.universal)"),
-        ("map.csv", "critical friction over a second parameter (cea.map)"),
-    ],
-    examples: &[
-        ("frictionsim cea disc.toml", "critical friction of every branch"),
-        (
-            "frictionsim cea disc.toml --set contact.interference=30e-6 --json | jq .critical_frictions",
-            "for scripts",
-        ),
-    ],
-};
+impl Run for Arguments {
+    const PROFILE: Profile = Profile {
+        files: &[
+            ("eigenvalues.csv", "one row for each mode and friction value"),
+            ("stability.csv", "one row for each crossing into instability"),
+            ("sensitivities.csv", "derivatives of eigenvalues and onsets by parameters"),
+            (
+                "contributions.csv, coupling.csv",
+                "what each part, support and contact adds to growth; which modes couple",
+            ),
+            ("feed.csv, feed.vtu", "where on the contact surfaces unstable modes are fed"),
+            ("prestress.csv, prestress.vtu", "steady sliding, node by node"),
+            ("modes.pvd, modes/*.vtu", "mode shapes, real and imaginary part"),
+            ("modes.unv", "mesh and mode shapes as a universal file (output.universal)"),
+        ],
+        examples: &[
+            ("frictionsim cea disc.toml", "critical friction of every branch"),
+            (
+                "frictionsim cea disc.toml --set contact.interference=30e-6 --json | jq .critical_frictions",
+                "for scripts",
+            ),
+        ],
+    };
 
-/// Runs the subcommand.
-///
-/// # Errors
-/// A bad case, contact that opens, a solver that fails, an output folder that cannot be written.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let options = &arguments.options;
-    if let Some(system) = superelement::described(&options.case, &options.changes.overrides())? {
-        return superelement::run(options, &system);
+    fn run(&self) -> Result<(), Failure> {
+        let options = &self.options;
+        if let Some(system) = superelement::described(&options.case, &options.changes.overrides())?
+        {
+            return superelement::run(options, &system);
+        }
+        run_with(self, |session, cea, model, watch| {
+            Ok(eigenvalues::solve(&session.case, cea, model, watch)?)
+        })
     }
-    run_with(arguments, |session, cea, model, watch| {
-        Ok(eigenvalues::solve(&session.case, cea, model, watch)?)
-    })
 }
 
 /// Shows how far a sweep has come.
@@ -71,7 +68,6 @@ fn show(bar: &ProgressBar, progress: SweepProgress) {
         SweepStage::Blocks => "blocks of modes",
         SweepStage::Values => "friction values",
         SweepStage::Diameters => "nodal diameters",
-        SweepStage::MapPoints => "points of the map",
     });
     bar.set_length(progress.total as u64);
     bar.set_position(progress.solved as u64);
@@ -89,17 +85,11 @@ fn run_with(
     let case = &session.case;
     let cea = case.require_cea()?;
     let solver = Solver::of_analysis(case, cea)?;
-    let cost = case.cost();
-    let solver_bytes = cost.cea.map_or(0.0, |cea| cea.memory_bytes);
-    session.check_memory(cost.mesh_memory_bytes + solver_bytes)?;
-    let folder = match arguments.resume {
-        true => session.reopen_folder()?,
-        false => session.open_folder()?,
-    };
+    session.check_memory(case.memory("cea").0)?;
+    let folder = session.open_folder(arguments.resume)?;
     let bar = terminal::progress(session.options.output.is_quiet(), 0, "modes at rest");
     let heard = |progress| show(&bar, progress);
     let steps = KeptSteps::new(&folder, arguments.resume, &heard)?;
-    // Harmonics take seconds at most, and keep no steps.
     terminal::catch_signals(match solver {
         Solver::WholeMesh | Solver::Assembly => KEPT,
         _ => terminal::NOTHING_KEPT,
@@ -109,13 +99,10 @@ fn run_with(
     let solution = solve(&session, cea, &model, &steps)?;
     refuse_no_modes(case, cea, &solution.sweep)?;
 
-    let map = cea.map.as_ref().map(|map| eigenvalues::map(case, cea, map, &steps)).transpose()?;
     bar.finish_and_clear();
     let field = model.base_field(case);
-    let report = CeaReport {
-        map: map.as_ref(),
-        ..eigenvalues::report(case, cea, &model, &solution, &field, session.wall_seconds())
-    };
+    let wall_s = session.wall_seconds();
+    let report = eigenvalues::report(case, cea, &model, &solution, &field, wall_s);
     let summary = write(&folder, &report)?;
     if case.output.universal {
         write_universal(&folder, &report)?;

@@ -1,10 +1,10 @@
 //! `frictionsim check`: is the case valid, and what would it cost?
 
 use super::options::CaseChanges;
-use super::profile::Profile;
+use super::profile::{Profile, Run};
 use super::session::{gibibytes, machine_memory, read_case};
 use super::{Failure, superelement, terminal};
-use crate::case::{Case, Convergence, Cost, FreeSystem, StudyCost};
+use crate::case::{Case, Convergence, Cost, FreeSystem, RunCost, StudyCost};
 use crate::study::{Preflight, preflight};
 use clap::{Args, ValueHint};
 use serde_json::{Value, json};
@@ -27,50 +27,47 @@ pub struct Arguments {
     json: bool,
 }
 
-/// What the rest of the program asks of this command.
-pub const PROFILE: Profile = Profile {
-    files: &[],
-    examples: &[("frictionsim check *.toml", "are these cases valid, and what do they cost?")],
-};
+impl Run for Arguments {
+    const PROFILE: Profile = Profile {
+        files: &[],
+        examples: &[("frictionsim check *.toml", "are these cases valid, and what do they cost?")],
+    };
 
-/// Runs the subcommand: every case is checked, whatever the others are like.
-///
-/// # Errors
-/// The errors of all bad cases.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let mut reports = Vec::new();
-    let mut text = String::new();
-    let mut bad = 0;
-    for path in &arguments.cases {
-        let name = path.display().to_string();
-        match check(path, arguments) {
-            Ok(Checked::Bodies(case, found)) => {
-                text.push_str(&describe(&name, &case, &found));
-                reports.push(object(&name, &case, &found));
-            }
-            Ok(Checked::Superelement(system)) => {
-                text.push_str(&describe_superelement(&name, &system));
-                reports.push(superelement_object(&name, &system));
-            }
-            Err(failure) => {
-                bad += 1;
-                terminal::report(&failure);
-                let errors = failure.messages();
-                reports.push(json!({ "case": name, "valid": false, "errors": errors }));
+    fn run(&self) -> Result<(), Failure> {
+        let mut reports = Vec::new();
+        let mut text = String::new();
+        let mut bad = 0;
+        for path in &self.cases {
+            let name = path.display().to_string();
+            match check(path, self) {
+                Ok(Checked::Bodies(case, found)) => {
+                    text.push_str(&describe(&name, &case, &found));
+                    reports.push(object(&name, &case, &found));
+                }
+                Ok(Checked::Superelement(system)) => {
+                    text.push_str(&describe_superelement(&name, &system));
+                    reports.push(superelement_object(&name, &system));
+                }
+                Err(failure) => {
+                    bad += 1;
+                    terminal::report(&failure);
+                    let errors = failure.messages();
+                    reports.push(json!({ "case": name, "valid": false, "errors": errors }));
+                }
             }
         }
-    }
-    if arguments.json {
-        terminal::print_json(&json!({ "command": "check", "cases": reports }))?;
-    } else {
-        terminal::print(&text)?;
-    }
-    match bad {
-        0 => Ok(()),
-        _ => Err(Failure::usage(format!(
-            "{bad} of {} cannot run",
-            plural(arguments.cases.len(), "case")
-        ))),
+        if self.json {
+            terminal::print_json(&json!({ "command": "check", "cases": reports }))?;
+        } else {
+            terminal::print(&text)?;
+        }
+        match bad {
+            0 => Ok(()),
+            _ => Err(Failure::usage(format!(
+                "{bad} of {} cannot run",
+                plural(self.cases.len(), "case", "cases")
+            ))),
+        }
     }
 }
 
@@ -119,7 +116,12 @@ fn describe_superelement(name: &str, system: &FreeSystem) -> String {
     if !system.title.is_empty() {
         let _ = write!(out, " ({})", system.title);
     }
-    let _ = writeln!(out, "\n  superelement {}: {}", own.name, plural(own.mass.rows, "unknown"));
+    let _ = writeln!(
+        out,
+        "\n  superelement {}: {}",
+        own.name,
+        plural(own.mass.rows, "unknown", "unknowns")
+    );
     out
 }
 
@@ -145,62 +147,14 @@ fn describe(name: &str, case: &Case, found: &Preflight) -> String {
         "\n  mesh: {nodes} nodes, {elements} elements, {dofs} unknowns, about {}",
         size(found.cost.mesh_memory_bytes)
     );
-    let mut longest: f64 = 0.0;
-    let mut line = |what: &str, text: String, bytes: f64, seconds: f64| {
-        let (size, time) = (size(bytes), magnitude(seconds));
-        longest = longest.max(seconds);
-        let _ = writeln!(out, "  {what}: {text}, {size}, {time} on one thread");
-    };
-    let cost = &found.cost;
-    if let Some(cea) = &cost.cea {
-        let text = format!(
-            "{}, about {} each",
-            plural(cea.friction_values, "friction value"),
-            plural(cea.modes, "mode")
-        );
-        line("cea", text, cea.memory_bytes, cea.seconds);
+    let lines = lines(case, found);
+    for (command, text, run) in &lines {
+        let (size, time) = (size(run.memory_bytes), run.time());
+        let _ = writeln!(out, "  {command}: {text}, {size}, {time} on one thread");
     }
-    if let Some(run) = &cost.transient {
-        let about = if found.is_step_exact { "" } else { "about " };
-        let text = format!("time step {about}{:.4e} s, {:.0} steps", run.time_step, run.steps);
-        line("transient", text, run.memory_bytes, run.seconds);
-    }
-    if let Some(cycle) = &cost.cycle {
-        let families = match cycle.families {
-            1 => "1 family".to_owned(),
-            count => format!("{count} families"),
-        };
-        let text = format!("{families} of {}", plural(cycle.cycles, "cycle"));
-        line("cycle", text, cycle.memory_bytes, cycle.seconds);
-    }
-    if case.basin.is_some() {
-        let text = "one boundary between two limit cycles".to_owned();
-        line("basin", text, cost.mesh_memory_bytes, cost.basin_seconds);
-    }
-    if let Some(frf) = &cost.frf {
-        let text = match frf.lines {
-            1 => "1 frequency".to_owned(),
-            count => format!("{count} frequencies"),
-        };
-        line("frf", text, frf.memory_bytes, frf.seconds);
-    }
-    if let Some(study) = &found.convergence {
-        let text = format!("{} ({})", plural(study.runs, "run"), meshes(case));
-        line("convergence", text, study.memory_bytes, study.seconds);
-    }
-    if let Some(study) = &found.sweep {
-        let text = plural(study.runs, "point");
-        line("sweep", text, study.memory_bytes, study.seconds);
-    }
-    if let Some(study) = &found.uncertainty {
-        let text = plural(study.runs, "run");
-        line("uncertainty", text, study.memory_bytes, study.seconds);
-    }
-    if longest > LONGEST_RUN {
-        let _ = writeln!(
-            out,
-            "  warning: a run of {} is hardly meant: use fewer elements, or a shorter duration",
-            duration(longest)
+    if lines.iter().any(|(_, _, run)| run.seconds() > LONGEST_RUN) {
+        out.push_str(
+            "  warning: a run of more than a month is hardly meant: use fewer elements, or a shorter duration\n",
         );
     }
     for note in &case.taken.notes {
@@ -210,6 +164,42 @@ fn describe(name: &str, case: &Case, found: &Preflight) -> String {
         let _ = writeln!(out, "  warning: {warning}");
     }
     out
+}
+
+/// What each command of a case does, and what it takes.
+fn lines(case: &Case, found: &Preflight) -> Vec<(&'static str, String, RunCost)> {
+    let Cost { cea, transient, cycle, basin, frf, .. } = found.cost;
+    let study = |name, study: Option<StudyCost>, text: &dyn Fn(usize) -> String| {
+        study.map(|own| (name, text(own.runs), own.run))
+    };
+    let about = if found.is_step_exact { "" } else { "about " };
+    let all = [
+        cea.map(|own| {
+            let (values, modes) = (own.friction_values, own.modes);
+            let values = plural(values, "friction value", "friction values");
+            ("cea", format!("{values}, about {} each", plural(modes, "mode", "modes")), own.run)
+        }),
+        transient.map(|own| {
+            let text = format!("time step {about}{:.4e} s, {:.0} steps", own.time_step, own.steps);
+            ("transient", text, own.run)
+        }),
+        cycle.map(|own| {
+            let families = plural(own.families, "family", "families");
+            ("cycle", format!("{families} of {}", plural(own.cycles, "cycle", "cycles")), own.run)
+        }),
+        basin.map(|own| {
+            let memory_bytes = found.cost.mesh_memory_bytes;
+            let text = "one boundary between two limit cycles".to_owned();
+            ("basin", text, RunCost { memory_bytes, ..own })
+        }),
+        frf.map(|own| ("frf", plural(own.lines, "frequency", "frequencies"), own.run)),
+        study("convergence", found.convergence, &|runs| {
+            format!("{} ({})", plural(runs, "run", "runs"), meshes(case))
+        }),
+        study("sweep", found.sweep, &|runs| plural(runs, "point", "points")),
+        study("uncertainty", found.uncertainty, &|runs| plural(runs, "run", "runs")),
+    ];
+    all.into_iter().flatten().collect()
 }
 
 /// The meshes and time steps of a convergence study.
@@ -234,7 +224,6 @@ fn meshes(case: &Case) -> String {
 
 fn object(name: &str, case: &Case, found: &Preflight) -> Value {
     let cost = &found.cost;
-    let study = |study: &StudyCost, runs: &str| json!({ runs: study.runs, "memory_bytes": study.memory_bytes, "estimated_s": study.seconds });
     let warnings = case.warnings.iter().chain(&found.warnings);
     json!({
         "case": name,
@@ -245,44 +234,29 @@ fn object(name: &str, case: &Case, found: &Preflight) -> Value {
         "elements": cost.elements as u64,
         "dofs": cost.dofs as u64,
         "memory_bytes": found.memory_bytes,
-        "cea": cost.cea.map(|cea| json!({
-            "friction_values": cea.friction_values,
-            "estimated_modes": cea.modes,
-            "memory_bytes": cea.memory_bytes,
-            "estimated_s": cea.seconds,
+        "cea": cost.cea,
+        "transient": cost.transient,
+        "cycle": cost.cycle,
+        "basin": cost.basin,
+        "frf": cost.frf,
+        "convergence": found.convergence,
+        "uncertainty": found.uncertainty,
+        "sweep": found.sweep.map(|own| json!({
+            "points": own.runs,
+            "memory_bytes": own.run.memory_bytes,
+            "time": own.run.time(),
         })),
-        "transient": cost.transient.map(|transient| json!({
-            "time_step_s": transient.time_step,
-            "steps": transient.steps,
-            "memory_bytes": transient.memory_bytes,
-            "estimated_s": transient.seconds,
-        })),
-        "cycle": cost.cycle.map(|cycle| json!({
-            "families": cycle.families,
-            "cycles": cycle.cycles,
-            "memory_bytes": cycle.memory_bytes,
-            "estimated_s": cycle.seconds,
-        })),
-        "basin": case.basin.as_ref().map(|_| json!({ "estimated_s": cost.basin_seconds })),
-        "frf": cost.frf.map(|frf| json!({
-            "lines": frf.lines,
-            "memory_bytes": frf.memory_bytes,
-            "estimated_s": frf.seconds,
-        })),
-        "convergence": found.convergence.as_ref().map(|cost| study(cost, "runs")),
-        "uncertainty": found.uncertainty.as_ref().map(|cost| study(cost, "runs")),
-        "sweep": found.sweep.as_ref().map(|cost| study(cost, "points")),
         "sweep_points": found.sweep.map(|sweep| sweep.runs),
         "notes": case.taken.notes,
         "warnings": warnings.map(ToString::to_string).collect::<Vec<_>>(),
     })
 }
 
-/// A count with its noun.
-fn plural(count: usize, noun: &str) -> String {
+/// A count with its noun, of one and of several.
+fn plural(count: usize, one: &str, several: &str) -> String {
     match count {
-        1 => format!("1 {noun}"),
-        _ => format!("{count} {noun}s"),
+        1 => format!("1 {one}"),
+        _ => format!("{count} {several}"),
     }
 }
 
@@ -291,26 +265,5 @@ fn size(bytes: f64) -> String {
         format!("{:.1} MiB", bytes / f64::from(1 << 20))
     } else {
         format!("{:.1} GiB", gibibytes(bytes))
-    }
-}
-
-/// A time as it is estimated: to an order of magnitude.
-fn magnitude(seconds: f64) -> &'static str {
-    match seconds {
-        s if s < 60.0 => "seconds",
-        s if s < 3600.0 => "minutes",
-        s if s < 2.0 * 86_400.0 => "hours",
-        _ => "days",
-    }
-}
-
-/// A time that is hardly meant.
-fn duration(seconds: f64) -> String {
-    const DAY: f64 = 86_400.0;
-    const YEAR: f64 = 365.25 * DAY;
-    match seconds {
-        s if s < 2.0 * YEAR => format!("{:.0} days", s / DAY),
-        s if s < 1000.0 * YEAR => format!("{:.0} years", s / YEAR),
-        _ => "over 1000 years".to_owned(),
     }
 }

@@ -1,7 +1,7 @@
 //! `frictionsim collect`: the table over the points that a sweep has finished so far.
 
 use super::figure_options::FigureOptions;
-use super::profile::Profile;
+use super::profile::{Profile, Run};
 use super::recorded_case::recorded_case;
 use super::session::start_threads;
 use super::sweep::{Finished, SweepPlan, drawing, gather};
@@ -32,39 +32,35 @@ pub struct Arguments {
     quiet: u8,
 }
 
-/// What the rest of the program asks of this command.
-pub const PROFILE: Profile = Profile {
-    files: &[("points.csv", "one row for each finished point")],
-    examples: &[("frictionsim collect study", "gather what the shards have finished")],
-};
+impl Run for Arguments {
+    const PROFILE: Profile = Profile {
+        files: &[("points.csv", "one row for each finished point")],
+        examples: &[("frictionsim collect study", "gather what the shards have finished")],
+    };
 
-/// Runs the subcommand.
-///
-/// # Errors
-/// A folder that is no sweep's, missing points, a folder that cannot be written.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let start = Instant::now();
-    terminal::start_log(arguments.quiet, 0);
-    start_threads(None);
-    let (folder, manifest) = SweepFolder::find(&arguments.folder)?;
-    let case = recorded_case(&arguments.folder, &manifest)?;
-    let plan = SweepPlan::new(&case)?;
-    let finished = Finished::of(&case, &plan, &folder)?;
-    let report = finished.report(None, start.elapsed().as_secs_f64());
-    let drawing =
-        (!arguments.no_figures).then(|| drawing(&case, &plan, &arguments.figures.drawing()));
-    let summary = gather(&folder, &report, &manifest, drawing.as_ref())?;
-    if arguments.json {
-        terminal::print_json(&summary)?;
-    } else if arguments.quiet < 2 {
-        let path = folder.path().display();
-        terminal::print(&format!("{}results in {path}\n", document(&report, false).to_text()))?;
-    }
-    match report.missing().len() {
-        0 => Ok(()),
-        missing => Err(Failure::run(format!(
-            "{missing} of {} points are missing: run the sweep again with --resume",
-            report.count
-        ))),
+    fn run(&self) -> Result<(), Failure> {
+        let start = Instant::now();
+        terminal::start_log(self.quiet, 0);
+        start_threads(None);
+        let (folder, manifest) = SweepFolder::find(&self.folder)?;
+        let case = recorded_case(&self.folder, &manifest)?;
+        let plan = SweepPlan::new(&case)?;
+        let finished = Finished::of(&case, &plan, &folder)?;
+        let report = finished.report(None, start.elapsed().as_secs_f64());
+        let drawing = (!self.no_figures).then(|| drawing(&case, &plan, &self.figures.drawing()));
+        let summary = gather(&folder, &report, &manifest, drawing.as_ref())?;
+        if self.json {
+            terminal::print_json(&summary)?;
+        } else if self.quiet < 2 {
+            let path = folder.path().display();
+            terminal::print(&format!("{}results in {path}\n", document(&report, false).to_text()))?;
+        }
+        match report.missing().len() {
+            0 => Ok(()),
+            missing => Err(Failure::run(format!(
+                "{missing} of {} points are missing: run the sweep again with --resume",
+                report.count
+            ))),
+        }
     }
 }

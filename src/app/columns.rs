@@ -1,6 +1,6 @@
 //! `frictionsim columns`: the columns of tables and the keys of `summary.json`.
 
-use super::profile::Profile;
+use super::profile::{Profile, Run};
 use super::{Failure, terminal};
 use crate::output::unit_of;
 use crate::results::reference::{markdown, reference};
@@ -21,46 +21,44 @@ pub struct Arguments {
     markdown: bool,
 }
 
-/// What the rest of the program asks of this command.
-pub const PROFILE: Profile = Profile::NONE;
+impl Run for Arguments {
+    const PROFILE: Profile = Profile::NONE;
 
-/// Runs the subcommand.
-///
-/// # Errors
-/// A word that no column has; those of stdout.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    if arguments.markdown {
-        return terminal::print(&markdown());
-    }
-    let word = arguments.word.as_deref().unwrap_or("");
-    let lower = word.to_lowercase();
-    let (mut text, mut objects) = (String::new(), Vec::new());
-    for file in reference() {
-        let holds = |text: &str| text.to_lowercase().contains(&lower);
-        let is_whole = holds(file.command) || holds(file.file);
-        let found = file.entries.iter().filter(|e| is_whole || holds(&e.key) || holds(&e.meaning));
-        for (at, entry) in found.enumerate() {
-            let unit = unit_of(&entry.key).1;
-            objects.push(json!({
-                "command": file.command, "file": file.file, "name": entry.key,
-                "unit": unit, "meaning": entry.meaning,
-            }));
-            if at == 0 {
-                let _ = writeln!(text, "{} of {}", file.file, file.command);
+    fn run(&self) -> Result<(), Failure> {
+        if self.markdown {
+            return terminal::print(&markdown());
+        }
+        let word = self.word.as_deref().unwrap_or("");
+        let lower = word.to_lowercase();
+        let (mut text, mut objects) = (String::new(), Vec::new());
+        for file in reference() {
+            let holds = |text: &str| text.to_lowercase().contains(&lower);
+            let is_whole = holds(file.command) || holds(file.file);
+            let found =
+                file.entries.iter().filter(|e| is_whole || holds(&e.key) || holds(&e.meaning));
+            for (at, entry) in found.enumerate() {
+                let unit = unit_of(&entry.key).1;
+                objects.push(json!({
+                    "command": file.command, "file": file.file, "name": entry.key,
+                    "unit": unit, "meaning": entry.meaning,
+                }));
+                if at == 0 {
+                    let _ = writeln!(text, "{} of {}", file.file, file.command);
+                }
+                let space = if unit.is_empty() { "" } else { ", " };
+                let _ = writeln!(text, "  {}{space}{unit}\n      {}", entry.key, entry.meaning);
             }
-            let space = if unit.is_empty() { "" } else { ", " };
-            let _ = writeln!(text, "  {}{space}{unit}\n      {}", entry.key, entry.meaning);
         }
-    }
-    if objects.is_empty() {
-        return Err(Failure::usage(format!(
-            "no column or key has \"{word}\" in its name or meaning"
-        )));
-    }
-    match arguments.json {
-        true => {
-            terminal::print_json(&json!({ "command": "columns", "columns": Value::from(objects) }))
+        if objects.is_empty() {
+            return Err(Failure::usage(format!(
+                "no column or key has \"{word}\" in its name or meaning"
+            )));
         }
-        false => terminal::print(&text),
+        match self.json {
+            true => terminal::print_json(
+                &json!({ "command": "columns", "columns": Value::from(objects) }),
+            ),
+            false => terminal::print(&text),
+        }
     }
 }

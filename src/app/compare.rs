@@ -1,14 +1,13 @@
 //! `frictionsim compare`: runs side by side.
 
 use super::options::OutputOptions;
-use super::profile::Profile;
+use super::profile::{Profile, Run};
 use super::{Failure, terminal};
 use crate::results::compare::{
     ComparedRun, ComparisonSummary, document, file, overlaid, print, shared,
 };
 use crate::results::{
-    DrawingError, Manifest, Page, Record, read_manifest, read_record, read_summary, write_page,
-    write_summary, write_table,
+    Manifest, Page, Record, read_manifest, read_record, read_summary, write_table,
 };
 use clap::{Args, ValueHint};
 use sha2::{Digest, Sha256};
@@ -28,62 +27,60 @@ pub struct Arguments {
     output: OutputOptions,
 }
 
-/// What the rest of the program asks of this command.
-pub const PROFILE: Profile = Profile {
-    files: &[("compare.csv", "every shared number, with differences")],
-    examples: &[("frictionsim compare a/cea b/cea", "two runs side by side")],
-};
+impl Run for Arguments {
+    const PROFILE: Profile = Profile {
+        files: &[("compare.csv", "every shared number, with differences")],
+        examples: &[("frictionsim compare a/cea b/cea", "two runs side by side")],
+    };
 
-/// Runs the subcommand.
-///
-/// # Errors
-/// Folders without finished results, or that share no number; an output folder that cannot be written.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    terminal::start_log(arguments.output.quiet, arguments.output.verbose);
-    let names = names_of(&arguments.folders);
-    let runs = arguments.folders.iter().zip(names).map(|(path, name)| {
-        let page = read_record::<Page>(path).ok();
-        Ok(ComparedRun { name, manifest: read_manifest(path)?, summary: read_summary(path)?, page })
-    });
-    let runs: Vec<ComparedRun> = runs.collect::<Result<_, Failure>>()?;
-    let quantities = shared(&runs);
-    if quantities.is_empty() {
-        let commands: Vec<&str> = runs.iter().map(|run| run.manifest.command.as_str()).collect();
-        return Err(Failure::usage(format!(
-            "these runs ({}) share no number: compare runs of one command",
-            commands.join(", ")
-        )));
+    fn run(&self) -> Result<(), Failure> {
+        terminal::start_log(self.output.quiet, self.output.verbose);
+        let names = names_of(&self.folders);
+        let runs = self.folders.iter().zip(names).map(|(path, name)| {
+            let page = read_record::<Page>(path).ok();
+            Ok(ComparedRun {
+                name,
+                manifest: read_manifest(path)?,
+                summary: read_summary(path)?,
+                page,
+            })
+        });
+        let runs: Vec<ComparedRun> = runs.collect::<Result<_, Failure>>()?;
+        let quantities = shared(&runs);
+        if quantities.is_empty() {
+            let commands: Vec<&str> =
+                runs.iter().map(|run| run.manifest.command.as_str()).collect();
+            return Err(Failure::usage(format!(
+                "these runs ({}) share no number: compare runs of one command",
+                commands.join(", ")
+            )));
+        }
+        for run in runs.iter().filter(|run| run.page.is_none()) {
+            tracing::warn!(
+                "{} has no {}, so its figures are left out: run it again with figures",
+                run.name,
+                Page::FILE
+            );
+        }
+        let manifest = manifest_of(&self.folders, &runs);
+        let output = match self.output.out {
+            Some(_) => self.output.clone(),
+            None => OutputOptions {
+                out: Some(default_folder(&runs, &manifest, self.output.force)),
+                ..self.output.clone()
+            },
+        };
+        let folder = output.open_folder(&manifest, false)?;
+        write_table(&folder, &file(&runs, &quantities))?;
+        let (text, document) = (print(&runs, &quantities), document(&runs, &quantities));
+        let summary = ComparisonSummary {
+            command: "compare".into(),
+            runs: runs.iter().map(|run| run.name.clone()).collect(),
+            quantities,
+            manifest,
+        };
+        output.finish_result(folder, &text, document, &summary, || overlaid(&runs))
     }
-    for run in runs.iter().filter(|run| run.page.is_none()) {
-        tracing::warn!(
-            "{} has no {}, so its figures are left out: run it again with figures",
-            run.name,
-            Page::FILE
-        );
-    }
-    let manifest = manifest_of(&arguments.folders, &runs);
-    let output = match arguments.output.out {
-        Some(_) => arguments.output.clone(),
-        None => OutputOptions {
-            out: Some(default_folder(&runs, &manifest, arguments.output.force)),
-            ..arguments.output.clone()
-        },
-    };
-    let folder = output.open_folder(&manifest, false)?;
-    write_table(&folder, &file(&runs, &quantities))?;
-    if let Some(drawing) = arguments.output.drawing() {
-        let figures = overlaid(&runs).map_err(DrawingError::from)?;
-        write_page(&folder, document(&runs, &quantities), figures, &drawing)?;
-    }
-    let table = print(&runs, &quantities);
-    let summary = ComparisonSummary {
-        command: "compare".into(),
-        runs: runs.into_iter().map(|run| run.name).collect(),
-        quantities,
-        manifest,
-    };
-    let summary = write_summary(&folder, &summary)?;
-    output.finish(folder, &table, &summary)
 }
 
 /// `results/compare/A-B`, after the names of the runs; where that holds another comparison, with the beginning of its own hash.

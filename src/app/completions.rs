@@ -1,6 +1,6 @@
 //! `frictionsim completions`: a shell's completion script.
 
-use super::profile::Profile;
+use super::profile::{Profile, Run};
 use super::{CommandLine, Failure, terminal};
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;
@@ -12,16 +12,13 @@ pub struct Arguments {
     shell: Shell,
 }
 
-/// What the rest of the program asks of this command.
-pub const PROFILE: Profile = Profile::NONE;
+impl Run for Arguments {
+    const PROFILE: Profile = Profile::NONE;
 
-/// Runs the subcommand.
-///
-/// # Errors
-/// Those of stdout.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let mut script = Vec::new();
-    let mut command = CommandLine::command();
-    clap_complete::generate(arguments.shell, &mut command, "frictionsim", &mut script);
-    terminal::print(&String::from_utf8_lossy(&script))
+    fn run(&self) -> Result<(), Failure> {
+        let mut script = Vec::new();
+        let mut command = CommandLine::command();
+        clap_complete::generate(self.shell, &mut command, "frictionsim", &mut script);
+        terminal::print(&String::from_utf8_lossy(&script))
+    }
 }

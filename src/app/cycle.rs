@@ -1,9 +1,9 @@
 //! `frictionsim cycle`: limit cycles found directly, and followed over a parameter.
 
-use super::profile::Profile;
+use super::profile::{Profile, Run};
 use super::session::{available_memory, gibibytes};
 use super::{Failure, RunOptions, Session, terminal};
-use crate::case::Case;
+use crate::case::{Case, refusal};
 use crate::results::OutputFolder;
 use crate::results::cea::KeptSteps;
 use crate::results::cycle::{CycleFigures, CycleRecord, CycleReport, PeriodicResult};
@@ -35,51 +35,40 @@ const KEPT_PAIRS: &str =
 const KEPT: &str = "cycles and points of branches that are done are kept (done-modeK.json tells of a mode that is done): the same \
                     command with --resume goes on";
 
-/// What the rest of the program asks of this command.
-pub const PROFILE: Profile = Profile {
-    files: &[
-        ("cycle-nN.csv", "contact and motion of the edge along the phase"),
-        ("branch-nN.csv", "one row for each cycle of a branch"),
-        ("stability-nN.csv", "exponents of perturbations"),
-        (
-            "two-waves-nN-nM.csv, .vtu",
-            "one row for each motion of two frequencies; its field over one period of the first wave",
-        ),
-        ("cycles.pvd, cycle-nN.vtu", "fields over one period"),
-        (
-            "cycle-modeK.csv, contact-modeK.csv, .npz, harmonics-modeK.csv",
-            "of a body without symmetry: the contact over one period, its nodes, harmonics in time",
-        ),
-    ],
-    examples: &[
-        ("frictionsim cycle disc.toml", "the limit cycles of a case, without time stepping"),
-        (
-            "frictionsim cycle block.toml --resume",
-            "go on where a search on any other body was interrupted",
-        ),
-    ],
-};
+impl Run for Arguments {
+    const PROFILE: Profile = Profile {
+        files: &[
+            ("cycle-nN.csv", "contact and motion of the edge along the phase"),
+            ("branch-nN.csv", "one row for each cycle of a branch"),
+            ("stability-nN.csv", "exponents of perturbations"),
+            (
+                "two-waves-nN-nM.csv, .vtu",
+                "one row for each motion of two frequencies; its field over one period of the first wave",
+            ),
+            ("cycles.pvd, cycle-nN.vtu", "fields over one period"),
+            (
+                "cycle-modeK.csv, contact-modeK.csv, .npz, harmonics-modeK.csv",
+                "of a body without symmetry: the contact over one period, its nodes, harmonics in time",
+            ),
+        ],
+        examples: &[
+            ("frictionsim cycle disc.toml", "the limit cycles of a case, without time stepping"),
+            (
+                "frictionsim cycle block.toml --resume",
+                "go on where a search on any other body was interrupted",
+            ),
+        ],
+    };
 
-/// Runs the subcommand.
-///
-/// # Errors
-/// A bad case, a search that finds no cycle at all, an output folder that cannot be written.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let session = Session::start("cycle", &arguments.options)?;
-    let case = &session.case;
-    case.require_cycle()?;
-    session.check_memory(case.memory("cycle").0)?;
-    match case.has_rotating_waves() {
-        true => waves(&session, arguments.resume),
-        false => motions(&session, arguments.resume),
-    }
-}
-
-/// Takes the folder of a search.
-fn opened(session: &Session, is_continued: bool) -> Result<OutputFolder, Failure> {
-    match is_continued {
-        true => session.reopen_folder(),
-        false => session.open_folder(),
+    fn run(&self) -> Result<(), Failure> {
+        let session = Session::start("cycle", &self.options)?;
+        let case = &session.case;
+        case.require_cycle()?;
+        session.check_memory(case.memory("cycle").0)?;
+        match case.has_rotating_waves() {
+            true => waves(&session, self.resume),
+            false => motions(&session, self.resume),
+        }
     }
 }
 
@@ -87,7 +76,7 @@ fn opened(session: &Session, is_continued: bool) -> Result<OutputFolder, Failure
 fn waves(session: &Session, is_continued: bool) -> Result<(), Failure> {
     check_memory(&session.case)?;
     let study = CycleStudy::new(&session.case, session.simd)?;
-    let folder = opened(session, is_continued)?;
+    let folder = session.open_folder(is_continued)?;
     let families = study.family_count() as u64;
     let bar = terminal::progress(session.options.output.is_quiet(), families, "families");
     let steps = KeptSteps::new(&folder, is_continued, &|_| {})?;
@@ -107,7 +96,7 @@ fn waves(session: &Session, is_continued: bool) -> Result<(), Failure> {
 /// Searches for motions of the whole mesh.
 fn motions(session: &Session, is_continued: bool) -> Result<(), Failure> {
     let study = PeriodicStudy::new(&session.case, session.simd)?;
-    let folder = opened(session, is_continued)?;
+    let folder = session.open_folder(is_continued)?;
     let steps = KeptSteps::new(&folder, is_continued, &|_| {})?;
     let sought = study.sought_count() as u64;
     let bar = terminal::progress(session.options.output.is_quiet(), sought, "modes");
@@ -163,7 +152,7 @@ fn written(
 /// # Errors
 /// [`Failure::Case`] at `cycle.phases`.
 pub fn check_memory(case: &Case) -> Result<(), Failure> {
-    let bytes = case.cost().cycle.map_or(0.0, |cycle| cycle.memory_bytes);
+    let bytes = case.cost().cycle.map_or(0.0, |cycle| cycle.run.memory_bytes);
     let available = available_memory().unwrap_or(f64::INFINITY);
     if bytes <= available {
         return Ok(());
@@ -171,14 +160,8 @@ pub fn check_memory(case: &Case) -> Result<(), Failure> {
     if !case.has_rotating_waves() {
         return Err(Failure::Case(case.memory_error("cycle", bytes, available)));
     }
-    Err(Failure::Case(case.error_at(
-        "cycle.phases",
-        format!(
-            "the search for limit cycles needs about {:.1} GiB of memory, {:.1} GiB are available",
-            gibibytes(bytes),
-            gibibytes(available)
-        ),
-        "too many phases for this machine",
-        "lower cycle.phases, or leave it out",
-    )))
+    Err(Failure::Case(refusal!(case, "cycle.phases",
+        "the search for limit cycles needs about {:.1} GiB of memory, {:.1} GiB are \
+         available", gibibytes(bytes), gibibytes(available);
+        "too many phases for this machine"; "lower cycle.phases, or leave it out")))
 }

@@ -1,8 +1,8 @@
 //! `frictionsim fit`: parameters of a case from measured modes.
 
 use super::limits::{input_name, read_input};
-use super::profile::Profile;
-use super::{Failure, RunOptions, Session, terminal};
+use super::profile::{Profile, Run};
+use super::{Failure, RunOptions, Session};
 use crate::results::fit::BLOCK;
 use crate::signal::reader::{MeasuredShape, read_modes, read_shapes};
 use crate::study::fit::{MeasuredShapes, fit_case_with_shapes, refuse_too_few, summarize};
@@ -32,50 +32,48 @@ pub struct Arguments {
     scale: f64,
 }
 
-/// What the rest of the program asks of this command.
-pub const PROFILE: Profile = Profile {
-    files: &[
-        ("fit.csv", "each measured line with its mode and their difference"),
-        ("modes.csv", "every mode of the fitted model"),
-        ("fitted.toml", "sections with the fitted values to paste into a case"),
-    ],
-    examples: &[
-        ("frictionsim fit bench.toml squeal.csv", "which support explains the frequencies heard?"),
-        (
-            "frictionsim fit bench.toml modes.csv --shapes shapes.unv --scale 0.001",
-            "the same where shapes tell close modes apart",
-        ),
-    ],
-};
+impl Run for Arguments {
+    const PROFILE: Profile = Profile {
+        files: &[
+            ("fit.csv", "each measured line with its mode and their difference"),
+            ("modes.csv", "every mode of the fitted model"),
+            ("fitted.toml", "sections with the fitted values to paste into a case"),
+        ],
+        examples: &[
+            (
+                "frictionsim fit bench.toml squeal.csv",
+                "which support explains the frequencies heard?",
+            ),
+            (
+                "frictionsim fit bench.toml modes.csv --shapes shapes.unv --scale 0.001",
+                "the same where shapes tell close modes apart",
+            ),
+        ],
+    };
 
-/// Runs the subcommand.
-///
-/// # Errors
-/// A bad case or table (exit code 2); a fit that cannot be made (1); an output folder that cannot be written.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let mut session = Session::start("fit", &arguments.options)?;
-    session.case.require_fit()?;
-    let bytes = read_input(&arguments.modes, MEASUREMENT)?;
-    let lines = read_modes(&bytes, &input_name(&arguments.modes))?;
-    session.manifest.case_hash = joint_hash(&session.manifest.case_hash, &bytes);
-    let shapes = read_measured(arguments, &mut session)?;
-    let shapes = shapes.as_deref().map(|shapes| MeasuredShapes { shapes, scale: arguments.scale });
-    session.check_memory(session.case.cost().mesh_memory_bytes)?;
-    refuse_too_few(&session.case, &lines)?;
-    let folder = session.open_folder()?;
-    terminal::catch_signals(terminal::NOTHING_KEPT);
+    fn run(&self) -> Result<(), Failure> {
+        let mut session = Session::start("fit", &self.options)?;
+        session.case.require_fit()?;
+        let bytes = read_input(&self.modes, MEASUREMENT)?;
+        let lines = read_modes(&bytes, &input_name(&self.modes))?;
+        session.manifest.case_hash = joint_hash(&session.manifest.case_hash, &bytes);
+        let shapes = read_measured(self, &mut session)?;
+        let shapes = shapes.as_deref().map(|shapes| MeasuredShapes { shapes, scale: self.scale });
+        refuse_too_few(&session.case, &lines)?;
+        let folder = session.begin()?;
 
-    let case = &session.case;
-    let fitted = fit_case_with_shapes(case, &lines, shapes)?;
-    let mut found = summarize(case, &lines, &fitted)?;
-    found.measurement = input_name(&arguments.modes);
-    found.wall_s = session.wall_seconds();
-    found.manifest = folder.manifest().clone();
-    for note in &found.notes {
-        tracing::warn!("{note}");
+        let case = &session.case;
+        let fitted = fit_case_with_shapes(case, &lines, shapes)?;
+        let mut found = summarize(case, &lines, &fitted)?;
+        found.measurement = input_name(&self.modes);
+        found.wall_s = session.wall_seconds();
+        found.manifest = folder.manifest().clone();
+        for note in &found.notes {
+            tracing::warn!("{note}");
+        }
+        folder.write(BLOCK, |out| out.write_all(found.block().as_bytes()))?;
+        session.options.output.finish_finding(folder, &found)
     }
-    folder.write(BLOCK, |out| out.write_all(found.block().as_bytes()))?;
-    session.options.output.finish_finding(folder, &found)
 }
 
 /// The measured shapes, if there are some; results belong to them and their scale too.
@@ -94,9 +92,6 @@ fn read_measured(
 }
 
 /// Refuses a factor that takes no coordinates to metres.
-///
-/// # Errors
-/// That one.
 pub(super) fn scale_of_shapes(scale: f64) -> Result<(), Failure> {
     if scale > 0.0 && scale.is_finite() {
         return Ok(());

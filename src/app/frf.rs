@@ -1,12 +1,10 @@
 //! `frictionsim frf`: frequency response of the model between two nodes.
 
-use super::profile::Profile;
+use super::profile::{Profile, Run};
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, Frf};
 use crate::frf::Terminal;
-use crate::results::{
-    ResponseSummary, draw_response_report, write_response, write_summary, write_universal_response,
-};
+use crate::results::{ResponseSummary, response_figure, write_response, write_universal_response};
 use crate::signal::FrequencyResponse;
 use crate::study::response::{FrequencyStudy, Response};
 use clap::Args;
@@ -21,68 +19,59 @@ pub struct Arguments {
     options: RunOptions,
 }
 
-/// What the rest of the program asks of this command.
-pub const PROFILE: Profile = Profile {
-    files: &[
-        ("frf.csv", "frequency, real and imaginary part"),
-        ("frf.unv", "the response as a universal file (output.universal)"),
-    ],
-    examples: &[("frictionsim frf hammer-test.toml", "response of the model between two nodes")],
-};
-
-/// Runs the subcommand.
-///
-/// # Errors
-/// A bad case (exit code 2), contact that opens or a system at undamped resonance (1).
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let session = Session::start("frf", &arguments.options)?;
-    let case = &session.case;
-    let frf = case.require_frf()?;
-    session.check_memory(case.memory("frf").0)?;
-    let folder = session.open_folder()?;
-    terminal::catch_signals(terminal::NOTHING_KEPT);
-    let bar = terminal::progress(session.options.output.is_quiet(), 0, "frequencies");
-    let computed = FrequencyStudy::new(case)?.solve(&|lines| {
-        bar.set_length(frf.frequencies_hz.len() as u64);
-        bar.inc(lines as u64);
-    })?;
-    bar.finish_and_clear();
-    let values = computed.observed(frf);
-    write_response(&folder, frf.quantity, &frf.frequencies_hz, &values)?;
-    if case.output.universal {
-        write_universal_response(&folder, frf.quantity, &frf.frequencies_hz, &values)?;
-    }
-    let summary = ResponseSummary {
-        command: "frf".to_owned(),
-        title: case.title.clone(),
-        description: described(case, frf, &computed),
-        dofs: computed.dofs,
-        lines: frf.frequencies_hz.len(),
-        method: computed.method.to_owned(),
-        largest_error: computed.largest_error,
-        basis_vectors: computed.vectors,
-        backward_error: computed.backward_error,
-        quantity: frf.quantity.name().to_owned(),
-        noise: frf.noise,
-        wall_s: session.wall_seconds(),
-        manifest: session.manifest.clone(),
+impl Run for Arguments {
+    const PROFILE: Profile = Profile {
+        files: &[
+            ("frf.csv", "frequency, real and imaginary part"),
+            ("frf.unv", "the response as a universal file (output.universal)"),
+        ],
+        examples: &[(
+            "frictionsim frf hammer-test.toml",
+            "response of the model between two nodes",
+        )],
     };
-    let object = write_summary(&folder, &summary)?;
-    if !session.options.output.no_figures {
+
+    fn run(&self) -> Result<(), Failure> {
+        let session = Session::start("frf", &self.options)?;
+        let case = &session.case;
+        let frf = case.require_frf()?;
+        let folder = session.begin()?;
+        let bar = terminal::progress(session.options.output.is_quiet(), 0, "frequencies");
+        let computed = FrequencyStudy::new(case)?.solve(&|lines| {
+            bar.set_length(frf.frequencies_hz.len() as u64);
+            bar.inc(lines as u64);
+        })?;
+        bar.finish_and_clear();
+        let values = computed.observed(frf);
+        write_response(&folder, frf.quantity, &frf.frequencies_hz, &values)?;
+        if case.output.universal {
+            write_universal_response(&folder, frf.quantity, &frf.frequencies_hz, &values)?;
+        }
+        let summary = ResponseSummary {
+            command: "frf".to_owned(),
+            title: case.title.clone(),
+            description: described(case, frf, &computed),
+            dofs: computed.dofs,
+            lines: frf.frequencies_hz.len(),
+            method: computed.method.to_owned(),
+            largest_error: computed.largest_error,
+            basis_vectors: computed.vectors,
+            backward_error: computed.backward_error,
+            quantity: frf.quantity.name().to_owned(),
+            noise: frf.noise,
+            wall_s: session.wall_seconds(),
+            manifest: session.manifest.clone(),
+        };
+        let document = summary.document();
+        let text = document.to_text();
         let response = FrequencyResponse::new(frf.frequencies_hz.clone(), values, frf.quantity);
         let response = response.map_err(Failure::run)?;
-        draw_response_report(
-            &folder,
-            &response,
-            &summary,
-            &session.options.output.figures.drawing(),
-        )?;
+        let figures = || Ok(vec![response_figure(&response)]);
+        session.options.output.finish_result(folder, &text, document, &summary, figures)
     }
-    let path = folder.destination().to_owned();
-    folder.finish()?;
-    session.print(&summary.document().to_text(), &object, &path)
 }
 
+/// What was computed, in a sentence.
 fn described(case: &Case, frf: &Frf, computed: &Response) -> String {
     let place = |t: Terminal| {
         let direction = t.direction.name();

@@ -3,12 +3,11 @@
 use super::Failure;
 use super::measurement::{Measurement, SideFile};
 use super::options::OutputOptions;
-use super::profile::Profile;
+use super::profile::{Profile, Run};
 use crate::results::identification::{
     DAMPING_BLOCK, IdentificationRecord, IdentificationSummary, document, identification,
     write_fits,
 };
-use crate::results::{write_page, write_summary, write_tables};
 use crate::signal::reader::{ResponseOptions, read_response, write_response};
 use crate::signal::{FrequencyResponse, IdentificationOptions, ResponseQuantity, identify};
 use clap::{Args, ValueEnum, ValueHint};
@@ -68,64 +67,61 @@ impl From<Quantity> for ResponseQuantity {
     }
 }
 
-/// What the rest of the program asks of this command.
-pub const PROFILE: Profile = Profile {
-    files: &[
-        ("modes.csv, fit.csv", "frequencies and damping factors, and the fit through them"),
-        ("damping.toml", "a [damping] block to paste into a case"),
-    ],
-    examples: &[("frictionsim identify FRF.csv --json", "Rayleigh coefficients with intervals")],
-};
-
-/// Runs the subcommand.
-///
-/// # Errors
-/// A table that cannot be read (exit code 2), one without usable resonances (1), or an output folder
-/// that cannot be written.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let options = identification_options(arguments)?;
-    let uff = arguments.uff.as_deref();
-    let copy = uff
-        .map(|path| SideFile::prepare("--uff", path, &arguments.response, arguments.output.force))
-        .transpose()?;
-    let measurement =
-        Measurement::start("identify", &arguments.response, &arguments.output, choices(arguments))?;
-    let reading = ResponseOptions {
-        quantity: arguments.quantity.map(ResponseQuantity::from),
-        columns: arguments.columns.clone(),
-        channels: arguments.channel.clone(),
+impl Run for Arguments {
+    const PROFILE: Profile = Profile {
+        files: &[
+            ("modes.csv, fit.csv", "frequencies and damping factors, and the fit through them"),
+            ("damping.toml", "a [damping] block to paste into a case"),
+        ],
+        examples: &[(
+            "frictionsim identify FRF.csv --json",
+            "Rayleigh coefficients with intervals",
+        )],
     };
-    let file = read_response(&measurement.bytes, &measurement.source, &reading)?;
-    for note in &file.notes {
-        tracing::warn!("{}: {note}", measurement.source);
-    }
-    let responses: Vec<FrequencyResponse> =
-        file.responses.iter().map(|named| named.response.clone()).collect();
-    let found = identify(&responses, &options)
-        .map_err(|error| Failure::run(format!("{}: {error}", measurement.source)))?;
-    let folder = measurement.open_folder()?;
-    let summary = IdentificationSummary::new(
-        &measurement.source,
-        &file.responses,
-        &found,
-        file.notes.clone(),
-        measurement.wall_seconds(),
-        folder.manifest().clone(),
-    );
-    write_fits(&folder, &file.responses, &found.fit)?;
-    let block = summary.damping_block();
-    folder.write(DAMPING_BLOCK, |out| out.write_all(block.as_bytes()))?;
-    write_tables(&folder, &document(&summary))?;
-    let object = write_summary(&folder, &summary)?;
-    if let Some(copy) = copy {
-        let text: String = file.responses.iter().map(write_response).collect();
-        copy.write(text.as_bytes())?;
-    }
-    if let Some(drawing) = arguments.output.drawing() {
+
+    fn run(&self) -> Result<(), Failure> {
+        let options = identification_options(self)?;
+        let uff = self.uff.as_deref();
+        let copy = uff
+            .map(|path| SideFile::prepare("--uff", path, &self.response, self.output.force))
+            .transpose()?;
+        let measurement =
+            Measurement::start("identify", &self.response, &self.output, choices(self))?;
+        let reading = ResponseOptions {
+            quantity: self.quantity.map(ResponseQuantity::from),
+            columns: self.columns.clone(),
+            channels: self.channel.clone(),
+        };
+        let file = read_response(&measurement.bytes, &measurement.source, &reading)?;
+        for note in &file.notes {
+            tracing::warn!("{}: {note}", measurement.source);
+        }
+        let responses: Vec<FrequencyResponse> =
+            file.responses.iter().map(|named| named.response.clone()).collect();
+        let found = identify(&responses, &options)
+            .map_err(|error| Failure::run(format!("{}: {error}", measurement.source)))?;
+        let folder = measurement.open_folder()?;
+        let summary = IdentificationSummary::new(
+            &measurement.source,
+            &file.responses,
+            &found,
+            file.notes.clone(),
+            measurement.wall_seconds(),
+            folder.manifest().clone(),
+        );
+        write_fits(&folder, &file.responses, &found.fit)?;
+        let block = summary.damping_block();
+        folder.write(DAMPING_BLOCK, |out| out.write_all(block.as_bytes()))?;
+        if let Some(copy) = copy {
+            let text: String = file.responses.iter().map(write_response).collect();
+            copy.write(text.as_bytes())?;
+        }
+        let document = document(&summary);
+        let text = document.to_text();
         let record = IdentificationRecord::of(&responses[0], &found);
-        write_page(&folder, document(&summary), vec![identification(&record)], &drawing)?;
+        let figures = || Ok(vec![identification(&record)]);
+        self.output.finish_result(folder, &text, document, &summary, figures)
     }
-    arguments.output.finish(folder, &document(&summary).to_text(), &object)
 }
 
 /// The frequency range, checked.

@@ -1,9 +1,8 @@
 //! `frictionsim improve`: where a modification silences unstable modes.
 
-use super::profile::Profile;
-use super::{Failure, RunOptions, Session, terminal};
-use crate::results::improve::{ImproveSummary, document, draw, write};
-use crate::results::write_summary;
+use super::profile::{Profile, Run};
+use super::{Failure, RunOptions, Session};
+use crate::results::improve::{ImproveSummary, document, figures, write};
 use crate::study::extent_of;
 use crate::study::improve::improve;
 use clap::Args;
@@ -19,53 +18,45 @@ pub struct Arguments {
     options: RunOptions,
 }
 
-/// What the rest of the program asks of this command.
-pub const PROFILE: Profile = Profile {
-    files: &[
-        ("candidates.csv", "one row for each modification, the best first"),
-        ("improve.vtu", "derivatives of growth by a modification at each place"),
-        ("improved.toml", "the keys that make the best one"),
-    ],
-    examples: &[
-        ("frictionsim improve disc.toml", "what raises the critical friction most"),
-        (
-            "frictionsim improve disc.toml --set improve.modifications=mass --set improve.mass=0.005",
-            "where five grams do",
-        ),
-    ],
-};
-
-/// Runs the subcommand.
-///
-/// # Errors
-/// A bad case, nothing that grows, an output folder that cannot be written.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let session = Session::start("improve", &arguments.options)?;
-    let cost = session.case.cost();
-    let solver_bytes = cost.cea.map_or(0.0, |cea| cea.memory_bytes);
-    session.check_memory(cost.mesh_memory_bytes + solver_bytes)?;
-    session.case.require_cea()?;
-    let folder = session.open_folder()?;
-    terminal::catch_signals(terminal::NOTHING_KEPT);
-    let found = improve(&session.case)?;
-    let summary = ImproveSummary {
-        command: "improve".to_owned(),
-        title: session.case.title.clone(),
-        wall_s: session.wall_seconds(),
-        dofs: found.dofs,
-        friction_coefficient: session.case.contact.sliding.friction_coefficient,
-        base: found.base,
-        modes: found.modes.clone(),
-        sizes: found.sizes,
-        extent: extent_of(&session.case),
-        candidates: found.candidates.clone(),
-        notes: found.notes.clone(),
-        manifest: session.manifest.clone(),
+impl Run for Arguments {
+    const PROFILE: Profile = Profile {
+        files: &[
+            ("candidates.csv", "one row for each modification, the best first"),
+            ("improve.vtu", "derivatives of growth by a modification at each place"),
+            ("improved.toml", "the keys that make the best one"),
+        ],
+        examples: &[
+            ("frictionsim improve disc.toml", "what raises the critical friction most"),
+            (
+                "frictionsim improve disc.toml --set improve.modifications=mass --set improve.mass=0.005",
+                "where five grams do",
+            ),
+        ],
     };
-    write(&folder, &summary, &found.mesh, &found.fields)?;
-    if let Some(drawing) = session.options.output.drawing() {
-        draw(&folder, &summary, &found.mesh, &found.fields, &drawing)?;
+
+    fn run(&self) -> Result<(), Failure> {
+        let session = Session::start("improve", &self.options)?;
+        session.case.require_cea()?;
+        let folder = session.begin()?;
+        let found = improve(&session.case)?;
+        let summary = ImproveSummary {
+            command: "improve".to_owned(),
+            title: session.case.title.clone(),
+            wall_s: session.wall_seconds(),
+            dofs: found.dofs,
+            friction_coefficient: session.case.contact.sliding.friction_coefficient,
+            base: found.base,
+            modes: found.modes.clone(),
+            sizes: found.sizes,
+            extent: extent_of(&session.case),
+            candidates: found.candidates.clone(),
+            notes: found.notes.clone(),
+            manifest: session.manifest.clone(),
+        };
+        write(&folder, &summary, &found.mesh, &found.fields)?;
+        let document = document(&summary);
+        let text = document.to_text();
+        let figures = || figures(&summary, &found.mesh, &found.fields);
+        session.options.output.finish_result(folder, &text, document, &summary, figures)
     }
-    let object = write_summary(&folder, &summary)?;
-    session.options.output.finish(folder, &document(&summary).to_text(), &object)
 }

@@ -1,6 +1,6 @@
 //! `frictionsim init`: a commented case to start from.
 
-use super::profile::Profile;
+use super::profile::{Profile, Run};
 use super::shipped::{ShippedCase, ShippedFile, all_cases, all_files};
 use super::{Failure, terminal};
 use crate::case::{case_from, reference};
@@ -51,60 +51,57 @@ pub struct Arguments {
     force: bool,
 }
 
-/// What the rest of the program asks of this command.
-pub const PROFILE: Profile = Profile {
-    files: &[
-        ("TEMPLATE.toml", "the commented case"),
-        ("meshes/*, *.csv", "the mesh or table that it needs, if any"),
-    ],
-    examples: &[
-        ("frictionsim init transient", "write transient.toml"),
-        ("frictionsim init mesh -o part.toml", "a part of your own: part.toml and its mesh"),
-        (
-            "frictionsim init --from brake.inp",
-            "brake.toml with the materials, ties, contacts and conditions of brake.inp",
-        ),
-        ("frictionsim init --all", "every shipped case, in the folder cases"),
-    ],
-};
+impl Run for Arguments {
+    const PROFILE: Profile = Profile {
+        files: &[
+            ("TEMPLATE.toml", "the commented case"),
+            ("meshes/*, *.csv", "the mesh or table that it needs, if any"),
+        ],
+        examples: &[
+            ("frictionsim init transient", "write transient.toml"),
+            ("frictionsim init mesh -o part.toml", "a part of your own: part.toml and its mesh"),
+            (
+                "frictionsim init --from brake.inp",
+                "brake.toml with the materials, ties, contacts and conditions of brake.inp",
+            ),
+            ("frictionsim init --all", "every shipped case, in the folder cases"),
+        ],
+    };
 
-/// Runs the subcommand.
-///
-/// # Errors
-/// An unknown template, an existing file without `--force`, a file that cannot be written.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    if arguments.list {
-        return terminal::print(&list());
+    fn run(&self) -> Result<(), Failure> {
+        if self.list {
+            return terminal::print(&list());
+        }
+        if self.all {
+            return write_all(self);
+        }
+        if let Some(mesh) = &self.from {
+            return start_from(mesh, self);
+        }
+        let name = self.template.as_str();
+        let case = if name == REFERENCE { None } else { Some(find(name)?) };
+        let path = match &self.out {
+            Some(path) => path.clone(),
+            None => PathBuf::from(format!("{name}.toml")),
+        };
+        let is_stdout = path == Path::new("-");
+        let shown = match path.file_name() {
+            Some(name) if !is_stdout => name.to_string_lossy().into_owned(),
+            _ => format!("{name}.toml"),
+        };
+        let text = match &case {
+            Some(case) => case.named(&shown),
+            None => reference::template(),
+        };
+        if is_stdout {
+            return terminal::print(&text);
+        }
+        let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
+        let beside = case.map_or(Vec::new(), |case| case.files());
+        let mut files = vec![(path, text.as_bytes())];
+        files.extend(missing(&folder, beside));
+        write_files(&files, self.force)
     }
-    if arguments.all {
-        return write_all(arguments);
-    }
-    if let Some(mesh) = &arguments.from {
-        return start_from(mesh, arguments);
-    }
-    let name = arguments.template.as_str();
-    let case = if name == REFERENCE { None } else { Some(find(name)?) };
-    let path = match &arguments.out {
-        Some(path) => path.clone(),
-        None => PathBuf::from(format!("{name}.toml")),
-    };
-    let is_stdout = path == Path::new("-");
-    let shown = match path.file_name() {
-        Some(name) if !is_stdout => name.to_string_lossy().into_owned(),
-        _ => format!("{name}.toml"),
-    };
-    let text = match &case {
-        Some(case) => case.named(&shown),
-        None => reference::template(),
-    };
-    if is_stdout {
-        return terminal::print(&text);
-    }
-    let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
-    let beside = case.map_or(Vec::new(), |case| case.files());
-    let mut files = vec![(path, text.as_bytes())];
-    files.extend(missing(&folder, beside));
-    write_files(&files, arguments.force)
 }
 
 /// Every shipped case with its short name and its title, one on a line.

@@ -1,6 +1,6 @@
 //! `frictionsim keys`: every key of a case file.
 
-use super::profile::Profile;
+use super::profile::{Profile, Run};
 use super::{Failure, terminal};
 use crate::case::{CaseKey, KEYS, reference};
 use clap::Args;
@@ -23,33 +23,33 @@ pub struct Arguments {
     schema: bool,
 }
 
-/// What the rest of the program asks of this command.
-pub const PROFILE: Profile = Profile::NONE;
+impl Run for Arguments {
+    const PROFILE: Profile = Profile::NONE;
 
-/// Runs the subcommand.
-///
-/// # Errors
-/// A word that no key has; those of stdout.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    if arguments.schema {
-        return terminal::print_json(&reference::schema());
+    fn run(&self) -> Result<(), Failure> {
+        if self.schema {
+            return terminal::print_json(&reference::schema());
+        }
+        if self.markdown {
+            return terminal::print(&reference::markdown());
+        }
+        let word = self.word.as_deref().unwrap_or("");
+        let lower = word.to_lowercase();
+        let holds = |key: &&CaseKey| {
+            key.name.contains(&lower) || key.meaning.to_lowercase().contains(&lower)
+        };
+        let keys: Vec<&CaseKey> = KEYS.iter().filter(holds).collect();
+        if keys.is_empty() {
+            return Err(Failure::usage(format!(
+                "no case key has \"{word}\" in its name or meaning"
+            )));
+        }
+        if self.json {
+            let objects: Vec<Value> = keys.iter().map(|key| reference::object(key)).collect();
+            return terminal::print_json(&json!({ "command": "keys", "keys": objects }));
+        }
+        terminal::print(&describe(&keys))
     }
-    if arguments.markdown {
-        return terminal::print(&reference::markdown());
-    }
-    let word = arguments.word.as_deref().unwrap_or("");
-    let lower = word.to_lowercase();
-    let holds =
-        |key: &&CaseKey| key.name.contains(&lower) || key.meaning.to_lowercase().contains(&lower);
-    let keys: Vec<&CaseKey> = KEYS.iter().filter(holds).collect();
-    if keys.is_empty() {
-        return Err(Failure::usage(format!("no case key has \"{word}\" in its name or meaning")));
-    }
-    if arguments.json {
-        let objects: Vec<Value> = keys.iter().map(|key| reference::object(key)).collect();
-        return terminal::print_json(&json!({ "command": "keys", "keys": objects }));
-    }
-    terminal::print(&describe(&keys))
 }
 
 /// Two lines for each key, section by section.

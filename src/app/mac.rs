@@ -1,8 +1,8 @@
 //! `frictionsim mac`: modal assurance of measured shapes.
 
 use super::limits::{input_name, read_input};
-use super::profile::Profile;
-use super::{Failure, RunOptions, Session, terminal};
+use super::profile::{Profile, Run};
+use super::{Failure, RunOptions, Session};
 use crate::results::mac::MacSummary;
 use crate::signal::reader::read_shapes;
 use crate::study::mac::assurance;
@@ -27,47 +27,40 @@ pub struct Arguments {
     scale: f64,
 }
 
-/// What the rest of the program asks of this command.
-pub const PROFILE: Profile = Profile {
-    files: &[("mac.csv", "one row for each shape and mode")],
-    examples: &[(
-        "frictionsim mac disc.toml shapes.unv --scale 0.001",
-        "which mode of the model is which measured one?",
-    )],
-};
-
-/// Runs the subcommand.
-///
-/// # Errors
-/// A bad case or file of shapes, points off the body, an output folder that cannot be written.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    super::fit::scale_of_shapes(arguments.scale)?;
-    let mut session = Session::start("mac", &arguments.options)?;
-    let bytes = read_input(&arguments.shapes, MEASUREMENT)?;
-    let source = input_name(&arguments.shapes);
-    let shapes = read_shapes(&bytes, &source)?;
-    // Results belong to case, shapes and scale.
-    let identity = format!("{} {:?}", session.manifest.case_hash, arguments.scale);
-    session.manifest.case_hash = super::fit::joint_hash(&identity, &bytes);
-    let cost = session.case.cost();
-    let solver_bytes = cost.cea.map_or(0.0, |cea| cea.memory_bytes);
-    session.check_memory(cost.mesh_memory_bytes + solver_bytes)?;
-    session.case.require_cea()?;
-    let folder = session.open_folder()?;
-    terminal::catch_signals(terminal::NOTHING_KEPT);
-    let found = assurance(&session.case, &shapes, arguments.scale)?;
-    let summary = MacSummary {
-        command: "mac".to_owned(),
-        title: session.case.title.clone(),
-        wall_s: session.wall_seconds(),
-        measurement: source,
-        friction_coefficient: session.case.contact.sliding.friction_coefficient,
-        shapes: found.shapes,
-        modes: found.modes,
-        mac: found.matrix,
-        pairs: found.pairs,
-        notes: found.notes,
-        manifest: folder.manifest().clone(),
+impl Run for Arguments {
+    const PROFILE: Profile = Profile {
+        files: &[("mac.csv", "one row for each shape and mode")],
+        examples: &[(
+            "frictionsim mac disc.toml shapes.unv --scale 0.001",
+            "which mode of the model is which measured one?",
+        )],
     };
-    session.options.output.finish_finding(folder, &summary)
+
+    fn run(&self) -> Result<(), Failure> {
+        super::fit::scale_of_shapes(self.scale)?;
+        let mut session = Session::start("mac", &self.options)?;
+        let bytes = read_input(&self.shapes, MEASUREMENT)?;
+        let source = input_name(&self.shapes);
+        let shapes = read_shapes(&bytes, &source)?;
+        // Results belong to case, shapes and scale.
+        let identity = format!("{} {:?}", session.manifest.case_hash, self.scale);
+        session.manifest.case_hash = super::fit::joint_hash(&identity, &bytes);
+        session.case.require_cea()?;
+        let folder = session.begin()?;
+        let found = assurance(&session.case, &shapes, self.scale)?;
+        let summary = MacSummary {
+            command: "mac".to_owned(),
+            title: session.case.title.clone(),
+            wall_s: session.wall_seconds(),
+            measurement: source,
+            friction_coefficient: session.case.contact.sliding.friction_coefficient,
+            shapes: found.shapes,
+            modes: found.modes,
+            mac: found.matrix,
+            pairs: found.pairs,
+            notes: found.notes,
+            manifest: folder.manifest().clone(),
+        };
+        session.options.output.finish_finding(folder, &summary)
+    }
 }

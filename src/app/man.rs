@@ -1,6 +1,6 @@
 //! `frictionsim man`: manual pages.
 
-use super::profile::Profile;
+use super::profile::{Profile, Run};
 use super::{Failure, command_line, profile, terminal};
 use crate::case::{CaseKey, KEYS};
 use clap::{Args, ValueHint};
@@ -36,29 +36,27 @@ const EXIT_STATUS: [(&str, &str); 4] = [
     ("130", "interrupted by Ctrl-C or SIGTERM"),
 ];
 
-/// What the rest of the program asks of this command.
-pub const PROFILE: Profile = Profile::NONE;
+impl Run for Arguments {
+    const PROFILE: Profile = Profile::NONE;
 
-/// Runs the subcommand.
-///
-/// # Errors
-/// An unknown command; those of stdout, or of the folder.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let mut command = command_line();
-    // Builds the names of the subcommands: `frictionsim-cea`.
-    command.build();
-    if let Some(folder) = &arguments.out {
-        let failed = |error| Failure::run(format!("cannot write {}: {error}", folder.display()));
-        return write_pages(&command, folder).map_err(failed);
+    fn run(&self) -> Result<(), Failure> {
+        let mut command = command_line();
+        // Builds the names of the subcommands: `frictionsim-cea`.
+        command.build();
+        if let Some(folder) = &self.out {
+            let failed =
+                |error| Failure::run(format!("cannot write {}: {error}", folder.display()));
+            return write_pages(&command, folder).map_err(failed);
+        }
+        let shown = match &self.command {
+            None => &command,
+            Some(name) if name == "case" => return terminal::print(&case_page()),
+            Some(name) => command.find_subcommand(name).ok_or_else(|| {
+                Failure::usage(format!("there is no command {name}: see frictionsim --help"))
+            })?,
+        };
+        terminal::print(&String::from_utf8_lossy(&page(shown)?))
     }
-    let shown = match &arguments.command {
-        None => &command,
-        Some(name) if name == "case" => return terminal::print(&case_page()),
-        Some(name) => command.find_subcommand(name).ok_or_else(|| {
-            Failure::usage(format!("there is no command {name}: see frictionsim --help"))
-        })?,
-    };
-    terminal::print(&String::from_utf8_lossy(&page(shown)?))
 }
 
 fn write_pages(command: &clap::Command, folder: &std::path::Path) -> io::Result<()> {

@@ -1,6 +1,6 @@
 //! `frictionsim matrices`: the matrices of a case, for other programs.
 
-use super::profile::Profile;
+use super::profile::{Profile, Run};
 use super::{Failure, RunOptions, Session};
 use crate::results::matrices::{MatricesSummary, print, write_matrices};
 use crate::results::{WholeMesh, write_summary};
@@ -29,52 +29,48 @@ fn friction_coefficient(text: &str) -> Result<f64, String> {
     }
 }
 
-/// What the rest of the program asks of this command.
-pub const PROFILE: Profile = Profile {
-    files: &[
-        ("matrices.json", "what multiplies what, and the files of each matrix"),
-        (
-            "M.mtx, M.npz",
-            "mass at the case's friction mu_0; C, K alike; K_mu1: what mu - mu_0 multiplies",
-        ),
-        (
-            "contact_slip.mtx",
-            "motion of the contact points along the sliding; contact_normal: along the normal",
-        ),
-        ("unknowns.csv", "node, direction and place of each unknown"),
-        ("mesh.unv", "the mesh as a universal file (output.universal)"),
-        ("contact.csv", "node, status, length and normal force of each contact point"),
-    ],
-    examples: &[
-        ("frictionsim matrices block.toml", "solve the same problem with another program"),
-        (
-            "frictionsim matrices block.toml --friction 0.5",
-            "M, C and K at one friction coefficient",
-        ),
-    ],
-};
-
-/// Runs the subcommand.
-///
-/// # Errors
-/// A bad case, a body of revolution, or an output folder that cannot be written.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let session = Session::start("matrices", &arguments.options)?;
-    let case = &session.case;
-    session.check_memory(case.cost().mesh_memory_bytes)?;
-    let folder = session.open_folder()?;
-    let system = matrices(case, arguments.friction)?;
-    let system = match arguments.friction {
-        Some(_) => system.at_one_friction(),
-        None => system,
+impl Run for Arguments {
+    const PROFILE: Profile = Profile {
+        files: &[
+            ("matrices.json", "what multiplies what, and the files of each matrix"),
+            (
+                "M.mtx, M.npz",
+                "mass at the case's friction mu_0; C, K alike; K_mu1: what mu - mu_0 multiplies",
+            ),
+            (
+                "contact_slip.mtx",
+                "motion of the contact points along the sliding; contact_normal: along the normal",
+            ),
+            ("unknowns.csv", "node, direction and place of each unknown"),
+            ("mesh.unv", "the mesh as a universal file (output.universal)"),
+            ("contact.csv", "node, status, length and normal force of each contact point"),
+        ],
+        examples: &[
+            ("frictionsim matrices block.toml", "solve the same problem with another program"),
+            (
+                "frictionsim matrices block.toml --friction 0.5",
+                "M, C and K at one friction coefficient",
+            ),
+        ],
     };
-    let wall_s = session.wall_seconds();
-    let summary = MatricesSummary::new(&system, &case.title, wall_s, &session.manifest);
-    write_matrices(&folder, &system, &summary)?;
-    if case.output.universal {
-        let mesh = WholeMesh::of(&*case.body.mesh().map_err(Failure::run)?);
-        folder.write_bulk("mesh.unv", |out| mesh.write_universal(out))?;
+
+    fn run(&self) -> Result<(), Failure> {
+        let session = Session::start("matrices", &self.options)?;
+        let case = &session.case;
+        let folder = session.begin()?;
+        let system = matrices(case, self.friction)?;
+        let system = match self.friction {
+            Some(_) => system.at_one_friction(),
+            None => system,
+        };
+        let wall_s = session.wall_seconds();
+        let summary = MatricesSummary::new(&system, &case.title, wall_s, &session.manifest);
+        write_matrices(&folder, &system, &summary)?;
+        if case.output.universal {
+            let mesh = WholeMesh::of(&*case.body.mesh().map_err(Failure::run)?);
+            folder.write_bulk("mesh.unv", |out| mesh.write_universal(out))?;
+        }
+        let object = write_summary(&folder, &summary)?;
+        session.options.output.finish(folder, &print(&summary), &object)
     }
-    let object = write_summary(&folder, &summary)?;
-    session.options.output.finish(folder, &print(&summary), &object)
 }

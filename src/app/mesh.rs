@@ -1,15 +1,15 @@
 //! `frictionsim mesh`: the mesh alone.
 
-use super::profile::Profile;
+use super::profile::{Profile, Run};
 use super::{Failure, RunOptions, Session};
 use crate::case::{AssemblyBody, Case, ModeSelection};
-use crate::chart::Figure;
+use crate::chart::{ChartError, Figure};
 use crate::mesh::{AnnulusMesh, SolidSector, SolidSpecification};
+use crate::results::OutputFolder;
 use crate::results::mesh::{
-    Measured, MeshStatistics, MeshSummary, SolidMeshStatistics, draw, plane_figure, solid_figure,
+    Measured, MeshStatistics, MeshSummary, SolidMeshStatistics, plane_figure, solid_figure,
     write_mesh, write_revolution,
 };
-use crate::results::{OutputFolder, write_summary};
 use clap::Args;
 use std::collections::BTreeMap;
 
@@ -20,50 +20,47 @@ pub struct Arguments {
     options: RunOptions,
 }
 
-/// What the rest of the program asks of this command.
-pub const PROFILE: Profile = Profile {
-    files: &[("mesh.vtu", "nodes, elements, node numbers, edges")],
-    examples: &[("frictionsim mesh disc.toml", "look at a mesh before a run")],
-};
-
-/// Runs the subcommand.
-///
-/// # Errors
-/// A bad case, or an output folder that cannot be written.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let session = Session::start("mesh", &arguments.options)?;
-    let case = &session.case;
-    session.check_memory(case.cost().mesh_memory_bytes)?;
-    let folder = session.open_folder()?;
-    if let Some(assembly) = case.body.assembly() {
-        return run_solid(&session, folder, assembly);
-    }
-    let generate = |grid| AnnulusMesh::generate(grid).map_err(Failure::usage);
-    let annulus = case.body.grid().map(generate).transpose()?;
-    let mesh = case.mesh().map_err(Failure::usage)?;
-    let generate =
-        |solid: &SolidSpecification| SolidSector::generate(solid).map_err(Failure::usage);
-    let revolution = case.body.revolution();
-    let solid = revolution.map(|body| generate(&body.specification));
-    let solid = solid.transpose()?;
-    match &solid {
-        Some(sector) => write_revolution(&folder, sector)?,
-        None => write_mesh(&folder, &mesh, mesh.contact_edge().nodes.iter().copied())?,
-    }
-    let mut statistics = MeshStatistics::new(&mesh, annulus.as_ref(), shortest_wave(case));
-    if let Some(sector) = &solid {
-        statistics.turn(sector);
-    }
-    let summary = MeshSummary {
-        command: "mesh".to_owned(),
-        title: case.title.clone(),
-        wall_s: session.wall_seconds(),
-        mesh: statistics,
-        notes: Vec::new(),
-        not_used: case.taken.not_used(),
-        manifest: session.manifest.clone(),
+impl Run for Arguments {
+    const PROFILE: Profile = Profile {
+        files: &[("mesh.vtu", "nodes, elements, node numbers, edges")],
+        examples: &[("frictionsim mesh disc.toml", "look at a mesh before a run")],
     };
-    finish(&session, folder, &summary, || plane_figure(&mesh, &case.title, &case.output.probes))
+
+    fn run(&self) -> Result<(), Failure> {
+        let session = Session::start("mesh", &self.options)?;
+        let case = &session.case;
+        let folder = session.begin()?;
+        if let Some(assembly) = case.body.assembly() {
+            return run_solid(&session, folder, assembly);
+        }
+        let generate = |grid| AnnulusMesh::generate(grid).map_err(Failure::usage);
+        let annulus = case.body.grid().map(generate).transpose()?;
+        let mesh = case.mesh().map_err(Failure::usage)?;
+        let generate =
+            |solid: &SolidSpecification| SolidSector::generate(solid).map_err(Failure::usage);
+        let revolution = case.body.revolution();
+        let solid = revolution.map(|body| generate(&body.specification));
+        let solid = solid.transpose()?;
+        match &solid {
+            Some(sector) => write_revolution(&folder, sector)?,
+            None => write_mesh(&folder, &mesh, mesh.contact_edge().nodes.iter().copied())?,
+        }
+        let mut statistics = MeshStatistics::new(&mesh, annulus.as_ref(), shortest_wave(case));
+        if let Some(sector) = &solid {
+            statistics.turn(sector);
+        }
+        let summary = MeshSummary {
+            command: "mesh".to_owned(),
+            title: case.title.clone(),
+            wall_s: session.wall_seconds(),
+            mesh: statistics,
+            notes: Vec::new(),
+            not_used: case.taken.not_used(),
+            manifest: session.manifest.clone(),
+        };
+        let figures = || Ok(vec![plane_figure(&mesh, &case.title, &case.output.probes)]);
+        finish(&session, folder, &summary, figures)
+    }
 }
 
 /// The mesh of solid bodies.
@@ -90,7 +87,7 @@ fn run_solid(
         not_used: case.taken.not_used(),
         manifest: session.manifest.clone(),
     };
-    finish(session, folder, &summary, || solid_figure(mesh, &case.title, &roles))
+    finish(session, folder, &summary, || Ok(vec![solid_figure(mesh, &case.title, &roles)]))
 }
 
 /// Draws, writes the summary and prints.
@@ -98,14 +95,11 @@ fn finish<S: Measured>(
     session: &Session,
     folder: OutputFolder,
     summary: &MeshSummary<S>,
-    figure: impl FnOnce() -> Figure,
+    figures: impl FnOnce() -> Result<Vec<Figure>, ChartError>,
 ) -> Result<(), Failure> {
-    let output = &session.options.output;
-    if let Some(drawing) = output.drawing() {
-        draw(&folder, summary, figure(), &drawing)?;
-    }
-    let object = write_summary(&folder, summary)?;
-    output.finish(folder, &summary.document().to_text(), &object)
+    let document = summary.document();
+    let text = document.to_text();
+    session.options.output.finish_result(folder, &text, document, summary, figures)
 }
 
 /// Boundaries that slide or are glued, in a word.

@@ -43,7 +43,7 @@ pub use failure::Failure;
 pub use options::{OutputOptions, RunOptions, SimdChoice};
 pub use session::Session;
 
-use profile::Profile;
+use profile::{Profile, Run};
 
 use clap::{Arg, ArgAction, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::ffi::OsString;
@@ -73,13 +73,15 @@ macro_rules! commands {
         impl Command {
             fn run(&self) -> Result<(), Failure> {
                 match self {
-                    $(Self::$name(arguments) => $module::run(arguments),)*
+                    $(Self::$name(arguments) => arguments.run(),)*
                 }
             }
         }
 
         /// What the commands say of themselves, by their names.
-        const PROFILES: &[(&str, Profile)] = &[$((stringify!($module), $module::PROFILE),)*];
+        const PROFILES: &[(&str, Profile)] = &[
+            $((stringify!($module), <$module::Arguments as Run>::PROFILE),)*
+        ];
     };
 }
 

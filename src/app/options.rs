@@ -4,12 +4,15 @@ use super::figure_options::FigureOptions;
 use super::limits::STANDARD_INPUT;
 use super::{Failure, terminal};
 use crate::case::unset;
+use crate::chart::{ChartError, Figure};
 use crate::fem::operator::SimdLevel;
+use crate::output::Document;
 use crate::results::{
-    DrawingOptions, Finding, Manifest, OutputFolder, Replace, is_result, read_manifest,
-    write_finding,
+    DrawingError, DrawingOptions, Finding, Manifest, OutputFolder, Replace, declared, is_result,
+    read_manifest, write_page, write_summary, write_tables,
 };
 use clap::{ArgAction, Args, ValueEnum, ValueHint};
+use serde::Serialize;
 use serde_json::{Value, json};
 use std::path::{Component, Path, PathBuf};
 
@@ -152,9 +155,6 @@ impl OutputOptions {
     }
 
     /// Prints the summary as JSON, or the table for people and where the files are.
-    ///
-    /// # Errors
-    /// Those of stdout.
     pub fn print(&self, table: &str, summary: &Value, folder: &Path) -> Result<(), Failure> {
         if self.json {
             terminal::print_json(summary)
@@ -171,9 +171,6 @@ impl OutputOptions {
     }
 
     /// Completes the output folder and prints as [`Self::print`].
-    ///
-    /// # Errors
-    /// Those of the folder and of stdout.
     pub fn finish(
         &self,
         folder: OutputFolder,
@@ -185,17 +182,36 @@ impl OutputOptions {
         self.print(table, summary, &path)
     }
 
-    /// Writes the files of a finding, completes the folder and prints.
+    /// Writes the tables, the figures, the page and the summary of a result, completes the folder and prints `text`.
+    pub fn finish_result(
+        &self,
+        folder: OutputFolder,
+        text: &str,
+        document: Document,
+        summary: &impl Serialize,
+        figures: impl FnOnce() -> Result<Vec<Figure>, ChartError>,
+    ) -> Result<(), Failure> {
+        write_tables(&folder, &document)?;
+        if let Some(options) = self.drawing() {
+            let figures = figures().map_err(DrawingError::from)?;
+            write_page(&folder, document, figures, &options)?;
+        }
+        let object = write_summary(&folder, summary)?;
+        self.finish(folder, text, &object)
+    }
+
+    /// As [`Self::finish_result`] for a finding.
     ///
     /// # Errors
-    /// Those of the folder, of the drawing and of stdout.
+    /// As [`Self::finish_result`].
     pub fn finish_finding(
         &self,
         folder: OutputFolder,
         finding: &impl Finding,
     ) -> Result<(), Failure> {
-        let object = write_finding(&folder, finding, self.drawing().as_ref())?;
-        self.finish(folder, &finding.document().to_text(), &object)
+        let document = finding.document();
+        let text = document.to_text();
+        self.finish_result(folder, &text, document, finding, || declared(finding.figures()))
     }
 
     /// Says what a run would do; the end of a dry run.

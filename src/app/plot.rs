@@ -1,7 +1,7 @@
 //! `frictionsim plot`: the figures of a results folder once more.
 
 use super::figure_options::FigureOptions;
-use super::profile::Profile;
+use super::profile::{Profile, Run};
 use super::session::start_threads;
 use super::{Failure, terminal};
 use crate::results::sweep::SweepFolder;
@@ -32,34 +32,31 @@ pub struct Arguments {
     quiet: u8,
 }
 
-/// What the rest of the program asks of this command.
-pub const PROFILE: Profile = Profile {
-    files: &[("figures/*.svg, figures/*.png", "the figures, drawn again")],
-    examples: &[("frictionsim plot results/disc/cea --dpi 300", "for print")],
-};
+impl Run for Arguments {
+    const PROFILE: Profile = Profile {
+        files: &[("figures/*.svg, figures/*.png", "the figures, drawn again")],
+        examples: &[("frictionsim plot results/disc/cea --dpi 300", "for print")],
+    };
 
-/// Runs the subcommand.
-///
-/// # Errors
-/// A folder that holds no finished run of these commands, or that cannot be written.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    terminal::start_log(arguments.quiet, 0);
-    start_threads(arguments.threads);
-    let path = &arguments.folder;
-    let manifest = read_manifest(path)?;
-    if manifest.version != env!("CARGO_PKG_VERSION") {
-        tracing::warn!(
-            "{} was written by version {}: figures of this version may differ from its tables",
-            path.display(),
-            manifest.version
-        );
-    }
-    let options = arguments.figures.drawing();
-    redraw(path, &manifest, &options)?;
-    let figures = path.join("figures");
-    match arguments.quiet {
-        0 | 1 => terminal::print(&format!("figures in {}\n", figures.display())),
-        _ => Ok(()),
+    fn run(&self) -> Result<(), Failure> {
+        terminal::start_log(self.quiet, 0);
+        start_threads(self.threads);
+        let path = &self.folder;
+        let manifest = read_manifest(path)?;
+        if manifest.version != env!("CARGO_PKG_VERSION") {
+            tracing::warn!(
+                "{} was written by version {}: figures of this version may differ from its tables",
+                path.display(),
+                manifest.version
+            );
+        }
+        let options = self.figures.drawing();
+        redraw(path, &manifest, &options)?;
+        let figures = path.join("figures");
+        match self.quiet {
+            0 | 1 => terminal::print(&format!("figures in {}\n", figures.display())),
+            _ => Ok(()),
+        }
     }
 }
 

@@ -66,19 +66,27 @@ impl Session {
         Ok(Self { case, options: options.clone(), manifest, simd, start })
     }
 
-    /// Takes the output folder; it belongs to one effective case.
+    /// Takes the output folder; it belongs to one effective case. `is_continued`: that of a run that goes on.
     ///
     /// # Errors
     /// Those of [`OutputOptions::open_folder`](super::options::OutputOptions::open_folder).
-    pub fn open_folder(&self) -> Result<OutputFolder, Failure> {
-        let folder = self.options.output.open_folder(&self.manifest, false)?;
+    pub fn open_folder(&self, is_continued: bool) -> Result<OutputFolder, Failure> {
+        let folder = self.options.output.open_folder(&self.manifest, is_continued)?;
         self.keep_mesh(folder)
     }
 
-    /// Puts the mesh file beside the results: they can be drawn again without the file in its place.
+    /// Takes the folder of a run that keeps nothing when it is interrupted, where the machine has the memory for it.
     ///
     /// # Errors
-    /// Those of the folder.
+    /// As [`Self::check_memory`] and [`Self::open_folder`].
+    pub fn begin(&self) -> Result<OutputFolder, Failure> {
+        self.check_memory(self.case.memory(&self.manifest.command).0)?;
+        let folder = self.open_folder(false)?;
+        terminal::catch_signals(terminal::NOTHING_KEPT);
+        Ok(folder)
+    }
+
+    /// Puts the mesh file beside the results: they can be drawn again without the file in its place.
     pub fn keep_mesh(&self, folder: OutputFolder) -> Result<OutputFolder, Failure> {
         if let Some(mesh) = &self.case.raw.mesh {
             folder.write(MESH, |out| out.write_all(&mesh.bytes))?;
@@ -87,15 +95,6 @@ impl Session {
             folder.write(&name, |out| out.write_all(&table.bytes))?;
         }
         Ok(folder)
-    }
-
-    /// Takes the output folder of a run that goes on: it must hold this very case.
-    ///
-    /// # Errors
-    /// As [`Session::open_folder`].
-    pub fn reopen_folder(&self) -> Result<OutputFolder, Failure> {
-        let folder = self.options.output.open_folder(&self.manifest, true)?;
-        self.keep_mesh(folder)
     }
 
     /// Wall time since the start, s.
@@ -113,9 +112,6 @@ impl Session {
     }
 
     /// Prints the summary as JSON, or the table for people and where the files are.
-    ///
-    /// # Errors
-    /// Those of stdout.
     pub fn print(
         &self,
         table: &str,

@@ -2,7 +2,7 @@
 
 use super::measurement::{Measurement, SideFile};
 use super::options::OutputOptions;
-use super::profile::Profile;
+use super::profile::{Profile, Run};
 use super::session::read_case;
 use super::{Failure, terminal};
 use crate::case::{Case, Cea};
@@ -12,7 +12,6 @@ use crate::results::signal::{
     ChannelRecord, ChannelSummary, ModeSummary, SignalRecord, SignalSummary, document,
     draw as draw_figures, write_spectra,
 };
-use crate::results::{DrawingError, write_page, write_summary, write_tables};
 use crate::signal::reader::{
     Channel, SignalFile, SignalOptions, read_signal, slowdown, write_signal, write_wav,
 };
@@ -83,91 +82,83 @@ pub struct Arguments {
     output: OutputOptions,
 }
 
-/// What the rest of the program asks of this command.
-pub const PROFILE: Profile = Profile {
-    files: &[
-        ("peaks.csv", "main peaks of each channel"),
-        ("spectrum-N.csv", "spectrum of each channel"),
-    ],
-    examples: &[("frictionsim signal microphone.csv --case disc.toml", "which mode squeals")],
-};
+impl Run for Arguments {
+    const PROFILE: Profile = Profile {
+        files: &[
+            ("peaks.csv", "main peaks of each channel"),
+            ("spectrum-N.csv", "spectrum of each channel"),
+        ],
+        examples: &[("frictionsim signal microphone.csv --case disc.toml", "which mode squeals")],
+    };
 
-/// Runs the subcommand.
-///
-/// # Errors
-/// A table or case that cannot be read (exit code 2), or an analysis that fails (1).
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let copies = prepare_copies(arguments)?;
-    let case = match &arguments.case {
-        Some(path) => Some(read_case(path, &arguments.set)?),
-        None => None,
-    };
-    let measurement = Measurement::start(
-        "signal",
-        &arguments.signal,
-        &arguments.output,
-        choices(arguments, case.as_ref()),
-    )?;
-    let reading = SignalOptions {
-        rate: arguments.rate,
-        columns: arguments.columns.clone(),
-        channels: arguments.channel.clone(),
-    };
-    let file = read_signal(&measurement.bytes, &measurement.source, &reading)?;
-    for note in &file.notes {
-        tracing::warn!("{}: {note}", measurement.source);
-    }
-    check_drawing(arguments, &file)?;
-    let bar =
-        terminal::progress(arguments.output.is_quiet(), file.channels.len() as u64, "channels");
-    let analysed = file
-        .channels
-        .par_iter()
-        .map(|channel| {
-            let found = analyse(arguments, &file, channel);
-            bar.inc(1);
-            found
-        })
-        .collect::<Result<Vec<_>, Failure>>()?;
-    bar.finish_and_clear();
-    let (mut channels, spectra): (Vec<ChannelSummary>, Vec<AmplitudeSpectrum>) =
-        analysed.into_iter().unzip();
-    let main = channels.iter().filter_map(|c| c.main_frequency_hz);
-    let highest = main.fold(0.0, f64::max);
-    let modes = match &case {
-        Some(case) if highest > 0.0 => {
-            ModeSummary::all(&modes_below(case, 1.3 * highest)?, case.has_sectors())
+    fn run(&self) -> Result<(), Failure> {
+        let copies = prepare_copies(self)?;
+        let case = match &self.case {
+            Some(path) => Some(read_case(path, &self.set)?),
+            None => None,
+        };
+        let measurement =
+            Measurement::start("signal", &self.signal, &self.output, choices(self, case.as_ref()))?;
+        let reading = SignalOptions {
+            rate: self.rate,
+            columns: self.columns.clone(),
+            channels: self.channel.clone(),
+        };
+        let file = read_signal(&measurement.bytes, &measurement.source, &reading)?;
+        for note in &file.notes {
+            tracing::warn!("{}: {note}", measurement.source);
         }
-        _ => Vec::new(),
-    };
-    for channel in &mut channels {
-        channel.name_modes(&modes);
+        check_drawing(self, &file)?;
+        let bar =
+            terminal::progress(self.output.is_quiet(), file.channels.len() as u64, "channels");
+        let analysed = file
+            .channels
+            .par_iter()
+            .map(|channel| {
+                let found = analyse(self, &file, channel);
+                bar.inc(1);
+                found
+            })
+            .collect::<Result<Vec<_>, Failure>>()?;
+        bar.finish_and_clear();
+        let (mut channels, spectra): (Vec<ChannelSummary>, Vec<AmplitudeSpectrum>) =
+            analysed.into_iter().unzip();
+        let main = channels.iter().filter_map(|c| c.main_frequency_hz);
+        let highest = main.fold(0.0, f64::max);
+        let modes = match &case {
+            Some(case) if highest > 0.0 => {
+                ModeSummary::all(&modes_below(case, 1.3 * highest)?, case.has_sectors())
+            }
+            _ => Vec::new(),
+        };
+        for channel in &mut channels {
+            channel.name_modes(&modes);
+        }
+        let folder = measurement.open_folder()?;
+        let friction = |case: &Case| case.contact.sliding.friction_coefficient;
+        let summary = SignalSummary {
+            command: "signal".into(),
+            source: measurement.source.clone(),
+            sampling_rate_hz: file.sampling_rate,
+            samples: file.channels[0].samples.len(),
+            friction_coefficient: case.as_ref().map(friction),
+            mode_tolerance: SignalSummary::MODE_TOLERANCE,
+            channels,
+            notes: file.notes.clone(),
+            wall_s: measurement.wall_seconds(),
+            manifest: folder.manifest().clone(),
+        };
+        write_spectra(&folder, &spectra)?;
+        let aside = write_copies(self, &copies, &file)?;
+        let document = document(&summary);
+        let text = document.to_text() + &aside;
+        self.output.finish_result(folder, &text, document, &summary, || {
+            let shown = record(self, &file, &summary, &modes, spectra);
+            let (figures, left_out) = draw_figures(&shown, &summary)?;
+            left_out.iter().for_each(|reason| tracing::warn!("{reason}"));
+            Ok(figures)
+        })
     }
-    let folder = measurement.open_folder()?;
-    let friction = |case: &Case| case.contact.sliding.friction_coefficient;
-    let summary = SignalSummary {
-        command: "signal".into(),
-        source: measurement.source.clone(),
-        sampling_rate_hz: file.sampling_rate,
-        samples: file.channels[0].samples.len(),
-        friction_coefficient: case.as_ref().map(friction),
-        mode_tolerance: SignalSummary::MODE_TOLERANCE,
-        channels,
-        notes: file.notes.clone(),
-        wall_s: measurement.wall_seconds(),
-        manifest: folder.manifest().clone(),
-    };
-    write_spectra(&folder, &spectra)?;
-    write_tables(&folder, &document(&summary))?;
-    let object = write_summary(&folder, &summary)?;
-    if let Some(drawing) = arguments.output.drawing() {
-        let shown = record(arguments, &file, &summary, &modes, spectra);
-        let (figures, left_out) = draw_figures(&shown, &summary).map_err(DrawingError::from)?;
-        left_out.iter().for_each(|reason| tracing::warn!("{reason}"));
-        write_page(&folder, document(&summary), figures, &drawing)?;
-    }
-    let aside = write_copies(arguments, &copies, &file)?;
-    arguments.output.finish(folder, &(document(&summary).to_text() + &aside), &object)
 }
 
 /// Length of the spectrogram's window, s.

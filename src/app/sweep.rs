@@ -8,7 +8,7 @@ pub use crate::study::{Shard, SweepPlan};
 pub use progress::SweepProgress;
 pub use workers::{PointRunner, SweepRun};
 
-use super::profile::Profile;
+use super::profile::{Profile, Run};
 use super::share::ShareOptions;
 use super::transient::linear_stage;
 use super::{Failure, RunOptions, Session, terminal};
@@ -31,63 +31,60 @@ pub struct Arguments {
     share: ShareOptions,
 }
 
-/// What the rest of the program asks of this command.
-pub const PROFILE: Profile = Profile {
-    files: &[
-        ("points.csv", "one row for each point"),
-        ("points/point-NNNNNN.json", "what came out of a point; the same bytes whoever ran it"),
-        ("points/clock-NNNNNN.json", "how long that took"),
-    ],
-    examples: &[
-        ("frictionsim sweep study.toml", "all points on all cores"),
-        ("frictionsim sweep study.toml --out study --shard 2/8", "one of eight processes"),
-        ("frictionsim sweep study.toml --resume", "go on after Ctrl-C"),
-    ],
-};
-
-/// Runs the subcommand.
-///
-/// # Errors
-/// A bad case or folder; a folder that cannot be written; failed points, after all others are done.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let session = Session::start("sweep", &arguments.options)?;
-    let plan = SweepPlan::new(&session.case)?;
-    let threads = session.manifest.threads;
-    session.check_memory(threads.min(plan.count()) as f64 * point_memory(&session, &plan))?;
-    let points = arguments.share.pieces(plan.count());
-    let output = &arguments.options.output;
-    let folder = arguments.share.open(&session, output, plan.count(), &points)?;
-
-    terminal::catch_signals(workers::KEPT);
-    let progress = SweepProgress::new(output.is_quiet(), points.len());
-    let run = SweepRun {
-        plan: &plan,
-        folder: &folder,
-        manifest: &session.manifest,
-        progress: &progress,
-        runner: &|case| analyses::run_point(case, &plan.analyses, &session.manifest),
+impl Run for Arguments {
+    const PROFILE: Profile = Profile {
+        files: &[
+            ("points.csv", "one row for each point"),
+            ("points/point-NNNNNN.json", "what came out of a point; the same bytes whoever ran it"),
+            ("points/clock-NNNNNN.json", "how long that took"),
+        ],
+        examples: &[
+            ("frictionsim sweep study.toml", "all points on all cores"),
+            ("frictionsim sweep study.toml --out study --shard 2/8", "one of eight processes"),
+            ("frictionsim sweep study.toml --resume", "go on after Ctrl-C"),
+        ],
     };
-    let outcome = run.run(&points, threads);
-    progress.finish();
-    let ran = outcome?;
 
-    let finished = Finished::of(&session.case, &plan, &folder)?;
-    let report = finished.report(Some(ran), session.wall_seconds());
-    let summary = if report.missing().is_empty() {
-        let options = output.drawing();
-        let drawing = options.map(|options| drawing(&session.case, &plan, &options));
-        gather(&folder, &report, &session.manifest, drawing.as_ref())?
-    } else {
-        summary_object(&report, &session.manifest)?
-    };
-    session.print(&document(&report, false).to_text(), &summary, folder.path())?;
-    let of_these = |record: &&PointRecord| points.binary_search(&record.point).is_ok();
-    match report.failed().filter(of_these).count() {
-        0 => Ok(()),
-        failed => Err(Failure::run(format!(
-            "{failed} of {} points failed; the results of the others are kept",
-            points.len()
-        ))),
+    fn run(&self) -> Result<(), Failure> {
+        let session = Session::start("sweep", &self.options)?;
+        let plan = SweepPlan::new(&session.case)?;
+        let threads = session.manifest.threads;
+        session.check_memory(threads.min(plan.count()) as f64 * point_memory(&session, &plan))?;
+        let points = self.share.pieces(plan.count());
+        let output = &self.options.output;
+        let folder = self.share.open(&session, output, plan.count(), &points)?;
+
+        terminal::catch_signals(workers::KEPT);
+        let progress = SweepProgress::new(output.is_quiet(), points.len());
+        let run = SweepRun {
+            plan: &plan,
+            folder: &folder,
+            manifest: &session.manifest,
+            progress: &progress,
+            runner: &|case| analyses::run_point(case, &plan.analyses, &session.manifest),
+        };
+        let outcome = run.run(&points, threads);
+        progress.finish();
+        let ran = outcome?;
+
+        let finished = Finished::of(&session.case, &plan, &folder)?;
+        let report = finished.report(Some(ran), session.wall_seconds());
+        let summary = if report.missing().is_empty() {
+            let options = output.drawing();
+            let drawing = options.map(|options| drawing(&session.case, &plan, &options));
+            gather(&folder, &report, &session.manifest, drawing.as_ref())?
+        } else {
+            summary_object(&report, &session.manifest)?
+        };
+        session.print(&document(&report, false).to_text(), &summary, folder.path())?;
+        let of_these = |record: &&PointRecord| points.binary_search(&record.point).is_ok();
+        match report.failed().filter(of_these).count() {
+            0 => Ok(()),
+            failed => Err(Failure::run(format!(
+                "{failed} of {} points failed; the results of the others are kept",
+                points.len()
+            ))),
+        }
     }
 }
 
@@ -95,8 +92,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 fn point_memory(session: &Session, plan: &SweepPlan<'_>) -> f64 {
     let first = plan.point_case(1);
     let cost = first.as_ref().unwrap_or(&session.case).cost();
-    let cea = cost.cea.map_or(0.0, |cea| cea.memory_bytes);
-    let transient = cost.transient.map_or(0.0, |transient| transient.memory_bytes);
+    let cea = cost.cea.map_or(0.0, |cea| cea.run.memory_bytes);
+    let transient = cost.transient.map_or(0.0, |own| own.run.memory_bytes);
     cost.mesh_memory_bytes + cea.max(transient)
 }
 
@@ -112,9 +109,6 @@ pub struct Finished<'a> {
 
 impl<'a> Finished<'a> {
     /// Those of a folder.
-    ///
-    /// # Errors
-    /// Those of the file system.
     pub fn of(case: &'a Case, plan: &SweepPlan<'_>, folder: &SweepFolder) -> Result<Self, Failure> {
         let mut records = Vec::new();
         for point in 1..=plan.count() {
@@ -178,9 +172,6 @@ fn summary_object(report: &SweepReport<'_>, manifest: &Manifest) -> Result<Value
 
 /// Writes the table, the summary and, if asked, the figures of the finished points, and returns the
 /// summary.
-///
-/// # Errors
-/// Those of the file system.
 pub fn gather(
     folder: &SweepFolder,
     report: &SweepReport<'_>,

@@ -6,7 +6,7 @@ mod watch;
 
 pub use figures::linear_stage;
 
-use super::profile::Profile;
+use super::profile::{Profile, Run};
 use super::{Failure, RunOptions, Session};
 use crate::fem::operator::StiffnessOperator;
 use crate::linalg::interruption;
@@ -59,81 +59,78 @@ fn resume<'b>(
     Ok((run, record))
 }
 
-/// What the rest of the program asks of this command.
-pub const PROFILE: Profile = Profile {
-    files: &[
-        ("probe-ID.csv", "motion of each probe over time"),
-        ("energy.csv", "energies and powers, equations (8) to (12)"),
-        ("contact.csv, contact.npz", "contact status: fractions, and node by node"),
-        ("harmonics.csv", "amplitudes of the nodal diameters over time"),
-        ("snapshots.pvd, snapshots/*.vtu", "fields at the times asked for"),
-        ("checkpoint.bin", "state of an interrupted run, for --resume"),
-        ("record.bin", "what a longer run goes on from"),
-    ],
-    examples: &[
-        ("frictionsim transient run.toml", "from first expansion to limit cycle"),
-        ("frictionsim transient run.toml --resume", "go on after Ctrl-C"),
-    ],
-};
+impl Run for Arguments {
+    const PROFILE: Profile = Profile {
+        files: &[
+            ("probe-ID.csv", "motion of each probe over time"),
+            ("energy.csv", "energies and powers, equations (8) to (12)"),
+            ("contact.csv, contact.npz", "contact status: fractions, and node by node"),
+            ("harmonics.csv", "amplitudes of the nodal diameters over time"),
+            ("snapshots.pvd, snapshots/*.vtu", "fields at the times asked for"),
+            ("checkpoint.bin", "state of an interrupted run, for --resume"),
+            ("record.bin", "what a longer run goes on from"),
+        ],
+        examples: &[
+            ("frictionsim transient run.toml", "from first expansion to limit cycle"),
+            ("frictionsim transient run.toml --resume", "go on after Ctrl-C"),
+        ],
+    };
 
-/// Runs the subcommand.
-///
-/// # Errors
-/// A bad case or folder; a run that is stopped or becomes unstable; a folder that cannot be written.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let session = Session::start("transient", &arguments.options)?;
-    let study = TransientStudy::new(&session.case, session.simd)?;
-    let cost = session.case.cost();
-    let record_bytes = cost.transient.map_or(0.0, |cost| cost.memory_bytes);
-    session.check_memory(cost.mesh_memory_bytes + record_bytes)?;
-    let operator = study.operator()?;
-    // Whatever is wrong with the case is said before the folder is touched.
-    let fresh = study.start(operator.as_ref())?;
-    let recorder = study.recorder(&fresh)?;
-    let saved = match arguments.resume {
-        true => continuation::find(&session)?,
-        false => None,
-    };
-    let goes_on = saved.is_some();
-    let (mut loop_, record) = match saved {
-        None => (fresh, recorder),
-        Some(saved) => resume(&study, operator.as_ref(), saved, &continuation::place(&session))?,
-    };
-    let folder = match arguments.resume {
-        true => continuation::reopen(&session, goes_on)?,
-        false => open(&session)?,
-    };
-    let stepped = step(&session, &study, &folder, &mut loop_, record)?;
+    fn run(&self) -> Result<(), Failure> {
+        let session = Session::start("transient", &self.options)?;
+        let study = TransientStudy::new(&session.case, session.simd)?;
+        session.check_memory(session.case.memory("transient").0)?;
+        let operator = study.operator()?;
+        // Whatever is wrong with the case is said before the folder is touched.
+        let fresh = study.start(operator.as_ref())?;
+        let recorder = study.recorder(&fresh)?;
+        let saved = match self.resume {
+            true => continuation::find(&session)?,
+            false => None,
+        };
+        let goes_on = saved.is_some();
+        let (mut loop_, record) = match saved {
+            None => (fresh, recorder),
+            Some(saved) => {
+                resume(&study, operator.as_ref(), saved, &continuation::place(&session))?
+            }
+        };
+        let folder = match self.resume {
+            true => continuation::reopen(&session, goes_on)?,
+            false => open(&session)?,
+        };
+        let stepped = step(&session, &study, &folder, &mut loop_, record)?;
 
-    let (record, plan) = (&stepped.record, *loop_.plan());
-    let analysis = study.analyse(record);
-    let report = TransientReport {
-        steps: loop_.steps_done(),
-        steps_timed: stepped.steps,
-        stepping_s: stepped.stepping_s,
-        wall_s: session.wall_seconds(),
-        is_finished: stepped.is_finished,
-        ..study.report(record, &analysis, plan, operator.name())
-    };
-    // The last checkpoint goes with the record of the folder; while that is replaced, one with a record of its own
-    // holds the place of the last.
-    let (case_hash, state) = (continuation::run_hash(&session), loop_.state());
-    if goes_on {
-        write_checkpoint(&folder, &case_hash, &state, Some(record))?;
+        let (record, plan) = (&stepped.record, *loop_.plan());
+        let analysis = study.analyse(record);
+        let report = TransientReport {
+            steps: loop_.steps_done(),
+            steps_timed: stepped.steps,
+            stepping_s: stepped.stepping_s,
+            wall_s: session.wall_seconds(),
+            is_finished: stepped.is_finished,
+            ..study.report(record, &analysis, plan, operator.name())
+        };
+        // The last checkpoint goes with the record of the folder; while that is replaced, one with a record of its own
+        // holds the place of the last.
+        let (case_hash, state) = (continuation::run_hash(&session), loop_.state());
+        if goes_on {
+            write_checkpoint(&folder, &case_hash, &state, Some(record))?;
+        }
+        let summary = write(&folder, &report)?;
+        write_checkpoint(&folder, &case_hash, &state, None)?;
+        if !stepped.is_finished {
+            return Err(stopped(folder, &loop_));
+        }
+        let output = &self.options.output;
+        if let Some(drawing) = output.drawing() {
+            figures::draw_record(&folder, &study, record, &summary, &drawing)?;
+        }
+        let state = analysis.settling.state;
+        let table = document(&summary, state, PredictedGrowth::default()).to_text();
+        let object = object(&summary).map_err(Failure::run)?;
+        output.finish(folder, &table, &object)
     }
-    let summary = write(&folder, &report)?;
-    write_checkpoint(&folder, &case_hash, &state, None)?;
-    if !stepped.is_finished {
-        return Err(stopped(folder, &loop_));
-    }
-    let output = &arguments.options.output;
-    if let Some(drawing) = output.drawing() {
-        figures::draw_record(&folder, &study, record, &summary, &drawing)?;
-    }
-    let state = analysis.settling.state;
-    let table = document(&summary, state, PredictedGrowth::default()).to_text();
-    let object = object(&summary).map_err(Failure::run)?;
-    output.finish(folder, &table, &object)
 }
 
 /// What came of the time loop.
@@ -186,7 +183,7 @@ fn step(
 }
 
 fn open(session: &Session) -> Result<OutputFolder, Failure> {
-    let folder = session.open_folder()?;
+    let folder = session.open_folder(false)?;
     // A checkpoint of an earlier run must not outlive the results it belongs to.
     folder.discard(CHECKPOINT)?;
     Ok(folder)

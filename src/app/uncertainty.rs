@@ -1,6 +1,6 @@
 //! `frictionsim uncertainty`: how likely is squeal, and which parameter decides it.
 
-use super::profile::Profile;
+use super::profile::{Profile, Run};
 use super::share::ShareOptions;
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, find_key};
@@ -37,91 +37,86 @@ pub struct Arguments {
     bound: f64,
 }
 
-/// What the rest of the program asks of this command.
-pub const PROFILE: Profile = Profile {
-    files: &[
-        ("samples.csv", "one row for each sample"),
-        ("points/point-NNNNNN.json", "a block of samples, for --resume"),
-    ],
-    examples: &[
-        (
-            "frictionsim uncertainty disc.toml",
-            "how likely is squeal, and which parameter decides it?",
-        ),
-        (
-            "frictionsim uncertainty disc.toml --robust damping.mass_coefficient=40:2000 --bound 0.05",
-            "which design is silent with 95 % probability?",
-        ),
-    ],
-};
+impl Run for Arguments {
+    const PROFILE: Profile = Profile {
+        files: &[
+            ("samples.csv", "one row for each sample"),
+            ("points/point-NNNNNN.json", "a block of samples, for --resume"),
+        ],
+        examples: &[
+            (
+                "frictionsim uncertainty disc.toml",
+                "how likely is squeal, and which parameter decides it?",
+            ),
+            (
+                "frictionsim uncertainty disc.toml --robust damping.mass_coefficient=40:2000 --bound 0.05",
+                "which design is silent with 95 % probability?",
+            ),
+        ],
+    };
 
-/// Runs the subcommand.
-///
-/// # Errors
-/// A bad case, a folder that cannot be written, a case that has no modes as it is written.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let session = Session::start("uncertainty", &arguments.options)?;
-    for design in &arguments.robust {
-        // What the results depend on belongs to what they are made from.
-        check(design, &session.case)?;
-    }
-    if !(arguments.bound > 0.0 && arguments.bound < 1.0) {
-        let bound = arguments.bound;
-        return Err(Failure::usage(format!("--bound {bound}: a probability between 0 and 1")));
-    }
-    let case = session.case.clone();
-    let uncertainty = case.require_uncertainty()?;
-    let sampler = Sampler::new(&case)?;
-    let workers = session.manifest.threads as f64;
-    let cost = case.cost();
-    let solver = cost.cea.map_or(0.0, |cea| cea.memory_bytes);
-    session.check_memory(workers * (cost.mesh_memory_bytes + solver))?;
-    let count = uncertainty.samples.div_ceil(BLOCK);
-    let blocks = arguments.share.pieces(count);
-    let output = &arguments.options.output;
-    let folder = arguments.share.open(&session, output, count, &blocks)?;
-    terminal::catch_signals("finished samples are kept: go on with --resume");
+    fn run(&self) -> Result<(), Failure> {
+        let session = Session::start("uncertainty", &self.options)?;
+        for design in &self.robust {
+            // What the results depend on belongs to what they are made from.
+            check(design, &session.case)?;
+        }
+        if !(self.bound > 0.0 && self.bound < 1.0) {
+            let bound = self.bound;
+            return Err(Failure::usage(format!("--bound {bound}: a probability between 0 and 1")));
+        }
+        let case = session.case.clone();
+        let uncertainty = case.require_uncertainty()?;
+        let sampler = Sampler::new(&case)?;
+        let workers = session.manifest.threads as f64;
+        session.check_memory(workers * case.memory("cea").0)?;
+        let count = uncertainty.samples.div_ceil(BLOCK);
+        let blocks = self.share.pieces(count);
+        let output = &self.options.output;
+        let folder = self.share.open(&session, output, count, &blocks)?;
+        terminal::catch_signals("finished samples are kept: go on with --resume");
 
-    let asked = blocks.len() * BLOCK;
-    let bar = terminal::progress(output.is_quiet(), asked as u64, "samples");
-    for &block in &blocks {
-        run_block(&sampler, &folder, &session.manifest, block)?;
-        bar.inc(BLOCK as u64);
-    }
-    bar.finish_and_clear();
-    let (samples, missing) = finished(&folder, count)?;
-    let samples: Vec<Sample> =
-        samples.into_iter().filter(|sample| sample.number <= uncertainty.samples).collect();
-    let mut summary =
-        UncertaintySummary { manifest: session.manifest.clone(), ..summarize(&case, &samples) };
-    if missing > 0 {
-        summary.notes.push(format!(
+        let asked = blocks.len() * BLOCK;
+        let bar = terminal::progress(output.is_quiet(), asked as u64, "samples");
+        for &block in &blocks {
+            run_block(&sampler, &folder, &session.manifest, block)?;
+            bar.inc(BLOCK as u64);
+        }
+        bar.finish_and_clear();
+        let (samples, missing) = finished(&folder, count)?;
+        let samples: Vec<Sample> =
+            samples.into_iter().filter(|sample| sample.number <= uncertainty.samples).collect();
+        let mut summary =
+            UncertaintySummary { manifest: session.manifest.clone(), ..summarize(&case, &samples) };
+        if missing > 0 {
+            summary.notes.push(format!(
             "{missing} of {count} blocks of samples are missing: run it again with --resume once all shards have ended"
         ));
-    } else if !arguments.robust.is_empty() {
-        let (designs, bound) = (&arguments.robust, arguments.bound);
-        summary.robust = Some(curves(&case, &sampler, designs, bound)?);
-    }
-    summary.wall_s = session.wall_seconds();
-    for note in &summary.notes {
-        tracing::warn!("{note}");
-    }
-    let object = object(&summary).map_err(Failure::run)?;
-    if missing == 0 {
-        let largest = summary.largest_friction;
-        let table = samples_table(&sampler.keys(), &samples, largest);
-        folder.write(&table.file, |out| table.write_csv(out))?;
-        let mut failed = samples.iter().filter_map(|sample| sample.error.as_deref());
-        if failed.clone().count() == samples.len() {
-            let first = failed.next().unwrap_or_default();
-            return Err(Failure::run(format!("no sample could be solved; the first: {first}")));
+        } else if !self.robust.is_empty() {
+            let (designs, bound) = (&self.robust, self.bound);
+            summary.robust = Some(curves(&case, &sampler, designs, bound)?);
         }
-        folder.write_summary(&object)?;
-        if let Some(drawing) = output.drawing() {
-            draw_report(&folder, &summary, &drawing)?;
+        summary.wall_s = session.wall_seconds();
+        for note in &summary.notes {
+            tracing::warn!("{note}");
         }
+        let object = object(&summary).map_err(Failure::run)?;
+        if missing == 0 {
+            let largest = summary.largest_friction;
+            let table = samples_table(&sampler.keys(), &samples, largest);
+            folder.write(&table.file, |out| table.write_csv(out))?;
+            let mut failed = samples.iter().filter_map(|sample| sample.error.as_deref());
+            if failed.clone().count() == samples.len() {
+                let first = failed.next().unwrap_or_default();
+                return Err(Failure::run(format!("no sample could be solved; the first: {first}")));
+            }
+            folder.write_summary(&object)?;
+            if let Some(drawing) = output.drawing() {
+                draw_report(&folder, &summary, &drawing)?;
+            }
+        }
+        session.print(&document(&summary).to_text(), &object, folder.path())
     }
-    session.print(&document(&summary).to_text(), &object, folder.path())
 }
 
 /// The finished samples in their order, and how many blocks are missing.
@@ -137,26 +132,15 @@ fn finished(folder: &SweepFolder, count: usize) -> Result<(Vec<Sample>, usize), 
 }
 
 /// Runs one block and keeps it, unless it is finished or another process has it.
-///
-/// # Errors
-/// Those of the folder.
 fn run_block(
     sampler: &Sampler<'_>,
     folder: &SweepFolder,
     manifest: &Manifest,
     block: usize,
 ) -> Result<(), Failure> {
-    let is_finished = || Ok::<_, Failure>(matches!(folder.read(block)?, Found::Point(_)));
-    if is_finished()? {
-        return Ok(());
-    }
-    let Some(_claim) = folder.claim(block)? else {
+    let Some(_claim) = folder.take(block)? else {
         return Ok(());
     };
-    // Another process may have finished it between the look and the claim.
-    if is_finished()? {
-        return Ok(());
-    }
     let start = Instant::now();
     let samples = serde_json::to_value(sampler.block(block)).map_err(Failure::run)?;
     let record = PointRecord {

@@ -2,12 +2,13 @@
 
 use super::Case;
 use super::boundaries::NamedCondition;
-use super::contact::Contact;
-use super::contacts::{NamedContact, contact, section_of, short_form};
+use super::contact::{Contact, section_of};
+use super::contacts::{NamedContact, contact, short_form};
 use super::imported::{ImportError, whole_body};
 use super::modifications::{Modification, reshaped};
 use super::raw::MeshBytes;
 use super::reader::Section;
+use super::refuse;
 use super::rigid_counterface::{triple, unit};
 use super::suggestion;
 use super::tables::TableFiles;
@@ -128,13 +129,10 @@ pub(super) fn sections(
     }
     let base = bases.first().copied().unwrap_or_default();
     if bases.iter().any(|other| *other != base) {
-        root.reject(
-            "contacts",
-            "contacts are \"solved\" and \"closed\" in one case: one that is free of stress \
-             and one that is not have no common equilibrium",
-            "one state for all",
-            "give every contact the same `state`",
-        );
+        refuse!(root, "contacts",
+            "contacts are \"solved\" and \"closed\" in one case: one that is free of stress and \
+             one that is not have no common equilibrium";
+            "one state for all"; "give every contact the same `state`");
     }
     let first = contacts.first();
     let rigid = first.and_then(|contact| contact.surfaces.counter.rigid());
@@ -176,12 +174,8 @@ fn inertia(section: &Section<'_>) -> Option<RotationFrame> {
         return Some(frame);
     }
     if section.has("frame") {
-        section.reject(
-            "frame",
-            format!("{} has no effect without the inertia of rotation", section.name("frame")),
-            "needs rotation_terms = true",
-            "give rotation_terms = true, or leave frame out",
-        );
+        refuse!(section, "frame" => "has no effect without the inertia of rotation";
+            "needs rotation_terms = true"; "give rotation_terms = true, or leave frame out");
     }
     None
 }

@@ -5,6 +5,7 @@ use super::imported::ImportedBody;
 use super::modifications::{Misfit, Modification, reshaped};
 use super::node::Nodes;
 use super::reader::Section;
+use super::refuse;
 use crate::fem::{RegionMaterial, TabledMaterial};
 use crate::mesh::{
     Attachment, BodyError, BodySpecification, CounterfaceSpecification, DampedPatch, Mesh,
@@ -73,12 +74,8 @@ pub(super) fn attach(
         };
         let elements = mesh.elements_within(center, radius);
         if elements.is_empty() {
-            section.reject(
-                "radius",
-                format!("{} holds no element's middle", section.name("radius")),
-                "no element within it",
-                "center and radius are in metres",
-            );
+            refuse!(section, "radius" => "holds no element's middle"; "no element within it";
+                "center and radius are in metres");
         }
         patches.push(DampedPatch {
             elements,

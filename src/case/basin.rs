@@ -2,6 +2,7 @@
 
 use super::body::Body;
 use super::reader::Section;
+use super::refuse;
 use crate::cycle::BasinRequest;
 
 pub(super) fn basin(root: &Section<'_>, body: Option<&Body>) -> Option<BasinRequest> {
@@ -14,12 +15,9 @@ pub(super) fn basin(root: &Section<'_>, body: Option<&Body>) -> Option<BasinRequ
     if let Some(modes) = &modes
         && !(1..=2).contains(&modes.len())
     {
-        section.reject(
-            "modes",
-            "basin.modes must name two different modes, or one that competes with steady sliding",
-            "one or two of them",
-            None,
-        );
+        refuse!(section, "modes",
+            "basin.modes must name two different modes, or one that competes with steady sliding";
+            "one or two of them");
     }
     let request = BasinRequest {
         modes,
@@ -29,21 +27,14 @@ pub(super) fn basin(root: &Section<'_>, body: Option<&Body>) -> Option<BasinRequ
         periods: section.count("periods"),
     };
     if pair.len() != 2 || pair[0] == pair[1] {
-        section.reject(
-            "harmonics",
-            "basin.harmonics must name two different harmonics",
-            format!("{} of them, two are compared", pair.len()),
-            None,
-        );
+        refuse!(section, "harmonics", "basin.harmonics must name two different harmonics";
+            "{} of them, two are compared", pair.len());
     }
     let [from, to] = request.seed_ratios;
     if from >= to {
-        section.reject(
-            "seed_ratio_from",
-            format!("basin.seed_ratio_from = {from:?} is not below basin.seed_ratio_to = {to:?}"),
-            format!("below {to:?}"),
-            None,
-        );
+        refuse!(section, "seed_ratio_from",
+            "basin.seed_ratio_from = {from:?} is not below basin.seed_ratio_to = {to:?}";
+            "below {to:?}");
     }
     section.close();
     given.then_some(request)

@@ -2,6 +2,7 @@
 
 use super::elastic::loss_factor;
 use super::reader::Section;
+use super::refuse;
 use super::words::{ConditionWord, HeldAxis};
 use crate::mesh::{BoundaryCondition, ElasticSupport};
 
@@ -26,25 +27,18 @@ fn condition(section: &Section<'_>) -> BoundaryCondition {
     let has_springs =
         support.normal_stiffness + support.tangential_stiffness + support.axial_stiffness > 0.0;
     if word == ConditionWord::Support && support.loss_factor > 0.0 && !has_springs {
-        section.reject(
-            "loss_factor",
-            format!("{} has no effect on a support without springs", section.name("loss_factor")),
-            "nothing is lost",
-            "give a stiffness, or leave loss_factor out",
-        );
+        refuse!(section, "loss_factor" => "has no effect on a support without springs";
+            "nothing is lost"; "give a stiffness, or leave loss_factor out");
     }
     let pressure = section.optional_number("pressure");
     let axes: Vec<HeldAxis> = section.choices("directions");
     // A value without effect is a mistake.
     let reject = |key: &str, needs: &str| {
-        section.reject(
-            key,
-            format!("{} has no effect here", section.name(key)),
-            format!("needs condition = \"{needs}\""),
-            format!("change the condition to \"{needs}\", or leave {key} out"),
-        );
+        refuse!(section, key => "has no effect here"; "needs condition = \"{needs}\"";
+            "change the condition to \"{needs}\", or leave {key} out");
     };
-    let springs = "normal_stiffness tangential_stiffness axial_stiffness normal_damping tangential_damping loss_factor";
+    let springs = "normal_stiffness tangential_stiffness axial_stiffness normal_damping \
+                   tangential_damping loss_factor";
     for (needed, needs, keys) in [
         (ConditionWord::Support, "support", springs),
         (ConditionWord::Fixed, "fixed", "directions"),
@@ -78,12 +72,8 @@ pub(super) fn no_axial_support(root: &Section<'_>, boundaries: &[NamedCondition]
     for (name, condition) in boundaries {
         if matches!(condition, BoundaryCondition::Support(support) if support.axial_stiffness > 0.0)
         {
-            section.reject(
-                name,
-                format!("boundaries.{name}.axial_stiffness has no effect on a plane body"),
-                "the body is plane",
-                "leave axial_stiffness out",
-            );
+            refuse!(section, name,
+                "boundaries.{name}.axial_stiffness has no effect on a plane body"; "the body is plane"; "leave axial_stiffness out");
         }
     }
 }
@@ -97,23 +87,16 @@ pub(super) fn outer_edge(
     let section = root.section("boundaries", false);
     let mut outer = BoundaryCondition::Clamped;
     for (name, condition) in boundaries {
-        let reject = |message: String, label: &str, help: &str| {
-            section.reject(name, message, label.to_owned(), Some(help.to_owned()));
-        };
         match (name.as_str(), condition) {
             ("inner", BoundaryCondition::Free) => {}
-            ("inner", _) => reject(
-                "boundaries.inner is the contact edge: it can have no condition of its own"
-                    .to_owned(),
-                "the contact is here",
-                "leave the section out",
-            ),
-            ("shaft", _) => reject(
-                "boundaries.shaft is the contact edge of the shaft: it can have no condition of its own"
-                    .to_owned(),
-                "the contact is here",
-                "leave the section out; what holds the shaft is boundaries.bore",
-            ),
+            ("inner", _) => refuse!(section, name,
+                "boundaries.inner is the contact edge: it can have no condition of its own";
+                "the contact is here"; "leave the section out"),
+            ("shaft", _) => refuse!(section, name,
+                "boundaries.shaft is the contact edge of the shaft: it can have no condition of \
+                 its own";
+                "the contact is here";
+                "leave the section out; what holds the shaft is boundaries.bore"),
             ("bore", _) if has_shaft => {}
             ("outer", BoundaryCondition::Clamped) => {}
             ("outer", BoundaryCondition::Support(support))
@@ -121,16 +104,13 @@ pub(super) fn outer_edge(
             {
                 outer = *condition;
             }
-            ("outer", _) => reject(
-                "nothing holds the disc against the friction that turns it".to_owned(),
-                "must hold the edge tangentially",
-                "use condition = \"clamped\", or \"support\" with tangential_stiffness above 0",
-            ),
-            _ => reject(
-                format!("the annulus has no boundary \"{name}\""),
-                "it has \"inner\" and \"outer\", and \"bore\" with geometry.shaft_inner_radius",
-                "other boundaries come from an imported mesh (mesh.file)",
-            ),
+            ("outer", _) => refuse!(section, name,
+                "nothing holds the disc against the friction that turns it";
+                "must hold the edge tangentially";
+                "use condition = \"clamped\", or \"support\" with tangential_stiffness above 0"),
+            _ => refuse!(section, name, "the annulus has no boundary \"{name}\"";
+                "it has \"inner\" and \"outer\", and \"bore\" with geometry.shaft_inner_radius";
+                "other boundaries come from an imported mesh (mesh.file)"),
         }
     }
     outer

@@ -2,6 +2,7 @@
 
 use super::body::Body;
 use super::reader::Section;
+use super::refuse;
 use super::words::CeaMethod;
 use crate::fem::MassKind;
 
@@ -30,8 +31,6 @@ pub struct Cea {
     /// Friction coefficients whose mode shapes are written, rising; they need not be among
     /// `friction_coefficients`.
     pub shapes_at: Vec<f64>,
-    /// Stability map over a second parameter.
-    pub map: Option<CeaMap>,
     /// Whether derivatives are computed; where the case does not say, of bodies that are solved harmonic by harmonic.
     pub sensitivities: Option<bool>,
     /// Whether the modes of a whole mesh are counted under friction.
@@ -48,15 +47,6 @@ impl Cea {
     }
 }
 
-/// `[cea.map]`: the critical friction over a second parameter.
-#[derive(Clone, Debug, PartialEq)]
-pub struct CeaMap {
-    /// Dotted case key.
-    pub key: String,
-    /// Its values.
-    pub values: Vec<f64>,
-}
-
 pub(super) fn cea(
     root: &Section<'_>,
     body: Option<&Body>,
@@ -69,12 +59,8 @@ pub(super) fn cea(
     let friction_coefficients =
         section.rising("friction_coefficients").unwrap_or_else(|| vec![friction_coefficient]);
     if friction_coefficients.is_empty() && section.is_empty_list("friction_coefficients") {
-        section.reject(
-            "friction_coefficients",
-            "cea.friction_coefficients is empty",
-            "at least one value",
-            None,
-        );
+        refuse!(section, "friction_coefficients", "cea.friction_coefficients is empty";
+            "at least one value");
     }
     let unknowns =
         body.map_or(0, |body| body.node_count().saturating_mul(body.dimension() as u128));
@@ -85,7 +71,6 @@ pub(super) fn cea(
         geometric_stiffness: section.flag("geometric_stiffness"),
         shapes_at: section.rising("shapes_at").unwrap_or_else(|| vec![friction_coefficient]),
         friction_coefficients,
-        map: cea_map(&section),
         sensitivities: section.has("sensitivities").then(|| section.flag("sensitivities")),
         count_modes: section.flag("count_modes"),
     };
@@ -98,12 +83,9 @@ pub(super) fn mode_selection(section: &Section<'_>, unknowns: u128) -> ModeSelec
     let limit = section.optional_number("max_frequency_hz");
     let modes = section.optional_count("modes");
     if let Some(modes) = modes.filter(|modes| *modes as u128 > unknowns && unknowns > 0) {
-        section.reject(
-            "modes",
-            format!("cea.modes = {modes} is more than the {unknowns} unknowns of the mesh"),
-            format!("at most {unknowns}"),
-            None,
-        );
+        refuse!(section, "modes",
+            "cea.modes = {modes} is more than the {unknowns} unknowns of the mesh";
+            "at most {unknowns}");
     }
     match (limit, modes) {
         (Some(limit), None) => ModeSelection::BelowHz(limit),
@@ -120,46 +102,16 @@ pub(super) fn mode_selection(section: &Section<'_>, unknowns: u128) -> ModeSelec
             ModeSelection::BelowHz(limit)
         }
         (Some(limit), Some(_)) => {
-            section.reject(
-                "modes",
-                "cea.modes and cea.max_frequency_hz exclude each other",
-                "give one of the two",
-                "keep one of the two",
-            );
+            refuse!(section, "modes", "cea.modes and cea.max_frequency_hz exclude each other";
+                "give one of the two"; "keep one of the two");
             ModeSelection::BelowHz(limit)
         }
         (None, None) => {
-            section.reject(
-                "max_frequency_hz",
-                "cea.max_frequency_hz (or cea.modes) is missing",
-                "does not say which modes to find",
-                "add `max_frequency_hz = 17500.0` (all modes below it) \
-                     or `modes = 28` (the lowest ones)",
-            );
+            refuse!(section, "max_frequency_hz", "cea.max_frequency_hz (or cea.modes) is missing";
+                "does not say which modes to find";
+                "add `max_frequency_hz = 17500.0` (all modes below it) or `modes = 28` (the lowest \
+                 ones)");
             ModeSelection::BelowHz(f64::NAN)
         }
     }
-}
-
-fn cea_map(cea: &Section<'_>) -> Option<CeaMap> {
-    let section = cea.section("map", false);
-    if !section.is_given() {
-        return None;
-    }
-    let key = section.parameter("key");
-    if section.has("key") && key == "contact.friction_coefficient" {
-        section.reject(
-            "key",
-            "cea.map.key = \"contact.friction_coefficient\" is already the first parameter of \
-             the map",
-            "another parameter",
-            None,
-        );
-    }
-    let values = section.rising("values").unwrap_or_default();
-    if !section.has("values") || section.is_empty_list("values") {
-        section.reject("values", "cea.map.values is missing or empty", "at least one value", None);
-    }
-    section.close();
-    Some(CeaMap { key, values })
 }

@@ -1,16 +1,18 @@
 //! The section `[contact]`.
 
 use super::Case;
-use super::contacts::section_of;
 use super::elastic::loss_factor;
 use super::imported::{self, ContactPlace};
 use super::interference::interference;
 use super::normal_law::normal_law;
 use super::reader::Section;
+use super::refuse;
 use super::solid;
+use super::value::quote;
 use super::words::BaseContact;
 use crate::contact::{ContactStiffness, FrictionDecay, NormalLaw, SlidingContact};
 use crate::mesh::AnnulusSpecification;
+use crate::prestress::SlidingSurfaces;
 use std::f64::consts::TAU;
 
 /// `[contact]`.
@@ -20,6 +22,14 @@ pub struct Contact {
     pub sliding: SlidingContact,
     /// Linearised contact of the eigenvalue analysis.
     pub stiffness: ContactStiffness,
+}
+
+/// The section of a contact.
+pub(super) fn section_of(contact: &SlidingSurfaces) -> String {
+    match contact.is_short_form() {
+        true => "contact".to_owned(),
+        false => format!("contacts.{}", quote(&contact.name)),
+    }
 }
 
 /// The normal springs of a contact.
@@ -99,33 +109,21 @@ pub(super) fn contact(
             // A default written out changes nothing.
             let is_default = section.is_text(key, "inner") || section.is_text(key, "cylinder");
             if !is_default {
-                section.reject(
-                    key,
-                    format!("contact.{key} is for a body from a mesh file (mesh.file)"),
-                    "not used by the built-in annulus",
-                    "leave it out",
-                );
+                refuse!(section, key, "contact.{key} is for a body from a mesh file (mesh.file)";
+                    "not used by the built-in annulus"; "leave it out");
             }
         }
         place.plane_speed = None;
     }
     let interference = interference(&section);
     if is_pressed && section.has("normal_force") {
-        section.reject(
-            "normal_force",
-            "contact.normal_force beside a boundary with a pressure",
-            "one of the two presses",
-            "leave the force out, or the pressure",
-        );
+        refuse!(section, "normal_force", "contact.normal_force beside a boundary with a pressure";
+            "one of the two presses"; "leave the force out, or the pressure");
     }
     // A pressure on a face may press a three-dimensional body; on a plane annulus it is an error of its own.
     if !is_solid && interference == 0.0 && !is_pressed {
-        section.reject(
-            "interference",
-            "contact.interference = 0.0 must be positive and finite",
-            "must be positive and finite",
-            "without it nothing presses the body",
-        );
+        refuse!(section, "interference", "contact.interference = 0.0 must be positive and finite";
+            "must be positive and finite"; "without it nothing presses the body");
     }
     let rotation_speed = match place.plane_speed {
         Some(speed) => {
@@ -135,14 +133,11 @@ pub(super) fn contact(
         None => section.number("rotation_speed_rpm") * TAU / 60.0,
     };
     if is_solid && rotation_speed == 0.0 && section.has("rotation_speed_rpm") {
-        section.reject(
-            "rotation_speed_rpm",
+        refuse!(section, "rotation_speed_rpm",
             "contact.rotation_speed_rpm = 0: at rest friction holds a three-dimensional body \
              across the sliding too, as by an infinite dashpot (mu p / V): there is no steady \
-             sliding",
-            "must not be zero in three dimensions",
-            "give a small positive speed instead",
-        );
+             sliding";
+            "must not be zero in three dimensions"; "give a small positive speed instead");
     }
     let is_compliant = section.choice::<BaseContact>("base_state") == BaseContact::Compliant;
     let stiffness = contact_stiffness(&section, is_compliant);
@@ -189,12 +184,8 @@ pub(super) fn contact_stiffness(
     for (key, value, why) in idle {
         if stiffness.normal_stiffness.is_none() && value > 0.0 {
             let name = section.name(key);
-            section.reject(
-                key,
-                format!("{name} = {value} has no effect on a rigid contact{why}"),
-                "needs normal_stiffness",
-                format!("give normal_stiffness, or leave {key} out"),
-            );
+            refuse!(section, key, "{name} = {value} has no effect on a rigid contact{why}";
+                "needs normal_stiffness"; "give normal_stiffness, or leave {key} out");
         }
     }
     ContactStiffness { law, ..stiffness }
@@ -206,21 +197,16 @@ pub(super) fn friction_decay(section: &Section<'_>) -> Option<FrictionDecay> {
     let decay_speed = section.optional_number("decay_speed");
     let decay = decay_speed.map(|decay_speed| FrictionDecay { static_ratio, decay_speed });
     if static_ratio > 1.0 && !section.has("decay_speed") {
-        section.reject(
-            "static_friction_ratio",
-            format!("{} = {static_ratio} needs decay_speed", section.name("static_friction_ratio")),
-            "falls over no speed",
-            "give the speed over which friction falls, for example decay_speed = 0.2",
-        );
+        refuse!(section, "static_friction_ratio" => "= {static_ratio} needs decay_speed";
+            "falls over no speed";
+            "give the speed over which friction falls, for example decay_speed = 0.2");
     }
     if decay.is_some() && !section.has("static_friction_ratio") {
-        section.reject(
-            "decay_speed",
-            "contact.decay_speed has no effect without contact.static_friction_ratio",
-            "friction does not fall",
-            "give static friction over kinetic, for example static_friction_ratio = 1.4, or \
-                 leave decay_speed out",
-        );
+        refuse!(section, "decay_speed",
+            "contact.decay_speed has no effect without contact.static_friction_ratio";
+            "friction does not fall";
+            "give static friction over kinetic, for example static_friction_ratio = 1.4, or leave \
+             decay_speed out");
     }
     decay.filter(|decay| decay.static_ratio > 1.0)
 }

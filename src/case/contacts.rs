@@ -2,9 +2,9 @@
 
 use super::contact::{contact_stiffness, friction_decay};
 use super::reader::Section;
+use super::refuse;
 use super::rigid_counterface::rigid_counterface;
 use super::tables::{TableFiles, topography};
-use super::value::quote;
 use super::words::BaseContact;
 use crate::contact::{Counterpart, PairFriction, Topography};
 use crate::prestress::{BaseChoice, SlidingSurfaces};
@@ -24,21 +24,15 @@ pub(super) struct NamedContact {
 /// `[contact]` of solid bodies: one contact with a rigid counterface.
 pub(super) fn short_form(section: &Section<'_>) -> NamedContact {
     for key in section.refused("ring_inner_radius ring_outer_radius counter_boundary") {
-        section.reject(
-            key,
-            format!("{} has no meaning for a mesh of solid elements", section.name(key)),
-            "of other bodies",
-            "leave it out; surfaces that slide on each other are named under [contacts.NAME]",
-        );
+        refuse!(section, key => "has no meaning for a mesh of solid elements"; "of other bodies";
+            "leave it out; surfaces that slide on each other are named under [contacts.NAME]");
     }
     let is_rigid_base = section.choice::<BaseContact>("base_state") == BaseContact::Rigid;
     if section.has("base_state") && is_rigid_base {
-        section.reject(
-            "base_state",
-            "contact.base_state = \"rigid\": the springs of a contact of solid bodies carry their base state",
-            "not of a body from a mesh of solid elements",
-            "leave it out",
-        );
+        refuse!(section, "base_state",
+            "contact.base_state = \"rigid\": the springs of a contact of solid bodies carry their \
+             base state";
+            "not of a body from a mesh of solid elements"; "leave it out");
     }
     let boundary = section.optional_text("boundary");
     let boundary = boundary.unwrap_or_else(|| "inner".to_owned());
@@ -52,14 +46,6 @@ pub(super) fn short_form(section: &Section<'_>) -> NamedContact {
     }
 }
 
-/// The section of a contact.
-pub(super) fn section_of(contact: &SlidingSurfaces) -> String {
-    match contact.is_short_form() {
-        true => "contact".to_owned(),
-        false => format!("contacts.{}", quote(&contact.name)),
-    }
-}
-
 /// One contact, without its name and its place in the mesh.
 pub(super) fn contact(
     section: &Section<'_>,
@@ -70,15 +56,8 @@ pub(super) fn contact(
     bases.push(base);
     let topography = topography(section, tables);
     if base == BaseChoice::Closed && topography.is_some() {
-        section.reject(
-            "gap",
-            format!(
-                "{} has no effect on a contact that is closed and free of stress",
-                section.name("gap")
-            ),
-            "beside state = \"closed\"",
-            "leave one of the two out",
-        );
+        refuse!(section, "gap" => "has no effect on a contact that is closed and free of stress";
+            "beside state = \"closed\""; "leave one of the two out");
     }
     let counter = section.optional_text("counter");
     let counterpart = match section.has("counterface") {
@@ -90,12 +69,9 @@ pub(super) fn contact(
     };
     match (&counterpart, &counter) {
         (Counterpart::Surface(_), None) => section.missing("counter"),
-        (Counterpart::Rigid(_), Some(_)) => section.reject(
-            "counter",
-            format!("{} beside a rigid counterface", section.name("counter")),
-            "one of the two",
-            "leave `counter` out, or `counterface`",
-        ),
+        (Counterpart::Rigid(_), Some(_)) => refuse!(section, "counter" =>
+            "beside a rigid counterface"; "one of the two";
+            "leave `counter` out, or `counterface`"),
         _ => {}
     }
     NamedContact {
@@ -111,13 +87,9 @@ pub(super) fn contact(
 fn refuse_idle(section: &Section<'_>) {
     let shape = "axis center direction radius speed rotation_speed_rpm interference normal_force";
     for key in section.refused(shape) {
-        section.reject(
-            key,
-            format!("{} is for a rigid counterface", section.name(key)),
-            "needs counterface",
-            "leave it out; a rigid counterface has `counterface` in place of `counter`, with direction and speed, or with \
-             rotation_speed_rpm",
-        );
+        refuse!(section, key => "is for a rigid counterface"; "needs counterface";
+            "leave it out; a rigid counterface has `counterface` in place of `counter`, with \
+             direction and speed, or with rotation_speed_rpm");
     }
 }
 

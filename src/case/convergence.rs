@@ -3,6 +3,7 @@
 use super::body::{Body, Revolution, node_count};
 use super::reader::Section;
 use super::words::Analysis;
+use super::{caution, refuse};
 use crate::mesh::{AnnulusSpecification, BodyError, Mesh, ShaftSpecification, SolidSpecification};
 use std::sync::Arc;
 
@@ -111,12 +112,10 @@ pub(super) fn read(root: &Section<'_>, body: Option<&Body>, has: [bool; 3]) -> O
         return None;
     }
     if root.has("modifications") {
-        root.reject(
-            "modifications",
-            "[modifications] are places of one mesh: a finer one would have others",
-            "not beside [convergence]",
-            "leave one of the two sections out, and compare meshes by hand",
-        );
+        refuse!(root, "modifications",
+            "[modifications] are places of one mesh: a finer one would have others";
+            "not beside [convergence]";
+            "leave one of the two sections out, and compare meshes by hand");
     }
     let factors = match section.numbers("factors") {
         _ if body.is_some_and(|body| !body.has_sectors()) && !section.has("factors") => {
@@ -149,12 +148,9 @@ pub(super) fn read(root: &Section<'_>, body: Option<&Body>, has: [bool; 3]) -> O
     let has_waves = body.is_none_or(|body| body.annulus().is_some());
     let analyses = analyses(&section, is_linear, [has[0], has[1], has[2] && has_waves]);
     if !time_step_factors.is_empty() && !analyses.contains(&Analysis::Transient) {
-        section.reject(
-            "time_step_factors",
-            "convergence.time_step_factors needs a [transient]",
-            "there is no transient in this case",
-            "add a [transient] section of quad4 elements, or leave time_step_factors out",
-        );
+        refuse!(section, "time_step_factors", "convergence.time_step_factors needs a [transient]";
+            "there is no transient in this case";
+            "add a [transient] section of quad4 elements, or leave time_step_factors out");
     }
     section.close();
     Some(Convergence { factors, time_step_factors, analyses })
@@ -164,16 +160,9 @@ pub(super) fn read(root: &Section<'_>, body: Option<&Body>, has: [bool; 3]) -> O
 fn has_enough(section: &Section<'_>, key: &'static str, values: &[f64]) -> bool {
     let is_enough = values.len() >= FEWEST;
     if !is_enough {
-        section.reject(
-            key,
-            format!(
-                "{} has {} values; observing an order takes {FEWEST} or more",
-                section.name(key),
-                values.len()
-            ),
-            format!("at least {FEWEST} values"),
-            None,
-        );
+        refuse!(section, key =>
+            "has {} values; observing an order takes {FEWEST} or more", values.len();
+            "at least {FEWEST} values");
     }
     is_enough
 }
@@ -201,30 +190,20 @@ fn is_ordered(section: &Section<'_>, key: &'static str, values: &[f64], sign: f6
 fn check_splits(section: &Section<'_>, mesh: &Mesh, factors: &[f64]) {
     let is_power = |factor: f64| (1.0..1e6).contains(&factor) && factor.log2().fract() == 0.0;
     if let Some(factor) = factors.iter().find(|factor| !is_power(**factor)) {
-        section.reject(
-            "factors",
-            format!(
-                "convergence.factors holds {factor}: an imported mesh is refined by splitting \
-                 each element into four, a solid one into eight"
-            ),
-            "powers of two: 1, 2, 4, ...",
-            "leave it out for [1, 2, 4]",
-        );
+        refuse!(section, "factors",
+            "convergence.factors holds {factor}: an imported mesh is refined by splitting each \
+             element into four, a solid one into eight";
+            "powers of two: 1, 2, 4, ..."; "leave it out for [1, 2, 4]");
         return;
     }
     let finest = factors.last().copied().unwrap_or(1.0);
     let limit = f64::from(u32::MAX / mesh.dimension as u32);
     let nodes = mesh.node_count() as f64 * finest.powi(mesh.dimension as i32);
     if nodes > limit {
-        section.reject(
-            "factors",
-            format!(
-                "the mesh of convergence.factors = {finest} would have {nodes:.0} nodes, above \
-                 the limit of {limit}"
-            ),
-            "too many elements",
-            None,
-        );
+        refuse!(section, "factors",
+            "the mesh of convergence.factors = {finest} would have {nodes:.0} nodes, above the \
+             limit of {limit}";
+            "too many elements");
     }
 }
 
@@ -275,26 +254,18 @@ fn check_meshes(
             radial as f64 / annulus.radial_elements as f64,
         ];
         if (a / r - 1.0).abs() > UNEVEN {
-            section.warn(
-                "factors",
-                format!(
-                    "{name}, refines by {a:.3} around and {r:.3} along the radius after rounding: \
-                     the observed order suffers from that"
-                ),
-                "uneven after rounding",
-            );
+            caution!(section, "factors",
+                "{name}, refines by {a:.3} around and {r:.3} along the radius after rounding: the \
+                 observed order suffers from that";
+                "uneven after rounding");
         }
         let layers = solid.map_or(1, |solid| solid.axial_elements) as f64;
         let z = (layers * factor).round() / layers;
         if solid.is_some() && (z / a - 1.0).abs() > UNEVEN {
-            section.warn(
-                "factors",
-                format!(
-                    "{name}, refines by {a:.3} around and {z:.3} over the thickness after rounding: the observed order suffers \
-                     from that"
-                ),
-                "uneven after rounding",
-            );
+            caution!(section, "factors",
+                "{name}, refines by {a:.3} around and {z:.3} over the thickness after rounding: \
+                 the observed order suffers from that";
+                "uneven after rounding");
         }
         previous = Some((factor, mesh));
     }
@@ -324,25 +295,19 @@ fn analyses(
         let all = words.iter().map(|word| word.1);
         let all: Vec<Analysis> = all.filter(|analysis| is_there(*analysis)).collect();
         if all.is_empty() && !section.has("analyses") {
-            section.reject(
-                "analyses",
-                "[convergence] has nothing to study: the case has neither [cea] nor a \
-                 [transient] or a [cycle] that its elements can run",
-                "no analysis in the case",
-                "add\n[cea]\nmax_frequency_hz = 17500.0",
-            );
+            refuse!(section, "analyses",
+                "[convergence] has nothing to study: the case has neither [cea] nor a [transient] \
+                 or a [cycle] that its elements can run";
+                "no analysis in the case"; "add\n[cea]\nmax_frequency_hz = 17500.0");
         }
         return all;
     }
     for (word, analysis) in words {
         if named.contains(&analysis) && !is_there(analysis) {
-            section.reject(
-                "analyses",
-                format!("convergence.analyses names \"{word}\", which this case cannot run"),
-                "an analysis needs its own section; a transient also needs quad4 elements, a \
-                 cycle quad4 elements and the built-in annulus",
-                None,
-            );
+            refuse!(section, "analyses",
+                "convergence.analyses names \"{word}\", which this case cannot run";
+                "an analysis needs its own section; a transient also needs quad4 elements, a cycle \
+                 quad4 elements and the built-in annulus");
         }
     }
     let once = words.iter().map(|w| w.1);

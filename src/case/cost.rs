@@ -1,79 +1,112 @@
 //! Cost of a case, estimated without running it.
 //!
-//! Memory and time come from operation counts and typical rates of one modern core, to within a
-//! factor of about two. The run itself measures the real ones.
+//! Memory comes from the sizes of matrices and records, to within a factor of about two. Time is a
+//! count of operations at one rate: its order of magnitude.
 
 mod estimate;
 mod memory;
 mod size;
 
 use super::{Analysis, Body, Case};
+use serde::{Serialize, Serializer};
 use size::Size;
 
 /// Points of a study whose cost is looked at.
 const TRIED_POINTS: usize = 24;
 
+/// Complex multiplications and additions that one core does in a second, about.
+const RATE: f64 = 1e9;
+
+/// Memory and time of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct RunCost {
+    /// Memory, bytes.
+    pub memory_bytes: f64,
+    /// Multiplications and additions: the time on one thread, to its order of magnitude.
+    #[serde(rename = "time", serialize_with = "in_words")]
+    pub operations: f64,
+}
+
+impl RunCost {
+    /// Time on one thread, s, to its order of magnitude.
+    pub fn seconds(&self) -> f64 {
+        self.operations / RATE
+    }
+
+    /// The same in words.
+    pub fn time(&self) -> &'static str {
+        match self.seconds() {
+            s if s < 60.0 => "seconds",
+            s if s < 3600.0 => "minutes",
+            s if s < 2.0 * 86_400.0 => "hours",
+            _ => "days",
+        }
+    }
+}
+
+fn in_words<S: Serializer>(operations: &f64, to: S) -> Result<S::Ok, S::Error> {
+    to.serialize_str(RunCost { operations: *operations, ..RunCost::default() }.time())
+}
+
 /// Cost of a complex eigenvalue analysis.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct CeaCost {
     /// Friction coefficients solved at.
     pub friction_values: usize,
     /// Modes expected at each.
+    #[serde(rename = "estimated_modes")]
     pub modes: usize,
-    /// Memory of the solver, bytes.
-    pub memory_bytes: f64,
-    /// Time on one thread, s.
-    pub seconds: f64,
+    /// Memory and time.
+    #[serde(flatten)]
+    pub run: RunCost,
 }
 
 /// Cost of a transient.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct TransientCost {
     /// Time step, s: given, or a bound from wave speed and element size.
+    #[serde(rename = "time_step_s")]
     pub time_step: f64,
     /// Largest stable time step by that bound, s.
+    #[serde(skip)]
     pub stable_step: f64,
     /// Steps.
     pub steps: f64,
-    /// Memory, bytes.
-    pub memory_bytes: f64,
-    /// Time on one thread, s.
-    pub seconds: f64,
+    /// Memory and time.
+    #[serde(flatten)]
+    pub run: RunCost,
 }
 
 /// Cost of a search for limit cycles.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct CycleCost {
     /// Families: those of the harmonics named, or two.
     pub families: usize,
     /// Cycles of each family: that of the case, and those along its branch.
     pub cycles: usize,
-    /// Memory of the solver, bytes.
-    pub memory_bytes: f64,
-    /// Time on one thread, s.
-    pub seconds: f64,
+    /// Memory and time.
+    #[serde(flatten)]
+    pub run: RunCost,
 }
 
 /// Cost of a frequency response.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct FrfCost {
     /// Frequencies.
     pub lines: usize,
-    /// Memory of the solver, bytes.
-    pub memory_bytes: f64,
-    /// Time on one thread, s.
-    pub seconds: f64,
+    /// Memory and time.
+    #[serde(flatten)]
+    pub run: RunCost,
 }
 
-/// Cost of many runs of a case.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Cost of many runs of a case: memory of what runs at once, time of all.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct StudyCost {
     /// Runs.
     pub runs: usize,
-    /// Memory of the largest run, bytes.
-    pub memory_bytes: f64,
-    /// Time of all on one thread, s.
-    pub seconds: f64,
+    /// Memory and time.
+    #[serde(flatten)]
+    pub run: RunCost,
 }
 
 /// Size of a case and the cost of each of its analyses.
@@ -95,31 +128,21 @@ pub struct Cost {
     pub cycle: Option<CycleCost>,
     /// Frequency response.
     pub frf: Option<FrfCost>,
-    /// Time of a search for the boundary of two basins on one thread, s; 0 where none is asked for.
-    pub basin_seconds: f64,
+    /// Search for the boundary of two basins.
+    pub basin: Option<RunCost>,
 }
 
 impl Cost {
-    /// Memory of one analysis and its mesh, bytes.
-    fn memory_of(&self, analysis: Analysis) -> f64 {
-        self.mesh_memory_bytes
-            + match analysis {
-                Analysis::Cea => self.cea.map_or(0.0, |cost| cost.memory_bytes),
-                Analysis::Transient => self.transient.map_or(0.0, |cost| cost.memory_bytes),
-                Analysis::Cycle => self.cycle.map_or(0.0, |cost| cost.memory_bytes),
-                // A few fields, less than the mesh.
-                Analysis::Basin => 0.0,
-            }
-    }
-
-    /// Time of one analysis on one thread, s.
-    fn seconds_of(&self, analysis: Analysis) -> f64 {
-        match analysis {
-            Analysis::Cea => self.cea.map_or(0.0, |cost| cost.seconds),
-            Analysis::Transient => self.transient.map_or(0.0, |cost| cost.seconds),
-            Analysis::Cycle => self.cycle.map_or(0.0, |cost| cost.seconds),
-            Analysis::Basin => self.basin_seconds,
-        }
+    /// Memory of one analysis and its mesh, and its time.
+    fn run_of(&self, analysis: Analysis) -> RunCost {
+        let own = match analysis {
+            Analysis::Cea => self.cea.map(|cost| cost.run),
+            Analysis::Transient => self.transient.map(|cost| cost.run),
+            Analysis::Cycle => self.cycle.map(|cost| cost.run),
+            Analysis::Basin => self.basin,
+        };
+        let own = own.unwrap_or_default();
+        RunCost { memory_bytes: self.mesh_memory_bytes + own.memory_bytes, ..own }
     }
 }
 
@@ -142,10 +165,7 @@ impl Case {
             transient: transient.map(|transient| self.transient_cost(transient, size)),
             cycle: self.cycle.as_ref().map(|cycle| self.cycle_cost(cycle, size)),
             frf: self.frf.as_ref().map(|frf| self.frf_cost(frf, size)),
-            // Some eight transients of 800 steps to a period, each at its longest.
-            basin_seconds: self.basin.as_ref().map_or(0.0, |basin| {
-                8.0 * 2e-9 * size.elements as f64 * 800.0 * basin.periods as f64
-            }),
+            basin: self.basin.as_ref().map(|basin| self.basin_cost(basin, size)),
         }
     }
 
@@ -173,30 +193,28 @@ impl Case {
             let raw = self.raw.sweep_point(&sweep.overrides(point)).ok()?;
             let case = Case::read(raw).ok()?;
             let cost = case.cost();
-            let analyses = case.studied(&sweep.analyses);
-            let seconds: f64 = analyses.iter().map(|of| cost.seconds_of(*of)).sum();
-            let bytes = analyses.iter().map(|of| cost.memory_of(*of));
-            Some((bytes.fold(0.0, f64::max), seconds))
+            let runs = case.studied(&sweep.analyses).into_iter().map(|of| cost.run_of(of));
+            Some(runs.fold(RunCost::default(), |all, run| RunCost {
+                memory_bytes: all.memory_bytes.max(run.memory_bytes),
+                operations: all.operations + run.operations,
+            }))
         });
-        let costs: Vec<(f64, f64)> = costs.map(Option::unwrap_or_default).collect();
-        Some(StudyCost {
-            runs,
-            memory_bytes: costs.iter().fold(0.0, |a: f64, cost| a.max(cost.0)),
-            seconds: costs.iter().map(|cost| cost.1).sum::<f64>() * runs as f64
-                / tried.max(1) as f64,
-        })
+        let costs: Vec<RunCost> = costs.map(Option::unwrap_or_default).collect();
+        let operations: f64 = costs.iter().map(|cost| cost.operations).sum();
+        let run = RunCost {
+            memory_bytes: costs.iter().fold(0.0, |most, cost| cost.memory_bytes.max(most)),
+            operations: operations * runs as f64 / tried.max(1) as f64,
+        };
+        Some(StudyCost { runs, run })
     }
 
     /// Estimates what the samples of `[uncertainty]` cost: the onsets of each, and what the indices take.
     pub fn uncertainty_cost(&self) -> Option<StudyCost> {
-        let (uncertainty, cost) = (self.uncertainty.as_ref()?, self.cost());
+        let (uncertainty, each) = (self.uncertainty.as_ref()?, self.cost().run_of(Analysis::Cea));
         let for_indices = uncertainty.index_samples * (uncertainty.parameters.len() + 1);
         let runs = uncertainty.samples + for_indices;
-        Some(StudyCost {
-            runs,
-            memory_bytes: cost.memory_of(Analysis::Cea),
-            seconds: runs as f64 * cost.seconds_of(Analysis::Cea),
-        })
+        let run = RunCost { operations: runs as f64 * each.operations, ..each };
+        Some(StudyCost { runs, run })
     }
 
     /// Estimates what the convergence study costs: every mesh and every time step.
@@ -208,13 +226,14 @@ impl Case {
         });
         let steps = study.time_step_factors.iter();
         let steps = steps.map(|factor| (self.cost(), vec![Analysis::Transient], 1.0 / factor));
-        let mut total = StudyCost { runs: 0, memory_bytes: 0.0, seconds: 0.0 };
+        let mut total = StudyCost::default();
         for (cost, analyses, times) in meshes.chain(steps) {
             for analysis in analyses {
+                let run = cost.run_of(analysis);
                 total.runs += 1;
                 // The levels run side by side.
-                total.memory_bytes += cost.memory_of(analysis);
-                total.seconds += times * cost.seconds_of(analysis);
+                total.run.memory_bytes += run.memory_bytes;
+                total.run.operations += times * run.operations;
             }
         }
         Some(total)

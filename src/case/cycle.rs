@@ -7,6 +7,7 @@ use super::range::{Spacing, range_values};
 use super::reader::Section;
 use super::words::{OnsetChoice, StabilityChoice};
 use super::{Case, CaseErrors};
+use super::{refusal, refuse};
 use crate::cycle::Parameter;
 
 /// Shortest transient that puts a cycle to the test: its last fifth has the four periods that a frequency is read from,
@@ -86,20 +87,13 @@ impl Case {
         let value = self.raw.find(&key).map(|item| item.value.to_string());
         let value = value.unwrap_or_default();
         Err(match self.has_rotating_waves() {
-            true => self.error_at(
-                &key,
-                format!("{key} = {value}: limit cycles need a cylinder that turns"),
-                "must be positive here",
-                "a cylinder turning backwards gives the mirror image",
-            ),
-            false => self.error_at(
-                &key,
-                format!(
-                    "{key} = {value}: the contact sticks at rest, and no limit cycle lives there"
-                ),
-                "must not be zero here",
-                "give a speed; its sign is the sense of the sliding",
-            ),
+            true => {
+                refusal!(self, &key, "{key} = {value}: limit cycles need a cylinder that turns";
+                "must be positive here"; "a cylinder turning backwards gives the mirror image")
+            }
+            false => refusal!(self, &key,
+                "{key} = {value}: the contact sticks at rest, and no limit cycle lives there";
+                "must not be zero here"; "give a speed; its sign is the sense of the sliding"),
         })
     }
 
@@ -163,22 +157,17 @@ pub(super) fn cycle(root: &Section<'_>, body: Option<&Body>) -> Option<Cycle> {
     let frames = section.count("frames");
     let confirmation_periods = section.count("confirmation_periods");
     if let periods @ 1..CONFIRMATION_PERIODS = confirmation_periods {
-        section.reject(
-            "confirmation_periods",
-            format!("cycle.confirmation_periods = {periods} is too short to read a frequency from its last fifth"),
-            format!("0 for none, or {CONFIRMATION_PERIODS} and more"),
-            None,
-        );
+        refuse!(section, "confirmation_periods",
+            "cycle.confirmation_periods = {periods} is too short to read a frequency from its last \
+             fifth";
+            "0 for none, or {CONFIRMATION_PERIODS} and more");
     }
     let stability = section.choice("stability");
     let two_frequencies = section.flag("two_frequencies");
     if two_frequencies && stability == StabilityChoice::None {
-        section.reject(
-            "two_frequencies",
-            "cycle.two_frequencies needs to know which cycles lose their stability",
-            "needs cycle.stability",
-            "cycle.stability = \"point\" or \"branch\"",
-        );
+        refuse!(section, "two_frequencies",
+            "cycle.two_frequencies needs to know which cycles lose their stability";
+            "needs cycle.stability"; "cycle.stability = \"point\" or \"branch\"");
     }
     let inner = section.section("continuation", false);
     let continuation = inner.is_given().then(|| Continuation {
@@ -192,12 +181,8 @@ pub(super) fn cycle(root: &Section<'_>, body: Option<&Body>) -> Option<Cycle> {
         check_continuation(&inner, continuation);
     }
     if stability == StabilityChoice::Branch && continuation.is_none() {
-        section.reject(
-            "stability",
-            "cycle.stability = \"branch\" needs [cycle.continuation]",
-            "needs [cycle.continuation]",
-            "add that table, or use \"point\"",
-        );
+        refuse!(section, "stability", "cycle.stability = \"branch\" needs [cycle.continuation]";
+            "needs [cycle.continuation]"; "add that table, or use \"point\"");
     }
     inner.close();
     let is_given = section.is_given();
@@ -220,36 +205,19 @@ fn check_continuation(section: &Section<'_>, continuation: &Continuation) {
     let is_numeric = keys::find(key).is_some_and(|known| known.is_numeric());
     if is_numeric && Parameter::from_key(key).is_none() {
         let known = Parameter::ALL.map(Parameter::key);
-        section.reject(
-            "key",
-            format!("limit cycles cannot be followed over {key}"),
-            "not one of the parameters of a cycle",
-            format!("one of {}", known.join(", ")),
-        );
+        refuse!(section, "key", "limit cycles cannot be followed over {key}";
+            "not one of the parameters of a cycle"; "one of {}", known.join(", "));
     }
     if from.min(*to) < 0.0 {
-        section.reject(
-            if *from < 0.0 { "from" } else { "to" },
-            format!("{key} cannot be negative along a branch"),
-            "must not be negative",
-            None,
-        );
+        refuse!(section, if *from < 0.0 { "from" } else { "to" },
+            "{key} cannot be negative along a branch"; "must not be negative");
     } else if *spacing == Spacing::Logarithmic && (*from == 0.0 || *to == 0.0) {
-        section.reject(
-            "spacing",
-            format!(
-                "cycle.continuation.spacing = \"log\" needs two positive ends, not {from} and {to}"
-            ),
-            "both ends must be positive",
-            "use \"linear\"",
-        );
+        refuse!(section, "spacing",
+            "cycle.continuation.spacing = \"log\" needs two positive ends, not {from} and {to}";
+            "both ends must be positive"; "use \"linear\"");
     }
     if from == to {
-        section.reject(
-            "to",
-            format!("cycle.continuation.to = {to} equals from"),
-            "must differ from `from`",
-            None,
-        );
+        refuse!(section, "to", "cycle.continuation.to = {to} equals from";
+            "must differ from `from`");
     }
 }

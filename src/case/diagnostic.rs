@@ -196,3 +196,50 @@ fn cut(text: &str) -> String {
         None => text.to_owned(),
     }
 }
+
+/// What is wrong with a key; the short form under the caret; the remedy, without which the usage of the key is shown.
+macro_rules! said {
+    ($method:ident, $on:expr, $key:expr, $message:literal $(, $part:expr)*;
+     $label:literal $(, $of:expr)* $(; $help:literal $(, $by:expr)*)?) => {
+        $on.$method(
+            $key,
+            format!($message $(, $part)*),
+            format!($label $(, $of)*),
+            $crate::case::said!($($help $(, $by)*)?),
+        )
+    };
+    () => { None };
+    ($help:literal $(, $by:expr)*) => { format!($help $(, $by)*) };
+}
+
+/// The error of a case at one of its keys: `refusal!(case, key, what; label; remedy)`.
+macro_rules! refusal {
+    ($case:expr, $($said:tt)*) => { $crate::case::said!(error_at, $case, $($said)*) };
+}
+
+/// The same among other errors, or as a warning.
+macro_rules! diagnosis {
+    ($case:expr, $($said:tt)*) => { $crate::case::said!(diagnosis, $case, $($said)*) };
+}
+
+/// Refuses a key of a section: `refuse!(section, key, what; label; remedy)`; behind `=>` what is wrong follows the key's name.
+macro_rules! refuse {
+    ($($said:tt)*) => { $crate::case::at_key!(reject, $($said)*) };
+}
+
+/// As [`refuse!`] what is no error but what the user should hear of.
+macro_rules! caution {
+    ($($said:tt)*) => { $crate::case::at_key!(warn, $($said)*) };
+}
+
+macro_rules! at_key {
+    ($method:ident, $section:expr, $key:expr => $message:literal $(, $part:expr)*; $($rest:tt)*) => {
+        $crate::case::said!($method, $section, $key, "{} {}", $section.name($key),
+            format_args!($message $(, $part)*); $($rest)*)
+    };
+    ($method:ident, $section:expr, $($said:tt)*) => {
+        $crate::case::said!($method, $section, $($said)*)
+    };
+}
+pub(super) use {at_key, caution, diagnosis, refuse};
+pub(crate) use {refusal, said};

@@ -1,6 +1,7 @@
 //! Elastic constants of a material, isotropic or orthotropic, and where its axes lie.
 
 use super::reader::Section;
+use super::refuse;
 use super::words::AxesWord;
 use crate::fem::{
     ElasticMaterial, MaterialAxes, ModulusTable, Orthotropy, PlaneFormulation, RATIOS,
@@ -25,16 +26,11 @@ pub(super) enum Surroundings {
 pub(super) fn loss_factor(section: &Section<'_>) -> f64 {
     let loss_factor = section.number("loss_factor");
     if loss_factor > 1.0 {
-        section.reject(
-            "loss_factor",
-            format!(
-                "{} = {loss_factor} is beyond any material's: at 1 half of the strain energy \
-                 is lost in a sixth of a cycle",
-                section.name("loss_factor")
-            ),
-            "at most 1",
-            "steel has about 0.001, cast iron 0.002, a lining 0.01 to 0.1, rubber 0.1 to 1",
-        );
+        refuse!(section, "loss_factor" =>
+            "= {loss_factor} is beyond any material's: at 1 half of the strain energy is lost in a \
+             sixth of a cycle";
+            "at most 1";
+            "steel has about 0.001, cast iron 0.002, a lining 0.01 to 0.1, rubber 0.1 to 1");
     }
     loss_factor
 }
@@ -61,12 +57,9 @@ pub(super) fn elastic(
         for key in ISOTROPIC {
             let _ = section.optional_number(key);
             if section.has(key) {
-                section.reject(
-                    key,
-                    format!("{} beside the keys of an orthotropic material", section.name(key)),
-                    "isotropic or orthotropic",
-                    "leave out the constants of the one or of the other",
-                );
+                refuse!(section, key => "beside the keys of an orthotropic material";
+                    "isotropic or orthotropic";
+                    "leave out the constants of the one or of the other");
             }
         }
         let orthotropy = orthotropy(section);
@@ -81,12 +74,9 @@ pub(super) fn elastic(
     // Known keys of the section, though none is given.
     let _ = ORTHOTROPIC.map(|key| section.numbers(key));
     if axes(section) != MaterialAxes::global() {
-        section.reject(
-            "axes",
-            format!("{} is for an orthotropic material", section.name("axes")),
-            "an isotropic material has no axes",
-            "give young_moduli, poisson_ratios and shear_moduli, or leave it out",
-        );
+        refuse!(section, "axes" => "is for an orthotropic material";
+            "an isotropic material has no axes";
+            "give young_moduli, poisson_ratios and shear_moduli, or leave it out");
     }
     let [young_modulus, poisson_ratio] = ISOTROPIC.map(|key| {
         let value = section.optional_number(key);
@@ -104,12 +94,9 @@ fn tabled(section: &Section<'_>, plain: ElasticMaterial, table: &ModulusTable) -
     let _ = (axes(section), section.optional_number("young_modulus"));
     let excluded = ["young_modulus", "loss_factor", "axes"];
     for key in excluded.iter().chain(&ORTHOTROPIC).filter(|key| section.has(key)) {
-        section.reject(
-            key,
-            format!("{} beside {}", section.name(key), section.name("table")),
-            "the table gives modulus and loss factor",
-            "leave out the one or the other; poisson_ratio and density stand beside a table",
-        );
+        refuse!(section, key => "beside {}", section.name("table");
+            "the table gives modulus and loss factor";
+            "leave out the one or the other; poisson_ratio and density stand beside a table");
     }
     if !section.has("poisson_ratio") {
         section.missing("poisson_ratio");
@@ -131,12 +118,7 @@ fn orthotropy(section: &Section<'_>) -> Orthotropy {
         let values = section.numbers(key)?;
         let given = section.list_length(key).unwrap_or(1);
         if given != 3 {
-            section.reject(
-                key,
-                format!("{} has {given} of three numbers", section.name(key)),
-                "one for each of three axes",
-                None,
-            );
+            refuse!(section, key => "has {given} of three numbers"; "one for each of three axes");
         }
         values.try_into().ok()
     };
@@ -156,17 +138,12 @@ fn orthotropy(section: &Section<'_>) -> Orthotropy {
     if let Err(broken) = orthotropy.check() {
         let (name, [low, high]) = (RATIOS[broken.which], broken.bounds);
         let value = orthotropy.poisson_ratios[broken.which];
-        section.reject(
-            "poisson_ratios",
-            format!(
-                "{}: {name} = {value} would give some strain a negative energy; beside the \
-                 other constants it must lie between {low:.6} and {high:.6}",
-                section.name("poisson_ratios")
-            ),
-            format!("{name} is too large"),
-            "nu_ij is the contraction along j under a stress along i: nu_ij / E_i = nu_ji / \
-             E_j; are the axes swapped?",
-        );
+        refuse!(section, "poisson_ratios",
+            "{}: {name} = {value} would give some strain a negative energy; beside the other \
+             constants it must lie between {low:.6} and {high:.6}", section.name("poisson_ratios");
+            "{name} is too large";
+            "nu_ij is the contraction along j under a stress along i: nu_ij / E_i = nu_ji / E_j; \
+             are the axes swapped?");
     }
     orthotropy
 }
@@ -191,21 +168,12 @@ fn axes(section: &Section<'_>) -> MaterialAxes {
         _ => None,
     };
     let Some((first, second)) = found else {
-        section.reject(
-            "axes",
-            format!("{} needs two vectors", section.name("axes")),
-            "must be [[x, y, z], [x, y, z]]",
-            None,
-        );
+        refuse!(section, "axes" => "needs two vectors"; "must be [[x, y, z], [x, y, z]]");
         return MaterialAxes::global();
     };
     MaterialAxes::along(first, second).unwrap_or_else(|| {
-        section.reject(
-            "axes",
-            format!("the vectors of {} are parallel", section.name("axes")),
-            "span no plane",
-            "the first is axis 1, the second lies in the plane of axes 1 and 2",
-        );
+        refuse!(section, "axes", "the vectors of {} are parallel", section.name("axes");
+            "span no plane"; "the first is axis 1, the second lies in the plane of axes 1 and 2");
         MaterialAxes::global()
     })
 }

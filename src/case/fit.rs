@@ -5,6 +5,7 @@ use super::parameters::{ModelParameter, entries, number, only, refuse_twice};
 use super::plausibility::material_key;
 use super::range::Spacing;
 use super::reader::Section;
+use super::refuse;
 use super::value::{RawEntry, RawValue};
 
 /// A parameter with the bounds between which it is sought.
@@ -43,7 +44,7 @@ pub(super) fn fit(root: &Section<'_>) -> Option<Fit> {
         .collect();
     refuse_twice(&inner, found.iter().flat_map(|found| found.parameter.keys()));
     if given && inner.is_given() && inner.remaining().is_empty() {
-        section.reject("parameters", "fit.parameters is empty", "at least one parameter", None);
+        refuse!(section, "parameters", "fit.parameters is empty"; "at least one parameter");
     }
     section.close();
     given.then_some(Fit { parameters: found, starts, shape_weight })
@@ -111,7 +112,6 @@ impl super::Case {
     pub fn require_fit(&self) -> Result<&Fit, CaseErrors> {
         let key = material_key(self, "poisson_ratio");
         let remedy = format!("[fit.parameters]\n{key} = [0.2, 0.45]");
-        let fit = self.fit.as_ref();
-        fit.ok_or_else(|| self.lacks("fit", "parameter to fit", &remedy))
+        self.fit.as_ref().ok_or_else(|| self.lacks("fit", "parameter to fit", &remedy))
     }
 }

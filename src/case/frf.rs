@@ -3,6 +3,7 @@
 use super::node::Nodes;
 use super::reader::Section;
 use super::words::FrfMethod;
+use super::{caution, refuse};
 use crate::fem::MassKind;
 use crate::frf::{Direction, FrfBoundary, Terminal};
 use crate::signal::ResponseQuantity;
@@ -47,12 +48,8 @@ pub(super) fn read(root: &Section<'_>, nodes: &Nodes<'_>) -> Option<Frf> {
     let mut frequencies_hz = section.numbers("frequencies_hz").unwrap_or_default();
     // What is wrong with a range has been said.
     if !section.has("frequencies_hz") || section.is_empty_list("frequencies_hz") {
-        section.reject(
-            "frequencies_hz",
-            "frf.frequencies_hz is missing or empty",
-            "at least one frequency",
-            None,
-        );
+        refuse!(section, "frequencies_hz", "frf.frequencies_hz is missing or empty";
+            "at least one frequency");
     }
     frequencies_hz.sort_by(f64::total_cmp);
     frequencies_hz.dedup();
@@ -61,12 +58,9 @@ pub(super) fn read(root: &Section<'_>, nodes: &Nodes<'_>) -> Option<Frf> {
         let is_along = matches!(direction, Direction::Axial | Direction::Z);
         if is_along && nodes.body.is_some_and(|body| body.dimension() == 2) {
             let name = direction.name();
-            section.reject(
-                key,
-                format!("frf.{key} = \"{name}\": a plane body does not move along its axis"),
-                "the body is plane",
-                "use \"radial\" or \"tangential\"",
-            );
+            refuse!(section, key,
+                "frf.{key} = \"{name}\": a plane body does not move along its axis";
+                "the body is plane"; "use \"radial\" or \"tangential\"");
         }
         direction
     };
@@ -82,11 +76,7 @@ pub(super) fn read(root: &Section<'_>, nodes: &Nodes<'_>) -> Option<Frf> {
         noise_seed: section.count("noise_seed"),
     };
     if section.has("noise_seed") && frf.noise == 0.0 {
-        section.warn(
-            "noise_seed",
-            "frf.noise_seed is not used: frf.noise is 0".to_owned(),
-            "no noise",
-        );
+        caution!(section, "noise_seed", "frf.noise_seed is not used: frf.noise is 0"; "no noise");
     }
     section.close();
     Some(frf)

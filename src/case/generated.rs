@@ -8,6 +8,7 @@ use super::elastic::{Surroundings, place_axes};
 use super::imported;
 use super::modifications::{self, Modification};
 use super::reader::Section;
+use super::refuse;
 use super::shaft;
 use super::solid;
 use super::tables::TableFiles;
@@ -125,24 +126,15 @@ fn annulus(
     let inner_radius = geometry.number("inner_radius");
     let outer_radius = geometry.number("outer_radius");
     if outer_radius <= inner_radius {
-        geometry.reject(
-            "outer_radius",
-            format!(
-                "geometry.outer_radius = {outer_radius} must be above \
-                 geometry.inner_radius = {inner_radius}"
-            ),
-            format!("must be above {inner_radius}"),
-            "both are radii in metres; are they swapped?",
-        );
+        refuse!(geometry, "outer_radius",
+            "geometry.outer_radius = {outer_radius} must be above geometry.inner_radius = \
+             {inner_radius}";
+            "must be above {inner_radius}"; "both are radii in metres; are they swapped?");
     }
     let shaft = shaft::shaft(root, [geometry, mesh], inner_radius, conditions, material, tables);
     if is_solid && shaft.is_some() {
-        geometry.reject(
-            "shaft_inner_radius",
-            "a deformable shaft turns in a plane annulus only",
-            "the body is three-dimensional",
-            "leave the shaft out, or use a plane formulation",
-        );
+        refuse!(geometry, "shaft_inner_radius", "a deformable shaft turns in a plane annulus only";
+            "the body is three-dimensional"; "leave the shaft out, or use a plane formulation");
     }
     let annulus = AnnulusSpecification {
         inner_radius,
@@ -165,25 +157,16 @@ fn check_mesh(mesh: &Section<'_>, annulus: &AnnulusSpecification) {
     // Node indices are 32 bits wide, with room for two unknowns at each node.
     let (nodes, limit) = (node_count(annulus), u128::from(u32::MAX / 2));
     if nodes > limit {
-        mesh.reject(
-            "circumferential_elements",
-            format!("the mesh would have {nodes} nodes, above the limit of {limit}"),
-            "too many elements",
-            "lower mesh.circumferential_elements or mesh.radial_elements",
-        );
+        refuse!(mesh, "circumferential_elements",
+            "the mesh would have {nodes} nodes, above the limit of {limit}"; "too many elements";
+            "lower mesh.circumferential_elements or mesh.radial_elements");
     }
     // Sizes that differ by more than this leave elements without width in double precision.
     let ratio = annulus.radial_grading.ln() * (annulus.radial_elements as f64 - 1.0);
     if ratio.abs() > 1e6f64.ln() {
-        mesh.reject(
-            "radial_grading",
-            format!(
-                "mesh.radial_grading = {} makes the largest element {:.1e} times the smallest",
-                annulus.radial_grading,
-                ratio.abs().exp()
-            ),
-            "at most a factor 1e6 over all elements",
-            "bring mesh.radial_grading nearer to 1",
-        );
+        refuse!(mesh, "radial_grading",
+            "mesh.radial_grading = {} makes the largest element {:.1e} times the \
+             smallest", annulus.radial_grading, ratio.abs().exp();
+            "at most a factor 1e6 over all elements"; "bring mesh.radial_grading nearer to 1");
     }
 }

@@ -12,6 +12,7 @@ use super::suggestion;
 use super::tables::{TableFiles, modulus_table};
 use super::value::quote;
 use super::words::CounterfaceWord;
+use super::{caution, refuse};
 use crate::fem::{ElasticMaterial, RayleighDamping, RegionMaterial, TabledMaterial};
 use crate::mesh::{
     BodyError, BodyPart, BodySpecification, CounterfaceSpecification, CyclicSymmetry, FileMesh,
@@ -52,12 +53,7 @@ pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
         None => default,
         Some(&[x, y]) => [x, y],
         Some(_) => {
-            section.reject(
-                key,
-                format!("{} needs two numbers", section.name(key)),
-                "must be [x, y]",
-                None,
-            );
+            refuse!(section, key => "needs two numbers"; "must be [x, y]");
             default
         }
     };
@@ -74,12 +70,10 @@ pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
             (plane, speed)
         }
         CounterfaceWord::Sphere => {
-            section.reject(
-                "counterface",
-                "contact.counterface = \"sphere\" is for a mesh of solid elements",
-                "the body is plane",
-                "leave it out for a round contact curve; of a straight one give \"plane\" with `speed`",
-            );
+            refuse!(section, "counterface",
+                "contact.counterface = \"sphere\" is for a mesh of solid elements";
+                "the body is plane"; "leave it out for a round contact curve; of a straight one \
+                 give \"plane\" with `speed`");
             (CounterfaceSpecification::Cylinder { center, radius }, None)
         }
         CounterfaceWord::Cylinder | CounterfaceWord::Body => {
@@ -87,37 +81,23 @@ pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
         }
         CounterfaceWord::Plane => {
             if direction == [0.0; 2] {
-                section.reject(
-                    "direction",
-                    "contact.direction = [0, 0] has no direction",
-                    "must not be zero",
-                    None,
-                );
+                refuse!(section, "direction", "contact.direction = [0, 0] has no direction";
+                    "must not be zero");
             }
             let plane = CounterfaceSpecification::Plane { direction: Some(direction) };
             (plane, Some(speed.unwrap_or_else(|| section.number("speed"))))
         }
     };
     for key in section.refused("axis") {
-        section.reject(
-            key,
-            "contact.axis is for a mesh of solid elements",
-            "a plane body turns about z",
-            "leave it out",
-        );
+        refuse!(section, key, "contact.axis is for a mesh of solid elements";
+            "a plane body turns about z"; "leave it out");
     }
     let is_plane = plane_speed.is_some();
     let idle = if is_plane { "center radius rotation_speed_rpm" } else { "direction speed" };
     for key in section.refused(idle) {
-        section.warn(
-            key,
-            format!(
-                "{} is not used: the counterface is a {}",
-                section.name(key),
-                if is_plane { "plane" } else { "cylinder" }
-            ),
-            "no effect",
-        );
+        caution!(section, key =>
+            "is not used: the counterface is a {}", if is_plane { "plane" } else { "cylinder" };
+            "no effect");
     }
     ContactPlace { solid: SolidContact::Inner, boundary, counterface, opposite, plane_speed }
 }
@@ -174,12 +154,9 @@ pub(super) fn mesh_bytes(raw: &RawCase, file: &str) -> Result<MeshBytes, (String
 /// Refuses `mesh.sectors` where there is no file.
 pub(super) fn refuse_sectors(mesh: &Section<'_>) {
     if mesh.optional_count("sectors").is_some() {
-        mesh.reject(
-            "sectors",
-            "mesh.sectors is for a mesh file (mesh.file) that has one sector of the body",
-            "a generated body is made of sectors anyway",
-            "leave it out",
-        );
+        refuse!(mesh, "sectors",
+            "mesh.sectors is for a mesh file (mesh.file) that has one sector of the body";
+            "a generated body is made of sectors anyway"; "leave it out");
     }
 }
 
@@ -192,12 +169,9 @@ pub(super) fn symmetry(
     match axis {
         Ok([direction, point]) => Some(CyclicSymmetry { count, point, direction }),
         Err(why) => {
-            mesh.reject(
-                "sectors",
-                format!("mesh.sectors needs one axis that the sectors turn about, but {why}"),
-                "about which axis?",
-                "mesh the whole body, and leave mesh.sectors out",
-            );
+            refuse!(mesh, "sectors",
+                "mesh.sectors needs one axis that the sectors turn about, but {why}";
+                "about which axis?"; "mesh the whole body, and leave mesh.sectors out");
             None
         }
     }

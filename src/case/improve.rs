@@ -1,6 +1,7 @@
 //! `[improve]`: which modes are to be silenced, and by what.
 
 use super::reader::Section;
+use super::refuse;
 use super::words::ModificationKind;
 
 /// `[improve]`; what is `None` follows from the body and its modes.
@@ -35,15 +36,10 @@ pub(super) fn improve(root: &Section<'_>) -> Improve {
     let ends = ["min_frequency_hz", "max_frequency_hz"].map(|key| section.optional_number(key));
     let frequencies_hz = [ends[0].unwrap_or(0.0), ends[1].unwrap_or(f64::INFINITY)];
     if frequencies_hz[0] >= frequencies_hz[1] {
-        section.reject(
-            "min_frequency_hz",
-            format!(
-                "improve.min_frequency_hz = {} is not below improve.max_frequency_hz = {}",
-                frequencies_hz[0], frequencies_hz[1]
-            ),
-            "no mode lies between them",
-            None,
-        );
+        refuse!(section, "min_frequency_hz",
+            "improve.min_frequency_hz = {} is not below improve.max_frequency_hz = \
+             {}", frequencies_hz[0], frequencies_hz[1];
+            "no mode lies between them");
     }
     let own = Improve {
         modifications: section.choices("modifications"),

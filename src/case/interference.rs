@@ -1,6 +1,7 @@
 //! How far a counterface is pushed in, as a section gives it.
 
 use super::reader::Section;
+use super::refuse;
 
 /// Interference that the search begins with, m; any other leads to the same root.
 const START: f64 = 1e-6;
@@ -14,12 +15,8 @@ pub(super) fn interference(section: &Section<'_>) -> f64 {
     let _ = section.optional_number("interference");
     if section.has("interference") {
         let key = section.name("interference");
-        section.reject(
-            "normal_force",
-            format!("{} beside {key}", section.name("normal_force")),
-            "one of the two presses",
-            format!("leave {key} out, or the force"),
-        );
+        refuse!(section, "normal_force" => "beside {key}"; "one of the two presses";
+            "leave {key} out, or the force");
     }
     START
 }

@@ -142,14 +142,11 @@ impl CaseKey {
 
     /// Whether it may have a value of this kind: a number, or anything else but a section.
     pub(super) fn takes(&self, value: &RawValue) -> bool {
-        use Kind::{Choice, Choices, Directions, Flag, Parameter, Table, Text, Texts};
+        let is_list = matches!(self.kind, Kind::Numbers(_) | Kind::Counts(_) | Kind::Nodes);
         match value {
             RawValue::Table(_) => false,
-            RawValue::Integer(_) | RawValue::Float(_) => !matches!(
-                self.kind,
-                Choice(_) | Choices(_) | Directions(_) | Flag | Parameter | Table(_) | Text | Texts
-            ),
-            _ => true,
+            RawValue::String(_) => !(is_list || self.is_numeric()),
+            _ => value.number().is_none() || is_list || self.is_numeric(),
         }
     }
 

@@ -186,8 +186,6 @@ pub const KEYS: &[CaseKey] = &[
     key("cea.shapes_at", Numbers(NotNegative), "", Otherwise("contact.friction_coefficient"), "[0.3]", "the friction coefficients whose mode shapes are written"),
     key("cea.sensitivities", Flag, "", Otherwise("those of bodies solved harmonic by harmonic"), "true", "whether derivatives of eigenvalues and critical friction by the numbers of the case are computed"),
     key("cea.count_modes", Flag, "", Value("false"), "true", "whether the modes of a whole mesh are counted by the argument principle under friction, too"),
-    key("cea.map.key", Parameter, "", Required, "\"contact.normal_stiffness\"", "the second parameter of the stability map"),
-    key("cea.map.values", Numbers(Finite), "", Required, "{ from = 1e12, to = 1e14, count = 21, spacing = \"log\" }", "the values of that parameter"),
 
     key("improve.modifications", Choices(words::<ModificationKind>), "", Otherwise("all that the body can have"), "[\"mass\", \"removal\"]", "what `frictionsim improve` tries against the unstable modes at the contact's friction coefficient"),
     key("improve.min_frequency_hz", Number(NotNegative), "Hz", Otherwise("no limit"), "9000.0", "the frequency above which modes are to be silenced"),

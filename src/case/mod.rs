@@ -62,12 +62,14 @@ mod words;
 pub use crate::transient::{InitialState, OperatorChoice, Perturbation, TimeStep};
 pub use assembly::AssemblyBody;
 pub use body::{Annulus, Body, Revolution};
-pub use cea::{Cea, CeaMap, ModeSelection};
+pub use cea::{Cea, ModeSelection};
 pub use contact::Contact;
 pub use convergence::Convergence;
-pub use cost::{CeaCost, Cost, CycleCost, FrfCost, StudyCost, TransientCost};
+pub use cost::{CeaCost, Cost, CycleCost, FrfCost, RunCost, StudyCost, TransientCost};
 pub use cycle::{Continuation, Cycle};
 pub use diagnostic::{CaseErrors, Diagnostic, Location, Remedy, Source};
+use diagnostic::{at_key, caution, diagnosis, refuse};
+pub(crate) use diagnostic::{refusal, said};
 pub use file_sections::FileSection;
 pub use fit::{Fit, FitParameter};
 pub use frf::Frf;
@@ -192,6 +194,7 @@ impl Case {
                  transient of this case cannot run"
                     .to_owned(),
                 "no transient",
+                None,
             );
         }
         let cycle = cycle::cycle(&root, body.as_ref());
@@ -318,6 +321,17 @@ impl Case {
         self.body.has_lossy_supports() || self.has_lossy_contacts()
     }
 
+    /// What is wrong at a key, or hardly meant.
+    fn diagnosis(
+        &self,
+        key: &str,
+        message: impl Into<String>,
+        label: impl Into<String>,
+        help: impl Remedy,
+    ) -> Diagnostic {
+        Diagnostic::error(message, label, self.raw.place(key), help)
+    }
+
     /// An error at a dotted key: at its value where the case gives one, else at its section.
     pub fn error_at(
         &self,
@@ -326,9 +340,8 @@ impl Case {
         label: impl Into<String>,
         help: impl Remedy,
     ) -> CaseErrors {
-        let at = self.raw.place(key);
         let help = help.remedy().or_else(|| suggestion::usage(key));
-        self.raw.errors(vec![Diagnostic::error(message, label, at, help)])
+        self.raw.errors(vec![self.diagnosis(key, message, label, help)])
     }
 }
 

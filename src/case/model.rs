@@ -14,6 +14,7 @@ use super::reader::Section;
 use super::solid;
 use super::tables::{TableFiles, modulus_table};
 use super::words::{FilePart, UnitsWord};
+use super::{caution, refuse};
 use crate::fem::{ElasticMaterial, RayleighDamping, RegionMaterial, TabledMaterial};
 use crate::mesh::{BoundaryCondition, CounterfaceSpecification};
 
@@ -92,12 +93,9 @@ fn unmodified(
         .is_some_and(|read| read.dimension == 3);
     if root.has("contacts") || root.has("ties") || is_file_solid {
         if root.has("contact") && (root.has("contacts") || !is_file_solid) {
-            root.reject(
-                "contact",
-                "[contact] is for a body with one contact: this case has [contacts.*] or [ties.*]",
-                "beside the contacts of an assembly",
-                "describe it under [contacts.NAME]",
-            );
+            refuse!(root, "contact",
+                "[contact] is for a body with one contact: this case has [contacts.*] or [ties.*]";
+                "beside the contacts of an assembly"; "describe it under [contacts.NAME]");
         }
         let parts = (conditions.as_slice(), common, tables);
         let file = (&mesh, file.as_str(), scale);
@@ -107,12 +105,11 @@ fn unmodified(
     }
     let (contact, place) = contact(root, None, is_pressed);
     if is_solid {
-        mesh.reject(
-            "file",
-            "mesh.file holds plane elements, and material.formulation is \"three-dimensional\"",
-            "triangles and quadrilaterals in the plane",
-            "give a plane formulation, a file with solid elements, or the radii of a body that is generated",
-        );
+        refuse!(mesh, "file",
+            "mesh.file holds plane elements, and material.formulation is \"three-dimensional\"";
+            "triangles and quadrilaterals in the plane";
+            "give a plane formulation, a file with solid elements, or the radii of a body that is \
+             generated");
     }
     let plane = Surroundings::Plane {
         center: match place.counterface {
@@ -185,12 +182,8 @@ fn length_factor(mesh: &Section<'_>) -> f64 {
         return scale;
     }
     if mesh.has("scale") {
-        mesh.reject(
-            "scale",
-            "mesh.units and mesh.scale both scale the coordinates",
-            "beside mesh.units",
-            "leave one of them out",
-        );
+        refuse!(mesh, "scale", "mesh.units and mesh.scale both scale the coordinates";
+            "beside mesh.units"; "leave one of them out");
     }
     10f64.powi(units.length())
 }
@@ -222,11 +215,7 @@ fn ignore_generated(geometry: &Section<'_>, mesh: &Section<'_>) {
     let counts = mesh.refused(counts).into_iter().chain(mesh.refused("radial_grading element"));
     let given = radii.into_iter().map(|key| (geometry, key));
     for (section, key) in given.chain(counts.map(|key| (mesh, key))) {
-        section.warn(
-            key,
-            format!("{} is not used: mesh.file describes the body", section.name(key)),
-            "no effect",
-        );
+        caution!(section, key => "is not used: mesh.file describes the body"; "no effect");
     }
 }
 

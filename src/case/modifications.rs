@@ -2,6 +2,7 @@
 
 use super::diagnostic::Location;
 use super::reader::{NodePlace, Section};
+use super::refuse;
 use crate::mesh::FileMesh;
 use nalgebra::Vector3;
 use std::sync::Arc;
@@ -47,12 +48,8 @@ fn modification(section: &Section<'_>) -> Modification {
             let part = |k: usize| numbers.get(k).copied().unwrap_or(0.0);
             return Some([0, 1, 2].map(part));
         }
-        section.reject(
-            key,
-            format!("{} has {} numbers", section.name(key), numbers.len()),
-            "must be [x, y], or [x, y, z] on solid bodies",
-            None,
-        );
+        refuse!(section, key => "has {} numbers", numbers.len();
+            "must be [x, y], or [x, y, z] on solid bodies");
         None
     };
     let (center, direction) = (list("center", &[2, 3]), list("direction", &[2, 3]));

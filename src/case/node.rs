@@ -1,6 +1,7 @@
 //! Nodes of the mesh as a case names them: by number, or by a place whose nearest node is meant.
 
 use super::body::{Body, solid_node_count};
+use super::caution;
 use super::diagnostic::Location;
 use super::reader::{NodePlace, Section};
 use crate::mesh::{AnnulusSpecification, Counterface, SectorMesh, SolidSpecification};
@@ -78,18 +79,10 @@ impl Nodes<'_> {
             at: point,
         };
         if placed.distance() > FAR * body.size() {
-            section.warn(
-                key,
-                format!(
-                    "{}: the node nearest to {} m is node {} at {} m, {:.1e} m away",
-                    section.name(key),
-                    listed(&placed.asked[..body.dimension()], None),
-                    body.node_label(node),
-                    listed(&point[..body.dimension()], Some(6)),
-                    placed.distance()
-                ),
-                "places are in metres",
-            );
+            caution!(section, key,
+                "{}: the node nearest to {} m is node {} at {} m, {:.1e} m \
+                 away", section.name(key), listed(&placed.asked[..body.dimension()], None), body.node_label(node), listed(&point[..body.dimension()], Some(6)), placed.distance();
+                "places are in metres");
         }
         Some((node, Some(placed)))
     }

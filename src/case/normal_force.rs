@@ -5,8 +5,9 @@
 //! difference.
 
 use super::body::Body;
-use super::contacts::section_of;
+use super::contact::section_of;
 use super::diagnostic::CaseErrors;
+use super::refusal;
 use super::{Case, Revolution};
 use crate::contact::{Counterpart, SlidingContact};
 use crate::fem::{assemble_stiffness, sector, solid};
@@ -56,15 +57,12 @@ pub(super) fn press(case: &mut Case) -> Result<(), CaseErrors> {
 }
 
 fn wanted(case: &Case) -> Vec<Wanted> {
-    let keys: Vec<String> = match case.body.assembly() {
-        None => vec!["contact.normal_force".to_owned()],
-        Some(body) => body
-            .contacts
-            .iter()
-            .map(|contact| format!("{}.normal_force", section_of(contact)))
-            .collect(),
+    let sections = match case.body.assembly() {
+        None => vec!["contact".to_owned()],
+        Some(body) => body.contacts.iter().map(section_of).collect(),
     };
-    let found = keys.into_iter().enumerate().filter_map(|(contact, key)| {
+    let keys = sections.into_iter().map(|section| format!("{section}.normal_force"));
+    let found = keys.enumerate().filter_map(|(contact, key)| {
         let force = case.number(&key)?;
         Some(Wanted { key, contact, force })
     });
@@ -114,12 +112,10 @@ fn solve(case: &mut Case, wanted: &Wanted) -> Result<bool, CaseErrors> {
     if excess(case, wanted, own)?.abs() <= 1e3 * TOLERANCE * target {
         return Ok(false);
     }
-    Err(case.error_at(
-        &wanted.key,
-        format!("{} = {target}: no interference presses with this force", wanted.key),
-        "not reached",
-        "a surface that overlaps the counterface in the mesh presses already; one that nothing holds gives way",
-    ))
+    Err(refusal!(case, &wanted.key,
+        "{} = {target}: no interference presses with this force", wanted.key; "not reached";
+        "a surface that overlaps the counterface in the mesh presses already; one that nothing \
+         holds gives way"))
 }
 
 /// The normal force of a contact pushed in so far, less the one that is wanted.
@@ -162,7 +158,7 @@ impl Case {
             Body::Annulus(annulus) => {
                 let mesh = SectorMesh::generate(&annulus.specification).map_err(in_words)?;
                 let stiffness = sector::supported_stiffness(&mesh, &annulus.materials);
-                let base = SectorSliding::solve_with(&mesh, &stiffness, &contact, law);
+                let base = SectorSliding::solve(&mesh, &stiffness, &contact, law);
                 let whole = self.thickness * mesh.sector_count() as f64;
                 base.map(|base| vec![whole * base.normal_forces.iter().sum::<f64>()])
             }
@@ -170,7 +166,7 @@ impl Case {
                 let mesh = SolidSector::generate(specification).map_err(in_words)?;
                 let elastic = solid::stiffness(&mesh, material);
                 let law = self.contact.stiffness.base_law();
-                let base = SolidSliding::solve_with(&mesh, &elastic, &contact, law);
+                let base = SolidSliding::solve(&mesh, &elastic, &contact, law);
                 let whole = mesh.sector_count() as f64;
                 let sum =
                     |base: SolidSliding| base.normal_forces.iter().map(|own| own.1).sum::<f64>();

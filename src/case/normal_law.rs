@@ -1,6 +1,7 @@
 //! Keys of contact that stiffens with pressure.
 
 use super::reader::Section;
+use super::refuse;
 use super::words::NormalLawWord;
 use crate::contact::{ContactStiffness, NormalLaw};
 
@@ -25,27 +26,17 @@ pub(super) fn normal_law(
                 NormalLawWord::Cubic => "cubic",
                 NormalLawWord::Exponential => "exponential",
             };
-            section.reject(
-                key,
-                format!("{} has no effect with normal_law = \"{of_word}\"", section.name(key)),
-                "not a number of this law",
-                "leave it out, or give the law that it belongs to",
-            );
+            refuse!(section, key => "has no effect with normal_law = \"{of_word}\"";
+                "not a number of this law"; "leave it out, or give the law that it belongs to");
         }
         if laws.contains(&word) && word != NormalLawWord::Linear && !section.has(key) {
             section.missing(key);
         }
         if word == NormalLawWord::Cubic && section.is_text(key, "rigid") {
-            section.reject(
-                key,
-                format!(
-                    "{} = \"rigid\" does not stiffen: normal_law = \"cubic\" is k g + c g^3, \
-                     with k the normal stiffness",
-                    section.name(key)
-                ),
-                "needs a number",
-                "give k in Pa/m, or leave normal_law out",
-            );
+            refuse!(section, key =>
+                "= \"rigid\" does not stiffen: normal_law = \"cubic\" is k g + c g^3, with k the \
+                 normal stiffness";
+                "needs a number"; "give k in Pa/m, or leave normal_law out");
         }
     }
     let number = |key: &str| section.optional_number(key);

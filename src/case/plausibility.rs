@@ -1,7 +1,7 @@
 //! Values that are possible but that hardly anybody means: warnings, each with its reason.
 
-use super::contact::Springs;
-use super::contacts::section_of;
+use super::contact::{Springs, section_of};
+use super::diagnosis;
 use super::diagnostic::Diagnostic;
 use super::key::CaseKey;
 use super::keys::KEYS;
@@ -65,11 +65,6 @@ pub(super) fn implausible(case: &Case) -> Vec<Diagnostic> {
     .collect()
 }
 
-fn warning(case: &Case, key: &str, message: String, label: &str, help: &str) -> Diagnostic {
-    let at = case.raw.place(key);
-    Diagnostic::error(message, label.to_owned(), at, Some(help.to_owned()))
-}
-
 fn lengths(case: &Case) -> Option<Diagnostic> {
     let [least, most] = LENGTHS;
     let [shortest, longest] = LENGTHS.map(metres);
@@ -82,11 +77,9 @@ fn lengths(case: &Case) -> Option<Diagnostic> {
             let message = format!("the mesh is {width:.4} m wide, {range} (mesh.scale)");
             let help = match case.raw.find("mesh.scale") {
                 Some(_) => "mesh.scale makes metres of coordinates: of millimetres it is 0.001",
-                None => {
-                    "coordinates are taken as metres: for a mesh in millimetres set mesh.units = \"mm-t-s\""
-                }
+                None => "metres are read: of millimetres set mesh.units = \"mm-t-s\"",
             };
-            return Some(warning(case, "mesh.scale", message, "metres?", help));
+            return Some(case.diagnosis("mesh.scale", message, "metres?", help));
         }
     }
     let mut radii = case.body.grid().into_iter().flat_map(|grid| {
@@ -94,7 +87,7 @@ fn lengths(case: &Case) -> Option<Diagnostic> {
     });
     if let Some((key, value)) = radii.find(|(_, value)| is_outside(*value)) {
         let message = format!("{key} = {value} m is {range}");
-        return Some(warning(case, key, message, "metres?", help));
+        return Some(case.diagnosis(key, message, "metres?", help));
     }
     let (key, value) = ("geometry.thickness", case.thickness);
     (value < least || value > LARGEST_THICKNESS).then(|| {
@@ -102,7 +95,7 @@ fn lengths(case: &Case) -> Option<Diagnostic> {
             "{key} = {value} m is outside the plausible range of {shortest} to {}",
             metres(LARGEST_THICKNESS)
         );
-        warning(case, key, message, "metres?", help)
+        case.diagnosis(key, message, "metres?", help)
     })
 }
 
@@ -118,13 +111,10 @@ fn metres(length: f64) -> String {
 /// Nodes of an imported mesh that lie on each other without being one.
 fn unmerged_nodes(case: &Case) -> Option<Diagnostic> {
     let found = case.body.imported()?.mesh.unmerged_nodes()?;
-    Some(warning(
-        case,
-        "mesh.file",
-        format!("{found}: the parts are not connected there"),
-        "parts that were not merged?",
-        "join the parts (BooleanFragments or Coherence in the Gmsh geometry, or Coherence Mesh;), unless this is a crack",
-    ))
+    Some(diagnosis!(case, "mesh.file", "{found}: the parts are not connected there";
+        "parts that were not merged?";
+        "join the parts (BooleanFragments or Coherence in the Gmsh geometry, or Coherence Mesh;), \
+         unless this is a crack"))
 }
 
 /// The worst element of an imported mesh.
@@ -138,20 +128,13 @@ fn element_shape(case: &Case) -> Option<Diagnostic> {
     let count = nodes.len() as f64;
     let sum = |axis: usize| nodes.iter().map(|&n| mesh.nodes[n as usize][axis]).sum::<f64>();
     let labels = nodes.iter().map(|&node| mesh.node_label(node as usize));
-    Some(warning(
-        case,
-        "mesh.file",
-        format!(
-            "the Jacobian of an element varies by a factor {:.3} (smallest over largest; below {SMALLEST_JACOBIAN} the \
-             element is badly shaped): that of nodes {} at ({:.6}, {:.6}) m",
-            quality.worst_jacobian,
-            first_of(labels, 9),
-            sum(0) / count,
-            sum(1) / count
-        ),
-        "a badly shaped element",
-        "mesh the surface again, finer where it curves, or with Mesh.Optimize = 1; stresses near it are not reliable",
-    ))
+    Some(diagnosis!(case, "mesh.file",
+        "the Jacobian of an element varies by a factor {:.3} (smallest over largest; below \
+         {SMALLEST_JACOBIAN} the element is badly shaped): that of nodes {} at ({:.6}, {:.6}) \
+         m", quality.worst_jacobian, first_of(labels, 9), sum(0) / count, sum(1) / count;
+        "a badly shaped element";
+        "mesh the surface again, finer where it curves, or with Mesh.Optimize = 1; stresses near \
+         it are not reliable"))
 }
 
 /// Seeded velocities whose strain, `v / c`, is not small.
@@ -165,17 +148,12 @@ fn seeds(case: &Case) -> Option<Diagnostic> {
     };
     let speed = bar_wave_speed(case);
     (largest > LARGEST_SEED * speed).then(|| {
-        warning(
-            case,
-            key,
-            format!(
-                "{key}: a seed of {largest:e} m/s is {:.3} of the speed of waves in the material, {speed:.0} m/s: its strains \
-                 are not small",
-                largest / speed
-            ),
-            "metres per second?",
-            "seeds of a linear stage are about 1e-3 m/s, or with relative = true a small share of the slip speed",
-        )
+        diagnosis!(case, key,
+            "{key}: a seed of {largest:e} m/s is {:.3} of the speed of waves in the material, \
+             {speed:.0} m/s: its strains are not small", largest / speed;
+            "metres per second?";
+            "seeds of a linear stage are about 1e-3 m/s, or with relative = true a small share of \
+             the slip speed")
     })
 }
 
@@ -219,8 +197,7 @@ fn wave_speed(case: &Case) -> Option<Diagnostic> {
         true => (&modulus_key, "pascals?"),
         false => (&density_key, "kg/m3?"),
     };
-    Some(warning(
-        case,
+    Some(case.diagnosis(
         key,
         format!(
             "{modulus_key} = {modulus:e} Pa and {density_key} = {density:e} kg/m3 give \
@@ -240,7 +217,7 @@ fn density(case: &Case) -> Option<Diagnostic> {
     (!is_said).then(|| {
         let [least, most] = [DENSITIES.start(), DENSITIES.end()];
         let message = format!("{key} = {value:?} kg/m3 is outside {least} to {most} kg/m3");
-        warning(case, &key, message, "kg/m3?", "a case is in SI: kg/m3, not g/cm3 or t/mm3")
+        case.diagnosis(&key, message, "kg/m3?", "a case is in SI: kg/m3, not g/cm3 or t/mm3")
     })
 }
 
@@ -258,8 +235,7 @@ fn speed(case: &Case) -> Option<Diagnostic> {
         let key = case.speed_key();
         let message =
             format!("{key}: the contact slides at {speed:.4} m/s, faster than {LARGEST_SPEED} m/s");
-        warning(
-            case,
+        case.diagnosis(
             &key,
             message,
             "metres per second?",
@@ -275,8 +251,7 @@ fn poisson_ratio(case: &Case) -> Option<Diagnostic> {
         return None;
     }
     let key = material_key(case, "poisson_ratio");
-    Some(warning(
-        case,
+    Some(case.diagnosis(
         &key,
         format!(
             "{key} = {ratio} is nearly incompressible: the elements lock, and the \
@@ -299,15 +274,10 @@ fn friction(case: &Case) -> Option<Diagnostic> {
         ("cea.shapes_at", cea.map_or(0.0, |cea| largest(&cea.shapes_at))),
     ];
     let (key, value) = keys.into_iter().find(|(_, value)| *value > LARGEST_FRICTION)?;
-    Some(warning(
-        case,
-        key,
-        format!(
-            "{key} = {value} is above {LARGEST_FRICTION}, higher than that of any dry pair of materials"
-        ),
-        "above 2",
-        "a friction coefficient is a ratio, not a percentage",
-    ))
+    Some(diagnosis!(case, key,
+        "{key} = {value} is above {LARGEST_FRICTION}, higher than that of any dry pair of \
+         materials";
+        "above 2"; "a friction coefficient is a ratio, not a percentage"))
 }
 
 /// Half the mass of a contact element for each unit of edge (kg/m2), and the time step of the transient of a generated body.
@@ -334,16 +304,11 @@ fn unresolved_springs(case: &Case) -> Option<Diagnostic> {
         None => (springs.stiffness, springs.name()),
     };
     (stiffness > most).then(|| {
-        warning(
-            case,
-            &springs.key(),
-            format!(
-                "{name} = {stiffness:e} Pa/m is more than the time step of the transient, {step:.2e} s, \
-                 resolves on this mesh, about {most:.1e} Pa/m: the status of contact nodes would flicker"
-            ),
-            "nearly rigid",
-            &format!("{}, or a smaller transient.time_step", case.rigid_remedy(&springs)),
-        )
+        diagnosis!(case, &springs.key(),
+            "{name} = {stiffness:e} Pa/m is more than the time step of the transient, {step:.2e} \
+             s, resolves on this mesh, about {most:.1e} Pa/m: the status of contact nodes would \
+             flicker";
+            "nearly rigid"; "{}, or a smaller transient.time_step", case.rigid_remedy(&springs))
     })
 }
 
@@ -355,17 +320,12 @@ fn steep_friction(case: &Case) -> Option<Diagnostic> {
     let fall = contact.friction_coefficient * decay.steepest_fall();
     let most = mass / (lame_pressure(case)? * fall);
     (step > most).then(|| {
-        warning(
-            case,
-            "contact.decay_speed",
-            format!(
-                "contact.decay_speed = {} m/s lets friction fall faster than the inertia of a contact node allows within \
-                 the time step of the transient, {step:.2e} s: nodes may jump between sticking and slipping",
-                decay.decay_speed
-            ),
-            "a steep law",
-            &format!("use a transient.time_step below about {most:.1e}, or a larger contact.decay_speed"),
-        )
+        diagnosis!(case, "contact.decay_speed",
+            "contact.decay_speed = {} m/s lets friction fall faster than the inertia of a contact \
+             node allows within the time step of the transient, {step:.2e} s: nodes may jump \
+             between sticking and slipping", decay.decay_speed;
+            "a steep law";
+            "use a transient.time_step below about {most:.1e}, or a larger contact.decay_speed")
     })
 }
 
@@ -394,7 +354,7 @@ fn interference(case: &Case) -> Option<Diagnostic> {
              displacements holds below {LARGEST_INTERFERENCE}",
             delta / a
         );
-        return Some(warning(case, key, share, "more than 5 %", help));
+        return Some(case.diagnosis(key, share, "more than 5 %", help));
     }
     let pressure = lame_pressure(case)?;
     let modulus = case.material.young_modulus;
@@ -405,7 +365,7 @@ fn interference(case: &Case) -> Option<Diagnostic> {
             pressure / modulus,
             modulus_key(case),
         );
-        warning(case, key, message, "a large pressure", help)
+        case.diagnosis(key, message, "a large pressure", help)
     })
 }
 
@@ -442,7 +402,7 @@ fn overlap(case: &Case) -> Option<Diagnostic> {
     );
     let help = "correct the radius or the center of the counterface, or mesh the round surface \
                 finer; an overlap that is meant belongs into interference";
-    Some(warning(case, &key, message, "less than the mesh's own overlap", help))
+    Some(case.diagnosis(&key, message, "less than the mesh's own overlap", help))
 }
 
 /// Springs so stiff that they drown the body, or so soft that the contact hardly holds it.
@@ -460,9 +420,9 @@ fn contact_stiffness(case: &Case) -> Option<Diagnostic> {
             return None;
         };
         let name = springs.name();
-        let message =
-            format!("{name} = {stiffness:e} Pa/m is {share:.1e} times the modulus over the {what}");
-        Some(warning(case, &springs.key(), message, label, &help))
+        Some(diagnosis!(case, &springs.key(),
+            "{name} = {stiffness:e} Pa/m is {share:.1e} times the modulus over the {what}";
+            "{label}"; "{help}"))
     };
     case.springs().into_iter().find_map(unlikely)
 }
@@ -476,16 +436,10 @@ fn overdamping(case: &Case) -> Option<Diagnostic> {
     };
     let zeta = case.damping.rayleigh.damping_factor(std::f64::consts::TAU * limit);
     (zeta > 1.0).then(|| {
-        warning(
-            case,
-            "damping.stiffness_coefficient",
-            format!(
-                "damping.stiffness_coefficient and damping.mass_coefficient give a damping factor of \
-                 {zeta:.3} at {limit} Hz: modes there do not vibrate"
-            ),
-            "beyond critical",
-            "alpha is in 1/s and beta in s",
-        )
+        diagnosis!(case, "damping.stiffness_coefficient",
+            "damping.stiffness_coefficient and damping.mass_coefficient give a damping factor of \
+             {zeta:.3} at {limit} Hz: modes there do not vibrate";
+            "beyond critical"; "alpha is in 1/s and beta in s")
     })
 }
 

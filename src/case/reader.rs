@@ -154,8 +154,14 @@ impl<'a> Section<'a> {
     }
 
     /// Says at a key what is no error but what the user should hear of.
-    pub fn warn(&self, key: &str, message: String, label: &str) {
-        let warning = Diagnostic::error(message, label.to_owned(), self.place(key), None);
+    pub fn warn(
+        &self,
+        key: &str,
+        message: impl Into<String>,
+        label: impl Into<String>,
+        help: impl Remedy,
+    ) {
+        let warning = Diagnostic::error(message, label, self.place(key), help);
         self.findings.warnings.borrow_mut().push(warning);
     }
 

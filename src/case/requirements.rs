@@ -1,6 +1,7 @@
 //! Sections that an analysis needs, and bodies and laws that it does not take.
 
 use super::diagnostic::{CaseErrors, Diagnostic, Location};
+use super::refusal;
 use super::value::RawValue;
 use super::{Annulus, Body, Case, Cea, Convergence, Frf, Sweep};
 
@@ -45,25 +46,21 @@ impl Case {
     /// Limit cycles are sought under a constant friction coefficient.
     pub(super) fn require_constant_friction(&self) -> Result<(), CaseErrors> {
         if self.contact.stiffness.law.is_some() {
-            return Err(self.error_at(
-                "contact.normal_law",
-                "rotating waves are those of rigid contact, whose pressure is another one than \
-                 on a contact that stiffens",
-                "stiffens with pressure",
+            return Err(refusal!(self, "contact.normal_law",
+                "rotating waves are those of rigid contact, whose pressure is another one than on \
+                 a contact that stiffens";
+                "stiffens with pressure";
                 "`cycle` seeks the motions of the whole mesh of such a disc; or leave \
-                 contact.normal_law out",
-            ));
+                 contact.normal_law out"));
         }
         if self.contact.sliding.decay.is_none() {
             return Ok(());
         }
-        Err(self.error_at(
-            "contact.static_friction_ratio",
-            "limit cycles are computed for a constant friction coefficient only",
-            "friction falls with speed here",
-            "follow the transient to its limit cycle instead ([transient] with \
-                 stop_when_settled = true), or set contact.static_friction_ratio = 1.0",
-        ))
+        Err(refusal!(self, "contact.static_friction_ratio",
+            "limit cycles are computed for a constant friction coefficient only";
+            "friction falls with speed here";
+            "follow the transient to its limit cycle instead ([transient] with stop_when_settled = \
+             true), or set contact.static_friction_ratio = 1.0"))
     }
 
     pub(super) fn require_quad4(&self, label: &str) -> Result<(), CaseErrors> {
@@ -85,8 +82,7 @@ impl Case {
     pub fn require_sweep(&self) -> Result<&Sweep, CaseErrors> {
         let key = self.contact_key("friction_coefficient");
         let remedy = format!("[sweep]\n{key} = [0.2, 0.3, 0.4]");
-        let sweep = self.sweep.as_ref();
-        sweep.ok_or_else(|| self.lacks("sweep", "parameter study", &remedy))
+        self.sweep.as_ref().ok_or_else(|| self.lacks("sweep", "parameter study", &remedy))
     }
 
     /// The frequency response.
@@ -118,12 +114,10 @@ impl Case {
         match &self.body {
             Body::Annulus(annulus) => Ok(annulus),
             Body::Revolution(_) | Body::Assembly(_) => Err(self.not_plane(search)),
-            Body::Imported(_) => Err(self.error_at(
-                "mesh.file",
-                format!("{waves} need the rotational symmetry of the built-in annulus"),
-                "an imported mesh has no sectors",
-                "describe the disc by [geometry] and element counts instead of mesh.file",
-            )),
+            Body::Imported(_) => Err(refusal!(self, "mesh.file",
+                "{waves} need the rotational symmetry of the built-in annulus";
+                "an imported mesh has no sectors";
+                "describe the disc by [geometry] and element counts instead of mesh.file")),
         }
     }
 

@@ -3,6 +3,7 @@
 use super::interference::interference;
 use super::reader::Section;
 use super::words::CounterfaceWord;
+use super::{caution, refuse};
 use crate::contact::{RigidCounterface, RigidMotion, RigidShape};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
@@ -16,24 +17,15 @@ pub(super) fn rigid_counterface(section: &Section<'_>) -> RigidCounterface {
         CounterfaceWord::Cylinder => RigidShape::Cylinder(radius),
         CounterfaceWord::Sphere => RigidShape::Sphere(radius),
         CounterfaceWord::Body => {
-            section.reject(
-                "counterface",
-                format!(
-                    "{} = \"body\" is for two plane bodies",
-                    section.name("counterface")
-                ),
-                "the mesh is of solid elements",
-                "name the surfaces that slide on each other under [contacts.NAME], as `surface` and `counter`",
-            );
+            refuse!(section, "counterface" => "= \"body\" is for two plane bodies";
+                "the mesh is of solid elements";
+                "name the surfaces that slide on each other under [contacts.NAME], as `surface` \
+                 and `counter`");
             RigidShape::Plane
         }
     };
     if shape == RigidShape::Plane && radius.is_some() {
-        section.warn(
-            "radius",
-            format!("{} is not used: the counterface is a plane", section.name("radius")),
-            "no effect",
-        );
+        caution!(section, "radius" => "is not used: the counterface is a plane"; "no effect");
     }
     let axis = triple(section, "axis").unwrap_or([0.0, 0.0, 1.0]);
     RigidCounterface {
@@ -52,12 +44,10 @@ fn motion(section: &Section<'_>) -> RigidMotion {
         return RigidMotion::Turning(section.number("rotation_speed_rpm") * TAU / 60.0);
     }
     for key in section.refused("rotation_speed_rpm") {
-        section.reject(
-            key,
-            "the counterface turns about its axis or slides along a straight line, not both",
-            "beside `speed` or `direction`",
-            "leave rotation_speed_rpm out, or `speed` and `direction`",
-        );
+        refuse!(section, key,
+            "the counterface turns about its axis or slides along a straight line, not both";
+            "beside `speed` or `direction`";
+            "leave rotation_speed_rpm out, or `speed` and `direction`");
     }
     let speed = speed.unwrap_or_else(|| section.number("speed"));
     if !section.has("direction") {
@@ -81,21 +71,14 @@ pub(super) fn triple(section: &Section<'_>, key: &str) -> Option<[f64; 3]> {
 
 /// Says what three numbers look like.
 fn no_triple(section: &Section<'_>, key: &str, what: &str) {
-    let message = format!("{} {what}", section.name(key));
-    let help = format!("for example `{key} = [1.0, 0.0, 0.0]`");
-    section.reject(key, message, "must be [x, y, z]", help);
+    refuse!(section, key => "{what}"; "must be [x, y, z]"; "for example `{key} = [1.0, 0.0, 0.0]`");
 }
 
 /// The vector of length one along `direction`.
 pub(super) fn unit(section: &Section<'_>, key: &str, direction: [f64; 3]) -> [f64; 3] {
     let direction = Vector3::from(direction);
     if direction.norm() == 0.0 {
-        section.reject(
-            key,
-            format!("{} = [0, 0, 0] points nowhere", section.name(key)),
-            "must not be zero",
-            None,
-        );
+        refuse!(section, key => "= [0, 0, 0] points nowhere"; "must not be zero");
         return [0.0, 0.0, 1.0];
     }
     direction.normalize().into()

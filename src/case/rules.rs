@@ -1,5 +1,6 @@
 //! Rules between sections.
 
+use super::diagnosis;
 use super::diagnostic::Diagnostic;
 use super::plausibility::{bar_wave_speed, material_key, modulus_key};
 use super::{Case, InitialState, TimeStep};
@@ -39,67 +40,41 @@ fn absurd_friction(case: &Case) -> Option<(&'static str, f64)> {
 /// What a case that is right key by key asks for in vain.
 pub(super) fn infeasible(case: &Case) -> Vec<Diagnostic> {
     let mut errors = Vec::new();
-    let mut refuse = |key: &str, message: String, label: String, help: &str| {
-        let help = Some(help.to_owned());
-        errors.push(Diagnostic::error(message, label, case.raw.place(key), help));
-    };
     if let (Some(transient), Some(cost)) = (&case.transient, case.cost().transient) {
         let (duration, interval) = (transient.duration, case.output.sample_interval);
         match transient.time_step {
-            TimeStep::Seconds(step) if step > UNSTABLE * cost.stable_step => refuse(
-                "transient.time_step",
-                format!(
-                    "transient.time_step = {step:?} s is far above the stability limit of this mesh, \
-                     about {:.2e} s",
-                    cost.stable_step
-                ),
-                format!("at most about {:.2e}", cost.stable_step),
-                "lower it, or use \"auto\"",
-            ),
-            TimeStep::Seconds(step) if interval < step => refuse(
-                "output.sample_interval",
-                format!(
-                    "output.sample_interval = {interval:?} s is below \
-                     transient.time_step = {step:?} s"
-                ),
-                format!("at least {step:?}"),
-                "raise it to the time step or above",
-            ),
+            TimeStep::Seconds(step) if step > UNSTABLE * cost.stable_step => {
+                errors.push(diagnosis!(
+                case, "transient.time_step",
+                "transient.time_step = {step:?} s is far above the stability limit of this mesh, \
+                 about {:.2e} s", cost.stable_step;
+                "at most about {:.2e}", cost.stable_step; "lower it, or use \"auto\""))
+            }
+            TimeStep::Seconds(step) if interval < step => errors.push(diagnosis!(
+                case, "output.sample_interval",
+                "output.sample_interval = {interval:?} s is below transient.time_step = {step:?} s";
+                "at least {step:?}"; "raise it to the time step or above")),
             _ => {}
         }
         let steps = duration / cost.time_step.min(interval);
         if steps > MOST_STEPS {
-            refuse(
-                "transient.duration",
-                format!("transient.duration = {duration:?} s takes about {steps:.1e} time steps"),
-                format!("at most {MOST_STEPS:e} steps"),
-                "lower it, or coarsen the mesh",
-            );
+            errors.push(diagnosis!(case, "transient.duration",
+                "transient.duration = {duration:?} s takes about {steps:.1e} time steps";
+                "at most {MOST_STEPS:e} steps"; "lower it, or coarsen the mesh"));
         }
     }
     if let Some((key, value)) = absurd_friction(case) {
-        refuse(
-            key,
-            format!("{key} = {value:e} is beyond any friction coefficient"),
-            format!("at most {LARGEST_FRICTION}"),
-            "a friction coefficient is the ratio of tangential and normal force",
-        );
+        errors.push(diagnosis!(case, key, "{key} = {value:e} is beyond any friction coefficient";
+            "at most {LARGEST_FRICTION}";
+            "a friction coefficient is the ratio of tangential and normal force"));
     }
     let speed = bar_wave_speed(case);
     if !(SLOWEST_WAVES..=FASTEST_WAVES).contains(&speed) {
         let key = modulus_key(case);
-        refuse(
-            &key,
-            format!(
-                "{key} = {:e} Pa and {} = {:e} kg/m3 give waves of {speed:.1e} m/s, as no \
-                 material has them",
-                case.material.young_modulus,
-                material_key(case, "density"),
-                case.material.density
-            ),
-            format!("waves of {SLOWEST_WAVES:e} to {FASTEST_WAVES:e} m/s"),
-            "a case is in SI: Pa and kg/m3",
-        );
+        errors.push(diagnosis!(case, &key,
+            "{key} = {:e} Pa and {} = {:e} kg/m3 give waves of {speed:.1e} m/s, as no material has \
+             them", case.material.young_modulus, material_key(case, "density"), case.material.density;
+            "waves of {SLOWEST_WAVES:e} to {FASTEST_WAVES:e} m/s"; "a case is in SI: Pa and kg/m3"));
     }
     let perturbation = case.transient.as_ref().map(|run| &run.perturbation);
     let seeds = perturbation.iter().flat_map(|seeds| {
@@ -108,52 +83,35 @@ pub(super) fn infeasible(case: &Case) -> Vec<Diagnostic> {
     });
     let fastest = seeds.fold(0.0, f64::max);
     if fastest > speed {
-        refuse(
-            "transient.perturbation.velocity",
-            format!(
-                "transient.perturbation: a seed of {fastest:e} m/s is faster than waves in the material, {speed:.0} m/s"
-            ),
-            format!("below {speed:.0} m/s"),
-            "give metres per second, about 1e-3 for a linear stage",
-        );
+        errors.push(diagnosis!(case, "transient.perturbation.velocity",
+            "transient.perturbation: a seed of {fastest:e} m/s is faster than waves in the \
+             material, {speed:.0} m/s";
+            "below {speed:.0} m/s"; "give metres per second, about 1e-3 for a linear stage"));
     }
     let starts_on_cycle = case
         .transient
         .as_ref()
         .is_some_and(|transient| matches!(transient.initial, InitialState::LimitCycle { .. }));
     if starts_on_cycle && case.contact.sliding.decay.is_some() {
-        refuse(
-            "transient.initial",
-            "transient.initial = \"limit-cycle\" needs a constant friction coefficient".to_owned(),
-            "friction falls with speed".to_owned(),
-            "use initial = \"steady-sliding\", or set contact.static_friction_ratio = 1.0",
-        );
+        errors.push(diagnosis!(case, "transient.initial",
+            "transient.initial = \"limit-cycle\" needs a constant friction coefficient";
+            "friction falls with speed";
+            "use initial = \"steady-sliding\", or set contact.static_friction_ratio = 1.0"));
     }
     if starts_on_cycle && case.contact.stiffness.law.is_some() {
-        refuse(
-            "transient.initial",
-            "transient.initial = \"limit-cycle\" is a rotating wave of rigid contact, whose pressure is another one than on a \
-             contact that stiffens"
-                .to_owned(),
-            "contact.normal_law is not linear".to_owned(),
-            "use initial = \"steady-sliding\", or leave contact.normal_law out",
-        );
+        errors.push(diagnosis!(case, "transient.initial",
+            "transient.initial = \"limit-cycle\" is a rotating wave of rigid contact, whose \
+             pressure is another one than on a contact that stiffens";
+            "contact.normal_law is not linear";
+            "use initial = \"steady-sliding\", or leave contact.normal_law out"));
     }
     let scale = case.material.young_modulus / case.body.contact_length();
     let mut springs = case.springs().into_iter();
     if let Some(springs) = springs.find(|own| own.stiffness > LARGEST_STIFFNESS * scale) {
-        refuse(
-            &springs.key(),
-            format!(
-                "{} = {:e} Pa/m is {:.1e} times the modulus over the \
-                 radius: round-off would drown the body",
-                springs.name(),
-                springs.stiffness,
-                springs.stiffness / scale
-            ),
-            format!("at most {:e}", LARGEST_STIFFNESS * scale),
-            &case.rigid_remedy(&springs),
-        );
+        errors.push(diagnosis!(case, &springs.key(),
+            "{} = {:e} Pa/m is {:.1e} times the modulus over the radius: round-off would drown the \
+             body", springs.name(), springs.stiffness, springs.stiffness / scale;
+            "at most {:e}", LARGEST_STIFFNESS * scale; "{}", case.rigid_remedy(&springs)));
     }
     errors
 }

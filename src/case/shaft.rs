@@ -6,6 +6,7 @@ use super::imported;
 use super::reader::Section;
 use super::tables::TableFiles;
 use super::{Case, CaseErrors};
+use super::{refusal, refuse};
 use crate::fem::{ElasticMaterial, TabledMaterial};
 use crate::mesh::{BoundaryCondition, ShaftSpecification};
 
@@ -23,34 +24,24 @@ pub(super) fn shaft(
     let found = materials(root, material, bore.is_some(), tables);
     let Some(bore) = bore else {
         if elements.is_some() {
-            mesh.reject(
-                "shaft_radial_elements",
-                "mesh.shaft_radial_elements is for a deformable shaft, and the case has none",
-                "the cylinder is rigid",
-                "give geometry.shaft_inner_radius and [materials.shaft], or leave it out",
-            );
+            refuse!(mesh, "shaft_radial_elements",
+                "mesh.shaft_radial_elements is for a deformable shaft, and the case has none";
+                "the cylinder is rigid";
+                "give geometry.shaft_inner_radius and [materials.shaft], or leave it out");
         }
         return None;
     };
     if bore >= contact_radius {
-        geometry.reject(
-            "shaft_inner_radius",
-            format!(
-                "geometry.shaft_inner_radius = {bore} must be below geometry.inner_radius = {contact_radius}: the shaft \
-                 reaches from its bore to the contact"
-            ),
-            format!("must be below {contact_radius}"),
-            None,
-        );
+        refuse!(geometry, "shaft_inner_radius",
+            "geometry.shaft_inner_radius = {bore} must be below geometry.inner_radius = \
+             {contact_radius}: the shaft reaches from its bore to the contact";
+            "must be below {contact_radius}");
     }
     if found.is_none() {
-        geometry.reject(
-            "shaft_inner_radius",
-            "the shaft of geometry.shaft_inner_radius has no material",
-            "needs [materials.shaft]",
+        refuse!(geometry, "shaft_inner_radius",
+            "the shaft of geometry.shaft_inner_radius has no material"; "needs [materials.shaft]";
             "add [materials.shaft] with young_modulus, poisson_ratio and density, or leave \
-             shaft_inner_radius out for a rigid cylinder",
-        );
+             shaft_inner_radius out for a rigid cylinder");
     }
     let shaft = ShaftSpecification {
         inner_radius: bore,
@@ -121,11 +112,8 @@ impl Case {
             return Ok(());
         }
         let key = "geometry.shaft_inner_radius";
-        Err(self.error_at(
-            key,
-            format!("{what} takes the cylinder as rigid, and {key} gives a deformable shaft"),
-            "not with a deformable shaft",
-            format!("leave {key} out"),
-        ))
+        Err(refusal!(self, key,
+            "{what} takes the cylinder as rigid, and {key} gives a deformable shaft";
+            "not with a deformable shaft"; "leave {key} out"))
     }
 }

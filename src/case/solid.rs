@@ -4,6 +4,7 @@ use super::boundaries::NamedCondition;
 use super::diagnostic::CaseErrors;
 use super::reader::Section;
 use super::{Case, suggestion};
+use super::{caution, refusal, refuse};
 use crate::fem::{ElasticMaterial, PlaneFormulation};
 use crate::mesh::{AnnulusSpecification, BoundaryCondition, SolidContact, SolidFace};
 
@@ -14,13 +15,10 @@ pub(super) fn is_solid(material: &ElasticMaterial) -> bool {
 
 /// Says that the stress of the base state is left out of the modes.
 pub(super) fn warn_of_stress(cea: &Section<'_>) {
-    cea.warn(
-        "geometric_stiffness",
-        "solid bodies on their whole mesh have no geometric stiffness: \
-         the stress of the base state is left out of their modes"
-            .to_owned(),
-        "no effect; set it to false",
-    );
+    caution!(cea, "geometric_stiffness",
+        "solid bodies on their whole mesh have no geometric stiffness: the stress of the base \
+         state is left out of their modes";
+        "no effect; set it to false");
 }
 
 /// Elements over the thickness; `None` in the plane, where they are an error.
@@ -31,22 +29,17 @@ pub(super) fn axial_elements(
 ) -> Option<usize> {
     if !is_solid {
         for key in mesh.refused("axial_elements") {
-            mesh.reject(
-                key,
-                "mesh.axial_elements has no effect on a plane body",
-                "needs material.formulation = \"three-dimensional\"",
-                "set that formulation and geometry.thickness, or leave mesh.axial_elements out",
-            );
+            refuse!(mesh, key, "mesh.axial_elements has no effect on a plane body";
+                "needs material.formulation = \"three-dimensional\"";
+                "set that formulation and geometry.thickness, or leave mesh.axial_elements out");
         }
         return None;
     }
     if !geometry.has("thickness") {
-        geometry.reject(
-            "thickness",
-            "geometry.thickness is missing: a three-dimensional body needs one",
-            "no thickness to divide into mesh.axial_elements",
-            "give it in metres, for example thickness = 0.009",
-        );
+        refuse!(geometry, "thickness",
+            "geometry.thickness is missing: a three-dimensional body needs one";
+            "no thickness to divide into mesh.axial_elements";
+            "give it in metres, for example thickness = 0.009");
     }
     Some(mesh.count("axial_elements"))
 }
@@ -54,12 +47,8 @@ pub(super) fn axial_elements(
 /// Refuses the radii of a ring on a plane body.
 pub(super) fn refuse_ring(section: &Section<'_>) {
     for key in section.refused("ring_inner_radius ring_outer_radius") {
-        section.reject(
-            key,
-            format!("contact.{key} is for a ring on the top face of a three-dimensional body"),
-            "of other bodies",
-            "leave it out",
-        );
+        refuse!(section, key => "is for a ring on the top face of a three-dimensional body";
+            "of other bodies"; "leave it out");
     }
 }
 
@@ -69,12 +58,8 @@ pub(super) fn contact(section: &Section<'_>, annulus: &AnnulusSpecification) -> 
     if !section.is_text("boundary", "top") {
         for key in ["ring_inner_radius", "ring_outer_radius"].iter().filter(|key| section.has(key))
         {
-            section.reject(
-                key,
-                format!("contact.{key} is for a ring on the top face"),
-                "needs contact.boundary = \"top\"",
-                format!("set it, or leave {key} out"),
-            );
+            refuse!(section, key, "contact.{key} is for a ring on the top face";
+                "needs contact.boundary = \"top\""; "set it, or leave {key} out");
         }
         if section.has("boundary") && !section.is_text("boundary", "inner") {
             section.reject(
@@ -91,27 +76,17 @@ pub(super) fn contact(section: &Section<'_>, annulus: &AnnulusSpecification) -> 
     let [inner, outer] = [radii[0].unwrap_or(low), radii[1].unwrap_or(high)];
     for (key, value) in [("ring_inner_radius", inner), ("ring_outer_radius", outer)] {
         if !(value >= low && value <= high) && high > low {
-            section.reject(
-                key,
-                format!(
-                    "contact.{key} = {value} lies outside the face, which reaches from {low} \
-                     to {high} m"
-                ),
-                format!("between {low} and {high}"),
-                "a ring lies between geometry.inner_radius and geometry.outer_radius",
-            );
+            refuse!(section, key,
+                "contact.{key} = {value} lies outside the face, which reaches from {low} to {high} \
+                 m";
+                "between {low} and {high}";
+                "a ring lies between geometry.inner_radius and geometry.outer_radius");
         }
     }
     if inner >= outer {
-        section.reject(
-            "ring_outer_radius",
-            format!(
-                "contact.ring_outer_radius = {outer} must be above contact.ring_inner_radius = \
-                 {inner}"
-            ),
-            format!("must be above {inner}"),
-            "are they swapped?",
-        );
+        refuse!(section, "ring_outer_radius",
+            "contact.ring_outer_radius = {outer} must be above contact.ring_inner_radius = {inner}";
+            "must be above {inner}"; "are they swapped?");
     }
     SolidContact::Ring { inner_radius: inner, outer_radius: outer }
 }
@@ -126,37 +101,23 @@ pub(super) fn conditions(
     let mut conditions = [BoundaryCondition::Free; 4];
     conditions[1] = BoundaryCondition::Clamped;
     for (name, condition) in boundaries {
-        let reject = |message: String, label: &str, help: &str| {
-            section.reject(name, message, label.to_owned(), Some(help.to_owned()));
-        };
         let Some(face) = SolidFace::ALL.iter().position(|face| face.name() == name) else {
-            reject(
-                format!("a body of revolution has no boundary \"{name}\""),
-                "it has \"inner\", \"outer\", \"top\" and \"bottom\"",
-                "use one of these names",
-            );
+            refuse!(section, name, "a body of revolution has no boundary \"{name}\"";
+                "it has \"inner\", \"outer\", \"top\" and \"bottom\""; "use one of these names");
             continue;
         };
         if SolidFace::ALL[face] == contact.face() && *condition != BoundaryCondition::Free {
-            reject(
-                format!(
-                    "boundaries.{name} is the face of contact: it can have no condition of its own"
-                ),
-                "the contact is here",
-                "leave the section out",
-            );
+            refuse!(section, name,
+                "boundaries.{name} is the face of contact: it can have no condition of its own";
+                "the contact is here"; "leave the section out");
         }
         if let BoundaryCondition::Support(support) = condition
             && SolidFace::ALL[face].normal_component() == 2
             && support.axial_stiffness > 0.0
         {
-            reject(
-                format!(
-                    "boundaries.{name}.axial_stiffness: along the axis a flat face has its normal"
-                ),
-                "has no effect on a flat face",
-                "give it as normal_stiffness",
-            );
+            refuse!(section, name,
+                "boundaries.{name}.axial_stiffness: along the axis a flat face has its normal";
+                "has no effect on a flat face"; "give it as normal_stiffness");
         }
         conditions[face] = *condition;
     }
@@ -166,13 +127,10 @@ pub(super) fn conditions(
         _ => false,
     };
     if !conditions.iter().any(holds) {
-        section.reject(
-            "outer",
-            "nothing holds the body against the friction that turns it",
-            "must hold a face tangentially",
-            "use condition = \"clamped\" on a face, or \"support\" with tangential_stiffness \
-             above 0",
-        );
+        refuse!(section, "outer", "nothing holds the body against the friction that turns it";
+            "must hold a face tangentially";
+            "use condition = \"clamped\" on a face, or \"support\" with tangential_stiffness above \
+             0");
     }
     // A cylinder in the bore holds nothing along the axis; a ring on the top presses it.
     let holds_along = |(face, condition): (SolidFace, &BoundaryCondition)| match condition {
@@ -186,36 +144,21 @@ pub(super) fn conditions(
     };
     let mut faces = SolidFace::ALL.into_iter().zip(&conditions);
     if contact == SolidContact::Inner && !faces.any(holds_along) {
-        section.reject(
-            "outer",
-            "nothing holds the body along its axis",
-            "must hold a face axially",
-            "give the support axial_stiffness above 0, or hold the top or the bottom face along its normal",
-        );
+        refuse!(section, "outer", "nothing holds the body along its axis";
+            "must hold a face axially";
+            "give the support axial_stiffness above 0, or hold the top or the bottom face along \
+             its normal");
     }
     conditions
 }
 
 impl Case {
-    /// Refuses an analysis that plane bodies only have.
-    ///
-    /// # Errors
-    /// A case of a three-dimensional body.
-    pub fn require_plane(&self, what: &str) -> Result<(), CaseErrors> {
-        match self.body.revolution() {
-            None => Ok(()),
-            Some(_) => Err(self.not_plane(what)),
-        }
-    }
-
     /// The error of an analysis that takes plane bodies only.
     pub(super) fn not_plane(&self, what: &str) -> CaseErrors {
-        self.error_at(
-            "material.formulation",
-            format!("material.formulation = \"three-dimensional\": {what} plane bodies only"),
-            "a three-dimensional body",
-            "`cea`, `transient`, `cycle`, `basin`, `frf`, `sweep` and `convergence` take it; \
-             else use \"plane-stress\" or \"plane-strain\"",
-        )
+        refusal!(self, "material.formulation",
+            "material.formulation = \"three-dimensional\": {what} plane bodies only";
+            "a three-dimensional body";
+            "`cea`, `transient`, `cycle`, `basin`, `frf`, `sweep` and `convergence` take it; else \
+             use \"plane-stress\" or \"plane-strain\"")
     }
 }

@@ -6,7 +6,7 @@ use super::value::{RawTable, RawValue, table_of};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
-/// Names that other programs and papers use, and what sections of a case call them, the likelier first.
+/// Names that other programs and papers use, and what sections of a case call them, likelier first.
 #[rustfmt::skip]
 const SYNONYMS: &[(&str, &str)] = &[
     ("a", "inner_radius"), ("alpha", "mass_coefficient"), ("alpha_r", "mass_coefficient"),
@@ -91,17 +91,27 @@ pub(super) fn nearest_word<'a>(word: &str, words: &[&'a str]) -> Option<&'a str>
     exact.copied().or_else(|| nearest(&plain, words.iter().copied()))
 }
 
-/// The candidate that `word` is, else that means it, else the one nearest to it.
-fn meant<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
+/// What other people mean by `word`.
+fn synonyms(word: &str) -> Vec<&'static str> {
     let plain = word.to_lowercase().replace([' ', '-'], "_");
-    let synonyms = SYNONYMS.iter().filter(|pair| pair.0 == plain).map(|pair| pair.1);
-    let exact = |own: &str| candidates.iter().find(|known| **known == own).copied();
-    let known = std::iter::once(word).chain(synonyms).find_map(exact);
-    known.or_else(|| nearest(word, candidates.iter().copied()))
+    SYNONYMS.iter().filter(|pair| pair.0 == plain).map(|pair| pair.1).collect()
 }
 
-/// What a case may have: its sections and `[damping]`, which needs no other key, less the keys that its reader refuses
-/// whatever their value, as they belong to bodies and contacts of another kind.
+/// The candidate that `word` is, else that others call so.
+fn meant<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
+    let exact = |own: &str| candidates.iter().find(|known| **known == own).copied();
+    std::iter::once(word).chain(synonyms(word)).find_map(exact)
+}
+
+/// The candidate nearest to `word`, else the only one that begins with it.
+fn near<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
+    let mut begun = candidates.iter().filter(|key| word.len() > 2 && key.starts_with(word));
+    let short = begun.next().filter(|_| begun.next().is_none()).copied();
+    nearest(word, candidates.iter().copied()).or(short)
+}
+
+/// What a case may have: its sections and `[damping]`, which needs no other key, less the keys that
+/// its reader refuses whatever their value, as they belong to bodies and contacts of another kind.
 #[derive(Debug)]
 pub(super) struct Scope<'a> {
     root: &'a RawTable,
@@ -119,7 +129,8 @@ impl<'a> Scope<'a> {
         path.split('.').try_fold(self.root, table_of)
     }
 
-    /// The keys of some kinds that the case may have, each with its section; those of sections with names of their own come last.
+    /// The keys of some kinds that the case may have, each with its section; those of sections with
+    /// names of their own come last.
     fn keys(&self, fits: impl Fn(&CaseKey) -> bool) -> Vec<(String, &'static str)> {
         let sections = |key: &CaseKey| -> Vec<String> {
             let section = key.section();
@@ -139,50 +150,57 @@ impl<'a> Scope<'a> {
         all.filter(|(own, key)| !self.refused.borrow().contains(&full(own, key))).collect()
     }
 
-    /// The key that a word means, in its own section or in others, with that section.
-    fn meant(
+    /// The key of another section that a word means, with that section.
+    fn elsewhere(
         &self,
         (section, word): (&str, &str),
-        is_own: bool,
         fits: impl Fn(&CaseKey) -> bool,
     ) -> Option<(String, &'static str)> {
         let mut keys = self.keys(fits);
-        keys.retain(|key| (key.0 == section) == is_own);
-        let near = meant(word, &keys.iter().map(|key| key.1).collect::<Vec<_>>())?;
-        keys.into_iter().find(|key| key.1 == near)
+        keys.retain(|key| key.0 != section);
+        let found = meant(word, &keys.iter().map(|key| key.1).collect::<Vec<_>>())?;
+        keys.into_iter().find(|key| key.1 == found)
     }
 
     /// A hint for a dotted name that is no key: that of the key which is meant, of those that fit.
     pub fn hint(&self, name: &str, fits: impl Fn(&CaseKey) -> bool) -> Option<String> {
-        let word = name.rsplit_once('.').unwrap_or(("", name));
-        let found = self.meant(word, true, &fits).or_else(|| self.meant(word, false, &fits))?;
-        Some(format!("did you mean \"{}\"?", full(&found.0, found.1)))
+        let (section, word) = name.rsplit_once('.').unwrap_or(("", name));
+        let own = self.keys(&fits).into_iter().filter(|key| key.0 == section);
+        let own: Vec<&str> = own.map(|key| key.1).collect();
+        let found = match meant(word, &own).or_else(|| near(word, &own)) {
+            Some(own) => full(section, own),
+            None => self.elsewhere((section, word), fits).map(|key| full(&key.0, key.1))?,
+        };
+        Some(format!("did you mean \"{found}\"?"))
     }
 
-    /// A hint for a key that does not exist: a synonym, a near miss in its section, the same key of another section that the
-    /// case has, or the keys there are.
+    /// A hint for a key that does not exist: one that is gone, a synonym, a near miss in its section,
+    /// the same key of another section that the case has, or the keys there are.
     pub fn suggest(
         &self,
         section: &str,
         (word, value): (&str, &RawValue),
         asked: &[&str],
     ) -> String {
+        let name = full(section, word);
+        if let Some((_, place)) = GONE.iter().find(|gone| gone.0 == name) {
+            return (*place).to_owned();
+        }
         let refused = self.refused.borrow();
         let known = asked.iter().copied().filter(|key| !refused.contains(&full(section, key)));
         let known: Vec<&str> = known.collect();
-        // A word that begins one key alone is short for it.
-        let mut begun = known.iter().filter(|key| word.len() > 2 && key.starts_with(word));
-        let abbreviated = begun.next().filter(|_| begun.next().is_none()).copied();
-        if let Some(near) = meant(word, &known).or(abbreviated) {
-            let given = self.table(section).filter(|_| near == "normal_force");
-            let instead = match given.is_some_and(|given| given.contains_key("interference")) {
-                true => " in place of `interference`",
-                false => "",
-            };
-            return format!("did you mean `{near}`{instead}?");
+        let elsewhere = self.elsewhere((section, word), |key| key.takes(value));
+        // A word that others use for a key elsewhere is no slip of the keyboard.
+        let is_slip = elsewhere.is_none() || synonyms(word).is_empty();
+        let slip = || near(word, &known).filter(|_| is_slip);
+        if let Some(found) = meant(word, &known).or_else(slip) {
+            let given = self.table(section).filter(|_| found == "normal_force");
+            let pushed = given.and_then(|given| given.get("interference"));
+            let instead = pushed.map_or("", |_| " in place of `interference`");
+            return format!("did you mean `{found}`{instead}?");
         }
-        if let Some((home, near)) = self.meant((section, word), false, |key| key.takes(value)) {
-            return format!("did you mean `{near}` of [{home}]?");
+        if let Some((home, found)) = elsewhere {
+            return format!("did you mean `{found}` of [{home}]?");
         }
         match section {
             "" => format!("sections and keys here: {}", known.join(", ")),
@@ -190,6 +208,12 @@ impl<'a> Scope<'a> {
         }
     }
 }
+
+/// Keys of earlier versions, and what stands in their place.
+const GONE: &[(&str, &str)] = &[
+    ("cea.map", "a sweep of cea draws it: give the key and its values in [sweep]"),
+    ("improve.front", "a sweep of cea over modifications.NAME.mass draws it"),
+];
 
 /// The full name of a key of a section.
 fn full(section: &str, key: &str) -> String {

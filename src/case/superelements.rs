@@ -4,6 +4,7 @@ use super::cea::{ModeSelection, mode_selection};
 use super::diagnostic::{CaseErrors, Location};
 use super::raw::RawCase;
 use super::reader::{Findings, Section};
+use super::refuse;
 use crate::linalg::MarketMatrix;
 use frictionsim_bounds::{MATRIX, SUPERELEMENT_UNKNOWNS};
 use sha2::{Digest, Sha256};
@@ -61,12 +62,8 @@ impl FreeSystem {
         let all = root.section("superelements", true);
         let names: Vec<&str> = all.remaining().into_iter().map(|(name, _)| name).collect();
         if names.len() > 1 {
-            all.reject(
-                names[1],
-                "several superelements without a body have nothing in common",
-                "the second one",
-                "give each a case of its own",
-            );
+            refuse!(all, names[1], "several superelements without a body have nothing in common";
+                "the second one"; "give each a case of its own");
         }
         let mut digest = Sha256::new_with_prefix(raw.canonical());
         let folder = Path::new(&raw.name).parent().unwrap_or(Path::new(""));
@@ -102,13 +99,11 @@ pub(super) fn refuse_attached(root: &Section<'_>) {
     if !all.is_given() {
         return;
     }
-    root.reject(
-        "superelements",
-        "superelements are solved free-standing; joining them to a mesh at interface nodes is \
-         not supported",
-        "beside a body",
-        "leave [geometry] and [mesh] out, or solve the superelement in a case of its own",
-    );
+    refuse!(root, "superelements",
+        "superelements are solved free-standing; joining them to a mesh at interface nodes is not \
+         supported";
+        "beside a body";
+        "leave [geometry] and [mesh] out, or solve the superelement in a case of its own");
 }
 
 /// One superelement; `None` where something is wrong with it, which is reported.

@@ -252,9 +252,9 @@ fn check_lengths(section: &Section<'_>, sweep: &Sweep) {
     }
 }
 
-/// Tries each value of a study on its own, all others as the case has them, so that a bad one is reported before anything
-/// runs: swept values, the ends of a map, the median of what is uncertain. Where the lists of a sweep are long only evenly
-/// spaced values are tried: the sweep itself reports the rest, point by point.
+/// Tries each value of a study on its own, all others as the case has them, so that a bad one is
+/// reported before anything runs: swept values, and the median of what is uncertain. Where the lists
+/// are long only evenly spaced values are tried: the sweep itself reports the rest, point by point.
 pub(super) fn check_values(case: &Case) -> Result<(), CaseErrors> {
     // A point is read at the cost of its key lines and of the lists that they stand for.
     const EFFORT: usize = 400_000;
@@ -266,22 +266,14 @@ pub(super) fn check_values(case: &Case) -> Result<(), CaseErrors> {
         let last = key.values.len().saturating_sub(1);
         let tried = key.values.len().min(most);
         let tried = (0..tried).map(move |i| &key.values[i * last / tried.max(2).saturating_sub(1)]);
-        tried.map(|value| ("swept", key.overrides(value).collect(), key.at.clone()))
-    });
-    let map = case.cea.iter().flat_map(|cea| &cea.map).flat_map(|map| {
-        let ends = [map.values.first(), map.values.last()].into_iter().flatten();
-        ends.map(|value| {
-            ("map", vec![format!("{}={value:?}", map.key)], case.raw.place("cea.map.key"))
-        })
+        tried.map(|value| ("swept", key.overrides(value).collect::<Vec<_>>(), key.at.clone()))
     });
     let uncertain = case.uncertainty.iter().flat_map(|study| &study.parameters).map(|own| {
         let overrides = own.parameter.overrides(own.value(0.5)).collect();
         ("uncertain", overrides, own.parameter.at.clone())
     });
-    let trials = swept.chain(map).chain(uncertain);
     let mut errors = Vec::new();
-    for (what, changes, at) in trials {
-        let changes: Vec<String> = changes;
+    for (what, changes, at) in swept.chain(uncertain) {
         let result = point.with_overrides(&changes).and_then(Case::read);
         for mut error in result.err().into_iter().flat_map(|bad| bad.diagnostics) {
             error.message = format!("{what} value {}: {}", changes[0], error.message);

@@ -2,6 +2,7 @@
 
 use super::raw::{RawCase, TableBytes};
 use super::reader::Section;
+use super::refuse;
 use crate::contact::Topography;
 use crate::fem::ModulusTable;
 use crate::signal::reader::{ModulusRow, read_gaps, read_moduli};
@@ -87,7 +88,7 @@ pub(super) fn modulus_table(
             "{}: {file}:{line}: {what}; the modulus of a passive material rises with the frequency",
             section.name("table")
         );
-        section.warn("table", message, "falls with the frequency");
+        section.warn("table", message, "falls with the frequency", None);
     }
     let rows = rows.iter().map(|row| [row.frequency_hz, row.young_modulus, row.loss_factor]);
     let key = section.name("table");
@@ -105,12 +106,8 @@ pub(super) fn topography(
     points
         .map(|points| Arc::new(Topography::new(&file, points)))
         .map_err(|reason| {
-            section.reject(
-                "gap",
-                format!("{}: {reason}", section.name("gap")),
-                "not a measured surface",
-                "its columns are x, y, z and gap, all in m",
-            );
+            refuse!(section, "gap", "{}: {reason}", section.name("gap"); "not a measured surface";
+                "its columns are x, y, z and gap, all in m");
         })
         .ok()
 }

@@ -6,6 +6,7 @@ use super::body::{Body, Revolution};
 use super::diagnostic::CaseErrors;
 use super::node::{Nodes, PlacedNode};
 use super::reader::Section;
+use super::{caution, refusal, refuse};
 use crate::contact::SlidingContact;
 use crate::mesh::{Counterface, SolidContact};
 use crate::prestress::BaseChoice;
@@ -89,22 +90,18 @@ impl Case {
     /// Refuses what an assembly cannot have in a transient, nor in a limit cycle, which is one.
     pub(super) fn check_stepped(&self, assembly: &AssemblyBody) -> Result<(), CaseErrors> {
         if assembly.base == BaseChoice::Closed {
-            return Err(self.error_at(
-                "contacts",
-                "contacts with state = \"closed\" are free of stress: without a normal force \
-                 there is no friction to step in time",
-                "steps in time need state = \"solved\"",
-                "press the bodies together (condition = \"pressure\"), or leave `state` out",
-            ));
+            return Err(refusal!(self, "contacts",
+                "contacts with state = \"closed\" are free of stress: without a normal force there \
+                 is no friction to step in time";
+                "steps in time need state = \"solved\"";
+                "press the bodies together (condition = \"pressure\"), or leave `state` out"));
         }
         if assembly.motions.iter().any(|motion| motion.inertia.is_some()) {
-            return Err(self.error_at(
-                "motion",
-                "rotation_terms are not stepped in time: the gyroscopic forces of the last \
-                 half step would feed the motion",
-                "with rotation_terms = false",
-                "use `frictionsim cea`, or leave rotation_terms out",
-            ));
+            return Err(refusal!(self, "motion",
+                "rotation_terms are not stepped in time: the gyroscopic forces of the last half \
+                 step would feed the motion";
+                "with rotation_terms = false";
+                "use `frictionsim cea`, or leave rotation_terms out"));
         }
         Ok(())
     }
@@ -127,36 +124,23 @@ pub(super) fn transient(
     if let TimeStep::Seconds(step) = time_step
         && step > duration
     {
-        section.reject(
-            "time_step",
-            format!(
-                "transient.time_step = {step:?} s is above transient.duration = {duration:?} s"
-            ),
-            format!("at most {duration:?}"),
-            None,
-        );
+        refuse!(section, "time_step",
+            "transient.time_step = {step:?} s is above transient.duration = {duration:?} s";
+            "at most {duration:?}");
     }
     let initial = initial(&section, body);
     let expansion_time = section.number("expansion_time");
     if initial == InitialState::Rest && expansion_time > duration {
         let default = if section.has("expansion_time") { "" } else { ", the default," };
-        reject(
-            &section,
-            "expansion_time",
-            format!(
-                "= {expansion_time:?} s{default} is above transient.duration = {duration:?} s: \
-                 the cylinder would never be fully expanded"
-            ),
-            "at most the duration",
-        );
+        refuse!(section, "expansion_time" =>
+            "= {expansion_time:?} s{default} is above transient.duration = {duration:?} s: the \
+             cylinder would never be fully expanded";
+            "at most the duration");
     }
     if initial != InitialState::Rest && section.has("expansion_time") {
-        section.warn(
-            "expansion_time",
-            "transient.expansion_time is not used: the run starts with the cylinder fully expanded"
-                .to_owned(),
-            "only with initial = \"rest\"",
-        );
+        caution!(section, "expansion_time",
+            "transient.expansion_time is not used: the run starts with the cylinder fully expanded";
+            "only with initial = \"rest\"");
     }
     let transient = Transient {
         duration,
@@ -178,12 +162,9 @@ fn initial(section: &Section<'_>, body: Option<&Body>) -> InitialState {
     let [given, onset] = keys.map(|key| section.optional_count(key));
     let InitialState::LimitCycle { .. } = initial else {
         for (key, _) in keys.iter().zip([given, onset]).filter(|pair| pair.1.is_some()) {
-            section.reject(
-                key,
-                format!("transient.{key} is given, but the run does not start on a limit cycle"),
-                "only with initial = \"limit-cycle\"",
-                None,
-            );
+            refuse!(section, key,
+                "transient.{key} is given, but the run does not start on a limit cycle";
+                "only with initial = \"limit-cycle\"");
         }
         return initial;
     };
@@ -191,14 +172,9 @@ fn initial(section: &Section<'_>, body: Option<&Body>) -> InitialState {
     let sectors = body.and_then(Body::sector_count);
     if let Some(sectors) = sectors.filter(|sectors| harmonic > sectors / 2) {
         let highest = sectors / 2;
-        section.reject(
-            "limit_cycle_harmonic",
-            format!(
-                "transient.limit_cycle_harmonic = {harmonic} is above the mesh's highest, {highest}"
-            ),
-            format!("at most half of {sectors} elements"),
-            None,
-        );
+        refuse!(section, "limit_cycle_harmonic",
+            "transient.limit_cycle_harmonic = {harmonic} is above the mesh's highest, {highest}";
+            "at most half of {sectors} elements");
     }
     InitialState::LimitCycle { harmonic, onset: onset.unwrap_or(1) }
 }
@@ -216,41 +192,24 @@ fn perturbation(
     let velocities = one_for_each(&section, "velocity", &harmonics);
     let phases = one_for_each(&section, "phase_deg", &harmonics);
     if harmonics.is_empty() && section.has("phase_deg") {
-        reject(
-            &section,
-            "phase_deg",
-            "is given without harmonics".to_owned(),
-            "needs transient.perturbation.harmonics",
-        );
+        refuse!(section, "phase_deg" => "is given without harmonics";
+            "needs transient.perturbation.harmonics");
     }
     let noise = section.number("noise");
     let noise_seed = section.count("noise_seed");
     if section.has("noise_seed") && noise == 0.0 {
-        reject(
-            &section,
-            "noise_seed",
-            "is given without noise".to_owned(),
-            "needs transient.perturbation.noise",
-        );
+        refuse!(section, "noise_seed" => "is given without noise";
+            "needs transient.perturbation.noise");
     }
     let time = section.number("at");
     if time > duration {
-        reject(
-            &section,
-            "at",
-            format!(
-                "= {time:?} s is after the end of the run, transient.duration = {duration:?} s"
-            ),
-            "must be within the run",
-        );
+        refuse!(section, "at" =>
+            "= {time:?} s is after the end of the run, transient.duration = {duration:?} s";
+            "must be within the run");
     }
     if time > 0.0 && harmonics.is_empty() && noise == 0.0 {
-        reject(
-            &section,
-            "at",
-            "is given, but there is no velocity to add".to_owned(),
-            "needs harmonics or noise",
-        );
+        refuse!(section, "at" => "is given, but there is no velocity to add";
+            "needs harmonics or noise");
     }
     section.close();
     let waves = harmonics.iter().zip(velocities.iter().zip(&phases));
@@ -266,11 +225,6 @@ fn perturbation(
         noise_seed: noise_seed as u64,
         time,
     }
-}
-
-fn reject(section: &Section<'_>, key: &'static str, what: String, label: &str) {
-    let message = format!("{} {what}", section.name(key));
-    section.reject(key, message, label.to_owned(), None);
 }
 
 /// `|Omega| a`, under a ring `|Omega|` times its mean radius, on a plane its speed, m/s.
@@ -300,12 +254,9 @@ fn velocity_unit(section: &Section<'_>, slip_speed: f64) -> f64 {
         return 1.0;
     }
     if slip_speed == 0.0 {
-        reject(
-            section,
-            "relative",
-            "= true, but contact.rotation_speed_rpm = 0: there is no slip speed".to_owned(),
-            "needs a cylinder that turns",
-        );
+        refuse!(section, "relative" =>
+            "= true, but contact.rotation_speed_rpm = 0: there is no slip speed";
+            "needs a cylinder that turns");
     }
     slip_speed
 }
@@ -319,12 +270,8 @@ fn one_for_each(section: &Section<'_>, key: &'static str, harmonics: &[usize]) -
         // An item that is no number has been reported.
         _ if section.list_length(key) == Some(harmonics.len()) => values,
         _ => {
-            let what = format!(
-                "has {} values, transient.perturbation.harmonics has {}",
-                values.len(),
-                harmonics.len()
-            );
-            reject(section, key, what, "one for all, or one for each harmonic");
+            refuse!(section, key => "has {} values, transient.perturbation.harmonics has {}",
+                values.len(), harmonics.len(); "one for all, or one for each harmonic");
             Vec::new()
         }
     }
@@ -351,22 +298,19 @@ pub(super) fn output(
                 "output.snapshots: {time} s lies after the end of the run \
                  (transient.duration = {duration} s) and is left out"
             );
-            section.warn("snapshots", message, "after the end");
+            section.warn("snapshots", message, "after the end", None);
         }
         if further > 0 {
             let message = format!("output.snapshots: {further} later times are left out, too");
-            section.warn("snapshots", message, "after the end");
+            section.warn("snapshots", message, "after the end", None);
         }
         contradictions(&section, transient, sample_interval);
     }
     let contact_interval = section.optional_number("contact_interval");
     if let Some(interval) = contact_interval.filter(|interval| *interval < sample_interval) {
-        reject(
-            &section,
-            "contact_interval",
-            format!("= {interval:?} s is below output.sample_interval = {sample_interval:?} s"),
-            "at least the sample interval",
-        );
+        refuse!(section, "contact_interval" =>
+            "= {interval:?} s is below output.sample_interval = {sample_interval:?} s";
+            "at least the sample interval");
     }
     let output = Output {
         probes,
@@ -407,11 +351,8 @@ fn probes(section: &Section<'_>, nodes: &Nodes<'_>) -> (Vec<usize>, Vec<PlacedNo
 fn contradictions(output: &Section<'_>, transient: &Transient, sample_interval: f64) {
     let duration = transient.duration;
     if sample_interval > duration {
-        reject(
-            output,
-            "sample_interval",
-            format!("= {sample_interval:?} s is above transient.duration = {duration:?} s"),
-            "a run has two samples at least",
-        );
+        refuse!(output, "sample_interval" =>
+            "= {sample_interval:?} s is above transient.duration = {duration:?} s";
+            "a run has two samples at least");
     }
 }

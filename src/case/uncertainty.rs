@@ -4,6 +4,7 @@ use super::diagnostic::CaseErrors;
 use super::parameters::{ModelParameter, entries, number, only, refuse_twice};
 use super::reader::Section;
 use super::value::{RawEntry, RawValue};
+use super::{caution, refuse};
 use crate::linalg::Distribution;
 
 /// Share of a distribution beyond what its key can take from which on it is refused.
@@ -57,21 +58,13 @@ pub(super) fn uncertainty(root: &Section<'_>) -> Option<Uncertainty> {
         .collect();
     refuse_twice(&inner, found.iter().flat_map(|found| found.parameter.keys()));
     if given && inner.is_given() && inner.remaining().is_empty() {
-        section.reject(
-            "distributions",
-            "uncertainty.distributions is empty",
-            "at least one parameter",
-            None,
-        );
+        refuse!(section, "distributions", "uncertainty.distributions is empty";
+            "at least one parameter");
     }
     const MOST: usize = 16;
     if found.len() > MOST {
-        section.reject(
-            "distributions",
-            format!("{} parameters are uncertain", found.len()),
-            format!("at most {MOST}"),
-            "leave out those with little influence",
-        );
+        refuse!(section, "distributions", "{} parameters are uncertain", found.len();
+            "at most {MOST}"; "leave out those with little influence");
     }
     for (key, count) in [("samples", Some(samples)), ("index_samples", index_samples)] {
         if count.is_some_and(|count| count > 1_000_000) {
@@ -80,12 +73,8 @@ pub(super) fn uncertainty(root: &Section<'_>) -> Option<Uncertainty> {
         }
     }
     if index_samples.is_some_and(|count| count > samples) {
-        section.reject(
-            "index_samples",
-            "uncertainty.index_samples is above uncertainty.samples",
-            format!("at most {samples}"),
-            None,
-        );
+        refuse!(section, "index_samples", "uncertainty.index_samples is above uncertainty.samples";
+            "at most {samples}");
     }
     section.close();
     given.then_some(Uncertainty {
@@ -191,14 +180,10 @@ fn uncertain(
     }
     // What a sample meets once in a million is not worth a word.
     if beyond > 1e-6 {
-        section.warn(
-            key,
-            format!(
-                "{:.4} % of {word} = [{a}, {b}] of {key} lies where the key {rule}: samples are drawn from the rest",
-                100.0 * beyond
-            ),
-            "reaches forbidden values",
-        );
+        caution!(section, key,
+            "{:.4} % of {word} = [{a}, {b}] of {key} lies where the key {rule}: samples are drawn \
+             from the rest", 100.0 * beyond;
+            "reaches forbidden values");
     }
     UncertainParameter { parameter, distribution, range }
 }

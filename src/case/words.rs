@@ -24,23 +24,6 @@ pub(super) fn words_of<T: Choice>() -> impl Iterator<Item = (&'static str, T)> {
     T::WORDS.iter().copied()
 }
 
-/// What `improve` tries on a body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum ModificationKind {
-    /// A point mass.
-    Mass,
-    /// A spring to the ground.
-    Spring,
-    /// A dashpot to the ground.
-    Dashpot,
-    /// A damping layer on some elements.
-    Damping,
-    /// Elements taken away.
-    Removal,
-    /// The hole of a plane body moved.
-    Offset,
-}
-
 impl ModificationKind {
     /// Its word.
     pub fn word(self) -> &'static str {
@@ -52,34 +35,6 @@ impl ModificationKind {
     pub fn all() -> impl Iterator<Item = Self> {
         Self::WORDS.iter().map(|pair| pair.1)
     }
-}
-
-/// What holds a boundary, in words.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ConditionWord {
-    Clamped,
-    Support,
-    Guide,
-    Fixed,
-    Pressure,
-    Free,
-}
-
-/// A direction that a boundary is held in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum HeldAxis {
-    X,
-    Y,
-    Z,
-}
-
-/// Units of a mesh file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum UnitsWord {
-    /// m, kg, s, Pa.
-    MKgS,
-    /// mm, t, s, MPa.
-    MmTS,
 }
 
 impl UnitsWord {
@@ -99,112 +54,140 @@ impl UnitsWord {
     }
 }
 
-/// A part of what a mesh file holds beside the mesh.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum FilePart {
-    Materials,
-    Ties,
-    Contacts,
-    Boundaries,
-    Motion,
-    Nothing,
+/// Declares choices, each variant with its word, in the order of the documentation.
+macro_rules! words {
+    ($($(#[$meta:meta])* $vis:vis $name:ident {
+        $($(#[$of:meta])* $variant:ident $word:literal),+ $(,)?
+    })+) => {$(
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+        $vis enum $name { $($(#[$of])* $variant),+ }
+
+        impl Choice for $name {
+            const WORDS: &'static [(&'static str, Self)] = &[$(($word, Self::$variant)),+];
+        }
+    )+};
 }
 
-/// The shape of the counterface, in words.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum CounterfaceWord {
-    Cylinder,
-    Plane,
-    Sphere,
-    Body,
-}
+words! {
+    /// What `improve` tries on a body.
+    pub ModificationKind {
+        /// A point mass.
+        Mass "mass",
+        /// A spring to the ground.
+        Spring "spring",
+        /// A dashpot to the ground.
+        Dashpot "dashpot",
+        /// A damping layer on some elements.
+        Damping "damping",
+        /// Elements taken away.
+        Removal "removal",
+        /// The hole of a plane body moved.
+        Offset "offset",
+    }
 
-/// What presses the body in steady sliding.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum BaseContact {
-    Rigid,
-    Compliant,
-}
+    /// What holds a boundary, in words.
+    pub(super) ConditionWord {
+        Clamped "clamped",
+        Support "support",
+        Guide "guide",
+        Fixed "fixed",
+        Pressure "pressure",
+        Free "free",
+    }
 
-/// Where the axes of an orthotropic material lie.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum AxesWord {
-    Global,
-    Cylindrical,
-}
+    /// A direction that a boundary is held in.
+    pub(super) HeldAxis { X "x", Y "y", Z "z" }
 
-/// Pressure over approach of a contact.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum NormalLawWord {
-    Linear,
-    Cubic,
-    Exponential,
-}
+    /// Units of a mesh file.
+    pub UnitsWord {
+        /// m, kg, s, Pa.
+        MKgS "m-kg-s",
+        /// mm, t, s, MPa.
+        MmTS "mm-t-s",
+    }
 
-/// Eigenvalue solver.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CeaMethod {
-    /// Cyclic where mesh and base state have the symmetry, sparse elsewhere.
-    Auto,
-    /// One small problem for each circumferential harmonic.
-    Cyclic,
-    /// Shift-invert Krylov-Schur on the whole mesh.
-    Sparse,
-}
+    /// A part of what a mesh file holds beside the mesh.
+    pub(super) FilePart {
+        Materials "materials",
+        Ties "ties",
+        Contacts "contacts",
+        Boundaries "boundaries",
+        Motion "motion",
+        Nothing "nothing",
+    }
 
-/// `cycle.onsets`: at which losses of stability of a harmonic the cycles are born.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum OnsetChoice {
-    /// At every one below the case's friction coefficient; where there is none, at the lowest.
-    All,
-    /// At the lowest.
-    Lowest,
-}
+    /// The shape of the counterface, in words.
+    pub(super) CounterfaceWord { Cylinder "cylinder", Plane "plane", Sphere "sphere", Body "body" }
 
-/// `cycle.stability`: which cycles' stability is worked out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum StabilityChoice {
-    /// Those at the case's own operating point.
-    Point,
-    /// Those along the branch, too.
-    Branch,
-    /// None.
-    None,
-}
+    /// What presses the body in steady sliding.
+    pub(super) BaseContact { Rigid "rigid", Compliant "compliant" }
 
-/// How a frequency response is computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FrfMethod {
-    /// The fastest that needs no tolerance: cyclic.
-    Auto,
-    /// Every circumferential harmonic at each frequency.
-    Cyclic,
-    /// A sparse solution of the whole mesh at each frequency.
-    Direct,
-    /// Rational Krylov reduction with its error stated.
-    Reduced,
-}
+    /// Where the axes of an orthotropic material lie.
+    pub(super) AxesWord { Global "global", Cylindrical "cylindrical" }
 
-/// What runs at a point of a sweep.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Analysis {
-    /// The complex eigenvalue analysis.
-    Cea,
-    /// The explicit transient.
-    Transient,
-    /// The direct search for limit cycles.
-    Cycle,
-    /// Boundary between the basins of two limit cycles.
-    Basin,
-}
+    /// Pressure over approach of a contact.
+    pub(super) NormalLawWord { Linear "linear", Cubic "cubic", Exponential "exponential" }
 
-/// How several swept keys combine.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Combination {
-    /// Every value of each with every value of the others, the last key fastest.
-    Grid,
-    /// The first value of each, then the second of each, and so on.
-    Zip,
+    /// Eigenvalue solver.
+    pub CeaMethod {
+        /// Cyclic where mesh and base state have the symmetry, sparse elsewhere.
+        Auto "auto",
+        /// One small problem for each circumferential harmonic.
+        Cyclic "cyclic",
+        /// Shift-invert Krylov-Schur on the whole mesh.
+        Sparse "sparse",
+    }
+
+    /// `cycle.onsets`: at which losses of stability of a harmonic the cycles are born.
+    pub OnsetChoice {
+        /// At every one below the case's friction coefficient; where there is none, at the lowest.
+        All "all",
+        /// At the lowest.
+        Lowest "lowest",
+    }
+
+    /// `cycle.stability`: which cycles' stability is worked out.
+    pub StabilityChoice {
+        /// Those at the case's own operating point.
+        Point "point",
+        /// Those along the branch, too.
+        Branch "branch",
+        /// None.
+        None "none",
+    }
+
+    /// How a frequency response is computed.
+    pub FrfMethod {
+        /// The fastest that needs no tolerance: cyclic.
+        Auto "auto",
+        /// Every circumferential harmonic at each frequency.
+        Cyclic "cyclic",
+        /// A sparse solution of the whole mesh at each frequency.
+        Direct "direct",
+        /// Rational Krylov reduction with its error stated.
+        Reduced "reduced",
+    }
+
+    /// What runs at a point of a sweep.
+    pub Analysis {
+        /// The explicit transient.
+        Transient "transient",
+        /// The complex eigenvalue analysis.
+        Cea "cea",
+        /// The direct search for limit cycles.
+        Cycle "cycle",
+        /// Boundary between the basins of two limit cycles.
+        Basin "basin",
+    }
+
+    /// How several swept keys combine.
+    pub Combination {
+        /// Every value of each with every value of the others, the last key fastest.
+        Grid "grid",
+        /// The first value of each, then the second of each, and so on.
+        Zip "zip",
+    }
 }
 
 /// States the words of each choice.
@@ -217,29 +200,10 @@ macro_rules! choices {
 }
 
 choices! {
-    ConditionWord {
-        "clamped" = Self::Clamped,
-        "support" = Self::Support,
-        "guide" = Self::Guide,
-        "fixed" = Self::Fixed,
-        "pressure" = Self::Pressure,
-        "free" = Self::Free,
-    }
-    UnitsWord { "m-kg-s" = Self::MKgS, "mm-t-s" = Self::MmTS }
-    FilePart {
-        "materials" = Self::Materials,
-        "ties" = Self::Ties,
-        "contacts" = Self::Contacts,
-        "boundaries" = Self::Boundaries,
-        "motion" = Self::Motion,
-        "nothing" = Self::Nothing,
-    }
-    CounterfaceWord { "cylinder" = Self::Cylinder, "plane" = Self::Plane, "sphere" = Self::Sphere, "body" = Self::Body }
     ElementKind { "quad4" = Self::Quad4, "quad8" = Self::Quad8 }
     PlaneFormulation { "plane-strain" = Self::PlaneStrain, "plane-stress" = Self::PlaneStress, "three-dimensional" = Self::ThreeDimensional }
     MassKind { "consistent" = Self::Consistent, "lumped" = Self::Lumped }
     Spacing { "linear" = Self::Linear, "log" = Self::Logarithmic }
-    CeaMethod { "auto" = Self::Auto, "cyclic" = Self::Cyclic, "sparse" = Self::Sparse }
     InitialState {
         "rest" = Self::Rest,
         "steady-sliding" = Self::SteadySliding,
@@ -247,25 +211,9 @@ choices! {
         "limit-cycle" = Self::LimitCycle { harmonic: 1, onset: 1 },
     }
     OperatorChoice { "auto" = Self::Auto, "cyclic" = Self::Cyclic, "sparse" = Self::Sparse }
-    Combination { "grid" = Self::Grid, "zip" = Self::Zip }
-    Analysis { "transient" = Self::Transient, "cea" = Self::Cea, "cycle" = Self::Cycle, "basin" = Self::Basin }
-    ModificationKind {
-        "mass" = Self::Mass,
-        "spring" = Self::Spring,
-        "dashpot" = Self::Dashpot,
-        "damping" = Self::Damping,
-        "removal" = Self::Removal,
-        "offset" = Self::Offset,
-    }
-    OnsetChoice { "all" = Self::All, "lowest" = Self::Lowest }
-    StabilityChoice { "point" = Self::Point, "branch" = Self::Branch, "none" = Self::None }
     FrfBoundary { "free" = Self::Free, "clamped" = Self::Clamped, "sliding" = Self::Sliding }
     BaseChoice { "solved" = Self::Solved, "closed" = Self::Closed }
-    NormalLawWord { "linear" = Self::Linear, "cubic" = Self::Cubic, "exponential" = Self::Exponential }
     RotationFrame { "rest" = Self::Rest, "turning" = Self::Turning }
-    HeldAxis { "x" = Self::X, "y" = Self::Y, "z" = Self::Z }
-    BaseContact { "rigid" = Self::Rigid, "compliant" = Self::Compliant }
-    AxesWord { "global" = Self::Global, "cylindrical" = Self::Cylindrical }
     Direction {
         "radial" = Self::Radial,
         "tangential" = Self::Tangential,
@@ -278,11 +226,5 @@ choices! {
         "accelerance" = Self::Accelerance,
         "mobility" = Self::Mobility,
         "receptance" = Self::Receptance,
-    }
-    FrfMethod {
-        "auto" = Self::Auto,
-        "cyclic" = Self::Cyclic,
-        "direct" = Self::Direct,
-        "reduced" = Self::Reduced,
     }
 }

@@ -1,16 +1,8 @@
 //! Counts of eigenvalues, apart from how they were found.
 
+use super::spectrum::STANDSTILL;
 use crate::linalg::c64;
 use std::f64::consts::TAU;
-
-/// `|Im lambda| / |lambda|` below which a motion decays without oscillating: its damping factor is above 0.995. Motions beyond
-/// critical damping have real eigenvalues only where nothing couples two of them.
-pub(super) const STANDSTILL: f64 = 0.1;
-
-/// Whether an eigenvalue has a positive imaginary part and is that of a motion that oscillates or grows.
-pub(super) fn is_vibration(value: c64) -> bool {
-    value.im > 0.0 && (value.re > 0.0 || value.im > STANDSTILL * value.norm())
-}
 
 /// Largest growth or decay that a count covers, at least, relative to the upper end of the frequencies (rad/s).
 const WIDTH: f64 = 0.2;
@@ -80,17 +72,5 @@ impl ModeCount {
     /// Whether as many were counted as are known.
     pub fn is_complete(&self) -> bool {
         self.missing == Ok(0)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn growth_that_hardly_oscillates_is_sought_all_the_same() {
-        let [decay, growth] = [-1.0, 1.0].map(|re| c64::new(re, 0.03));
-        assert!(!is_vibration(decay) && is_vibration(growth));
-        assert!(!is_vibration(growth.conj()) && is_vibration(c64::new(-1.0, 0.2)));
     }
 }

@@ -66,8 +66,6 @@ pub enum SweepStage {
     Values,
     /// Numbers of nodal diameters of a body with cyclic symmetry.
     Diameters,
-    /// Values of the second parameter of a stability map.
-    MapPoints,
 }
 
 /// How far a sweep has come.

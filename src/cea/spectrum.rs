@@ -4,6 +4,15 @@ use super::ModeCount;
 use crate::linalg::c64;
 use std::f64::consts::TAU;
 
+/// `|Im lambda| / |lambda|` below which a motion decays without oscillating: its damping factor is above 0.995. Motions beyond
+/// critical damping have real eigenvalues only where nothing couples two of them.
+pub(super) const STANDSTILL: f64 = 0.1;
+
+/// Whether an eigenvalue has a positive imaginary part and is that of a motion that oscillates or grows.
+pub(super) fn is_vibration(value: c64) -> bool {
+    value.im > 0.0 && (value.re > 0.0 || value.im > STANDSTILL * value.norm())
+}
+
 /// One eigenpair of `(lambda^2 M + lambda C + K_t) phi = 0`, equation (1) with the contact in it, with `Im(lambda) >= 0`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComplexMode {
@@ -59,8 +68,8 @@ pub struct ModeVectors {
 /// A mode as a wave of its harmonic.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModeWave {
-    /// The unknowns of the wave `+n` that has the eigenvalue [`Self::root`]: those of [`crate::prestress::HarmonicTangent`] of
-    /// an annulus, all of [`crate::prestress::SolidHarmonic`] of a body of revolution.
+    /// The unknowns of the wave `+n` that has the eigenvalue [`Self::root`]: those of
+    /// [`crate::prestress::HarmonicTangent`].
     pub unknowns: Vec<c64>,
     /// Whether the mode is the wave `-n`, the conjugate of these unknowns with the conjugate eigenvalue.
     pub is_backward: bool,
@@ -177,6 +186,8 @@ pub struct FrictionSweep {
     pub ended: Vec<EndedMode>,
     /// Modes of a whole mesh that did not converge at a friction value, and are not listed there.
     pub unconverged: Vec<UnconvergedMode>,
+    /// The mode that grows fastest of those just above the listed ones, on a whole mesh.
+    pub beyond: Option<BeyondMode>,
     /// Rigid motions of the bodies, which are not listed.
     pub rigid_motions: usize,
     /// Counts of the modes of a whole mesh, where they were asked for.
@@ -207,6 +218,30 @@ pub struct UnconvergedMode {
     pub frequency_hz: f64,
 }
 
+/// An unstable mode just above the listed ones.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BeyondMode {
+    /// Friction coefficient.
+    pub friction_coefficient: f64,
+    /// Frequency, Hz.
+    pub frequency_hz: f64,
+    /// `Re lambda`, 1/s.
+    pub growth_rate: f64,
+}
+
+impl BeyondMode {
+    /// That of one eigenvalue.
+    pub fn of(friction_coefficient: f64, eigenvalue: c64) -> Self {
+        let (frequency_hz, growth_rate) = (eigenvalue.im / TAU, eigenvalue.re);
+        Self { friction_coefficient, frequency_hz, growth_rate }
+    }
+
+    /// The one that grows fastest.
+    pub fn fastest(all: impl Iterator<Item = Self>) -> Option<Self> {
+        all.max_by(|a, b| a.growth_rate.total_cmp(&b.growth_rate))
+    }
+}
+
 /// The last mode of a branch that ends within a sweep.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EndedMode {
@@ -217,4 +252,16 @@ pub struct EndedMode {
     /// The next friction coefficient, at which it could not be told from others; `None` where damping of friction takes it beyond the
     /// critical one.
     pub lost_before: Option<f64>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn growth_that_hardly_oscillates_is_sought_all_the_same() {
+        let [decay, growth] = [-1.0, 1.0].map(|re| c64::new(re, 0.03));
+        assert!(!is_vibration(decay) && is_vibration(growth));
+        assert!(!is_vibration(growth.conj()) && is_vibration(c64::new(-1.0, 0.2)));
+    }
 }

@@ -40,7 +40,7 @@ pub use normal_law::NormalLaw;
 pub use opposite::OppositeShare;
 pub use pair_error::PairError;
 pub use pairing::{ContactSite, ContactSurface, Motion, PairFriction, PointKind};
-pub use point::{Point, Row, value_of};
+pub use point::{Point, Row};
 pub use surface::{SegmentPoint, SurfacePair, row_along};
 pub use surface_law::{PointFriction, SlippingPoint};
 pub use topography::Topography;

@@ -70,8 +70,3 @@ impl ContactInterface {
         (0..self.len()).map(point).collect()
     }
 }
-
-/// `row . u`.
-pub fn value_of(row: &[(usize, f64)], displacement: &[f64]) -> f64 {
-    row.iter().map(|&(dof, coefficient)| coefficient * displacement[dof]).sum()
-}

@@ -43,7 +43,7 @@ impl Confirmation {
     /// Whether the transient still is on the cycle.
     pub fn agrees(&self, cycle: &LimitCycle) -> bool {
         let frequency = [self.main_frequency_hz.unwrap_or(0.0), cycle.frequency_hz()];
-        let power = [self.external_power, cycle.powers.external];
+        let power = [self.external_power, cycle.powers.contact.external];
         self.main_harmonic == Some(cycle.harmonic)
             && agree([frequency, power], [self.status, cycle.fractions], TOLERANCE)
     }

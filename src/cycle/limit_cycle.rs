@@ -5,47 +5,38 @@ use super::state::WaveState;
 use super::wave::Wave;
 use crate::contact::ContactStatus;
 use crate::linalg::c64;
+use crate::transient::ContactPowers;
 use std::f64::consts::TAU;
 
 /// Harmonics of the contact edge in a summary, `n = 0..=8`.
 const HARMONIC_COUNT: usize = 9;
 
-/// Mean powers of a cycle, W for each metre of thickness.
+/// Mean powers of a cycle, W for each metre of thickness, of a body in three dimensions W.
 ///
 /// `external = stick + slide + contact_dissipated`, and
-/// `stick + slide + normal_contact = material_damping`.
+/// `stick + slide + normal = material_damping + damping`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CyclePowers {
-    /// `sum T Omega a`.
-    pub external: f64,
-    /// `sum T v_t` over sticking nodes.
-    pub stick: f64,
-    /// `sum T v_t` over slipping nodes.
-    pub slide: f64,
-    /// `sum T (Omega a - v_t)`.
-    pub contact_dissipated: f64,
-    /// `v^T C v`.
+    /// Of the contact; of a wave `normal` is negative where landing nodes lose energy.
+    pub contact: ContactPowers,
+    /// Lost in body and supports, `v^T C v`.
     pub material_damping: f64,
-    /// `sum N v_n`: negative where landing nodes lose energy.
-    pub normal_contact: f64,
 }
 
 impl CyclePowers {
-    /// `|external + normal_contact - contact_dissipated - material_damping| / external`.
+    /// `|external + normal - dissipated - material damping - contact damping| / external`: what is left of the energy balance
+    /// of the cycle.
     pub fn balance_residual(&self) -> f64 {
-        let out = self.contact_dissipated + self.material_damping;
-        ((self.external + self.normal_contact - out) / self.external).abs()
+        let own = &self.contact;
+        let out = own.contact_dissipated + self.material_damping + own.damping;
+        ((own.external + own.normal - out) / own.external).abs()
     }
 
     /// Every power times `factor`.
     pub fn scaled(&self, factor: f64) -> Self {
         Self {
-            external: factor * self.external,
-            stick: factor * self.stick,
-            slide: factor * self.slide,
-            contact_dissipated: factor * self.contact_dissipated,
+            contact: self.contact.scaled(factor),
             material_damping: factor * self.material_damping,
-            normal_contact: factor * self.normal_contact,
         }
     }
 }
@@ -146,7 +137,7 @@ impl LimitCycle {
             (deepest.min(gap), widest.max(gap))
         });
         let is_outside = -deepest < 0.02 * (interference + widest);
-        is_outside && self.powers.normal_contact < 5e-3 * self.powers.external.abs()
+        is_outside && self.powers.contact.normal < 5e-3 * self.powers.contact.external.abs()
     }
 
     /// `omega / 2 pi`, Hz: the main frequency of any point of the body.
@@ -207,7 +198,7 @@ pub(super) fn powers(
 ) -> CyclePowers {
     let contact = &state.point.contact;
     let surface_speed = contact.rotation_speed * wave.body.radius;
-    let mut powers = CyclePowers::default();
+    let mut powers = ContactPowers::default();
     let velocity = [0, 1].map(|component| {
         let pairs = edge.displacement.iter().zip(&edge.rates);
         wave.values(pairs.map(|(u, rate)| u[component] * rate))
@@ -217,16 +208,17 @@ pub(super) fn powers(
         let (v_n, v_t) = (velocity[0][i], velocity[1][i]);
         powers.external += tangential * surface_speed;
         powers.contact_dissipated += tangential * (surface_speed - v_t);
-        powers.normal_contact += normal * v_n;
+        powers.normal += normal * v_n;
         match point.status {
             ContactStatus::Stick => powers.stick += tangential * v_t,
             _ => powers.slide += tangential * v_t,
         }
     }
     let nodes = wave.body.sector_count as f64;
-    let mut powers = powers.scaled(nodes / points.len() as f64);
-    powers.material_damping = nodes * material_damping(wave, state, edge);
-    powers
+    CyclePowers {
+        contact: powers.scaled(nodes / points.len() as f64),
+        material_damping: nodes * material_damping(wave, state, edge),
+    }
 }
 
 /// Mean of `v^T C v` over one sector, from the motion of every node.

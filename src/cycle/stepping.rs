@@ -213,15 +213,8 @@ impl Period<'_> {
     /// Means over the steps since the sums were last taken.
     fn summarize(&mut self, run: &mut CentralDifference<'_>) {
         let (sums, damping, counts) = run.take_sums();
-        let mean = sums.scaled(1.0 / self.steps as f64);
-        self.powers = CyclePowers {
-            external: mean.external,
-            stick: mean.stick,
-            slide: mean.slide,
-            contact_dissipated: mean.contact_dissipated,
-            material_damping: damping / self.steps as f64,
-            normal_contact: mean.normal,
-        };
+        let powers = CyclePowers { contact: sums, material_damping: damping };
+        self.powers = powers.scaled(1.0 / self.steps as f64);
         self.fractions = counts.fractions();
     }
 

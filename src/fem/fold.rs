@@ -69,6 +69,18 @@ impl SectorMatrix {
         Self::merged(components, terms)
     }
 
+    /// From entries `(row, column, halves of a sector from the row's node to the column's, value)`.
+    pub fn of_entries(
+        components: usize,
+        entries: impl IntoIterator<Item = (usize, usize, isize, f64)>,
+    ) -> Self {
+        let mut terms = Triplets::default();
+        for (row, column, ahead, value) in entries.into_iter().filter(|entry| entry.3 != 0.0) {
+            terms.push(row, STEPS * column + REACH.wrapping_add_signed(ahead), value);
+        }
+        Self::merged(components, terms)
+    }
+
     /// From entries whose columns are `STEPS` times those of the matrix, plus the difference of angles.
     fn merged(components: usize, mut terms: Triplets) -> Self {
         terms.merge();
@@ -98,10 +110,8 @@ impl SectorMatrix {
 
     /// The sum with another matrix of the same sector.
     pub fn plus(&self, other: &Self) -> Self {
-        let terms = self.entries().chain(other.entries()).map(|(row, column, ahead, value)| {
-            (row, STEPS * column + REACH.wrapping_add_signed(ahead), value)
-        });
-        Self::merged(self.components.max(other.components), Triplets { entries: terms.collect() })
+        let components = self.components.max(other.components);
+        Self::of_entries(components, self.entries().chain(other.entries()))
     }
 
     /// Whether it has no entry.

@@ -1,9 +1,9 @@
 //! Elements, assembly, mass, stiffness, damping, stress.
 //!
-//! Every nodal vector and matrix is written in the nodal frames of [`crate::mesh::Mesh`]. Dof `d i
-//! + a` is that of node `i` along axis `a` of its frame, `d` the dimension. On the annulus dof `2
-//! i` is radial and dof `2 i + 1` circumferential. Everything in the plane is for one metre of
-//! thickness.
+//! Every nodal vector and matrix is written in the nodal frames of [`crate::mesh::Mesh`].
+//! Dof `d i + a` is that of node `i` along axis `a` of its frame, `d` the dimension.
+//! On the annulus dof `2 i` is radial and dof `2 i + 1` circumferential. Everything in the plane is
+//! for one metre of thickness.
 
 mod assembly;
 mod discretization;

@@ -6,7 +6,7 @@
 
 use super::element;
 use super::fold::{SectorMatrix, WaveDofs};
-use super::{MassKind, MaterialField, RayleighDamping, element_mass, element_matrices};
+use super::{MassKind, MaterialField, element_mass};
 use crate::mesh::{BoundaryCondition, NodalSupport, SectorMesh};
 use nalgebra::DMatrix;
 
@@ -46,7 +46,7 @@ pub fn supports(sector: &SectorMesh) -> [SectorMatrix; 2] {
 }
 
 /// Name, springs and dashpots of each supported edge.
-pub fn each_support(sector: &SectorMesh) -> Vec<(&str, [SectorMatrix; 2])> {
+pub fn each_support(sector: &SectorMesh) -> Vec<(String, [SectorMatrix; 2])> {
     let boundaries = &sector.strip.boundaries;
     let of = |own: usize| {
         // The sector with this support alone.
@@ -56,7 +56,7 @@ pub fn each_support(sector: &SectorMesh) -> Vec<(&str, [SectorMatrix; 2])> {
                 boundary.condition = BoundaryCondition::Free;
             }
         }
-        (boundaries[own].name.as_str(), supports(&alone))
+        (boundaries[own].name.clone(), supports(&alone))
     };
     let is_supported =
         |own: &usize| matches!(boundaries[*own].condition, BoundaryCondition::Support(_));
@@ -73,26 +73,6 @@ pub fn supported_stiffness(sector: &SectorMesh, material: &dyn MaterialField) ->
 pub fn stiffness(sector: &SectorMesh, material: &dyn MaterialField) -> SectorMatrix {
     let mesh = &sector.strip;
     assemble(sector, |e| element::stiffness(mesh, e, material.of(mesh.region(e))))
-}
-
-/// What damping coefficients of their own add to `alpha_R M + beta_R K_e`, Pa s; nothing where no region has its own. See
-/// [`super::assemble_extra_damping`].
-pub fn extra_damping(
-    sector: &SectorMesh,
-    material: &dyn MaterialField,
-    kind: MassKind,
-    common: RayleighDamping,
-) -> SectorMatrix {
-    let mesh = &sector.strip;
-    if (0..mesh.regions.len().max(1)).all(|region| material.own_damping(region).is_none()) {
-        return SectorMatrix::default();
-    }
-    assemble(sector, |e| {
-        let damping = material.own_damping(mesh.region(e)).unwrap_or(common);
-        let [mass, stiffness] = element_matrices(mesh, material, kind, e);
-        mass * (damping.mass_coefficient - common.mass_coefficient)
-            + stiffness * (damping.stiffness_coefficient - common.stiffness_coefficient)
-    })
 }
 
 /// Mass of one sector, kg/m.

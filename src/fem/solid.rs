@@ -5,7 +5,7 @@ mod face;
 mod stress;
 
 pub use element::{mass, stiffness};
-pub use face::{FaceTerm, face_load, face_matrix, nodal_matrix, whole_element};
+pub use face::{FaceTerm, face_load, face_matrix, whole_element};
 pub use stress::geometric_stiffness;
 
 use super::fold::WaveDofs;

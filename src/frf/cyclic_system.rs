@@ -1,38 +1,19 @@
 //! Harmonics of a body of equal sectors in the state that is excited.
 
-use super::harmonic::{Damping, Harmonic, evaluate, held_harmonic};
+use super::harmonic::{Damping, Harmonic};
 use super::{Direction, FrfError, Terminal};
-use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
-use crate::fem::{ElasticMaterial, MassKind, RayleighDamping, sector, solid};
+use crate::fem::fold::WaveDofs;
+use crate::fem::{ElasticMaterial, MassKind, RayleighDamping};
 use crate::mesh::{BoundaryCondition, SectorMesh, SolidSector};
-use crate::prestress::{MovingHarmonic, SectorTangent, SolidTangent, supports};
+use crate::prestress::{MovingHarmonic, WaveTangent};
 
 /// [`super::FrfSystem`] of an annulus or of a body of revolution, as the matrices of its circumferential harmonics.
 #[derive(Clone, Debug)]
 pub struct CyclicSystem {
-    /// Sector node of each node of a sector, in the order of the mesh, and its angle in halves of a sector.
-    nodes: Vec<(usize, usize)>,
-    /// Components of a displacement: 2 in the plane, 3 in space.
-    components: usize,
-    state: State,
+    tangent: WaveTangent,
+    friction_coefficient: f64,
     /// Dofs of the sector that can be excited and observed.
     dofs: WaveDofs,
-}
-
-#[derive(Clone, Debug)]
-enum State {
-    Body(Box<Body>),
-    Annulus(Box<SectorTangent>, f64),
-    Revolution(Box<SolidTangent>, f64),
-}
-
-/// A body without contact and prestress.
-#[derive(Clone, Debug)]
-struct Body {
-    mass: SectorMatrix,
-    stiffness: SectorMatrix,
-    supports: [SectorMatrix; 2],
-    damping: RayleighDamping,
 }
 
 /// Where a terminal lies.
@@ -58,37 +39,8 @@ impl CyclicSystem {
         if !is_clamped {
             sector = sector.with_free_outer_edge();
         }
-        let body = Body {
-            mass: sector::mass(&sector, material, mass),
-            stiffness: sector::stiffness(&sector, material),
-            supports: sector::supports(&sector),
-            damping,
-        };
-        Self::of_annulus(&sector, State::Body(Box::new(body)), sector::wave_dofs(&sector))
-    }
-
-    /// Small motions around steady sliding at a friction coefficient.
-    pub fn sliding(tangent: &SectorTangent, friction_coefficient: f64) -> Self {
-        let sector = tangent.sector();
-        let unknowns = tangent.unknowns();
-        let mut dofs = sector::wave_dofs(sector);
-        dofs.count = unknowns.len();
-        dofs.unknown_of.fill(None);
-        for (unknown, &dof) in unknowns.iter().enumerate() {
-            dofs.unknown_of[dof] = Some(unknown);
-        }
-        // A distance between two bodies is no place to strike or to observe.
-        for node in sector.contact_nodes().filter(|&node| sector.opposite(node).is_some()) {
-            dofs.unknown_of[2 * node] = None;
-        }
-        let state = State::Annulus(Box::new(tangent.clone()), friction_coefficient);
-        Self::of_annulus(sector, state, dofs)
-    }
-
-    fn of_annulus(sector: &SectorMesh, state: State, dofs: WaveDofs) -> Self {
-        let nodes = sector.sector_node_of.iter().take(sector.node_count());
-        let nodes = nodes.map(|&k| (k, sector.half_step(k))).collect();
-        Self { nodes, components: 2, state, dofs }
+        let tangent = WaveTangent::of_free_annulus(&sector, material, mass, damping);
+        Self::sliding(&tangent, 0.0)
     }
 
     /// A body of revolution without contact and prestress, all of it free or held by the conditions of its faces,
@@ -104,33 +56,17 @@ impl CyclicSystem {
         if !is_clamped {
             sector.specification.conditions = [BoundaryCondition::Free; 4];
         }
-        let body = Body {
-            mass: solid::mass(&sector, material, mass),
-            stiffness: solid::stiffness(&sector, material),
-            supports: supports(&sector),
-            damping,
-        };
-        Self::of_revolution(&sector, State::Body(Box::new(body)), solid::wave_dofs(&sector))
+        let tangent = WaveTangent::of_free_revolution(&sector, material, mass, damping);
+        Self::sliding(&tangent, 0.0)
     }
 
-    /// Small motions of a body of revolution around steady sliding at a friction coefficient, the dashpot `mu p_0 / V`
-    /// across the sliding included.
+    /// Small motions around steady sliding at a friction coefficient, in space the dashpot `mu p_0 / V` across the sliding
+    /// included.
     ///
     /// In rigid contact the motion along the normal of pressed nodes is no unknown; the force of excitation acts on the
-    /// body, not through the contact.
-    pub fn solid_sliding(tangent: &SolidTangent, friction_coefficient: f64) -> Self {
-        let (own, rigid) = (tangent.unknown_of(), tangent.rigid());
-        let is_still = |unknown: usize| rigid.iter().any(|(normal, ..)| *normal == unknown);
-        let WaveDofs { half_bandwidth, sectors, .. } = solid::wave_dofs(tangent.sector());
-        let is_held = |dof: usize| own[dof].is_none_or(is_still);
-        let dofs = WaveDofs::new(own.len(), is_held, half_bandwidth, sectors);
-        let state = State::Revolution(Box::new(tangent.clone()), friction_coefficient);
-        Self::of_revolution(tangent.sector(), state, dofs)
-    }
-
-    fn of_revolution(sector: &SolidSector, state: State, dofs: WaveDofs) -> Self {
-        let half_steps = sector.nodes.iter().map(|node| node.half_step);
-        Self { nodes: half_steps.enumerate().collect(), components: 3, state, dofs }
+    /// body, not through the contact. A distance between two bodies is no place to strike or to observe.
+    pub fn sliding(tangent: &WaveTangent, friction_coefficient: f64) -> Self {
+        Self { tangent: tangent.clone(), friction_coefficient, dofs: tangent.places() }
     }
 
     /// Number of unknowns of the annulus.
@@ -166,7 +102,7 @@ impl CyclicSystem {
     /// # Errors
     /// [`FrfError::NoNode`], or [`FrfError::Constrained`] where the boundary holds it.
     pub(super) fn place(&self, terminal: Terminal, key: &'static str) -> Result<Place, FrfError> {
-        let per_sector = self.nodes.len();
+        let per_sector = self.tangent.nodes.len();
         let count = per_sector * self.sector_count();
         let node = terminal.node + 1;
         if node > count {
@@ -175,12 +111,12 @@ impl CyclicSystem {
         let component = terminal.direction.component();
         let component =
             component.ok_or(FrfError::NoAxes { key, direction: terminal.direction.name() })?;
-        if component >= self.components {
+        if component >= self.tangent.components {
             return Err(FrfError::in_plane(terminal, key));
         }
         let (sector, position) = (terminal.node / per_sector, terminal.node % per_sector);
-        let (sector_node, half_step) = self.nodes[position];
-        let unknown = self.dofs.unknown_of[self.components * sector_node + component];
+        let (sector_node, half_step) = self.tangent.nodes[position];
+        let unknown = self.dofs.unknown_of[self.tangent.components * sector_node + component];
         Ok(Place {
             unknown: unknown.ok_or_else(|| FrfError::constrained(terminal, key))?,
             half_steps: 2 * sector + half_step,
@@ -190,50 +126,14 @@ impl CyclicSystem {
 
     /// Matrices of harmonic `n`.
     pub(super) fn harmonic(&self, n: usize) -> Harmonic {
-        let is_standing = n == 0 || 2 * n == self.sector_count();
-        match &self.state {
-            State::Body(body) => {
-                let fold = |matrix| self.dofs.fold(n, MirrorParity::Even, &[matrix]);
-                let is_supported = body.supports.iter().any(|matrix| !matrix.is_empty());
-                let supports = is_supported.then(|| body.supports.each_ref().map(fold));
-                let matrices = [&body.mass, &body.stiffness].map(fold);
-                held_harmonic(matrices, supports, body.damping, is_standing)
-            }
-            State::Annulus(tangent, friction) => {
-                sliding_harmonic(tangent, *friction, (n, is_standing))
-            }
-            State::Revolution(tangent, friction) => {
-                let MovingHarmonic { half_bandwidth, mass, damping, stiffness } =
-                    tangent.harmonic(n).at(*friction);
-                let damping = Damping::Band(damping);
-                Harmonic { half_bandwidth, mass, stiffness, damping, is_standing }
-            }
-        }
-    }
-}
-
-/// Small motions around steady sliding in the plane.
-fn sliding_harmonic(
-    tangent: &SectorTangent,
-    friction_coefficient: f64,
-    (n, is_standing): (usize, bool),
-) -> Harmonic {
-    let mu = friction_coefficient;
-    let harmonic = tangent.harmonic(n);
-    Harmonic {
-        half_bandwidth: harmonic.mass[0].half_bandwidth(),
-        mass: evaluate(&harmonic.mass, mu),
-        stiffness: evaluate(&harmonic.stiffness, mu),
-        damping: match &harmonic.damping {
-            Some(damping) => {
-                let mut band = evaluate(damping, mu);
-                let dashpots = harmonic.friction_dashpots.iter();
-                let values = dashpots.flat_map(|dashpots| evaluate(dashpots, mu));
-                band.iter_mut().zip(values).for_each(|(c, v)| *c += v * mu);
-                Damping::Band(band)
-            }
+        let harmonic = self.tangent.harmonic(n);
+        let MovingHarmonic { half_bandwidth, mass, damping, stiffness } =
+            harmonic.at(self.friction_coefficient);
+        let damping = match harmonic.damping {
+            Some(_) => Damping::Band(damping),
             None => Damping::Proportional(harmonic.rayleigh),
-        },
-        is_standing,
+        };
+        let is_standing = self.tangent.is_standing(n);
+        Harmonic { half_bandwidth, mass, stiffness, damping, is_standing }
     }
 }

@@ -1,7 +1,6 @@
 //! The matrices of one circumferential harmonic at one friction coefficient.
 
 use crate::fem::RayleighDamping;
-use crate::linalg::banded::BandedMatrix;
 use crate::linalg::c64;
 
 /// Bands of one harmonic, in the basis `(u_r, -i u_theta)` or `(u_r, -i u_theta, u_z)`.
@@ -20,41 +19,4 @@ pub(super) enum Damping {
     Proportional(RayleighDamping),
     /// Any other.
     Band(Vec<c64>),
-}
-
-/// A body with springs and dashpots of its supports, `C = alpha_R M + beta_R K + D`.
-pub(super) fn held_harmonic(
-    [mass, mut stiffness]: [BandedMatrix; 2],
-    supports: Option<[BandedMatrix; 2]>,
-    damping: RayleighDamping,
-    is_standing: bool,
-) -> Harmonic {
-    let mut damped = Damping::Proportional(damping);
-    if let Some([springs, mut band]) = supports {
-        // A support couples no two nodes, but its matrices have the shape of all.
-        band.add_scaled(damping.mass_coefficient, &mass);
-        band.add_scaled(damping.stiffness_coefficient, &stiffness);
-        stiffness.add_scaled(1.0, &springs);
-        damped = Damping::Band(evaluate(&[band], 0.0));
-    }
-    Harmonic {
-        half_bandwidth: mass.half_bandwidth(),
-        mass: evaluate(&[mass], 0.0),
-        stiffness: evaluate(&[stiffness], 0.0),
-        damping: damped,
-        is_standing,
-    }
-}
-
-/// `sum_p P_p (i mu)^p`.
-pub(super) fn evaluate(polynomial: &[BandedMatrix], friction_coefficient: f64) -> Vec<c64> {
-    let mut band = vec![c64::new(0.0, 0.0); polynomial[0].values().len()];
-    let mut power = c64::new(1.0, 0.0);
-    for coefficient in polynomial {
-        for (sum, value) in band.iter_mut().zip(coefficient.values()) {
-            *sum += power * *value;
-        }
-        power *= c64::new(0.0, friction_coefficient);
-    }
-    band
 }

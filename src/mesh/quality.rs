@@ -208,8 +208,9 @@ impl Mesh {
                 let node = part.iter().position(|&p| p == k);
                 let node = node.expect("every part has a node");
                 let [x, y] = self.plane_node(node);
-                let free = self.boundaries.iter().enumerate().filter(|own| own.0 != self.contact);
-                let names: Vec<&str> = free.map(|own| own.1.name.as_str()).collect();
+                let mut names: Vec<&str> =
+                    self.boundaries.iter().map(|b| b.name.as_str()).collect();
+                names.remove(self.contact);
                 let unmerged = match self.unmerged_nodes() {
                     Some(found) if parts > 1 => {
                         format!(

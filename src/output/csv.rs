@@ -29,9 +29,6 @@ pub struct Table<W: Write> {
 
 impl<W: Write> Table<W> {
     /// Starts a table with its column names.
-    ///
-    /// # Errors
-    /// Those of the writer.
     pub fn new(out: W, columns: &[&str]) -> io::Result<Self> {
         let mut writer = csv::Writer::from_writer(out);
         writer.write_record(columns.iter().map(|name| tamed(name.as_bytes())))?;
@@ -63,9 +60,6 @@ impl<W: Write> Table<W> {
     }
 
     /// Ends the table.
-    ///
-    /// # Errors
-    /// Those of the writer.
     pub fn finish(mut self) -> io::Result<()> {
         self.writer.flush()
     }

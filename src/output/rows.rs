@@ -5,9 +5,6 @@ use super::table::Column;
 use std::io::{self, Write};
 
 /// Writes a whole table of declared columns.
-///
-/// # Errors
-/// Those of the writer.
 pub fn write_rows<T>(
     out: impl Write,
     columns: &[Column<T>],

@@ -310,9 +310,6 @@ impl Table {
     }
 
     /// Writes it as CSV, all columns.
-    ///
-    /// # Errors
-    /// Those of the writer.
     pub fn write_csv(&self, out: impl io::Write) -> io::Result<()> {
         let written = self.heads.iter().enumerate().filter(|(_, head)| !head.key.is_empty());
         let (places, names): (Vec<usize>, Vec<&str>) =

@@ -5,7 +5,7 @@ use super::complementarity::PressedRange;
 use super::elimination::Elimination;
 use super::joint::{BaseChoice, SlidingSurfaces, TiedSurfaces};
 use super::pressed_state::{PressedState, Pressing};
-use super::rotation::Rotation;
+use super::rotation::{Rotation, grounded};
 use super::tangent::{BodyTerms, ContactDofs, ContactPart, SlidingTangent};
 use super::{PrestressError, TangentOptions};
 use crate::contact::{ContactSurface, Motion, PairError, PointKind, SurfacePair, mortar_nodes};
@@ -266,7 +266,17 @@ impl<'a> Assembly<'a> {
         } else {
             let basis = &self.joined.basis;
             let unknowns = basis.unknowns();
-            let solver = CholeskySolver::new(&basis.congruent(stiffness), &unknowns)?;
+            let held = basis.congruent(stiffness);
+            let solver = CholeskySolver::new(&held, &unknowns).or_else(|error| {
+                // A centrifugal load alone is in balance by itself.
+                match &self.joined.rotation {
+                    Some(own) if own.centrifugal == load => {
+                        let body = (self.mesh, self.materials);
+                        CholeskySolver::new(&grounded(held, body, basis), &unknowns)
+                    }
+                    _ => Err(error),
+                }
+            })?;
             let right = unknowns.restrict(&basis.transposed_forces(load));
             basis.displacement(&unknowns.expand(&solver.solve(right)))
         };

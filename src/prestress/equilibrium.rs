@@ -70,7 +70,7 @@ impl SteadySliding {
         law: Option<NormalLaw>,
     ) -> Result<Self, PrestressError> {
         let own = [contact.friction_coefficient];
-        let range = SlidingRange::solve_with(mesh, stiffness, contact, law, &own)?;
+        let range = SlidingRange::solve(mesh, stiffness, contact, law, &own)?;
         Ok(range.states.into_iter().next_back().expect("one state for each set"))
     }
 
@@ -191,24 +191,12 @@ impl SteadySliding {
 }
 
 impl SlidingRange {
-    /// States at every one of `friction_coefficients`.
+    /// States at every one of `friction_coefficients`; of a contact that stiffens with pressure, if there is a `law`, on the springs of
+    /// its tangents.
     ///
     /// # Errors
     /// As [`SteadySliding::solve`]; the first friction coefficient without a state.
     pub fn solve(
-        mesh: &Mesh,
-        stiffness: &Triplets,
-        contact: &SlidingContact,
-        friction_coefficients: &[f64],
-    ) -> Result<Self, PrestressError> {
-        Self::solve_with(mesh, stiffness, contact, None, friction_coefficients)
-    }
-
-    /// [`Self::solve`] with a contact that stiffens with pressure, if there is a `law`: on the springs of its tangents.
-    ///
-    /// # Errors
-    /// As [`Self::solve`].
-    pub fn solve_with(
         mesh: &Mesh,
         stiffness: &Triplets,
         contact: &SlidingContact,

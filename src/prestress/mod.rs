@@ -6,7 +6,8 @@
 //! Both stand on contact points with rows: [`CondensedContact`] finds the base state by complementarity, [`Elimination`] takes held
 //! dofs, ties and rigid contact out, and [`SlidingTangent::assemble`] puts the matrices together. [`Assembly`] is solid bodies
 //! that are tied and slide on each other.
-//! [`SectorSliding`] and [`SectorTangent`] are the same for a uniform annulus, from one of its sectors.
+//! [`WaveTangent`] is the same of a body of equal sectors from one of them, harmonic by harmonic: of a plane annulus around
+//! [`SectorSliding`], of a body of revolution around [`SolidSliding`].
 
 mod assembly;
 mod cholesky;
@@ -28,14 +29,12 @@ mod pressing;
 mod rotation;
 mod sector;
 mod sector_tangent;
-mod sector_terms;
-mod sector_turning;
 mod solid;
 mod solid_contact;
-mod solid_harmonic;
 mod solid_tangent;
 mod tabled;
 mod tangent;
+mod wave_harmonic;
 mod wave_parts;
 mod wave_tangent;
 
@@ -51,12 +50,9 @@ pub use joint::{BaseChoice, SlidingSurfaces, TiedSurfaces};
 pub use options::{DampingModel, TangentOptions};
 pub use pressed_state::{PressedState, Pressing};
 pub use sector::SectorSliding;
-pub use sector_tangent::{HarmonicTangent, SectorTangent};
-pub use sector_terms::{FrictionPolynomial, evaluate};
 pub use solid::SolidSliding;
-pub use solid_harmonic::{MovingHarmonic, SolidHarmonic, moving_unknowns};
-pub use solid_tangent::SolidTangent;
 pub use tabled::{TabledGain, TabledStiffness};
 pub use tangent::{BodyTerms, ContactDofs, ContactPart, SlidingTangent};
-pub use wave_parts::{HarmonicParts, PartForms, WaveParts};
-pub use wave_tangent::{WaveHarmonic, WaveTangent};
+pub use wave_harmonic::{FrictionPolynomial, HarmonicTangent, MovingHarmonic, evaluate};
+pub use wave_parts::{HarmonicParts, PartForms};
+pub use wave_tangent::WaveTangent;

@@ -58,17 +58,8 @@ impl Rotation {
         let mut terms = assemble_rotation(mesh, materials, &of_region);
 
         // The stress of the centrifugal load alone.
-        let mut stiffness = held();
-        let mass = basis.congruent(&assemble_mass(mesh, materials, MassKind::Lumped));
-        let largest = |matrix: &Triplets| {
-            let diagonal = matrix.entries.iter().filter(|entry| entry.0 == entry.1);
-            diagonal.fold(0.0_f64, |largest, entry| largest.max(entry.2))
-        };
-        let ground = GROUND * largest(&stiffness) / largest(&mass);
-        let springs = mass.entries.into_iter();
-        stiffness.entries.extend(springs.map(|(row, column, value)| (row, column, ground * value)));
         let unknowns = basis.unknowns();
-        let solver = CholeskySolver::new(&stiffness, &unknowns)?;
+        let solver = CholeskySolver::new(&grounded(held(), (mesh, materials), basis), &unknowns)?;
         let load = unknowns.restrict(&basis.transposed_forces(&terms.centrifugal));
         let displacement = basis.displacement(&unknowns.expand(&solver.solve(load)));
         let stressed = assemble_geometric_stiffness(mesh, materials, &displacement);
@@ -80,6 +71,23 @@ impl Rotation {
             centrifugal: terms.centrifugal,
         }))
     }
+}
+
+/// A stiffness over the unknowns of `basis` with springs of [`GROUND`] in proportion to the mass.
+pub(super) fn grounded(
+    mut stiffness: Triplets,
+    (mesh, materials): (&Mesh, &dyn MaterialField),
+    basis: &Elimination,
+) -> Triplets {
+    let mass = basis.congruent(&assemble_mass(mesh, materials, MassKind::Lumped));
+    let largest = |matrix: &Triplets| {
+        let diagonal = matrix.entries.iter().filter(|entry| entry.0 == entry.1);
+        diagonal.fold(0.0_f64, |largest, entry| largest.max(entry.2))
+    };
+    let ground = GROUND * largest(&stiffness) / largest(&mass);
+    let springs = mass.entries.into_iter();
+    stiffness.entries.extend(springs.map(|(row, column, value)| (row, column, ground * value)));
+    stiffness
 }
 
 /// Refuses a frame that turns with some regions while others do not turn with them.

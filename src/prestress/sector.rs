@@ -1,6 +1,7 @@
 //! Steady sliding of a rotationally symmetric annulus, from one sector.
 
 use super::PrestressError;
+use super::wave_tangent::to_distances;
 use crate::contact::{NormalLaw, SlidingContact, SteadyFriction};
 use crate::fem::fold::{MirrorParity, SectorMatrix};
 use crate::fem::sector;
@@ -32,24 +33,13 @@ pub struct SectorSliding {
 }
 
 impl SectorSliding {
-    /// Solves the equilibrium with the elastic stiffness of one sector.
+    /// Solves the equilibrium with the elastic stiffness of one sector; with a contact that stiffens with pressure, if there is a
+    /// `law`: `N_i = w_i p(delta - u_n)`.
     ///
     /// # Errors
     /// [`PrestressError::Separation`] where a node would open, [`PrestressError::Singular`] for a
     /// stiffness that is not positive definite.
     pub fn solve(
-        sector: &SectorMesh,
-        elastic: &SectorMatrix,
-        contact: &SlidingContact,
-    ) -> Result<Self, PrestressError> {
-        Self::solve_with(sector, elastic, contact, None)
-    }
-
-    /// [`Self::solve`] with a contact that stiffens with pressure, if there is a `law`: `N_i = w_i p(delta - u_n)`.
-    ///
-    /// # Errors
-    /// As [`Self::solve`].
-    pub fn solve_with(
         sector: &SectorMesh,
         elastic: &SectorMatrix,
         contact: &SlidingContact,
@@ -85,30 +75,9 @@ impl SectorSliding {
 }
 
 /// Each contact node of the annulus with the shaft's at its place; none on a rigid cylinder.
-pub(super) fn pairs(sector: &SectorMesh) -> impl Iterator<Item = (usize, usize)> + '_ {
+fn pairs(sector: &SectorMesh) -> impl Iterator<Item = (usize, usize)> + '_ {
     let nodes = sector.contact_nodes();
     nodes.filter_map(|node| Some((node, sector.opposite(node)?)))
-}
-
-/// `T^T A T` of a matrix over the dofs of a sector, with how far each pair of nodes moves apart in place of the annulus's
-/// normal displacement; see [`crate::contact::ContactInterface::to_distances`].
-pub(super) fn to_distances(matrix: &mut BandedMatrix, sector: &SectorMesh) {
-    for (node, opposite) in pairs(sector) {
-        let (from, to) = (2 * node, 2 * opposite);
-        for other in matrix.columns(from) {
-            let value = matrix.get(from, other);
-            if value != 0.0 {
-                matrix.add(to, other, value);
-            }
-        }
-        // The row of the shaft's node as well, which has just got what couples to the pair.
-        for other in matrix.columns(from) {
-            let value = matrix.get(other, from);
-            if value != 0.0 {
-                matrix.add(other, to, value);
-            }
-        }
-    }
 }
 
 /// Harmonic zero with the distances across the contact prescribed.
@@ -123,7 +92,7 @@ impl<'a> PressedSystem<'a> {
     fn new(sector: &'a SectorMesh, elastic: &SectorMatrix) -> Result<Self, PrestressError> {
         let dofs = sector::wave_dofs(sector);
         let mut stiffness = dofs.fold(0, MirrorParity::Even, &[elastic]);
-        to_distances(&mut stiffness, sector);
+        to_distances(&mut stiffness, pairs(sector).map(|(node, other)| [2 * node, 2 * other]));
         let contact = sector.contact_nodes();
         let unknowns: Vec<usize> = (0..stiffness.dimension())
             .filter(|dof| dof % 2 == 1 || !contact.contains(&(dof / 2)))

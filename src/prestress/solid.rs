@@ -43,24 +43,13 @@ pub struct SolidSliding {
 }
 
 impl SolidSliding {
-    /// Solves the equilibrium with the elastic stiffness of one sector, to which supports and face pressures are added.
+    /// Solves the equilibrium with the elastic stiffness of one sector, to which supports and face pressures are added, with springs
+    /// of a `law` between face and rotor, where there are some.
     ///
     /// # Errors
     /// [`PrestressError::Singular`] where nothing holds the body, [`PrestressError::GapEverywhere`] where no ring is pressed,
     /// [`PrestressError::NoState`] where no set of pressed rings is found.
     pub fn solve(
-        sector: &SolidSector,
-        elastic: &SectorMatrix,
-        contact: &SlidingContact,
-    ) -> Result<Self, PrestressError> {
-        Self::solve_with(sector, elastic, contact, None)
-    }
-
-    /// [`Self::solve`] with springs of a `law` between face and rotor, where there are some.
-    ///
-    /// # Errors
-    /// As [`Self::solve`].
-    pub fn solve_with(
         sector: &SolidSector,
         elastic: &SectorMatrix,
         contact: &SlidingContact,

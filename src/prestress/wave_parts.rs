@@ -9,13 +9,12 @@
 //! with `G_r(mu) = P_r + i mu S_r` the geometric stiffness, Hermitian, of which `beta_R` multiplies the whole where the damping
 //! is that of the whole tangent. Everything is of one sector, in the unknowns of the harmonic.
 
-use super::sector_terms::stress_stiffness;
-use super::{DampingModel, SectorTangent, SolidTangent, WaveTangent, face_conditions};
+use super::wave_tangent::RegionTerms;
+use super::{DampingModel, WaveTangent};
+use crate::fem::RayleighDamping;
 use crate::fem::fold::{MirrorParity, SectorMatrix};
-use crate::fem::{RayleighDamping, sector, solid};
 use crate::linalg::banded::CompactRows;
 use crate::linalg::c64;
-use crate::mesh::{SectorMesh, SolidSector};
 
 /// One region in one harmonic.
 struct RegionWave {
@@ -122,134 +121,39 @@ impl HarmonicParts {
     }
 }
 
-/// The parts of a body that is solved harmonic by harmonic.
-pub struct WaveParts<'a> {
-    tangent: &'a WaveTangent,
-    /// Mass, stiffness and geometric stiffness of each region, without contact forces that turn with their nodes, and its damping.
-    regions: Vec<Region>,
-    /// Name, springs and dashpots of each supported boundary.
-    supports: Vec<(String, [SectorMatrix; 2])>,
-    /// Dofs of each contact node, or ring of them, of one sector.
-    contact: Vec<Vec<usize>>,
-    /// What `beta_R` multiplies of the geometric stiffness.
-    stress_damping: f64,
-}
+impl WaveTangent {
+    /// Names of the supported boundaries.
+    pub fn support_names(&self) -> impl Iterator<Item = &str> {
+        self.terms.supports.iter().map(|(name, _)| name.as_str())
+    }
 
-impl<'a> WaveParts<'a> {
-    /// Takes the matrices of one sector apart.
-    pub fn new(tangent: &'a WaveTangent) -> Self {
-        let named = |(name, own): (&str, [SectorMatrix; 2])| (name.to_owned(), own);
-        let options = match tangent {
-            WaveTangent::Plane(tangent) => &tangent.options,
-            WaveTangent::Solid(tangent) => &tangent.options,
+    /// All parts in the unknowns of harmonic `n`.
+    pub fn parts(&self, n: usize) -> HarmonicParts {
+        let wave = |matrix: &SectorMatrix, parity| {
+            CompactRows::new(&self.restricted(self.wave(n, parity, &[matrix])))
         };
-        let (regions, supports, contact) = match tangent {
-            WaveTangent::Plane(tangent) => (
-                regions_of_annulus(tangent),
-                sector::each_support(&tangent.sector).into_iter().map(named).collect(),
-                dofs_on_edge(&tangent.sector),
-            ),
-            WaveTangent::Solid(tangent) => (
-                vec![region_of_revolution(tangent)],
-                face_conditions::each_support(&tangent.sector).into_iter().map(named).collect(),
-                dofs_on_face(&tangent.sector),
-            ),
+        let even = |matrix: &SectorMatrix| wave(matrix, MirrorParity::Even);
+        let of_region = |region: &RegionTerms| {
+            let [pressed, sheared] = &region.stress;
+            let acts = !pressed.is_empty() || !sheared.is_empty();
+            RegionWave {
+                mass: even(&region.mass),
+                elastic: even(&region.elastic),
+                stress: acts.then(|| [even(pressed), wave(sheared, MirrorParity::Odd)]),
+                damping: region.damping.unwrap_or(self.options.damping),
+            }
         };
-        Self {
-            tangent,
-            regions,
-            supports,
-            contact,
-            stress_damping: match options.damping_model {
-                DampingModel::WholeTangent => options.damping.stiffness_coefficient,
+        let place = |dof: &usize| self.unknowns().unknown_of[*dof];
+        let contact = self.contact.places.iter();
+        let supports = self.terms.supports.iter();
+        HarmonicParts {
+            regions: self.terms.regions.iter().map(of_region).collect(),
+            supports: supports.map(|(_, own)| own.each_ref().map(even)).collect(),
+            contact: contact.map(|dofs| dofs.iter().filter_map(place).collect()).collect(),
+            stress_damping: match self.options.damping_model {
+                DampingModel::WholeTangent => self.options.damping.stiffness_coefficient,
                 DampingModel::BodyOnly => 0.0,
             },
         }
     }
-
-    /// Names of the supported boundaries.
-    pub fn support_names(&self) -> impl Iterator<Item = &str> {
-        self.supports.iter().map(|(name, _)| name.as_str())
-    }
-
-    /// All parts in the unknowns of harmonic `n`, on a body of revolution the normals of nodes in rigid contact among them.
-    pub fn harmonic(&self, n: usize) -> HarmonicParts {
-        let unknowns = match self.tangent {
-            WaveTangent::Plane(tangent) => tangent.unknowns(),
-            WaveTangent::Solid(_) => Vec::new(),
-        };
-        let wave = |matrix: &SectorMatrix, parity| match self.tangent {
-            WaveTangent::Plane(tangent) => {
-                let wave = tangent.folded(&[matrix], parity, n);
-                CompactRows::new(&wave.restricted_to(&unknowns))
-            }
-            WaveTangent::Solid(tangent) => {
-                CompactRows::new(&tangent.dofs.fold(n, parity, &[matrix]))
-            }
-        };
-        let even = |matrix: &SectorMatrix| wave(matrix, MirrorParity::Even);
-        let regions = self.regions.iter().map(|(matrices, stress, damping)| {
-            let [mass, elastic] = matrices.each_ref().map(even);
-            let stress = stress.as_ref();
-            RegionWave {
-                mass,
-                elastic,
-                stress: stress
-                    .map(|[pressed, sheared]| [even(pressed), wave(sheared, MirrorParity::Odd)]),
-                damping: *damping,
-            }
-        });
-        let place = |dof: &usize| match self.tangent {
-            WaveTangent::Plane(_) => unknowns.binary_search(dof).ok(),
-            WaveTangent::Solid(tangent) => tangent.unknown_of()[*dof],
-        };
-        let contact = self.contact.iter();
-        HarmonicParts {
-            regions: regions.collect(),
-            supports: self.supports.iter().map(|(_, own)| own.each_ref().map(even)).collect(),
-            contact: contact.map(|dofs| dofs.iter().filter_map(place).collect()).collect(),
-            stress_damping: self.stress_damping,
-        }
-    }
-}
-
-/// Matrices of a region, its geometric stiffness where it acts, and its damping.
-type Region = ([SectorMatrix; 2], Option<[SectorMatrix; 2]>, RayleighDamping);
-
-/// The annulus, and its shaft.
-fn regions_of_annulus(tangent: &SectorTangent) -> Vec<Region> {
-    let (sector, options) = (&tangent.sector, &tangent.options);
-    let all = tangent.materials.iter().enumerate();
-    let regions = all.map(|(region, material)| {
-        let own = tangent.of_region(region, material.elastic);
-        let matrices = [sector::mass(sector, &own, options.mass), sector::stiffness(sector, &own)];
-        let acts = options.geometric_stiffness;
-        let stress = acts.then(|| stress_stiffness(sector, &own, &tangent.base));
-        (matrices, stress, material.damping.unwrap_or(options.damping))
-    });
-    regions.collect()
-}
-
-fn region_of_revolution(tangent: &SolidTangent) -> Region {
-    let matrices = [tangent.terms.mass.clone(), tangent.terms.elastic.clone()];
-    let stress = tangent.options.geometric_stiffness.then(|| {
-        [&tangent.base.pressed_displacement, &tangent.base.sheared_displacement]
-            .map(|u| solid::geometric_stiffness(&tangent.sector, &tangent.material, u))
-    });
-    (matrices, stress, tangent.options.damping)
-}
-
-/// Dofs of each contact node of an annulus, with those of the shaft's node there.
-fn dofs_on_edge(sector: &SectorMesh) -> Vec<Vec<usize>> {
-    let contact = sector.contact_nodes().map(|node| {
-        let both = std::iter::once(node).chain(sector.opposite(node));
-        both.flat_map(|node| [2 * node, 2 * node + 1]).collect()
-    });
-    contact.collect()
-}
-
-/// Dofs of each ring of contact nodes.
-fn dofs_on_face(sector: &SolidSector) -> Vec<Vec<usize>> {
-    let rings = sector.rings.iter();
-    rings.map(|ring| ring.nodes.iter().flat_map(|&k| 3 * k..3 * k + 3).collect()).collect()
 }

@@ -1,106 +1,439 @@
-//! The linearisation of a body that is solved harmonic by harmonic.
+//! The small motions around steady sliding of a body of equal sectors, harmonic by harmonic, from the terms of one sector.
 
-use super::{
-    HarmonicTangent, MovingHarmonic, SectorTangent, SolidHarmonic, SolidTangent, evaluate,
-};
+use super::solid_contact::ContactTerms;
+use super::{DampingModel, FrictionPolynomial, HarmonicTangent, TangentOptions};
+use crate::contact::ContactStiffness;
+use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
+use crate::fem::{DofMap, MassKind, RayleighDamping};
+use crate::linalg::banded::BandedMatrix;
 use crate::linalg::c64;
 
-/// The tangent of one sector of a body.
+/// [`super::SlidingTangent`] of a body of equal sectors that are their own mirror images, from the matrices of one of them.
+///
+/// ```text
+/// M q'' + (alpha_R M + beta_R K + D + mu A) q' + K q = 0,   K = K_e + K_sigma + K_support + K_turning + contact
+/// A = int p_0 / V d d^T dA,   V = |Omega| r
+/// ```
+///
+/// The same equations, whose discrete Fourier transform over the sectors is exact: all sectors are alike in steady sliding, and
+/// the size of the body in the circumferential direction costs nothing. In three dimensions `A` is Coulomb's law as a vector: the
+/// friction force opposes the relative velocity, which a motion across the sliding turns; `d` is `e_z` on a cylinder and `e_r` on
+/// a face. Where friction falls with the speed `A` acts along the sliding too. The contact forces that turn with the node go with
+/// the geometric stiffness: a rigid rotation of everything costs no force.
+///
+/// In rigid contact a pressed node has the force `N` along `n + s mu t`, which does no work on virtual motions
+///
+/// ```text
+/// v_t t - s mu v_t n:   (row of t) - s mu (row of n) = 0,   rows of lambda^2 M + lambda (C + mu A) + K
+/// ```
+///
+/// Whatever loads the normal equation takes part, for `N` balances it. So do the dashpots `mu A`: on bricks of 20 nodes the
+/// traction of one point acts on nodes at other angles, whose normals it has a part along, and that part comes back times
+/// `s mu`: a term of `mu^2`. (Nodes that carry the traction lumped, those of 8-node bricks and of the plane, have none.)
 #[derive(Clone, Debug)]
-pub enum WaveTangent {
-    /// Of a plane annulus.
-    Plane(Box<SectorTangent>),
-    /// Of a body of revolution in three dimensions.
-    Solid(Box<SolidTangent>),
+pub struct WaveTangent {
+    /// Components of a displacement: 2 in the plane, 3 in space.
+    pub components: usize,
+    /// Sector node of each node of a sector, in the order of the mesh, and its angle in halves of a sector.
+    pub nodes: Vec<(usize, usize)>,
+    /// Sense of the friction force, +1 or -1.
+    pub sliding_direction: f64,
+    pub(super) options: TangentOptions,
+    pub(super) terms: WaveTerms,
+    pub(super) contact: WaveContact,
+    /// Dofs that nothing holds.
+    dofs: WaveDofs,
+    /// Those of them that move: all but the normals in rigid contact.
+    unknowns: DofMap,
+    /// Their places among the former.
+    moving: Vec<usize>,
 }
 
-/// The matrices of one of its harmonics by powers of the friction coefficient.
-pub enum WaveHarmonic {
-    /// Of a plane annulus.
-    Plane(Box<HarmonicTangent>),
-    /// Of a body of revolution in three dimensions.
-    Solid(Box<SolidHarmonic>),
+/// What the matrices are made of.
+#[derive(Clone, Debug, Default)]
+pub(super) struct WaveTerms {
+    pub regions: Vec<RegionTerms>,
+    /// Name, springs and dashpots of each supported boundary.
+    pub supports: Vec<(String, [SectorMatrix; 2])>,
+    /// Contact forces that turn with their nodes, without friction and for each unit of it.
+    pub turning: [SectorMatrix; 2],
+    /// Over the distances across the contact where that joins two bodies.
+    pub contact: ContactTerms,
+}
+
+/// Matrices of one region.
+#[derive(Clone, Debug)]
+pub(super) struct RegionTerms {
+    pub mass: SectorMatrix,
+    pub elastic: SectorMatrix,
+    /// Stress of the pressed state and, for each unit of friction, of the sheared state; empty where it does not act back.
+    pub stress: [SectorMatrix; 2],
+    /// Rayleigh coefficients of its own, else those of the whole body.
+    pub damping: Option<RayleighDamping>,
+}
+
+/// The contact of one sector, by its dofs.
+#[derive(Clone, Debug, Default)]
+pub(super) struct WaveContact {
+    /// Component along the normal.
+    pub normal: usize,
+    /// Dofs of each contact node, or ring of them, the other body's behind its own.
+    pub places: Vec<Vec<usize>>,
+    /// Whether each of these is pressed.
+    pub is_pressed: Vec<bool>,
+    /// Pressed nodes.
+    pub pressed_nodes: Vec<usize>,
+    /// Normal dofs of the two nodes of each pair, whose distance is the unknown in place of the first; held dofs come after them.
+    pub pairs: Vec<[usize; 2]>,
+    /// In rigid contact: each normal dof, and the tangential ones whose equations it drives, with factors of `i mu`.
+    pub rigid: Vec<(usize, Vec<(usize, f64)>)>,
+}
+
+/// The dofs and nodes of a sector.
+pub(super) struct SectorLayout {
+    pub components: usize,
+    /// See [`WaveTangent::nodes`].
+    pub nodes: Vec<(usize, usize)>,
+    /// Dofs that nothing holds.
+    pub dofs: WaveDofs,
 }
 
 impl WaveTangent {
-    /// The matrices of harmonic `n`.
-    pub fn harmonic(&self, n: usize) -> WaveHarmonic {
-        match self {
-            Self::Plane(tangent) => WaveHarmonic::Plane(Box::new(tangent.harmonic(n))),
-            Self::Solid(tangent) => WaveHarmonic::Solid(Box::new(tangent.harmonic(n))),
+    /// A body without contact and prestress, `C = alpha_R M + beta_R K` and the dashpots of its supports.
+    pub(super) fn alone(
+        layout: SectorLayout,
+        [mass, elastic]: [SectorMatrix; 2],
+        supports: Vec<(String, [SectorMatrix; 2])>,
+        (mass_kind, damping): (MassKind, RayleighDamping),
+    ) -> Self {
+        let options = TangentOptions {
+            mass: mass_kind,
+            geometric_stiffness: false,
+            damping,
+            damping_model: DampingModel::WholeTangent,
+            contact: ContactStiffness::default(),
+        };
+        let region = RegionTerms { mass, elastic, stress: Default::default(), damping: None };
+        let terms = WaveTerms { regions: vec![region], supports, ..WaveTerms::default() };
+        Self::new(layout, (terms, WaveContact::default()), &options, 1.0)
+    }
+
+    pub(super) fn new(
+        layout: SectorLayout,
+        (terms, mut contact): (WaveTerms, WaveContact),
+        options: &TangentOptions,
+        sliding_direction: f64,
+    ) -> Self {
+        let SectorLayout { components, nodes, dofs } = layout;
+        let place = |dof: usize| dofs.unknown_of[dof];
+        let is_still = |dof: usize| contact.rigid.iter().any(|(normal, _)| *normal == dof);
+        let total = dofs.unknown_of.len();
+        let held = (0..total).filter(|&dof| place(dof).is_none() || is_still(dof));
+        let unknowns = DofMap::excluding(total, held);
+        // Constraints by the places of free dofs.
+        contact.rigid = contact
+            .rigid
+            .iter()
+            .filter_map(|(normal, drags)| {
+                let drags = drags.iter().filter_map(|&(dof, factor)| Some((place(dof)?, factor)));
+                Some((place(*normal)?, drags.collect()))
+            })
+            .collect();
+        Self {
+            moving: unknowns.dofs.iter().filter_map(|&dof| place(dof)).collect(),
+            options: *options,
+            unknowns,
+            components,
+            nodes,
+            dofs,
+            terms,
+            contact,
+            sliding_direction,
         }
     }
 
-    /// Sense of the friction force, +1 or -1.
-    pub fn sliding_direction(&self) -> f64 {
-        match self {
-            Self::Plane(tangent) => tangent.base().sliding_direction,
-            Self::Solid(tangent) => tangent.base().sliding_direction,
-        }
+    /// Unknowns of a harmonic among the dofs of a sector.
+    pub fn unknowns(&self) -> &DofMap {
+        &self.unknowns
     }
 
-    /// Whether each ring of the contact is pressed; nothing of an annulus, which is pressed all around.
+    /// Number of dofs of a sector that nothing holds.
+    pub fn dof_count(&self) -> usize {
+        self.dofs.count
+    }
+
+    /// Number of sectors.
+    pub fn sector_count(&self) -> usize {
+        self.dofs.sectors
+    }
+
+    /// The largest harmonic, half the number of sectors.
+    pub fn largest_harmonic(&self) -> usize {
+        self.dofs.sectors / 2
+    }
+
+    /// Whether harmonic `n` stands: `+n` and `-n` are one and the same.
+    pub fn is_standing(&self, n: usize) -> bool {
+        n == 0 || 2 * n == self.dofs.sectors
+    }
+
+    /// Rayleigh coefficients.
+    pub fn rayleigh(&self) -> RayleighDamping {
+        self.options.damping
+    }
+
+    /// Whether each node, or ring, of the contact is pressed.
     pub fn pressed(&self) -> &[bool] {
-        match self {
-            Self::Plane(_) => &[],
-            Self::Solid(tangent) => &tangent.base().is_pressed,
+        &self.contact.is_pressed
+    }
+
+    /// Dofs of a sector at which a force can act and a displacement be observed: a distance between two bodies is no such place.
+    pub fn places(&self) -> WaveDofs {
+        let mut dofs = self.dofs.clone();
+        dofs.unknown_of.clone_from(&self.unknowns.unknown_of);
+        dofs.count = self.unknowns.len();
+        self.contact.pairs.iter().for_each(|[distance, _]| dofs.unknown_of[*distance] = None);
+        dofs
+    }
+
+    /// Displacement of each dof of a sector from the unknowns of a wave.
+    pub fn displacement(&self, x: &[c64]) -> Vec<c64> {
+        let mut all = vec![c64::ZERO; self.unknowns.unknown_of.len()];
+        self.unknowns.dofs.iter().zip(x).for_each(|(&dof, value)| all[dof] = *value);
+        for &[distance, opposite] in &self.contact.pairs {
+            let moved = all[opposite];
+            all[distance] += moved;
+        }
+        all
+    }
+
+    /// Unknowns that belong to contact nodes, those of both bodies, ascending.
+    pub fn contact_unknowns(&self) -> Vec<usize> {
+        self.ascending(self.contact.places.iter().flatten().copied())
+    }
+
+    /// Unknowns of motion across the sliding at contact nodes, ascending; none in the plane.
+    pub fn sideways_unknowns(&self) -> Vec<usize> {
+        let side = self.tangential_components().nth(1);
+        let dofs = self.contact.places.iter().flatten().copied();
+        self.ascending(dofs.filter(|dof| Some(dof % self.components) == side))
+    }
+
+    /// Unknown of the tangential displacement of each contact node.
+    pub fn tangential_unknowns(&self) -> Vec<usize> {
+        let dofs = self.contact.places.iter().map(|dofs| dofs[1]);
+        dofs.filter_map(|dof| self.unknowns.unknown_of[dof]).collect()
+    }
+
+    /// Unknowns along and across the sliding and along the normal of pressed nodes.
+    pub fn pressed_unknowns(&self) -> Vec<usize> {
+        let own = self.contact.pressed_nodes.iter().flat_map(|node| {
+            let components = self.tangential_components().chain([self.contact.normal]);
+            components.map(move |c| self.components * node + c)
+        });
+        own.filter_map(|dof| self.unknowns.unknown_of[dof]).collect()
+    }
+
+    /// Unknowns of motion along the axis; none in the plane.
+    pub fn axial_unknowns(&self) -> Vec<usize> {
+        self.ascending((0..self.unknowns.unknown_of.len()).filter(|dof| dof % self.components == 2))
+    }
+
+    /// Along the sliding, and in space across it.
+    fn tangential_components(&self) -> impl Iterator<Item = usize> + use<> {
+        let across = (self.components == 3).then_some(2 - self.contact.normal);
+        [1].into_iter().chain(across)
+    }
+
+    fn ascending(&self, dofs: impl Iterator<Item = usize>) -> Vec<usize> {
+        let mut unknowns: Vec<usize> =
+            dofs.filter_map(|dof| self.unknowns.unknown_of[dof]).collect();
+        unknowns.sort_unstable();
+        unknowns.dedup();
+        unknowns
+    }
+
+    /// Whether `C = alpha_R M + beta_R K_t` exactly.
+    pub fn is_proportional(&self) -> bool {
+        let WaveTerms { regions, supports, contact, .. } = &self.terms;
+        let is_own = |own: RayleighDamping| own != self.options.damping;
+        let has_own = regions.iter().any(|region| region.damping.is_some_and(is_own));
+        let is_whole = self.options.damping_model == DampingModel::WholeTangent;
+        let mut further = supports.iter().flat_map(|(_, own)| own);
+        let mut dashpots = contact.dashpots.iter().chain([&contact.friction_dashpots]);
+        is_whole
+            && !has_own
+            && further.all(SectorMatrix::is_empty)
+            && dashpots.all(SectorMatrix::is_empty)
+    }
+
+    /// Matrices of harmonic `n`.
+    pub fn harmonic(&self, n: usize) -> HarmonicTangent {
+        let mass = self.mass(n);
+        let mut stiffness = [MirrorParity::Even, MirrorParity::Odd].map(|p| self.stiffness(n, p));
+        let damping = (!self.is_proportional()).then(|| self.damping(n, &mass, &stiffness));
+        stiffness[0].add_scaled(1.0, &self.of_supports(n, 0));
+        let dashpots = &self.terms.contact.friction_dashpots;
+        let dashpots = (!dashpots.is_empty())
+            .then(|| vec![self.dofs.fold(n, MirrorParity::Even, &[dashpots])]);
+        HarmonicTangent {
+            harmonic: n,
+            mass: self.project(vec![mass]),
+            stiffness: self.project(stiffness.into()),
+            damping: damping.map(|damping| self.project(damping.into())),
+            friction_dashpots: dashpots.map(|dashpots| self.project(dashpots)),
+            shares: None,
+            rayleigh: self.options.damping,
+            contact: self.contact_unknowns(),
         }
     }
-}
 
-impl WaveHarmonic {
-    /// The matrices at a friction coefficient.
-    pub fn at(&self, friction_coefficient: f64) -> MovingHarmonic {
-        match self {
-            Self::Plane(harmonic) => harmonic.at(friction_coefficient),
-            Self::Solid(harmonic) => harmonic.at(friction_coefficient),
-        }
+    /// `M_n` and `K_n` without friction, real and symmetric.
+    pub fn at_rest(&self, n: usize) -> [BandedMatrix; 2] {
+        self.all_at_rest(n).map(|matrix| self.restricted(matrix))
     }
-}
 
-impl HarmonicTangent {
-    /// The matrices at a friction coefficient, the damping written out where it is proportional.
-    pub fn at(&self, friction_coefficient: f64) -> MovingHarmonic {
-        let (mu, z) = (friction_coefficient, c64::new(0.0, friction_coefficient));
-        let [mass, stiffness] = [&self.mass, &self.stiffness].map(|p| evaluate(p, z));
-        let mut damping = match &self.damping {
-            Some(damping) => evaluate(damping, z),
-            None => {
-                let [alpha, beta] =
-                    [self.rayleigh.mass_coefficient, self.rayleigh.stiffness_coefficient];
-                mass.iter().zip(&stiffness).map(|(m, k)| m * alpha + k * beta).collect()
-            }
-        };
-        if let Some(dashpots) = &self.friction_dashpots {
-            let added = evaluate(dashpots, z);
-            damping.iter_mut().zip(added).for_each(|(sum, c)| *sum += c * mu);
-        }
-        let half_bandwidth = self.mass[0].half_bandwidth();
-        MovingHarmonic { half_bandwidth, mass, damping, stiffness }
-    }
-}
-
-impl MovingHarmonic {
-    /// A sum of matrices of the same unknowns, each with its weight; `None` where the unknowns differ.
-    pub fn combined(terms: &[(f64, Self)]) -> Option<Self> {
-        let (weight, first) = terms.first()?;
-        let size = (first.half_bandwidth, first.mass.len());
-        let is_like = |(_, own): &(f64, Self)| (own.half_bandwidth, own.mass.len()) == size;
-        if !terms.iter().all(is_like) {
-            return None;
-        }
-        let sum = |of: fn(&Self) -> &Vec<c64>| {
-            let mut sum: Vec<c64> = of(first).iter().map(|v| v * *weight).collect();
-            for (weight, term) in &terms[1..] {
-                sum.iter_mut().zip(of(term)).for_each(|(sum, v)| *sum += v * *weight);
-            }
-            sum
-        };
-        Some(Self {
-            half_bandwidth: first.half_bandwidth,
-            mass: sum(|own| &own.mass),
-            damping: sum(|own| &own.damping),
-            stiffness: sum(|own| &own.stiffness),
+    /// The columns of `M_n` and `K_n` without friction that belong to the normals in rigid contact, over the unknowns.
+    pub fn normal_columns(&self, n: usize) -> [Vec<Vec<f64>>; 2] {
+        self.all_at_rest(n).map(|matrix| {
+            let column = |(normal, _): &(usize, _)| {
+                self.moving.iter().map(|&k| matrix.get(k, *normal)).collect()
+            };
+            self.contact.rigid.iter().map(column).collect()
         })
+    }
+
+    /// `M_n` and `K_n` without friction, the normals in rigid contact included.
+    fn all_at_rest(&self, n: usize) -> [BandedMatrix; 2] {
+        let mut stiffness = self.stiffness(n, MirrorParity::Even);
+        stiffness.add_scaled(1.0, &self.of_supports(n, 0));
+        [self.mass(n), stiffness]
+    }
+
+    /// Harmonic `n` of a sum of terms over displacements, with distances across the contact.
+    pub(super) fn wave(
+        &self,
+        n: usize,
+        parity: MirrorParity,
+        terms: &[&SectorMatrix],
+    ) -> BandedMatrix {
+        let mut matrix = self.dofs.fold(n, parity, terms);
+        to_distances(&mut matrix, self.contact.pairs.iter().copied());
+        matrix
+    }
+
+    /// Over the unknowns alone.
+    pub(super) fn restricted(&self, matrix: BandedMatrix) -> BandedMatrix {
+        match self.contact.rigid.is_empty() {
+            true => matrix,
+            false => matrix.restricted_to(&self.moving),
+        }
+    }
+
+    fn mass(&self, n: usize) -> BandedMatrix {
+        let regions = self.terms.regions.iter().map(|region| &region.mass);
+        self.wave(n, MirrorParity::Even, &regions.collect::<Vec<_>>())
+    }
+
+    /// Springs (0) or dashpots (1) of all supports.
+    fn of_supports(&self, n: usize, part: usize) -> BandedMatrix {
+        let own = self.terms.supports.iter().map(|(_, own)| &own[part]);
+        self.wave(n, MirrorParity::Even, &own.collect::<Vec<_>>())
+    }
+
+    /// Bodies, prestress, contact forces that turn and the normal law: what `beta_R` multiplies, all but the supports. The odd
+    /// part, `i` times this, is the coefficient of `i mu`.
+    fn stiffness(&self, n: usize, parity: MirrorParity) -> BandedMatrix {
+        let WaveTerms { regions, turning, contact, .. } = &self.terms;
+        let (part, is_even) = (parity as usize, parity == MirrorParity::Even);
+        let elastic = regions.iter().filter(|_| is_even).map(|region| &region.elastic);
+        let stress = regions.iter().map(|region| &region.stress[part]);
+        let terms: Vec<_> = elastic.chain(stress).chain([&turning[part]]).collect();
+        let mut stiffness = self.wave(n, parity, &terms);
+        self.dofs.add(&mut stiffness, n, parity, &[&contact.penalty[part]]);
+        stiffness
+    }
+
+    /// `alpha_R M + beta_R K` with the options' damping model, what regions have of their own, and dashpots.
+    fn damping(
+        &self,
+        n: usize,
+        mass: &BandedMatrix,
+        stiffness: &[BandedMatrix; 2],
+    ) -> [BandedMatrix; 2] {
+        let common = self.options.damping;
+        let elastic = |regions: &[RegionTerms]| {
+            let elastic: Vec<_> = regions.iter().map(|region| &region.elastic).collect();
+            self.wave(n, MirrorParity::Even, &elastic)
+        };
+        let mut damping = match self.options.damping_model {
+            DampingModel::WholeTangent => stiffness.clone(),
+            DampingModel::BodyOnly => [elastic(&self.terms.regions), self.dofs.zeros()],
+        };
+        for matrix in &mut damping {
+            matrix.scale(common.stiffness_coefficient);
+        }
+        let [rest, sheared] = &mut damping;
+        rest.add_scaled(common.mass_coefficient, mass);
+        for region in &self.terms.regions {
+            if let Some(own) = region.damping.filter(|own| *own != common) {
+                let alpha = own.mass_coefficient - common.mass_coefficient;
+                let beta = own.stiffness_coefficient - common.stiffness_coefficient;
+                rest.add_scaled(alpha, &self.wave(n, MirrorParity::Even, &[&region.mass]));
+                rest.add_scaled(beta, &elastic(std::slice::from_ref(region)));
+            }
+        }
+        rest.add_scaled(1.0, &self.of_supports(n, 1));
+        let [even, odd] = &self.terms.contact.dashpots;
+        self.dofs.add(rest, n, MirrorParity::Even, &[even]);
+        self.dofs.add(sheared, n, MirrorParity::Odd, &[odd]);
+        damping
+    }
+
+    /// Onto the unknowns; for rigid contact each normal row is added to its tangential rows with the
+    /// factor `-s mu`, which is `s (i mu)` once the tangential row is multiplied by `-i`.
+    fn project(&self, mut full: Vec<BandedMatrix>) -> FrictionPolynomial {
+        if !self.contact.rigid.is_empty() {
+            full.push(self.dofs.zeros());
+        }
+        for power in (1..full.len()).rev() {
+            let (lower, upper) = full.split_at_mut(power);
+            for (normal, drags) in &self.contact.rigid {
+                for column in lower[power - 1].columns(*normal) {
+                    let value = lower[power - 1].get(*normal, column);
+                    if value != 0.0 {
+                        for (tangential, factor) in drags {
+                            upper[0].add(*tangential, column, factor * value);
+                        }
+                    }
+                }
+            }
+        }
+        let mut full: Vec<_> = full.into_iter().map(|matrix| self.restricted(matrix)).collect();
+        let is_zero = |m: &BandedMatrix| m.values().iter().all(|v| *v == 0.0);
+        while full.len() > 1 && is_zero(&full[full.len() - 1]) {
+            full.pop();
+        }
+        full
+    }
+}
+
+/// `T^T A T` with how far the nodes of each pair move apart in place of the first one's normal displacement, see
+/// [`crate::contact::ContactInterface::to_distances`].
+pub(super) fn to_distances(matrix: &mut BandedMatrix, pairs: impl IntoIterator<Item = [usize; 2]>) {
+    for [from, to] in pairs {
+        for other in matrix.columns(from) {
+            let value = matrix.get(from, other);
+            if value != 0.0 {
+                matrix.add(to, other, value);
+            }
+        }
+        // The row of the other body's node as well, which has just got what couples to the pair.
+        for other in matrix.columns(from) {
+            let value = matrix.get(other, from);
+            if value != 0.0 {
+                matrix.add(other, to, value);
+            }
+        }
     }
 }

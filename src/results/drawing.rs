@@ -115,9 +115,6 @@ impl Page {
     }
 
     /// Every figure in every format asked for, `figures/NAME.svg` and so on, and `report.html`.
-    ///
-    /// # Errors
-    /// Those of the formats.
     pub fn files(&self, options: &DrawingOptions) -> Result<Vec<ResultFile>, ChartError> {
         let drawn = |figure: &Figure| {
             let svg = figure.to_svg(options.width_mm)?;
@@ -133,9 +130,6 @@ impl Page {
     }
 
     /// Writes [`Self::files`].
-    ///
-    /// # Errors
-    /// Those of the formats and of the folder.
     pub fn draw(
         &self,
         folder: &OutputFolder,

@@ -1,64 +1,32 @@
 //! What a command found: its document and figures become the files of its folder.
 
-use super::drawing::{Declaration, DrawingError, DrawingOptions, Page, declared};
+use super::drawing::{Declaration, DrawingError, DrawingOptions, Page};
 use super::record::write_record;
-use super::summary::write_summary;
-use super::{FolderError, Manifest, OutputFolder};
+use super::{FolderError, OutputFolder};
 use crate::chart::Figure;
 use crate::output::{Described, Document, Key, Table, describe_field};
 use serde::Serialize;
-use serde::de::DeserializeOwned;
-use serde_json::Value;
 
 /// A summary that says everything: it is `summary.json`, and the tables, the page and the figures are made from it.
-pub trait Finding: Serialize + DeserializeOwned + Described {
+pub trait Finding: Serialize {
     /// Its tables and sentences.
     fn document(&self) -> Document;
 
     /// Its figures.
     fn figures(&self) -> Vec<Declaration<'_>>;
-
-    /// What it was made from.
-    fn manifest(&self) -> &Manifest;
-}
-
-/// Writes tables, figures, page and `summary.json`, and gives the object of the last.
-///
-/// # Errors
-/// Those of the folder and of the drawing.
-pub fn write_finding(
-    folder: &OutputFolder,
-    finding: &impl Finding,
-    options: Option<&DrawingOptions>,
-) -> Result<Value, DrawingError> {
-    write_tables(folder, &finding.document())?;
-    if let Some(options) = options {
-        let figures = declared(finding.figures())?;
-        write_page(folder, finding.document(), figures, options)?;
-    }
-    Ok(write_summary(folder, finding)?)
 }
 
 /// Writes the tables of a document that are files.
-///
-/// # Errors
-/// Those of the folder.
 pub fn write_tables(folder: &OutputFolder, document: &Document) -> Result<(), FolderError> {
     document.files().try_for_each(|table| write_table(folder, table))
 }
 
 /// Writes a table as its file.
-///
-/// # Errors
-/// Those of the folder.
 pub fn write_table(folder: &OutputFolder, table: &Table) -> Result<(), FolderError> {
     folder.write(&table.file, |out| table.write_csv(out)).map(drop)
 }
 
 /// Writes the page of a document, its figures, and both as data.
-///
-/// # Errors
-/// Those of the formats and of the folder.
 pub fn write_page(
     folder: &OutputFolder,
     document: Document,

@@ -25,12 +25,18 @@ columns! {
     frequency_hz: "undamped natural frequency" = row.1.frequency_hz, Always "frequency" Fixed(2);
     frequency_low_hz: "lower end of its 95 % interval" = row.1.frequency_interval_hz[0];
     frequency_high_hz: "upper end" = row.1.frequency_interval_hz[1];
-    damping_factor: "damping factor of the fit" = row.1.damping_factor, Always "damping factor" Percent(4);
-    damping_factor_low: "lower end of its 95 % interval" = row.1.damping_factor_interval[0], Always "from" Percent(4);
+    damping_factor: "damping factor of the fit"
+        = row.1.damping_factor, Always "damping factor" Percent(4);
+    damping_factor_low: "lower end of its 95 % interval"
+        = row.1.damping_factor_interval[0], Always "from" Percent(4);
     damping_factor_high: "upper end" = row.1.damping_factor_interval[1], Always "to" Percent(4);
-    half_power_damping_factor: "damping factor of the half-power band, where that can be trusted" = row.1.half_power.as_ref().and_then(|b| b.damping_factor), IfAny "by half-power" Percent(4);
-    half_power_low_hz: "lower half-power frequency" = row.1.half_power.as_ref().and_then(|b| b.band_hz).map(|b| b[0]);
-    half_power_high_hz: "upper half-power frequency" = row.1.half_power.as_ref().and_then(|b| b.band_hz).map(|b| b[1]);
+    half_power_damping_factor: "damping factor of the half-power band, where that can be trusted"
+        = row.1.half_power.as_ref().and_then(|b| b.damping_factor),
+        IfAny "by half-power" Percent(4);
+    half_power_low_hz: "lower half-power frequency"
+        = row.1.half_power.as_ref().and_then(|b| b.band_hz).map(|b| b[0]);
+    half_power_high_hz: "upper half-power frequency"
+        = row.1.half_power.as_ref().and_then(|b| b.band_hz).map(|b| b[1]);
     used: "whether it enters the coefficients" = row.1.used, Always "used" Plain;
     flag: "what is doubtful about it" = row.1.flag.clone(), IfAny "remark" Plain;
 }
@@ -40,10 +46,12 @@ columns! {
     COEFFICIENTS: row as (&'static str, [Estimate; 2]);
     estimator: "what they are from" = row.0, Always "estimator" Plain;
     mass_coefficient_per_s: "alpha_R" = row.1[0].value, Always "alpha_R" Scientific(4);
-    mass_coefficient_low: "lower end of its 95 % interval" = row.1[0].low, Always "from" Scientific(4);
+    mass_coefficient_low: "lower end of its 95 % interval"
+        = row.1[0].low, Always "from" Scientific(4);
     mass_coefficient_high: "upper end" = row.1[0].high, Always "to" Scientific(4);
     stiffness_coefficient_s: "beta_R" = row.1[1].value, Always "beta_R" Scientific(4);
-    stiffness_coefficient_low: "lower end of its 95 % interval" = row.1[1].low, Always "from" Scientific(4);
+    stiffness_coefficient_low: "lower end of its 95 % interval"
+        = row.1[1].low, Always "from" Scientific(4);
     stiffness_coefficient_high: "upper end" = row.1[1].high, Always "to" Scientific(4);
 }
 
@@ -106,9 +114,6 @@ pub fn document(summary: &IdentificationSummary) -> Document {
 }
 
 /// Writes `fit.csv` (`fit-2.csv` and so on for further responses).
-///
-/// # Errors
-/// Those of the folder.
 pub fn write_fits(
     folder: &OutputFolder,
     responses: &[NamedResponse],

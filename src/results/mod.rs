@@ -44,11 +44,9 @@ pub use drawing::{
     DOTS_PER_INCH, DrawingError, DrawingOptions, Format, Page, ResultFile, declared,
 };
 pub use extent::Extent;
-pub use finding::{Finding, write_finding, write_page, write_table, write_tables};
+pub use finding::{Finding, write_page, write_table, write_tables};
 pub use pvd::{PvdEntry, write_pvd};
-pub use response::{
-    ResponseSummary, draw_response_report, write_response, write_universal_response,
-};
+pub use response::{ResponseSummary, response_figure, write_response, write_universal_response};
 pub use store::{
     FolderError, Manifest, OutputFolder, Record, Replace, is_result, read_manifest, read_record,
     record_bytes,

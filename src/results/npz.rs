@@ -53,9 +53,6 @@ impl Default for NpzArchive {
 
 impl NpzArchive {
     /// Adds an array in C order.
-    ///
-    /// # Errors
-    /// Those of the archive.
     pub fn array<T: NpyNumber>(
         &mut self,
         name: &str,
@@ -68,9 +65,6 @@ impl NpzArchive {
     }
 
     /// Adds a word, which NumPy reads as an array of bytes without extents.
-    ///
-    /// # Errors
-    /// Those of the archive.
     pub fn word(&mut self, name: &str, word: &str) -> io::Result<()> {
         let mut bytes = header(&format!("|S{}", word.len()), &[]);
         bytes.extend(word.as_bytes());
@@ -87,9 +81,6 @@ impl NpzArchive {
     }
 
     /// The bytes of the whole archive.
-    ///
-    /// # Errors
-    /// Those of the archive.
     pub fn finish(self) -> io::Result<Vec<u8>> {
         Ok(self.zip.finish()?.into_inner())
     }

@@ -15,9 +15,6 @@ pub struct PvdEntry {
 }
 
 /// Writes a ParaView collection.
-///
-/// # Errors
-/// Those of the writer.
 pub fn write_pvd(out: &mut dyn Write, entries: &[PvdEntry]) -> io::Result<()> {
     writeln!(out, "<?xml version=\"1.0\"?>")?;
     writeln!(

@@ -2,8 +2,8 @@
 
 use super::basin::{BasinSummary, RUNS};
 use super::cea::{
-    AXIAL, BRANCHES, CONTRIBUTIONS, COUPLINGS, CeaSummary, FEED, MAP, MODES, NAMES, NODES,
-    ONSET_ERRORS, ONSETS, PLACES, PLANE, POINTS, RINGS, ROWS, STATUS, TRACTIONS,
+    AXIAL, BRANCHES, CONTRIBUTIONS, COUPLINGS, CeaSummary, FEED, MODES, NAMES, NODES, ONSET_ERRORS,
+    ONSETS, PLACES, PLANE, POINTS, RINGS, ROWS, STATUS, TRACTIONS,
 };
 use super::compare::ComparisonSummary;
 use super::convergence::{self, ConvergenceSummary};
@@ -72,7 +72,6 @@ pub fn reference() -> Vec<FileReference> {
         file("cea", "contributions.csv", vec![all(NAMES), all(BRANCHES), all(CONTRIBUTIONS)]),
         file("cea", "coupling.csv", vec![all(NAMES), all(COUPLINGS)]),
         file("cea", "feed.csv", vec![all(&NAMES[..3]), all(FEED)]),
-        file("cea", "map.csv", vec![one("KEY", "value of the second parameter"), all(MAP)]),
         summary::<CeaSummary>("cea"),
         summary::<ComparisonSummary>("compare"),
         file("convergence", "convergence.csv", vec![all(convergence::ROWS)]),

@@ -1,8 +1,7 @@
 //! Table, figure and report of a computed frequency response.
 
 use super::Manifest;
-use super::drawing::{DrawingError, DrawingOptions};
-use super::finding::{write_page, write_table};
+use super::finding::write_table;
 use super::folder::{FolderError, OutputFolder};
 use super::identification::unit_of;
 use crate::chart::{Axis, Figure, INK, Line, Marker, Panel, Points, SERIES};
@@ -10,11 +9,11 @@ use crate::linalg::c64;
 use crate::output::{Described, Document, Section, Table};
 use crate::signal::reader::{self, NamedResponse};
 use crate::signal::{FrequencyResponse, ResponseQuantity};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::io;
 
 /// `summary.json` of `frictionsim frf`.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct ResponseSummary {
     /// `frf`.
     pub command: String,
@@ -48,9 +47,6 @@ pub struct ResponseSummary {
 const RESPONSE_TABLE: &str = "frf.csv";
 
 /// Writes frequency, real and imaginary part.
-///
-/// # Errors
-/// Those of the folder.
 pub fn write_response(
     folder: &OutputFolder,
     quantity: ResponseQuantity,
@@ -66,9 +62,6 @@ pub fn write_response(
 }
 
 /// Writes the response as a universal file, dataset 58.
-///
-/// # Errors
-/// Those of the folder.
 pub fn write_universal_response(
     folder: &OutputFolder,
     quantity: ResponseQuantity,
@@ -82,19 +75,6 @@ pub fn write_universal_response(
         out.write_all(reader::write_response(&named).as_bytes())
     })?;
     Ok(())
-}
-
-/// Draws magnitude and phase into `figures/`, as SVG and PNG, and writes `report.html`.
-///
-/// # Errors
-/// Those of the drawing and of the folder.
-pub fn draw_response_report(
-    folder: &OutputFolder,
-    response: &FrequencyResponse,
-    summary: &ResponseSummary,
-    options: &DrawingOptions,
-) -> Result<(), DrawingError> {
-    write_page(folder, summary.document(), vec![response_figure(response)], options)
 }
 
 impl ResponseSummary {
@@ -167,7 +147,7 @@ fn maxima(magnitude: &[f64]) -> Vec<usize> {
 }
 
 /// Magnitude and phase of a response over the frequency.
-fn response_figure(response: &FrequencyResponse) -> Figure {
+pub fn response_figure(response: &FrequencyResponse) -> Figure {
     let (frequencies, values) = (response.frequencies_hz(), response.values());
     let magnitude: Vec<f64> = values.iter().map(|h| h.norm()).collect();
     let limit = 180.0 + PHASE_MARGIN;

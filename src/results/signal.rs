@@ -23,12 +23,17 @@ columns! {
     channel: "name of the channel" = row.0.clone();
     peak: "number of the peak, the strongest first, from 1" = row.1, Always "peak" Count;
     frequency_hz: "frequency of the peak" = row.2.frequency_hz, Always "frequency" Fixed(2);
-    amplitude: "amplitude, in the unit of the signal" = row.2.amplitude, Always "amplitude" Scientific(4);
-    superharmonic_of_peak: "peak of which it is a multiple" = row.2.superharmonic.as_ref().map(|line| line.of_peak);
+    amplitude: "amplitude, in the unit of the signal"
+        = row.2.amplitude, Always "amplitude" Scientific(4);
+    superharmonic_of_peak: "peak of which it is a multiple"
+        = row.2.superharmonic.as_ref().map(|line| line.of_peak);
     order: "which multiple" = row.2.superharmonic.as_ref().map(|line| line.order);
-    nearest_mode: "number of the mode beside it, from 1" = row.2.nearest_mode.as_ref().map(|mode| mode.mode);
-    mode_frequency_hz: "frequency of that mode" = row.2.nearest_mode.as_ref().map(|mode| mode.frequency_hz);
-    harmonic: "its nodal diameters; none without symmetry" = row.2.nearest_mode.as_ref().and_then(|mode| mode.harmonic);
+    nearest_mode: "number of the mode beside it, from 1"
+        = row.2.nearest_mode.as_ref().map(|mode| mode.mode);
+    mode_frequency_hz: "frequency of that mode"
+        = row.2.nearest_mode.as_ref().map(|mode| mode.frequency_hz);
+    harmonic: "its nodal diameters; none without symmetry"
+        = row.2.nearest_mode.as_ref().and_then(|mode| mode.harmonic);
     branch: BRANCH = row.2.nearest_mode.as_ref().map(|mode| mode.branch);
     direction: DIRECTION = row.2.nearest_mode.as_ref().and_then(|mode| mode.direction);
 }
@@ -92,9 +97,6 @@ pub fn document(summary: &SignalSummary) -> Document {
 }
 
 /// Writes a spectrum for each channel.
-///
-/// # Errors
-/// Those of the folder.
 pub fn write_spectra(
     folder: &OutputFolder,
     spectra: &[AmplitudeSpectrum],

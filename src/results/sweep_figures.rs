@@ -1,12 +1,14 @@
 //! The figures of a parameter study, from its points.
 
 use super::basin::basin_map;
+use super::charts::ModeLine;
 use super::charts::palette::{OPEN, SLIP, STICK};
-use super::charts::{CriticalBranch, ModeLine, critical_friction};
 use super::cycle::{FamilyRecord, NamedFamily, draw_branches};
 use super::drawing::{Declaration, declared};
 use super::parameter::{parameter_axis, parameter_name};
-use super::sweep::{PointRecord, TWO_FREQUENCY, UNSETTLED, operating_matrix, swept_text};
+use super::sweep::{
+    PointRecord, TWO_FREQUENCY, UNSETTLED, critical_friction, operating_matrix, swept_text,
+};
 use crate::chart::{
     Axis, ChartError, Figure, Fill, INK, Line, Marker, Panel, Points, Rule, Scale, Stroke, literal,
     look, plain,
@@ -28,9 +30,6 @@ const NO_STICK: f64 = 0.005;
 ///
 /// `modes` are unstable modes at `friction_coefficient`, the case's own; `highest_friction` is the largest of its eigenvalue
 /// analysis.
-///
-/// # Errors
-/// That of a figure that cannot be drawn although there is something to draw.
 pub fn draw_sweep(
     records: &[PointRecord],
     (friction_coefficient, highest_friction): (f64, f64),
@@ -41,7 +40,7 @@ pub fn draw_sweep(
     let declarations: Vec<Declaration<'_>> = vec![
         Box::new(move || study.frequencies(modes, friction_coefficient)),
         Box::new(move || study.status()),
-        Box::new(move || critical(records, highest_friction)),
+        Box::new(move || critical_friction(records, highest_friction)),
         Box::new(move || basin_map(records)),
         Box::new(move || operating_matrix(records)),
     ];
@@ -334,53 +333,4 @@ fn swept_label(swept: &Map<String, Value>) -> String {
 
 fn number(value: Option<&Value>) -> f64 {
     value.and_then(Value::as_f64).unwrap_or(f64::NAN)
-}
-
-/// Critical friction over the one swept key of a study of eigenvalue analyses.
-fn critical(records: &[PointRecord], highest_friction: f64) -> Result<Figure, ChartError> {
-    let nothing = || ChartError::empty("critical friction over a swept key");
-    let first = records.first().ok_or_else(nothing)?;
-    let mut keys = first.swept.keys().filter(|key| *key != FRICTION);
-    let (Some(key), None) = (keys.next(), keys.next()) else {
-        return Err(nothing());
-    };
-    let mut points: Vec<(f64, &Vec<Value>)> = records
-        .iter()
-        .filter_map(|record| {
-            let found = record.summaries.get("cea")?.get("critical_frictions")?.as_array()?;
-            Some((record.swept.get(key)?.as_f64()?, found))
-        })
-        .collect();
-    points.sort_by(|a, b| a.0.total_cmp(&b.0));
-    points.dedup_by(|a, b| a.0 == b.0);
-    if points.len() < 2 {
-        return Err(nothing());
-    }
-    let branch_of = |entry: &Value| {
-        let part = |name: &str| entry.get(name).and_then(Value::as_i64);
-        (
-            part("harmonic").map(|n| n as usize),
-            part("branch").unwrap_or(0) as usize,
-            part("direction").unwrap_or(0) as i8,
-        )
-    };
-    let mut names: Vec<(Option<usize>, usize, i8)> =
-        points.iter().flat_map(|point| point.1).map(branch_of).collect();
-    names.sort_unstable();
-    names.dedup();
-    let branches: Vec<CriticalBranch> = names
-        .into_iter()
-        .map(|branch| {
-            let lowest = |found: &Vec<Value>| {
-                let own = found.iter().filter(|entry| branch_of(entry) == branch);
-                own.map(|entry| number(entry.get("critical_friction"))).fold(f64::NAN, f64::min)
-            };
-            CriticalBranch {
-                branch,
-                critical: points.iter().map(|point| lowest(point.1)).collect(),
-            }
-        })
-        .collect();
-    let values: Vec<f64> = points.iter().map(|point| point.0).collect();
-    Ok(critical_friction(key, &values, &branches, highest_friction))
 }

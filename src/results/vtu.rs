@@ -221,25 +221,16 @@ pub struct EncodedMesh {
 
 impl EncodedMesh {
     /// Compresses a mesh.
-    ///
-    /// # Errors
-    /// Those of the compressor (out of memory).
     pub fn new(mesh: &Mesh) -> io::Result<Self> {
         Self::of(&WholeMesh::of(mesh))
     }
 
     /// Compresses the bricks of a whole body of revolution, its nodes sector by sector.
-    ///
-    /// # Errors
-    /// Those of the compressor (out of memory).
     pub fn solid(sector: &SolidSector) -> io::Result<Self> {
         Self::of(&WholeMesh::of_revolution(sector))
     }
 
     /// Compresses nodes and elements.
-    ///
-    /// # Errors
-    /// Those of the compressor (out of memory).
     pub fn of(mesh: &WholeMesh) -> io::Result<Self> {
         let integers = |values: &mut dyn Iterator<Item = i64>| -> Vec<u8> {
             values.flat_map(i64::to_le_bytes).collect()

@@ -80,9 +80,6 @@ impl WholeMesh {
     }
 
     /// Writes a mode by the real and imaginary displacements of its nodes, each along x, y and z.
-    ///
-    /// # Errors
-    /// Those of the writer.
     pub fn write_universal_mode(
         &self,
         out: &mut dyn Write,

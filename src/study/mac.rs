@@ -3,7 +3,7 @@
 use super::StudyError;
 use super::eigenvalues::{SlidingModel, solve_modes};
 use super::fit::least_cost;
-use crate::case::{Body, Case, Cea};
+use crate::case::{Body, Case, Cea, refusal};
 use crate::linalg::c64;
 use crate::mesh::Mesh;
 use crate::results::mac::{MacMode, MacPair, MacShape};
@@ -56,7 +56,6 @@ pub fn assurance(
     let own = Cea {
         friction_coefficients: vec![friction],
         shapes_at: vec![friction],
-        map: None,
         sensitivities: Some(false),
         count_modes: false,
         ..cea.clone()
@@ -117,15 +116,11 @@ pub(in crate::study) fn refuse_revolution(case: &Case) -> Result<(), StudyError>
     let Body::Revolution(_) = &case.body else {
         return Ok(());
     };
-    Err(case
-        .error_at(
-            "material.formulation",
-            "measured points are compared node by node, and the modes of this body are solved \
-             harmonic by harmonic, either sense of travel alone",
-            "a body of revolution in three dimensions",
-            "take its whole mesh: cea.method = \"sparse\"",
-        )
-        .into())
+    Err(refusal!(case, "material.formulation",
+        "measured points are compared node by node, and the modes of this body are solved harmonic \
+         by harmonic, either sense of travel alone";
+        "a body of revolution in three dimensions"; "take its whole mesh: cea.method = \"sparse\"")
+    .into())
 }
 
 /// The nodes of the points of some shapes.

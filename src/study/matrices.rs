@@ -3,7 +3,7 @@
 use super::StudyError;
 use super::eigenvalues::{Model, Solver};
 use super::tangent_options;
-use crate::case::{Case, CeaMethod};
+use crate::case::{Case, CeaMethod, refusal};
 use crate::cea::CeaError;
 use crate::contact::{Point, Row};
 use crate::linalg::{MarketMatrix, MatrixPolynomial};
@@ -30,13 +30,10 @@ pub fn matrices(case: &Case, friction: Option<f64>) -> Result<ExportedSystem, St
     }
     let case = &case;
     if case.body.revolution().is_some() {
-        return Err(StudyError::Case(case.error_at(
-            "material.formulation",
+        return Err(StudyError::Case(refusal!(case, "material.formulation",
             "the matrices of a body of revolution in three dimensions are complex, one set for \
-             each harmonic: there is no one real problem to write",
-            "a body of revolution",
-            "take its whole mesh: cea.method = \"sparse\"",
-        )));
+             each harmonic: there is no one real problem to write";
+            "a body of revolution"; "take its whole mesh: cea.method = \"sparse\"")));
     }
     let mut regions = 0..case.body.region_count();
     if regions.any(|region| case.materials().table(region).is_some()) {

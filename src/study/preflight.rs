@@ -80,7 +80,7 @@ pub fn preflight(case: &Case, available: f64) -> Result<Preflight, StudyError> {
         let plan = found.tolerate("transient", transient_plan(case))?;
         if let (Some(run), Some(plan)) = (&mut found.cost.transient, plan) {
             let steps = plan.total_steps() as f64;
-            run.seconds *= steps / run.steps;
+            run.run.operations *= steps / run.steps;
             run.time_step = plan.time_step;
             run.steps = steps;
             found.is_step_exact = true;

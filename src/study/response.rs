@@ -13,7 +13,7 @@
 
 use super::eigenvalues::{AssemblyModel, no_cyclic_losses};
 use super::{StudyError, tangent_options};
-use crate::case::{AssemblyBody, Body, Case, CaseErrors, Frf, FrfMethod};
+use crate::case::{AssemblyBody, Body, Case, CaseErrors, Frf, FrfMethod, refusal};
 use crate::fem::assemble_stiffness;
 use crate::frf::{
     Axis, CyclicSystem, FrfBoundary, FrfError, FrfSystem, Port, ReductionSettings, cyclic_response,
@@ -23,7 +23,7 @@ use crate::linalg::{GaussianNoise, c64};
 use crate::mesh::{
     AnnulusSpecification, BoundaryCondition, Mesh, SectorMesh, SolidSector, SolidSpecification,
 };
-use crate::prestress::{BaseChoice, SectorTangent, SlidingTangent, SolidTangent, SteadySliding};
+use crate::prestress::{BaseChoice, SlidingTangent, SteadySliding, WaveTangent};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -213,15 +213,10 @@ fn refuse_beyond_tables(case: &Case, frf: &Frf) -> Result<(), CaseErrors> {
         let mut lines = frf.frequencies_hz.iter();
         if let Some(line) = lines.find(|line| !table.covers(**line)) {
             let ([low, high], key, file) = (table.range_hz(), table.key(), table.file());
-            return Err(case.error_at(
-                key,
-                format!(
-                    "{key} = \"{file}\" holds {low} to {high} Hz, and frf asks for {line} Hz: \
-                     a modulus beyond a table is not guessed"
-                ),
-                "does not cover the lines",
-                "extend the table, or ask for lines within it",
-            ));
+            return Err(refusal!(case, key,
+                "{key} = \"{file}\" holds {low} to {high} Hz, and frf asks for {line} Hz: a \
+                 modulus beyond a table is not guessed";
+                "does not cover the lines"; "extend the table, or ask for lines within it"));
         }
     }
     Ok(())
@@ -236,12 +231,9 @@ fn cyclic(case: &Case, frf: &Frf) -> Result<System, StudyError> {
         Body::Annulus(body) => annulus(case, frf, &body.specification)?,
         Body::Revolution(body) => solid(case, frf, &body.specification)?,
         Body::Imported(_) | Body::Assembly(_) => {
-            return Err(StudyError::Case(case.error_at(
-                "frf.method",
-                "frf.method = \"cyclic\" needs the symmetry of the built-in annulus",
-                "an imported mesh has no sectors",
-                "use \"auto\", \"direct\" or \"reduced\"",
-            )));
+            return Err(StudyError::Case(refusal!(case, "frf.method",
+                "frf.method = \"cyclic\" needs the symmetry of the built-in annulus";
+                "an imported mesh has no sectors"; "use \"auto\", \"direct\" or \"reduced\"")));
         }
     };
     for (terminal, key) in [(frf.force, "force_node"), (frf.response, "response_node")] {
@@ -260,7 +252,7 @@ fn annulus(
     let contact = &case.contact.sliding;
     if frf.boundary == FrfBoundary::Sliding {
         let options = tangent_options(case, frf.mass);
-        let tangent = SectorTangent::linearize(&sector, case.materials(), &options, contact)?;
+        let tangent = WaveTangent::of_annulus(&sector, case.materials(), &options, contact)?;
         return Ok(CyclicSystem::sliding(&tangent, contact.friction_coefficient));
     }
     let is_clamped = frf.boundary == FrfBoundary::Clamped;
@@ -277,8 +269,8 @@ fn solid(
     let contact = &case.contact.sliding;
     if frf.boundary == FrfBoundary::Sliding {
         let options = tangent_options(case, frf.mass);
-        let tangent = SolidTangent::linearize(&sector, &case.material, &options, contact)?;
-        return Ok(CyclicSystem::solid_sliding(&tangent, contact.friction_coefficient));
+        let tangent = WaveTangent::of_revolution(&sector, &case.material, &options, contact)?;
+        return Ok(CyclicSystem::sliding(&tangent, contact.friction_coefficient));
     }
     let is_clamped = frf.boundary == FrfBoundary::Clamped;
     let rayleigh = case.damping.rayleigh;
@@ -292,12 +284,10 @@ fn whole(case: &Case, frf: &Frf, reduction: Reduction) -> Result<System, StudyEr
             Reduction::No => "direct",
             Reduction::Tried | Reduction::Asked => "reduced",
         };
-        return Err(StudyError::Case(case.error_at(
-            "frf.method",
-            format!("frf.method = \"{name}\" is for bodies that are solved on their whole mesh"),
-            "a body of revolution is solved harmonic by harmonic",
-            "use \"auto\" or \"cyclic\", or take the whole mesh: cea.method = \"sparse\"",
-        )));
+        return Err(StudyError::Case(refusal!(case, "frf.method",
+            "frf.method = \"{name}\" is for bodies that are solved on their whole mesh";
+            "a body of revolution is solved harmonic by harmonic";
+            "use \"auto\" or \"cyclic\", or take the whole mesh: cea.method = \"sparse\"")));
     }
     if frf.boundary == FrfBoundary::Sliding {
         refuse_rest(case)?;
@@ -364,23 +354,17 @@ fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
     if case.contact.sliding.rotation_speed != 0.0 {
         return Ok(());
     }
-    Err(case.error_at(
-        "frf.boundary",
-        "frf.boundary = \"sliding\" at rest: the contact sticks, and there is no steady \
-         sliding to respond around",
-        "the speed is 0",
-        "give a speed, however small, or use \"clamped\" or \"free\"",
-    ))
+    Err(refusal!(case, "frf.boundary",
+        "frf.boundary = \"sliding\" at rest: the contact sticks, and there is no steady sliding to \
+         respond around";
+        "the speed is 0"; "give a speed, however small, or use \"clamped\" or \"free\""))
 }
 
 /// Without contact a disc and its shaft are two bodies, which the harmonic solver does not take.
 fn disc_and_shaft_apart(case: &Case) -> CaseErrors {
-    case.error_at(
-        "frf.method",
-        "frf.method = \"cyclic\" takes one body, and without contact disc and shaft are two",
-        "disc and shaft do not touch here",
-        "use \"auto\", \"direct\" or \"reduced\"",
-    )
+    refusal!(case, "frf.method",
+        "frf.method = \"cyclic\" takes one body, and without contact disc and shaft are two";
+        "disc and shaft do not touch here"; "use \"auto\", \"direct\" or \"reduced\"")
 }
 
 /// What is wrong with a node, at its key.

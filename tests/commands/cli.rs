@@ -91,7 +91,7 @@ fn check_reports_the_cost_as_numbers() {
     let report: serde_json::Value = serde_json::from_slice(&run.get_output().stdout).unwrap();
     let cycle = &report["cases"][0]["cycle"];
     assert_eq!((&cycle["families"], &cycle["cycles"]), (&2.into(), &62.into()));
-    assert!(cycle["estimated_s"].as_f64().unwrap() > 1.0);
+    assert_eq!(cycle["time"], "minutes");
 }
 
 #[test]

@@ -45,7 +45,7 @@ fn the_pressure_of_a_cylindrically_orthotropic_disc_is_lekhnitskiis() {
     let sector = SectorMesh::generate(&body.specification).unwrap();
     let stiffness = sector::stiffness(&sector, &body.materials);
     let contact: &SlidingContact = &case.contact.sliding;
-    let state = SectorSliding::solve(&sector, &stiffness, contact).unwrap();
+    let state = SectorSliding::solve(&sector, &stiffness, contact, None).unwrap();
     let (a, b, k): (f64, f64, f64) = (0.0205, 0.0905, 2.5_f64.sqrt());
     let [e_r, nu_rt, nu_tr] = [2e9, 0.2, 0.2 * 2.5];
     let share = (a / b).powf(2.0 * k);

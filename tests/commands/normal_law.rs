@@ -182,11 +182,11 @@ fn critical_friction_of_the_shipped_case_depends_on_the_brake_pressure() {
         let coarse = [
             "cea.max_frequency_hz=10500.0",
             "cea.friction_coefficients=[0.0, 0.5]",
-            "cea.map.values=[2.5e5, 5e5]",
+            "sweep.\"boundaries.back.pressure\"=[2.5e5, 5e5]",
         ];
         let out = folder.path().join("out");
-        run("cea", case, &out, &coarse);
-        let mut table = csv::Reader::from_path(out.join("map.csv")).unwrap();
+        run("sweep", case, &out, &coarse);
+        let mut table = csv::Reader::from_path(out.join("stability.csv")).unwrap();
         let rows: Vec<csv::StringRecord> = table.records().map(Result::unwrap).collect();
         let number = |row: &csv::StringRecord, place: usize| row[place].parse::<f64>();
         pressures.map(|pressure| {

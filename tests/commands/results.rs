@@ -132,7 +132,6 @@ fn report<'a>(
         assembly: None,
         sensitivities: None,
         reading: None,
-        map: None,
         notes: vec!["harmonics above 6 do not exist on this mesh".to_owned()],
         wall_s: 0.5,
     }

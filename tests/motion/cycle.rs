@@ -42,10 +42,10 @@ fn external_power_leaves_as_heat_of_body_and_contact() {
         let cycle = solver(harmonic).find(&operating(rpm)).unwrap();
         // The identity is exact; what remains is round-off of the linear systems.
         assert!(cycle.powers.balance_residual() < 1e-8);
-        let p = &cycle.powers;
+        let p = &cycle.powers.contact;
         let parts = p.stick + p.slide + p.contact_dissipated;
         assert!((parts / p.external - 1.0).abs() < 1e-12);
-        assert!(p.contact_dissipated > 0.0 && p.material_damping > 0.0);
+        assert!(p.contact_dissipated > 0.0 && cycle.powers.material_damping > 0.0);
     }
 }
 
@@ -73,7 +73,9 @@ fn cycles_along_a_branch_have_the_powers_of_each_alone() {
         assert!(cycle.powers.balance_residual() < 1e-8);
         let rpm = cycle.state.point.contact.rotation_speed * 60.0 / TAU;
         let alone = solver.find(&operating(rpm)).unwrap();
-        let share = |cycle: &LimitCycle| cycle.powers.contact_dissipated / cycle.powers.external;
+        let share = |cycle: &LimitCycle| {
+            cycle.powers.contact.contact_dissipated / cycle.powers.contact.external
+        };
         // Two ways to one solution of equations that are solved to 1e-9.
         assert!(
             (share(cycle) - share(&alone)).abs() < 1e-6,
@@ -119,7 +121,7 @@ fn interference_and_speed_scaled_alike_scale_the_cycle() {
     let (one, two) = (solver.find(&point).unwrap(), solver.find(&double).unwrap());
     // All laws are homogeneous of degree one: lengths and speeds double, powers grow fourfold.
     assert!((two.state.frequency / one.state.frequency - 1.0).abs() < 1e-9);
-    assert!((two.powers.external / one.powers.external / 4.0 - 1.0).abs() < 1e-7);
+    assert!((two.powers.contact.external / one.powers.contact.external / 4.0 - 1.0).abs() < 1e-7);
     assert_eq!(one.fractions, two.fractions);
 }
 
@@ -146,7 +148,9 @@ fn cycle_without_stick_does_not_depend_on_the_speed() {
     assert!(saturation < speed(5000.0));
     let faster = solver.continue_to(&fast, Parameter::RotationSpeed, speed(6000.0)).unwrap();
     assert!((faster.state.frequency / fast.state.frequency - 1.0).abs() < 1e-9);
-    assert!((faster.powers.external / fast.powers.external / 1.2 - 1.0).abs() < 1e-9);
+    assert!(
+        (faster.powers.contact.external / fast.powers.contact.external / 1.2 - 1.0).abs() < 1e-9
+    );
     // Just below that speed points stick, just above none does.
     let at = |factor: f64| {
         let value = factor * saturation;
@@ -204,7 +208,7 @@ fn branch_visits_every_value_and_meets_the_cycle_found_from_birth() {
     let born = solver.find(&operating(600.0)).unwrap();
     // Both ways lead to one cycle, up to where its phase lies on the grid.
     assert!((along.state.frequency / born.state.frequency - 1.0).abs() < 1e-3);
-    assert!((along.powers.external / born.powers.external - 1.0).abs() < 1e-2);
+    assert!((along.powers.contact.external / born.powers.contact.external - 1.0).abs() < 1e-2);
     for i in 0..3 {
         assert!((along.fractions[i] - born.fractions[i]).abs() < 0.03);
     }
@@ -235,8 +239,8 @@ fn reference_cycles_of_the_fine_mesh_have_the_transients_frequencies_and_statuse
         assert!((cycle.fractions[0] - stick).abs() < 0.0126, "{label}");
         assert!((cycle.fractions[2] - open).abs() < 0.0126, "{label}");
         // The landing time takes out twice the energy of an impact, which is 0.4 % of the external power.
-        assert!((cycle.powers.external / external - 1.0).abs() < 0.008, "{label}");
-        let found = cycle.powers.stick / cycle.powers.external;
+        assert!((cycle.powers.contact.external / external - 1.0).abs() < 0.008, "{label}");
+        let found = cycle.powers.contact.stick / cycle.powers.contact.external;
         assert!((found - share).abs() < 0.0126, "{label} {found}");
     }
 }
@@ -309,7 +313,7 @@ fn number_of_phases_does_not_decide_what_is_found() {
             }
             let frequency = cycle.frequency_hz() / reference.frequency_hz() - 1.0;
             assert!(frequency.abs() < 1e-3, "{phases}: {frequency}");
-            let power = cycle.powers.external / reference.powers.external - 1.0;
+            let power = cycle.powers.contact.external / reference.powers.contact.external - 1.0;
             // The landing time, which few phases lengthen, takes out 1.8 to 2.5 % on this mesh.
             assert!(power.abs() < 0.02, "{phases}: {power}");
         }

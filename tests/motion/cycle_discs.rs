@@ -125,7 +125,10 @@ fn scaled_lengths_moduli_densities_and_times_scale_the_results() {
     assert!(ratio(first.cycle.state.frequency, second.cycle.state.frequency * time) < 1e-8);
     // W/m: stress times length times velocity.
     let power = modulus * length * length / time;
-    assert!(ratio(first.cycle.powers.external * power, second.cycle.powers.external) < 1e-4);
+    assert!(
+        ratio(first.cycle.powers.contact.external * power, second.cycle.powers.contact.external)
+            < 1e-4
+    );
     let leading = |s: &frictionsim::cycle::SteppedCycle| s.stability.leading().unwrap().exponent;
     let difference = (leading(first) - leading(second) * time).norm();
     // A hundredth of a per cent of omega: where a node lands between two steps is round-off's choice.
@@ -171,12 +174,12 @@ fn external_power_is_the_transients_and_the_verdict_is_what_transients_do() {
         println!(
             "{family}: {:?} {run:?} {}",
             settled.stability.leading(),
-            settled.cycle.powers.external
+            settled.cycle.powers.contact.external
         );
         match settled.stability.verdict() {
             Verdict::Stable => {
                 assert!(run.agrees(&settled.cycle), "{family}: {run:?}");
-                let ratio = settled.cycle.powers.external / run.external_power;
+                let ratio = settled.cycle.powers.contact.external / run.external_power;
                 assert!((ratio - 1.0).abs() < 7e-3, "{family}: {ratio}");
             }
             Verdict::Unstable => assert!(!run.agrees(&settled.cycle), "{family}: {run:?}"),

@@ -276,7 +276,7 @@ fn rotating_waves_are_periodic_motions_of_the_whole_mesh() {
     );
     let fractions = motion.fractions.iter().zip(wave.fractions);
     fractions.for_each(|(a, b)| assert!((a - b).abs() < 0.01, "{a} {b}"));
-    let (own, other) = (motion.powers.contact, wave.powers);
+    let (own, other) = (motion.powers.contact, wave.powers.contact);
     assert!(
         (own.external / other.external - 1.0).abs() < 0.01,
         "{} {}",

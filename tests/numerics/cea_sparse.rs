@@ -7,8 +7,8 @@ use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use crate::table_1::TABLE_1;
 use faer::{Mat, c64};
 use frictionsim::cea::sparse::{
-    Centre, FactorCache, FrictionlessModes, Linearization, ShiftInverted, StiffnessFactors,
-    StructureMatrices, sweep,
+    Centre, FrictionlessModes, Linearization, ShiftInverted, StiffnessFactors, StructureMatrices,
+    sweep,
 };
 use frictionsim::cea::{
     CeaError, ComplexMode, FrictionSweep, ModeLimit, SweepProgress, SweepRequest, SweepWatch,
@@ -18,7 +18,7 @@ use frictionsim::fem::{DofMap, MassKind, RayleighDamping, assemble_stiffness};
 use frictionsim::linalg::dense::random_columns;
 use frictionsim::linalg::dense_eigen::real_eigen;
 use frictionsim::linalg::{
-    BlockOperator, DenseLu, KrylovSchurSettings, MatrixPolynomial, krylov_schur,
+    BlockOperator, DenseLu, KrylovSchurSettings, LuAnalysis, MatrixPolynomial, krylov_schur,
 };
 use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
@@ -244,8 +244,8 @@ fn exact_modes(
     wanted: usize,
 ) -> Vec<c64> {
     let matrices = StructureMatrices::at(tangent, linearization, mu);
-    let cache = FactorCache::default();
-    let factors = StiffnessFactors::general(&tangent.stiffness, &cache, mu).unwrap();
+    let analysis = LuAnalysis::new(tangent.stiffness.pattern()).unwrap();
+    let factors = StiffnessFactors::general(&tangent.stiffness, &analysis, mu).unwrap();
     let operator = ShiftInverted::new(&matrices, &factors);
     let settings =
         KrylovSchurSettings { wanted, tolerance: 1e-11, max_applications: 5000, dense_up_to: 0 };

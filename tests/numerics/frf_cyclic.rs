@@ -10,7 +10,7 @@ use frictionsim::frf::{
 };
 use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, SectorMesh};
 use frictionsim::prestress::{
-    DampingModel, SectorTangent, SlidingTangent, SteadySliding, TangentOptions,
+    DampingModel, SlidingTangent, SteadySliding, TangentOptions, WaveTangent,
 };
 use frictionsim::study::response::FrequencyStudy;
 
@@ -107,7 +107,7 @@ fn harmonics_in_sliding_contact_sum_to_the_response_of_the_whole_mesh() {
                 let whole =
                     SlidingTangent::linearize(&mesh, &POLYCARBONATE, &stiffness, &base, &options);
                 let cyclic =
-                    SectorTangent::linearize(&sector, &POLYCARBONATE, &options, &contact(610.0))
+                    WaveTangent::of_annulus(&sector, &POLYCARBONATE, &options, &contact(610.0))
                         .unwrap();
                 let what =
                     format!("{:?}, {damping_model:?}, {normal_stiffness:?}", specification.element);

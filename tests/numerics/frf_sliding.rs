@@ -13,7 +13,7 @@ use frictionsim::frf::{
 use frictionsim::linalg::{DenseLu, MatrixPolynomial};
 use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, SectorMesh};
 use frictionsim::prestress::{
-    DampingModel, SectorTangent, SlidingTangent, SteadySliding, TangentOptions,
+    DampingModel, SlidingTangent, SteadySliding, TangentOptions, WaveTangent,
 };
 use std::f64::consts::TAU;
 
@@ -45,7 +45,7 @@ fn tangent(options: &TangentOptions) -> SlidingTangent {
 fn cyclic(options: &TangentOptions, friction_coefficient: f64) -> CyclicSystem {
     let sector = SectorMesh::generate(&specification()).unwrap();
     let tangent =
-        SectorTangent::linearize(&sector, &POLYCARBONATE, options, &contact(610.0)).unwrap();
+        WaveTangent::of_annulus(&sector, &POLYCARBONATE, options, &contact(610.0)).unwrap();
     CyclicSystem::sliding(&tangent, friction_coefficient)
 }
 

@@ -10,7 +10,7 @@ use frictionsim::contact::{ContactStiffness, SlidingContact};
 use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping};
 use frictionsim::linalg::banded::BandedMatrix;
 use frictionsim::mesh::{AnnulusSpecification, ElementKind, SectorMesh};
-use frictionsim::prestress::{DampingModel, SectorTangent, TangentOptions};
+use frictionsim::prestress::{DampingModel, TangentOptions, WaveTangent};
 
 const POISSON_RATIO: f64 = 0.3;
 const FRICTION: f64 = 2.0;
@@ -76,7 +76,7 @@ fn annulus_speed(n: usize) -> c64 {
         rotation_speed: 1.0,
     };
     let sector = SectorMesh::generate(&specification).unwrap();
-    let tangent = SectorTangent::linearize(&sector, &material, &options, &contact).unwrap();
+    let tangent = WaveTangent::of_annulus(&sector, &material, &options, &contact).unwrap();
     let harmonic = tangent.harmonic(n);
     let dense = |terms: &[BandedMatrix]| {
         let size = terms[0].dimension();

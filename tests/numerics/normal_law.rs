@@ -33,10 +33,10 @@ fn disc_and_interface_share_the_interference() {
     let sector = SectorMesh::generate(&specification).unwrap();
     let stiffness = sector::stiffness(&sector, &POLYCARBONATE);
     let sliding = contact(610.0);
-    let rigid = SectorSliding::solve(&sector, &stiffness, &sliding).unwrap();
+    let rigid = SectorSliding::solve(&sector, &stiffness, &sliding, None).unwrap();
     let width = sector.tributary_lengths()[0];
     for law in LAWS {
-        let own = SectorSliding::solve_with(&sector, &stiffness, &sliding, Some(law)).unwrap();
+        let own = SectorSliding::solve(&sector, &stiffness, &sliding, Some(law)).unwrap();
         let pressure = own.normal_forces[0] / width;
         let share = 1.0 - law.approach(pressure) / sliding.interference;
         println!("{law:?}: {pressure} Pa, {share}");
@@ -67,7 +67,7 @@ fn harmonics_and_whole_mesh_have_the_same_spectrum() {
         let own = own.unwrap().sweep;
         let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
         let elastic = assemble_stiffness(&mesh, &POLYCARBONATE);
-        let range = SlidingRange::solve_with(&mesh, &elastic, &sliding, Some(law), &frictions);
+        let range = SlidingRange::solve(&mesh, &elastic, &sliding, Some(law), &frictions);
         let base = &range.unwrap().states[0];
         let tangent = SlidingTangent::linearize(&mesh, &POLYCARBONATE, &elastic, base, &options);
         let whole = sparse::sweep(&tangent, &request, &|_| {}).unwrap();

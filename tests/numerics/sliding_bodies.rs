@@ -200,11 +200,12 @@ fn check(slider: &Slider) -> Result<(), TestCaseError> {
             all.iter().map(|other| (other - own).norm()).fold(f64::INFINITY, f64::min)
         };
         for own in &listed {
+            let goal = 1e-7 * own.norm();
             let error = match nearest(*own, &exact) {
-                error if error <= tolerance(*own) => continue,
+                error if error <= goal => continue,
                 _ => (polished(&problem, *own) - own).norm(),
             };
-            prop_assert!(error <= 1e-7 * own.norm(), "{own} at friction {friction}: {error:e} off");
+            prop_assert!(error <= goal, "{own} at friction {friction}: {error:e} off");
         }
         for mode in &point.modes {
             prop_assert!(mode.residual <= 1e-9, "residual {:e}", mode.residual);
@@ -230,4 +231,24 @@ fn bodies_that_slide_have_every_mode_below_half_of_critical_damping() {
     let config = Config { cases, failure_persistence: None, ..Config::default() };
     let outcome = TestRunner::new_with_rng(config, rng).run(&sliders(), |slider| check(&slider));
     outcome.unwrap_or_else(|error| panic!("{error}"));
+}
+
+/// Independent check: three motions of a soft block on its support, within 3e-4 of one another and far below the others asked for.
+#[test]
+fn slow_motions_close_together_keep_their_digits_beside_fast_modes() {
+    for modes in [8, 16] {
+        let slider = Slider {
+            is_plane: false,
+            counts: [4, 3, 3],
+            size: [0.021438, 0.032494, 0.005],
+            young_modulus: 4.2e8,
+            support: [6.78e7, 2.0e6, 5e4],
+            contact_stiffness: None,
+            loss_factor: 0.0,
+            friction: 0.527,
+            speed: 1.0,
+            modes,
+        };
+        check(&slider).unwrap();
+    }
 }

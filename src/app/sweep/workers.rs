@@ -4,7 +4,7 @@ use super::progress::SweepProgress;
 use crate::app::{Failure, embedded};
 use crate::case::Case;
 use crate::results::Manifest;
-use crate::results::sweep::{Found, PointClock, PointRecord, SweepFolder};
+use crate::results::sweep::{PointClock, PointRecord, SweepFolder};
 use crate::study::{SweepPlan, one_line};
 use serde_json::{Map, Value};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -86,21 +86,10 @@ impl SweepRun<'_> {
 
     /// Runs one point and keeps it, unless it is finished or another process has it.
     fn run_point(&self, point: usize) -> Result<bool, Failure> {
-        let is_finished =
-            || -> Result<bool, Failure> { Ok(matches!(self.folder.read(point)?, Found::Point(_))) };
-        if is_finished()? {
-            self.progress.skip();
-            return Ok(false);
-        }
-        let Some(_claim) = self.folder.claim(point)? else {
+        let Some(_claim) = self.folder.take(point)? else {
             self.progress.skip();
             return Ok(false);
         };
-        // Another process may have finished it between the look and the claim.
-        if is_finished()? {
-            self.progress.skip();
-            return Ok(false);
-        }
         let swept = self.plan.swept(point);
         self.progress.begin(point, &swept);
         let (start, busy) = (Instant::now(), thread_core_seconds());

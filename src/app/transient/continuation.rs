@@ -21,16 +21,13 @@ pub fn place(session: &Session) -> PathBuf {
 }
 
 /// Takes the folder of a run that goes on from its checkpoint, or starts over where `goes_on` is false.
-///
-/// # Errors
-/// Those of the folder.
 pub fn reopen(session: &Session, goes_on: bool) -> Result<OutputFolder, Failure> {
     let ours = &session.manifest;
     let (path, _) = session.options.output.destination(ours, true);
     let is_extended = goes_on && place(session) == path;
     let found = read_manifest(&path).ok().filter(|found| found.case_hash != ours.case_hash);
     if found.is_none() || !is_extended {
-        return session.reopen_folder();
+        return session.open_folder(true);
     }
     if session.options.output.dry_run {
         return Err(session.options.output.dry_run_at(&path, ours));

@@ -17,9 +17,6 @@ pub fn linear_stage(case: &Case) -> LinearStage {
 }
 
 /// Draws the figures and the report of a record.
-///
-/// # Errors
-/// Those of the drawing and of the folder.
 pub(super) fn draw_record(
     folder: &OutputFolder,
     study: &TransientStudy<'_>,

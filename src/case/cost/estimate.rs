@@ -1,52 +1,33 @@
-//! Operation counts and typical rates behind the cost of each analysis.
+//! Operation counts and memory behind the cost of each analysis.
 
 use super::size::Size;
-use super::{CeaCost, CycleCost, FrfCost, TransientCost};
+use super::{CeaCost, CycleCost, FrfCost, RunCost, TransientCost};
 use crate::case::{
     AssemblyBody, Body, Case, Cea, CeaMethod, Cycle, Frf, FrfMethod, ModeSelection, Revolution,
     StabilityChoice, TimeStep, Transient,
 };
+use crate::cycle::BasinRequest;
 use crate::fem::ElasticMaterial;
 use crate::frf::FrfBoundary;
 use crate::mesh::SolidSpecification;
 use crate::transient::{OperatorChoice, stable_step_limit};
 use std::f64::consts::TAU;
 
-/// Time of a complex multiplication and subtraction in the elimination of eight bands side by side, s.
-const SOLID_LINE: f64 = 7e-10;
+/// Operations for each eigenvalue of a harmonic: iterations, residual, its branch over friction.
+const HARMONIC_PAIR: f64 = 5e5;
 
-/// Friction steps of each value of a stability map.
-const MAP_STEPS: usize = 9;
-
-// Costs of eigenvalue analyses, fitted to the processor time of the shipped cases and of coarser and finer meshes of them.
-
-/// Time of one eigenvalue of a plane annulus, s: at all, and for each unknown of a sector.
-const CYCLIC_PAIR: [f64; 2] = [4.5e-4, 3e-7];
-
-/// Time of one eigenvalue of a body of revolution, s: at all, and for each unknown of a sheet times its half bandwidth squared.
-const SOLID_PAIR: [f64; 2] = [8e-4, 5e-9];
+/// Operations for each unknown and mode of a whole mesh: for the basis, and for each friction value in it.
+const WHOLE_MESH: [f64; 2] = [8e3, 1e3];
 
 /// Memory of each harmonic of a body of revolution, bytes for each entry of its band.
 const SOLID_BYTES: f64 = 600.0;
 
-/// Time of the basis of a whole mesh, s: at all, and for each unknown and mode.
-const SPARSE_BASIS: [f64; 2] = [1.0, 6e-6];
-
-/// Time of each friction value in it, s: at all, and for each unknown and mode.
-const SPARSE_VALUE: [f64; 2] = [0.15, 3e-7];
-
-/// Memory of a whole mesh, bytes: at all, and for each unknown and vector of its basis.
+/// Memory of a whole plane mesh, bytes: at all, and for each unknown and vector of its basis.
 const SPARSE_BYTES: [f64; 2] = [1e8, 100.0];
 
-/// Memory (bytes) and time (s) of the factors of `n` unknowns of solid bodies, for each of `n^(4/3)`; measured on blocks of 20-node
-/// bricks of 2e3 to 3e4 unknowns and on a brake of 8-node ones.
-const SOLID_FACTOR: [f64; 2] = [1.4e3, 2.3e-5];
-
-/// The same for each unknown and mode.
-const SOLID_VECTOR: [f64; 2] = [240.0, 9e-6];
-
-/// Time of each friction value on them, s: at all, and for each unknown and mode.
-const SOLID_VALUE: [f64; 2] = [0.1, 3e-6];
+/// Memory of the factors of `n` unknowns of solid bodies, bytes for each of `n^(4/3)`, and for each unknown and mode; measured on
+/// blocks of 20-node bricks of 2e3 to 3e4 unknowns and on a brake of 8-node ones.
+const FACTOR_BYTES: [f64; 2] = [1.4e3, 240.0];
 
 /// Phases of a limit cycle where the mesh decides.
 const LIKELY_PHASES: usize = 169;
@@ -64,10 +45,11 @@ const PERIOD_STEPS: f64 = 800.0;
 const PROGRAM_BYTES: f64 = 2.5e7;
 const STEPPED_BYTES: f64 = 4e3;
 
-/// Time of a step, s: for each unknown of a whole mesh, and for each element of sectors that are alike, of a plane body and of
-/// one in three dimensions.
-const SPARSE_STEP: f64 = 1.3e-8;
-const SECTOR_STEP: [f64; 2] = [2e-9, 4.3e-8];
+/// Operations of a step for each unknown: of a plane body of equal sectors, and of any other.
+const STEP: [f64; 2] = [1.0, 13.0];
+
+/// Steps of the transients that find the boundary of two basins, for each period of one: some eight.
+const BASIN_STEPS: f64 = 8.0 * PERIOD_STEPS;
 
 impl Case {
     pub(super) fn samples(&self) -> f64 {
@@ -104,51 +86,41 @@ impl Case {
             ModeSelection::Lowest(modes) => modes,
             ModeSelection::BelowHz(limit) => self.modes_below(limit, size),
         };
-        // Every value of a map has friction steps of its own.
-        let map_values = cea.map.as_ref().map_or(0, |map| map.values.len());
-        let values = (friction_values + map_values * MAP_STEPS) as f64;
-        let pairs = values * modes as f64;
+        let pairs = friction_values as f64 * modes as f64;
         let shapes = (modes * cea.shapes_at.len()) as f64;
-        let (memory_bytes, seconds) = match (&self.body, cea.method) {
+        let unknowns = self.unknowns(size);
+        let (memory_bytes, operations) = match (&self.body, cea.method) {
             (Body::Revolution(Revolution { specification, .. }), _) => {
                 let sectors = specification.annulus.circumferential_elements.max(1);
-                let unknowns = 3.0 * size.nodes as f64 / sectors as f64;
-                let band = solid_half_bandwidth(specification);
+                let (unknowns, band) =
+                    (unknowns / sectors as f64, solid_half_bandwidth(specification));
                 let waves = (modes as f64 / 4.0).max(3.0);
-                (
-                    SOLID_BYTES * waves * unknowns * band,
-                    pairs * (SOLID_PAIR[0] + SOLID_PAIR[1] * unknowns * band * band),
-                )
+                let factorization = 5.0 * unknowns * band * band;
+                (SOLID_BYTES * waves * unknowns * band, pairs * (HARMONIC_PAIR + factorization))
             }
             (Body::Annulus(annulus), CeaMethod::Auto | CeaMethod::Cyclic) => {
                 let sectors = annulus.specification.circumferential_elements.max(1);
-                let unknowns = 2.0 * size.nodes as f64 / sectors as f64;
-                (
-                    100.0 * unknowns * unknowns.min(200.0)
-                        + 16.0 * shapes * 2.0 * size.nodes as f64
-                        + pairs * (16.0 * unknowns + 600.0),
-                    pairs * (CYCLIC_PAIR[0] + CYCLIC_PAIR[1] * unknowns),
-                )
+                let sector = unknowns / sectors as f64;
+                let bytes = 100.0 * sector * sector.min(200.0) + 16.0 * shapes * unknowns;
+                (bytes + pairs * (16.0 * sector + 600.0), pairs * HARMONIC_PAIR)
             }
-            (Body::Assembly(_), _) => {
-                let unknowns = 3.0 * size.nodes as f64;
-                let (fill, vectors) = (unknowns.powf(4.0 / 3.0), unknowns * modes as f64);
-                let value = SOLID_VALUE[0] + SOLID_VALUE[1] * vectors;
-                let [bytes, times] =
-                    [0, 1].map(|k| SOLID_FACTOR[k] * fill + SOLID_VECTOR[k] * vectors);
-                (bytes, times + values * value)
-            }
-            (Body::Annulus(_) | Body::Imported(_), _) => {
-                let unknowns = 2.0 * size.nodes as f64;
+            _ => {
                 let vectors = unknowns * modes as f64;
-                let value = SPARSE_VALUE[0] + SPARSE_VALUE[1] * vectors;
-                (
-                    SPARSE_BYTES[0] + SPARSE_BYTES[1] * (2.0 * vectors + 40.0 * unknowns),
-                    SPARSE_BASIS[0] + SPARSE_BASIS[1] * vectors + values * value,
-                )
+                let bytes = match self.body {
+                    Body::Assembly(_) => {
+                        FACTOR_BYTES[0] * unknowns.powf(4.0 / 3.0) + FACTOR_BYTES[1] * vectors
+                    }
+                    _ => SPARSE_BYTES[0] + SPARSE_BYTES[1] * (2.0 * vectors + 40.0 * unknowns),
+                };
+                (bytes, vectors * (WHOLE_MESH[0] + WHOLE_MESH[1] * friction_values as f64))
             }
         };
-        CeaCost { friction_values, modes, memory_bytes: PROGRAM_BYTES + memory_bytes, seconds }
+        let run = RunCost { memory_bytes: PROGRAM_BYTES + memory_bytes, operations };
+        CeaCost { friction_values, modes, run }
+    }
+
+    fn unknowns(&self, size: &Size) -> f64 {
+        self.body.dimension() as f64 * size.nodes as f64
     }
 
     pub(super) fn cycle_cost(&self, cycle: &Cycle, size: &Size) -> CycleCost {
@@ -163,18 +135,16 @@ impl Case {
             StabilityChoice::Point => 1,
             StabilityChoice::Branch => 1 + followed,
         };
-        // Measured with 169 phases: 0.25 s from birth, 6 ms to a neighbour, 0.4 s for the exponents; dense factorizations.
-        let factorization = (phases / 169.0).powi(3);
-        let steps = cycle.confirmation_periods as f64 * 800.0;
-        let elements = size.elements as f64;
-        let each = factorization * (0.25 + 0.006 * followed as f64 + 0.4 * stable as f64);
-        CycleCost {
-            families,
-            cycles: 1 + followed,
+        // Dense factorizations: of the search from birth, and of the exponents.
+        let dense = phases.powi(3) * (50.0 + followed as f64 + 80.0 * stable as f64);
+        let confirmation = cycle.confirmation_periods as f64 * PERIOD_STEPS;
+        let count = families as f64;
+        let run = RunCost {
             // A few dense matrices of two unknowns for each phase, and of four for the perturbations.
-            memory_bytes: PROGRAM_BYTES + families as f64 * 8.0 * 40.0 * phases * phases,
-            seconds: families as f64 * (each + 2e-9 * elements * steps),
-        }
+            memory_bytes: PROGRAM_BYTES + count * 8.0 * 40.0 * phases * phases,
+            operations: count * (dense + STEP[0] * self.unknowns(size) * confirmation),
+        };
+        CycleCost { families, cycles: 1 + followed, run }
     }
 
     /// Periodic motions of the whole mesh, each from the periods that it takes.
@@ -190,65 +160,47 @@ impl Case {
         let periods = search * (1 + followed) as f64
             + multipliers * analysed as f64
             + cycle.confirmation_periods as f64;
-        let unknowns = self.body.dimension() as f64 * size.nodes as f64;
-        CycleCost {
-            families,
-            cycles: 1 + followed,
+        let unknowns = self.unknowns(size);
+        let count = families as f64;
+        let run = RunCost {
             // Secants with their images and their basis, twice as long as there are unknowns, and the Krylov space.
-            memory_bytes: PROGRAM_BYTES + families as f64 * 8.0 * 2.0 * unknowns * 250.0,
-            seconds: families as f64 * periods * PERIOD_STEPS * SPARSE_STEP * unknowns,
-        }
+            memory_bytes: PROGRAM_BYTES + count * 8.0 * 2.0 * unknowns * 250.0,
+            operations: count * periods * PERIOD_STEPS * STEP[1] * unknowns,
+        };
+        CycleCost { families, cycles: 1 + followed, run }
+    }
+
+    pub(super) fn basin_cost(&self, basin: &BasinRequest, size: &Size) -> RunCost {
+        let steps = BASIN_STEPS * basin.periods as f64;
+        // A few fields, less than the mesh.
+        RunCost { memory_bytes: 0.0, operations: STEP[0] * self.unknowns(size) * steps }
     }
 
     pub(super) fn frf_cost(&self, frf: &Frf, size: &Size) -> FrfCost {
-        let dofs = self.body.dimension() as f64 * size.nodes as f64;
+        let dofs = self.unknowns(size);
         let lines = frf.frequencies_hz.len();
         if let Body::Revolution(Revolution { specification, .. }) = &self.body {
-            return self.solid_frf_cost(frf, specification, size.nodes);
+            return solid_frf_cost(frf, specification, dofs);
         }
         let sectors = self.body.sector_count();
         let sectors = sectors.filter(|_| self.responds_by_harmonics(frf));
+        let fill = sparse_fill(dofs);
         let (bytes, each) = match (frf.method, sectors) {
             // One block band of a sector for each harmonic.
             (FrfMethod::Auto | FrfMethod::Cyclic, Some(sectors)) => {
-                (100.0 * dofs / sectors.max(1) as f64, 2e-8 * dofs)
+                (100.0 * dofs / sectors.max(1) as f64, 20.0 * dofs)
             }
-            (FrfMethod::Reduced, _) => (24.0 * sparse_fill(dofs), 1e-5),
+            (FrfMethod::Reduced, _) => (24.0 * fill, 1e4),
             // In three dimensions the factor fills as n^(4/3) and takes n^2 operations; eight lines share one.
             (_, _) if self.body.assembly().is_some() => {
-                (24.0 * 6.0 * dofs.powf(4.0 / 3.0), 4e-9 * dofs * dofs / 8.0)
+                (24.0 * 6.0 * dofs.powf(4.0 / 3.0), 0.5 * dofs * dofs)
             }
-            // Measured: a complex factorization takes 4 ns for each entry and its rows.
+            // A complex factorization takes some operations for each entry and its rows.
             (FrfMethod::Auto | FrfMethod::Cyclic | FrfMethod::Direct, _) => {
-                (24.0 * sparse_fill(dofs), 3.5e-8 * sparse_fill(dofs))
+                (24.0 * fill, 35.0 * fill)
             }
         };
-        FrfCost {
-            lines,
-            memory_bytes: PROGRAM_BYTES + bytes + 64.0 * lines as f64,
-            seconds: each * lines as f64,
-        }
-    }
-
-    /// One band of three unknowns at each node of a sheet for each harmonic, complex, eliminated for each line; with friction
-    /// the waves with and against the rotor differ.
-    fn solid_frf_cost(&self, frf: &Frf, solid: &SolidSpecification, nodes: u128) -> FrfCost {
-        let sectors = solid.annulus.circumferential_elements.max(1) as f64;
-        let unknowns = 3.0 * nodes as f64 / sectors;
-        let half_bandwidth = solid_half_bandwidth(solid);
-        let waves = match frf.boundary {
-            FrfBoundary::Sliding => sectors,
-            FrfBoundary::Free | FrfBoundary::Clamped => 0.5 * sectors + 1.0,
-        };
-        let lines = frf.frequencies_hz.len();
-        let entries = unknowns * (2.0 * half_bandwidth + 1.0);
-        // Measured: see SOLID_LINE. Sixteen harmonics of three bands or 2^21 entries of each, and eight lines at a time.
-        let held = (16.0 * entries).min(entries.max(f64::from(1 << 21)));
-        FrfCost {
-            lines,
-            memory_bytes: PROGRAM_BYTES + 48.0 * held + 256.0 * entries + 64.0 * lines as f64,
-            seconds: SOLID_LINE * lines as f64 * waves * unknowns * half_bandwidth.powi(2),
-        }
+        frf_cost_of(lines, bytes, each)
     }
 
     /// Weyl's estimate of the number of modes below a frequency, see [`weyl`].
@@ -273,27 +225,47 @@ impl Case {
             TimeStep::Auto => stable_step,
         };
         let steps = (transient.duration / time_step).ceil();
-        let elements = size.elements as f64;
         let is_sparse = transient.operator == OperatorChoice::Sparse;
-        let unknowns = self.body.dimension() as f64 * size.nodes as f64;
+        let unknowns = self.unknowns(size);
         let (each, operator_bytes) = match &self.body {
-            Body::Revolution(_) => (SECTOR_STEP[1] * elements, 0.0),
-            Body::Annulus(_) if !is_sparse => (SECTOR_STEP[0] * elements, 0.0),
-            _ => (SPARSE_STEP * unknowns, STEPPED_BYTES * unknowns),
+            Body::Revolution(_) => (STEP[1], 0.0),
+            Body::Annulus(_) if !is_sparse => (STEP[0], 0.0),
+            _ => (STEP[1], STEPPED_BYTES * unknowns),
         };
-        TransientCost {
-            time_step,
-            stable_step,
-            steps,
+        let run = RunCost {
             // Ten nodal vectors and the record, which a checkpoint holds once more.
             memory_bytes: PROGRAM_BYTES
                 + 160.0 * size.nodes as f64
                 + operator_bytes
                 + self.snapshot_bytes()
                 + 2.0 * (self.sample_bytes() + self.frame_bytes()),
-            seconds: each * steps,
-        }
+            operations: each * unknowns * steps,
+        };
+        TransientCost { time_step, stable_step, steps, run }
     }
+}
+
+/// Memory of the program with some more bytes, and so many operations for each line.
+fn frf_cost_of(lines: usize, bytes: f64, each: f64) -> FrfCost {
+    let memory_bytes = PROGRAM_BYTES + bytes + 64.0 * lines as f64;
+    FrfCost { lines, run: RunCost { memory_bytes, operations: each * lines as f64 } }
+}
+
+/// One band of three unknowns at each node of a sheet for each harmonic, complex, eliminated for each line; with friction the waves
+/// with and against the rotor differ.
+fn solid_frf_cost(frf: &Frf, solid: &SolidSpecification, dofs: f64) -> FrfCost {
+    let sectors = solid.annulus.circumferential_elements.max(1) as f64;
+    let unknowns = dofs / sectors;
+    let half_bandwidth = solid_half_bandwidth(solid);
+    let waves = match frf.boundary {
+        FrfBoundary::Sliding => sectors,
+        FrfBoundary::Free | FrfBoundary::Clamped => 0.5 * sectors + 1.0,
+    };
+    let entries = unknowns * (2.0 * half_bandwidth + 1.0);
+    // Sixteen harmonics of three bands or 2^21 entries of each, and eight lines at a time.
+    let held = (16.0 * entries).min(entries.max(f64::from(1 << 21)));
+    let each = waves * unknowns * half_bandwidth.powi(2);
+    frf_cost_of(frf.frequencies_hz.len(), 48.0 * held + 256.0 * entries, each)
 }
 
 /// Weyl's estimate of the number of modes below an angular frequency: of motions in the plane

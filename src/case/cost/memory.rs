@@ -8,22 +8,24 @@ impl Case {
         let cost = self.cost();
         let mesh = self.larger_count();
         let own = match command {
-            "cea" => cost.cea.map(|cea| (cea.memory_bytes, mesh)),
-            "transient" => cost.transient.map(|run| (run.memory_bytes, self.record_key())),
+            "cea" | "improve" | "mac" => cost.cea.map(|cea| (cea.run.memory_bytes, mesh)),
+            "transient" => {
+                cost.transient.map(|transient| (transient.run.memory_bytes, self.record_key()))
+            }
             "cycle" => cost.cycle.map(|cycle| {
                 let phases = self.cycle.as_ref().and_then(|cycle| cycle.phases);
                 let key = match phases {
                     Some(_) if self.has_rotating_waves() => "cycle.phases",
                     _ => mesh,
                 };
-                (cycle.memory_bytes, key)
+                (cycle.run.memory_bytes, key)
             }),
-            "frf" => cost.frf.map(|frf| (frf.memory_bytes, mesh)),
-            "sweep" => {
-                self.sweep_cost().map(|sweep| (sweep.memory_bytes - cost.mesh_memory_bytes, mesh))
-            }
+            "frf" => cost.frf.map(|frf| (frf.run.memory_bytes, mesh)),
+            "sweep" => self
+                .sweep_cost()
+                .map(|sweep| (sweep.run.memory_bytes - cost.mesh_memory_bytes, mesh)),
             "convergence" => {
-                self.convergence_cost().map(|study| (study.memory_bytes, "convergence.factors"))
+                self.convergence_cost().map(|study| (study.run.memory_bytes, "convergence.factors"))
             }
             _ => None,
         };

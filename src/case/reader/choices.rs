@@ -3,19 +3,14 @@
 use super::Section;
 use crate::case::value::{RawItem, RawValue};
 use crate::case::words::{self, Choice};
-use crate::case::{CaseKey, keys, suggestion};
+use crate::case::{CaseKey, keys, refuse, suggestion};
 
 impl Section<'_> {
     /// A list of words out of a few; empty where it is not given.
     pub fn choices<T: Choice>(&self, key: &str) -> Vec<T> {
         let items = self.item(key).map_or(&[][..], RawItem::listed);
         if self.is_empty_list(key) {
-            self.reject(
-                key,
-                format!("{} is an empty list", self.name(key)),
-                "at least one word",
-                None,
-            );
+            refuse!(self, key => "is an empty list"; "at least one word");
         }
         let words = items.iter();
         words.filter_map(|item| self.read_choice(key, item)).collect()

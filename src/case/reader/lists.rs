@@ -3,9 +3,9 @@
 use super::Section;
 use crate::case::diagnostic::Location;
 use crate::case::key::{Bound, Kind};
-use crate::case::keys;
 use crate::case::range::{Spacing, range_values};
 use crate::case::value::{RawItem, RawTable, RawValue};
+use crate::case::{keys, refuse};
 
 /// Longest list that a range may stand for.
 const LONGEST_RANGE: usize = 100_000;
@@ -70,12 +70,7 @@ impl<'a> Section<'a> {
         let mut values = self.numbers(key)?;
         values.sort_by(f64::total_cmp);
         if let Some(pair) = values.windows(2).find(|pair| pair[0] == pair[1]) {
-            self.reject(
-                key,
-                format!("{} has {} twice", self.name(key), pair[0]),
-                "every value once",
-                None,
-            );
+            refuse!(self, key => "has {} twice", pair[0]; "every value once");
         }
         Some(values)
     }

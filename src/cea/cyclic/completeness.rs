@@ -6,7 +6,7 @@ use super::paths::HarmonicPaths;
 use super::problem::{HarmonicProblem, Matrices};
 use crate::linalg::banded::BandedLu;
 use crate::linalg::c64;
-use crate::prestress::SectorTangent;
+use crate::prestress::WaveTangent;
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_3, PI, TAU};
 
@@ -35,7 +35,7 @@ pub(super) struct Verdict {
 /// the friction values `checks` (points of every path), in all others by proof, or by counting where the
 /// proof does not reach.
 pub(super) fn verify(
-    tangent: &SectorTangent,
+    tangent: &WaveTangent,
     followed: &[HarmonicPaths],
     limit: f64,
     checks: &[f64],
@@ -80,7 +80,7 @@ pub(super) fn verify(
 
 /// `kappa` of every `lambda` with `0 <= Im <= limit` and `|Re| <= WIDEST_GROWTH limit`, from points along
 /// the edge of that rectangle.
-fn region(tangent: &SectorTangent, limit: f64) -> Region {
+fn region(tangent: &WaveTangent, limit: f64) -> Region {
     let rayleigh = tangent.rayleigh();
     let mut region = Region { real: 0.0, imaginary: 0.0 };
     for lambda in rectangle(0.0, limit, WIDEST_GROWTH * limit, 64) {

@@ -236,7 +236,7 @@ mod tests {
         }
         friction.add(0, 1, coupling);
         HarmonicTangent {
-            contact: 0..1,
+            contact: vec![0],
             harmonic: 1,
             mass: vec![mass],
             stiffness: vec![stiffness, friction],

@@ -6,7 +6,7 @@ use super::paths::HarmonicPaths;
 use super::problem::HarmonicProblem;
 use crate::cea::{ComplexMode, FrictionPoint, ModeLimit, ModeWave, SweepRequest, keeping_ties};
 use crate::linalg::c64;
-use crate::prestress::SectorTangent;
+use crate::prestress::WaveTangent;
 use std::f64::consts::{PI, TAU};
 
 /// Displacement of all nodes of a wave of a harmonic from its unknowns.
@@ -95,49 +95,27 @@ fn mode(
     })
 }
 
-/// Displacement of all nodes of an annulus in nodal frames.
-pub(super) fn expand(
-    tangent: &SectorTangent,
-    harmonic: usize,
-    waves: Waves,
-    x: &[c64],
-) -> Vec<c64> {
-    let sector = tangent.sector();
-    let mut wave = vec![[c64::ZERO; 2]; sector.node_count()];
-    for (&dof, value) in tangent.unknowns().iter().zip(x) {
-        wave[sector.numbering[dof / 2]][dof % 2] = *value;
-    }
-    // Of a pair the unknown is the distance between the two bodies.
-    for node in sector.contact_nodes() {
-        if let Some(opposite) = sector.opposite(node) {
-            let moved = wave[sector.numbering[opposite]][0];
-            wave[sector.numbering[node]][0] += moved;
-        }
-    }
-    let mut half_steps = vec![0; sector.node_count()];
-    for (node, &place) in sector.numbering.iter().enumerate() {
-        half_steps[place] = sector.half_step(node);
-    }
-    around(wave, &half_steps, (sector.sector_count(), harmonic), waves)
-}
-
-/// Displacement of all nodes in nodal frames, `U e^{i n theta}`, of `U = (u_r, -i u_theta, ...)` over the nodes of a sector, each
-/// with its angle in halves of a sector: largest nodal `|u|` one and real in its largest component.
-pub(super) fn around<const D: usize>(
-    mut wave: Vec<[c64; D]>,
-    half_steps: &[usize],
-    (sectors, harmonic): (usize, usize),
-    waves: Waves,
-) -> Vec<c64> {
+/// Displacement of all nodes in nodal frames, `U e^{i n theta}`, of `U = (u_r, -i u_theta, ...)` over the nodes of a sector:
+/// largest nodal `|u|` one and real in its largest component.
+pub(super) fn expand(tangent: &WaveTangent, harmonic: usize, waves: Waves, x: &[c64]) -> Vec<c64> {
     let is_backward = waves == Waves::Backward;
-    for u in &mut wave {
-        u[1] *= c64::new(0.0, 1.0);
+    let (components, sectors) = (tangent.components, tangent.sector_count());
+    let mut wave = tangent.displacement(x);
+    for (dof, u) in wave.iter_mut().enumerate() {
+        if dof % components == 1 {
+            *u *= c64::new(0.0, 1.0);
+        }
         if is_backward {
-            *u = u.map(|v| v.conj());
+            *u = u.conj();
         }
     }
-    let size = |u: &[c64; D]| u.iter().map(|v| v.norm_sqr()).sum::<f64>();
-    let peak = wave.iter().fold(&wave[0], |best, u| if size(u) > size(best) { u } else { best });
+    let own = |node: usize| &wave[components * node..components * (node + 1)];
+    let size = |u: &[c64]| u.iter().map(|v| v.norm_sqr()).sum::<f64>();
+    let nodes = tangent.nodes.iter().map(|(node, _)| own(*node));
+    let peak = nodes.fold(own(tangent.nodes[0].0), |best, u| match size(u) > size(best) {
+        true => u,
+        false => best,
+    });
     let larger =
         peak.iter().fold(peak[0], |best, v| if v.norm() > best.norm() { *v } else { best });
     let scale = larger.conj() / (larger.norm() * size(peak).sqrt()).max(f64::MIN_POSITIVE);
@@ -147,10 +125,10 @@ pub(super) fn around<const D: usize>(
         c64::new(angle.cos(), angle.sin()) * scale
     });
     let phases: Vec<c64> = phases.collect();
-    let nodes = (0..sectors).flat_map(|j| wave.iter().zip(half_steps).map(move |own| (j, own)));
-    let shape = nodes.flat_map(|(j, (u, half))| {
+    let nodes = (0..sectors).flat_map(|j| tangent.nodes.iter().map(move |place| (j, place)));
+    let shape = nodes.flat_map(|(j, (node, half))| {
         let phase = phases[harmonic * (2 * j + half) % (2 * sectors)];
-        u.map(|v| v * phase)
+        own(*node).iter().map(move |v| v * phase)
     });
     shape.collect()
 }

@@ -2,7 +2,7 @@
 
 use super::path::Eigenpair;
 use super::vectors::{ZERO, add, dot, largest, product};
-use crate::cea::counted::STANDSTILL;
+use crate::cea::spectrum::STANDSTILL;
 use crate::fem::RayleighDamping;
 use crate::linalg::banded::{BandedLu, BandedMatrix};
 use crate::linalg::{Mat, c64};
@@ -29,7 +29,7 @@ pub(super) struct HarmonicProblem {
     shares: Option<[BandedMatrix; 2]>,
     pub rayleigh: RayleighDamping,
     /// Unknowns that belong to the contact edge.
-    contact: std::ops::Range<usize>,
+    contact: Vec<usize>,
 }
 
 /// The matrices at one friction value and their derivatives with respect to it, as bands of values.
@@ -275,11 +275,9 @@ impl HarmonicProblem {
         let part = |of: fn(&c64) -> f64| {
             let x: Vec<f64> = x.iter().map(of).collect();
             let momentum = self.mass[0].multiply(&x);
-            let energy = |unknowns: std::ops::Range<usize>| {
-                let pairs = x[unknowns.clone()].iter().zip(&momentum[unknowns]);
-                pairs.map(|(x, p)| x * p).sum::<f64>()
-            };
-            [energy(self.contact.clone()), energy(0..x.len())]
+            let energy = |k: usize| x[k] * momentum[k];
+            let contact = self.contact.iter().map(|&k| energy(k)).sum::<f64>();
+            [contact, (0..x.len()).map(energy).sum::<f64>()]
         };
         let (real, imaginary) = (part(|v| v.re), part(|v| v.im));
         (real[0] + imaginary[0]) / (real[1] + imaginary[1])

@@ -4,7 +4,7 @@ use super::vectors::{ZERO, dot, normalize};
 use crate::cea::ModeBranch;
 use crate::linalg::banded::{BandedLu, multiply_band};
 use crate::linalg::c64;
-use crate::prestress::{MovingHarmonic, WaveHarmonic, WaveTangent};
+use crate::prestress::{HarmonicTangent, MovingHarmonic, WaveTangent};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -50,9 +50,9 @@ pub struct WavePair {
 pub fn wave_pairs(tangent: &WaveTangent, wanted: &[(&ModeBranch, f64)]) -> Vec<Option<WavePair>> {
     let numbers = wanted.iter().map(|(branch, _)| (branch.harmonic, ()));
     let numbers: BTreeMap<usize, ()> = numbers.collect();
-    let harmonics: BTreeMap<usize, WaveHarmonic> =
+    let harmonics: BTreeMap<usize, HarmonicTangent> =
         numbers.into_par_iter().map(|(n, ())| (n, tangent.harmonic(n))).collect();
-    let direction = tangent.sliding_direction();
+    let direction = tangent.sliding_direction;
     let pair = |&(branch, friction): &(&ModeBranch, f64)| {
         let is_backward = f64::from(branch.direction) * direction > 0.0;
         pair_of(&harmonics[&branch.harmonic], (branch, friction), is_backward)
@@ -85,7 +85,8 @@ pub fn wave_responses(pairs: &[&WavePair], quotient: &[Beside]) -> Option<Vec<c6
     let mut responses = vec![ZERO; pairs.len()];
     for of_harmonic in order.chunk_by(|a, b| pairs[*a].harmonic == pairs[*b].harmonic) {
         let n = pairs[of_harmonic[0]].harmonic;
-        let sides: Vec<WaveHarmonic> = quotient.iter().map(|own| own.tangent.harmonic(n)).collect();
+        let sides: Vec<HarmonicTangent> =
+            quotient.iter().map(|own| own.tangent.harmonic(n)).collect();
         for alike in of_harmonic.chunk_by(|a, b| place(*a) == place(*b)) {
             let friction = pairs[alike[0]].friction_coefficient;
             let terms = quotient.iter().zip(&sides);
@@ -130,22 +131,22 @@ fn form(band: &[c64], h: usize, y: &[c64], x: &[c64]) -> c64 {
 
 /// The pair of a branch, by two-sided Rayleigh quotient iteration from its eigenvalue.
 fn pair_of(
-    harmonic: &WaveHarmonic,
+    harmonic: &HarmonicTangent,
     (branch, friction): (&ModeBranch, f64),
     is_backward: bool,
 ) -> Option<WavePair> {
     let start = of_wave(branch.interpolate(friction)?, is_backward);
     let at = harmonic.at(friction);
-    let count = at.mass.len() / (2 * at.half_bandwidth + 1);
+    let count = at.dimension();
     let (mut right, mut left) = (any_vector(count, 0.3), any_vector(count, 1.1));
     let mut root = start;
     for _ in 0..ITERATIONS {
         let lu = factorized(&at, root);
         for _ in 0..2 {
-            right = apply_slope(&at, root, &right, false);
+            right = at.apply_slope(root, &right, false);
             lu.solve(&mut right);
             normalize(&mut right);
-            left = apply_slope(&at, root, &left, true);
+            left = at.apply_slope(root, &left, true);
             lu.solve_adjoint(&mut left);
             normalize(&mut left);
         }
@@ -166,7 +167,7 @@ fn pair_of(
         derivative: ZERO,
         is_backward,
         root,
-        slope: dot(&left, &apply_slope(&at, root, &right, false)),
+        slope: dot(&left, &at.apply_slope(root, &right, false)),
         right,
         left,
     };
@@ -186,17 +187,9 @@ fn any_vector(count: usize, phase: f64) -> Vec<c64> {
 fn factorized(at: &MovingHarmonic, root: c64) -> BandedLu {
     let entries = at.mass.iter().zip(&at.damping).zip(&at.stiffness);
     let band: Vec<c64> = entries.map(|((m, c), k)| k + root * (c + root * m)).collect();
-    let mut lu = BandedLu::new(at.mass.len() / (2 * at.half_bandwidth + 1), at.half_bandwidth);
+    let mut lu = BandedLu::new(at.dimension(), at.half_bandwidth);
     lu.factorize(&band);
     lu
-}
-
-/// `(2 root M + C) x` or its adjoint.
-fn apply_slope(at: &MovingHarmonic, root: c64, x: &[c64], adjoint: bool) -> Vec<c64> {
-    let factor = of_wave(root + root, adjoint);
-    let mass = multiply_band(&at.mass, at.half_bandwidth, x, adjoint);
-    let damping = multiply_band(&at.damping, at.half_bandwidth, x, adjoint);
-    mass.iter().zip(damping).map(|(m, c)| factor * m + c).collect()
 }
 
 /// The root of `y^H T(.) x = 0` nearest to `near`.

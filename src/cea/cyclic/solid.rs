@@ -13,8 +13,6 @@ mod error;
 mod modes_below;
 mod reduction;
 mod rest;
-mod shape;
 mod sweep;
 
-pub use damped::Overdamped;
-pub use sweep::{SolidModel, SolidSweep, solid_sweep, solid_sweep_with_waves};
+pub use sweep::{SolidModel, solid_sweep, solid_sweep_with_waves};

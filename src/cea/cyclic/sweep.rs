@@ -12,7 +12,7 @@ use crate::cea::{
 use crate::contact::SlidingContact;
 use crate::fem::MaterialField;
 use crate::mesh::{AnnulusSpecification, SectorMesh};
-use crate::prestress::{SectorTangent, TangentOptions};
+use crate::prestress::{TangentOptions, WaveTangent};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
@@ -36,17 +36,36 @@ pub struct Coverage {
     pub factorizations: usize,
 }
 
+/// Motions that decay without oscillating, at one friction coefficient.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Overdamped {
+    /// Friction coefficient `mu`.
+    pub friction_coefficient: f64,
+    /// Number of motions: real eigenvalues, those with a frequency below a tenth of their size, and creep of the contact.
+    pub count: usize,
+    /// Their slowest and fastest decay, 1/s.
+    pub decay: [f64; 2],
+}
+
 /// A sweep with everything that the symmetry reveals.
 #[derive(Clone, Debug)]
-pub struct CyclicSweep {
+pub struct WaveSweep {
     /// Modes at each friction value and unstable intervals of the branches that have one of them.
     pub sweep: FrictionSweep,
     /// The branches of all modes that occur in the sweep.
     pub branches: Vec<ModeBranch>,
     /// Which harmonics were solved, and why.
     pub coverage: Coverage,
+    /// Unknowns of all harmonics.
+    pub dofs: usize,
+    /// What the reduction of the harmonics of a body in three dimensions leaves out of an eigenvalue, relative to it: the largest
+    /// estimate at the largest friction coefficient.
+    pub reduction_error: f64,
+    /// At each friction value, rising: motions up to the margin of the coverage that do not oscillate, where friction damps the motion
+    /// across the sliding strongly; each wave of a pair counts singly. None in the plane.
+    pub overdamped: Vec<Overdamped>,
     /// The linearisation, for sensitivities.
-    pub tangent: SectorTangent,
+    pub tangent: WaveTangent,
 }
 
 /// Branches are followed from this much above the highest frequency wanted: friction may carry a mode
@@ -68,7 +87,7 @@ pub fn sweep(
     options: &TangentOptions,
     contact: &SlidingContact,
     request: &SweepRequest<'_>,
-) -> Result<CyclicSweep, CeaError> {
+) -> Result<WaveSweep, CeaError> {
     sweep_with_waves(specification, material, options, contact, (request, &[]))
 }
 
@@ -82,11 +101,11 @@ pub fn sweep_with_waves(
     options: &TangentOptions,
     contact: &SlidingContact,
     (request, waves_at): (&SweepRequest<'_>, &[f64]),
-) -> Result<CyclicSweep, CeaError> {
+) -> Result<WaveSweep, CeaError> {
     let grid = request.rising_grid()?;
     request.limit.check()?;
     let sector = SectorMesh::generate(specification)?;
-    let tangent = SectorTangent::linearize(&sector, material, options, contact)?;
+    let tangent = WaveTangent::of_annulus(&sector, material, options, contact)?;
     let mut margin = MARGIN;
     let mut failure = None;
     for _ in 0..MARGIN_ATTEMPTS {
@@ -124,7 +143,7 @@ pub fn onsets(
     let grid = request.rising_grid()?;
     request.limit.check()?;
     let sector = SectorMesh::generate(specification)?;
-    let tangent = SectorTangent::linearize(&sector, material, options, contact)?;
+    let tangent = WaveTangent::of_annulus(&sector, material, options, contact)?;
     let found = solve(&tangent, (request, &[]), &grid, MARGIN, Some(harmonics))?;
     let unproven = Verdict { proven: Vec::new(), counted: Vec::new(), missed: None };
     Ok(finish(tangent, found, unproven).sweep)
@@ -149,7 +168,7 @@ struct Found {
 }
 
 fn solve(
-    tangent: &SectorTangent,
+    tangent: &WaveTangent,
     (request, waves_at): (&SweepRequest<'_>, &[f64]),
     grid: &[f64],
     margin: f64,
@@ -173,7 +192,7 @@ fn solve(
     let mut followed = followed?;
     followed.retain(|paths| !paths.paths.is_empty());
     let producer = ShapeProducer {
-        sliding_direction: tangent.base().sliding_direction,
+        sliding_direction: tangent.sliding_direction,
         expand: &|n, waves, x| expand(tangent, n, waves, x),
         waves_at,
         unknowns: &|_, x| x.to_vec(),
@@ -194,7 +213,7 @@ fn solve(
     })
 }
 
-fn finish(tangent: SectorTangent, found: Found, verdict: Verdict) -> CyclicSweep {
+fn finish(tangent: WaveTangent, found: Found, verdict: Verdict) -> WaveSweep {
     let Found { followed, points, limit, margin } = found;
     let coverage = Coverage {
         largest_harmonic: tangent.largest_harmonic(),
@@ -205,8 +224,16 @@ fn finish(tangent: SectorTangent, found: Found, verdict: Verdict) -> CyclicSweep
         margin_hz: margin / TAU,
         factorizations: followed.iter().map(|paths| paths.factorizations).sum(),
     };
-    let (sweep, branches) = together(points, &followed, tangent.base().sliding_direction);
-    CyclicSweep { sweep, branches, coverage, tangent }
+    let (sweep, branches) = together(points, &followed, tangent.sliding_direction);
+    WaveSweep {
+        sweep,
+        branches,
+        coverage,
+        dofs: tangent.unknowns().len() * tangent.sector_count(),
+        reduction_error: 0.0,
+        overdamped: Vec::new(),
+        tangent,
+    }
 }
 
 /// A sweep of its points and the paths that they are of, and the branches that have one of the modes.
@@ -235,11 +262,11 @@ pub(super) fn together(
 }
 
 /// Harmonics that have a mode with `kappa < limit` without friction: all are looked at.
-fn harmonics_below(tangent: &SectorTangent, limit: f64) -> Vec<usize> {
+fn harmonics_below(tangent: &WaveTangent, limit: f64) -> Vec<usize> {
     (0..=tangent.largest_harmonic())
         .into_par_iter()
         .filter(|&n| {
-            let [mass, stiffness] = tangent.harmonic_at_rest(n);
+            let [mass, stiffness] = tangent.at_rest(n);
             rest::count_below(&mass, &stiffness, limit) > 0
         })
         .collect()
@@ -248,7 +275,7 @@ fn harmonics_below(tangent: &SectorTangent, limit: f64) -> Vec<usize> {
 /// `kappa` at rest up to which the modes wanted lie, and the harmonics with modes below the margin
 /// above it (possibly a few without).
 fn select(
-    tangent: &SectorTangent,
+    tangent: &WaveTangent,
     limit: ModeLimit,
     margin: f64,
 ) -> Result<(f64, Vec<usize>), CeaError> {
@@ -262,20 +289,20 @@ fn select(
 }
 
 fn select_lowest(
-    tangent: &SectorTangent,
+    tangent: &WaveTangent,
     asked: usize,
     margin: f64,
 ) -> Result<(f64, Vec<usize>), CeaError> {
     let waves = |n: usize| if tangent.is_standing(n) { 1 } else { 2 };
     let all = 0..=tangent.largest_harmonic();
-    let total = all.map(|n| waves(n) * tangent.dimension()).sum();
+    let total = all.map(|n| waves(n) * tangent.unknowns().len()).sum();
     if asked > total {
         return Err(CeaError::TooManyModes { asked, total });
     }
     // A few low harmonics that have enough modes bound the limit from above.
     let few: Vec<_> =
-        (0..=tangent.largest_harmonic().min(7)).map(|n| (n, tangent.harmonic_at_rest(n))).collect();
-    let enough = few.iter().map(|(n, _)| waves(*n) * tangent.dimension()).sum::<usize>();
+        (0..=tangent.largest_harmonic().min(7)).map(|n| (n, tangent.at_rest(n))).collect();
+    let enough = few.iter().map(|(n, _)| waves(*n) * tangent.unknowns().len()).sum::<usize>();
     let enough = enough.min(asked);
     let mut bound = 1e6;
     let count = |bound: f64| -> usize {
@@ -292,7 +319,7 @@ fn select_lowest(
         let mut found: Vec<f64> = candidates
             .par_iter()
             .flat_map_iter(|&n| {
-                let [mass, stiffness] = tangent.harmonic_at_rest(n);
+                let [mass, stiffness] = tangent.at_rest(n);
                 let pairs = rest::eigenpairs_below(&mass, &stiffness, bound);
                 pairs.into_iter().flat_map(move |(kappa, _)| vec![kappa; waves(n)])
             })

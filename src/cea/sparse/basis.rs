@@ -2,27 +2,29 @@
 
 mod samples;
 
-use super::GROUP_WIDTH;
-use super::factors::{FactorCache, FrictionUpdates, StiffnessFactors};
+use super::factors::StiffnessFactors;
 use super::linearization::Linearization;
 use super::mode::ReducedMode;
 use super::open_residuals::OpenResiduals;
 use super::packed::PackedModes;
 use super::reduced::ReducedModel;
 use super::structure::{ShiftInverted, StructureMatrices};
+use super::{GROUP_WIDTH, SAME_SPACE, SEARCH_WIDTH};
 use crate::cea::{CeaError, SweepProgress, SweepStage, SweepWatch};
 use crate::linalg::dense::{
     column, column_mut, column_norms, columns_of, dot, from_columns, join_columns, join_rows,
     orthonormal_complement, random_columns,
 };
 use crate::linalg::{
-    BlockOperator, KrylovSchurSettings, LinalgError, MatrixPolynomial, krylov_schur,
+    BlockOperator, KrylovSchurSettings, LinalgError, LuAnalysis, MatrixPolynomial, krylov_schur,
 };
 use crate::linalg::{Mat, Scale, c64};
 use crate::prestress::SlidingTangent;
 use std::borrow::Cow;
+use std::sync::OnceLock;
 
-/// Part of a block of corrections, relative to its longest, below which directions are round-off.
+/// Part of a block of corrections, relative to its longest: a longer one is a direction that the basis takes up, a shorter one is
+/// round-off.
 const VECTOR_TOLERANCE: f64 = 1e-10;
 /// The same for vectors of unit length whose span is compressed.
 const COMPRESSED: f64 = 5e-12;
@@ -39,16 +41,11 @@ const CHEBYSHEV_POINTS: usize = 5;
 /// left of it where damping is not proportional; where it is, nothing is left.
 const SAMPLE_RESIDUAL: f64 = 1e-8;
 const PROPORTIONAL_RESIDUAL: f64 = 1e-11;
-/// Size of the operator up to which a dense decomposition is as cheap as that iteration.
-const DENSE_UP_TO: usize = 400;
-/// Part of such a vector, of unit length, that is worth keeping.
-const SAMPLE_TOLERANCE: f64 = 1e-10;
-/// Start vectors of an iteration: modes may come in pairs of equal eigenvalue, and factors are read once for both ...
+/// Unknowns up to which a dense decomposition is as cheap as that iteration.
+const DENSE_UP_TO: usize = 150;
+/// Start vectors of an iteration from the modes without friction: modes may come in pairs of equal eigenvalue, and factors are read once
+/// for both.
 const START_WIDTH: usize = 2;
-/// ... and of one that does not rely on the basis.
-const SEARCH_WIDTH: usize = 4;
-/// Corrections of a single mode in a row.
-const MAX_CORRECTIONS: usize = 16;
 /// Refinements of the modes at one friction coefficient for structural damping, each of which wins about the loss factor.
 const LOSSY_ROUNDS: usize = 6;
 /// Refinements of one basis before the preconditioner is considered unfit.
@@ -66,13 +63,12 @@ const MAX_ROUNDS: usize = 40;
 pub struct BasisBuilder<'a> {
     tangent: &'a SlidingTangent,
     linearization: Linearization,
-    /// `None` only while others take its place.
-    preconditioner: Option<StiffnessFactors>,
+    /// Factors of `K(0) - sigma M(0)`.
+    factors: StiffnessFactors,
     /// What takes the place of `K` in factors, see [`Linearization::centred_stiffness`].
     stiffness: Cow<'a, MatrixPolynomial>,
-    cache: FactorCache,
-    /// The preconditioner with friction.
-    updates: FrictionUpdates,
+    /// Made for the first factors with friction.
+    analysis: OnceLock<Result<LuAnalysis, LinalgError>>,
     /// The projected problem so far.
     pub model: ReducedModel,
     /// Modes to be held at every friction coefficient.
@@ -92,7 +88,7 @@ pub struct BasisBuilder<'a> {
 impl<'a> BasisBuilder<'a> {
     /// The projected problem, and the factors of the stiffness without friction.
     pub fn model_and_factors(&self) -> (&ReducedModel, &StiffnessFactors) {
-        (&self.model, self.factors())
+        (&self.model, &self.factors)
     }
 
     /// Starts from frictionless motions, one column each, `rigid` ones before the modes, and the factors of `K(0)` or, better,
@@ -112,13 +108,9 @@ impl<'a> BasisBuilder<'a> {
         Self {
             tangent,
             linearization,
-            preconditioner: Some(factors),
+            factors,
             stiffness: linearization.centred_stiffness(tangent),
-            cache: match linearization.is_symmetric(tangent) {
-                true => FactorCache::default(),
-                false => FactorCache::general(),
-            },
-            updates: FrictionUpdates::default(),
+            analysis: OnceLock::new(),
             model,
             count: modes.ncols() - rigid,
             rigid,
@@ -132,11 +124,6 @@ impl<'a> BasisBuilder<'a> {
     /// Whether the basis is made of modes at friction coefficients of their own.
     pub(super) fn is_sampling(&self) -> bool {
         self.is_sampling
-    }
-
-    fn factors(&self) -> &StiffnessFactors {
-        let factors = self.preconditioner.as_ref();
-        factors.expect("a basis has the factors it was made with, or those that replaced them")
     }
 
     /// Steps so far: the state of the basis is known by their number.
@@ -236,9 +223,8 @@ impl<'a> BasisBuilder<'a> {
     /// If a dense decomposition fails.
     pub fn refine_at(&mut self, mu: f64) -> Result<Option<f64>, LinalgError> {
         let modes = self.model.solve_right(mu, self.count)?;
-        let corrections = self.step(mu, |builder| {
-            Ok::<_, LinalgError>(builder.corrections(builder.factors(), &modes, mu))
-        })?;
+        let corrections =
+            self.step(mu, |builder| Ok::<_, LinalgError>(builder.corrections(&modes, mu)))?;
         let longest = column_norms(corrections.as_ref()).into_iter().fold(0.0, f64::max);
         let mut new = self.model.extend(corrections, VECTOR_TOLERANCE * longest);
         let has_added = new.ncols() > 0;
@@ -253,7 +239,7 @@ impl<'a> BasisBuilder<'a> {
                 let mass = &builder.tangent.mass;
                 let values = &mass.coefficients()[0];
                 let mut image = mass.pattern().multiply(values, new.as_ref());
-                builder.factors().solve_in_place(&mut image);
+                builder.factors.solve_in_place(&mut image);
                 image *= Scale(inertia);
                 Ok::<_, LinalgError>(image)
             })?;
@@ -268,8 +254,8 @@ impl<'a> BasisBuilder<'a> {
         moduli.fold(0.0, f64::max)
     }
 
-    /// `factors^-1 r` of those of the modes' packed vectors that have not converged.
-    fn corrections(&self, factors: &StiffnessFactors, modes: &[ReducedMode], mu: f64) -> Mat<f64> {
+    /// `(K(0) - sigma M(0))^-1 r` of those of the modes' packed vectors that have not converged.
+    fn corrections(&self, modes: &[ReducedMode], mu: f64) -> Mat<f64> {
         let packed = PackedModes::of(modes, self.model.dimension());
         let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
         let mut open = OpenResiduals::none(matrices.dimension(), packed.coordinates.ncols());
@@ -279,7 +265,7 @@ impl<'a> BasisBuilder<'a> {
             open.gather(&matrices, &group.entries, &vectors);
         }
         let mut corrections = open.columns.clone();
-        factors.solve_in_place(&mut corrections);
+        self.factors.solve_in_place(&mut corrections);
         open.with_energy(corrections)
     }
 
@@ -304,7 +290,7 @@ impl<'a> BasisBuilder<'a> {
     /// As [`Self::search`].
     fn sample(&mut self, mu: f64, count: usize, leading: Option<usize>) -> Result<bool, CeaError> {
         let vectors = self.step(mu, |builder| builder.dominant_vectors(mu, count, leading))?;
-        let has_grown = self.model.extend(vectors.clone(), SAMPLE_TOLERANCE).ncols() > 0;
+        let has_grown = self.model.extend(vectors.clone(), SAME_SPACE).ncols() > 0;
         if self.is_sampling {
             self.model.hold_sample(mu, &vectors);
         }
@@ -323,7 +309,12 @@ impl<'a> BasisBuilder<'a> {
             0.0 if self.linearization.is_symmetric(self.tangent) => {
                 StiffnessFactors::frictionless(&self.stiffness)?
             }
-            _ => StiffnessFactors::general(&self.stiffness, &self.cache, mu)?,
+            _ => {
+                let pattern = self.stiffness.pattern();
+                let analysis = self.analysis.get_or_init(|| LuAnalysis::new(pattern));
+                let analysis = analysis.as_ref().map_err(Clone::clone)?;
+                StiffnessFactors::general(&self.stiffness, analysis, mu)?
+            }
         };
         let operator = ShiftInverted::new(&matrices, &factors);
 
@@ -344,7 +335,7 @@ impl<'a> BasisBuilder<'a> {
             wanted,
             tolerance,
             max_applications: 10 * (wanted + 20),
-            dense_up_to: DENSE_UP_TO,
+            dense_up_to: DENSE_UP_TO * operator.dimension() / unknowns,
         };
         let is_companion = matches!(self.linearization, Linearization::Companion { .. });
         let is_wanted = |s: c64| !is_companion || self.linearization.eigenvalue(s.conj()).is_some();

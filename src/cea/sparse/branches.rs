@@ -1,17 +1,15 @@
 //! Continuation of mode branches over the friction coefficient.
 
-use super::NEARLY_CRITICAL;
 use super::edge::ContactEdge;
 use super::mode::ReducedMode;
 use super::point::SolvedPoint;
 use super::reduced::ReducedModel;
+use super::{MULTIPLE, NEARLY_CRITICAL};
 use crate::linalg::{ComplexDenseLu, LinalgError};
 use crate::linalg::{Mat, c64};
 
 /// Overlap above which two modes at neighbouring friction coefficients are one.
 const SAME: f64 = 0.5;
-/// Relative distance of eigenvalues below which modes without friction are degenerate.
-const DEGENERATE: f64 = 1e-7;
 /// Part of the end of a range by which a mode is above it beyond doubt.
 const ABOVE_RANGE: f64 = 0.01;
 /// Bisections of an interval before modes are matched by their extrapolated eigenvalue.
@@ -123,7 +121,7 @@ fn split_degenerate(
         let lambda = modes[first].eigenvalue;
         let size = modes[first..]
             .iter()
-            .take_while(|m| (m.eigenvalue - lambda).norm() < DEGENERATE * lambda.norm())
+            .take_while(|m| (m.eigenvalue - lambda).norm() < MULTIPLE * lambda.norm())
             .count();
         if size > 1 {
             let cluster = &mut modes[first..first + size];

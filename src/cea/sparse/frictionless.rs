@@ -12,7 +12,6 @@ use crate::linalg::{
 };
 use crate::prestress::SlidingTangent;
 use std::f64::consts::TAU;
-use std::sync::Arc;
 
 /// Residual of a pair `1 / (kappa + c^2)`, relative to itself.
 const TOLERANCE: f64 = 1e-11;
@@ -371,14 +370,14 @@ impl<'a> Inertia<'a> {
             return Ok(amid);
         }
         let ldl = SparseLdl::factorize(&self.analysis, &self.shifted(-shift))?;
-        Ok(StiffnessFactors::Symmetric(Arc::new(ldl)))
+        Ok(StiffnessFactors::Symmetric(Box::new(ldl)))
     }
 
     /// Factors of `K - sigma M` with a shift amid the modes; nothing where there is no such gap, or no such factors.
     fn factorize_amid(&self, frequencies: &[f64]) -> Option<StiffnessFactors> {
         let shift = frequency_amid(frequencies)?.powi(2);
         let ldl = SparseLdl::factorize(&self.analysis, &self.shifted(shift)).ok()?;
-        Some(StiffnessFactors::Symmetric(Arc::new(ldl)))
+        Some(StiffnessFactors::Symmetric(Box::new(ldl)))
     }
 
     /// Values of `K - shift M`.

@@ -1,6 +1,6 @@
 //! Linearization of the quadratic eigenproblem.
 
-use crate::cea::counted::is_vibration;
+use crate::cea::spectrum::is_vibration;
 use crate::fem::RayleighDamping;
 use crate::linalg::{MatrixPolynomial, c64};
 use crate::prestress::SlidingTangent;

@@ -47,7 +47,7 @@ pub use basis::BasisBuilder;
 pub use branches::{BranchLabel, Lost, TrackedBranch, label_frictionless, track};
 pub use count::{ModeCounter, Winding};
 pub use edge::ContactEdge;
-pub use factors::{FactorCache, StiffnessFactors};
+pub use factors::StiffnessFactors;
 pub use frictionless::FrictionlessModes;
 pub use full_problem::FullProblem;
 pub use linearization::{Centre, Linearization};
@@ -70,6 +70,14 @@ const LOSSY_GUARD: usize = 3;
 const TRACKING_MARGIN: usize = 6;
 /// Damping factor from which on a mode is near critical damping: it may cease to oscillate at the next friction coefficient.
 const NEARLY_CRITICAL: f64 = 0.5;
+/// Relative distance of eigenvalues up to which they are one multiple eigenvalue, whose vectors are any basis of one space; farther apart
+/// each has a vector of its own.
+const MULTIPLE: f64 = 1e-7;
+/// What a vector of unit length has beyond a space: more makes the space wider, less is round-off. A part as short as this along the
+/// stiffest waves of a mesh moves the slowest modes, a thousandth as fast, by a relative 1e-9.
+const SAME_SPACE: f64 = 1e-13;
+/// Start vectors of an iteration that relies on no known modes: as many as equal eigenvalues may come together.
+const SEARCH_WIDTH: usize = 4;
 /// Vectors over the unknowns that are expanded, multiplied and solved for together.
 const GROUP_WIDTH: usize = 24;
 /// Relative residual of the quadratic problem above which no pair is reported as converged.

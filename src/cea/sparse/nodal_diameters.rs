@@ -3,8 +3,8 @@
 use super::point::normalize;
 use super::{FrictionlessModes, sweep};
 use crate::cea::{
-    CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeCount, ModeLimit, ModeVectors,
-    PartWatch, SweepProgress, SweepRequest, SweepStage, SweepWatch, keeping_ties,
+    BeyondMode, CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeCount, ModeLimit,
+    ModeVectors, PartWatch, SweepProgress, SweepRequest, SweepStage, SweepWatch, keeping_ties,
 };
 use crate::linalg::c64;
 use crate::prestress::{CyclicTangent, SlidingTangent};
@@ -244,15 +244,19 @@ fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
 
     // All modes at each friction coefficient, as many as are wanted.
     let count = parts.first().map_or(0, |part| part.points.len());
+    let mut beyond: Vec<BeyondMode> = parts.iter().filter_map(|part| part.beyond).collect();
     let points = (0..count).map(|k| {
+        let friction_coefficient = parts[0].points[k].friction_coefficient;
         let own = parts.iter().flat_map(|part| part.points[k].modes.iter().cloned());
         let mut modes: Vec<ComplexMode> = own.collect();
         modes.sort_by(|a, b| a.eigenvalue.im.total_cmp(&b.eigenvalue.im));
         if let ModeLimit::Lowest(wanted) = limit {
             let frequencies = modes.iter().map(|mode| mode.eigenvalue.im);
-            modes.truncate(keeping_ties(frequencies, wanted));
+            let above = modes.split_off(keeping_ties(frequencies, wanted));
+            let growing = above.iter().filter(|mode| mode.is_unstable());
+            beyond.extend(growing.map(|own| BeyondMode::of(friction_coefficient, own.eigenvalue)));
         }
-        FrictionPoint { friction_coefficient: parts[0].points[k].friction_coefficient, modes }
+        FrictionPoint { friction_coefficient, modes }
     });
     let points: Vec<FrictionPoint> = points.collect();
     let counts = merged_counts(&parts, &points);
@@ -261,6 +265,7 @@ fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
         modes.any(|mode| mode.branch == branch)
     };
     let (mut found, mut ended, mut unconverged) = (Vec::new(), Vec::new(), Vec::new());
+    let beyond = BeyondMode::fastest(beyond.into_iter());
     let rigid_motions = parts.iter().map(|part| part.rigid_motions).sum();
     for (part, sweep) in parts.into_iter().enumerate() {
         ended.extend(sweep.ended);
@@ -275,7 +280,7 @@ fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
         }
     }
     let joined = FrictionSweep::joined(points, found, ended);
-    FrictionSweep { counts, unconverged, rigid_motions, ..joined }
+    FrictionSweep { counts, unconverged, beyond, rigid_motions, ..joined }
 }
 
 /// One count of those of all numbers of diameters at each friction coefficient that all of them counted at, over the frequencies that

@@ -6,6 +6,7 @@ use super::linearization::Linearization;
 use super::mode::ReducedMode;
 use super::projected::{ProjectedMatrices, horner, weighted};
 use super::term::Term;
+use super::{MULTIPLE, SAME_SPACE};
 use crate::linalg::dense::{
     GrowingColumns, column, join_columns, orthonormal_complement, product, transpose_product,
 };
@@ -17,10 +18,6 @@ use rayon::prelude::*;
 
 /// Samples near a friction coefficient whose modes make up the space for its own.
 const NEIGHBOURS: usize = 4;
-/// Length of coordinates, of vectors of unit length, below which a space holds them already.
-const SAME_SPACE: f64 = 1e-9;
-/// Relative distance of eigenvalues below which they are one multiple eigenvalue.
-const MULTIPLE: f64 = 1e-7;
 
 /// Columns continued by zeros to `rows` entries.
 fn lengthened(columns: &Mat<f64>, rows: usize) -> Mat<f64> {

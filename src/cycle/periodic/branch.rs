@@ -282,8 +282,8 @@ impl BranchRequest<'_, '_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cycle::CyclePowers;
     use crate::cycle::periodic::FloquetMultiplier;
-    use crate::cycle::periodic::PeriodicPowers;
     use crate::linalg::c64;
 
     fn motion(value: f64, growth_rate: f64) -> BranchMotion {
@@ -305,7 +305,7 @@ mod tests {
                 steps: 1,
                 residual: 0.0,
                 periods: 0,
-                powers: PeriodicPowers::default(),
+                powers: CyclePowers::default(),
                 fractions: [0.0; 3],
                 shares: Vec::new(),
                 node: 0,

@@ -51,8 +51,8 @@ pub use error::PeriodicError;
 pub use ladder::{ASTRAY, find_from};
 pub use map::{PeriodImage, PeriodMap, PeriodicState};
 pub use motion::{
-    ContactInstant, MotionFrame, MotionRequest, PeriodicMotion, PeriodicPowers, REFERENCE_VELOCITY,
-    REMAINDER, velocity_level,
+    ContactInstant, MotionFrame, MotionRequest, PeriodicMotion, REFERENCE_VELOCITY, REMAINDER,
+    velocity_level,
 };
 pub use multipliers::{FloquetMultiplier, FloquetMultipliers};
 pub use search::{ACCEPTED, Found, TOLERANCE, find};

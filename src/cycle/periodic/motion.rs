@@ -4,8 +4,8 @@ use super::map::{PeriodMap, PeriodicState};
 use super::search::Found;
 use super::spectrum::{MotionHarmonic, harmonics};
 use crate::contact::ContactStatus;
+use crate::cycle::CyclePowers;
 use crate::fem::operator::gather;
-use crate::transient::ContactPowers;
 
 /// Share of the motion that the harmonics in which it is told may leave, where nobody says how many.
 pub const REMAINDER: f64 = 1e-3;
@@ -17,36 +17,6 @@ const SAME_STEPS: f64 = 100.0;
 
 /// Reference of velocity levels, m/s.
 pub const REFERENCE_VELOCITY: f64 = 5e-8;
-
-/// Mean powers of a periodic motion, W for each metre of thickness, of a body in three dimensions W.
-///
-/// `external = stick + slide + contact_dissipated`, and
-/// `stick + slide + normal_contact = material_damping + contact_damping`.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PeriodicPowers {
-    /// Of the contact.
-    pub contact: ContactPowers,
-    /// Lost in body and supports.
-    pub material_damping: f64,
-}
-
-impl PeriodicPowers {
-    /// `|external + normal - dissipated - material damping - contact damping| / external`: what is left of the energy balance
-    /// of the cycle.
-    pub fn balance_residual(&self) -> f64 {
-        let own = &self.contact;
-        let out = own.contact_dissipated + self.material_damping + own.damping;
-        ((own.external + own.normal - out) / own.external).abs()
-    }
-
-    /// Every power times `factor`.
-    pub fn scaled(&self, factor: f64) -> Self {
-        Self {
-            contact: self.contact.scaled(factor),
-            material_damping: factor * self.material_damping,
-        }
-    }
-}
 
 /// The contact at one instant, node by node.
 #[derive(Clone, Debug, PartialEq)]
@@ -97,7 +67,7 @@ pub struct PeriodicMotion {
     /// Periods that it took to find.
     pub periods: usize,
     /// Mean powers.
-    pub powers: PeriodicPowers,
+    pub powers: CyclePowers,
     /// Fractions of contact nodes that `[stick, slip, open]`, over the period.
     pub fractions: [f64; 3],
     /// The same of each contact node.
@@ -151,7 +121,7 @@ impl PeriodicMotion {
             steps: map.steps(),
             residual: found.residual,
             periods: found.periods,
-            powers: PeriodicPowers {
+            powers: CyclePowers {
                 contact: found.image.powers,
                 material_damping: found.image.material_damping,
             },

@@ -107,13 +107,3 @@ pub fn face_load(sector: &SolidSector, faces: &[FaceElement], component: usize) 
     }
     load
 }
-
-/// A matrix that couples no two nodes, from `(node, row, column, value)`.
-pub fn nodal_matrix(entries: &[(usize, usize, usize, f64)]) -> SectorMatrix {
-    let own = entries.iter().map(|&(node, row, column, value)| {
-        let mut matrix = DMatrix::zeros(3, 3);
-        matrix[(row, column)] = value;
-        ([(node, 0)], matrix)
-    });
-    SectorMatrix::sum(3, own)
-}

@@ -8,7 +8,7 @@ use super::summary::Bounds;
 use super::{Finding, Manifest};
 use crate::cycle::{BasinBoundary, BasinRun};
 use crate::output::{Described, Document, Section, Table, columns, significant};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 pub use map::basin_map;
 
@@ -22,7 +22,7 @@ pub enum Rivals {
 }
 
 /// `summary.json` of a basin.
-#[derive(Clone, Debug, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, Described, Serialize)]
 pub struct BasinSummary {
     /// Its command.
     pub command: String,
@@ -33,7 +33,7 @@ pub struct BasinSummary {
     /// The two waves, nodal diameters; of a body without symmetry the numbers of the two modes, 0 for steady sliding.
     pub harmonics: [usize; 2],
     /// Whether these are numbers of modes.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub of_modes: bool,
     /// The wave that wins whatever the seeds, if one does.
     pub winner: Option<usize>,
@@ -48,7 +48,7 @@ pub struct BasinSummary {
 }
 
 /// One transient.
-#[derive(Clone, Copy, Debug, Described, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Described, Serialize)]
 pub struct RunSummary {
     /// Seed of the second wave over that of the first.
     pub seed_ratio: f64,
@@ -187,8 +187,10 @@ impl BasinSummary {
 columns! {
     /// A transient.
     pub(super) RUNS: run as RunSummary;
-    seed_ratio: "seed of the second rival over that of the first, or the kick" = run.seed_ratio, Always "ratio of the seeds" Significant(5);
-    saturation_ratio: "ratio of their amplitudes when the first node sticks or opens" = run.saturation_ratio, IfAny "ratio at saturation" Significant(5);
+    seed_ratio: "seed of the second rival over that of the first, or the kick"
+        = run.seed_ratio, Always "ratio of the seeds" Significant(5);
+    saturation_ratio: "ratio of their amplitudes when the first node sticks or opens"
+        = run.saturation_ratio, IfAny "ratio at saturation" Significant(5);
     winner: "nodal diameters or number of the motion that wins, 0 for steady sliding" = run.winner;
     is_settled: "whether that is settled" = run.is_settled, Always "settled" Plain;
     duration_s: "simulated time" = run.duration_s, Always "simulated time" Significant(4);
@@ -210,9 +212,5 @@ impl Finding for BasinSummary {
 
     fn figures(&self) -> Vec<Declaration<'_>> {
         vec![Box::new(|| figures::search(self))]
-    }
-
-    fn manifest(&self) -> &Manifest {
-        &self.manifest
     }
 }

@@ -62,9 +62,6 @@ columns! {
 impl AssemblyReport {
     /// Writes `prestress.csv` (contact points) and `prestress.vtu` (displacement and stress; pressure, traction and closed share
     /// of the points around each node of a contact surface, zero elsewhere).
-    ///
-    /// # Errors
-    /// Those of the folder.
     pub fn write_base(&self, folder: &OutputFolder, mesh: &Mesh) -> Result<(), FolderError> {
         let points = || self.points.iter();
         let table = Table::new("prestress.csv", "")

@@ -8,11 +8,11 @@ use crate::results::extent::Extent;
 use crate::results::finding::write_table;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::vtu::{EncodedMesh, Field, write_vtu};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::f64::consts::{PI, TAU};
 
 /// The steady sliding state at one friction coefficient in a few numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
 pub struct BaseState {
     /// Friction coefficient.
     pub friction_coefficient: f64,
@@ -35,7 +35,6 @@ pub struct BaseState {
     /// Power that the counterface puts in, W.
     pub power_w: f64,
     /// What torque, force and power are of.
-    #[serde(default)]
     pub extent: Extent,
 }
 
@@ -81,7 +80,8 @@ columns! {
 columns! {
     /// Whether it presses.
     pub(in crate::results) STATUS: is_pressed as bool;
-    status: "slip, or open" = [ContactStatus::Open, ContactStatus::Slip][usize::from(*is_pressed)].name();
+    status: "slip, or open"
+        = [ContactStatus::Open, ContactStatus::Slip][usize::from(*is_pressed)].name();
 }
 
 columns! {
@@ -139,9 +139,6 @@ impl BaseField {
 
 /// Writes `prestress.csv` (contact nodes) and `prestress.vtu` (displacement and stress of all nodes; status, pressure and
 /// friction traction of the contact edge; friction coefficient and power of the whole).
-///
-/// # Errors
-/// Those of the folder.
 pub fn write_base(
     folder: &OutputFolder,
     mesh: &Mesh,

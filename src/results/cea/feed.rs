@@ -68,9 +68,6 @@ columns! {
 impl Feed {
     /// Writes `feed.csv`, a row for each unstable mode and contact point, and `feed.vtu`, growth for each area of the contact
     /// surfaces, the mean of the points around each node, 0 elsewhere.
-    ///
-    /// # Errors
-    /// Those of the folder.
     pub fn write(&self, folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), FolderError> {
         let rows = self.modes.iter().flat_map(|own| {
             let points = self.places.iter().zip(&own.rates);

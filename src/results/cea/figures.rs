@@ -18,6 +18,7 @@ use crate::results::charts::palette::{STABLE, UNSTABLE};
 use crate::results::drawing::{Declaration, DrawingError, DrawingOptions, declared};
 use crate::results::folder::OutputFolder;
 use crate::results::write_page;
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 /// Branches whose shape is followed over friction, at most.
@@ -25,10 +26,7 @@ const FOLLOWED_BRANCHES: usize = 4;
 
 /// Draws every figure that the report has data for into `figures/`, and writes `report.html`: eigenvalue locus with
 /// stability bars, pairs that turn unstable, base state, mode shapes, the branches that turn unstable at every friction
-/// value that has shapes, map. `dampings` are those that regions of the body have.
-///
-/// # Errors
-/// Those of the folder; a figure that cannot be drawn although there is something to draw.
+/// value that has shapes. `dampings` are those that regions of the body have.
 pub fn draw(
     folder: &OutputFolder,
     report: &CeaReport<'_>,
@@ -56,9 +54,6 @@ pub fn draw(
         if let Some(feed) = &reading.feed {
             figures.push(Box::new(move || feed.figure(report)));
         }
-    }
-    if let Some(map) = report.map {
-        figures.push(Box::new(|| map.figure()));
     }
     write_page(folder, document(report, View::Page), declared(figures)?, options)
 }
@@ -89,16 +84,24 @@ fn pairs(report: &CeaReport<'_>) -> Result<Figure, ChartError> {
             false => report.branch_name((harmonic, branch, 0), &numbers),
         };
         let of = |direction: i8| all.get(&(harmonic, branch, direction));
+        let other = partner(&all, (harmonic, branch, 0)).filter(|_| !report.has_harmonics);
         quantities.clone().map(|(axis, quantity)| {
-            let line = |direction: i8| {
-                let points = of(direction).map_or(&[][..], Vec::as_slice);
+            let values = |points: &[(f64, &ComplexMode)]| -> Vec<(f64, f64)> {
+                points.iter().map(|(mu, mode)| (*mu, quantity(mode))).collect()
+            };
+            let line_of = |branch: Option<&Vec<(f64, &ComplexMode)>>| {
+                let points = branch.map_or(&[][..], Vec::as_slice);
                 let pieces = pieces(points, sweep, report.contact_changes);
                 let gap = [(f64::NAN, f64::NAN)];
-                Line::through(pieces.into_iter().flat_map(move |piece| {
-                    let points = piece.iter().map(move |(mu, mode)| (*mu, quantity(mode)));
-                    points.chain(gap).collect::<Vec<_>>()
-                }))
+                Line::through(
+                    pieces.into_iter().flat_map(|piece| [values(piece), gap.to_vec()].concat()),
+                )
             };
+            let line = |direction: i8| line_of(of(direction));
+            // Pieces belong to one branch: where contact opens at every value they are dots without a join.
+            let joined = [-1, 0, 1].into_iter().filter_map(of);
+            let joins = joined
+                .map(|points| Line::through(values(points)).stroke(Stroke::dashed(STABLE, 0.4)));
             let growing = [-1, 0, 1].into_iter().filter_map(of).flatten();
             let growing = growing.filter(|(_, mode)| mode.is_unstable());
             let line_of_all = match report.has_harmonics {
@@ -109,7 +112,13 @@ fn pairs(report: &CeaReport<'_>) -> Result<Figure, ChartError> {
                 .height(height)
                 .caption(caption.clone())
                 .layer(Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.6)))
+                .layers(joins)
                 .layer(line_of_all)
+                .layer(
+                    line_of(other)
+                        .stroke(Stroke::dashed(INK, 0.9))
+                        .name("mode of the nearest frequency"),
+                )
                 .layer(line(-1).solid(STABLE, 1.1).name("against the rotor ↻"))
                 .layer(line(1).stroke(Stroke::dashed(INK, 0.9)).name("with the rotor ↺"))
                 .layer(
@@ -129,8 +138,27 @@ fn pairs(report: &CeaReport<'_>) -> Result<Figure, ChartError> {
         Figure::new("pairs", caption).columns(2).shared_x().panels(panels.collect::<Vec<_>>());
     Ok(match report.contact_changes {
         [] => figure,
-        _ => figure.note("curves end where contact nodes open or close"),
+        _ => figure.note("thin dashed joins: contact opens or closes between"),
     })
+}
+
+/// Share of a frequency within which another one counts as its partner.
+const COUPLED: f64 = 0.05;
+
+/// The branch of the nearest frequency where another one begins to grow: in mode coupling the mode that it meets.
+fn partner<'a, 'm>(
+    all: &'a BTreeMap<Branch, Vec<(f64, &'m ComplexMode)>>,
+    own: Branch,
+) -> Option<&'a Vec<(f64, &'m ComplexMode)>> {
+    let (friction, mode) = all.get(&own)?.iter().find(|(_, mode)| mode.is_unstable())?;
+    let distance = |points: &[(f64, &ComplexMode)]| {
+        let (_, other) = points.iter().find(|(mu, _)| mu == friction)?;
+        Some((other.frequency_hz() - mode.frequency_hz()).abs())
+    };
+    let others = all.iter().filter(|(branch, _)| **branch != own);
+    let there = others.filter_map(|(_, points)| Some((points, distance(points)?)));
+    let (points, distance) = there.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    (distance < COUPLED * mode.frequency_hz()).then_some(points)
 }
 
 /// Contact pressure and friction traction around the edge, and the von Mises stress field.

@@ -15,9 +15,6 @@ use serde_json::Value;
 use std::io;
 
 /// Writes all files of the analysis and returns the summary.
-///
-/// # Errors
-/// Those of the folder.
 pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, FolderError> {
     write_table(folder, &eigenvalues(report))?;
     write_table(folder, &stability(report))?;
@@ -30,9 +27,6 @@ pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, Fol
         if let Some(feed) = &reading.feed {
             feed.write(folder, report)?;
         }
-    }
-    if let Some(map) = report.map {
-        write_table(folder, &map.table())?;
     }
     match (report.solid, report.assembly) {
         (Some(solid), _) => solid.write_base(folder, &report.base)?,

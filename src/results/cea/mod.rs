@@ -9,7 +9,6 @@ mod figures;
 mod files;
 mod kept;
 mod locus;
-mod map;
 mod mode_name;
 mod reading;
 mod sensitivity;
@@ -28,8 +27,6 @@ pub use figures::draw;
 pub use files::{write, write_universal};
 pub use kept::KeptSteps;
 pub use locus::NamedDamping;
-pub(super) use map::MAP;
-pub use map::MapReport;
 pub use mode_name::ModeName;
 pub(super) use mode_name::{BRANCH, BRANCHES, DIRECTION, HARMONIC, NAMES};
 pub(super) use reading::{CONTRIBUTIONS, COUPLINGS};
@@ -82,8 +79,6 @@ pub struct CeaReport<'a> {
     pub sensitivities: Option<&'a SensitivityReport>,
     /// Where growth comes from and which modes couple, where the solver knows.
     pub reading: Option<&'a Reading>,
-    /// Critical friction over a second parameter, where the case asks for it.
-    pub map: Option<&'a MapReport>,
     /// Anything the solver has to say: lost branches, harmonics left out, and why.
     pub notes: Vec<String>,
     /// Wall time of the run, s.

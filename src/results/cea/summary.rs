@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// `summary.json` of `frictionsim cea`.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct CeaSummary {
     /// `cea`.
     pub command: String,
@@ -36,7 +36,6 @@ pub struct CeaSummary {
     /// The modes at the case's own friction coefficient, where it is one of those solved.
     pub modes_at_friction: Option<Vec<ModeSummary>>,
     /// The modes that grow at each friction value of the tables.
-    #[serde(default)]
     pub unstable_modes: Vec<UnstableMode>,
     /// Steady sliding at the case's own friction coefficient.
     pub base_state: BaseState,
@@ -45,15 +44,15 @@ pub struct CeaSummary {
     /// What it was made from.
     pub manifest: Manifest,
     /// Fraction of the contact nodes that are open, where some may be.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_open_fraction: Option<f64>,
     /// Counts of the modes by the argument principle, where they were asked for.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub mode_counts: Vec<CountSummary>,
 }
 
 /// The modes at one friction value, counted independently of the list.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct CountSummary {
     /// The friction coefficient.
     pub friction_coefficient: f64,

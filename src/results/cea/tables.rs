@@ -57,22 +57,27 @@ columns! {
     /// What a mode is.
     pub(in crate::results) MODES: row as ModeRow;
     real_hz: "real part of the eigenvalue over 2 pi" = row.own.real_hz;
-    frequency_hz: "imaginary part of the eigenvalue over 2 pi" = row.own.frequency_hz, Always "frequency" Fixed(2);
-    damping_factor: "damping factor; negative where the mode grows" = row.damping_factor, Always "damping factor" Scientific(3);
-    growth_rate_per_s: "real part of the eigenvalue" = row.growth_rate, Always "growth rate" Fixed(2);
+    frequency_hz: "imaginary part of the eigenvalue over 2 pi"
+        = row.own.frequency_hz, Always "frequency" Fixed(2);
+    damping_factor: "damping factor; negative where the mode grows"
+        = row.damping_factor, Always "damping factor" Scientific(3);
+    growth_rate_per_s: "real part of the eigenvalue"
+        = row.growth_rate, Always "growth rate" Fixed(2);
     harmonic: HARMONIC = row.own.harmonic, IfAny "n" Count;
     branch: BRANCH = row.own.branch, Always "branch" Count;
     direction: DIRECTION = row.own.direction;
     unstable: "whether the mode grows" = row.own.unstable;
     residual: "relative residual of the eigenpair" = row.residual;
     contact_share: "share of the kinetic energy at the contact" = row.own.contact_share;
-    mesh_error: "estimate of the frequency less that on an ever finer mesh, Hz" = row.own.mesh_error;
+    mesh_error: "estimate of the frequency less that on an ever finer mesh, Hz"
+        = row.own.mesh_error;
 }
 
 columns! {
     /// What a mode of a body of revolution has besides.
     pub(in crate::results) AXIAL: row as ModeRow;
-    axial_share: "share of the kinetic energy along the axis, of bodies of revolution" = row.own.axial_share;
+    axial_share: "share of the kinetic energy along the axis, of bodies of revolution"
+        = row.own.axial_share;
 }
 
 columns! {
@@ -94,24 +99,30 @@ columns! {
     harmonic: HARMONIC = onset.harmonic, IfAny "n" Count;
     branch: BRANCH = onset.branch, Always "branch" Count;
     direction: DIRECTION = onset.direction;
-    critical_friction: "friction coefficient above which the branch is unstable" = onset.critical_friction, Always "unstable above" Fixed(6);
+    critical_friction: "friction coefficient above which the branch is unstable"
+        = onset.critical_friction, Always "unstable above" Fixed(6);
     frequency_hz: "frequency there" = onset.frequency_hz, Always "frequency" Fixed(2);
-    restabilized_friction: "friction coefficient above which it is stable again" = onset.restabilized_friction, IfAny "stable again above" Fixed(6);
-    restabilized_frequency_hz: "frequency there" = onset.restabilized_frequency_hz, IfAny "frequency there" Fixed(2);
-    unstable_from_start: "whether it is unstable at the lowest friction solved already" = onset.unstable_from_start;
+    restabilized_friction: "friction coefficient above which it is stable again"
+        = onset.restabilized_friction, IfAny "stable again above" Fixed(6);
+    restabilized_frequency_hz: "frequency there"
+        = onset.restabilized_frequency_hz, IfAny "frequency there" Fixed(2);
+    unstable_from_start: "whether it is unstable at the lowest friction solved already"
+        = onset.unstable_from_start;
 }
 
 columns! {
     /// What the mesh makes of an onset.
     pub(in crate::results) ONSET_ERRORS: onset as CriticalFriction;
-    mesh_error: "estimate of the critical friction less that on an ever finer mesh" = onset.mesh_error, IfAny "error of the mesh" Scientific(1);
+    mesh_error: "estimate of the critical friction less that on an ever finer mesh"
+        = onset.mesh_error, IfAny "error of the mesh" Scientific(1);
 }
 
 columns! {
     /// An onset in words.
     ONSET_WORDS: onset as CriticalFriction;
     travels: "how it travels" = onset.direction.map(direction_name), IfAny "travels" Plain;
-    remark: "where it is unstable from the start" = onset.unstable_from_start.then_some("from the start"), IfAny "remark" Plain;
+    remark: "where it is unstable from the start"
+        = onset.unstable_from_start.then_some("from the start"), IfAny "remark" Plain;
 }
 
 /// Where a document is read.
@@ -267,13 +278,10 @@ fn words(report: &CeaReport<'_>, view: View) -> Vec<String> {
         let [first, last] = [values.first(), values.last()].map(|v| v.copied().unwrap_or(0.0));
         format!("No mode turns unstable for friction from {first} to {last}.")
     });
-    let map = report.map.map(|map| format!("{}.", map.print()));
     // Pages of the same case are the same bytes.
     let time = (view != View::Page).then(|| format!("{:.3} s.", report.wall_s));
-    [Some(solved), time, Some(steady), note, map, mesh_errors(report), none]
-        .into_iter()
-        .flatten()
-        .collect()
+    let all = [Some(solved), time, Some(steady), note, mesh_errors(report), none];
+    all.into_iter().flatten().collect()
 }
 
 /// The largest error of the mesh in a frequency, and that of the lowest critical friction, where they were estimated.

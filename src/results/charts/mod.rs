@@ -3,7 +3,6 @@
 mod bodies;
 mod contact;
 mod course;
-mod critical_friction;
 mod disc;
 mod motion;
 pub mod palette;
@@ -17,7 +16,6 @@ pub use contact::{
 pub use course::{
     ModeLine, Stage, run_axis, signal_panel, spectrogram_panels, spectrum_panel, with_stages,
 };
-pub use critical_friction::{BranchName, CriticalBranch, critical_friction};
 pub use disc::Disc;
 pub use motion::MovingBody;
 pub use solid::SolidView;

@@ -17,9 +17,6 @@ struct Curves {
 }
 
 /// Each figure that several runs have, with the curves of all of them.
-///
-/// # Errors
-/// That of a figure that cannot be drawn although there is something to draw.
 pub fn overlaid(runs: &[ComparedRun]) -> Result<Vec<Figure>, ChartError> {
     let curves = |figure: &Figure| {
         let mut panels = figure.data().panels;

@@ -6,7 +6,7 @@ pub use figures::overlaid;
 
 use super::{Manifest, Page};
 use crate::output::{Cell, Described, Document, Format, Section, Table, columns, unit_of};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use serde_json::Value;
 
 /// A finished run.
@@ -22,7 +22,7 @@ pub struct ComparedRun {
 }
 
 /// A number that every run has.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct SharedQuantity {
     /// Dotted path in the summaries; entries of lists are named by what they are of.
     pub path: String,
@@ -31,7 +31,7 @@ pub struct SharedQuantity {
 }
 
 /// `summary.json` of `frictionsim compare`.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct ComparisonSummary {
     /// `compare`.
     pub command: String,

@@ -8,10 +8,10 @@ pub use estimate::{Verdict, estimate};
 use super::drawing::Declaration;
 use super::{Finding, Manifest, summary::present};
 use crate::output::{Described, Document, Format, Section, Table, columns};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// What is refined.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Described, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Described, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Refinement {
     /// The mesh; sizes are element sizes, m.
@@ -31,7 +31,7 @@ impl Refinement {
 }
 
 /// A quantity over the levels of its series.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct Quantity {
     /// Name, with the mode it belongs to.
     pub name: String,
@@ -50,7 +50,6 @@ pub struct Quantity {
     /// Largest less smallest value of the three finest levels.
     pub spread: Option<f64>,
     /// Whether it is of a mode that does not grow.
-    #[serde(default)]
     pub is_minor: bool,
 }
 
@@ -98,7 +97,7 @@ impl Quantity {
 }
 
 /// One analysis over refinements of one kind.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct Series {
     /// Analysis, with the family of its limit cycles.
     pub analysis: String,
@@ -117,7 +116,7 @@ pub struct Series {
 }
 
 /// `summary.json` of `frictionsim convergence`.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct ConvergenceSummary {
     /// `convergence`.
     pub command: String,
@@ -149,7 +148,8 @@ columns! {
     size: "element size, m, or time step, s" = row.series.3;
     value: "value on the level" = row.own.values[row.level];
     error: "value less the extrapolated one" = row.own.error(row.level);
-    extrapolated: "value extrapolated after Richardson from the three finest levels" = row.own.extrapolated;
+    extrapolated: "value extrapolated after Richardson from the three finest levels"
+        = row.own.extrapolated;
     order: "observed order of convergence" = row.own.order;
     verdict: "what the three finest values say" = row.own.verdict.clone();
 }
@@ -242,9 +242,5 @@ impl Finding for ConvergenceSummary {
 
     fn figures(&self) -> Vec<Declaration<'_>> {
         vec![Box::new(|| Ok(figures::convergence(&self.series)))]
-    }
-
-    fn manifest(&self) -> &Manifest {
-        &self.manifest
     }
 }

@@ -58,13 +58,20 @@ columns! {
     material_damping_w: "power lost in the body" = row.powers.material_damping;
     normal_contact_w: "power of the normal contact forces" = row.powers.normal_contact;
     amplitude_m: "amplitude along the counterface" = row.amplitude_m;
-    velocity_level_db: "level of the velocity over 5e-8 m/s, of motions of the whole mesh" = row.stepped.map(|own| own.velocity_level_db);
-    balance_residual: "residual of the energy balance, relative to the external power" = row.balance_residual;
-    growth_rate_per_s: "growth rate of the leading perturbation, where it was asked for" = row.growth_rate;
-    stability: "stable, unstable or undecided, where it was asked for" = row.verdict.map(Verdict::word);
-    residual: "what the motion misses its start by, of motions of the whole mesh" = row.stepped.map(|own| own.residual);
-    periods: "periods stepped to find it, of motions of the whole mesh" = row.stepped.map(|own| own.periods);
-    fold: "whether the branch turns back here, of motions of the whole mesh" = row.stepped.map(|own| own.fold);
+    velocity_level_db: "level of the velocity over 5e-8 m/s, of motions of the whole mesh"
+        = row.stepped.map(|own| own.velocity_level_db);
+    balance_residual: "residual of the energy balance, relative to the external power"
+        = row.balance_residual;
+    growth_rate_per_s: "growth rate of the leading perturbation, where it was asked for"
+        = row.growth_rate;
+    stability: "stable, unstable or undecided, where it was asked for"
+        = row.verdict.map(Verdict::word);
+    residual: "what the motion misses its start by, of motions of the whole mesh"
+        = row.stepped.map(|own| own.residual);
+    periods: "periods stepped to find it, of motions of the whole mesh"
+        = row.stepped.map(|own| own.periods);
+    fold: "whether the branch turns back here, of motions of the whole mesh"
+        = row.stepped.map(|own| own.fold);
 }
 
 /// The limit cycles of one harmonic or mode.
@@ -181,9 +188,6 @@ const POWERS: [(&str, &str); 5] = [
 ];
 
 /// Draws frequency, amplitude, statuses and powers along the branches of several families.
-///
-/// # Errors
-/// That of a figure that cannot be drawn although there is something to draw.
 pub fn draw_branches(
     families: &[NamedFamily<'_>],
     two_waves: &[TwoWaveRecord],

@@ -20,9 +20,6 @@ type Frame<'a> = (f64, &'a [Vec<f64>; 2], Option<&'a ContactInstant>);
 
 /// Writes each frame as a VTU file, `cycles.pvd` over the waves at time zero and, where there are several frames,
 /// `cycle-TAG.pvd` over the time; of a motion of two waves likewise `two-waves-nN-nM.vtu`, over one period of the first.
-///
-/// # Errors
-/// Those of the folder.
 pub(super) fn write_fields(
     folder: &OutputFolder,
     report: &CycleReport<'_>,

@@ -39,9 +39,6 @@ pub struct CycleFigures<'a> {
 
 /// Draws the cycles: contact over the period and at one instant, history, closed curves and harmonics of each, then the
 /// fields of all.
-///
-/// # Errors
-/// That of a figure that cannot be drawn although there is something to draw.
 pub fn draw_cycles(data: &CycleFigures<'_>) -> Result<Vec<Figure>, ChartError> {
     let mut figures: Vec<Declaration<'_>> = Vec::new();
     for motion in &data.record.cycles {

@@ -189,9 +189,6 @@ impl CycleReport<'_> {
     }
 
     /// Writes all files and gives the summary, as it is and as an object.
-    ///
-    /// # Errors
-    /// Those of the folder.
     pub fn write(&self, folder: &OutputFolder) -> Result<(CycleSummary, Value), FolderError> {
         let told: std::io::Result<Vec<Told>> = match &self.search {
             Search::Waves(search) => search.results.iter().map(|own| Ok(own.told(self))).collect(),
@@ -223,9 +220,6 @@ impl CycleReport<'_> {
 
 impl CycleSummary {
     /// Draws every figure of the cycles and writes the page.
-    ///
-    /// # Errors
-    /// Those of the folder; a figure that cannot be drawn although there is something to draw.
     pub fn draw(
         &self,
         folder: &OutputFolder,

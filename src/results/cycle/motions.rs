@@ -10,11 +10,11 @@ use super::summary::{
 use super::{CycleReport, MotionSearch, Told};
 use crate::chart::extremes;
 use crate::contact::{ContactInterface, ContactStatus};
-use crate::cycle::Verdict;
 use crate::cycle::periodic::{
     BranchMotion, ContactInstant, FloquetMultiplier, FloquetMultipliers, MotionConfirmation,
-    PeriodicBranch, PeriodicMotion, PeriodicPowers, REMAINDER, Sound,
+    PeriodicBranch, PeriodicMotion, REMAINDER, Sound,
 };
+use crate::cycle::{CyclePowers, Verdict};
 use crate::results::npz::NpzArchive;
 use crate::results::summary::{MeanPowers, StatusFractions, present};
 use std::f64::consts::TAU;
@@ -99,7 +99,8 @@ impl MotionSearch {
     }
 }
 
-fn mean_powers(powers: &PeriodicPowers, thickness: f64) -> MeanPowers {
+/// The powers of a body of such a thickness, W.
+pub(super) fn mean_powers(powers: &CyclePowers, thickness: f64) -> MeanPowers {
     let powers = powers.scaled(thickness);
     let contact = &powers.contact;
     MeanPowers {
@@ -298,9 +299,6 @@ impl PeriodicResult {
     }
 
     /// The tables of its cycle and branch.
-    ///
-    /// # Errors
-    /// Those of the archive.
     pub(super) fn told(
         &self,
         report: &CycleReport<'_>,

@@ -7,12 +7,12 @@ use crate::output::{Described, Key};
 use crate::results::extent::Extent;
 use crate::results::manifest::Manifest;
 use crate::results::summary::{CriticalSummary, MeanPowers, StatusFractions};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::f64::consts::TAU;
 use std::fmt;
 
 /// `summary.json` of `frictionsim cycle`.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct CycleSummary {
     /// `cycle`.
     pub command: String,
@@ -26,28 +26,26 @@ pub struct CycleSummary {
     #[serde(flatten)]
     pub origin: Origin,
     /// Where along the parameter of the case sliding loses its stability, where it is stable at its own operating point.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub critical_value: Option<CriticalSummary>,
     /// What powers are of, in the tables too.
-    #[serde(default)]
     pub extent: Extent,
     /// The cycles that were sought, each with its motion or why there is none.
     pub cycles: Vec<SoughtCycle>,
     /// Motions of two waves that live together.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub two_waves: Vec<TwoWaveSummary>,
     /// What there is to say.
-    #[serde(default)]
     pub notes: Vec<String>,
     /// What it was made from.
     pub manifest: Manifest,
     /// The branches, where no tables hold them: at a point of a study.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub curves: Option<Vec<FamilyRecord>>,
 }
 
 /// What a search has started from.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Origin {
     /// From modes of the whole body.
@@ -57,7 +55,7 @@ pub enum Origin {
 }
 
 /// Modes of steady sliding of a body without rotating waves.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct ModesSought {
     /// Modes of steady sliding looked at.
     pub modes: usize,
@@ -66,7 +64,7 @@ pub struct ModesSought {
 }
 
 /// Waves of a disc.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct WavesSought {
     /// The lowest onset of all.
     pub lowest_onset: Option<OnsetSummary>,
@@ -80,7 +78,7 @@ impl Described for Origin {
 }
 
 /// Where a wave starts to grow.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
 pub struct OnsetSummary {
     /// Circumferential harmonic.
     pub harmonic: usize,
@@ -104,7 +102,7 @@ impl From<&Onset> for OnsetSummary {
 }
 
 /// A mode of steady sliding.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
 pub struct ModeSummary {
     /// Number by frequency, from 1.
     pub mode: usize,
@@ -115,7 +113,7 @@ pub struct ModeSummary {
 }
 
 /// A limit cycle that was sought.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct SoughtCycle {
     /// What leads to it.
     #[serde(flatten)]
@@ -126,22 +124,22 @@ pub struct SoughtCycle {
     #[serde(flatten)]
     pub cycle: Option<CycleMotion>,
     /// That there is none because steady sliding is stable against the wave.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub absent: Option<String>,
     /// Why none was found.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub error: Option<String>,
     /// What a transient says of it, where one was asked for.
     pub confirmation: Option<ConfirmationSummary>,
     /// Its stability, where it was asked for.
     pub stability: Option<StabilitySummary>,
     /// Its branch over the case's parameter.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub branch: Option<BranchSummary>,
 }
 
 /// What leads to a cycle.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum CycleName {
     /// A mode of a body without rotating waves.
@@ -151,21 +149,21 @@ pub enum CycleName {
 }
 
 /// A mode, and what it leads to.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct ModeOfCycle {
     /// The mode.
     #[serde(flatten)]
     pub mode: ModeSummary,
     /// Mode that has led to the same cycle before.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub same_as: Option<usize>,
     /// Value of the parameter of `cycle.continuation` at which the mode grows, where none does at the case's own.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub sought_from: Option<f64>,
 }
 
 /// A wave and its onset.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct WaveOfCycle {
     /// Circumferential harmonic.
     pub harmonic: usize,
@@ -219,7 +217,7 @@ impl fmt::Display for CycleName {
 }
 
 /// A limit cycle.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct CycleMotion {
     /// Frequency, Hz.
     pub main_frequency_hz: f64,
@@ -231,10 +229,8 @@ pub struct CycleMotion {
     pub balance_residual: f64,
     /// Amplitude along the counterface, m: of the wave's own harmonic of the contact edge, of other bodies half the range of
     /// the contact node that moves most.
-    #[serde(default)]
     pub amplitude_m: Option<f64>,
     /// Level of the velocity, root mean square over time and mass, over 5e-8 m/s, dB.
-    #[serde(default)]
     pub velocity_level_db: Option<f64>,
     /// Amplitudes along the counterface, m: of a wave of the harmonics 0 to 8 around the contact edge, of other bodies of the
     /// harmonics 1, 2, ... in time, root mean square over the contact nodes.
@@ -245,7 +241,7 @@ pub struct CycleMotion {
 }
 
 /// A motion of the whole mesh that was stepped in time.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct SteppedMotion {
     /// What the motion misses its start by after a period, relative to its amplitude.
     pub residual: f64,
@@ -257,10 +253,9 @@ pub struct SteppedMotion {
     pub contact_node: usize,
     /// Velocity of a kick that tips stable sliding into this cycle: `2 pi f` times the amplitude of the unstable cycle between both,
     /// m/s.
-    #[serde(default)]
     pub kick_velocity: Option<f64>,
     /// Estimate of the sound that it radiates, of a body with flat faces.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub sound: Option<SoundSummary>,
     /// Harmonics in which the motion is told.
     pub harmonic_count: usize,
@@ -269,7 +264,7 @@ pub struct SteppedMotion {
 }
 
 /// Sound radiated into air, by the Rayleigh integral: each flat face in an infinite rigid baffle.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct SoundSummary {
     /// Power of all harmonics up to 20 kHz, W.
     pub power_w: f64,
@@ -282,7 +277,7 @@ pub struct SoundSummary {
 }
 
 /// A transient that started on a cycle, or why none could.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum ConfirmationSummary {
     /// It ran.
@@ -297,7 +292,7 @@ pub enum ConfirmationSummary {
 }
 
 /// A transient that started on a cycle.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct ConfirmationRun {
     /// Length of the run in periods of the cycle.
     pub periods: usize,
@@ -306,14 +301,13 @@ pub struct ConfirmationRun {
     /// Frequency, Hz; none if it has stopped to vibrate.
     pub main_frequency_hz: Option<f64>,
     /// Its harmonic, of a wave that still vibrates.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub main_harmonic: Option<usize>,
     /// Fractions of contact nodes.
     pub status: StatusFractions,
     /// Power of the counterface.
     pub power_w: ExternalPower,
     /// E-folds of the leading perturbation over the run; negative where it decays, 0 where it is not known.
-    #[serde(default)]
     pub e_folds: f64,
 }
 
@@ -325,14 +319,14 @@ impl Described for ConfirmationSummary {
 }
 
 /// Power of the counterface alone.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
 pub struct ExternalPower {
     /// Mean power, W.
     pub external: Option<f64>,
 }
 
 /// Stability of a cycle, or why it is not known.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum StabilitySummary {
     /// It is known.
@@ -345,19 +339,19 @@ pub enum StabilitySummary {
 }
 
 /// Stability of a cycle.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct KnownStability {
     /// `stable`, `unstable` or `undecided`.
     pub verdict: String,
     /// The same as a flag; none if undecided.
     pub is_stable: Option<bool>,
     /// Circumferential harmonics that grow, of a wave.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub growing_harmonics: Option<Vec<usize>>,
     /// The leading perturbation.
     pub leading: Option<Perturbation>,
     /// Modulus of the multiplier of a shift in phase, which is 1, of a motion that was stepped in time.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub shift: Option<f64>,
 }
 
@@ -369,50 +363,48 @@ impl Described for StabilitySummary {
 }
 
 /// A small perturbation of a cycle: an exponent of a wave, a multiplier of a motion that was stepped in time.
-#[derive(Clone, Debug, Default, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Described, Serialize)]
 pub struct Perturbation {
     /// Growth rate, 1/s.
     pub growth_rate_per_s: f64,
     /// Class of the harmonics that it holds: those that differ from plus or minus it by a multiple of the wave's.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub class: Option<usize>,
     /// Frequency in the frame of the wave, rad/s.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub wave_frequency_rad_per_s: Option<f64>,
     /// Circumferential harmonic at which it moves the contact edge most.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub harmonic: Option<usize>,
     /// Frequency in the fixed frame, Hz.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub frequency_hz: Option<f64>,
     /// Distance of its frequency from the nearest harmonic of the cycle, Hz.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub beat_hz: Option<f64>,
     /// Modulus of the multiplier.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub modulus: Option<f64>,
     /// Argument of the multiplier, rad.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub argument_rad: Option<f64>,
     /// What it leads to where it grows.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub leads_to: Option<String>,
     /// Uncertainty of the growth rate, 1/s.
     pub uncertainty_per_s: Option<f64>,
 }
 
 /// A branch of limit cycles.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct BranchSummary {
     /// Case key of the parameter.
     pub key: String,
     /// Cycles.
     pub cycles: usize,
     /// Smallest and largest value of the parameter.
-    #[serde(default)]
     pub range: Option<[f64; 2]>,
     /// Values at which it turns back, in its order.
-    #[serde(default)]
     pub folds: Vec<f64>,
     /// Why it ends, at either end.
     pub ends: [String; 2],
@@ -427,7 +419,7 @@ pub struct BranchSummary {
 }
 
 /// What only branches of waves have.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct WaveBranch {
     /// Speed from which on no node sticks, rpm.
     pub saturation_speed_rpm: Option<f64>,
@@ -436,7 +428,7 @@ pub struct WaveBranch {
 }
 
 /// What only branches of motions of the whole mesh have.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct MotionBranch {
     /// Values at which steady sliding loses its stability.
     pub onsets: Vec<f64>,
@@ -445,7 +437,7 @@ pub struct MotionBranch {
 }
 
 /// Where a branch changes its stability.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum StabilityChangeSummary {
     /// Of a motion of the whole mesh.
@@ -455,7 +447,7 @@ pub enum StabilityChangeSummary {
 }
 
 /// The mode by which a wave changes its stability.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
 pub struct ModeOfChange {
     /// Value of the parameter.
     pub at: f64,
@@ -464,7 +456,6 @@ pub struct ModeOfChange {
     /// Its frequency, Hz.
     pub frequency_hz: f64,
     /// Whether the wave gives way to a motion of two frequencies: a Neimark-Sacker bifurcation.
-    #[serde(default)]
     pub to_two_frequencies: bool,
 }
 

@@ -16,17 +16,23 @@ use crate::results::charts::palette::status_of_code;
 columns! {
     /// What leads to a cycle.
     pub(in crate::results) NAMES: own as SoughtCycle;
-    mode: "number of the mode that leads to it, of a body without rotating waves" = own.name.mode().map(|own| own.mode.mode), IfAny "mode" Count;
-    harmonic: "nodal diameters of a wave" = own.name.wave().map(|own| own.harmonic), IfAny "n" Count;
-    onset: "onset of that harmonic at which the wave is born, from 1" = own.name.wave().map(|own| own.onset), IfAny "onset" Count;
+    mode: "number of the mode that leads to it, of a body without rotating waves"
+        = own.name.mode().map(|own| own.mode.mode), IfAny "mode" Count;
+    harmonic: "nodal diameters of a wave"
+        = own.name.wave().map(|own| own.harmonic), IfAny "n" Count;
+    onset: "onset of that harmonic at which the wave is born, from 1"
+        = own.name.wave().map(|own| own.onset), IfAny "onset" Count;
 }
 
 columns! {
     /// What a cycle is.
     pub(in crate::results) MOTION: own as SoughtCycle;
-    main_frequency_hz: "frequency" = own.of(|cycle| Some(cycle.main_frequency_hz)), Always "main frequency" Fixed(2);
-    amplitude_m: "amplitude along the counterface" = own.of(|cycle| cycle.amplitude_m), Always "amplitude" Scientific(3);
-    stick: "fraction of the contact that sticks" = own.of(|cycle| cycle.status.stick), Always "stick" Percent(1);
+    main_frequency_hz: "frequency"
+        = own.of(|cycle| Some(cycle.main_frequency_hz)), Always "main frequency" Fixed(2);
+    amplitude_m: "amplitude along the counterface"
+        = own.of(|cycle| cycle.amplitude_m), Always "amplitude" Scientific(3);
+    stick: "fraction of the contact that sticks"
+        = own.of(|cycle| cycle.status.stick), Always "stick" Percent(1);
     slip: "fraction that slips" = own.of(|cycle| cycle.status.slip), Always "slip" Percent(1);
     open: "fraction that is open" = own.of(|cycle| cycle.status.open), Always "open" Percent(1);
 }
@@ -34,23 +40,39 @@ columns! {
 columns! {
     /// Where its power goes.
     pub(in crate::results) POWERS: own as SoughtCycle;
-    external_w: "power of the counterface" = own.of(|cycle| cycle.power_w.external), Always "power of the counterface" Fixed(2);
-    stick_w: "of it given to the body by nodes that stick" = own.of(|cycle| cycle.power_w.stick), Always "while sticking" Fixed(2);
-    slide_w: "of it given to the body by nodes that slide" = own.of(|cycle| cycle.power_w.slide), Always "while sliding" Fixed(2);
-    contact_dissipated_w: "power lost to friction" = own.of(|cycle| cycle.power_w.contact_dissipated), Always "dissipated in the contact" Fixed(2);
-    material_damping_w: "power lost in the body" = own.of(|cycle| cycle.power_w.material_damping), Always "material damping" Fixed(2);
-    normal_contact_w: "power of the normal contact forces" = own.of(|cycle| cycle.power_w.normal_contact), Always "normal contact" Fixed(2);
-    balance_residual: "residual of the energy balance, relative to the power of the counterface" = own.of(|cycle| Some(cycle.balance_residual)), Always "balance" Scientific(1);
+    external_w: "power of the counterface"
+        = own.of(|cycle| cycle.power_w.external), Always "power of the counterface" Fixed(2);
+    stick_w: "of it given to the body by nodes that stick"
+        = own.of(|cycle| cycle.power_w.stick), Always "while sticking" Fixed(2);
+    slide_w: "of it given to the body by nodes that slide"
+        = own.of(|cycle| cycle.power_w.slide), Always "while sliding" Fixed(2);
+    contact_dissipated_w: "power lost to friction"
+        = own.of(|cycle| cycle.power_w.contact_dissipated),
+        Always "dissipated in the contact" Fixed(2);
+    material_damping_w: "power lost in the body"
+        = own.of(|cycle| cycle.power_w.material_damping), Always "material damping" Fixed(2);
+    normal_contact_w: "power of the normal contact forces"
+        = own.of(|cycle| cycle.power_w.normal_contact), Always "normal contact" Fixed(2);
+    balance_residual: "residual of the energy balance, relative to the power of the counterface"
+        = own.of(|cycle| Some(cycle.balance_residual)), Always "balance" Scientific(1);
 }
 
 columns! {
     /// What is known of it.
     pub(in crate::results) KNOWN: own as SoughtCycle;
-    velocity_level_db: "level of the velocity, root mean square over time and mass, over 5e-8 m/s" = own.of(|cycle| cycle.velocity_level_db), IfAny "velocity level" Fixed(1);
-    sound_power_db: "level of the sound power over 1e-12 W, estimated" = own.of(|cycle| Some(cycle.stepped.as_ref()?.sound.as_ref()?.level_db)), IfAny "sound power" Fixed(1);
-    stable: "whether small perturbations decay; empty where that is undecided or was not asked for" = own.known().and_then(|known| known.is_stable), IfAny "stable" Plain;
-    growth_rate_per_s: "growth rate of the leading perturbation" = own.known().and_then(|known| Some(known.leading.as_ref()?.growth_rate_per_s)), IfAny "leading growth" Fixed(1);
-    kick_velocity: "velocity of a kick, m/s, beyond which stable sliding tips into the cycle" = own.of(|cycle| cycle.stepped.as_ref()?.kick_velocity), IfAny "kick that tips sliding (m/s)" Scientific(3);
+    velocity_level_db: "level of the velocity, root mean square over time and mass, over 5e-8 m/s"
+        = own.of(|cycle| cycle.velocity_level_db), IfAny "velocity level" Fixed(1);
+    sound_power_db: "level of the sound power over 1e-12 W, estimated"
+        = own.of(|cycle| Some(cycle.stepped.as_ref()?.sound.as_ref()?.level_db)),
+        IfAny "sound power" Fixed(1);
+    stable: "whether small perturbations decay; empty where that is undecided or was not asked for"
+        = own.known().and_then(|known| known.is_stable), IfAny "stable" Plain;
+    growth_rate_per_s: "growth rate of the leading perturbation"
+        = own.known().and_then(|known| Some(known.leading.as_ref()?.growth_rate_per_s)),
+        IfAny "leading growth" Fixed(1);
+    kick_velocity: "velocity of a kick, m/s, beyond which stable sliding tips into the cycle"
+        = own.of(|cycle| cycle.stepped.as_ref()?.kick_velocity),
+        IfAny "kick that tips sliding (m/s)" Scientific(3);
 }
 
 columns! {
@@ -62,16 +84,21 @@ columns! {
 columns! {
     /// What leads to a cycle, for people.
     BESIDE: own as SoughtCycle;
-    phases: "phases" = own.name.wave().map(|own| own.phases).filter(|&phases| phases > 0), IfAny "phases" Count;
-    critical: "friction above which the wave grows" = own.name.wave().and_then(|own| own.critical_friction), IfAny "grows above" Fixed(5);
-    mode_hz: "frequency of the mode" = own.name.mode().map(|own| own.mode.mode_frequency_hz), IfAny "its frequency" Fixed(2);
-    mode_per_s: "growth rate of the mode" = own.name.mode().map(|own| own.mode.growth_rate_per_s), IfAny "its growth rate" Fixed(1);
+    phases: "phases"
+        = own.name.wave().map(|own| own.phases).filter(|&phases| phases > 0), IfAny "phases" Count;
+    critical: "friction above which the wave grows"
+        = own.name.wave().and_then(|own| own.critical_friction), IfAny "grows above" Fixed(5);
+    mode_hz: "frequency of the mode"
+        = own.name.mode().map(|own| own.mode.mode_frequency_hz), IfAny "its frequency" Fixed(2);
+    mode_per_s: "growth rate of the mode"
+        = own.name.mode().map(|own| own.mode.growth_rate_per_s), IfAny "its growth rate" Fixed(1);
 }
 
 columns! {
     /// What a transient says, and why there is none, for people.
     SAID: own as SoughtCycle;
-    transient_hz: "frequency of a transient from it" = own.run().and_then(|run| run.main_frequency_hz), IfAny "transient from it" Fixed(2);
+    transient_hz: "frequency of a transient from it"
+        = own.run().and_then(|run| run.main_frequency_hz), IfAny "transient from it" Fixed(2);
     stays: "whether a transient stays on it" = own.agrees(), IfAny "a transient stays on it" Plain;
     absence: "why there is none" = own.absence(), IfAny "why there is none" Plain;
 }
@@ -128,7 +155,8 @@ columns! {
     pub(in crate::results) HARMONICS: row as Harmonic;
     harmonic: "number of the harmonic" = row.0;
     frequency_hz: "its frequency" = row.1;
-    amplitude_n_m: "amplitude along the normal, root mean square over the contact nodes" = row.2.amplitude[0];
+    amplitude_n_m: "amplitude along the normal, root mean square over the contact nodes"
+        = row.2.amplitude[0];
     amplitude_t_m: "amplitude along the counterface" = row.2.amplitude[1];
     remainder: "share of the vibration that the harmonics up to this one leave" = row.2.remainder;
 }
@@ -141,7 +169,8 @@ columns! {
     wave_frequency_rad_per_s: "frequency in the frame of the wave" = own.wave_frequency_rad_per_s;
     harmonic: "circumferential harmonic at which it moves the edge most, of a wave" = own.harmonic;
     frequency_hz: "frequency in the fixed frame, of a wave" = own.frequency_hz;
-    beat_hz: "distance of its frequency from the nearest harmonic, of motions of the whole mesh" = own.beat_hz;
+    beat_hz: "distance of its frequency from the nearest harmonic, of motions of the whole mesh"
+        = own.beat_hz;
     modulus: "modulus of its multiplier, of motions of the whole mesh" = own.modulus;
     argument_rad: "argument of its multiplier, of motions of the whole mesh" = own.argument_rad;
     uncertainty_per_s: "uncertainty of the growth rate" = own.uncertainty_per_s;

@@ -3,7 +3,7 @@
 use super::fields::CycleFrame;
 use crate::cycle::{BranchEnd, Measured, TwoWaveBranch, TwoWaveMotion};
 use crate::output::{Described, Table, columns, significant};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::f64::consts::TAU;
 
 /// What two waves that may live together come to.
@@ -33,7 +33,7 @@ pub struct FoundTwoWaves {
 }
 
 /// A motion of two frequencies in the summary.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct TwoWaveSummary {
     /// Harmonics of both waves.
     pub harmonics: [usize; 2],
@@ -74,25 +74,33 @@ columns! {
     stick: "fraction of the edge that sticks" = row.1.fractions[0];
     slip: "fraction that slips" = row.1.fractions[1];
     open: "fraction that is open" = row.1.fractions[2];
-    external_w: "power of the rotor" = row.1.powers.external * row.2;
-    balance_residual: "residual of the energy balance, relative to it" = row.1.powers.balance_residual();
+    external_w: "power of the rotor" = row.1.powers.contact.external * row.2;
+    balance_residual: "residual of the energy balance, relative to it"
+        = row.1.powers.balance_residual();
 }
 
 columns! {
     /// A motion of two waves for people.
     SHOWN: own as TwoWaveSummary;
     waves: "harmonics" = own.name(), Always "waves" Plain;
-    first_hz: "first frequency" = own.frequencies_hz.map(|f| f[0]), Always "first frequency" Fixed(2);
-    second_hz: "second frequency" = own.frequencies_hz.map(|f| f[1]), Always "second frequency" Fixed(2);
-    first_m: "first amplitude" = own.amplitudes_m.map(|a| a[0]), Always "first amplitude" Scientific(3);
-    second_m: "second amplitude" = own.amplitudes_m.map(|a| a[1]), Always "second amplitude" Scientific(3);
+    first_hz: "first frequency"
+        = own.frequencies_hz.map(|f| f[0]), Always "first frequency" Fixed(2);
+    second_hz: "second frequency"
+        = own.frequencies_hz.map(|f| f[1]), Always "second frequency" Fixed(2);
+    first_m: "first amplitude"
+        = own.amplitudes_m.map(|a| a[0]), Always "first amplitude" Scientific(3);
+    second_m: "second amplitude"
+        = own.amplitudes_m.map(|a| a[1]), Always "second amplitude" Scientific(3);
     stick: "stick" = own.status.map(|s| s[0]), Always "stick" Percent(1);
     slip: "slip" = own.status.map(|s| s[1]), Always "slip" Percent(1);
     open: "open" = own.status.map(|s| s[2]), Always "open" Percent(1);
     external_w: "power of the rotor" = own.external_w, Always "power of the rotor" Fixed(2);
-    stays: "whether a transient stays on it" = own.is_confirmed, IfAny "a transient stays on it" Plain;
-    transient_1_hz: "first frequency of a transient" = own.transient_frequencies_hz.map(|f| f[0]), IfAny "transient, first" Fixed(2);
-    transient_2_hz: "second frequency of a transient" = own.transient_frequencies_hz.map(|f| f[1]), IfAny "second" Fixed(2);
+    stays: "whether a transient stays on it"
+        = own.is_confirmed, IfAny "a transient stays on it" Plain;
+    transient_1_hz: "first frequency of a transient"
+        = own.transient_frequencies_hz.map(|f| f[0]), IfAny "transient, first" Fixed(2);
+    transient_2_hz: "second frequency of a transient"
+        = own.transient_frequencies_hz.map(|f| f[1]), IfAny "second" Fixed(2);
     births: "where one wave vanishes" = own.births_text(), IfAny "one wave alone at" Plain;
     error: "why there is none" = own.error.clone(), IfAny "why there is none" Plain;
 }
@@ -151,7 +159,7 @@ impl TwoWaveResult {
             amplitudes_m: motion.map(|motion| motion.amplitudes),
             status: motion.map(|motion| motion.fractions),
             points: found.map(|found| found.sides),
-            external_w: motion.map(|motion| motion.powers.external * thickness),
+            external_w: motion.map(|motion| motion.powers.contact.external * thickness),
             balance_residual: motion.map(|motion| motion.powers.balance_residual()),
             transient_frequencies_hz: found
                 .and_then(|found| found.confirmation)

@@ -1,6 +1,7 @@
 //! Rotating waves of a disc as limit cycles.
 
 use super::branches::{BranchRecord, BranchRow, FamilyRecord};
+use super::motions::mean_powers;
 use super::record::{HistoryRow, MotionRecord};
 use super::summary::{
     BranchSummary, ConfirmationRun, ConfirmationSummary, CycleMotion, CycleName, ExternalPower,
@@ -14,7 +15,7 @@ use crate::cycle::{
     Confirmation, CycleBranch, CycleStability, Family, FloquetExponent, LimitCycle, Onset,
     StabilityChange, Verdict,
 };
-use crate::results::summary::{MeanPowers, StatusFractions, present};
+use crate::results::summary::{StatusFractions, present};
 use std::f64::consts::TAU;
 
 /// Why a family has no cycle at the case's own operating point.
@@ -86,19 +87,6 @@ fn amplitude(cycle: &LimitCycle) -> f64 {
     }
 }
 
-fn powers(cycle: &LimitCycle, thickness: f64) -> MeanPowers {
-    let powers = cycle.powers.scaled(thickness);
-    MeanPowers {
-        external: present(powers.external),
-        stick: present(powers.stick),
-        slide: present(powers.slide),
-        contact_dissipated: present(powers.contact_dissipated),
-        material_damping: present(powers.material_damping),
-        normal_contact: present(powers.normal_contact),
-        contact_damping: None,
-    }
-}
-
 /// Value of the parameter of a branch at a cycle, in units of its key.
 fn value(branch: &CycleBranch, cycle: &LimitCycle) -> f64 {
     branch.parameter.in_key_units(branch.parameter.of(&cycle.state.point))
@@ -154,7 +142,7 @@ impl CycleResult {
             cycle: self.cycle.as_ref().ok().map(|cycle| CycleMotion {
                 main_frequency_hz: cycle.frequency_hz(),
                 status: StatusFractions::of(cycle.fractions),
-                power_w: powers(cycle, report.thickness),
+                power_w: mean_powers(&cycle.powers, report.thickness),
                 balance_residual: cycle.powers.balance_residual(),
                 amplitude_m: present(amplitude(cycle)),
                 velocity_level_db: self.velocity.map(velocity_level),
@@ -246,7 +234,7 @@ impl CycleResult {
                 harmonic: Some(cycle.harmonic),
                 main_frequency_hz: cycle.frequency_hz(),
                 fractions: cycle.fractions,
-                powers: powers(cycle, thickness),
+                powers: mean_powers(&cycle.powers, thickness),
                 amplitude_m: amplitude(cycle),
                 balance_residual: cycle.powers.balance_residual(),
                 growth_rate: found.and_then(CycleStability::leading).map(|own| own.exponent.re),

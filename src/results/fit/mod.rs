@@ -5,9 +5,9 @@ mod summary;
 
 pub use summary::{BLOCK, FitSummary, FittedParameter, LineSummary, ModeSummary, SearchSummary};
 
+use super::Finding;
 use super::cea::{BRANCH, DIRECTION, HARMONIC};
 use super::drawing::Declaration;
-use super::{Finding, Manifest};
 use crate::output::{Document, Section, Table, columns};
 
 columns! {
@@ -15,7 +15,8 @@ columns! {
     pub(super) MEASURED: line as LineSummary;
     line: "line of the table of measurements" = line.line;
     frequency_hz: "measured frequency" = line.frequency_hz, Always "measured" Fixed(2);
-    real_hz: "measured real part of the eigenvalue over 2 pi" = line.real_hz, IfAny "real part" Fixed(2);
+    real_hz: "measured real part of the eigenvalue over 2 pi"
+        = line.real_hz, IfAny "real part" Fixed(2);
     harmonic: "measured number of nodal diameters" = line.harmonic;
 }
 
@@ -39,9 +40,11 @@ columns! {
     /// How far a line and its mode are apart.
     pub(super) DIFFERENCES: line as LineSummary;
     difference_hz: "frequency of the model less measured" = line.difference_hz;
-    difference_percent: "the same over the measured one" = line.difference_percent, Always "difference" Signed(3);
+    difference_percent: "the same over the measured one"
+        = line.difference_percent, Always "difference" Signed(3);
     real_difference_hz: "real part of the model less measured" = line.real_difference_hz;
-    mac: "modal assurance criterion of measured shape and mode; where shapes were measured" = line.mac, IfAny "MAC" Fixed(3);
+    mac: "modal assurance criterion of measured shape and mode; where shapes were measured"
+        = line.mac, IfAny "MAC" Fixed(3);
 }
 
 columns! {
@@ -99,9 +102,5 @@ impl Finding for FitSummary {
 
     fn figures(&self) -> Vec<Declaration<'_>> {
         vec![Box::new(|| Ok(figures::fit(self)))]
-    }
-
-    fn manifest(&self) -> &Manifest {
-        &self.manifest
     }
 }

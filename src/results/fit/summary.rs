@@ -2,7 +2,7 @@
 
 use crate::output::Described;
 use crate::results::Manifest;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 pub const BLOCK: &str = "fitted.toml";
 
 /// `summary.json` of a fit.
-#[derive(Clone, Debug, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, Described, Serialize)]
 pub struct FitSummary {
     /// Its command.
     pub command: String,
@@ -49,7 +49,7 @@ pub struct FitSummary {
 }
 
 /// One fitted parameter.
-#[derive(Clone, Debug, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, Described, Serialize)]
 pub struct FittedParameter {
     /// Its value.
     pub value: f64,
@@ -68,7 +68,7 @@ pub struct FittedParameter {
 }
 
 /// One mode of the model.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct ModeSummary {
     /// Nodal diameters, where the body has the symmetry.
     pub harmonic: Option<usize>,
@@ -103,7 +103,7 @@ impl ModeSummary {
 }
 
 /// One measured line and its mode.
-#[derive(Clone, Debug, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, Described, Serialize)]
 pub struct LineSummary {
     /// Line of the table.
     pub line: usize,
@@ -124,12 +124,12 @@ pub struct LineSummary {
     /// Computed less measured real part, Hz.
     pub real_difference_hz: Option<f64>,
     /// Modal assurance criterion of the measured shape and the mode, where a shape was measured.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub mac: Option<f64>,
 }
 
 /// How a minimum was found.
-#[derive(Clone, Copy, Debug, Described, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Described, Serialize)]
 pub struct SearchSummary {
     /// Points looked at.
     pub starts: usize,

@@ -6,10 +6,10 @@ use crate::signal::reader::NamedResponse;
 use crate::signal::{
     Estimate, HalfPowerBand, Identification, IdentifiedMode, RayleighFit, ResonanceNote,
 };
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// Rayleigh coefficients of measured responses.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct IdentificationSummary {
     /// `identify`.
     pub command: String,
@@ -46,7 +46,7 @@ pub struct IdentificationSummary {
 }
 
 /// One response and its noise.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct ResponseSummary {
     /// Name as in the table.
     pub name: String,
@@ -63,7 +63,7 @@ pub struct ResponseSummary {
 }
 
 /// Rayleigh coefficients.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
 pub struct CoefficientSummary {
     /// `alpha_R`, 1/s.
     pub mass_coefficient: Estimate,
@@ -72,7 +72,7 @@ pub struct CoefficientSummary {
 }
 
 /// One mode with both estimates of its damping.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct ModeSummary {
     /// Undamped natural frequency, Hz.
     pub frequency_hz: f64,
@@ -91,7 +91,7 @@ pub struct ModeSummary {
 }
 
 /// A half-power band.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct HalfPowerSummary {
     /// Peak, Hz.
     pub frequency_hz: f64,
@@ -102,7 +102,7 @@ pub struct HalfPowerSummary {
 }
 
 /// The fit of all responses.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct FitSummary {
     /// Lowest and highest frequency used, Hz.
     pub range_hz: [f64; 2],

@@ -1,29 +1,23 @@
 //! `figures/improve-mode-N`: where each kind of modification feeds or damps a mode, with the candidates.
 
-use super::{ImproveSummary, TargetFields, document};
+use super::{ImproveSummary, TargetFields};
 use crate::chart::{
     Axis, ChartError, ColourMap, Figure, INK, Marker, Panel, Points, Side, significant,
 };
 use crate::mesh::Mesh;
 use crate::results::charts::{Disc, SolidView};
 use crate::results::drawing::{Declaration, declared};
-use crate::results::{DrawingError, DrawingOptions, OutputFolder, write_page};
 use std::f64::consts::PI;
 
 /// Targets that have a figure, the fastest first.
 const MOST: usize = 4;
 
-/// Draws a figure for each target and writes `report.html`.
-///
-/// # Errors
-/// Those of the drawing and of the folder.
-pub fn draw(
-    folder: &OutputFolder,
+/// A figure for each target, the fastest first.
+pub fn figures(
     summary: &ImproveSummary,
     mesh: &Mesh,
     fields: &[TargetFields],
-    options: &DrawingOptions,
-) -> Result<(), DrawingError> {
+) -> Result<Vec<Figure>, ChartError> {
     let growth = |own: &TargetFields| {
         let modes = summary.modes.iter();
         let rate = modes.filter(|mode| mode.mode == own.mode);
@@ -35,8 +29,7 @@ pub fn draw(
         let own = own.clone();
         Box::new(move || target_figure(summary, mesh, &own))
     };
-    let figures = declared(order.into_iter().take(MOST).map(declare).collect())?;
-    write_page(folder, document(summary), figures, options)
+    declared(order.into_iter().take(MOST).map(declare).collect())
 }
 
 /// The derivatives of one growth rate over the body, a panel for each kind of modification.

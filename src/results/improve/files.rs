@@ -1,21 +1,17 @@
-//! `candidates.csv`, `improve.vtu` and `improved.toml`.
+//! `improve.vtu` and `improved.toml`.
 
-use super::{ImproveSummary, TargetFields, document};
+use super::{ImproveSummary, TargetFields};
 use crate::mesh::Mesh;
 use crate::results::vtu::{EncodedMesh, Field, write_vtu};
-use crate::results::{FolderError, OutputFolder, write_tables};
+use crate::results::{FolderError, OutputFolder};
 
-/// Writes the table of candidates, the fields over the mesh, and the keys of the best candidate.
-///
-/// # Errors
-/// Those of the folder.
+/// Writes the fields over the mesh, and the keys of the best candidate.
 pub fn write(
     folder: &OutputFolder,
     summary: &ImproveSummary,
     mesh: &Mesh,
     fields: &[TargetFields],
 ) -> Result<(), FolderError> {
-    write_tables(folder, &document(summary))?;
     write_fields(folder, mesh, fields)?;
     let best = summary
         .candidates

@@ -6,9 +6,9 @@ mod tables;
 
 use super::{Extent, Manifest};
 use crate::output::Described;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
-pub use figures::draw;
+pub use figures::figures;
 pub use files::write;
 pub use tables::document;
 pub(super) use tables::{BESIDE, CANDIDATES, EFFECTS, STATES, VERDICTS};
@@ -33,7 +33,7 @@ pub struct TargetFields {
 }
 
 /// `summary.json` of `improve`.
-#[derive(Clone, Debug, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, Described, Serialize)]
 pub struct ImproveSummary {
     /// Its command.
     pub command: String,
@@ -52,7 +52,6 @@ pub struct ImproveSummary {
     /// Sizes of the modifications.
     pub sizes: Sizes,
     /// What masses, stiffnesses and dashpots are of.
-    #[serde(default)]
     pub extent: Extent,
     /// Modifications, the best first.
     pub candidates: Vec<Candidate>,
@@ -63,7 +62,7 @@ pub struct ImproveSummary {
 }
 
 /// A mode that is to be silenced.
-#[derive(Clone, Copy, Debug, Described, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Described, Serialize)]
 pub struct TargetMode {
     /// Number by frequency, from 1.
     pub mode: usize,
@@ -74,7 +73,7 @@ pub struct TargetMode {
 }
 
 /// What the modes of the window of frequencies come to.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Described, Serialize)]
 pub struct State {
     /// Growth rate of the mode that grows fastest there, 1/s.
     pub growth_rate_per_s: Option<f64>,
@@ -91,7 +90,7 @@ pub struct State {
 }
 
 /// Sizes of the modifications.
-#[derive(Clone, Copy, Debug, Described, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Described, Serialize)]
 pub struct Sizes {
     /// Mass at a node, kg.
     pub mass_kg: f64,
@@ -108,7 +107,7 @@ pub struct Sizes {
 }
 
 /// One modification.
-#[derive(Clone, Debug, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, Described, Serialize)]
 pub struct Candidate {
     /// Place in the list, from 1.
     pub rank: usize,

@@ -7,7 +7,8 @@ columns! {
     /// A modification and its place.
     pub(in crate::results) CANDIDATES: own as Candidate;
     rank: "place in the list, from 1" = own.rank, Always "rank" Count;
-    kind: "mass, spring, dashpot, removal, damping or offset" = own.kind.clone(), Always "kind" Plain;
+    kind: "mass, spring, dashpot, removal, damping or offset"
+        = own.kind.clone(), Always "kind" Plain;
     node: "number of its node" = own.node;
     x_m: "where it is; the way of the hole for an offset" = own.position_m[0];
     y_m: "where it is; the way of the hole for an offset" = own.position_m[1];
@@ -26,15 +27,20 @@ columns! {
     direction_x: "direction of a spring or dashpot" = own.direction.map(|d| d[0]);
     direction_y: "direction of a spring or dashpot" = own.direction.map(|d| d[1]);
     direction_z: "direction of a spring or dashpot" = own.direction.map(|d| d[2]);
-    added_mass_kg: "mass that it adds; negative where material is taken away" = own.added_mass_kg, Always "mass" Significant(4);
-    first_order_growth_rate_per_s: "largest growth rate of the targets to first order" = own.first_order_growth_rate_per_s, IfAny "growth, first order" Significant(4);
+    added_mass_kg: "mass that it adds; negative where material is taken away"
+        = own.added_mass_kg, Always "mass" Significant(4);
+    first_order_growth_rate_per_s: "largest growth rate of the targets to first order"
+        = own.first_order_growth_rate_per_s, IfAny "growth, first order" Significant(4);
 }
 
 columns! {
     /// A predicted or confirmed state.
     pub(in crate::results) STATES: state as State;
-    growth_rate_per_s: "growth rate of the fastest mode of the window" = state.growth_rate_per_s, Always "growth" Significant(4);
-    critical_friction: "lowest critical friction of the window; empty where none is below the case's own" = state.critical_friction, Always "critical friction" Fixed(4);
+    growth_rate_per_s: "growth rate of the fastest mode of the window"
+        = state.growth_rate_per_s, Always "growth" Significant(4);
+    critical_friction: "lowest critical friction of the window; empty where none is below the case's own"
+        = state.critical_friction,
+        Always "critical friction" Fixed(4);
 }
 
 columns! {

@@ -5,11 +5,11 @@ mod figures;
 use super::drawing::Declaration;
 use super::{Finding, Manifest};
 use crate::output::{Described, Document, Section, Table, columns};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::f64::consts::TAU;
 
 /// `summary.json` of `mac`.
-#[derive(Clone, Debug, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, Described, Serialize)]
 pub struct MacSummary {
     /// Its command.
     pub command: String,
@@ -36,7 +36,7 @@ pub struct MacSummary {
 }
 
 /// A measured shape.
-#[derive(Clone, Debug, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, Described, Serialize)]
 pub struct MacShape {
     /// What the file calls it.
     pub name: String,
@@ -51,7 +51,7 @@ pub struct MacShape {
 }
 
 /// A mode of the model.
-#[derive(Clone, Copy, Debug, Described, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Described, Serialize)]
 pub struct MacMode {
     /// Number by frequency, from 1.
     pub mode: usize,
@@ -64,7 +64,7 @@ pub struct MacMode {
 }
 
 /// A shape and the mode that it is.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
 pub struct MacPair {
     /// Shape, from 1.
     pub shape: usize,
@@ -81,7 +81,8 @@ columns! {
     /// A shape beside a mode.
     pub(super) ROWS: row as Row;
     shape: "name of the measured shape" = row.0.name.clone(), Always "shape" Plain;
-    measured_frequency_hz: "its frequency, where the file says it" = row.0.frequency_hz, IfAny "measured" Fixed(2);
+    measured_frequency_hz: "its frequency, where the file says it"
+        = row.0.frequency_hz, IfAny "measured" Fixed(2);
     mode: "number of the mode by frequency, from 1" = row.1.mode, Always "mode" Count;
     frequency_hz: "its frequency" = row.1.frequency_hz, Always "frequency" Fixed(2);
     real_hz: "real part of its eigenvalue over 2 pi" = row.1.real_hz;
@@ -93,7 +94,8 @@ columns! {
 columns! {
     /// How the mode grows, and what is left out of a shape.
     BESIDE: row as Row;
-    growth_rate_per_s: "growth rate of the mode" = TAU * row.1.real_hz, Always "growth rate" Fixed(2);
+    growth_rate_per_s: "growth rate of the mode"
+        = TAU * row.1.real_hz, Always "growth rate" Fixed(2);
     off_body: "points off the body" = row.0.off_body, Always "points off the body" Count;
 }
 
@@ -140,9 +142,5 @@ impl Finding for MacSummary {
 
     fn figures(&self) -> Vec<Declaration<'_>> {
         vec![Box::new(|| figures::matrix(self))]
-    }
-
-    fn manifest(&self) -> &Manifest {
-        &self.manifest
     }
 }

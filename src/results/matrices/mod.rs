@@ -11,7 +11,7 @@ use super::summary::object;
 use super::table::write_rows;
 use crate::linalg::MarketMatrix;
 use crate::output::{Described, columns};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::fmt::Write as _;
 use std::io;
 
@@ -47,7 +47,7 @@ impl ExportedMatrix {
 }
 
 /// What a matrix is in the problem.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Described, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Described, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum MatrixRole {
     /// Coefficient of `(mu - mu_0)^power`, `mu_0` the friction coefficient of the export, in the mass `M`, kg/m; of solid bodies kg.
@@ -137,7 +137,7 @@ impl ExportedSystem {
 }
 
 /// Where a matrix is written, and how large it is.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct MatrixEntry {
     /// Its name.
     pub name: String,
@@ -158,7 +158,7 @@ pub struct MatrixEntry {
 }
 
 /// `summary.json` of `frictionsim matrices`.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct MatricesSummary {
     /// `matrices`.
     pub command: String,
@@ -271,9 +271,6 @@ impl MatricesSummary {
 
 /// Writes every matrix in both formats, the two tables and what multiplies what; at one friction coefficient the Matrix Market
 /// files alone.
-///
-/// # Errors
-/// Those of the folder.
 pub fn write_matrices(
     folder: &OutputFolder,
     system: &ExportedSystem,
@@ -316,7 +313,8 @@ columns! {
     pub(super) UNKNOWN: row as UnknownRow;
     unknown: "row and column of the matrices, from 0" = row.0;
     node: "number of its node" = row.1.node;
-    kind: "displacement, or distance from the opposite body" = if row.1.is_distance { "distance" } else { "displacement" };
+    kind: "displacement, or distance from the opposite body"
+        = if row.1.is_distance { "distance" } else { "displacement" };
     direction_x: "direction of the motion" = row.1.direction[0];
     direction_y: "direction of the motion" = row.1.direction[1];
     direction_z: "direction of the motion" = row.1.direction[2];
@@ -345,14 +343,16 @@ columns! {
     node: "number of the node" = row.1.node;
     status: "slip, or open without contact terms" = status(row);
     length_m: "its share of the contact" = row.1.weight;
-    normal_force_n_per_m: "normal force at the friction coefficient of the case" = row.1.normal_force;
+    normal_force_n_per_m: "normal force at the friction coefficient of the case"
+        = row.1.normal_force;
 }
 
 columns! {
     /// A contact point of solid bodies: a point of a face.
     pub(super) SOLID_POINT: row as PointRow;
     point: "row of the contact matrices, from 0" = row.0;
-    contact: "name of the contact, or number of the node" = row.1.contact.clone().or(row.1.node.map(|node| node.to_string()));
+    contact: "name of the contact, or number of the node"
+        = row.1.contact.clone().or(row.1.node.map(|node| node.to_string()));
     status: "slip, or open without contact terms" = status(row);
     area_m2: "its share of the contact" = row.1.weight;
     normal_force_n: "normal force at the friction coefficient of the case" = row.1.normal_force;

@@ -7,7 +7,7 @@ use crate::results::finding::write_table;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::manifest::Manifest;
 use crate::results::summary::write_summary;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use serde_json::Value;
 use std::f64::consts::TAU;
 
@@ -27,7 +27,7 @@ pub struct FreeSpectrum {
 }
 
 /// `summary.json` of `frictionsim cea` of a superelement.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FreeSpectrumSummary {
     /// `cea`.
     pub command: String,
@@ -62,8 +62,10 @@ columns! {
     friction_coefficient: "none" = None::<f64>;
     mode: "number by frequency, from 1" = row.0 + 1, Always "mode" Count;
     real_hz: "real part of the eigenvalue over 2 pi" = row.1.eigenvalue.re / TAU;
-    frequency_hz: "imaginary part over 2 pi" = row.1.eigenvalue.im / TAU, Always "frequency" Scientific(6);
-    damping_factor: "damping factor" = -row.1.eigenvalue.re / row.1.eigenvalue.norm(), Always "damping factor" Fixed(6);
+    frequency_hz: "imaginary part over 2 pi"
+        = row.1.eigenvalue.im / TAU, Always "frequency" Scientific(6);
+    damping_factor: "damping factor"
+        = -row.1.eigenvalue.re / row.1.eigenvalue.norm(), Always "damping factor" Fixed(6);
     growth_rate_per_s: "real part" = row.1.eigenvalue.re, Always "growth" Scientific(5);
     harmonic: "none" = None::<usize>;
     branch: BRANCH = row.0 + 1;
@@ -80,9 +82,6 @@ impl FreeSpectrum {
     }
 
     /// Writes `eigenvalues.csv` and the summary.
-    ///
-    /// # Errors
-    /// Those of the folder.
     pub fn write(&self, folder: &OutputFolder, wall_s: f64) -> Result<Value, FolderError> {
         write_table(folder, &self.table())?;
         write_summary(

@@ -10,19 +10,16 @@ pub use plane_figure::figure as plane_figure;
 pub use solid::{SolidBoundary, SolidMeshStatistics, SolidRegion};
 pub use solid_figure::figure as solid_figure;
 
-use super::drawing::{DrawingError, DrawingOptions};
-use super::finding::write_page;
 use super::folder::{FolderError, OutputFolder};
 use super::manifest::Manifest;
 use super::vtu::{EncodedMesh, Field, write_vtu};
-use crate::chart::{Figure, literal};
+use crate::chart::literal;
 use crate::mesh::{BoundaryCondition, Mesh, MeshQuality};
 use crate::output::{Described, Document, Format, Section, fixed, significant};
-use serde::de::DeserializeOwned;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// `summary.json` of `frictionsim mesh`, with the statistics of the kind of body.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct MeshSummary<S> {
     /// `mesh`.
     pub command: String,
@@ -43,7 +40,7 @@ pub struct MeshSummary<S> {
 }
 
 /// Statistics of a mesh of any kind.
-pub trait Measured: Serialize + DeserializeOwned + Described {
+pub trait Measured: Serialize + Described {
     /// What there is to say of it.
     fn section(&self, results: Section) -> Section;
     /// Its counts.
@@ -64,7 +61,7 @@ impl<S: Measured> MeshSummary<S> {
 }
 
 /// Counts of a mesh.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct MeshSize {
     /// Nodes.
     pub nodes: usize,
@@ -77,7 +74,7 @@ pub struct MeshSize {
 }
 
 /// Sizes and shapes of the elements of a mesh.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct ElementShapes {
     /// Shortest edge of any element, m.
     pub smallest_edge_m: f64,
@@ -137,9 +134,6 @@ fn caption(title: &str) -> String {
 }
 
 /// Writes `mesh.vtu` with node numbers, the nodes of the contact marked, what is held, and the region of each element.
-///
-/// # Errors
-/// Those of the folder.
 pub fn write_mesh(
     folder: &OutputFolder,
     mesh: &Mesh,
@@ -177,17 +171,4 @@ fn numbers(size: &MeshSize, shape: &ElementShapes) -> Vec<(String, String)> {
         ("largest aspect ratio".to_owned(), fixed(shape.largest_aspect_ratio, 2)),
         ("worst Jacobian".to_owned(), significant(shape.worst_jacobian, 5)),
     ]
-}
-
-/// Draws `figures/mesh` and writes `report.html`.
-///
-/// # Errors
-/// Those of the drawing and of the folder.
-pub fn draw<S: Measured>(
-    folder: &OutputFolder,
-    summary: &MeshSummary<S>,
-    figure: Figure,
-    options: &DrawingOptions,
-) -> Result<(), DrawingError> {
-    write_page(folder, summary.document(), vec![figure], options)
 }

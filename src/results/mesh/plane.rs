@@ -5,7 +5,7 @@ use crate::mesh::{AnnulusMesh, Mesh, SolidContact, SolidSector};
 use crate::output::{Described, Format, Section, Table, columns};
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::vtu::{EncodedMesh, Field, write_vtu};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 columns! {
     /// A region.
@@ -25,35 +25,35 @@ columns! {
 }
 
 /// Size and quality of a mesh.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct MeshStatistics {
     /// Counts.
     #[serde(flatten)]
     pub size: MeshSize,
     /// Layers of bricks over the thickness of a body in three dimensions; edges, quality and areas are then of its plane
     /// section across the axis.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub axial_elements: Option<usize>,
     /// On the annulus, nodes of one ray of corner nodes: node `1 + j (nodes_per_sector) + i`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub nodes_per_sector: Option<usize>,
     /// Sizes and shapes of the elements.
     #[serde(flatten)]
     pub shape: ElementShapes,
     /// Edges of one element alone that belong to no named boundary, of a mesh file.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub unnamed_free_edges: Option<usize>,
     /// Area of the mesh, m2.
     pub area_m2: f64,
     /// Its relative difference to the annulus.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub area_error: Option<f64>,
     /// Elements for each shear wavelength at the highest frequency of the case, where it has one: the largest edge
     /// counts.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub elements_per_wavelength: Option<f64>,
     /// Contact nodes for each such wave, where they are farthest apart on average.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_nodes_per_wave: Option<f64>,
     /// Regions with their elements and areas.
     pub regions: Vec<RegionStatistics>,
@@ -62,7 +62,7 @@ pub struct MeshStatistics {
 }
 
 /// One region of a mesh.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct RegionStatistics {
     /// Its name.
     pub name: String,
@@ -73,7 +73,7 @@ pub struct RegionStatistics {
 }
 
 /// One boundary of a mesh.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct BoundaryStatistics {
     /// Its name.
     pub name: String,
@@ -207,9 +207,6 @@ impl MeshStatistics {
 const COUNTERFACE: &str = "counterface";
 
 /// Writes the bricks of a body of revolution.
-///
-/// # Errors
-/// Those of the folder.
 pub fn write_revolution(folder: &OutputFolder, sector: &SolidSector) -> Result<(), FolderError> {
     let per_sector = sector.node_count();
     let count = per_sector * sector.sector_count();

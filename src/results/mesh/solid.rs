@@ -3,11 +3,11 @@
 use super::{ElementShapes, Measured, MeshSize, condition_name};
 use crate::mesh::Mesh;
 use crate::output::{Described, Section, Table, columns};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Size and quality of the mesh of solid bodies.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct SolidMeshStatistics {
     /// Counts; unknowns with those that are held.
     #[serde(flatten)]
@@ -36,7 +36,7 @@ pub struct SolidMeshStatistics {
 }
 
 /// One region of solid bodies.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct SolidRegion {
     /// Its name.
     pub name: String,
@@ -49,7 +49,7 @@ pub struct SolidRegion {
 }
 
 /// One named surface of solid bodies.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct SolidBoundary {
     /// Its name.
     pub name: String,
@@ -79,7 +79,8 @@ columns! {
     nodes: "its nodes" = own.nodes, Always "nodes" Count;
     faces: "its faces" = own.faces, Always "faces" Count;
     area_m2: "their area" = own.area_m2, Always "area" Scientific(6);
-    condition: "what holds or loads it, or what it slides on" = own.condition.clone(), Always "condition" Plain;
+    condition: "what holds or loads it, or what it slides on"
+        = own.condition.clone(), Always "condition" Plain;
 }
 
 impl Measured for SolidMeshStatistics {

@@ -42,9 +42,6 @@ pub struct ChannelRecord {
 }
 
 /// Draws each channel over its spectrograms, then the spectra; beside the figures, why a spectrogram was left out.
-///
-/// # Errors
-/// That of a figure that cannot be drawn although there is something to draw.
 pub fn draw(
     record: &SignalRecord,
     summary: &SignalSummary,

@@ -4,13 +4,13 @@ use crate::cea::ComplexMode;
 use crate::output::Described;
 use crate::results::Manifest;
 use crate::signal::{Estimate, ExponentialStage, NoGrowth, SpectralLine, SpectralResolution};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// Largest distance of a line from a mode that it is said to belong to, relative to the line.
 const MODE_TOLERANCE: f64 = 0.03;
 
 /// What was found in a record.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct SignalSummary {
     /// `signal`.
     pub command: String,
@@ -35,7 +35,7 @@ pub struct SignalSummary {
 }
 
 /// What was found in one channel.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct ChannelSummary {
     /// Name as in the table.
     pub name: String,
@@ -60,7 +60,7 @@ pub struct ChannelSummary {
 }
 
 /// A line of the spectrum.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct PeakSummary {
     /// Frequency, Hz.
     pub frequency_hz: f64,
@@ -73,7 +73,7 @@ pub struct PeakSummary {
 }
 
 /// A multiple of a fundamental.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct Superharmonic {
     /// Number of the fundamental's peak, from 1.
     pub of_peak: usize,
@@ -82,7 +82,7 @@ pub struct Superharmonic {
 }
 
 /// The exponential stage.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct GrowthSummary {
     /// Begin, s after the first sample.
     pub start_s: f64,
@@ -97,7 +97,7 @@ pub struct GrowthSummary {
 }
 
 /// A mode of the case.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct ModeSummary {
     /// Number by frequency, from 1.
     pub mode: usize,
@@ -106,19 +106,19 @@ pub struct ModeSummary {
     /// Growth rate, 1/s.
     pub growth_rate_per_s: f64,
     /// Circumferential harmonic; none on a body without symmetry.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub harmonic: Option<usize>,
     /// Branch of that harmonic, or of the body.
     pub branch: usize,
     /// +1 with the rotor, -1 against it, 0 standing; none on a body without symmetry.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub direction: Option<i8>,
     /// Whether it grows.
     pub unstable: bool,
 }
 
 /// A mode and how far it is away.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct NearestMode {
     /// The mode.
     #[serde(flatten)]

@@ -35,9 +35,6 @@ pub fn record_bytes<T: Record>(record: &T) -> io::Result<Vec<u8>> {
 }
 
 /// Writes the record of a run.
-///
-/// # Errors
-/// Those of the folder.
 pub fn write_record<T: Record>(folder: &OutputFolder, record: &T) -> Result<(), FolderError> {
     folder.write_bulk(T::FILE, |out| out.write_all(&record_bytes(record)?)).map(drop)
 }

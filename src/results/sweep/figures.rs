@@ -18,9 +18,6 @@ pub struct SweepDrawing {
 }
 
 /// Draws what the study has points for into `figures/`, each as SVG and PNG, and writes `report.html`.
-///
-/// # Errors
-/// Those of the drawing and of the folder.
 pub fn draw(
     folder: &SweepFolder,
     report: &SweepReport<'_>,

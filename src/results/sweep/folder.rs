@@ -204,9 +204,6 @@ impl SweepFolder {
     }
 
     /// Reads a finished point.
-    ///
-    /// # Errors
-    /// Those of the file system.
     pub fn read(&self, point: usize) -> Result<Found, FolderError> {
         let path = self.point_path(point);
         let bytes = match read_file(&path, RESULT) {
@@ -237,9 +234,6 @@ impl SweepFolder {
     /// Claims a point for this process; `None` if another one has it.
     ///
     /// A claimed point may have been finished a moment ago: look before running it.
-    ///
-    /// # Errors
-    /// Those of the file system.
     pub fn claim(&self, point: usize) -> Result<Option<Claim>, FolderError> {
         let path = self.path.join(POINTS).join(format!("{CLAIM}{point:06}"));
         let file = open_lock(&path)?;
@@ -252,6 +246,18 @@ impl SweepFolder {
         Ok(Some(Claim { path, _lock: file }))
     }
 
+    /// Claims a point for this process; `None` where it is finished or another one has it.
+    pub fn take(&self, point: usize) -> Result<Option<Claim>, FolderError> {
+        let is_finished =
+            || -> Result<bool, FolderError> { Ok(matches!(self.read(point)?, Found::Point(_))) };
+        if is_finished()? {
+            return Ok(None);
+        }
+        let claim = self.claim(point)?;
+        // Another process may have finished it between the look and the claim.
+        Ok(if is_finished()? { None } else { claim })
+    }
+
     /// Writes a finished point, whole or not at all, and before it what the clock says of it.
     ///
     /// # Errors
@@ -262,9 +268,6 @@ impl SweepFolder {
     }
 
     /// Writes `summary.json`.
-    ///
-    /// # Errors
-    /// Those of the file system.
     pub fn write_summary(&self, summary: &Value) -> Result<(), FolderError> {
         self.write("summary.json", |out| {
             serde_json::to_writer_pretty(&mut *out, summary)?;
@@ -287,9 +290,6 @@ impl SweepFolder {
     }
 
     /// Writes a page, its figures, and both as data.
-    ///
-    /// # Errors
-    /// Those of the formats and of the file system.
     pub fn write_page(&self, page: &Page, options: &DrawingOptions) -> Result<(), DrawingError> {
         self.write(Page::FILE, |out| out.write_all(&record_bytes(page)?))?;
         self.draw(page, options)

@@ -11,7 +11,8 @@ use serde_json::Value;
 columns! {
     /// A mode that grows.
     pub(in crate::results) UNSTABLE: mode as UnstableMode;
-    friction_coefficient: "friction coefficient" = mode.friction_coefficient, Always "friction" Plain;
+    friction_coefficient: "friction coefficient"
+        = mode.friction_coefficient, Always "friction" Plain;
     mode: "number by frequency at that friction, from 1" = mode.mode, Always "mode" Count;
     harmonic: HARMONIC = mode.harmonic, IfAny "n" Count;
     branch: BRANCH = mode.branch;
@@ -19,7 +20,8 @@ columns! {
     frequency_hz: "frequency" = mode.frequency_hz, Always "frequency" Fixed(2);
     growth_rate_per_s: "growth rate" = mode.growth_rate_per_s, Always "growth rate" Fixed(2);
     damping_factor: "damping factor, below 0" = mode.damping_factor;
-    critical_friction: "friction at which its branch turned unstable last" = mode.critical_friction, IfAny "critical friction" Fixed(6);
+    critical_friction: "friction at which its branch turned unstable last"
+        = mode.critical_friction, IfAny "critical friction" Fixed(6);
 }
 
 columns! {
@@ -55,8 +57,10 @@ columns! {
     stick: "fraction of the contact that sticks" = at(own, |branch| &branch.status[0]);
     slip: "fraction that slips" = at(own, |branch| &branch.status[1]);
     open: "fraction that is open" = at(own, |branch| &branch.status[2]);
-    stable: "whether it is stable, where that is known" = at(own, |branch| &branch.stable).flatten();
-    growth_rate_per_s: "growth rate of its leading perturbation, where it is known" = at(own, |branch| &branch.growth_rate).flatten();
+    stable: "whether it is stable, where that is known"
+        = at(own, |branch| &branch.stable).flatten();
+    growth_rate_per_s: "growth rate of its leading perturbation, where it is known"
+        = at(own, |branch| &branch.growth_rate).flatten();
 }
 
 /// The long tables of a sweep with these analyses; failed points have no rows.

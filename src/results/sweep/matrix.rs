@@ -116,7 +116,7 @@ impl<'a> OperatingMatrix<'a> {
 }
 
 /// The entries of a list that read as `T`; a record of another version has none.
-fn listed<T: for<'de> Deserialize<'de>>(list: Option<&Value>) -> Vec<T> {
+pub(super) fn listed<T: for<'de> Deserialize<'de>>(list: Option<&Value>) -> Vec<T> {
     let items = list.and_then(Value::as_array).into_iter().flatten();
     items.filter_map(|item| T::deserialize(item).ok()).collect()
 }

@@ -1,6 +1,7 @@
 //! Results of a parameter study: a file for each finished point, one table over them.
 
 mod company;
+mod critical;
 mod figures;
 mod folder;
 mod long;
@@ -20,5 +21,6 @@ pub use report::{FailedPoint, SweepReport, SweepSummary, document};
 pub use swept::swept_text;
 pub use table::write_points;
 
+pub(super) use critical::critical_friction;
 pub(super) use matrix_figure::operating_matrix;
 pub(super) use report::{TWO_FREQUENCY, UNSETTLED};

@@ -1,67 +1,71 @@
 //! Summary and document of a sweep.
 
 use super::super::Manifest;
-use super::super::summary::PointSummary;
 use super::PointRecord;
 use super::matrix::OperatingMatrix;
 use super::swept::{printed, short};
 use crate::chart::extremes;
 use crate::output::{Cell, Described, Document, Format, Section, Table, columns, significant};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use serde_json::{Map, Value};
 
-/// A point with the summaries of its analyses.
-struct PointRow<'a> {
-    record: &'a PointRecord,
-    own: Vec<PointSummary>,
-}
-
-/// What a person wants first of a point.
-type First = Vec<PointSummary>;
-
-/// A number of the first summary that has it.
-fn first<T>(point: &First, of: impl Fn(&PointSummary) -> Option<T>) -> Option<T> {
-    point.iter().find_map(of)
+/// What the first summary of a point says that has it; nothing of a point that failed.
+fn first(point: &PointRecord, path: &str) -> Cell {
+    let mut said = point.summaries.values().filter_map(|summary| summary.pointer(path));
+    match said.find(|value| !value.is_null()) {
+        Some(Value::Number(number)) => match number.as_i64() {
+            Some(count) => Cell::Count(count),
+            None => number.as_f64().into(),
+        },
+        Some(Value::Bool(flag)) => Cell::Flag(*flag),
+        Some(Value::String(text)) => text.into(),
+        _ => Cell::None,
+    }
 }
 
 /// The lowest critical friction; the first friction of the analysis is only a bound of it.
-fn critical(point: &First) -> Option<Cell> {
-    let crossing = first(point, |s| s.critical_frictions.first().copied())?;
-    let value = crossing.critical_friction?;
-    Some(match crossing.unstable_from_start {
-        true => Cell::Text(format!("<={}", Format::Fixed(6).number(value))),
-        false => value.into(),
-    })
+fn critical(point: &PointRecord) -> Cell {
+    let lowest = first(point, "/critical_frictions/0/critical_friction");
+    match first(point, "/critical_frictions/0/unstable_from_start") {
+        Cell::Flag(true) => Cell::Text(format!("<={}", lowest.text(Format::Fixed(6)))),
+        _ => lowest,
+    }
 }
 
 columns! {
     /// What a person wants first of a point.
-    FIRST: point as First;
-    main_frequency_hz: "main frequency" = first(point, |s| s.own.main_frequency_hz), IfAny "main frequency" Fixed(2);
-    harmonic: "nodal diameters" = first(point, |s| s.own.harmonic), IfAny "n" Count;
-    stick: "stick" = first(point, |s| s.own.status.stick), IfAny "stick" Fixed(3);
-    slip: "slip" = first(point, |s| s.own.status.slip), IfAny "slip" Fixed(3);
-    open: "open" = first(point, |s| s.own.status.open), IfAny "open" Fixed(3);
+    FIRST: point as PointRecord;
+    main_frequency_hz: "main frequency"
+        = first(point, "/main_frequency_hz"), IfAny "main frequency" Fixed(2);
+    harmonic: "nodal diameters" = first(point, "/main_harmonic"), IfAny "n" Count;
+    stick: "stick" = first(point, "/status/stick"), IfAny "stick" Fixed(3);
+    slip: "slip" = first(point, "/status/slip"), IfAny "slip" Fixed(3);
+    open: "open" = first(point, "/status/open"), IfAny "open" Fixed(3);
     critical_friction: "critical friction" = critical(point), IfAny "critical friction" Fixed(6);
-    critical_n: "its nodal diameters" = first(point, |s| s.critical_frictions.first()?.harmonic), IfAny "n" Count;
-    first_n: "nodal diameters of the first cycle" = first(point, |s| s.cycles.first()?.harmonic), IfAny "n" Count;
-    first_hz: "its frequency" = first(point, |s| s.cycles.first()?.main_frequency_hz), IfAny "main frequency" Fixed(2);
-    first_stick: "its stick" = first(point, |s| s.cycles.first()?.status.stick), IfAny "stick" Fixed(3);
-    first_open: "its open" = first(point, |s| s.cycles.first()?.status.open), IfAny "open" Fixed(3);
-    second_n: "nodal diameters of the second cycle" = first(point, |s| s.cycles.get(1)?.harmonic), IfAny "n" Count;
-    second_hz: "its frequency" = first(point, |s| s.cycles.get(1)?.main_frequency_hz), IfAny "main frequency" Fixed(2);
-    second_stick: "its stick" = first(point, |s| s.cycles.get(1)?.status.stick), IfAny "stick" Fixed(3);
-    second_open: "its open" = first(point, |s| s.cycles.get(1)?.status.open), IfAny "open" Fixed(3);
-    winner: "wave that always wins" = first(point, |s| s.winner), IfAny "n that always wins" Count;
-    low: "ratio below" = first(point, |s| s.boundary.low), IfAny "ratio below" Fixed(3);
-    high: "ratio above" = first(point, |s| s.boundary.high), IfAny "ratio above" Fixed(3);
+    critical_n: "its nodal diameters"
+        = first(point, "/critical_frictions/0/harmonic"), IfAny "n" Count;
+    first_n: "nodal diameters of the first cycle"
+        = first(point, "/cycles/0/harmonic"), IfAny "n" Count;
+    first_hz: "its frequency"
+        = first(point, "/cycles/0/main_frequency_hz"), IfAny "main frequency" Fixed(2);
+    first_stick: "its stick" = first(point, "/cycles/0/status/stick"), IfAny "stick" Fixed(3);
+    first_open: "its open" = first(point, "/cycles/0/status/open"), IfAny "open" Fixed(3);
+    second_n: "nodal diameters of the second cycle"
+        = first(point, "/cycles/1/harmonic"), IfAny "n" Count;
+    second_hz: "its frequency"
+        = first(point, "/cycles/1/main_frequency_hz"), IfAny "main frequency" Fixed(2);
+    second_stick: "its stick" = first(point, "/cycles/1/status/stick"), IfAny "stick" Fixed(3);
+    second_open: "its open" = first(point, "/cycles/1/status/open"), IfAny "open" Fixed(3);
+    winner: "wave that always wins" = first(point, "/winner"), IfAny "n that always wins" Count;
+    low: "ratio below" = first(point, "/boundary/low"), IfAny "ratio below" Fixed(3);
+    high: "ratio above" = first(point, "/boundary/high"), IfAny "ratio above" Fixed(3);
 }
 
 columns! {
     /// How a point ends.
-    ENDS: point as First;
-    end: "end of a transient" = first(point, |s| s.end_state.clone()), IfAny "ends in" Plain;
-    settled: "whether it has settled" = first(point, |s| s.settled), IfAny "settled" Plain;
+    ENDS: point as PointRecord;
+    end: "end of a transient" = first(point, "/end_state"), IfAny "ends in" Plain;
+    settled: "whether it has settled" = first(point, "/settled"), IfAny "settled" Plain;
 }
 
 /// Names of the ends of a transient that are no limit cycle although it vibrates.
@@ -167,8 +171,8 @@ impl SweepReport<'_> {
     /// Points whose transient ends in such a state.
     fn ending_in(&self, is_such: impl Fn(&str) -> bool) -> Vec<usize> {
         let ends_so = |record: &&PointRecord| {
-            let mut summaries = record.summaries.values().map(PointSummary::of);
-            summaries.any(|summary| summary.end_state.as_deref().is_some_and(&is_such))
+            let mut summaries = record.summaries.values();
+            summaries.any(|summary| summary["end_state"].as_str().is_some_and(&is_such))
         };
         let points = self.records.iter().filter(ends_so);
         points.map(|record| record.point).collect()
@@ -176,7 +180,7 @@ impl SweepReport<'_> {
 }
 
 /// `summary.json` of `frictionsim sweep`.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct SweepSummary {
     /// `sweep`.
     pub command: String,
@@ -209,7 +213,7 @@ pub struct SweepSummary {
 }
 
 /// A point that failed, and why.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct FailedPoint {
     /// Its number, from 1.
     pub point: usize,
@@ -274,18 +278,6 @@ pub fn document(report: &SweepReport<'_>, is_page: bool) -> Document {
         .notes(&report.notes())
 }
 
-/// The points, those that failed without numbers.
-fn rows<'a>(report: &SweepReport<'a>) -> Vec<PointRow<'a>> {
-    let row = |record: &'a PointRecord| PointRow {
-        own: match record.error {
-            Some(_) => Vec::new(),
-            None => record.summaries.values().map(PointSummary::of).collect(),
-        },
-        record,
-    };
-    report.records.iter().map(row).collect()
-}
-
 /// The heads of the swept keys: keys of one short name are told by their whole names.
 fn heads(keys: &[String]) -> impl Iterator<Item = (&String, &str)> {
     let is_alone = |key: &str| keys.iter().filter(|other| short(other) == short(key)).count() == 1;
@@ -297,7 +289,6 @@ fn ranges(report: &SweepReport<'_>) -> Vec<(String, String)> {
     let finished = format!("{} of {}", report.records.len(), report.count);
     let failed = report.failed().count().to_string();
     let mut out = vec![("points".to_owned(), finished), ("failed".to_owned(), failed)];
-    let rows = rows(report);
     let mut add = |head: String, numbers: Vec<f64>| {
         if let (false, (low, high)) = (numbers.is_empty(), extremes(numbers.iter().copied())) {
             let [low, high] = [low, high].map(|value| significant(value, 6));
@@ -305,11 +296,11 @@ fn ranges(report: &SweepReport<'_>) -> Vec<(String, String)> {
         }
     };
     for (key, head) in heads(report.keys) {
-        let values = rows.iter().filter_map(|row| row.record.swept.get(key)?.as_f64());
+        let values = report.records.iter().filter_map(|record| record.swept.get(key)?.as_f64());
         add(head.to_owned(), values.collect());
     }
     for column in FIRST {
-        let values = rows.iter().filter_map(|row| (column.cell)(&row.own).number());
+        let values = report.records.iter().filter_map(|record| (column.cell)(record).number());
         add(column.heading(), values.collect());
     }
     out
@@ -317,21 +308,21 @@ fn ranges(report: &SweepReport<'_>) -> Vec<(String, String)> {
 
 /// What a person wants first of every point; `points.csv` has all.
 fn points_table(report: &SweepReport<'_>) -> Table {
-    let rows = rows(report);
-    let points = rows.iter().map(|row| row.record.point);
+    let records = report.records;
+    let points = records.iter().map(|record| record.point);
     let mut table = Table::new("", "Finished points (every quantity: points.csv)").column(
         "",
         Some(("point", Format::Count)),
         points,
     );
     for (key, head) in heads(report.keys) {
-        let values = rows.iter().map(|row| row.record.swept.get(key).map(printed));
+        let values = records.iter().map(|record| record.swept.get(key).map(printed));
         table = table.column("", Some((head, Format::Plain)), values);
     }
-    table
-        .columns(FIRST, rows.iter().map(|row| &row.own))
-        .columns(ENDS, rows.iter().map(|row| &row.own))
-        .shown_column("outcome", rows.iter().map(|row| row.record.error.as_ref().map(|_| "failed")))
+    table.columns(FIRST, records).columns(ENDS, records).shown_column(
+        "outcome",
+        records.iter().map(|record| record.error.as_ref().map(|_| "failed")),
+    )
 }
 
 /// Ascending numbers with runs drawn together: `1-4, 7`.

@@ -34,9 +34,6 @@ const LEFT_OUT: [&str; 10] = [
 /// the points alone, not on the order or the number of processes and threads that made them.
 ///
 /// Does not sort: `records` come in the order of the points.
-///
-/// # Errors
-/// Those of the writer.
 pub fn write_points(
     out: &mut dyn Write,
     keys: &[String],

@@ -98,9 +98,6 @@ struct Borrowed<'a> {
 }
 
 /// Writes a checkpoint; the one before stays until this one is complete. Without a record it goes with that of the folder.
-///
-/// # Errors
-/// Those of the folder.
 pub fn write_checkpoint(
     folder: &OutputFolder,
     case_hash: &str,

@@ -11,9 +11,6 @@ use std::io;
 /// `shear_across_pa (F, N)` too, along `e_z` on its inner edge and `e_r` on its top.
 ///
 /// A frame is the state of one step; frames may lie several samples apart.
-///
-/// # Errors
-/// Those of the archive.
 pub fn encode_contact(record: &Recorder) -> io::Result<Vec<u8>> {
     let mut archive = NpzArchive::default();
     let frames = &record.frames;

@@ -16,9 +16,6 @@ use crate::transient::{EndState, Snapshot};
 const FIELD_LIMIT: usize = 8;
 
 /// Draws every figure that the record has data for.
-///
-/// # Errors
-/// That of a figure that cannot be drawn although there is something to draw.
 pub fn draw_run(run: &RunFigures<'_>) -> Result<Vec<Figure>, ChartError> {
     let mut figures: Vec<Declaration<'_>> = Vec::new();
     for probe in 0..run.record.probes.len() {

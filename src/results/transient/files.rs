@@ -14,9 +14,6 @@ use crate::transient::{Recorder, SampleRow, Snapshot};
 use std::io::{self, Write};
 
 /// Writes all files of the transient and returns the summary.
-///
-/// # Errors
-/// Those of the folder.
 pub fn write(
     folder: &OutputFolder,
     report: &TransientReport<'_>,

@@ -61,8 +61,12 @@ impl RunFigures<'_> {
             signal_panel(axis, &times[first..], &signal[first..], unit, 0.9)
                 .caption("end of the run")
         });
-        let options =
-            SpectrogramOptions { max_frequency_hz: 1.05 * top, ..SpectrogramOptions::default() };
+        let usual = SpectrogramOptions::default();
+        // A window holds a few periods of the vibration, however slow it is.
+        let few = periods.unwrap_or(0.0).min(0.25 * (end - start));
+        let window_length = few.max(usual.window_length);
+        let (hop, max_frequency_hz) = (0.25 * window_length, 1.05 * top);
+        let options = SpectrogramOptions { window_length, hop, max_frequency_hz, ..usual };
         // A run shorter than a window has no spectrogram, and needs none.
         let map = spectrogram(&signal, 1.0 / self.interval().max(1e-12), &options).ok();
         let spectrograms = map.map_or(Vec::new(), |map| {

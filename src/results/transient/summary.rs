@@ -8,11 +8,11 @@ use crate::results::summary::{MeanPowers, StatusFractions, present};
 use crate::transient::{
     Drift, EndState, Growth, Perturbation, ProbeMotion, TransientAnalysis, Vibration,
 };
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// `summary.json` of `frictionsim transient`.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct TransientSummary {
     /// `transient`.
     pub command: String,
@@ -49,10 +49,10 @@ pub struct TransientSummary {
     /// `limit-cycle`, `two-frequency`, `steady-sliding`, `at-rest`, `separated` or `unsettled`.
     pub end_state: String,
     /// Both frequencies of a motion of two, the stronger first, Hz; absent otherwise.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub frequencies_hz: Option<[f64; 2]>,
     /// Largest over smallest envelope of a motion of two frequencies over the last fifth; absent otherwise.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub envelope_ratio: Option<f64>,
     /// Why it is unsettled.
     pub unsettled_because: Option<String>,
@@ -69,13 +69,12 @@ pub struct TransientSummary {
     /// Mean powers over the last fifth.
     pub power_w: MeanPowers,
     /// What powers, energies and forces are of, in the tables too.
-    #[serde(default)]
     pub extent: Extent,
     /// Share of the steps of contact nodes that could have ended in stick and in slip alike; absent where there is none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub ambiguous_friction: Option<f64>,
     /// Steps in which the forces between two bodies had not converged; absent where there is none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub unconverged_steps: Option<u64>,
     /// Mean amplitudes of the harmonics 0 to 8 of the contact edge's tangential displacement, m; empty for a body without
     /// symmetry.
@@ -94,14 +93,13 @@ pub struct TransientSummary {
     /// Time between the frames of `contact.npz`, s.
     pub contact_interval_s: f64,
     /// What to know before its numbers are used.
-    #[serde(default)]
     pub notes: Vec<String>,
     /// What it was made from.
     pub manifest: Manifest,
 }
 
 /// The velocity that was added.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 pub struct PerturbationSummary {
     /// Circumferential harmonics.
     pub harmonics: Vec<usize>,
@@ -118,7 +116,7 @@ pub struct PerturbationSummary {
 }
 
 /// One number for all harmonics, or one for each.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 #[serde(untagged)]
 pub enum OneOrEach {
     /// For all.
@@ -138,7 +136,7 @@ impl OneOrEach {
 }
 
 /// Differences between the largest and the smallest block mean over the last fifth.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
 pub struct DriftSummary {
     /// Of the amplitude of any harmonic, relative to the largest.
     pub amplitude: f64,
@@ -149,10 +147,10 @@ pub struct DriftSummary {
 }
 
 /// Growth of one harmonic, with 95 % intervals.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
 pub struct GrowthSummary {
     /// Circumferential harmonic; absent for a body without symmetry.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub harmonic: Option<usize>,
     /// Rate, 1/s.
     pub rate_per_s: f64,
@@ -163,27 +161,27 @@ pub struct GrowthSummary {
     /// Frequency, Hz.
     pub frequency_hz: f64,
     /// +1 with the rotor, -1 against it; absent for a body without symmetry.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub direction: Option<i8>,
 }
 
 /// Motion of a probe over the last fifth; accelerations are means over the sample interval.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
 pub struct ProbeSummary {
     /// Where it is, if it was asked for by its place.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub place: Option<PlaceSummary>,
     /// Radially.
     pub radial: MotionSummary,
     /// Tangentially.
     pub tangential: MotionSummary,
     /// Along the axis; absent in the plane.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub axial: Option<MotionSummary>,
 }
 
 /// A place that was asked for, and its nearest node.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
 pub struct PlaceSummary {
     /// The place, `x` and `y`, m.
     pub asked_m: [f64; 2],
@@ -192,7 +190,7 @@ pub struct PlaceSummary {
 }
 
 /// Motion in one direction.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
 pub struct MotionSummary {
     /// Half the range of the displacement, m.
     pub displacement_amplitude_m: f64,

@@ -12,7 +12,8 @@ columns! {
     /// A sample.
     pub(in crate::results) SAMPLES: sample as Sample;
     own_friction_coefficient: "friction coefficient of the sample" = sample.friction_coefficient;
-    unstable: "whether some mode is unstable there; empty where the sample could not be solved" = sample.error.is_none().then(|| sample.is_unstable(sample.friction_coefficient));
+    unstable: "whether some mode is unstable there; empty where the sample could not be solved"
+        = sample.error.is_none().then(|| sample.is_unstable(sample.friction_coefficient));
 }
 
 columns! {
@@ -23,7 +24,8 @@ columns! {
     branch: BRANCH = onset.branch;
     direction: DIRECTION = onset.direction;
     frequency_hz: "frequency at the onset" = onset.frequency_hz;
-    unstable_from_start: "whether it is unstable at the lowest friction already" = onset.unstable_from_start;
+    unstable_from_start: "whether it is unstable at the lowest friction already"
+        = onset.unstable_from_start;
 }
 
 columns! {
@@ -36,11 +38,16 @@ columns! {
     /// A family of modes.
     FAMILIES: family as FamilySummary;
     mode: "harmonic, branch, direction" = family.name(), Always "mode" Plain;
-    probability: "probability that it is unstable" = family.probability, Always "unstable at that friction" Fixed(4);
-    probability_in_range: "probability that it turns unstable in the range" = family.probability_in_range, Always "turns unstable in the range" Fixed(4);
-    critical_friction_median: "median of its critical friction" = family.critical_friction_median, Always "median critical friction" Fixed(4);
+    probability: "probability that it is unstable"
+        = family.probability, Always "unstable at that friction" Fixed(4);
+    probability_in_range: "probability that it turns unstable in the range"
+        = family.probability_in_range, Always "turns unstable in the range" Fixed(4);
+    critical_friction_median: "median of its critical friction"
+        = family.critical_friction_median, Always "median critical friction" Fixed(4);
     frequency_hz: "mean frequency at its onset" = family.frequency_hz, Always "frequency" Fixed(2);
-    beyond_limit: "share of samples beyond the frequency limit" = (family.beyond_limit > 0.0).then_some(family.beyond_limit), IfAny "beyond the frequency limit" Fixed(4);
+    beyond_limit: "share of samples beyond the frequency limit"
+        = (family.beyond_limit > 0.0).then_some(family.beyond_limit),
+        IfAny "beyond the frequency limit" Fixed(4);
 }
 
 columns! {
@@ -48,10 +55,12 @@ columns! {
     INDICES: row as (String, Index);
     parameter: "key of the case" = row.0.clone(), Always "parameter" Plain;
     first: "first-order index" = row.1.first, Always "first order" Fixed(3);
-    first_low: "lower end of its 95 % interval" = row.1.first_interval.map(|ends| ends[0]), IfAny "from" Fixed(3);
+    first_low: "lower end of its 95 % interval"
+        = row.1.first_interval.map(|ends| ends[0]), IfAny "from" Fixed(3);
     first_high: "upper end" = row.1.first_interval.map(|ends| ends[1]), IfAny "to" Fixed(3);
     total: "total index" = row.1.total, Always "total" Fixed(3);
-    total_low: "lower end of its 95 % interval" = row.1.total_interval.map(|ends| ends[0]), IfAny "from" Fixed(3);
+    total_low: "lower end of its 95 % interval"
+        = row.1.total_interval.map(|ends| ends[0]), IfAny "from" Fixed(3);
     total_high: "upper end" = row.1.total_interval.map(|ends| ends[1]), IfAny "to" Fixed(3);
 }
 
@@ -59,7 +68,8 @@ columns! {
     /// The change of a design by one parameter.
     DESIGNS: curve as DesignCurve;
     parameter: "key of the case" = curve.key.clone(), Always "parameter" Plain;
-    reached_at: "value at which the bound is reached" = curve.reaches_bound_at, Always "reached at" Significant(4);
+    reached_at: "value at which the bound is reached"
+        = curve.reaches_bound_at, Always "reached at" Significant(4);
     change_percent: "the change that takes" = curve.change_percent, Always "change" Signed(1);
     effect: "what there is to say where it is not reached" = reach(curve), IfAny "remark" Plain;
 }
@@ -89,9 +99,6 @@ pub fn samples_table(keys: &[String], samples: &[Sample], largest_friction: f64)
 }
 
 /// Draws the figures into `figures/` and writes `report.html`.
-///
-/// # Errors
-/// Those of the folder and of the drawing.
 pub fn draw_report(
     folder: &SweepFolder,
     summary: &UncertaintySummary,

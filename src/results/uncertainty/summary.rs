@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// `summary.json` of an uncertainty analysis.
-#[derive(Clone, Debug, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, Described, Serialize)]
 pub struct UncertaintySummary {
     /// Its command.
     pub command: String,
@@ -46,7 +46,7 @@ pub struct UncertaintySummary {
 }
 
 /// A value with a 95 % interval.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
 pub struct Interval {
     /// The value.
     pub value: f64,
@@ -76,7 +76,7 @@ pub struct CriticalFriction {
 }
 
 /// A mode that turns unstable in some sample.
-#[derive(Clone, Debug, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, Described, Serialize)]
 pub struct FamilySummary {
     /// Circumferential harmonic, of a body that has them.
     pub harmonic: Option<usize>,
@@ -89,7 +89,6 @@ pub struct FamilySummary {
     /// Probability that it turns unstable in the range.
     pub probability_in_range: f64,
     /// Share of the samples in which it lies beyond the frequency limit, where it is not followed.
-    #[serde(default)]
     pub beyond_limit: f64,
     /// Median of its critical friction, of the samples in which it has one.
     pub critical_friction_median: f64,
@@ -100,22 +99,20 @@ pub struct FamilySummary {
 }
 
 /// Sobol's indices of one parameter.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
 pub struct Index {
     /// Share of the variance that goes if the parameter is known.
     pub first: f64,
     /// Share that stays if all others are known.
     pub total: f64,
     /// Ends of the 95 % interval of the first, from resampling; absent in summaries of earlier versions.
-    #[serde(default)]
     pub first_interval: Option<[f64; 2]>,
     /// The same of the second.
-    #[serde(default)]
     pub total_interval: Option<[f64; 2]>,
 }
 
 /// Probability of squeal over designs.
-#[derive(Clone, Debug, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, Described, Serialize)]
 pub struct RobustSummary {
     /// Probability that is to be reached.
     pub bound: f64,
@@ -128,7 +125,7 @@ pub struct RobustSummary {
 }
 
 /// Probability of squeal over one design parameter.
-#[derive(Clone, Debug, Described, Serialize, Deserialize)]
+#[derive(Clone, Debug, Described, Serialize)]
 pub struct DesignCurve {
     /// Dotted case key.
     pub key: String,
@@ -141,13 +138,7 @@ pub struct DesignCurve {
     /// The change that takes, per cent.
     pub change_percent: Option<f64>,
     /// Whether the onsets of the first sample depend on the parameter at all.
-    #[serde(default = "has_effect")]
     pub has_effect: bool,
-}
-
-/// Summaries of earlier versions do not say.
-fn has_effect() -> bool {
-    true
 }
 
 impl FamilySummary {

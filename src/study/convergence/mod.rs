@@ -18,13 +18,14 @@ mod quantities;
 
 use super::transient::TransientStudy;
 use super::{StudyError, eigenvalues, summarize, summary};
-use crate::case::{Analysis, Body, Case, CaseErrors, Revolution, StabilityChoice, TimeStep};
+use crate::case::{
+    Analysis, Body, Case, CaseErrors, Revolution, StabilityChoice, TimeStep, refusal,
+};
 use crate::cea::FrictionSweep;
 use crate::fem::operator::SimdLevel;
 use crate::mesh::AnnulusSpecification;
 use crate::results::Manifest;
 use crate::results::convergence::{Quantity, Refinement, Series};
-use crate::results::summary::PointSummary;
 use rayon::prelude::*;
 use serde_json::Value;
 use std::time::Instant;
@@ -42,7 +43,7 @@ pub struct Levels {
 /// What one level gave.
 enum Outcome {
     Cea(FrictionSweep),
-    Summary(Box<PointSummary>),
+    Summary(Value),
 }
 
 /// A level done, and its wall time, s.
@@ -105,23 +106,6 @@ fn with_time_step(case: &Case, step: f64) -> Case {
     case
 }
 
-impl Levels {
-    /// Memory of all levels at once, bytes: they run side by side.
-    pub fn memory_bytes(&self) -> f64 {
-        let bytes = self.cases.iter().map(|case| {
-            let cost = case.cost();
-            cost.mesh_memory_bytes
-                + match self.analysis {
-                    Analysis::Cea => cost.cea.map_or(0.0, |cea| cea.memory_bytes),
-                    Analysis::Transient => cost.transient.map_or(0.0, |run| run.memory_bytes),
-                    // Receptances of one sector at a few hundred phases.
-                    Analysis::Cycle | Analysis::Basin => 0.0,
-                }
-        });
-        bytes.sum()
-    }
-}
-
 fn solve_levels(
     studies: &[Levels],
     manifest: &Manifest,
@@ -142,9 +126,9 @@ fn solve_levels(
             let outcome = match analysis {
                 Analysis::Cea => Outcome::Cea(eigenvalues::modes_and_onsets(case)?),
                 // That a level has no cycle is said beside the others.
-                Analysis::Cycle => summarized(&summary::cycle(case, manifest, |_| Ok(()))?)?,
+                Analysis::Cycle => Outcome::Summary(summary::cycle(case, manifest, |_| Ok(()))?),
                 Analysis::Transient | Analysis::Basin => {
-                    summarized(&summarize(case, *analysis, manifest)?)?
+                    Outcome::Summary(summarize(case, *analysis, manifest)?)
                 }
             };
             done();
@@ -154,11 +138,6 @@ fn solve_levels(
     // The first level that failed speaks, whichever thread was first.
     let mut solved = solved.into_iter().rev();
     studies.iter().map(|study| solved.by_ref().take(study.cases.len()).collect()).collect()
-}
-
-fn summarized(summary: &Value) -> Result<Outcome, StudyError> {
-    let read = PointSummary::read(summary)?;
-    Ok(Outcome::Summary(Box::new(read)))
 }
 
 /// The case with the limit cycles at its own operating point alone.
@@ -178,26 +157,20 @@ fn series(case: &Case, study: &Levels, outcomes: Vec<Timed>) -> Result<Vec<Serie
     for outcome in outcomes {
         match outcome {
             Outcome::Cea(sweep) => sweeps.push(sweep),
-            Outcome::Summary(summary) => summaries.push(*summary),
+            Outcome::Summary(summary) => summaries.push(summary),
         }
     }
-    let steps = summaries.iter().filter_map(|s: &PointSummary| s.time_step_s);
+    let steps = summaries.iter().filter_map(|s: &Value| s["time_step_s"].as_f64());
     let steps: Vec<f64> = steps.collect();
     let (sizes, levels): (Vec<f64>, Vec<String>) = match study.refinement {
         Refinement::Mesh => study.cases.iter().map(mesh_level).unzip(),
         Refinement::TimeStep => steps.iter().map(|&s| (s, format!("{s:.4e}"))).unzip(),
     };
     if sizes.windows(2).any(|pair| pair[1] >= pair[0]) {
-        return Err(StudyError::Case(case.error_at(
-            "convergence.time_step_factors",
-            format!(
-                "convergence.time_step_factors gives the time steps {} s: two are the same, as \
-                 a step divides output.sample_interval",
-                levels.join(", ")
-            ),
-            "factors further apart",
-            None,
-        )));
+        return Err(StudyError::Case(refusal!(case, "convergence.time_step_factors",
+            "convergence.time_step_factors gives the time steps {} s: two are the same, as a step \
+             divides output.sample_interval", levels.join(", ");
+            "factors further apart")));
     }
     let of = |analysis: &str, quantities: Vec<Quantity>, notes: Vec<String>| Series {
         analysis: analysis.to_owned(),
@@ -226,15 +199,15 @@ fn series(case: &Case, study: &Levels, outcomes: Vec<Timed>) -> Result<Vec<Serie
         Analysis::Cycle => quantities::by_family(&summaries)
             .into_iter()
             .map(|(family, cycles)| {
-                let phases = cycles.iter().map(|cycle| match cycle.phases {
+                let phases = cycles.iter().map(|cycle| match cycle["phases"].as_u64() {
                     Some(phases) => phases.to_string(),
                     None => "no".to_owned(),
                 });
                 let mut notes = vec![format!("{} phases", phases.collect::<Vec<_>>().join(", "))];
                 for (level, cycle) in levels.iter().zip(&cycles) {
-                    let error = cycle.error.as_ref();
+                    let error = cycle["error"].as_str();
                     notes.extend(error.map(|error| format!("{level}: {error}")));
-                    if cycle.confirmation.and_then(|said| said.agrees) == Some(false) {
+                    if cycle["confirmation"]["agrees"] == false {
                         notes.push(format!(
                             "{level}: NOT CONFIRMED: a transient does not stay on the cycle found: take a finer mesh"
                         ));

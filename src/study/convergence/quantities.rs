@@ -5,7 +5,7 @@ use crate::cea::{ComplexMode, FrictionSweep, UnstableInterval};
 use crate::cycle::Family;
 use crate::linalg::c64;
 use crate::results::convergence::Quantity;
-use crate::results::summary::{MeanPowers, PointSummary, Vibration};
+use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Harmonic, branch and direction: what a mode is known by on every mesh.
@@ -192,76 +192,84 @@ fn onsets(sizes: &[f64], sweeps: &[FrictionSweep], has_harmonics: bool) -> Vec<Q
     quantities
 }
 
-/// Frequency, harmonic, status, powers and growth rates of transients.
-pub fn of_transients(sizes: &[f64], summaries: &[PointSummary]) -> Vec<Quantity> {
-    let harmonics = summaries.iter().map(|s| s.own.harmonic);
-    let harmonics = harmonics.map(|harmonic| harmonic.map_or(f64::NAN, |n| n as f64));
+/// A number of a summary; `NaN` where there is none.
+fn number(summary: &Value, path: &str) -> f64 {
+    summary.pointer(path).and_then(Value::as_f64).unwrap_or(f64::NAN)
+}
+
+/// The entries of a list of a summary.
+fn listed<'a>(summary: &'a Value, name: &str) -> impl Iterator<Item = &'a Value> {
+    summary[name].as_array().into_iter().flatten()
+}
+
+/// Frequency, harmonic, status, powers and growth rates of transients, from their summaries.
+pub fn of_transients(sizes: &[f64], summaries: &[Value]) -> Vec<Quantity> {
+    let harmonics = summaries.iter().map(|summary| number(summary, "/main_harmonic"));
     let harmonic = Quantity::count("main harmonic".to_owned(), harmonics.collect());
-    let vibrations: Vec<Vibration> = summaries.iter().map(|s| s.own.clone()).collect();
-    let mut quantities = of_limit_cycles(sizes, &vibrations);
+    let mut quantities = of_limit_cycles(sizes, summaries);
     quantities.insert(1, harmonic);
     quantities.extend(growth_rates(sizes, summaries));
     quantities
 }
 
 /// Frequency, status and powers of limit cycles.
-pub fn of_limit_cycles(sizes: &[f64], cycles: &[Vibration]) -> Vec<Quantity> {
-    let each = |name: &str, unit: &'static str, value: &dyn Fn(&Vibration) -> Option<f64>| {
-        let values = cycles.iter().map(|cycle| value(cycle).unwrap_or(f64::NAN));
+pub fn of_limit_cycles(sizes: &[f64], cycles: &[Value]) -> Vec<Quantity> {
+    let each = |name: &str, unit: &'static str, path: &str| {
+        let values = cycles.iter().map(|cycle| number(cycle, path));
         Quantity::new(name.to_owned(), unit, sizes, values.collect())
     };
     // A power as a share of the external one.
-    let share = |name: &str, power: fn(&MeanPowers) -> Option<f64>| {
-        each(&format!("{name} / external power"), "", &|cycle| {
-            Some(power(&cycle.power_w)? / cycle.power_w.external?)
-        })
+    let share = |name: &str, path: &str| {
+        let external = |cycle: &Value| number(cycle, "/power_w/external");
+        let values = cycles.iter().map(|cycle| number(cycle, path) / external(cycle));
+        Quantity::new(format!("{name} / external power"), "", sizes, values.collect())
     };
     vec![
-        each("main frequency", "Hz", &|cycle| cycle.main_frequency_hz),
-        each("stick fraction", "", &|cycle| cycle.status.stick),
-        each("slip fraction", "", &|cycle| cycle.status.slip),
-        each("open fraction", "", &|cycle| cycle.status.open),
-        each("external power", "W", &|cycle| cycle.power_w.external),
-        share("stick", |powers| powers.stick),
-        share("slide", |powers| powers.slide),
-        share("contact dissipation", |powers| powers.contact_dissipated),
-        share("material damping", |powers| powers.material_damping),
+        each("main frequency", "Hz", "/main_frequency_hz"),
+        each("stick fraction", "", "/status/stick"),
+        each("slip fraction", "", "/status/slip"),
+        each("open fraction", "", "/status/open"),
+        each("external power", "W", "/power_w/external"),
+        share("stick", "/power_w/stick"),
+        share("slide", "/power_w/slide"),
+        share("contact dissipation", "/power_w/contact_dissipated"),
+        share("material damping", "/power_w/material_damping"),
     ]
 }
 
-/// The limit cycles of each family that some search looked for, level by level; an empty one where one did not.
-pub fn by_family(summaries: &[PointSummary]) -> Vec<(Family, Vec<Vibration>)> {
-    let family =
-        |cycle: &Vibration| Some(Family { harmonic: cycle.harmonic?, onset: cycle.onset? });
-    let all = summaries.iter().flat_map(|summary| &summary.cycles);
+/// The limit cycles of each family that some search looked for, level by level; null where one did not.
+pub fn by_family(summaries: &[Value]) -> Vec<(Family, Vec<Value>)> {
+    let family = |cycle: &Value| {
+        let part = |name: &str| Some(cycle[name].as_u64()? as usize);
+        Some(Family { harmonic: part("harmonic")?, onset: part("onset")? })
+    };
+    let all = summaries.iter().flat_map(|summary| listed(summary, "cycles"));
     let mut families: Vec<Family> = all.filter_map(family).collect();
     families.sort_unstable();
     families.dedup();
     let of = |wanted: Family| {
-        let levels = summaries.iter().map(|summary| &summary.cycles);
-        let own = |level: &Vec<Vibration>| {
-            let found = level.iter().find(|cycle| family(cycle) == Some(wanted));
-            found.cloned().unwrap_or_default()
+        let own = |summary: &Value| {
+            let mut cycles = listed(summary, "cycles");
+            cycles.find(|cycle| family(cycle) == Some(wanted)).cloned().unwrap_or_default()
         };
-        levels.map(own).collect()
+        summaries.iter().map(own).collect()
     };
     families.into_iter().map(|f| (f, of(f))).collect()
 }
 
 /// Growth rate of each harmonic that some run has one of.
-fn growth_rates(sizes: &[f64], summaries: &[PointSummary]) -> Vec<Quantity> {
-    let all = summaries.iter().flat_map(|summary| &summary.growth);
-    let mut harmonics: Vec<usize> = all.filter_map(|growth| growth.harmonic).collect();
+fn growth_rates(sizes: &[f64], summaries: &[Value]) -> Vec<Quantity> {
+    let all = summaries.iter().flat_map(|summary| listed(summary, "growth"));
+    let mut harmonics: Vec<u64> = all.filter_map(|growth| growth["harmonic"].as_u64()).collect();
     harmonics.sort_unstable();
     harmonics.dedup();
-    let of = |harmonic: usize| {
-        let rate = |summary: &PointSummary| {
-            let mut growth = summary.growth.iter();
-            growth.find(|g| g.harmonic == Some(harmonic))?.rate_per_s
+    let of = |harmonic: u64| {
+        let rate = |summary: &Value| {
+            let own = listed(summary, "growth").find(|growth| growth["harmonic"] == harmonic);
+            own.map_or(f64::NAN, |growth| number(growth, "/rate_per_s"))
         };
-        let values = summaries.iter().map(|s| rate(s).unwrap_or(f64::NAN));
         let name = format!("growth rate, n = {harmonic}");
-        Quantity::new(name, "1/s", sizes, values.collect())
+        Quantity::new(name, "1/s", sizes, summaries.iter().map(rate).collect())
     };
     harmonics.into_iter().map(of).collect()
 }

@@ -2,7 +2,7 @@
 
 use super::critical::{candidates, critical};
 use super::operating_point;
-use crate::case::{Case, CaseErrors, Cycle, OnsetChoice};
+use crate::case::{Case, CaseErrors, Cycle, OnsetChoice, refusal};
 use crate::cea::ModeLimit;
 use crate::cycle::{
     CriticalValue, CycleError, CycleSolver, DiscModel, Family, LARGEST_FRICTION, MODES, Onset,
@@ -31,20 +31,13 @@ pub fn continuation(
     let Some(parameter) = parameter else {
         let known = Parameter::ALL.iter().filter(suits);
         let known: Vec<&str> = known.map(|known| known.key()).collect();
-        return Err(StudyError::Case(case.error_at(
-            "cycle.continuation.key",
-            format!("limit cycles cannot be followed over {}", continuation.key),
-            "not one of the parameters of a cycle",
-            format!("one of {}", known.join(", ")),
-        )));
+        return Err(StudyError::Case(refusal!(case, "cycle.continuation.key",
+            "limit cycles cannot be followed over {}", continuation.key;
+            "not one of the parameters of a cycle"; "one of {}", known.join(", "))));
     };
     if continuation.from.min(continuation.to) < 0.0 {
-        return Err(StudyError::Case(case.error_at(
-            "cycle.continuation.from",
-            format!("{} cannot be negative along a branch", continuation.key),
-            "must not be negative",
-            None,
-        )));
+        return Err(StudyError::Case(refusal!(case, "cycle.continuation.from",
+            "{} cannot be negative along a branch", continuation.key; "must not be negative")));
     }
     let values = continuation.values().into_iter();
     let values = values.map(|value| value * parameter.unit()).collect();

@@ -1,6 +1,5 @@
 //! Complex eigenvalues of the steady sliding of a case: its model, and the sweep over friction by
-//! the solver it gets. The map over a second parameter, and the spectrum alone for those who study
-//! it.
+//! the solver it gets. The spectrum alone is for those who study it.
 //!
 //! ```no_run
 //! use frictionsim::case::Case;
@@ -15,7 +14,6 @@
 
 mod assembly;
 mod dampings;
-mod map;
 mod model;
 mod notes;
 mod reading;
@@ -28,9 +26,8 @@ mod states;
 
 pub use assembly::AssemblyModel;
 pub use dampings::dampings;
-pub use map::map;
 pub use model::{Model, Solver, Spectrum, Waves, asked_modes, mode_limit, no_cyclic_losses};
-pub(super) use sensitivity::rates_of_waves;
+pub(super) use sensitivity::rates::rates_of_waves;
 pub use sensitivity::{BodySensitivities, body_sensitivities};
 pub use sliding::{SlidingModel, SteadyState};
 pub use solid::SolidBody;
@@ -99,7 +96,6 @@ pub fn preflight(case: &Case, cea: &Cea) -> Result<(), StudyError> {
     let one = Cea {
         friction_coefficients: vec![cea.friction_coefficients[0]],
         shapes_at: Vec::new(),
-        map: None,
         ..cea.clone()
     };
     let model = SlidingModel::new(case, &one)?;
@@ -108,9 +104,6 @@ pub fn preflight(case: &Case, cea: &Cea) -> Result<(), StudyError> {
 }
 
 /// A frequency limit below the first mode is an error of the case.
-///
-/// # Errors
-/// That one.
 pub fn refuse_no_modes(case: &Case, cea: &Cea, sweep: &FrictionSweep) -> Result<(), StudyError> {
     let ModeSelection::BelowHz(limit) = cea.modes else {
         return Ok(());
@@ -129,7 +122,7 @@ pub fn refuse_no_modes(case: &Case, cea: &Cea, sweep: &FrictionSweep) -> Result<
     Err(StudyError::Case(case.raw.errors(all)))
 }
 
-/// What there is to report of a solution; the map is left out.
+/// What there is to report of a solution.
 pub fn report<'a>(
     case: &'a Case,
     cea: &'a Cea,
@@ -157,7 +150,6 @@ pub fn report<'a>(
         assembly: model.assembly(),
         sensitivities: solution.sensitivities.as_ref(),
         reading: solution.reading.as_ref(),
-        map: None,
         notes: solution.notes.clone(),
         wall_s,
     }

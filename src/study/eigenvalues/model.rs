@@ -3,11 +3,13 @@
 use super::assembly::{self, AssemblyModel};
 use super::states::{StatesSweep, WholeMesh};
 use super::{Progress, StudyError};
-use crate::case::{Annulus, Body, Case, CaseErrors, Cea, CeaMethod, ModeSelection, Revolution};
-use crate::cea::cyclic::{self, Coverage, Overdamped, SolidModel, SolidSweep};
+use crate::case::{
+    Annulus, Body, Case, CaseErrors, Cea, CeaMethod, ModeSelection, Revolution, refusal,
+};
+use crate::cea::cyclic::{self, Coverage, Overdamped, SolidModel, WaveSweep};
 use crate::cea::{CeaError, FrictionSweep, ModeBranch, ModeLimit, SweepRequest};
 use crate::mesh::{SectorMesh, SolidSector};
-use crate::prestress::{SectorTangent, SlidingTangent, SolidTangent, TangentOptions, WaveTangent};
+use crate::prestress::{SlidingTangent, TangentOptions, WaveTangent};
 use crate::study::tangent_options;
 
 /// The eigenvalue solver that a body gets.
@@ -35,12 +37,10 @@ impl Solver {
             (Body::Imported(_) | Body::Assembly(_), CeaMethod::Cyclic)
                 if !case.body.is_of_sectors() =>
             {
-                Err(case.error_at(
-                    "cea.method",
-                    "cea.method = \"cyclic\" needs a body of equal sectors",
-                    "the mesh file has the whole body",
-                    "give a mesh of one sector with mesh.sectors, or use \"auto\" or \"sparse\"",
-                ))
+                Err(refusal!(case, "cea.method",
+                    "cea.method = \"cyclic\" needs a body of equal sectors";
+                    "the mesh file has the whole body";
+                    "give a mesh of one sector with mesh.sectors, or use \"auto\" or \"sparse\""))
             }
             (Body::Annulus(_), CeaMethod::Cyclic) if is_lossy => {
                 Err(no_cyclic_losses(case, "cea.method = \"cyclic\""))
@@ -94,15 +94,11 @@ fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
         return Ok(());
     }
     let key = case.speed_key();
-    Err(case.error_at(
-        &key,
-        format!(
-            "{key} = 0: the contact sticks at rest, and there is no steady sliding whose \
-             eigenvalues could be solved"
-        ),
-        "must not be zero for an eigenvalue analysis",
-        "give a speed, however small; its sign is the sense of the sliding",
-    ))
+    Err(refusal!(case, &key,
+        "{key} = 0: the contact sticks at rest, and there is no steady sliding whose eigenvalues \
+         could be solved";
+        "must not be zero for an eigenvalue analysis";
+        "give a speed, however small; its sign is the sense of the sliding"))
 }
 
 /// Refuses to count modes where the argument principle does not apply.
@@ -180,6 +176,19 @@ fn spectrum_of(found: StatesSweep, mut notes: Vec<String>) -> Spectrum {
         sweep: found.sweep,
         waves: None,
         is_by_diameters: found.is_by_diameters,
+    }
+}
+
+/// The spectrum of a body that was solved harmonic by harmonic.
+fn spectrum_of_waves(found: WaveSweep, notes: Vec<String>) -> Spectrum {
+    Spectrum {
+        dofs: found.dofs,
+        notes,
+        coverage: Some(found.coverage),
+        overdamped: found.overdamped,
+        sweep: found.sweep,
+        waves: Some(Waves { tangent: found.tangent, branches: found.branches }),
+        is_by_diameters: false,
     }
 }
 
@@ -262,33 +271,12 @@ impl Model {
                 let sliding = &case.contact.sliding;
                 let request = (request, waves_at);
                 let found = cyclic::sweep_with_waves(grid, materials, options, sliding, request)?;
-                Ok(Spectrum {
-                    dofs: found.tangent.dimension() * found.tangent.sector().sector_count(),
-                    notes: Vec::new(),
-                    coverage: Some(found.coverage),
-                    overdamped: Vec::new(),
-                    sweep: found.sweep,
-                    waves: Some(Waves {
-                        tangent: WaveTangent::Plane(Box::new(found.tangent)),
-                        branches: found.branches,
-                    }),
-                    is_by_diameters: false,
-                })
+                Ok(spectrum_of_waves(found, Vec::new()))
             }
             Self::SolidSectors(model) => {
                 let found = cyclic::solid_sweep_with_waves(model, request, waves_at)?;
-                Ok(Spectrum {
-                    dofs: found.dofs,
-                    notes: vec![reduction_note(&found, request)],
-                    coverage: Some(found.coverage),
-                    overdamped: found.overdamped,
-                    sweep: found.sweep,
-                    waves: Some(Waves {
-                        tangent: WaveTangent::Solid(Box::new(found.tangent)),
-                        branches: found.branches,
-                    }),
-                    is_by_diameters: false,
-                })
+                let note = reduction_note(&found, request);
+                Ok(spectrum_of_waves(found, vec![note]))
             }
             Self::Whole(whole) => {
                 let found = whole.sweep(case, request, progress)?;
@@ -383,14 +371,12 @@ impl Model {
             Self::Sectors(annulus, options) => {
                 let sector = SectorMesh::generate(&annulus.specification)?;
                 let (materials, sliding) = (&annulus.materials, &case.contact.sliding);
-                let tangent = SectorTangent::linearize(&sector, materials, options, sliding)?;
-                Some(WaveTangent::Plane(Box::new(tangent)))
+                Some(WaveTangent::of_annulus(&sector, materials, options, sliding)?)
             }
             Self::SolidSectors(model) => {
                 let SolidModel { specification, material, options, contact } = &**model;
                 let sector = SolidSector::generate(specification)?;
-                let tangent = SolidTangent::linearize(&sector, material, options, contact)?;
-                Some(WaveTangent::Solid(Box::new(tangent)))
+                Some(WaveTangent::of_revolution(&sector, material, options, contact)?)
             }
             Self::Whole(_) | Self::Assembly(_) => None,
         })
@@ -414,7 +400,7 @@ impl Model {
 }
 
 /// What the reduction of the harmonics leaves out.
-fn reduction_note(found: &SolidSweep, request: &SweepRequest<'_>) -> String {
+fn reduction_note(found: &WaveSweep, request: &SweepRequest<'_>) -> String {
     let frictions = request.friction_coefficients.iter();
     format!(
         "each harmonic is solved in a small space (residuals are those there): relative error of an eigenvalue up to {:.1e}, \

@@ -5,7 +5,7 @@ use super::model::Model;
 use super::sliding::SteadyState;
 use crate::case::{Body, Case, Cea};
 use crate::cea::cyclic::{Coverage, Overdamped};
-use crate::cea::{CeaError, FrictionSweep, ModeCount};
+use crate::cea::{BeyondMode, CeaError, FrictionSweep, ModeCount};
 use std::f64::consts::TAU;
 
 /// What the counts of modes say.
@@ -137,7 +137,8 @@ pub(super) fn damping_note(case: &Case, sweep: &FrictionSweep) -> Option<String>
     ))
 }
 
-/// The modes of a whole mesh that friction across slow sliding damps beyond the critical, and those that change too fast to be followed.
+/// The modes of a whole mesh that friction across slow sliding damps beyond the critical, that change too fast to be followed, that did
+/// not converge or grow just above the list, and its rigid motions.
 pub(super) fn ended_notes(sweep: &FrictionSweep) -> Vec<String> {
     let listed = |all: Vec<String>| {
         let (shown, rest) = all.split_at(all.len().min(MISSING_SHOWN));
@@ -195,7 +196,14 @@ pub(super) fn ended_notes(sweep: &FrictionSweep) -> Vec<String> {
             "{which}, at frequency zero, not listed: nothing holds the body in those directions"
         )
     });
-    damped.into_iter().chain(lost).chain(open).chain(rigid).collect()
+    let beyond = sweep.beyond.map(|mode| {
+        let BeyondMode { friction_coefficient: friction, frequency_hz, growth_rate } = mode;
+        format!(
+            "an unstable mode lies above those listed: {frequency_hz:.0} Hz at friction {friction}, \
+             growing at {growth_rate:.2} 1/s; more cea.modes, or a higher cea.max_frequency_hz, list it"
+        )
+    });
+    damped.into_iter().chain(lost).chain(open).chain(beyond).chain(rigid).collect()
 }
 
 /// The motions that friction across the sliding keeps from oscillating, and those that it damps.

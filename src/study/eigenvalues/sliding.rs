@@ -6,8 +6,9 @@ use super::model::Model;
 use super::solid::SolidBody;
 use crate::case::{AssemblyBody, Case, Cea};
 use crate::fem::nodal_stress;
+use crate::fem::sector::supported_stiffness;
 use crate::mesh::{AnnulusMesh, Mesh, SectorMesh};
-use crate::prestress::{BaseChoice, SectorTangent, SteadySliding};
+use crate::prestress::{BaseChoice, SectorSliding, SteadySliding};
 use crate::results::cea::{AssemblyReport, BaseField, BaseState};
 use crate::study::extent_of;
 use std::sync::Arc;
@@ -63,8 +64,10 @@ impl SlidingModel {
                 let mesh = AnnulusMesh::generate(&annulus.specification)?;
                 let sector = SectorMesh::generate(&annulus.specification)?;
                 let materials = &annulus.materials;
-                let tangent = SectorTangent::linearize(&sector, materials, options, sliding)?;
-                let base = SteadySliding::from_sector(&mesh, &sector, tangent.base(), sliding);
+                let stiffness = supported_stiffness(&sector, materials);
+                let law = options.contact.law;
+                let base = SectorSliding::solve(&sector, &stiffness, sliding, law)?;
+                let base = SteadySliding::from_sector(&mesh, &sector, &base, sliding);
                 (Arc::new(mesh.mesh), SteadyState::Plane(Box::new(base)))
             }
         };

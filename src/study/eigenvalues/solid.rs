@@ -28,7 +28,7 @@ impl SolidBody {
         let sector = SolidSector::generate(specification)?;
         let elastic = solid::stiffness(&sector, &case.material);
         let law = case.contact.stiffness.base_law();
-        let base = SolidSliding::solve_with(&sector, &elastic, &case.contact.sliding, law)?;
+        let base = SolidSliding::solve(&sector, &elastic, &case.contact.sliding, law)?;
         let plane =
             AnnulusSpecification { outer: BoundaryCondition::Clamped, ..specification.annulus };
         let friction_coefficient = case.contact.sliding.friction_coefficient;

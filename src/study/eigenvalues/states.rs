@@ -41,7 +41,7 @@ impl WholeMesh {
         let stiffness = assemble_stiffness(&mesh, case.materials());
         let frictions = [frictions, &[sliding.friction_coefficient]].concat();
         let range =
-            SlidingRange::solve_with(&mesh, &stiffness, sliding, options.contact.law, &frictions)?;
+            SlidingRange::solve(&mesh, &stiffness, sliding, options.contact.law, &frictions)?;
         Ok(Self { symmetry: used_symmetry(case, &mesh), mesh, range, options })
     }
 

@@ -1,7 +1,7 @@
 //! What there is to improve: the unstable modes of a case with their left and right vectors.
 
 use super::super::StudyError;
-use crate::case::{Body, Case, CaseErrors, Cea};
+use crate::case::{Body, Case, CaseErrors, Cea, refusal};
 use crate::cea::sparse::{ModePair, mode_pairs};
 use crate::cea::{CeaError, FrictionSweep, SweepRequest, Unwatched};
 use crate::linalg::c64;
@@ -269,13 +269,9 @@ fn nothing_grows(case: &Case, outlook: Outlook, window: Window) -> CaseErrors {
         Some(_) => "contact.friction_coefficient",
         None => "contacts",
     };
-    case.error_at(
-        key,
-        format!(
-            "no mode {place} grows at friction {friction}: there is nothing to improve{beside}"
-        ),
-        "every mode decays",
-        "raise the friction coefficient above the lowest critical one that `cea` prints, or \
-         widen improve.min_frequency_hz and max_frequency_hz",
-    )
+    refusal!(case, key,
+        "no mode {place} grows at friction {friction}: there is nothing to improve{beside}";
+        "every mode decays";
+        "raise the friction coefficient above the lowest critical one that `cea` prints, or widen \
+         improve.min_frequency_hz and max_frequency_hz")
 }

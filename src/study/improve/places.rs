@@ -1,7 +1,7 @@
 //! Where a body may be modified: not at its contacts, not where the case forbids it, not where nothing moves.
 
 use super::base::Base;
-use crate::case::{Body, CaseErrors};
+use crate::case::{Body, CaseErrors, refusal};
 use crate::mesh::{Counterface, Mesh};
 use std::collections::BTreeSet;
 
@@ -113,10 +113,7 @@ fn refuse_unknown(base: &Base<'_>, forbidden: &[String]) -> Result<(), CaseError
         return Ok(());
     };
     let names: Vec<String> = known.iter().map(|name| format!("\"{name}\"")).collect();
-    Err(base.case.error_at(
-        "improve.forbidden",
-        format!("improve.forbidden names \"{unknown}\", which the body does not have"),
-        "no such region or boundary",
-        format!("it has {}", names.join(", ")),
-    ))
+    Err(refusal!(base.case, "improve.forbidden",
+        "improve.forbidden names \"{unknown}\", which the body does not have";
+        "no such region or boundary"; "it has {}", names.join(", ")))
 }

@@ -84,7 +84,7 @@ impl TransientModel<'_> {
 
     fn sliding_face(&self, sector: &SolidSector) -> Result<SolidSliding, PrestressError> {
         let elastic = solid::stiffness(sector, self.material.of(0));
-        SolidSliding::solve_with(sector, &elastic, &self.contact, self.stiffness.base_law())
+        SolidSliding::solve(sector, &elastic, &self.contact, self.stiffness.base_law())
     }
 
     fn sliding_pairs(&self, assembly: &Assembly<'_>) -> Result<PressedState, PrestressError> {

@@ -14,7 +14,6 @@ pub const ALL: &[(&str, Check)] = &[
     ("`cea`", cea),
     ("`cea`, cyclic", cea_cyclic),
     ("`cea`, sparse", cea_sparse),
-    ("stability map", map),
     ("sensitivities", sensitivities),
     ("`transient`, cyclic", transient_cyclic),
     ("`transient`, sparse", transient_sparse),
@@ -161,29 +160,6 @@ fn cea_cyclic(bench: &Bench, _: Option<&Bench>) -> Cell {
 
 fn cea_sparse(bench: &Bench, _: Option<&Bench>) -> Cell {
     by_method(bench, "sparse")
-}
-
-/// The lowest onset of each point of the map is that of an analysis of its own.
-fn map(bench: &Bench, _: Option<&Bench>) -> Cell {
-    let key = "damping.stiffness_coefficient";
-    let map = format!("cea.map={{key=\"{key}\",values=[3e-7,4.5e-7]}}");
-    let (_, folder) = done!(bench.run("cea", &[&map]));
-    let (values, onsets) =
-        (column(&folder, "map.csv", key), column(&folder, "map.csv", "critical_friction"));
-    for value in [3e-7, 4.5e-7] {
-        let (summary, _) = needed!(bench.run("cea", &[&format!("{key}={value:?}")]));
-        let own = values.iter().zip(&onsets).filter(|(v, _)| **v == value).map(|(_, onset)| *onset);
-        let own = own.filter(|onset| onset.is_finite()).min_by(f64::total_cmp);
-        let single = lowest_onset(&summary);
-        let same = match (own, single) {
-            (Some(own), Some(single)) => is_close(own, single, 1e-7),
-            (own, single) => own == single,
-        };
-        if !same {
-            return Cell::Wrong(format!("onset {own:?} in the map, {single:?} alone, at {value}"));
-        }
-    }
-    Cell::Right
 }
 
 /// Relative change of a parameter for a difference: small, since eigenvalues bend where two of them are about to meet.

@@ -8,9 +8,6 @@ use serde_json::Value;
 /// A case with every section.
 fn whole() -> String {
     let further = "
-        [cea.map]
-        key = \"contact.interference\"
-        values = [1e-5, 2e-5]
         [cycle]
         [cycle.continuation]
         key = \"contact.rotation_speed_rpm\"

@@ -391,16 +391,16 @@ fn snapshots_after_the_end_are_a_warning() {
 }
 
 #[test]
-fn maps_and_cycles_take_numeric_keys_only() {
-    let map = |key: &str| format!("cea.map={{ key = \"{key}\", values = [1e12, 1e13] }}");
-    let case = valid(DISC, &[&map("contact.normal_stiffness")]);
-    assert_eq!(case.cea.unwrap().map.unwrap().values, [1e12, 1e13]);
+fn cycles_take_numeric_keys_only_and_a_map_is_a_sweep() {
+    let map = "cea.map={ key = \"contact.normal_stiffness\", values = [1e12] }";
+    assert_reports(&report(DISC, &[map]), &["a sweep of cea draws it"]);
+    let along =
+        |key: &str| format!("cycle={{ continuation = {{ key = \"{key}\", from = 1, to = 2 }} }}");
     for (key, part) in [
-        ("contact.friction_coefficient", "already the first parameter"),
         ("mesh.element", "not a numeric case key"),
         ("contact.normal_stifness", "did you mean \"contact.normal_stiffness\"?"),
     ] {
-        assert_reports(&report(DISC, &[&map(key)]), &[part]);
+        assert_reports(&report(DISC, &[&along(key)]), &[part]);
     }
     let cycle = "cycle={ harmonics = [1, 2], continuation = { key = \"contact.rotation_speed_rpm\", from = 10, to = 6000 } }";
     let cycle = valid(DISC, &[cycle]).cycle.unwrap();

@@ -36,8 +36,8 @@ fn no_override_is_costly() {
     ] {
         let overrides: Vec<&str> = overrides.iter().map(String::as_str).collect();
         let seconds = seconds_to_read(STUDY, &overrides);
-        // Milliseconds where nobody else is at work.
-        assert!(seconds < Duration::from_secs(4), "{seconds:?}: {:.80}", overrides[0]);
+        // Milliseconds where nobody else is at work; hours where the numbers themselves are made.
+        assert!(seconds < Duration::from_secs(30), "{seconds:?}: {:.80}", overrides[0]);
     }
 }
 
@@ -95,10 +95,10 @@ fn a_run_without_end_or_without_stability_is_refused_for_what_it_is() {
 #[test]
 fn the_cost_of_studies_counts_every_run() {
     let study = valid(STUDY, &[]);
-    let one = study.cost().transient.unwrap().seconds;
+    let one = study.cost().transient.unwrap().run.operations;
     let all = study.sweep_cost().unwrap();
     assert_eq!(all.runs, 72);
-    assert!((all.seconds / (72.0 * one) - 1.0).abs() < 1e-9);
+    assert!((all.run.operations / (72.0 * one) - 1.0).abs() < 1e-9);
 
     let meshes = valid(include_str!("../../../cases/convergence.toml"), &[]);
     let (one, all) = (meshes.cost(), meshes.convergence_cost().unwrap());
@@ -106,6 +106,7 @@ fn the_cost_of_studies_counts_every_run() {
     assert_eq!(all.runs, 12);
     // Twice as fine a mesh has four times the elements and twice the steps.
     let transients =
-        one.transient.unwrap().seconds * (1.0 + 1.5f64.powi(3) + 8.0 + 1.0 + 2.0 + 4.0);
-    assert!(all.seconds > 0.95 * transients, "{} {transients}", all.seconds);
+        one.transient.unwrap().run.operations * (1.0 + 1.5f64.powi(3) + 8.0 + 1.0 + 2.0 + 4.0);
+    let all = all.run.operations;
+    assert!(all > 0.95 * transients, "{all} {transients}");
 }

@@ -52,17 +52,17 @@ const ROWS: &[Row] = &[
     (TREAD, &["speed=2"], "did you mean `speed` of [contact]?", "rotation", &["contact.speed=2"]),
     (
         BRAKE,
-        &["cea.map={key=\"contact.rpm\",values=[1,2]}"],
+        &["sweep={\"contact.rpm\"=[1,2]}"],
         "did you mean \"motion.Disc_Disc_iron.rotation_speed_rpm\"?",
         "contact.rotation",
-        &["cea.map={key=\"motion.Disc_Disc_iron.rotation_speed_rpm\",values=[1,2]}"],
+        &["sweep={\"motion.Disc_Disc_iron.rotation_speed_rpm\"=[1,2]}"],
     ),
     (
         TREAD,
-        &["cea.map={key=\"contact.omega\",values=[1,2]}"],
+        &["sweep={\"contact.omega\"=[1,2]}"],
         "did you mean \"contact.speed\"?",
         "rotation",
-        &["cea.map={key=\"contact.speed\",values=[1,2]}"],
+        &["sweep={\"contact.speed\"=[1,2]}"],
     ),
     (TREAD, &["contact.state=closed"], "keys of [contact]: ", "[contacts.*]", &[]),
     (

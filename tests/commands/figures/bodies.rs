@@ -95,7 +95,6 @@ fn report<'a>(
         assembly: None,
         sensitivities: None,
         reading: None,
-        map: None,
         notes: vec![],
         wall_s: 1.0,
     }

@@ -59,7 +59,6 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
         assembly: None,
         sensitivities: None,
         reading: None,
-        map: None,
         notes: vec![],
         wall_s: 1.2,
     };

@@ -1,7 +1,7 @@
 //! Sweeps of the paper's disc.
 
 use crate::disc::{DAMPING, POLYCARBONATE, contact};
-use frictionsim::cea::cyclic::{CyclicSweep, sweep};
+use frictionsim::cea::cyclic::{WaveSweep, sweep};
 use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::MassKind;
@@ -28,7 +28,7 @@ pub fn run(
     options: &TangentOptions,
     frictions: &[f64],
     limit: ModeLimit,
-) -> CyclicSweep {
+) -> WaveSweep {
     let request = SweepRequest {
         friction_coefficients: frictions,
         limit,

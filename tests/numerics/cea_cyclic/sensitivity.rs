@@ -4,16 +4,25 @@ use crate::cea_cyclic::model::paper_options;
 use crate::disc::{POLYCARBONATE, annulus, contact};
 use crate::waves::{STEP, difference, is_of, pairs, rates};
 use faer::c64;
-use frictionsim::cea::cyclic::{CyclicModel, CyclicSweep, WavePair, sweep};
+use frictionsim::cea::cyclic::{WavePair, WaveSweep, sweep};
 use frictionsim::cea::{ModeLimit, SweepRequest};
-use frictionsim::contact::{ContactStiffness, NormalLaw};
-use frictionsim::fem::{ElasticMaterial, PlaneFormulation};
-use frictionsim::mesh::{ElementKind, SectorMesh};
-use frictionsim::prestress::{DampingModel, SectorTangent, WaveTangent};
+use frictionsim::contact::{ContactStiffness, NormalLaw, SlidingContact};
+use frictionsim::fem::{AnnulusMaterials, ElasticMaterial, PlaneFormulation};
+use frictionsim::mesh::{AnnulusSpecification, ElementKind, SectorMesh};
+use frictionsim::prestress::{DampingModel, TangentOptions, WaveTangent};
 
 const FRICTION: f64 = 0.35;
 
-fn swept(model: &CyclicModel, frictions: &[f64], limit_hz: f64) -> CyclicSweep {
+/// Everything that an analysis is made from.
+#[derive(Clone, Copy)]
+struct CyclicModel {
+    specification: AnnulusSpecification,
+    material: AnnulusMaterials,
+    options: TangentOptions,
+    contact: SlidingContact,
+}
+
+fn swept(model: &CyclicModel, frictions: &[f64], limit_hz: f64) -> WaveSweep {
     let request = SweepRequest {
         friction_coefficients: frictions,
         limit: ModeLimit::MaxFrequency(limit_hz),
@@ -27,8 +36,7 @@ fn swept(model: &CyclicModel, frictions: &[f64], limit_hz: f64) -> CyclicSweep {
 fn tangent(model: &CyclicModel) -> WaveTangent {
     let sector = SectorMesh::generate(&model.specification).unwrap();
     let CyclicModel { material, options, contact, .. } = model;
-    let tangent = SectorTangent::linearize(&sector, material, options, contact);
-    WaveTangent::Plane(Box::new(tangent.unwrap()))
+    WaveTangent::of_annulus(&sector, material, options, contact).unwrap()
 }
 
 /// One eigenvalue of a changed model, by following its branch.

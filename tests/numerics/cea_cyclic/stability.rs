@@ -3,7 +3,7 @@
 use crate::cea_cyclic::model::{paper_options, run};
 use crate::disc::{POLYCARBONATE, annulus, contact};
 use crate::table_1::TABLE_1;
-use frictionsim::cea::cyclic::{CyclicModel, stability_map, sweep};
+use frictionsim::cea::cyclic::sweep;
 use frictionsim::cea::{ModeBranch, ModeLimit, SweepRequest, UnstableInterval};
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::{ElasticMaterial, MassKind};
@@ -115,43 +115,6 @@ fn results_are_the_same_to_the_last_bit_on_any_number_of_threads() {
     let (one, four) = (solve(1), solve(4));
     assert_eq!(one.sweep, four.sweep);
     assert_eq!(one.branches, four.branches);
-}
-
-/// A point of a map that has no sliding state is reported, the others are computed.
-#[test]
-fn stability_map_equals_single_sweeps_and_survives_failing_points() {
-    let model = CyclicModel {
-        specification: annulus(ElementKind::Quad4, 40, 10),
-        material: POLYCARBONATE.into(),
-        options: paper_options(),
-        contact: contact(610.0),
-    };
-    let limit = ModeLimit::Lowest(12);
-    let models = [-1e-5, 2e-5, 2e-4].map(|interference| {
-        let mut changed = model;
-        changed.contact.interference = interference;
-        (interference, changed)
-    });
-    let map = stability_map(&models, limit, 1.0);
-    assert!(map[0].outcome.as_ref().unwrap_err().to_string().contains("contact.interference"));
-    for point in &map[1..] {
-        let mut contact = model.contact;
-        contact.interference = point.value;
-        let request = SweepRequest {
-            friction_coefficients: &[1.0],
-            limit,
-            shapes_at: &[],
-            count_modes: false,
-        };
-        let single =
-            sweep(&model.specification, &model.material, &model.options, &contact, &request)
-                .unwrap();
-        let onset = point.lowest_onset().unwrap();
-        let first = &single.sweep.intervals[0];
-        assert!((onset.critical_friction - first.critical_friction).abs() < 1e-10);
-        let of_branch = point.critical_friction(first.harmonic, first.branch, first.direction);
-        assert_eq!(of_branch, Some(onset.critical_friction));
-    }
 }
 
 #[test]

@@ -6,22 +6,29 @@ use std::path::Path;
 
 /// Consistency: where friction falls with speed, less of it is enough at low speed, and the sensitivities name the law.
 #[test]
-fn the_map_of_the_shipped_case_rises_with_speed() {
+fn the_critical_friction_of_the_shipped_case_rises_with_speed() {
     let folder = tempfile::tempdir().unwrap();
     let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/falling-friction.toml");
-    let mut command = Command::cargo_bin("frictionsim").unwrap();
-    command.arg("cea").arg(case).arg("--out").arg(folder.path());
-    for change in [
-        "mesh.circumferential_elements=45",
-        "mesh.radial_elements=9",
-        "output.probes=[]",
-        "cea.map.values=[30, 300, 3000]",
-        "cea.friction_coefficients=[0.0, 0.3]",
-    ] {
-        command.args(["--set", change]);
-    }
-    command.arg("--no-figures").assert().success();
-    let map = fs::read_to_string(folder.path().join("map.csv")).unwrap();
+    let run = |name: &str, further: &[&str]| {
+        let mut command = Command::cargo_bin("frictionsim").unwrap();
+        command.arg(name).arg(&case).arg("--out").arg(folder.path().join(name));
+        let coarse = [
+            "mesh.circumferential_elements=45",
+            "mesh.radial_elements=9",
+            "output.probes=[]",
+            "cea.friction_coefficients=[0.0, 0.3]",
+        ];
+        for change in coarse.iter().chain(further) {
+            command.args(["--set", change]);
+        }
+        command.arg("--no-figures").assert().success();
+    };
+    run("cea", &[]);
+    run(
+        "sweep",
+        &["sweep={\"contact.rotation_speed_rpm\"=[30.0, 300.0, 3000.0], analyses=[\"cea\"]}"],
+    );
+    let map = fs::read_to_string(folder.path().join("sweep/stability.csv")).unwrap();
     let critical: Vec<f64> = ["30.0", "300.0", "3000.0"]
         .iter()
         .map(|speed| {
@@ -30,7 +37,7 @@ fn the_map_of_the_shipped_case_rises_with_speed() {
         })
         .collect();
     assert!(critical[0] < 0.7 * critical[2] && critical[1] < 0.95 * critical[2], "{critical:?}");
-    let table = fs::read_to_string(folder.path().join("sensitivities.csv")).unwrap();
+    let table = fs::read_to_string(folder.path().join("cea/sensitivities.csv")).unwrap();
     let head = table.lines().next().unwrap();
     assert!(head.contains("growth_rate_per_decay_speed,frequency_hz_per_decay_speed"));
 }

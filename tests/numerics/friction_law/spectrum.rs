@@ -3,7 +3,7 @@
 use crate::disc::{DAMPING, POLYCARBONATE, annulus};
 use crate::friction_law::falling;
 use crate::waves::{STEP, is_of, pairs, rates};
-use frictionsim::cea::cyclic::{self, CyclicSweep};
+use frictionsim::cea::cyclic::{self, WaveSweep};
 use frictionsim::cea::{ComplexMode, FrictionSweep, ModeLimit, SweepRequest, sparse};
 use frictionsim::contact::{ContactStiffness, FrictionDecay, SlidingContact};
 use frictionsim::fem::{ElasticMaterial, MassKind, assemble_stiffness};
@@ -12,7 +12,7 @@ use frictionsim::frf::{
 };
 use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, SectorMesh};
 use frictionsim::prestress::{
-    DampingModel, SectorTangent, SlidingTangent, SteadySliding, TangentOptions, WaveTangent,
+    DampingModel, SlidingTangent, SteadySliding, TangentOptions, WaveTangent,
 };
 
 fn options(normal_stiffness: Option<f64>) -> TangentOptions {
@@ -31,7 +31,7 @@ fn swept(
     options: &TangentOptions,
     contact: &SlidingContact,
     frictions: &[f64],
-) -> CyclicSweep {
+) -> WaveSweep {
     let request = SweepRequest {
         friction_coefficients: frictions,
         limit: ModeLimit::Lowest(18),
@@ -107,7 +107,7 @@ fn responses_by_harmonics_and_of_the_whole_mesh_agree_under_a_falling_law() {
     let specification = annulus(ElementKind::Quad4, 24, 5);
     let (options, contact) = (options(None), falling(610.0));
     let sector = SectorMesh::generate(&specification).unwrap();
-    let tangent = SectorTangent::linearize(&sector, &POLYCARBONATE, &options, &contact).unwrap();
+    let tangent = WaveTangent::of_annulus(&sector, &POLYCARBONATE, &options, &contact).unwrap();
     let terminal = Terminal { node: 3, direction: Direction::Tangential };
     let frequencies = [3000.0, 9000.0];
     let by_harmonics =
@@ -146,8 +146,7 @@ fn sensitivities_to_the_law_equal_finite_differences() {
             (material, contact)
         };
         let tangent = |(material, contact): (ElasticMaterial, SlidingContact)| {
-            let tangent = SectorTangent::linearize(&sector, &material, &options, &contact);
-            WaveTangent::Plane(Box::new(tangent.unwrap()))
+            WaveTangent::of_annulus(&sector, &material, &options, &contact).unwrap()
         };
         let found = of(&POLYCARBONATE, &contact);
         let pairs = pairs(&tangent(changed(0, 0.0)), &found.branches, friction);

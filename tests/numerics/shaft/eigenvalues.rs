@@ -10,7 +10,7 @@ use frictionsim::fem::{
 };
 use frictionsim::mesh::{AnnulusMesh, BoundaryCondition, ElasticSupport, ElementKind, SectorMesh};
 use frictionsim::prestress::{
-    DampingModel, SectorTangent, SlidingTangent, SteadySliding, TangentOptions, WaveTangent,
+    DampingModel, SlidingTangent, SteadySliding, TangentOptions, WaveTangent,
 };
 
 fn nearest(mode: &ComplexMode, others: &[ComplexMode]) -> f64 {
@@ -133,8 +133,7 @@ fn sensitivities_of_two_bodies_are_those_of_each_bodys_own_parameters() {
     };
     let tangent = |materials: &AnnulusMaterials, options: &TangentOptions| {
         let sector = SectorMesh::generate(&specification).unwrap();
-        let tangent = SectorTangent::linearize(&sector, materials, options, &contact(610.0));
-        WaveTangent::Plane(Box::new(tangent.unwrap()))
+        WaveTangent::of_annulus(&sector, materials, options, &contact(610.0)).unwrap()
     };
     let own = materials(&|_| {});
     let found = pairs(&tangent(&own, &options), &solve(&own, &options).branches, 0.3);

@@ -1,7 +1,7 @@
 //! The paper's disc on a deformable shaft.
 
 use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
-use frictionsim::cea::cyclic::{CyclicSweep, sweep};
+use frictionsim::cea::cyclic::{WaveSweep, sweep};
 use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::{
@@ -58,7 +58,7 @@ pub fn spectrum(
     options: &TangentOptions,
     frictions: &[f64],
     limit: ModeLimit,
-) -> CyclicSweep {
+) -> WaveSweep {
     let request = SweepRequest {
         friction_coefficients: frictions,
         limit,

@@ -7,7 +7,7 @@ use frictionsim::fem::RayleighDamping;
 use frictionsim::fem::fold::{MirrorParity, WaveDofs};
 use frictionsim::fem::solid::{stiffness, wave_dofs};
 use frictionsim::mesh::{ElementKind, SheetNode, SolidContact, SolidSector};
-use frictionsim::prestress::{SolidTangent, TangentOptions};
+use frictionsim::prestress::{TangentOptions, WaveTangent};
 use std::f64::consts::TAU;
 
 /// Independent check: strains `xx`, `zx`, `zz` constant over the body cost no force inside. In waves around,
@@ -59,13 +59,14 @@ fn rigid_rotation_leaves_the_prestressed_body_in_balance() {
             model.specification.contact = contact;
             let sector = SolidSector::generate(&model.specification).unwrap();
             let of = |options| {
-                SolidTangent::linearize(&sector, &model.material, &options, &model.contact).unwrap()
+                WaveTangent::of_revolution(&sector, &model.material, &options, &model.contact)
+                    .unwrap()
             };
             let with = of(model.options);
             let without = of(TangentOptions { geometric_stiffness: false, ..model.options });
             let without = without.harmonic(0).stiffness;
             let mut rotation = vec![0.0; without[0].dimension()];
-            for (dof, unknown) in with.unknown_of().iter().enumerate() {
+            for (dof, unknown) in with.unknowns().unknown_of.iter().enumerate() {
                 if let (Some(unknown), 1) = (unknown, dof % 3) {
                     rotation[*unknown] = sector.nodes[dof / 3].radius;
                 }
@@ -82,7 +83,7 @@ fn rigid_rotation_leaves_the_prestressed_body_in_balance() {
                 let mut difference = after.clone();
                 difference.add_scaled(-1.0, before);
                 let scale = difference.values().iter().fold(0.0_f64, |m, v| m.max(v.abs())) * 0.09;
-                for (dof, unknown) in with.unknown_of().iter().enumerate() {
+                for (dof, unknown) in with.unknowns().unknown_of.iter().enumerate() {
                     if let (Some(unknown), false) = (unknown, outermost(dof)) {
                         // Each row sums a hundred terms of that size.
                         assert!(

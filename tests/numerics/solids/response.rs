@@ -10,7 +10,7 @@ use frictionsim::frf::{CyclicSystem, Direction, FrfError, Terminal, cyclic_respo
 use frictionsim::mesh::{
     BoundaryCondition, ElasticSupport, ElementKind, SectorMesh, SolidContact, SolidSector,
 };
-use frictionsim::prestress::{DampingModel, SolidTangent};
+use frictionsim::prestress::{DampingModel, WaveTangent};
 
 use Direction::{Axial, Radial, Tangential};
 
@@ -22,8 +22,9 @@ pub fn body(model: &SolidModel, is_clamped: bool) -> CyclicSystem {
 
 pub fn sliding(model: &SolidModel, friction: f64) -> CyclicSystem {
     let sector = SolidSector::generate(&model.specification).unwrap();
-    let tangent = SolidTangent::linearize(&sector, &model.material, &model.options, &model.contact);
-    CyclicSystem::solid_sliding(&tangent.unwrap(), friction)
+    let tangent =
+        WaveTangent::of_revolution(&sector, &model.material, &model.options, &model.contact);
+    CyclicSystem::sliding(&tangent.unwrap(), friction)
 }
 
 fn small(element: ElementKind) -> SolidModel {

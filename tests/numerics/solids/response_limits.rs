@@ -7,7 +7,7 @@ use frictionsim::fem::PlaneFormulation;
 use frictionsim::frf::Direction::{Axial, Radial, Tangential};
 use frictionsim::frf::{CyclicSystem, Terminal, cyclic_response};
 use frictionsim::mesh::{BoundaryCondition, ElementKind, SectorMesh, SolidSector};
-use frictionsim::prestress::SectorTangent;
+use frictionsim::prestress::WaveTangent;
 use std::f64::consts::TAU;
 
 /// Responses of plane strain for each metre and of the guided body times its thickness to a force along the inner edge, at places
@@ -23,7 +23,7 @@ fn plane_and_guided(around: usize, is_sliding: bool) -> Vec<(c64, c64)> {
     material.formulation = PlaneFormulation::PlaneStrain;
     let options = &model.options;
     let (flat, thick) = if is_sliding {
-        let tangent = SectorTangent::linearize(&plane, &material, options, &model.contact);
+        let tangent = WaveTangent::of_annulus(&plane, &material, options, &model.contact);
         let flat = CyclicSystem::sliding(&tangent.unwrap(), 0.3);
         (flat, sliding(&model, 0.3))
     } else {

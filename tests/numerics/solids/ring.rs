@@ -20,7 +20,7 @@ fn base(model: &SolidModel) -> Result<(SolidSector, SolidSliding), PrestressErro
     let sector = SolidSector::generate(&model.specification).unwrap();
     let elastic = solid::stiffness(&sector, &model.material);
     let law = model.options.contact.base_law();
-    let base = SolidSliding::solve_with(&sector, &elastic, &model.contact, law)?;
+    let base = SolidSliding::solve(&sector, &elastic, &model.contact, law)?;
     Ok((sector, base))
 }
 

@@ -10,7 +10,7 @@ use frictionsim::contact::{ContactStiffness, FrictionDecay, NormalLaw};
 use frictionsim::mesh::{
     BoundaryCondition, ElasticSupport, ElementKind, SolidContact, SolidSector,
 };
-use frictionsim::prestress::{DampingModel, SolidTangent, WaveTangent};
+use frictionsim::prestress::{DampingModel, WaveTangent};
 use std::collections::BTreeMap;
 
 const FRICTION: f64 = 0.35;
@@ -30,8 +30,7 @@ fn request() -> SweepRequest<'static> {
 fn tangent(model: &SolidModel) -> WaveTangent {
     let sector = SolidSector::generate(&model.specification).unwrap();
     let SolidModel { material, options, contact, .. } = model;
-    let tangent = SolidTangent::linearize(&sector, material, options, contact);
-    WaveTangent::Solid(Box::new(tangent.unwrap()))
+    WaveTangent::of_revolution(&sector, material, options, contact).unwrap()
 }
 
 /// Eigenvalues of all branches at a friction coefficient, of the whole harmonics: what a small space leaves out of them, up to 1e-5 on
@@ -281,9 +280,10 @@ fn sensitivities_follow_the_end_of_what_is_pressed() {
         model.options.contact.normal_stiffness = Some(2e9);
         let sector = SolidSector::generate(&model.specification).unwrap();
         let contact = model.contact;
-        let tangent = SolidTangent::linearize(&sector, &model.material, &model.options, &contact);
+        let tangent =
+            WaveTangent::of_revolution(&sector, &model.material, &model.options, &contact);
         let tangent = tangent.unwrap();
-        let pressed = &tangent.base().is_pressed;
+        let pressed = tangent.pressed();
         assert!(pressed.contains(&true) && pressed.contains(&false));
         compare(&model, &format!("partly open, {law:?}, {element:?}"));
     }

@@ -5,11 +5,11 @@
 
 use crate::solids::model::disc;
 use assert_cmd::Command;
-use frictionsim::cea::cyclic::{SolidModel, SolidSweep, solid_sweep};
+use frictionsim::cea::cyclic::{SolidModel, WaveSweep, solid_sweep};
 use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::linalg::{ComplexDenseLu, Mat, c64};
 use frictionsim::mesh::{BoundaryCondition, ElementKind, SolidContact, SolidSector};
-use frictionsim::prestress::SolidTangent;
+use frictionsim::prestress::WaveTangent;
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -25,7 +25,7 @@ fn turning(element: ElementKind, divisions: [usize; 3], rpm: f64) -> SolidModel 
     model
 }
 
-fn solved(model: &SolidModel) -> SolidSweep {
+fn solved(model: &SolidModel) -> WaveSweep {
     let request = SweepRequest {
         friction_coefficients: &[FRICTION],
         limit: ModeLimit::MaxFrequency(LIMIT),
@@ -36,7 +36,7 @@ fn solved(model: &SolidModel) -> SolidSweep {
 }
 
 /// Listed eigenvalues of harmonic `n`.
-fn listed(found: &SolidSweep, n: usize) -> Vec<c64> {
+fn listed(found: &WaveSweep, n: usize) -> Vec<c64> {
     let modes = found.sweep.points[0].modes.iter();
     modes.filter(|mode| mode.harmonic == n).map(|mode| mode.eigenvalue).collect()
 }
@@ -48,11 +48,11 @@ fn listed(found: &SolidSweep, n: usize) -> Vec<c64> {
 fn dense(model: &SolidModel, n: usize, is_held: &dyn Fn(usize) -> bool) -> Vec<c64> {
     let sector = SolidSector::generate(&model.specification).unwrap();
     let tangent =
-        SolidTangent::linearize(&sector, &model.material, &model.options, &model.contact).unwrap();
+        WaveTangent::of_revolution(&sector, &model.material, &model.options, &model.contact)
+            .unwrap();
     let (harmonic, sigma) = (tangent.harmonic(n), c64::new(TAU * LIMIT, 0.0));
     let at = harmonic.at(FRICTION);
-    let unknowns = harmonic.moving().into_iter().enumerate();
-    let kept: Vec<usize> = unknowns.filter(|(_, u)| !is_held(*u)).map(|(k, _)| k).collect();
+    let kept: Vec<usize> = (0..at.dimension()).filter(|&unknown| !is_held(unknown)).collect();
     let (size, h) = (kept.len(), at.half_bandwidth);
     let full = |band: &[c64]| {
         Mat::from_fn(size, size, |i, j| {
@@ -100,7 +100,7 @@ fn distance(values: &[c64], others: &[c64]) -> f64 {
 }
 
 /// What the small space leaves out is all that may differ.
-fn assert_equal(found: &SolidSweep, n: usize, exact: &[c64], what: &str) {
+fn assert_equal(found: &WaveSweep, n: usize, exact: &[c64], what: &str) {
     let listed = listed(found, n);
     assert!(!exact.is_empty(), "{what}, n = {n}");
     assert_eq!(listed.len(), exact.len(), "{what}, n = {n}");
@@ -146,9 +146,9 @@ fn sliding_that_comes_to_rest_has_the_spectrum_with_the_motion_across_it_held() 
     let model = turning(ElementKind::Quad4, [24, 6, 2], 1e-7);
     let sector = SolidSector::generate(&model.specification).unwrap();
     let tangent =
-        SolidTangent::linearize(&sector, &model.material, &model.options, &model.contact).unwrap();
-    let nodes = sector.rings.iter().flat_map(|ring| &ring.nodes);
-    let across: Vec<usize> = nodes.filter_map(|node| tangent.unknown_of()[3 * node + 2]).collect();
+        WaveTangent::of_revolution(&sector, &model.material, &model.options, &model.contact)
+            .unwrap();
+    let across = tangent.sideways_unknowns();
     let found = solved(&model);
     for n in [0, 2] {
         let held = dense(&model, n, &|unknown| across.contains(&unknown));

@@ -48,7 +48,7 @@ impl WholeRing {
         let mut ring = Self::new(model, false);
         let sector = ring.sector.clone();
         let elastic = frictionsim::fem::solid::stiffness(&sector, &model.material);
-        let base = SolidSliding::solve(&sector, &elastic, &model.contact).unwrap();
+        let base = SolidSliding::solve(&sector, &elastic, &model.contact, None).unwrap();
         let face = sector.specification.contact.face();
         let (normal, across) = (face.normal_component(), face.across_component());
         // T = mu N along +e_theta for a rotor that turns counter-clockwise.

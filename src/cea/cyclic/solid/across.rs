@@ -3,7 +3,7 @@
 use super::rest::{Modes, Pencil};
 use crate::linalg::banded::BandedMatrix;
 use crate::linalg::dense::dot;
-use crate::prestress::{SolidHarmonic, moving_unknowns};
+use crate::prestress::{FrictionPolynomial, HarmonicTangent};
 
 /// Damping ratio of a mode at rest under these dashpots from which on the harmonic is solved between its two limits.
 const STRONG: f64 = 0.25;
@@ -16,46 +16,46 @@ const HOLDING: f64 = 1e4;
 /// Fast sliding leaves that motion free, slow sliding holds it: `mu p_0 / V` has no bound. A reduced space that serves both holds the
 /// modes of both limits.
 pub(super) struct Across {
-    /// `A` over all unknowns of the harmonic, N s/m.
+    /// `A` over the unknowns of the harmonic, N s/m.
     pub dashpots: BandedMatrix,
-    /// What friction that falls with the speed adds along the sliding, N s/m; it stays finite.
-    pub along: BandedMatrix,
+    /// What friction that falls with the speed adds along the sliding, by power of `i mu`, N s/m; it stays finite.
+    pub along: FrictionPolynomial,
     /// Number of unknowns that `A` acts on: a bound of its rank.
     pub rank: usize,
-    /// `A` over the unknowns that move.
-    moving: BandedMatrix,
 }
 
 impl Across {
     /// The dashpots on these `unknowns`, out of all those of friction.
-    pub fn new(harmonic: &SolidHarmonic, unknowns: &[usize]) -> Self {
-        let all = &harmonic.across;
-        let mut dashpots = BandedMatrix::zeros(all.dimension(), all.half_bandwidth());
+    pub fn new(harmonic: &HarmonicTangent, unknowns: &[usize]) -> Self {
+        let zeros = || {
+            let mass = &harmonic.mass[0];
+            BandedMatrix::zeros(mass.dimension(), mass.half_bandwidth())
+        };
+        let mut along = harmonic.friction_dashpots.clone().unwrap_or_else(|| vec![zeros()]);
+        let mut dashpots = zeros();
         for &row in unknowns {
-            for &column in unknowns.iter().filter(|c| all.columns(row).contains(c)) {
-                dashpots.add(row, column, all.get(row, column));
+            for &column in unknowns.iter().filter(|c| along[0].columns(row).contains(c)) {
+                dashpots.add(row, column, along[0].get(row, column));
             }
         }
-        let mut along = all.clone();
-        along.add_scaled(-1.0, &dashpots);
-        let moving = dashpots.restricted_to(&moving_unknowns(all.dimension(), &harmonic.rigid));
-        let damped = (0..moving.dimension()).filter(|&k| moving.get(k, k) > 0.0);
-        Self { rank: damped.count(), dashpots, along, moving }
+        along[0].add_scaled(-1.0, &dashpots);
+        let damped = (0..dashpots.dimension()).filter(|&k| dashpots.get(k, k) > 0.0);
+        Self { rank: damped.count(), dashpots, along }
     }
 
     /// Whether they damp a mode at rest strongly at a friction coefficient, `mu x^T A x / (2 sqrt(kappa)) > 1/4`.
     pub fn are_strong(&self, modes: &Modes, friction_coefficient: f64) -> bool {
         let ratio = |(kappa, x): &(f64, Vec<f64>)| {
-            friction_coefficient * dot(x, &self.moving.multiply(x)) / (2.0 * kappa.sqrt())
+            friction_coefficient * dot(x, &self.dashpots.multiply(x)) / (2.0 * kappa.sqrt())
         };
         modes.iter().any(|mode| ratio(mode) > STRONG)
     }
 
     /// Modes below `kappa` with the motion across the sliding held by stiff springs in place of the dashpots.
     pub fn held_modes(&self, pencil: &Pencil, kappa: f64) -> Modes {
-        let stiffest = (0..self.moving.dimension())
-            .filter(|&k| self.moving.get(k, k) > 0.0)
-            .map(|k| pencil.stiffness().get(k, k) / self.moving.get(k, k))
+        let stiffest = (0..self.dashpots.dimension())
+            .filter(|&k| self.dashpots.get(k, k) > 0.0)
+            .map(|k| pencil.stiffness().get(k, k) / self.dashpots.get(k, k))
             .fold(0.0, f64::max);
         let held = self.added_to(pencil, HOLDING * stiffest);
         held.map_or_else(Vec::new, |held| held.lowest(held.count_below(kappa)))
@@ -63,6 +63,6 @@ impl Across {
 
     /// A pencil with `factor A` as further stiffness.
     pub fn added_to(&self, pencil: &Pencil, factor: f64) -> Option<Pencil> {
-        pencil.stiffened(factor, &self.moving)
+        pencil.stiffened(factor, &self.dashpots)
     }
 }

@@ -9,6 +9,7 @@ use crate::cea::cyclic::follow::{Follower, StepControl};
 use crate::cea::cyclic::path::{Eigenpair, Path, Waves};
 use crate::cea::cyclic::paths::{HarmonicPaths, describe, start};
 use crate::cea::cyclic::problem::{HarmonicProblem, Matrices};
+use crate::cea::cyclic::sweep::Overdamped;
 use crate::cea::cyclic::vectors::dot;
 use crate::linalg::dense_eigen::complex_eigenvalues;
 use crate::linalg::{ComplexDenseLu, Mat, c64};
@@ -28,17 +29,6 @@ const CREEP: f64 = 1e-3;
 /// Branches that do not reach back to rest are numbered from here on, beyond those at rest: how many of these lie below a bound changes
 /// with the model, and with it names would.
 const FIRST_BORN: usize = 1000;
-
-/// Motions that decay without oscillating, at one friction coefficient.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Overdamped {
-    /// Friction coefficient `mu`.
-    pub friction_coefficient: f64,
-    /// Number of motions: real eigenvalues, those with a frequency below a tenth of their size, and creep of the contact.
-    pub count: usize,
-    /// Their slowest and fastest decay, 1/s.
-    pub decay: [f64; 2],
-}
 
 /// What is to be found of a harmonic.
 pub(super) struct Range<'a> {

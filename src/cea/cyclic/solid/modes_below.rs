@@ -2,7 +2,7 @@
 
 use super::rest::{Modes, Pencil};
 use crate::cea::{CeaError, ModeLimit};
-use crate::prestress::{PrestressError, SolidTangent, moving_unknowns};
+use crate::prestress::{PrestressError, WaveTangent};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
@@ -19,23 +19,21 @@ pub(super) struct AtRest {
     pub modes: Modes,
 }
 
-fn pencil(tangent: &SolidTangent, n: usize) -> Result<Pencil, CeaError> {
+fn pencil(tangent: &WaveTangent, n: usize) -> Result<Pencil, CeaError> {
     let [mass, stiffness] = tangent.at_rest(n);
-    let moving = moving_unknowns(mass.dimension(), &tangent.rigid());
-    let (mass, stiffness) = (mass.restricted_to(&moving), stiffness.restricted_to(&moving));
     Pencil::new(mass, stiffness).ok_or(CeaError::Prestress(PrestressError::Singular))
 }
 
 /// A bound of `kappa` at rest of the modes wanted, from above, and the lowest harmonics as far as they were needed for it.
 pub(super) fn bound(
-    tangent: &SolidTangent,
+    tangent: &WaveTangent,
     limit: ModeLimit,
 ) -> Result<(f64, Vec<Pencil>), CeaError> {
     let asked = match limit {
         ModeLimit::MaxFrequency(value) => return Ok(((TAU * value).powi(2), Vec::new())),
         ModeLimit::Lowest(asked) => asked,
     };
-    let few = (tangent.sector().sector_count() / 2).min(BATCH - 1);
+    let few = tangent.largest_harmonic().min(BATCH - 1);
     let pencils: Result<Vec<Pencil>, CeaError> =
         (0..=few).into_par_iter().map(|n| pencil(tangent, n)).collect();
     let pencils = pencils?;
@@ -50,7 +48,7 @@ pub(super) fn bound(
 
 /// `kappa` at rest up to which the modes wanted lie.
 pub(super) fn wanted(
-    tangent: &SolidTangent,
+    tangent: &WaveTangent,
     found: &[AtRest],
     limit: ModeLimit,
     bound: f64,
@@ -63,7 +61,7 @@ pub(super) fn wanted(
 }
 
 /// `kappa` of the modes of harmonic `n`, of each wave once.
-fn of_all_waves(tangent: &SolidTangent, n: usize, modes: &Modes) -> Vec<f64> {
+fn of_all_waves(tangent: &WaveTangent, n: usize, modes: &Modes) -> Vec<f64> {
     let waves = if tangent.is_standing(n) { 1 } else { 2 };
     let kappas = modes.iter().flat_map(|mode| vec![mode.0; waves]);
     kappas.collect()
@@ -79,11 +77,11 @@ fn just_above(asked: usize, mut kappas: Vec<f64>) -> Result<f64, CeaError> {
 
 /// The harmonics that have modes below `kappa` at rest with these modes, and those counted empty; `known` are the first.
 pub(super) fn modes_below(
-    tangent: &SolidTangent,
+    tangent: &WaveTangent,
     kappa: f64,
     known: Vec<Pencil>,
 ) -> Result<(Vec<AtRest>, Vec<usize>), CeaError> {
-    let largest = tangent.sector().sector_count() / 2;
+    let largest = tangent.largest_harmonic();
     let solve = |(n, known): (usize, Option<Pencil>)| -> Result<Option<AtRest>, CeaError> {
         let pencil = known.map_or_else(|| pencil(tangent, n), Ok)?;
         let counted = pencil.count_below(kappa);

@@ -2,12 +2,11 @@
 
 use super::across::Across;
 use super::rest::{Modes, Pencil};
-use crate::fem::RayleighDamping;
 use crate::linalg::banded::{BandedMatrix, CompactRows};
-use crate::linalg::dense::{column_mut, dot, product, transpose_product};
+use crate::linalg::dense::{dot, product, transpose_product};
 use crate::linalg::dense_eigen::symmetric_eigen;
 use crate::linalg::{Mat, c64};
-use crate::prestress::{FrictionPolynomial, HarmonicTangent, SolidHarmonic, moving_unknowns};
+use crate::prestress::{FrictionPolynomial, HarmonicTangent};
 
 /// Directions of the contact whose energy is below this share of the largest are left out; the error of an eigenvalue is
 /// of the order of the product of two of them.
@@ -18,7 +17,7 @@ const LEAST_PART: f64 = 1e-7;
 
 /// The reduced space of one harmonic.
 pub(super) struct Reduction {
-    /// Columns over all unknowns, orthonormal in the mass product; the modes at rest come first.
+    /// Columns over the unknowns, orthonormal in the mass product; the modes at rest come first.
     pub basis: Mat<f64>,
     /// `kappa` of the modes at rest.
     pub kappas: Vec<f64>,
@@ -42,42 +41,28 @@ impl Reduction {
     ///
     /// With friction the shape of a mode is the response `G = (K - kappa M)^-1` to forces on the contact, and the left one that to
     /// motions along its normal. Beside the modes, two terms of the series of `G` in `kappa` hold the rest of it:
-    /// `K^-1 b` and `K^-1 M K^-1 b` for forces `b` along and across the sliding and for the columns of `K` and `M` of
-    /// the normals. What two terms leave out is estimated by
+    /// `K^-1 b` and `K^-1 M K^-1 b` for forces `b` on the unknowns `contact` and for the columns of `M` and `K` of
+    /// the normals in rigid contact. What two terms leave out is estimated by
     /// [`super::error::reduction_error`]: 1.7e-8 of an eigenvalue at 11 kHz on 24 x 5 x 1 bricks.
     ///
     /// `held` are modes with the motion across the sliding held, where dashpots are strong enough to do so.
     pub fn new(
         pencil: &Pencil,
-        harmonic: &SolidHarmonic,
+        [normal_masses, normals]: [Vec<Vec<f64>>; 2],
         contact: &[usize],
         (modes, held): (Modes, Modes),
     ) -> Self {
-        let count = harmonic.mass.dimension();
-        let moving = moving_unknowns(count, &harmonic.rigid);
-        let mut place = vec![None; count];
-        moving.iter().enumerate().for_each(|(k, &unknown)| place[unknown] = Some(k));
+        let count = pencil.stiffness().dimension();
         let unit = |unknown: usize| {
-            let mut load = vec![0.0; moving.len()];
-            place[unknown].into_iter().for_each(|k| load[k] = 1.0);
+            let mut load = vec![0.0; count];
+            load[unknown] = 1.0;
             load
         };
-        let column = |matrix: &BandedMatrix, unknown: usize| -> Vec<f64> {
-            let rows = matrix.columns(unknown);
-            let mut load = vec![0.0; moving.len()];
-            for row in rows {
-                place[row].into_iter().for_each(|k| load[k] = matrix.get(row, unknown));
-            }
-            load
-        };
-        let is_moving = |unknown: &&usize| place[**unknown].is_some();
-        let mut loads: Vec<Vec<f64>> = contact.iter().filter(is_moving).map(|&u| unit(u)).collect();
-        loads.extend(
-            harmonic.rigid.iter().map(|(normal, ..)| column(&harmonic.stiffness[0], *normal)),
-        );
+        let mut loads: Vec<Vec<f64>> = contact.iter().map(|&u| unit(u)).collect();
+        loads.extend(normals);
         let first = main_directions(pencil, loads);
         let mut loads: Vec<Vec<f64>> = first.iter().map(|x| pencil.mass.multiply(x)).collect();
-        loads.extend(harmonic.rigid.iter().map(|(normal, ..)| column(&harmonic.mass, *normal)));
+        loads.extend(normal_masses);
         let second = main_directions(pencil, loads);
 
         let kappas = modes.iter().map(|mode| mode.0).collect();
@@ -102,9 +87,7 @@ impl Reduction {
         }
         let mut basis = Mat::zeros(count, columns.len());
         for (j, x) in columns.iter().enumerate() {
-            for (&unknown, value) in moving.iter().zip(x) {
-                basis[(unknown, j)] = *value;
-            }
+            x.iter().enumerate().for_each(|(row, value)| basis[(row, j)] = *value);
         }
         Self { basis, kappas, turned: None }
     }
@@ -138,21 +121,15 @@ impl Reduction {
 
     /// The tangent of the harmonic in this space, dense matrices stored as bands.
     ///
-    /// `across` are the dashpots that are part of `harmonic.across`. `groups` are the unknowns of the contact's nodes and of the axial motion, of whose kinetic energy modes have a share.
+    /// `across` are the dashpots that are part of those of friction; modes have a share of the kinetic energy of the contact's
+    /// unknowns and of the `axial` ones.
     pub fn tangent(
         &self,
-        n: usize,
-        (harmonic, across): (&SolidHarmonic, &Across),
-        groups: [&[usize]; 2],
-        rayleigh: RayleighDamping,
+        harmonic: &HarmonicTangent,
+        across: &Across,
+        axial: &[usize],
     ) -> HarmonicTangent {
-        let momenta = self.images(&harmonic.mass);
-        let polynomial = |powers: &[&BandedMatrix]| -> FrictionPolynomial {
-            let images: Vec<Mat<f64>> = powers.iter().map(|matrix| self.images(matrix)).collect();
-            self.project(&images, &harmonic.rigid)
-        };
-        let [k0, k1] = &harmonic.stiffness;
-        let [c0, c1] = &harmonic.damping;
+        let momenta = self.images(&harmonic.mass[0]);
         let share = |unknowns: &[usize]| {
             let size = self.basis.ncols();
             let mut form = Mat::zeros(size, size);
@@ -165,46 +142,29 @@ impl Reduction {
             }
             banded(&form)
         };
+        let dashpots = match &self.turned {
+            None => harmonic.friction_dashpots.as_ref().map(|own| self.project(own)),
+            Some(turned) => {
+                let mut powers = self.project(&across.along);
+                for (j, strength) in turned.strengths.iter().enumerate() {
+                    powers[0].add(j, j, *strength);
+                }
+                Some(powers)
+            }
+        };
         HarmonicTangent {
-            harmonic: n,
-            shares: Some(groups.map(share)),
-            mass: self.project(std::slice::from_ref(&momenta), &harmonic.rigid),
-            stiffness: polynomial(&[k0, k1]),
-            damping: Some(polynomial(&[c0, c1])),
-            friction_dashpots: Some(match &self.turned {
-                None => polynomial(&[&harmonic.across]),
-                Some(turned) => self.dashpots(turned, across, &harmonic.rigid),
-            }),
-            rayleigh,
-            contact: 0..0,
+            harmonic: harmonic.harmonic,
+            shares: Some([share(&harmonic.contact), share(axial)]),
+            mass: self.project(&harmonic.mass),
+            stiffness: self.project(&harmonic.stiffness),
+            damping: harmonic.damping.as_ref().map(|own| self.project(own)),
+            friction_dashpots: dashpots,
+            rayleigh: harmonic.rayleigh,
+            contact: Vec::new(),
         }
     }
 
-    /// The dashpots of friction where those across the sliding are diagonal, by power of `i mu`.
-    fn dashpots(
-        &self,
-        turned: &Turned,
-        across: &Across,
-        rigid: &[(usize, Option<usize>, f64)],
-    ) -> FrictionPolynomial {
-        let damped = turned.strengths.len();
-        let mut images = self.images(&across.dashpots);
-        // Columns beyond the damped ones move across the sliding by round-off alone.
-        for j in damped..images.ncols() {
-            column_mut(&mut images, j).fill(0.0);
-        }
-        let mut powers = self.powers(&[images], rigid);
-        powers[0].fill(0.0);
-        for (j, strength) in turned.strengths.iter().enumerate() {
-            powers[0][(j, j)] = *strength;
-        }
-        let along = self.powers(&[self.images(&across.along)], rigid);
-        let sums = powers.iter_mut().zip(&along);
-        sums.for_each(|(sum, along)| *sum += along);
-        powers.iter().map(banded).collect()
-    }
-
-    /// A shape over all unknowns.
+    /// A shape over the unknowns.
     pub fn expand(&self, x: &[c64]) -> Vec<c64> {
         (0..self.basis.nrows())
             .map(|row| x.iter().enumerate().map(|(j, v)| v * self.basis[(row, j)]).sum())
@@ -216,47 +176,19 @@ impl Reduction {
         CompactRows::new(matrix).multiply_columns(&self.basis)
     }
 
-    /// `V^T A_p V`, and from each normal equation, times `i mu`, what it adds to the tangential one.
-    fn project(
-        &self,
-        images: &[Mat<f64>],
-        rigid: &[(usize, Option<usize>, f64)],
-    ) -> FrictionPolynomial {
-        let mut powers = self.powers(images, rigid);
-        while powers.len() > 1 && powers[powers.len() - 1].norm_max() == 0.0 {
-            powers.pop();
-        }
-        powers.iter().map(banded).collect()
-    }
-
-    /// [`Self::project`] with one power more than images, whether it is zero or not.
-    fn powers(&self, images: &[Mat<f64>], rigid: &[(usize, Option<usize>, f64)]) -> Vec<Mat<f64>> {
-        let size = self.basis.ncols();
-        let zero = || Mat::<f64>::zeros(size, size);
-        let mut powers: Vec<Mat<f64>> = (0..=images.len()).map(|_| zero()).collect();
-        for (power, image) in images.iter().enumerate() {
-            powers[power] += transpose_product(self.basis.as_ref(), image.as_ref());
-            for &(normal, tangential, factor) in rigid {
-                let Some(tangential) = tangential else {
-                    continue;
-                };
-                for j in 0..size {
-                    let force = factor * image[(normal, j)];
-                    for i in 0..size {
-                        powers[power + 1][(i, j)] += self.basis[(tangential, i)] * force;
-                    }
+    /// `V^T A_p V`; at rest the matrices are symmetric.
+    fn project(&self, polynomial: &FrictionPolynomial) -> FrictionPolynomial {
+        let of = |(power, matrix): (usize, &BandedMatrix)| {
+            let mut form = transpose_product(self.basis.as_ref(), self.images(matrix).as_ref());
+            for j in 0..if power == 0 { form.ncols() } else { 0 } {
+                for i in 0..j {
+                    let mean = 0.5 * (form[(i, j)] + form[(j, i)]);
+                    (form[(i, j)], form[(j, i)]) = (mean, mean);
                 }
             }
-        }
-        // At rest the matrices are symmetric.
-        let rest = &mut powers[0];
-        for j in 0..size {
-            for i in 0..j {
-                let mean = 0.5 * (rest[(i, j)] + rest[(j, i)]);
-                (rest[(i, j)], rest[(j, i)]) = (mean, mean);
-            }
-        }
-        powers
+            banded(&form)
+        };
+        polynomial.iter().enumerate().map(of).collect()
     }
 }
 

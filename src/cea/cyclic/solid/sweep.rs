@@ -1,24 +1,23 @@
 //! A sweep over the friction coefficient in three dimensions.
 
 use super::across::Across;
-use super::damped::{Overdamped, Range, follow_damped};
+use super::damped::{Range, follow_damped};
 use super::error::{ReducedPair, reduction_error};
 use super::modes_below::{AtRest, bound, modes_below, wanted};
 use super::reduction::Reduction;
 use super::rest::Pencil;
-use super::shape::shape;
 use crate::cea::cyclic::Coverage;
-use crate::cea::cyclic::modes::{ShapeProducer, point};
+use crate::cea::cyclic::modes::{ShapeProducer, expand, point};
 use crate::cea::cyclic::path::Waves;
 use crate::cea::cyclic::paths::{HarmonicPaths, follow_pairs};
 use crate::cea::cyclic::problem::HarmonicProblem;
-use crate::cea::cyclic::sweep::together;
-use crate::cea::{CeaError, FrictionPoint, FrictionSweep, ModeBranch, SweepRequest};
+use crate::cea::cyclic::sweep::{Overdamped, WaveSweep, together};
+use crate::cea::{CeaError, FrictionPoint, SweepRequest};
 use crate::contact::SlidingContact;
 use crate::fem::ElasticMaterial;
 use crate::linalg::c64;
 use crate::mesh::{SolidSector, SolidSpecification};
-use crate::prestress::{SolidHarmonic, SolidTangent, TangentOptions};
+use crate::prestress::{HarmonicTangent, TangentOptions, WaveTangent};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
@@ -35,27 +34,6 @@ pub struct SolidModel {
     pub contact: SlidingContact,
 }
 
-/// A sweep with everything that the symmetry reveals.
-#[derive(Clone, Debug)]
-pub struct SolidSweep {
-    /// Modes at each friction value and unstable intervals of the branches that have one of them.
-    pub sweep: FrictionSweep,
-    /// Which harmonics were solved.
-    pub coverage: Coverage,
-    /// Unknowns of all harmonics.
-    pub dofs: usize,
-    /// What the reduction of the harmonics leaves out of an eigenvalue, relative to it: the largest estimate at the largest friction
-    /// coefficient.
-    pub reduction_error: f64,
-    /// Every branch followed that has one of the modes.
-    pub branches: Vec<ModeBranch>,
-    /// At each friction value, rising: motions up to the margin of the coverage that do not oscillate, where friction damps the motion
-    /// across the sliding strongly; each wave of a pair counts singly.
-    pub overdamped: Vec<Overdamped>,
-    /// The linearisation, for sensitivities.
-    pub tangent: SolidTangent,
-}
-
 /// Branches are followed from this much above the highest frequency wanted.
 const MARGIN: f64 = 1.2;
 
@@ -66,7 +44,7 @@ const SPAN: f64 = 1.4;
 struct Reduced {
     number: usize,
     reduction: Reduction,
-    harmonic: SolidHarmonic,
+    harmonic: HarmonicTangent,
     across: Across,
     /// Whether friction damps the motion across the sliding strongly somewhere in the range.
     is_damped: bool,
@@ -89,7 +67,7 @@ struct Solved {
 ///
 /// # Errors
 /// [`CeaError`] where there is no sliding equilibrium, or a branch cannot be followed.
-pub fn solid_sweep(model: &SolidModel, request: &SweepRequest<'_>) -> Result<SolidSweep, CeaError> {
+pub fn solid_sweep(model: &SolidModel, request: &SweepRequest<'_>) -> Result<WaveSweep, CeaError> {
     solid_sweep_with_waves(model, request, &[])
 }
 
@@ -101,12 +79,12 @@ pub fn solid_sweep_with_waves(
     model: &SolidModel,
     request: &SweepRequest<'_>,
     waves_at: &[f64],
-) -> Result<SolidSweep, CeaError> {
+) -> Result<WaveSweep, CeaError> {
     let grid = request.rising_grid()?;
     request.limit.check()?;
     let sector = SolidSector::generate(&model.specification)?;
     let tangent =
-        SolidTangent::linearize(&sector, &model.material, &model.options, &model.contact)?;
+        WaveTangent::of_revolution(&sector, &model.material, &model.options, &model.contact)?;
     let (bound, known) = bound(&tangent, request.limit)?;
     let (mut found, empty) = modes_below(&tangent, bound * (MARGIN * SPAN).powi(2), known)?;
     let wanted = wanted(&tangent, &found, request.limit, bound)?;
@@ -126,13 +104,13 @@ pub fn solid_sweep_with_waves(
         error = error.max(solved.error);
         overdamped.extend(solved.overdamped);
     }
-    let direction = tangent.base().sliding_direction;
+    let direction = tangent.sliding_direction;
     let unknowns = |n: usize, x: &[c64]| {
         let mut all = followed.iter().zip(&reductions);
         let own = all.find(|(paths, _)| paths.problem.harmonic == n);
         own.map_or(Vec::new(), |(_, reduction)| reduction.expand(x))
     };
-    let expand = |n: usize, waves: Waves, x: &[c64]| shape(&tangent, n, waves, &unknowns(n, x));
+    let expand = |n: usize, waves: Waves, x: &[c64]| expand(&tangent, n, waves, &unknowns(n, x));
     let producer = ShapeProducer {
         sliding_direction: direction,
         expand: &expand,
@@ -146,7 +124,7 @@ pub fn solid_sweep_with_waves(
         .collect();
     let (sweep, branches) = together(points, &followed, direction);
     let coverage = Coverage {
-        largest_harmonic: sector.sector_count() / 2,
+        largest_harmonic: tangent.largest_harmonic(),
         followed: followed.iter().map(|paths| paths.problem.harmonic).collect(),
         proven_empty: Vec::new(),
         counted_empty: empty,
@@ -154,10 +132,10 @@ pub fn solid_sweep_with_waves(
         margin_hz: margin.sqrt() / TAU,
         factorizations: followed.iter().map(|paths| paths.factorizations).sum(),
     };
-    Ok(SolidSweep {
+    Ok(WaveSweep {
         sweep,
         coverage,
-        dofs: tangent.unknown_of().iter().flatten().count() * sector.sector_count(),
+        dofs: tangent.dof_count() * tangent.sector_count(),
         reduction_error: error,
         branches,
         overdamped: overdamped_at(&grid, &overdamped),
@@ -167,17 +145,16 @@ pub fn solid_sweep_with_waves(
 
 /// The branches of one harmonic with `|lambda|^2` up to a margin above `wanted`.
 fn follow(
-    tangent: &SolidTangent,
+    tangent: &WaveTangent,
     found: Reduced,
     kept: &[f64],
     (grid, wanted): (&[f64], f64),
 ) -> Result<Solved, CeaError> {
     let margin = wanted * MARGIN * MARGIN;
     let n = found.number;
-    let [contact, axial, _] = &groups(tangent);
+    let axial = tangent.axial_unknowns();
     let problem = || {
-        let matrices = (&found.harmonic, &found.across);
-        let reduced = found.reduction.tangent(n, matrices, [contact, axial], tangent.rayleigh());
+        let reduced = found.reduction.tangent(&found.harmonic, &found.across, &axial);
         HarmonicProblem::new(reduced, tangent.is_standing(n))
     };
     let kappas = found.reduction.kappas.iter().enumerate();
@@ -224,7 +201,7 @@ fn overdamped_at(grid: &[f64], overdamped: &[Overdamped]) -> Vec<Overdamped> {
 /// The largest [`reduction_error`] of the paths of a harmonic that end below `|lambda|^2 = wanted`.
 fn largest_error(
     paths: &HarmonicPaths,
-    (reduction, harmonic, pencil): (&Reduction, &SolidHarmonic, &Pencil),
+    (reduction, harmonic, pencil): (&Reduction, &HarmonicTangent, &Pencil),
     wanted: f64,
 ) -> f64 {
     let ends = paths.paths.iter().filter_map(|path| path.points.last());
@@ -245,18 +222,18 @@ fn largest_error(
 }
 
 /// The harmonics on small spaces, for friction coefficients up to the last of `grid` and `|lambda|^2` up to `margin`.
-fn reduce(tangent: &SolidTangent, found: Vec<AtRest>, grid: &[f64], margin: f64) -> Vec<Reduced> {
-    let [_, _, touched] = &groups(tangent);
-    let sideways = across(tangent);
+fn reduce(tangent: &WaveTangent, found: Vec<AtRest>, grid: &[f64], margin: f64) -> Vec<Reduced> {
+    let (touched, sideways) = (tangent.pressed_unknowns(), tangent.sideways_unknowns());
     let friction = grid[grid.len() - 1];
     let solve = |found: AtRest| {
-        let harmonic: SolidHarmonic = tangent.harmonic(found.harmonic);
+        let harmonic = tangent.harmonic(found.harmonic);
+        let columns = tangent.normal_columns(found.harmonic);
         let (pencil, across) = (found.pencil, Across::new(&harmonic, &sideways));
         if !across.are_strong(&found.modes, friction) {
             let modes = (found.modes, Vec::new());
             return Reduced {
                 number: found.harmonic,
-                reduction: Reduction::new(&pencil, &harmonic, touched, modes),
+                reduction: Reduction::new(&pencil, columns, &touched, modes),
                 is_damped: false,
                 harmonic,
                 across,
@@ -264,7 +241,7 @@ fn reduce(tangent: &SolidTangent, found: Vec<AtRest>, grid: &[f64], margin: f64)
             };
         }
         let held = across.held_modes(&pencil, margin * SPAN * SPAN);
-        let reduction = Reduction::new(&pencil, &harmonic, touched, (found.modes, held));
+        let reduction = Reduction::new(&pencil, columns, &touched, (found.modes, held));
         let answering = across.added_to(&pencil, friction * margin.sqrt());
         Reduced {
             number: found.harmonic,
@@ -276,36 +253,4 @@ fn reduce(tangent: &SolidTangent, found: Vec<AtRest>, grid: &[f64], margin: f64)
         }
     };
     found.into_par_iter().map(solve).collect()
-}
-
-/// Unknowns across the sliding of the contact's nodes.
-fn across(tangent: &SolidTangent) -> Vec<usize> {
-    let sector = tangent.sector();
-    let component = sector.specification.contact.face().across_component();
-    let nodes = sector.rings.iter().flat_map(|ring| &ring.nodes);
-    let unknowns = nodes.filter_map(|node| tangent.unknown_of()[3 * node + component]);
-    let mut unknowns: Vec<usize> = unknowns.collect();
-    unknowns.sort_unstable();
-    unknowns.dedup();
-    unknowns
-}
-
-/// Unknowns of the contact's nodes, of axial motion, and along and across the sliding of pressed nodes.
-fn groups(tangent: &SolidTangent) -> [Vec<usize>; 3] {
-    let (sector, unknown_of) = (tangent.sector(), tangent.unknown_of());
-    let face = sector.specification.contact.face();
-    let nodes = || sector.rings.iter().flat_map(|ring| &ring.nodes);
-    let of =
-        |dofs: &mut dyn Iterator<Item = usize>| dofs.filter_map(|dof| unknown_of[dof]).collect();
-    let normal = face.normal_component();
-    let has_penalty = tangent.rigid().is_empty();
-    let pressed = tangent.base().normal_forces.iter().map(|(node, _)| node);
-    [
-        of(&mut nodes().flat_map(|node| [0, 1, 2].map(|c| 3 * node + c))),
-        of(&mut (0..sector.node_count()).map(|node| 3 * node + 2)),
-        of(&mut pressed.flat_map(|node| {
-            let components = [Some(1), Some(2 - normal), has_penalty.then_some(normal)];
-            components.into_iter().flatten().map(move |c| 3 * node + c)
-        })),
-    ]
 }

@@ -1,17 +1,13 @@
 //! A basis of the modes at a few friction coefficients, each from an iteration of its own.
 
-use super::{
-    BasisBuilder, LOSSY_ROUNDS, MAX_CORRECTIONS, SAMPLE_TOLERANCE, VECTOR_TOLERANCE,
-    scale_to_unit_length, turn_to_real,
-};
+use super::{BasisBuilder, LOSSY_ROUNDS, VECTOR_TOLERANCE, scale_to_unit_length, turn_to_real};
 use crate::cea::CeaError;
 use crate::cea::sparse::full_problem::FullProblem;
 use crate::cea::sparse::linearization::Linearization;
 use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::sparse::packed::PackedModes;
 use crate::cea::sparse::structure::StructureMatrices;
-use crate::cea::sparse::{GROUP_WIDTH, TRACKING_MARGIN};
-use crate::linalg::dense::column_norms;
+use crate::cea::sparse::{GROUP_WIDTH, SAME_SPACE, TRACKING_MARGIN};
 use crate::linalg::{LinalgError, Mat, c64};
 use rayon::prelude::*;
 
@@ -34,11 +30,6 @@ impl BasisBuilder<'_> {
     pub fn cover_each(&mut self, values: &[f64]) -> Result<(), CeaError> {
         self.is_sampling = true;
         self.hold_frictionless();
-        // One set of factors is enough: those of K(0), which factors with friction update, instead of the shifted ones.
-        let preconditioner = &mut self.preconditioner;
-        if let Some(shared) = self.cache.frictionless(&self.stiffness, || *preconditioner = None)? {
-            self.preconditioner = Some(shared);
-        }
         for mu in values.iter().filter(|mu| **mu > 0.0) {
             self.improve_at(*mu)?;
         }
@@ -125,7 +116,7 @@ impl BasisBuilder<'_> {
             let vectors: Vec<Vec<c64>> = modes.into_iter().map(|mode| mode.right).collect();
             Ok::<_, LinalgError>(real_columns(unknowns, &vectors))
         })?;
-        let has_grown = self.model.extend(vectors.clone(), SAMPLE_TOLERANCE).ncols() > 0;
+        let has_grown = self.model.extend(vectors.clone(), SAME_SPACE).ncols() > 0;
         self.model.hold_sample(mu, &vectors);
         Ok(has_grown)
     }
@@ -187,7 +178,7 @@ impl BasisBuilder<'_> {
     /// If the analysis of the matrices fails.
     pub fn shift(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
         let vectors = self.step(mu, |builder| builder.shifted_corrections(mu, modes))?;
-        let has_grown = self.model.extend(vectors.clone(), SAMPLE_TOLERANCE).ncols() > 0;
+        let has_grown = self.model.extend(vectors.clone(), SAME_SPACE).ncols() > 0;
         if self.sampled.contains(&mu) {
             self.model.hold_sample(mu, &vectors);
         }
@@ -254,12 +245,7 @@ impl BasisBuilder<'_> {
     fn refine_sample(&mut self, mu: f64) -> Result<bool, CeaError> {
         let mut corrections = self.step(mu, |builder| {
             let modes = builder.model.solve_right(mu, builder.count)?;
-            // With friction each round wins more digits, and many columns share the factors.
-            let preconditioner = builder.factors();
-            let stiffness = &*builder.stiffness;
-            let updated = builder.updates.at(preconditioner, stiffness, mu);
-            let preconditioner = updated.as_ref().unwrap_or(preconditioner);
-            Ok::<_, LinalgError>(builder.corrections(preconditioner, &modes, mu))
+            Ok::<_, LinalgError>(builder.corrections(&modes, mu))
         })?;
         scale_to_unit_length(&mut corrections);
         let has_any = corrections.ncols() > 0;
@@ -268,34 +254,6 @@ impl BasisBuilder<'_> {
             self.model.hold_sample(mu, &corrections);
         }
         Ok(has_any)
-    }
-
-    /// Corrects one mode at `mu`, not sampled, in the basis until its residual vanishes or stays; whether the basis
-    /// grew.
-    ///
-    /// Each correction needs two solves, and a Rayleigh quotient iteration in the basis.
-    pub fn refine_mode(&mut self, mu: f64, mode: &ReducedMode) -> bool {
-        let (mut mode, mut last, mut has_grown) = (mode.clone(), f64::INFINITY, false);
-        for _ in 0..MAX_CORRECTIONS {
-            let corrections = self.corrections(self.factors(), std::slice::from_ref(&mode), mu);
-            let lengths = column_norms(corrections.as_ref());
-            let longest = lengths.into_iter().fold(0.0, f64::max);
-            // Corrections of round-off do not become shorter.
-            if longest == 0.0 || longest > 0.7 * last {
-                break;
-            }
-            last = longest;
-            let new = self.model.extend(corrections, VECTOR_TOLERANCE * longest);
-            if new.ncols() == 0 {
-                break;
-            }
-            has_grown = true;
-            match self.model.mode_near(mu, &mode) {
-                Some(next) => mode = next,
-                None => break,
-            }
-        }
-        has_grown
     }
 
     /// Makes the tracking of branches over `from..to` surer: takes up the modes at an end or, after those, at the `place` between where a

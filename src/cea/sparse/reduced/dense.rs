@@ -1,6 +1,7 @@
 //! All modes of the projected problem by dense decompositions.
 
 use super::ReducedModel;
+use crate::cea::sparse::SEARCH_WIDTH;
 use crate::cea::sparse::linearization::Linearization;
 use crate::cea::sparse::mode::ReducedMode;
 use crate::cea::sparse::own_frequency;
@@ -15,9 +16,8 @@ use crate::prestress::SlidingTangent;
 /// How many times as many rows as eigenvalues are wanted a matrix has from which on an iteration is cheaper than the whole
 /// decomposition.
 const FEW_OF_MANY: usize = 5;
-/// Residual of that iteration, relative to the eigenvalue, and the width of its start.
+/// Residual of that iteration, relative to the eigenvalue.
 const FEW_TOLERANCE: f64 = 1e-13;
-const FEW_BLOCK: usize = 4;
 
 impl ReducedModel {
     /// The modes of projected matrices, without derivatives and scale.
@@ -250,7 +250,7 @@ fn few_eigenvalues(matrix: &Mat<f64>, leading: usize) -> Option<RealEigen> {
         max_applications: 20 * leading,
         dense_up_to: 0,
     };
-    let start = random_columns(matrix.nrows(), FEW_BLOCK, 0x5eed);
+    let start = random_columns(matrix.nrows(), SEARCH_WIDTH, 0x5eed);
     let found = krylov_schur(&DenseOperator(matrix), start, &|_| true, &settings).ok()?;
     let is_converged = found.residuals.iter().all(|residual| *residual <= FEW_TOLERANCE);
     is_converged.then_some(RealEigen { values: found.values, right: found.vectors, left: None })

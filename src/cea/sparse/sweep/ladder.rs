@@ -10,8 +10,8 @@ use crate::cea::sparse::mode::ReducedMode;
 const CORRECTABLE: f64 = 1e-4;
 /// Part of the error of a point that a remedy may leave: with more the next one takes over.
 const LITTLE: f64 = 0.3;
-/// Rounds of one remedy at one point.
-const MOST_ROUNDS: usize = 8;
+/// Rounds of one remedy at one point or crossing: with more of them it would not converge either.
+pub(super) const MOST_ROUNDS: usize = 8;
 /// Residual force, relative to the inertia force, above which a point with other than viscous damping is improved: its basis, made of right
 /// vectors alone, is too poor in left ones for errors of eigenvalues to be of second order.
 const LOSSY_GOAL: f64 = 1e-9;

@@ -1,16 +1,15 @@
 //! What a sweep found: points, unstable intervals, shapes.
 
+use super::ladder::MOST_ROUNDS;
 use super::{SETTLED, SparseSweep};
+use crate::cea::sparse::RESIDUAL_BOUND;
 use crate::cea::sparse::branches::{BranchLabel, TrackedBranch};
 use crate::cea::sparse::onset::{FoundInterval, OnsetFinder, State};
-use crate::cea::{CeaError, ComplexMode, FrictionPoint, FrictionSweep, SweepRequest};
+use crate::cea::{BeyondMode, CeaError, ComplexMode, FrictionPoint, FrictionSweep, SweepRequest};
 use crate::cea::{EndedMode, UnconvergedMode};
 use crate::linalg::c64;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
-
-/// Rounds of corrections of the modes at crossings.
-const MOST_CORRECTIONS: usize = 8;
 
 impl SparseSweep<'_> {
     /// The result, with shapes and critical friction coefficients.
@@ -46,6 +45,7 @@ impl SparseSweep<'_> {
             crossings,
             ended: self.ended(branches),
             unconverged: self.unconverged(),
+            beyond: self.beyond(),
             rigid_motions: self.builder.rigid,
             counts: Vec::new(),
         })
@@ -57,6 +57,20 @@ impl SparseSweep<'_> {
             UnconvergedMode { friction_coefficient, frequency_hz: frequency / TAU }
         });
         each.collect()
+    }
+
+    /// The mode that grows fastest of those that were computed beyond the wanted ones.
+    fn beyond(&self) -> Option<BeyondMode> {
+        let found = self.points[self.first_asked()..].iter().flat_map(|point| {
+            let beyond = point.modes.iter().zip(&point.checks).skip(point.wanted);
+            let growing = beyond.filter(|(mode, check)| {
+                let round_off = check.uncertainty * mode.eigenvalue.norm();
+                check.residual <= RESIDUAL_BOUND && mode.eigenvalue.re > round_off
+            });
+            let friction = point.friction_coefficient;
+            growing.map(move |(mode, _)| BeyondMode::of(friction, mode.eigenvalue))
+        });
+        BeyondMode::fastest(found)
     }
 
     /// The modes whose branches end.
@@ -78,36 +92,33 @@ impl SparseSweep<'_> {
     }
 
     /// Unstable intervals of all branches. The basis holds the modes of a few friction coefficients only, or of all that were asked for:
-    /// the modes at crossings are corrected until these settle, one by one, and by the full problem where one misses its residual.
+    /// the modes at crossings are corrected by the full problem there until these settle.
     fn intervals(&mut self, branches: &[TrackedBranch]) -> Result<Vec<FoundInterval>, CeaError> {
-        let mut settled: Vec<f64> = Vec::new();
-        let mut known: Vec<Vec<FoundInterval>> = Vec::new();
+        let (mut settled, mut known) = (Vec::new(), Vec::new());
         for round in 0.. {
             let found = self.find_intervals(branches, &known)?;
-            let all = || found.iter().flatten();
-            let crossings = || all().flat_map(FoundInterval::crossings);
+            let crossings = || found.iter().flatten().flat_map(FoundInterval::crossings);
+            let missed = || found.iter().flatten().filter_map(FoundInterval::missed);
             let places: Vec<f64> = crossings().map(|state| state.mu).collect();
             let mut pairs = places.iter().zip(&settled);
             let has_settled = places.len() == settled.len()
-                && pairs.all(|(new, old)| (new - old).abs() <= SETTLED);
-            let missed: Vec<&State> = all().filter_map(FoundInterval::missed).collect();
-            let is_spent = round == MOST_CORRECTIONS;
+                && pairs.all(|(new, old): (&f64, &f64)| (new - old).abs() <= SETTLED);
+            let open: Vec<&State> = match self.builder.is_sampling() && !has_settled {
+                _ if round == MOST_ROUNDS => Vec::new(),
+                true => crossings().collect(),
+                false => missed().collect(),
+            };
             let mut has_grown = false;
-            if self.builder.is_sampling() && !has_settled && !is_spent {
-                for State { mu, mode } in crossings() {
-                    has_grown |= self.builder.refine_mode(*mu, mode);
-                }
+            for State { mu, mode } in open {
+                has_grown |= self.builder.shift(*mu, std::slice::from_ref(mode))?;
             }
-            if !has_grown && (missed.is_empty() || is_spent) {
-                let open = missed.iter().map(|state| (state.mu, state.mode.eigenvalue.im));
+            if !has_grown {
+                let open = missed().map(|state| (state.mu, state.mode.eigenvalue.im));
                 self.unconverged.extend(open);
                 return Ok(found.into_iter().flatten().collect());
             }
-            for State { mu, mode } in missed.iter().filter(|_| !has_grown) {
-                self.builder.shift(*mu, std::slice::from_ref(mode))?;
-            }
             // What a basis that missed a crossing says about the other branches is worth no more: all are looked at again.
-            known = if missed.is_empty() { found } else { Vec::new() };
+            known = if missed().next().is_none() { found } else { Vec::new() };
             settled = places;
         }
         unreachable!("rounds end")
@@ -186,5 +197,42 @@ impl SparseSweep<'_> {
             }
         });
         FrictionPoint { friction_coefficient: point.friction_coefficient, modes: modes.collect() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cea::sparse::fixtures::string_on_belt;
+    use crate::cea::sparse::sweep;
+    use crate::cea::{ModeLimit, Unwatched};
+    use crate::fem::RayleighDamping;
+    use crate::linalg::MatrixPolynomial;
+
+    /// Closed form: with damping `-a M` every mode grows by `a / 2`, those above the list too; with damping `a M` none does.
+    #[test]
+    fn unstable_mode_just_above_the_list_is_told() {
+        for growth in [0.01, -0.01] {
+            let mut tangent = string_on_belt(60, 0.4, true);
+            let (mass, stiffness) = (&tangent.mass, &tangent.stiffness);
+            tangent.damping = MatrixPolynomial::combination(-2.0 * growth, mass, 0.0, stiffness);
+            tangent.proportional = Some(RayleighDamping {
+                mass_coefficient: -2.0 * growth,
+                stiffness_coefficient: 0.0,
+            });
+            let request = SweepRequest {
+                friction_coefficients: &[0.0],
+                limit: ModeLimit::Lowest(4),
+                shapes_at: &[],
+                count_modes: false,
+            };
+            let found = sweep(&tangent, &request, &Unwatched).unwrap();
+            assert_eq!(found.points[0].modes.len(), 4);
+            assert_eq!(found.beyond.is_some(), growth > 0.0);
+            if let Some(beyond) = found.beyond {
+                assert!((beyond.growth_rate - growth).abs() < 1e-9);
+                assert!(beyond.frequency_hz > found.points[0].modes[3].frequency_hz());
+            }
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! Which of two motions wins on a body without symmetry.
 
 use super::steady::Steady;
-use crate::case::{Case, TimeStep};
+use crate::case::{Case, TimeStep, refusal};
 use crate::cycle::periodic::{GrowingMode, ModeContest, PeriodMap};
 use crate::cycle::{BasinBoundary, BasinRequest};
 use crate::fem::operator::SimdLevel;
@@ -61,12 +61,9 @@ fn rivals(case: &Case, request: &BasinRequest, steady: &Steady) -> Result<Vec<us
     };
     let count = steady.modes.len();
     if let Some(beyond) = asked.iter().find(|&&mode| mode > count) {
-        return Err(StudyError::Case(case.error_at(
-            "basin.modes",
-            format!("basin.modes: there is no mode {beyond}, {count} are looked at"),
-            format!("1 to {count}"),
-            "raise cea.modes, or cea.max_frequency_hz",
-        )));
+        return Err(StudyError::Case(refusal!(case, "basin.modes",
+            "basin.modes: there is no mode {beyond}, {count} are looked at"; "1 to {count}";
+            "raise cea.modes, or cea.max_frequency_hz")));
     }
     Ok(asked.iter().map(|mode| mode - 1).collect())
 }

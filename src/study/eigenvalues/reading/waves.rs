@@ -7,7 +7,7 @@ use crate::case::Case;
 use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep, ModeWave};
 use crate::linalg::c64;
 use crate::mesh::SolidSector;
-use crate::prestress::{HarmonicParts, PartForms, WaveParts, WaveTangent};
+use crate::prestress::{HarmonicParts, PartForms, WaveTangent};
 use crate::results::cea::{
     Contribution, Coupling, Feed, FeedPlace, ModeFeed, ModeName, Reading, Source,
 };
@@ -67,9 +67,8 @@ impl Apart {
             modes.filter(|mode| mode.wave.is_some()).map(|mode| mode.harmonic).collect();
         numbers.sort_unstable();
         numbers.dedup();
-        let parts = WaveParts::new(tangent);
-        let supports = parts.support_names().map(str::to_owned).collect();
-        let harmonics = numbers.iter().map(|&n| (n, parts.harmonic(n))).collect();
+        let supports = tangent.support_names().map(str::to_owned).collect();
+        let harmonics = numbers.iter().map(|&n| (n, tangent.parts(n))).collect();
         Self { regions: model.mesh.regions.clone(), supports, harmonics }
     }
 

@@ -1,0 +1,135 @@
+//! The matrices of one harmonic, by power of the friction coefficient and at one of its values.
+
+use crate::fem::RayleighDamping;
+use crate::linalg::banded::{BandedMatrix, multiply_band};
+use crate::linalg::c64;
+
+/// A matrix that depends on the friction coefficient, `P(mu) = sum_p P_p (i mu)^p` with real `P_p`.
+pub type FrictionPolynomial = Vec<BandedMatrix>;
+
+/// `P(z)`, `z = i mu`.
+pub fn evaluate(polynomial: &[BandedMatrix], z: c64) -> Vec<c64> {
+    let mut values: Vec<c64> = polynomial[0].values().iter().map(|v| c64::new(*v, 0.0)).collect();
+    let mut power = z;
+    for coefficient in &polynomial[1..] {
+        for (value, v) in values.iter_mut().zip(coefficient.values()) {
+            *value += power * *v;
+        }
+        power *= z;
+    }
+    values
+}
+
+/// Mass, damping and stiffness of one circumferential harmonic.
+///
+/// Unknowns are `(u_r, -i u_theta)`, in space `(u_r, -i u_theta, u_z)`, of each sector node, without held dofs and for rigid
+/// contact without the contact normals; on a deformable shaft a contact normal of the annulus is the distance between the
+/// two nodes of the pair. All matrices share one shape. The wave of harmonic `-n` sees the
+/// complex conjugates. Of a plane body everything is for each metre of thickness.
+#[derive(Clone, Debug)]
+pub struct HarmonicTangent {
+    /// Circumferential harmonic `n >= 0`.
+    pub harmonic: usize,
+    /// `M_n(mu)`, kg.
+    pub mass: FrictionPolynomial,
+    /// `K_n(mu)`, N/m.
+    pub stiffness: FrictionPolynomial,
+    /// `C_n(mu)`, N s/m, where damping is not proportional; otherwise `alpha_R M_n + beta_R K_n`.
+    pub damping: Option<FrictionPolynomial>,
+    /// Dashpots of friction along and across the sliding: `mu` times this is a further part of `C_n`, N s/m.
+    pub friction_dashpots: Option<FrictionPolynomial>,
+    /// Forms of the mass whose values over that of the mass itself are the shares of kinetic energy of the contact's nodes and of
+    /// axial motion; where unknowns are no displacements.
+    pub shares: Option<[BandedMatrix; 2]>,
+    /// Rayleigh coefficients.
+    pub rayleigh: RayleighDamping,
+    /// Unknowns that belong to the contact, of both bodies.
+    pub contact: Vec<usize>,
+}
+
+/// [`HarmonicTangent`] at one friction coefficient, as bands laid out like [`BandedMatrix::values`].
+#[derive(Clone, Debug)]
+pub struct MovingHarmonic {
+    /// Off-diagonals on either side.
+    pub half_bandwidth: usize,
+    /// `M`, kg.
+    pub mass: Vec<c64>,
+    /// `C`, N s/m.
+    pub damping: Vec<c64>,
+    /// `K`, N/m.
+    pub stiffness: Vec<c64>,
+}
+
+impl HarmonicTangent {
+    /// The matrices at a friction coefficient, the damping written out where it is proportional.
+    pub fn at(&self, friction_coefficient: f64) -> MovingHarmonic {
+        let (mu, z) = (friction_coefficient, c64::new(0.0, friction_coefficient));
+        let [mass, stiffness] = [&self.mass, &self.stiffness].map(|p| evaluate(p, z));
+        let mut damping = match &self.damping {
+            Some(damping) => evaluate(damping, z),
+            None => {
+                let [alpha, beta] =
+                    [self.rayleigh.mass_coefficient, self.rayleigh.stiffness_coefficient];
+                mass.iter().zip(&stiffness).map(|(m, k)| m * alpha + k * beta).collect()
+            }
+        };
+        if let Some(dashpots) = &self.friction_dashpots {
+            let added = evaluate(dashpots, z);
+            damping.iter_mut().zip(added).for_each(|(sum, c)| *sum += c * mu);
+        }
+        let half_bandwidth = self.mass[0].half_bandwidth();
+        MovingHarmonic { half_bandwidth, mass, damping, stiffness }
+    }
+}
+
+impl MovingHarmonic {
+    /// Number of unknowns.
+    pub fn dimension(&self) -> usize {
+        self.mass.len() / (2 * self.half_bandwidth + 1)
+    }
+
+    /// `(lambda^2 M + lambda C + K) x`, or the adjoint's product.
+    pub fn apply(&self, lambda: c64, x: &[c64], adjoint: bool) -> Vec<c64> {
+        let one = c64::new(1.0, 0.0);
+        self.combine([lambda * lambda, lambda, one], x, adjoint)
+    }
+
+    /// `(2 lambda M + C) x`, or the adjoint's product.
+    pub fn apply_slope(&self, lambda: c64, x: &[c64], adjoint: bool) -> Vec<c64> {
+        self.combine([lambda + lambda, c64::new(1.0, 0.0), c64::ZERO], x, adjoint)
+    }
+
+    fn combine(&self, factors: [c64; 3], x: &[c64], adjoint: bool) -> Vec<c64> {
+        let mut sum = vec![c64::ZERO; x.len()];
+        let bands = [&self.mass, &self.damping, &self.stiffness];
+        for (factor, band) in factors.into_iter().zip(bands).filter(|(f, _)| *f != c64::ZERO) {
+            let factor = if adjoint { factor.conj() } else { factor };
+            let image = multiply_band(band, self.half_bandwidth, x, adjoint);
+            sum.iter_mut().zip(image).for_each(|(sum, value)| *sum += factor * value);
+        }
+        sum
+    }
+
+    /// A sum of matrices of the same unknowns, each with its weight; `None` where the unknowns differ.
+    pub fn combined(terms: &[(f64, Self)]) -> Option<Self> {
+        let (weight, first) = terms.first()?;
+        let size = (first.half_bandwidth, first.mass.len());
+        let is_like = |(_, own): &(f64, Self)| (own.half_bandwidth, own.mass.len()) == size;
+        if !terms.iter().all(is_like) {
+            return None;
+        }
+        let sum = |of: fn(&Self) -> &Vec<c64>| {
+            let mut sum: Vec<c64> = of(first).iter().map(|v| v * *weight).collect();
+            for (weight, term) in &terms[1..] {
+                sum.iter_mut().zip(of(term)).for_each(|(sum, v)| *sum += v * *weight);
+            }
+            sum
+        };
+        Some(Self {
+            half_bandwidth: first.half_bandwidth,
+            mass: sum(|own| &own.mass),
+            damping: sum(|own| &own.damping),
+            stiffness: sum(|own| &own.stiffness),
+        })
+    }
+}
