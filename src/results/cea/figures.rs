@@ -99,9 +99,10 @@ fn pairs(report: &CeaReport<'_>) -> Result<Figure, ChartError> {
             };
             let line = |direction: i8| line_of(of(direction));
             // Pieces belong to one branch: where contact opens at every value they are dots without a join.
-            let joined = [-1, 0, 1].into_iter().filter_map(of);
-            let joins = joined
-                .map(|points| Line::through(values(points)).stroke(Stroke::dashed(STABLE, 0.4)));
+            let own = [-1, 0, 1].into_iter().filter_map(of).map(|points| (points, STABLE));
+            let joins = own.chain(other.map(|points| (points, INK))).map(|(points, colour)| {
+                Line::through(values(points)).stroke(Stroke::dashed(colour, 0.4))
+            });
             let growing = [-1, 0, 1].into_iter().filter_map(of).flatten();
             let growing = growing.filter(|(_, mode)| mode.is_unstable());
             let line_of_all = match report.has_harmonics {

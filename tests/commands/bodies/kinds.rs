@@ -75,7 +75,7 @@ fn two_bodies(around: usize) -> String {
 
 /// A slab that turns about a far axis, a lining pressed on it, and a backplate glued to the lining, whose meshes do not match: on
 /// springs against the slab as `contact` says, held at a side of the plate by springs of `support` Pa/m.
-fn solids(contact: &str, support: &str) -> (String, String) {
+fn solids(contact: &str, support: &str, counts: [[usize; 3]; 3]) -> (String, String) {
     let block = |name, bottom, height, counts| Block {
         name,
         origin: [0.0, 0.0, bottom],
@@ -83,9 +83,9 @@ fn solids(contact: &str, support: &str) -> (String, String) {
         counts,
     };
     let blocks = [
-        block("slab", -0.035, 0.02, [2, 2, 1]),
-        block("lining", -0.015, 0.01, [3, 2, 1]),
-        block("plate", -0.005, 0.005, [2, 2, 1]),
+        block("slab", -0.035, 0.02, counts[0]),
+        block("lining", -0.015, 0.01, counts[1]),
+        block("plate", -0.005, 0.005, counts[2]),
     ];
     let mesh = String::from_utf8(file_of(&blocks, |point| point)).expect("a file of text");
     let case = format!(
@@ -140,10 +140,12 @@ pub fn kinds() -> Vec<Kind> {
             "axial_elements = 1\n[material]\nformulation = \"three-dimensional\"\n",
         )
     };
-    let (slides, slides_mesh) = solids("normal_stiffness = 1e12", "1e12");
+    let coarse = [[2, 2, 1], [3, 2, 1], [2, 2, 1]];
+    let (slides, slides_mesh) =
+        solids("normal_stiffness = 1e12", "1e12", [[3, 2, 1], [4, 3, 1], [3, 3, 1]]);
     // Its own friction lies above the onset at 0.2.
-    let (squeals, squeals_mesh) = solids("normal_stiffness = 1e11", "1e10");
-    let (stiffens, stiffens_mesh) = solids(stiffening, "1e12");
+    let (squeals, squeals_mesh) = solids("normal_stiffness = 1e11", "1e10", coarse);
+    let (stiffens, stiffens_mesh) = solids(stiffening, "1e10", coarse);
     let (of_sectors, sector) = sectors();
     vec![
         kind("annulus", annulus("", "", "")),

@@ -289,7 +289,7 @@ fn every_bad_value_of_the_model_names_key_bound_and_place() {
         (
             "normal_stiffness",
             "normal_damping = 5.0",
-            ["no effect on a rigid contact", "contact.normal_stiffness"],
+            ["no effect on a rigid contact", "needs normal_stiffness"],
         ),
     ] {
         let text = disc_with(key, line);

@@ -88,7 +88,7 @@ fn a_run_without_end_or_without_stability_is_refused_for_what_it_is() {
     );
     assert_reports(
         &report(RUN, &["contact.normal_stiffness=1e30"]),
-        &["contact.normal_stiffness", "use \"rigid\""],
+        &["contact.normal_stiffness", "use normal_stiffness = \"rigid\""],
     );
 }
 

@@ -52,7 +52,7 @@ fn axial_forces_on_plane_bodies_are_refused_with_the_key() {
     for key in ["force_direction", "response_direction"] {
         let set = format!("frf.{key}=\"axial\"");
         let found = format!("frf.{key} = \"axial\": a plane body does not move along its axis");
-        let parts = [found.as_str(), "material.formulation = \"three-dimensional\""];
+        let parts = [found.as_str(), "use \"radial\" or \"tangential\""];
         assert_reports(&report(disc, &[&set]), &parts);
     }
 }

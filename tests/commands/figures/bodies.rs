@@ -134,7 +134,8 @@ fn modes_of_a_body_without_symmetry_have_numbers_and_no_harmonic() {
         }
         let pairs = texts(&read(&folder, "figures/pairs.svg"));
         assert!(pairs.iter().any(|word| word == "mode 4"), "{pairs:?}");
-        assert!(pairs.iter().any(|word| word.contains("contact nodes open or close")));
+        assert!(pairs.iter().any(|word| word.contains("contact opens or closes between")));
+        assert!(pairs.iter().any(|word| word == "mode of the nearest frequency"), "{pairs:?}");
         let locus = texts(&read(&folder, "figures/locus.svg"));
         for name in ["damping of disc", "damping of pad"] {
             assert!(locus.iter().any(|word| word == name), "{locus:?}");
