@@ -63,7 +63,7 @@ impl Run for Arguments {
 /// Draws the page that a folder keeps as data.
 ///
 /// # Errors
-/// As [`run`].
+/// A folder without figures; those of the drawing and of the folder.
 pub fn redraw(path: &Path, manifest: &Manifest, options: &DrawingOptions) -> Result<(), Failure> {
     if !path.join(Page::FILE).exists() {
         let reason = format!("it has no {}: run it again, with figures", Page::FILE);

@@ -87,7 +87,7 @@ impl Linearization {
     }
 
     /// `lambda` with `Im > 0` that belongs to the eigenvalue `s` of the shift-inverted operator; `None` for a motion that decays
-    /// without oscillating ([`is_vibration`]), for a rigid one and for the conjugate of a mode.
+    /// without oscillating, for a rigid one and for the conjugate of a mode.
     pub fn eigenvalue(self, s: c64) -> Option<c64> {
         let (value, rigid) = (self.value(s), self.centre().rigid);
         match self {

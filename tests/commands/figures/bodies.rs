@@ -38,7 +38,8 @@ fn sweep() -> FrictionSweep {
         restabilized: None,
         unstable_from_start: false,
     };
-    sweep.intervals = vec![interval(3, 0.3), interval(5, 0.6)];
+    // The waves of a pair that travel against the rotor grow.
+    sweep.intervals = vec![interval(4, 0.3), interval(6, 0.6)];
     sweep
 }
 
@@ -133,7 +134,7 @@ fn modes_of_a_body_without_symmetry_have_numbers_and_no_harmonic() {
             check_texts(name, &svg);
         }
         let pairs = texts(&read(&folder, "figures/pairs.svg"));
-        assert!(pairs.iter().any(|word| word == "mode 4"), "{pairs:?}");
+        assert!(pairs.iter().any(|word| word == "mode 5"), "{pairs:?}");
         assert!(pairs.iter().any(|word| word.contains("contact opens or closes between")));
         assert!(pairs.iter().any(|word| word == "mode of the nearest frequency"), "{pairs:?}");
         let locus = texts(&read(&folder, "figures/locus.svg"));
