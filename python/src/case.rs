@@ -154,7 +154,7 @@ pub fn shipped_files(name: Option<&str>) -> PyResult<Vec<(String, Cow<'static, [
         let all = all_files().into_iter();
         return Ok(all.map(|(path, bytes)| (path.to_owned(), bytes.into())).collect());
     };
-    let found = ShippedCase::find(&format!("{name}.toml")).ok_or_else(|| {
+    let found = all_cases().into_iter().find(|case| case.name() == name).ok_or_else(|| {
         let names: Vec<&str> = all_cases().iter().map(ShippedCase::name).collect();
         let names = names.join(", ");
         usage_exception(format!("no shipped case \"{name}\": there are {names}"))
