@@ -54,12 +54,12 @@ PACKAGES = ("petsc", "mumps", "superlu", "umfpack")
 
 
 def run(*arguments):
-    """Processor time (s) and largest memory (MB) of a command of the program."""
+    """Processor time of a command of the program, s."""
     process = subprocess.Popen([PROGRAM, *arguments, "-qq"], stdout=subprocess.DEVNULL)
     _, status, used = os.wait4(process.pid, 0)
     if status:
         sys.exit(f"{' '.join(arguments)} failed")
-    return used.ru_utime + used.ru_stime, used.ru_maxrss / 1024
+    return used.ru_utime + used.ru_stime
 
 
 def matrix(folder, name):
@@ -150,34 +150,32 @@ def solve(folder, modes, package):
 
 
 def fastest(folder, modes):
-    """The package of least time, and its largest memory (MB), each tried in a process of its own."""
-    tried = []
+    """The package of least time, each tried in a process of its own."""
+    times = {}
     for package in PACKAGES:
         one = [sys.executable, os.path.abspath(__file__), "--one", folder, str(modes), package]
-        process = subprocess.Popen(one, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-        said = process.stdout.read()
-        _, status, used = os.wait4(process.pid, 0)
-        if status == 0:
-            tried.append((float(said), package, used.ru_maxrss / 1024))
-    return min(tried)[1:]
+        done = subprocess.run(one, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        if done.returncode == 0:
+            times[package] = float(done.stdout)
+    return min(times, key=times.get)
 
 
 def compare(body):
     case, overrides = BODIES[body]
     given = [f"{ROOT}/cases/{case}.toml"] + [word for text in overrides for word in ("--set", text)]
     with tempfile.TemporaryDirectory() as folder:
-        ours, memory = run("cea", *given, "--no-figures", "--out", f"{folder}/cea")
+        ours = run("cea", *given, "--no-figures", "--out", f"{folder}/cea")
         modes = {}
         for row in csv.DictReader(open(f"{folder}/cea/eigenvalues.csv")):
             value = complex(float(row["growth_rate_per_s"]), 2 * np.pi * float(row["frequency_hz"]))
             modes.setdefault(row["friction_coefficient"], []).append((value, float(row["residual"])))
         own_residual = max(residual for all in modes.values() for _, residual in all)
-        seconds, residual, difference, package, other = 0.0, 0.0, 0.0, None, 0.0
+        seconds, residual, difference, package = 0.0, 0.0, 0.0, None
         for friction, own in modes.items():
             place = f"{folder}/{friction}"
             run("matrices", *given, "--friction", friction, "--out", place)
             if package is None:
-                package, other = fastest(place, len(own))
+                package = fastest(place, len(own))
             elapsed, found, worst = solve(place, len(own), package)
             seconds, residual = seconds + elapsed, max(residual, worst)
             for value in found:
@@ -186,8 +184,8 @@ def compare(body):
                 if nearest < 1e-3 * abs(value):
                     difference = max(difference, nearest / abs(value))
             unknowns = matrix(place, "M").getSize()[0]
-    print(f"| {body} | {unknowns} | {len(modes)} | {ours:.2f} s, {own_residual:.0e}, {memory:.0f} MB | {seconds:.2f} s, "
-          f"{residual:.0e}, {other:.0f} MB ({package}) | {seconds / ours:.1f} | {difference:.0e} |", flush=True)
+    print(f"| {body} | {unknowns} | {len(modes)} | {ours:.2f} s, {own_residual:.0e} | {seconds:.2f} s, "
+          f"{residual:.0e} ({package}) | {seconds / ours:.1f} | {difference:.0e} |", flush=True)
 
 
 def main():
