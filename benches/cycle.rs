@@ -26,8 +26,8 @@ fn main() {
     let specification = AnnulusSpecification {
         inner_radius: 0.0205,
         outer_radius: 0.0905,
-        circumferential_elements: counted(180, 60),
-        radial_elements: counted(35, 12),
+        circumferential_elements: counted(180, 90),
+        radial_elements: counted(35, 18),
         radial_grading: 1.0,
         element: ElementKind::Quad4,
         outer: BoundaryCondition::Clamped,
