@@ -73,7 +73,8 @@ pub(super) fn no_axial_support(root: &Section<'_>, boundaries: &[NamedCondition]
         if matches!(condition, BoundaryCondition::Support(support) if support.axial_stiffness > 0.0)
         {
             refuse!(section, name,
-                "boundaries.{name}.axial_stiffness has no effect on a plane body"; "the body is plane"; "leave axial_stiffness out");
+                "boundaries.{name}.axial_stiffness has no effect on a plane body";
+                "the body is plane"; "leave axial_stiffness out");
         }
     }
 }

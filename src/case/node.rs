@@ -79,9 +79,11 @@ impl Nodes<'_> {
             at: point,
         };
         if placed.distance() > FAR * body.size() {
+            let [asked, found] = [(&placed.asked, None), (&point, Some(6))]
+                .map(|(place, digits)| listed(&place[..body.dimension()], digits));
             caution!(section, key,
-                "{}: the node nearest to {} m is node {} at {} m, {:.1e} m \
-                 away", section.name(key), listed(&placed.asked[..body.dimension()], None), body.node_label(node), listed(&point[..body.dimension()], Some(6)), placed.distance();
+                "{}: the node nearest to {asked} m is node {} at {found} m, {:.1e} m away",
+                section.name(key), body.node_label(node), placed.distance();
                 "places are in metres");
         }
         Some((node, Some(placed)))

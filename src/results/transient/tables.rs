@@ -42,7 +42,8 @@ columns! {
     frequency_hz: "frequency"
         = row.1.as_ref().ok().map(|own| own.frequency_hz), IfAny "frequency" Fixed(1);
     travels: "way"
-        = row.1.as_ref().ok().and_then(|own| Some(if own.direction? > 0 { "with the rotor" } else { "against the rotor" })),
+        = row.1.as_ref().ok().and_then(|own| own.direction)
+            .map(|way| if way > 0 { "with the rotor" } else { "against the rotor" }),
         IfAny "travels" Plain;
     reason: "why none" = row.1.as_ref().err().cloned(), IfAny "why there is none" Plain;
 }
