@@ -160,7 +160,7 @@ impl Case {
                 let stiffness = sector::supported_stiffness(&mesh, &annulus.materials);
                 let base = SectorSliding::solve(&mesh, &stiffness, &contact, law);
                 let whole = self.thickness * mesh.sector_count() as f64;
-                base.map(|base| vec![whole * base.normal_forces.iter().sum::<f64>()])
+                base.map(|base| vec![whole * base.state.normal_forces[0].iter().sum::<f64>()])
             }
             Body::Revolution(Revolution { specification, material }) => {
                 let mesh = SolidSector::generate(specification).map_err(in_words)?;

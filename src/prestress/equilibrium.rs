@@ -2,9 +2,9 @@
 
 use super::PrestressError;
 use super::SectorSliding;
-use super::cholesky::CholeskySolver;
 use super::complementarity::PressedRange;
 use super::elimination::Elimination;
+use super::full_sliding::{self, FullSliding};
 use super::pressed_state::{PressedState, Pressing};
 use crate::contact::{ContactInterface, NormalLaw, Point, SlidingContact, SteadyFriction};
 use crate::fem::{Triplets, assemble_supports};
@@ -83,46 +83,10 @@ impl SteadySliding {
         let interface = ContactInterface::of(mesh);
         let points = interface.points(contact);
 
-        // Separations in place of normal displacements, all of them pushed in by the interference.
-        let mut basis = Elimination::holding(mesh.dof_count(), mesh.held_dofs());
-        let separations: Result<Vec<usize>, PrestressError> =
-            points.iter().map(|point| basis.require(&point.normal, "contact")).collect();
-        let separations = separations?;
-        let stiffness = basis.congruent(stiffness);
-        for &dof in &separations {
-            basis.drop_unknown(dof);
-        }
-        let unknowns = basis.unknowns();
-        let solver = CholeskySolver::new(&stiffness, &unknowns)?;
-        let mut pressed = vec![0.0; mesh.dof_count()];
-        for &dof in &separations {
-            pressed[dof] = contact.interference;
-        }
-        let prescribed = unknowns.restrict(&stiffness.multiply(pressed.len(), &pressed));
-        let response = solver.solve(prescribed.iter().map(|force| -force).collect());
-        for (&dof, value) in unknowns.dofs.iter().zip(response) {
-            pressed[dof] = value;
-        }
-        let reaction = stiffness.multiply(pressed.len(), &pressed);
-        let normal_forces: Vec<f64> = separations.iter().map(|&dof| reaction[dof]).collect();
-        check_pressed(&interface, &normal_forces)?;
-
-        // Friction shears it.
-        let mut traction = vec![0.0; pressed.len()];
-        for (point, force) in points.iter().zip(&normal_forces) {
-            for &(dof, along) in &point.slip {
-                traction[dof] += point.friction.drag * along * force;
-            }
-        }
-        let traction = basis.transposed_forces(&traction);
-        let sheared = unknowns.expand(&solver.solve(unknowns.restrict(&traction)));
-        let state = PressedState {
-            displacements: vec![basis.displacement(&pressed), basis.displacement(&sheared)],
-            stiffnesses: Vec::new(),
-            is_pressed: vec![true; normal_forces.len()],
-            frozen_below: 0.0,
-            normal_forces: vec![normal_forces],
-        };
+        let basis = Elimination::holding(mesh.dof_count(), mesh.held_dofs());
+        let state =
+            FullSliding::new(stiffness, basis, &points)?.state(contact.interference, None)?;
+        check_pressed(&interface, &points, &state.normal_forces[0])?;
         Ok(Self::of(state, interface, contact))
     }
 
@@ -155,21 +119,16 @@ impl SteadySliding {
             values
         };
         let interface = ContactInterface::of(&annulus.mesh);
-        let normal_forces: Vec<f64> =
-            (0..interface.len()).map(|i| state.normal_forces[i % sector.contact_count]).collect();
-        let springs = state.springs.as_ref().map(|springs| {
-            let all = 0..interface.len();
-            all.map(|i| springs[i % sector.contact_count]).collect()
-        });
+        let state = &state.state;
+        let over_nodes = |values: &Vec<f64>| {
+            (0..interface.len()).map(|i| values[i % sector.contact_count]).collect()
+        };
         let state = PressedState {
-            displacements: vec![
-                repeat(&state.pressed_displacement),
-                repeat(&state.sheared_displacement),
-            ],
-            stiffnesses: springs.into_iter().collect(),
-            is_pressed: vec![true; normal_forces.len()],
+            displacements: state.displacements.iter().map(|free| repeat(free)).collect(),
+            normal_forces: state.normal_forces.iter().map(over_nodes).collect(),
+            stiffnesses: state.stiffnesses.iter().map(over_nodes).collect(),
+            is_pressed: vec![true; interface.len()],
             frozen_below: 0.0,
-            normal_forces: vec![normal_forces],
         };
         Self::of(state, interface, contact)
     }
@@ -227,23 +186,17 @@ impl SlidingRange {
         };
         let found = pressing.states(mesh, friction_coefficients)?;
         if let Some(state) = found.states.iter().find(|_| mesh.is_cyclic) {
-            check_pressed(&interface, &state.normal_forces(friction_coefficients[0]))?;
+            check_pressed(&interface, &points, &state.normal_forces(friction_coefficients[0]))?;
         }
         Ok(found.map(|state| SteadySliding::of(state, interface.clone(), contact)))
     }
 }
 
-fn check_pressed(interface: &ContactInterface, forces: &[f64]) -> Result<(), PrestressError> {
-    let is_pressed = |force: f64| force > 0.0;
-    let open: Vec<usize> = (0..forces.len()).filter(|&i| !is_pressed(forces[i])).collect();
-    match open.first() {
-        None => Ok(()),
-        Some(&i) => Err(PrestressError::Separation {
-            count: open.len(),
-            total: forces.len(),
-            node: interface.nodes[i] as usize + 1,
-            angle_degrees: interface.angles[i].to_degrees(),
-            pressure: forces[i] / interface.tributary_lengths[i],
-        }),
-    }
+fn check_pressed(
+    interface: &ContactInterface,
+    points: &[Point],
+    forces: &[f64],
+) -> Result<(), PrestressError> {
+    let place = |i: usize| (interface.nodes[i] as usize + 1, interface.angles[i].to_degrees());
+    full_sliding::check_pressed(points, (forces, 1), place)
 }

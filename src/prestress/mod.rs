@@ -21,6 +21,7 @@ mod error;
 mod face_conditions;
 mod friction_polynomial;
 mod frozen;
+mod full_sliding;
 mod joint;
 mod options;
 mod penalty;

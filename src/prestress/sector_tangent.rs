@@ -38,8 +38,9 @@ impl WaveTangent {
         let base = SectorSliding::solve(sector, &supported, contact, options.contact.law)?;
 
         let stress = |own: &Vec<RegionMaterial>| match options.geometric_stiffness {
-            true => [&base.pressed_displacement, &base.sheared_displacement]
-                .map(|displacement| sector::geometric_stiffness(sector, own, displacement)),
+            true => [0, 1].map(|power| {
+                sector::geometric_stiffness(sector, own, &base.state.displacements[power])
+            }),
             false => Default::default(),
         };
         let regions = fields.iter().zip(elastic).enumerate().map(|(region, (own, elastic))| {
@@ -105,7 +106,7 @@ impl Edge<'_> {
     /// Stiffness `k_n w` of each contact node; `None` for rigid contact.
     fn normal_stiffness(&self, options: &TangentOptions) -> Option<Vec<f64>> {
         let penalty = options.contact.normal_stiffness.map(|k| self.over_lengths(k));
-        self.base.springs.clone().or(penalty)
+        self.base.state.stiffnesses.first().cloned().or(penalty)
     }
 
     /// A value per length at each contact node.
@@ -166,7 +167,8 @@ impl Edge<'_> {
         let [normal, drag] = normal_and_drag(&self.over_lengths(contact.normal_damping));
         let tangential = along_slip(&self.over_lengths(contact.tangential_damping));
         let slope = self.base.friction.slope;
-        let falling: Vec<f64> = self.base.normal_forces.iter().map(|n| slope * n).collect();
+        let falling: Vec<f64> =
+            self.base.state.normal_forces[0].iter().map(|n| slope * n).collect();
         let penalty = self.normal_stiffness(options);
         ContactTerms {
             penalty: penalty.map_or_else(Default::default, |values| normal_and_drag(&values)),
@@ -189,7 +191,8 @@ impl Edge<'_> {
     /// the first line symmetric, and zero under a rigid motion but for what the turned stress balances.
     fn turning(&self) -> [SectorMatrix; 2] {
         let radius = self.sector.specification.inner_radius;
-        let turning: Vec<f64> = self.base.normal_forces.iter().map(|n| n / radius).collect();
+        let turning: Vec<f64> =
+            self.base.state.normal_forces[0].iter().map(|n| n / radius).collect();
         let drag = self.base.friction.drag;
         let (mut pressure, mut friction): (Vec<Entry>, Vec<Entry>) = (Vec::new(), Vec::new());
         for (node, value) in self.sector.contact_nodes().zip(&turning) {

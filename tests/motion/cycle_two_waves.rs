@@ -73,7 +73,7 @@ fn two_waves_are_born_where_the_cycle_loses_its_stability() {
     let branch = run(&kept);
     // What an interrupted search has kept, and the rest anew, is the same bit by bit.
     let count = kept.steps.lock().unwrap().len();
-    let resumed = run(&kept.after(count / 2));
+    let resumed = run(&kept.after(3 * count / 4));
     assert!(count > 6 && format!("{resumed:?}") == format!("{branch:?}"));
     assert_eq!(branch.ends, [BranchEnd::Birth, BranchEnd::Range]);
     let [stable, unstable] = [560.0, 700.0].map(|speed| {

@@ -37,13 +37,13 @@ fn disc_and_interface_share_the_interference() {
     let width = sector.tributary_lengths()[0];
     for law in LAWS {
         let own = SectorSliding::solve(&sector, &stiffness, &sliding, Some(law)).unwrap();
-        let pressure = own.normal_forces[0] / width;
+        let pressure = own.state.normal_forces[0][0] / width;
         let share = 1.0 - law.approach(pressure) / sliding.interference;
         println!("{law:?}: {pressure} Pa, {share}");
         assert!(share > 0.05 && share < 0.95);
-        let expected = share * rigid.normal_forces[0] / width;
+        let expected = share * rigid.state.normal_forces[0][0] / width;
         assert!((pressure / expected - 1.0).abs() < 1e-12);
-        let spring = own.springs.unwrap()[0] / width;
+        let spring = own.state.stiffnesses[0][0] / width;
         assert!((spring / law.stiffness(law.approach(pressure)) - 1.0).abs() < 1e-12);
     }
 }

@@ -1,0 +1,171 @@
+//! Steady sliding of a body of revolution whose contact is pressed all around: its normal forces do not depend on friction.
+
+use super::PrestressError;
+use super::cholesky::CholeskySolver;
+use super::elimination::Elimination;
+use super::pressed_state::PressedState;
+use crate::contact::{NormalLaw, Point};
+use crate::fem::{DofMap, Triplets};
+use nalgebra::{DMatrix, DVector};
+
+/// Newton steps to the approach of contact that stiffens, at most; its force is a concave function of the approach's.
+const MOST_TANGENTS: usize = 100;
+
+/// A body with the separations of its contact points prescribed.
+pub(super) struct FullSliding<'a> {
+    points: &'a [Point],
+    /// Separations in place of normal displacements.
+    basis: Elimination,
+    separations: Vec<usize>,
+    /// Stiffness over separations and the other dofs.
+    stiffness: Triplets,
+    unknowns: DofMap,
+    solver: CholeskySolver,
+}
+
+impl<'a> FullSliding<'a> {
+    /// Of a stiffness over all dofs, supports included, without those that `basis` holds.
+    ///
+    /// # Errors
+    /// [`PrestressError::Overconstrained`]; [`PrestressError::Singular`] for a stiffness that is not positive definite.
+    pub fn new(
+        stiffness: &Triplets,
+        mut basis: Elimination,
+        points: &'a [Point],
+    ) -> Result<Self, PrestressError> {
+        let separations: Result<Vec<usize>, PrestressError> =
+            points.iter().map(|point| basis.require(&point.normal, "contact")).collect();
+        let separations = separations?;
+        let stiffness = basis.congruent(stiffness);
+        separations.iter().for_each(|&dof| basis.drop_unknown(dof));
+        let unknowns = basis.unknowns();
+        let solver = CholeskySolver::new(&stiffness, &unknowns)?;
+        Ok(Self { points, basis, separations, stiffness, unknowns, solver })
+    }
+
+    /// The state in which every point is pushed in by `interference`, `u(mu) = u_0 + mu u_1`; with a contact that stiffens with
+    /// pressure, if there is a `law`: `N_i = w_i p(delta - u_n)`.
+    ///
+    /// # Errors
+    /// [`PrestressError::Singular`].
+    pub fn state(
+        &self,
+        interference: f64,
+        law: Option<NormalLaw>,
+    ) -> Result<PressedState, PrestressError> {
+        let approaches = match law {
+            Some(law) => self.approaches(interference, law)?,
+            None => vec![0.0; self.points.len()],
+        };
+        let distances: Vec<f64> = approaches.iter().map(|g| interference - g).collect();
+        let pressed = self.pressed_by(&distances);
+        let normal_forces = self.normal_forces(&pressed);
+
+        // Friction shears it.
+        let mut traction = vec![0.0; pressed.len()];
+        for (point, force) in self.points.iter().zip(&normal_forces) {
+            for &(dof, along) in &point.slip {
+                traction[dof] += point.friction.drag * along * force;
+            }
+        }
+        let sheared = self.solve(&self.basis.transposed_forces(&traction));
+        let springs = law.map(|law| {
+            let pairs = approaches.iter().zip(self.points);
+            pairs.map(|(&g, point)| point.weight * law.stiffness(g)).collect()
+        });
+        Ok(PressedState {
+            displacements: [&pressed, &sheared].map(|y| self.basis.displacement(y)).into(),
+            stiffnesses: springs.into_iter().collect(),
+            is_pressed: vec![true; normal_forces.len()],
+            frozen_below: 0.0,
+            normal_forces: vec![normal_forces],
+        })
+    }
+
+    /// Response to a load on all dofs with the separations held.
+    fn solve(&self, load: &[f64]) -> Vec<f64> {
+        self.unknowns.expand(&self.solver.solve(self.unknowns.restrict(load)))
+    }
+
+    fn pressed_by(&self, distances: &[f64]) -> Vec<f64> {
+        let total = self.unknowns.unknown_of.len();
+        let mut prescribed = vec![0.0; total];
+        for (&dof, distance) in self.separations.iter().zip(distances) {
+            prescribed[dof] = *distance;
+        }
+        let force = self.stiffness.multiply(total, &prescribed);
+        let mut pressed = self.solve(&force.iter().map(|f| -f).collect::<Vec<_>>());
+        for (&dof, distance) in self.separations.iter().zip(distances) {
+            pressed[dof] = *distance;
+        }
+        pressed
+    }
+
+    fn normal_forces(&self, pressed: &[f64]) -> Vec<f64> {
+        let force = self.stiffness.multiply(pressed.len(), pressed);
+        self.separations.iter().map(|&dof| force[dof]).collect()
+    }
+
+    /// Normal forces of unit distances, column by column.
+    fn responses(&self) -> DMatrix<f64> {
+        let count = self.points.len();
+        let columns = (0..count).map(|j| {
+            let mut unit = vec![0.0; count];
+            unit[j] = 1.0;
+            DVector::from_vec(self.normal_forces(&self.pressed_by(&unit)))
+        });
+        DMatrix::from_columns(&columns.collect::<Vec<_>>())
+    }
+
+    /// What springs of a law give way by under the interference: Newton's method in the forces, of which the approach is a
+    /// concave function,
+    ///
+    /// ```text
+    /// (1 + S / k) N = S (delta - g + N_0 / k),   N_0 = w p(g) the forces found last, k = w dp/dg
+    /// ```
+    fn approaches(&self, interference: f64, law: NormalLaw) -> Result<Vec<f64>, PrestressError> {
+        let lengths: Vec<f64> = self.points.iter().map(|point| point.weight).collect();
+        let response = self.responses();
+        let count = lengths.len();
+        let mut forces = DVector::zeros(count);
+        for _ in 0..MOST_TANGENTS {
+            let approach = |i: usize| law.approach(f64::max(forces[i], 0.0) / lengths[i]);
+            let softness = |i: usize| 1.0 / (lengths[i] * law.stiffness(approach(i)));
+            let pushed = DVector::from_fn(count, |i, _| {
+                interference - approach(i) + f64::max(forces[i], 0.0) * softness(i)
+            });
+            let mut matrix = DMatrix::from_fn(count, count, |i, j| response[(i, j)] * softness(j));
+            (0..count).for_each(|i| matrix[(i, i)] += 1.0);
+            let found = matrix.lu().solve(&(&response * pushed));
+            let found = found.ok_or(PrestressError::Singular)?;
+            let moved = (&found - &forces).amax();
+            forces = found;
+            if moved <= 4.0 * f64::EPSILON * forces.amax() {
+                break;
+            }
+        }
+        let forces = forces.iter().zip(&lengths);
+        Ok(forces.map(|(force, w)| law.approach(force.max(0.0) / w)).collect())
+    }
+}
+
+/// Refuses a ring of `copies` sectors of which a point is not pressed; `place` is number and angle of its node, degrees.
+pub(super) fn check_pressed(
+    points: &[Point],
+    (forces, copies): (&[f64], usize),
+    place: impl Fn(usize) -> (usize, f64),
+) -> Result<(), PrestressError> {
+    let is_open = |i: &usize| !(forces[*i] > 0.0);
+    let open: Vec<usize> = (0..forces.len()).filter(is_open).collect();
+    let Some(&first) = open.first() else {
+        return Ok(());
+    };
+    let (node, angle_degrees) = place(first);
+    Err(PrestressError::Separation {
+        count: open.len() * copies,
+        total: forces.len() * copies,
+        node,
+        angle_degrees,
+        pressure: forces[first] / points[first].weight,
+    })
+}
