@@ -3,7 +3,7 @@
 use super::PrestressError;
 use super::cholesky::CholeskySolver;
 use super::complementarity::{PressedRange, range};
-use super::pressed_state::{ContactState, PressedBodies, Pressing, form, widened};
+use super::pressed_state::{ContactState, PressedBodies, Pressing, SHORT_RANGE, form, widened};
 use crate::contact::Row;
 use crate::fem::{DofMap, Triplets};
 use crate::linalg::gmres;
@@ -25,7 +25,6 @@ const TOLERANCE: f64 = 1e-14;
 /// Points through which the polynomial of a state goes, in a short range between two changes of the pressed points and in a
 /// longer one: about `2 (range / 6)^n` is left out, as the state has poles beyond friction 1.
 const NODES: [usize; 2] = [6, 8];
-const SHORT_RANGE: f64 = 0.1;
 
 /// Bodies whose contact points have springs `k_i`.
 ///

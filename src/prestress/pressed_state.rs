@@ -17,7 +17,12 @@ const RESOLVED: f64 = 1e-8;
 /// What follows the last two terms of a series that falls by a factor of three or more from one to the next, beside the larger of them.
 const FOLLOWING: f64 = 0.2;
 
-/// Points through which it goes where the usual ones leave out more, over their interval and over that of the set.
+/// Points that are enough over a short range, and the share that they may leave out: every power is a matrix more.
+pub(super) const SHORT_RANGE: f64 = 0.1;
+const FEW_NODES: [usize; 2] = [3, 5];
+const EXACT: f64 = 1e-11;
+
+/// Points through which it goes where the usual ones leave out more, over the range of the set and over their own.
 const MOST_USUAL: usize = 12;
 const MORE_NODES: [usize; 6] = [3, 5, 8, 12, 18, 24];
 
@@ -159,7 +164,7 @@ pub(super) type OwnRange<'a, B> = dyn Fn(&mut B, &[bool]) -> Result<[f64; 2], Pr
 
 /// The state of one set of pressed points as a polynomial in the friction coefficient.
 ///
-/// Where the usual points leave out too much, as near a friction coefficient at which sliding jams, other numbers of points and the
+/// Where the usual points leave out too much, as near a friction coefficient at which sliding jams, other numbers of points over the
 /// range in which the set is the one that holds, as `own_range` finds it, are tried: the polynomial is taken that leaves out least, the
 /// friction coefficients `asked` for included. With it comes the share of the largest force that it leaves out.
 pub(super) fn polynomial_state<B: PressedBodies>(
@@ -171,8 +176,22 @@ pub(super) fn polynomial_state<B: PressedBodies>(
     let (usual, count) = bodies.usual_points(range);
     // The usual points may be continued to friction 0, others may not, and what stiffens neither.
     let begin = |interval: [f64; 2]| range[0].max(interval[0]);
-    let origins = [0.0, begin(usual)];
-    let mut best = Polynomials::through(bodies, &is_pressed, (usual, count), origins)?;
+    let own = |interval: [f64; 2]| match interval[0] <= 0.0 {
+        true => [0.0, begin(interval)],
+        false => [begin(interval); 2],
+    };
+    if range[1] - range[0] <= SHORT_RANGE {
+        let [lower, upper] = widened(range);
+        let interval = [lower.max(0.0), upper];
+        for count in FEW_NODES {
+            let found =
+                Polynomials::through(bodies, &is_pressed, (interval, count), own(interval))?;
+            if found.left_out <= EXACT {
+                return Ok(found.state(is_pressed));
+            }
+        }
+    }
+    let mut best = Polynomials::through(bodies, &is_pressed, (usual, count), [0.0, begin(usual)])?;
     if best.left_out > RESOLVED {
         let exact = asked
             .iter()
@@ -180,12 +199,10 @@ pub(super) fn polynomial_state<B: PressedBodies>(
             .collect::<Result<Vec<ContactState>, _>>()?;
         best.compare(asked, &exact);
         // Beyond the range in which the set holds there may be no state.
-        let own = own_range(bodies, &is_pressed).unwrap_or(range);
-        let within = MORE_NODES.map(|count| (own, count));
-        for points in [(usual, MOST_USUAL)].into_iter().chain(within) {
-            let begin = begin(points.0);
-            let origins = [if points.0[0] <= 0.0 { 0.0 } else { begin }, begin];
-            let other = Polynomials::through(bodies, &is_pressed, points, origins);
+        let within = own_range(bodies, &is_pressed).unwrap_or(range);
+        let more = MORE_NODES.map(|count| (within, count));
+        for points in more.into_iter().chain([(usual, MOST_USUAL)]) {
+            let other = Polynomials::through(bodies, &is_pressed, points, own(points.0));
             let Ok(mut other) = other else {
                 continue;
             };
@@ -198,14 +215,7 @@ pub(super) fn polynomial_state<B: PressedBodies>(
             }
         }
     }
-    let state = PressedState {
-        displacements: best.displacements,
-        normal_forces: best.normal_forces,
-        stiffnesses: best.stiffnesses,
-        is_pressed,
-        frozen_below: best.origin,
-    };
-    Ok((state, best.left_out))
+    Ok(best.state(is_pressed))
 }
 
 /// The states of one set of pressed points in an interval of friction coefficients, by power of `mu - a`.
@@ -221,6 +231,18 @@ struct Polynomials {
 }
 
 impl Polynomials {
+    /// The state of which these are the polynomials, with the share that they leave out.
+    fn state(self, is_pressed: Vec<bool>) -> (PressedState, f64) {
+        let state = PressedState {
+            displacements: self.displacements,
+            normal_forces: self.normal_forces,
+            stiffnesses: self.stiffnesses,
+            is_pressed,
+            frozen_below: self.origin,
+        };
+        (state, self.left_out)
+    }
+
     /// Those through the states at Chebyshev points of an interval, from the first of two origins, or the second where contact stiffens.
     fn through(
         bodies: &mut impl PressedBodies,
@@ -352,7 +374,7 @@ mod tests {
     #[test]
     fn forces_are_those_of_the_friction_asked_for_near_jamming_too() {
         let (range, asked) = ([0.3, 0.6], [0.3, 0.45, 0.6]);
-        let cases = [(19.0, 0.0, 1e-7), (1.8, 0.0, 1e-7), (0.75, 0.3, 1e-6)];
+        let cases = [(19.0, 0.0, 1e-7), (1.8, 0.3, 1e-7), (0.75, 0.3, 1e-6)];
         for (jam, frozen_below, bound) in cases {
             let bodies = &mut Jamming { jam };
             let own = |_: &mut Jamming, _: &[bool]| Ok(range);

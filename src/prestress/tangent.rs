@@ -271,28 +271,33 @@ impl SlidingTangent {
                 add_powers(&mut stiffness, &terms.turning);
             }
         }
+        stiffness.iter_mut().chain(&mut dashpots).for_each(Triplets::merge);
         let mass = projected(std::slice::from_ref(&body.mass));
+        let mut stiffness = projected(&stiffness);
         let is_unsupported = body.supports[0].entries.is_empty() && body.rotation.is_none();
         let damped = match options.damping_model {
             DampingModel::WholeTangent if is_unsupported => None,
-            DampingModel::WholeTangent => Some(projected(&stiffness)),
+            DampingModel::WholeTangent => Some(stiffness.clone()),
             DampingModel::BodyOnly => Some(projected(std::slice::from_ref(&body.elastic))),
         };
 
         // What it does not: supports, dashpots, regions with damping of their own, rotation.
         let [springs, support_dashpots] = &body.supports;
         let has_supports = !springs.entries.is_empty() || !support_dashpots.entries.is_empty();
-        add_powers(&mut stiffness, std::slice::from_ref(springs));
-        add_powers(&mut dashpots, std::slice::from_ref(support_dashpots));
-        if let Some(own) = &body.extra_damping {
+        let [turning, gyroscopic] =
+            body.rotation.as_ref().map_or([None; 2], |own| own.each_ref().map(Some));
+        for own in [Some(springs), turning].into_iter().flatten() {
+            for (power, entries) in projected(std::slice::from_ref(own)).into_iter().enumerate() {
+                stiffness.resize(stiffness.len().max(power + 1), Vec::new());
+                stiffness[power].extend(entries);
+            }
+        }
+        for own in
+            [Some(support_dashpots), body.extra_damping.as_ref(), gyroscopic].into_iter().flatten()
+        {
             add_powers(&mut dashpots, std::slice::from_ref(own));
         }
-        if let Some([springs, gyroscopic]) = &body.rotation {
-            add_powers(&mut stiffness, std::slice::from_ref(springs));
-            add_powers(&mut dashpots, std::slice::from_ref(gyroscopic));
-        }
         let has_dashpots = dashpots.iter().any(|terms| !terms.entries.is_empty());
-        let stiffness = projected(&stiffness);
 
         // One pattern for all; C = alpha_R M + beta_R K (2) and the rest.
         let dashpots = projected(&dashpots);

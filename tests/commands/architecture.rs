@@ -41,11 +41,11 @@ const BUDGETS: &[(&str, usize)] = &[
     ("crates/chart", 4_988),
     ("crates/described", 81),
     ("crates/formats", 6_860),
-    ("crates/linalg", 4_081),
+    ("crates/linalg", 4_072),
     ("crates/signal", 6_633),
     ("src/app", 5_450),
     ("src/case", 12_045),
-    ("src/cea", 10_550),
+    ("src/cea", 10_515),
     ("src/contact", 2_671),
     ("src/cycle", 8_581),
     ("src/fem", 4_992),
@@ -55,10 +55,10 @@ const BUDGETS: &[(&str, usize)] = &[
     ("src/main.rs", 5),
     ("src/mesh", 4_603),
     ("src/output", 813),
-    ("src/prestress", 5_255),
-    ("src/results", 20_736),
-    ("src/study", 12_622),
-    ("src/transient", 4_994),
+    ("src/prestress", 5_281),
+    ("src/results", 20_750),
+    ("src/study", 12_577),
+    ("src/transient", 5_017),
 ];
 
 /// Lines of a file before its unit tests.

@@ -215,6 +215,22 @@ fn a_jammed_block_is_said_to_jam_and_to_leave_small_displacements() {
     assert!(summary["growth"].as_array().unwrap().iter().all(|g| g["harmonic"].is_null()));
 }
 
+/// The slowest mode of the stable block decays by 220 1/s here: the run ends at a hundredth of the deformation, far above round-off.
+#[test]
+fn a_vibration_that_decays_ends_in_steady_sliding() {
+    let folder = folder();
+    let out = folder.path().join("out");
+    Command::cargo_bin("frictionsim")
+        .unwrap()
+        .args(["transient", &case("sliding-block.toml"), "--no-figures", "--out"])
+        .arg(&out)
+        .args(["--set", "damping.mass_coefficient=400.0", "--set", "transient.duration=0.04"])
+        .assert()
+        .code(0)
+        .stdout(contains("The run ends in steady sliding"));
+    assert_eq!(summary(&out)["end_state"], "steady-sliding");
+}
+
 #[test]
 fn a_run_from_a_limit_cycle_has_no_linear_stage() {
     let folder = folder();

@@ -109,6 +109,15 @@ pub fn complex_eigen(
 /// # Errors
 /// As [`complex_eigenvalues`].
 pub fn real_eigenvalues(matrix: MatRef<'_, f64>) -> Result<Vec<c64>, LinalgError> {
+    decomposed(matrix, None, None)
+}
+
+/// Eigenvalues of a real square matrix, with the vectors that there is room for.
+fn decomposed(
+    matrix: MatRef<'_, f64>,
+    left: Option<&mut Mat<f64>>,
+    right: Option<&mut Mat<f64>>,
+) -> Result<Vec<c64>, LinalgError> {
     interruption::check();
     let n = matrix.nrows();
     let failure = LinalgError::DenseEigen { dimension: n };
@@ -116,14 +125,17 @@ pub fn real_eigenvalues(matrix: MatRef<'_, f64>) -> Result<Vec<c64>, LinalgError
         return Err(failure);
     }
     let (mut real, mut imaginary) = (Diag::<f64>::zeros(n), Diag::<f64>::zeros(n));
-    let none = ComputeEigenvectors::No;
-    let scratch = evd_scratch::<f64>(n, none, none, Par::Seq, Default::default());
+    let [of_left, of_right] = [left.is_some(), right.is_some()].map(|is_wanted| match is_wanted {
+        true => ComputeEigenvectors::Yes,
+        false => ComputeEigenvectors::No,
+    });
+    let scratch = evd_scratch::<f64>(n, of_left, of_right, Par::Seq, Default::default());
     evd_real(
         matrix,
         real.as_mut(),
         imaginary.as_mut(),
-        None,
-        None,
+        left.map(|left| left.as_mut()),
+        right.map(|right| right.as_mut()),
         Par::Seq,
         MemStack::new(&mut MemBuffer::new(scratch)),
         Default::default(),
@@ -145,31 +157,10 @@ pub fn real_eigen(
     with_left: bool,
     leading: usize,
 ) -> Result<RealEigen, LinalgError> {
-    interruption::check();
     let n = matrix.nrows();
-    let failure = LinalgError::DenseEigen { dimension: n };
-    if !matrix.is_all_finite() {
-        return Err(failure);
-    }
-    let (mut real, mut imaginary) = (Diag::<f64>::zeros(n), Diag::<f64>::zeros(n));
     let mut right = Mat::<f64>::zeros(n, n);
     let mut left = with_left.then(|| Mat::<f64>::zeros(n, n));
-    let left_mode = if with_left { ComputeEigenvectors::Yes } else { ComputeEigenvectors::No };
-    let scratch =
-        evd_scratch::<f64>(n, left_mode, ComputeEigenvectors::Yes, Par::Seq, Default::default());
-    evd_real(
-        matrix,
-        real.as_mut(),
-        imaginary.as_mut(),
-        left.as_mut().map(|l| l.as_mut()),
-        Some(right.as_mut()),
-        Par::Seq,
-        MemStack::new(&mut MemBuffer::new(scratch)),
-        Default::default(),
-    )
-    .map_err(|_| failure)?;
-    let mut values: Vec<c64> =
-        (0..n).map(|i| c64::new(real.column_vector()[i], imaginary.column_vector()[i])).collect();
+    let mut values = decomposed(matrix, left.as_mut(), Some(&mut right))?;
     order_conjugate_pairs(&mut values, &mut right, left.as_mut());
     let mut moduli: Vec<f64> = values.iter().map(|v| v.norm()).collect();
     moduli.sort_by(|a, b| b.total_cmp(a));

@@ -190,9 +190,6 @@ impl<'a> BasisBuilder<'a> {
 
     /// Drops what the modes do not need: keeps their span at some of `values` (Chebyshev points, as the
     /// modes are smooth functions of the friction coefficient) and at 0.
-    ///
-    /// # Errors
-    /// If a dense decomposition fails.
     fn compress(&mut self, values: &[f64]) -> Result<(), LinalgError> {
         let last = values.len() - 1;
         let angles = (0..CHEBYSHEV_POINTS).map(|i| (i as f64 + 0.5) / CHEBYSHEV_POINTS as f64);
@@ -218,9 +215,6 @@ impl<'a> BasisBuilder<'a> {
     ///
     /// Corrections follow one another like the vectors of a Krylov iteration with `(K(0) - sigma M(0))^-1 M(0)`, so as
     /// many steps of it as their length asks for are taken at once: only the last corrections need new residuals.
-    ///
-    /// # Errors
-    /// If a dense decomposition fails.
     pub fn refine_at(&mut self, mu: f64) -> Result<Option<f64>, LinalgError> {
         let modes = self.model.solve_right(mu, self.count)?;
         let corrections =

@@ -79,9 +79,6 @@ impl Lost {
 
 /// Names the first `count` modes of the frictionless point and rotates degenerate ones so that they are
 /// the limits of the modes with friction.
-///
-/// # Errors
-/// If a dense decomposition fails.
 pub fn label_frictionless(
     point: &mut SolvedPoint,
     model: &ReducedModel,

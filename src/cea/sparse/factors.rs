@@ -14,9 +14,6 @@ pub enum StiffnessFactors {
 
 impl StiffnessFactors {
     /// Factorizes `K(0)`, which is symmetric.
-    ///
-    /// # Errors
-    /// If it is singular.
     pub fn frictionless(stiffness: &MatrixPolynomial) -> Result<Self, LinalgError> {
         let analysis = LdlAnalysis::new(stiffness.pattern())?;
         let ldl = SparseLdl::factorize(&analysis, &stiffness.evaluate(0.0))?;
@@ -24,9 +21,6 @@ impl StiffnessFactors {
     }
 
     /// Factorizes `K(mu)`, by an analysis of its pattern.
-    ///
-    /// # Errors
-    /// If it is singular.
     pub fn general(
         stiffness: &MatrixPolynomial,
         analysis: &LuAnalysis,

@@ -52,9 +52,6 @@ impl<'a> FullProblem<'a> {
     }
 
     /// LU factors of `T(lambda)`.
-    ///
-    /// # Errors
-    /// If it is singular.
     pub fn factors(&self, lambda: c64) -> Result<ComplexSparseLu, LinalgError> {
         let analysis = self.analysis.get_or_init(|| LuAnalysis::new(self.pattern));
         ComplexSparseLu::factorize(analysis.as_ref().map_err(Clone::clone)?, self.pencil(lambda))

@@ -64,9 +64,6 @@ pub struct OnsetFinder<'a> {
 
 impl OnsetFinder<'_> {
     /// All unstable intervals of one branch, if it is among the wanted modes anywhere.
-    ///
-    /// # Errors
-    /// If a dense decomposition fails.
     pub fn intervals(&mut self, branch: &TrackedBranch) -> Result<Vec<FoundInterval>, LinalgError> {
         let places = || branch.modes.iter().zip(self.points);
         let is_wanted = |(index, point): (&Option<usize>, &SolvedPoint)| {

@@ -146,9 +146,6 @@ impl PointSolver<'_> {
     /// Solves the projected problem at `mu` and checks its modes in the full matrices. Left vectors are coarse ones, until
     /// [`SolvedPoint::refine_lefts`]. With `leaves_out` motions near critical damping that have not converged take no places:
     /// combinations of what the basis does not hold.
-    ///
-    /// # Errors
-    /// If a dense decomposition fails.
     pub fn solve(
         &self,
         model: &ReducedModel,

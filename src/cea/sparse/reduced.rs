@@ -182,9 +182,6 @@ impl ReducedModel {
 
     /// The `count` modes of largest `|s|` that oscillate, by rising frequency; overdamped ones are left
     /// out.
-    ///
-    /// # Errors
-    /// If the dense eigenvalue decomposition fails.
     pub fn solve(&self, mu: f64, count: usize) -> Result<Vec<ReducedMode>, LinalgError> {
         let mut modes = self.solve_with_coarse_lefts(mu, count)?;
         self.refine_lefts(&mut modes, mu);
@@ -192,9 +189,6 @@ impl ReducedModel {
     }
 
     /// [`Self::solve`] with left vectors, and so derivatives, as the samples about `mu` hold them.
-    ///
-    /// # Errors
-    /// If the dense eigenvalue decomposition fails.
     pub fn solve_with_coarse_lefts(
         &self,
         mu: f64,
@@ -216,9 +210,6 @@ impl ReducedModel {
     }
 
     /// [`Self::solve`] for eigenvalues and right vectors only: left ones stay empty, derivatives zero.
-    ///
-    /// # Errors
-    /// If the dense eigenvalue decomposition fails.
     pub fn solve_right(&self, mu: f64, count: usize) -> Result<Vec<ReducedMode>, LinalgError> {
         let at = self.at(mu);
         self.solve_in(self.span_of_nearest(mu, NEIGHBOURS), &at, count, false)
@@ -255,9 +246,6 @@ impl ReducedModel {
     }
 
     /// [`Self::solve`] for matching modes between solved points: in the span of the two nearest samples.
-    ///
-    /// # Errors
-    /// If the dense eigenvalue decomposition fails.
     pub fn solve_between(&self, mu: f64, count: usize) -> Result<Vec<ReducedMode>, LinalgError> {
         let at = self.at(mu);
         let mut modes = self.solve_in(self.span_of_nearest(mu, 2), &at, count, true)?;

@@ -61,9 +61,6 @@ pub fn sweep(
 
 /// The tangent with its stiffness as it is at about the highest frequency wanted, where it depends on frequency: below that, as many
 /// modes lie there as the problem frozen at it has.
-///
-/// # Errors
-/// As [`sweep`].
 fn referred(
     tangent: &SlidingTangent,
     limit: ModeLimit,
@@ -113,9 +110,6 @@ pub struct SparseSweep<'a> {
 
 impl<'a> SparseSweep<'a> {
     /// Computes the frictionless modes, where the sweep starts.
-    ///
-    /// # Errors
-    /// As [`sweep`].
     pub fn prepare(
         tangent: &'a SlidingTangent,
         request: &SweepRequest<'_>,
@@ -153,9 +147,6 @@ impl<'a> SparseSweep<'a> {
     }
 
     /// Grows the basis over the whole range of friction coefficients.
-    ///
-    /// # Errors
-    /// If a dense decomposition fails.
     pub fn cover(&mut self) -> Result<(), CeaError> {
         if self.builder.is_sampling() {
             let first = self.first_asked();
@@ -190,9 +181,6 @@ impl<'a> SparseSweep<'a> {
     }
 
     /// Solves all points that are not solved in the same space already, and grows the basis where a mode misses its residual.
-    ///
-    /// # Errors
-    /// As [`sweep`].
     pub fn solve(&mut self) -> Result<(), CeaError> {
         let all: Vec<usize> = (0..self.grid.len()).collect();
         if self.points.is_empty() {
@@ -305,9 +293,6 @@ impl<'a> SparseSweep<'a> {
     /// Continues all branches from `mu = 0`. Where one is lost the basis takes up, of the quadratic problem, modes at
     /// more friction coefficients about that place; in the end an independent iteration searches for it. A branch that stays lost
     /// ends there, and a note says so.
-    ///
-    /// # Errors
-    /// If an iteration or a dense decomposition fails.
     pub fn track(&mut self) -> Result<Vec<TrackedBranch>, CeaError> {
         let (mut given_up, mut searched) = (Vec::new(), Vec::new());
         loop {

@@ -152,21 +152,28 @@ impl RunFigures<'_> {
             .panel(panel.caption(format!("accelerations of node {node}")))
     }
 
-    /// Growth of the contact edge's vibration, all of it, beside the rate of the mode at its frequency.
+    /// Growth of the contact edge's vibration, all of it, beside the rate of the mode at its frequency; the whole run where there is no
+    /// linear stage.
     fn growth_of_edge(&self) -> Figure {
         let (record, times) = (self.record, self.times());
         let (start, last) = extremes([times.first(), times.last()].into_iter().flatten().copied());
-        let linear_end = self.analysis.first_nonlinearity;
+        let has_stage = self.analysis.growth.iter().any(|own| own.stage.is_ok());
+        let linear_end = self.analysis.first_nonlinearity.filter(|_| has_stage);
         let stage = linear_end.unwrap_or(last);
-        // About the mean over the linear stage, which is steady sliding.
-        let linear = times.partition_point(|&t| t <= stage).max(1);
+        // About the mean over the linear stage, which is steady sliding, or over the end of the run.
+        let count = times.len();
+        let linear = match has_stage {
+            true => 0..times.partition_point(|&t| t <= stage).max(1),
+            false => count - count.div_ceil(5)..count,
+        };
         let mut squares = vec![0.0; times.len()];
         for n in record.followed_harmonics() {
             let parts: Vec<[f64; 2]> = (0..times.len())
                 .map(|sample| record.amplitude(sample, n).unwrap_or_default())
                 .collect();
             for c in 0..2 {
-                let mean = parts[..linear].iter().map(|p| p[c]).sum::<f64>() / linear as f64;
+                let own = &parts[linear.clone()];
+                let mean = own.iter().map(|p| p[c]).sum::<f64>() / own.len() as f64;
                 for (square, part) in squares.iter_mut().zip(&parts) {
                     *square += (part[c] - mean).powi(2);
                 }
@@ -206,7 +213,14 @@ impl RunFigures<'_> {
             .layer(edge)
             .layers(rate)
             .layers(nonlinear);
-        let caption = "Growth of the tangential vibration of the contact edge, with the rate of the eigenvalue analysis.";
+        let caption = match has_stage {
+            true => {
+                "Growth of the tangential vibration of the contact edge, with the rate of the eigenvalue analysis."
+            }
+            false => {
+                "Vibration of the contact edge about where it ends; the run has no linear stage."
+            }
+        };
         Figure::new("growth", caption).panel(panel)
     }
 

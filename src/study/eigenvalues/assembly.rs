@@ -64,9 +64,6 @@ impl AssemblyModel {
     }
 
     /// Solves the eigenproblems at the friction coefficients that it was made for.
-    ///
-    /// # Errors
-    /// Those of the solver.
     pub(super) fn sweep(
         &self,
         request: &SweepRequest<'_>,

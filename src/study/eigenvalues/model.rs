@@ -243,9 +243,6 @@ impl Model {
     }
 
     /// The spectrum at the friction coefficients that the model was made for; `progress` hears of every one that is solved.
-    ///
-    /// # Errors
-    /// Those of the solver.
     pub fn spectrum(
         &self,
         case: &Case,
@@ -256,9 +253,6 @@ impl Model {
     }
 
     /// [`Self::spectrum`] that keeps the waves of one sector at some of the friction coefficients, where there are sectors.
-    ///
-    /// # Errors
-    /// Those of the solver.
     pub fn spectrum_with_waves(
         &self,
         case: &Case,

@@ -14,9 +14,6 @@ use crate::cea::{CeaError, SweepRequest, Unwatched};
 use crate::results::cea::SensitivityReport;
 
 /// Solves the case's eigenproblems with its method; `progress` hears of every friction value solved.
-///
-/// # Errors
-/// Those of the solver.
 pub fn solve(
     case: &Case,
     cea: &Cea,
@@ -27,9 +24,6 @@ pub fn solve(
 }
 
 /// [`solve`] without the sensitivities.
-///
-/// # Errors
-/// Those of the solver.
 pub fn solve_modes(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution, StudyError> {
     solve_with(case, cea, model, (false, &Unwatched))
 }

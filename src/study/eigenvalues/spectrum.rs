@@ -32,18 +32,12 @@ pub(in crate::study) fn analysis(case: &Case, frictions: &[f64], limit_hz: f64) 
 }
 
 /// The modes of a case below `limit_hz` at its own friction coefficient.
-///
-/// # Errors
-/// Those of the solver.
 pub fn modes_below(case: &Case, limit_hz: f64) -> Result<Vec<ComplexMode>, StudyError> {
     Ok(modes_with_waves_below(case, limit_hz, &[])?.0)
 }
 
 /// [`modes_below`] with the branches of a body solved harmonic by harmonic, and with the shapes of the modes where `shapes_at`
 /// holds the case's own friction coefficient.
-///
-/// # Errors
-/// Those of the solver.
 pub fn modes_with_waves_below(
     case: &Case,
     limit_hz: f64,

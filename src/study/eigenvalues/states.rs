@@ -60,9 +60,6 @@ impl WholeMesh {
 
     /// Solves the sparse eigenproblems at the friction coefficients that it was made for: each base state has a tangent and a
     /// sweep of its own, which the friction coefficients where one state gives way to the next end and begin.
-    ///
-    /// # Errors
-    /// Those of the solver.
     pub(super) fn sweep(
         &self,
         case: &Case,
@@ -135,9 +132,6 @@ impl<S> States<'_, S> {
     ///
     /// Between two friction coefficients asked for contact points may open or close one after the other. Where the stability of a branch
     /// changes there, the states between are solved too, by bisection, until one of them has the critical friction, or two meet there.
-    ///
-    /// # Errors
-    /// Those of the solver.
     pub(super) fn sweep(
         &self,
         request: &SweepRequest<'_>,

@@ -25,9 +25,6 @@ pub(super) fn free_part(case: &Case) -> Option<&AssemblyBody> {
 }
 
 /// The modes of such a case, with their shapes.
-///
-/// # Errors
-/// Those of the solver.
 pub(super) fn shaped_modes(case: &Case, cea: &Cea) -> Result<Vec<ComplexMode>, StudyError> {
     let frictions = cea.friction_coefficients.as_slice();
     let options = tangent_options(case, cea.mass);

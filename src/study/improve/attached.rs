@@ -166,9 +166,6 @@ fn add_column(
 
 impl Attached {
     /// Eigenvalues with `Im > 0` within the range at a friction coefficient; without what is attached if `is_bare`.
-    ///
-    /// # Errors
-    /// If the dense decomposition fails.
     pub fn spectrum(&self, mu: f64, is_bare: bool) -> Result<Vec<c64>, LinalgError> {
         let at = |kind: usize| {
             let powers = self.matrices[kind].iter().enumerate();

@@ -274,9 +274,6 @@ impl<'a> ModalModel<'a> {
     }
 
     /// Eigenvalues with `Im > 0` at a friction coefficient.
-    ///
-    /// # Errors
-    /// If the dense decomposition fails.
     pub fn spectrum(&self, mu: f64, change: Option<&Change>) -> Result<Vec<c64>, LinalgError> {
         let Some(attached) = change.and_then(|change| change.attached.as_ref()) else {
             return self.of_listed(mu, change);
@@ -331,9 +328,6 @@ impl<'a> ModalModel<'a> {
     }
 
     /// What the modes come to after a change, at the friction coefficient of the base.
-    ///
-    /// # Errors
-    /// If the dense decomposition fails.
     pub fn outlook(&self, change: Option<&Change>) -> Result<Outlook, LinalgError> {
         let modes = self.spectrum(self.base.friction, change)?;
         Ok(self.base.window.outlook(modes))

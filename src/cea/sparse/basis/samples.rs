@@ -24,9 +24,6 @@ const MOST_BETWEEN: usize = 8;
 impl BasisBuilder<'_> {
     /// Takes up the modes at each of few `values` (friction coefficients, ascending) of proportional damping: without friction
     /// they are known.
-    ///
-    /// # Errors
-    /// If an iteration fails.
     pub fn cover_each(&mut self, values: &[f64]) -> Result<(), CeaError> {
         self.is_sampling = true;
         self.hold_frictionless();
@@ -129,9 +126,6 @@ impl BasisBuilder<'_> {
     }
 
     /// Refines the sample at `mu` round after round and keeps of what was added to the `known` first vectors of the basis only the modes.
-    ///
-    /// # Errors
-    /// If a dense decomposition fails.
     fn refine_lossy(&mut self, mu: f64, known: usize) -> Result<(), CeaError> {
         for round in 0..LOSSY_ROUNDS {
             if round % HISTORY == 0 {
@@ -150,9 +144,6 @@ impl BasisBuilder<'_> {
 
     /// Corrects `modes` that the basis holds nearly at `mu`, from the second time on those that it holds now, or takes up those of a
     /// decomposition; whether there was anything to correct.
-    ///
-    /// # Errors
-    /// If a dense decomposition fails.
     pub fn correct_at(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
         if self.may_decompose() {
             return self.improve_at(mu);

@@ -85,9 +85,6 @@ impl ReducedModel {
 
     /// The `count` lowest modes at `mu` of the full matrices of `tangent`, with structural damping, as [`Self::solve_right`] gives those in
     /// the basis; vectors are over the unknowns.
-    ///
-    /// # Errors
-    /// If the dense eigenvalue decomposition fails.
     pub fn solve_unreduced(
         &self,
         tangent: &SlidingTangent,

@@ -12,9 +12,6 @@ const HOLDS: f64 = 0.03;
 
 impl ModalModel<'_> {
     /// The friction coefficient above which, up to that of the base, a mode of the window grows; `None` where none does there.
-    ///
-    /// # Errors
-    /// If the dense decomposition fails.
     pub fn onset(&self, change: Option<&Change>) -> Result<Option<f64>, LinalgError> {
         self.onset_of(&|mu| self.spectrum(mu, change))
     }
@@ -23,9 +20,6 @@ impl ModalModel<'_> {
     ///
     /// The vectors are those of the base's own friction coefficient. Where the closer model of what is attached to a node does not hold
     /// down to that onset, the listed modes alone are taken.
-    ///
-    /// # Errors
-    /// If the dense decomposition fails.
     pub fn corrected_onset(
         &self,
         change: &Change,
