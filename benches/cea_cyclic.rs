@@ -34,6 +34,7 @@ fn solve(circumferential: usize, radial: usize, values: usize) -> WaveSweep {
         friction_coefficients: &frictions,
         limit: ModeLimit::Lowest(30),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     sweep(&specification, &POLYCARBONATE, &options, &contact(610.0), &request)

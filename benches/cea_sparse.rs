@@ -42,6 +42,7 @@ fn request(friction_coefficients: &[f64]) -> SweepRequest<'_> {
         friction_coefficients,
         limit: ModeLimit::Lowest(30),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     }
 }

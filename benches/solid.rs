@@ -189,6 +189,7 @@ fn eigenvalues(divisions: [usize; 3]) -> f64 {
         friction_coefficients: &frictions,
         limit: ModeLimit::Lowest(30),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     let clock = Instant::now();

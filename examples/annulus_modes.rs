@@ -46,6 +46,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         friction_coefficients: &[0.0],
         limit: ModeLimit::Lowest(12),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     let found = sweep(&annulus, &polycarbonate, &options, &contact, &request)?;

@@ -54,6 +54,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         friction_coefficients: &[0.0, 0.1, 0.2, 0.3],
         limit: ModeLimit::Lowest(10),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     let found = sweep(&tangent, &request, &|_| {})?;

@@ -82,9 +82,6 @@ impl EmbeddedRun {
     }
 
     /// As [`Self::run`] for any work.
-    ///
-    /// # Errors
-    /// As [`Self::run`].
     pub fn enclose<T: Send>(
         &self,
         threads: usize,

@@ -201,9 +201,6 @@ impl OutputOptions {
     }
 
     /// As [`Self::finish_result`] for a finding.
-    ///
-    /// # Errors
-    /// As [`Self::finish_result`].
     pub fn finish_finding(
         &self,
         folder: OutputFolder,

@@ -25,9 +25,6 @@ fn print_bytes(bytes: &[u8]) -> Result<(), Failure> {
 }
 
 /// Writes one JSON object to stdout.
-///
-/// # Errors
-/// As [`print()`].
 pub fn print_json(value: &serde_json::Value) -> Result<(), Failure> {
     print_bytes(shown_json(&format!("{value:#}\n")).as_bytes())
 }

@@ -50,17 +50,11 @@ impl AssemblyBody {
     }
 
     /// The same with all contact points at nodes, for steps in time.
-    ///
-    /// # Errors
-    /// As [`Self::assembled`].
     pub fn stepped(&self) -> Result<Assembly<'_>, PrestressError> {
         self.stepped_as(&self.materials)
     }
 
     /// The same of other materials.
-    ///
-    /// # Errors
-    /// As [`Self::assembled`].
     pub fn stepped_as<'a>(
         &'a self,
         materials: &'a dyn MaterialField,

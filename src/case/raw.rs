@@ -124,18 +124,12 @@ impl RawCase {
     }
 
     /// This case with further overrides, as a sweep makes its points.
-    ///
-    /// # Errors
-    /// As [`RawCase::parse`].
     pub fn with_overrides(&self, further: &[String]) -> Result<Self, CaseErrors> {
         self.clone().lay(further, Vec::new())
     }
 
     /// The point of a parameter study that `overrides` make: a case of its own without `[sweep]`, so
     /// that its hash stays the same when the study gains other points.
-    ///
-    /// # Errors
-    /// As [`RawCase::parse`].
     pub fn sweep_point(&self, overrides: &[String]) -> Result<Self, CaseErrors> {
         let mut point = self.with_overrides(overrides)?;
         point.root.remove("sweep");

@@ -35,6 +35,8 @@ pub struct SweepRequest<'a> {
     pub limit: ModeLimit,
     /// Those of the friction coefficients at which mode shapes are wanted.
     pub shapes_at: &'a [f64],
+    /// Those of them at which left vectors are wanted too; at critical friction where there are any.
+    pub lefts_at: &'a [f64],
     /// Whether the modes of a whole mesh are counted by the argument principle, too.
     pub count_modes: bool,
 }

@@ -70,6 +70,7 @@ impl DiscModel {
             friction_coefficients: &[highest_friction],
             limit,
             shapes_at: &[],
+            lefts_at: &[],
             count_modes: false,
         };
         let (specification, material) = (&self.specification, &self.material);

@@ -46,9 +46,6 @@ pub struct CycleSolver {
 
 impl CycleSolver {
     /// As [`Self::of_family`], for the cycles that are born at the lowest critical friction of `harmonic`.
-    ///
-    /// # Errors
-    /// As [`Self::of_family`].
     pub fn new(
         specification: &AnnulusSpecification,
         material: &ElasticMaterial,

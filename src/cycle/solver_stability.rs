@@ -33,9 +33,6 @@ impl SteppedCycle {
 
 impl CycleSolver {
     /// Growth of small perturbations of a cycle.
-    ///
-    /// # Errors
-    /// As [`MeshStepping::settle`].
     pub fn stability(&self, cycle: &LimitCycle) -> Result<CycleStability, CycleError> {
         let stepping = self.stepping(SimdLevel::detect())?;
         Ok(stepping.settle(cycle, None)?.stability)

@@ -108,9 +108,6 @@ impl MeshStepping<'_> {
 
     /// The same at the operating point of `cycle` from other fields: displacement at time zero (m) and velocity half a step of so
     /// many seconds earlier (m/s).
-    ///
-    /// # Errors
-    /// As [`Self::start`].
     pub(super) fn start_from(
         &self,
         cycle: &LimitCycle,

@@ -39,9 +39,6 @@ pub fn direct_response(
 }
 
 /// As [`direct_response`]; `done` hears how many lines are solved, a few at a time, from any thread.
-///
-/// # Errors
-/// As [`direct_response`].
 pub fn direct_response_with(
     system: &FrfSystem,
     force: &Port,

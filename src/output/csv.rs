@@ -51,9 +51,6 @@ impl<W: Write> Table<W> {
     }
 
     /// Writes one row of numbers.
-    ///
-    /// # Errors
-    /// As [`Table::row`].
     pub fn numbers(&mut self, values: &[f64]) -> io::Result<()> {
         debug_assert_eq!(values.len(), self.columns);
         self.row(values.iter().map(|value| format_number(*value)))

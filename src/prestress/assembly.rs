@@ -70,9 +70,6 @@ impl<'a> Assembly<'a> {
 
     /// The same with all contact points at nodes, as a time step needs them: a point for each node of the finer surface, so
     /// that the forces of points that stick are told apart.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
     pub fn at_nodes(
         mesh: &'a Mesh,
         materials: &'a dyn MaterialField,

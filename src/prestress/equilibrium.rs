@@ -60,9 +60,6 @@ impl SteadySliding {
     }
 
     /// [`Self::solve`] with a contact that stiffens with pressure, if there is a `law`.
-    ///
-    /// # Errors
-    /// As [`Self::solve`].
     pub fn solve_with(
         mesh: &Mesh,
         stiffness: &Triplets,

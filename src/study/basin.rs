@@ -41,9 +41,6 @@ fn contest(case: &Case, simd: SimdLevel) -> Result<(Rivals, BasinBoundary), Stud
 }
 
 /// As [`boundary`], in the words of its results.
-///
-/// # Errors
-/// As [`boundary`].
 pub fn summary(case: &Case, manifest: &Manifest) -> Result<BasinSummary, StudyError> {
     let start = Instant::now();
     let (rivals, found) = contest(case, SimdLevel::choose(&manifest.simd)?)?;

@@ -182,6 +182,7 @@ fn modes(assembly: &Assembly<'_>) -> Vec<ComplexMode> {
         friction_coefficients: &[FRICTION],
         limit: ModeLimit::Lowest(40),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     let found = sweep(&tangent, &request, &|_| {}).unwrap();

@@ -56,6 +56,7 @@ fn modes(mesh: &Mesh, options: &TangentOptions, contact: &SlidingContact) -> Vec
         friction_coefficients: &[contact.friction_coefficient],
         limit: ModeLimit::Lowest(8),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     let found = sweep(&tangent, &request, &|_| {}).unwrap();
@@ -154,6 +155,7 @@ fn a_supported_rim_gives_the_sounds_of_the_prototype() {
             friction_coefficients: &[0.3],
             limit: ModeLimit::MaxFrequency(17000.0),
             shapes_at: &[],
+            lefts_at: &[],
             count_modes: false,
         };
         let options = options(MassKind::Consistent, false);
@@ -190,6 +192,7 @@ fn a_supported_rim_has_one_spectrum_by_sectors_and_as_a_whole() {
         friction_coefficients: &[0.3],
         limit: ModeLimit::Lowest(8),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     let found =

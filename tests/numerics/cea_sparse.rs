@@ -111,8 +111,13 @@ impl Disc {
 }
 
 fn run(tangent: &SlidingTangent, values: &[f64], limit: ModeLimit) -> FrictionSweep {
-    let request =
-        SweepRequest { friction_coefficients: values, limit, shapes_at: &[], count_modes: false };
+    let request = SweepRequest {
+        friction_coefficients: values,
+        limit,
+        shapes_at: &[],
+        lefts_at: &[],
+        count_modes: false,
+    };
     sweep(tangent, &request, &|_| {}).unwrap()
 }
 
@@ -319,6 +324,7 @@ fn sweep_is_bitwise_equal_on_one_and_two_threads() {
         friction_coefficients: &values,
         limit: ModeLimit::MaxFrequency(15_000.0),
         shapes_at: &[values[3]],
+        lefts_at: &[],
         count_modes: false,
     };
     let on_threads = |count| {
@@ -363,6 +369,7 @@ fn sweep_goes_on_from_any_step_to_the_same_bits() {
             friction_coefficients: &values,
             limit: ModeLimit::Lowest(6),
             shapes_at: &[],
+            lefts_at: &[],
             count_modes: false,
         };
         let first = Kept::default();
@@ -419,6 +426,7 @@ fn bad_requests_are_refused_with_the_bound() {
             friction_coefficients: values,
             limit,
             shapes_at: &[],
+            lefts_at: &[],
             count_modes: false,
         };
         sweep(&tangent, &request, &|_| {}).unwrap_err()

@@ -199,6 +199,7 @@ fn at_a_critical_friction_of_the_eigenvalue_analysis_the_response_grows_as_one_o
         friction_coefficients: &values,
         limit: ModeLimit::MaxFrequency(17_500.0),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     let found = sweep(&tangent, &request, &|_| {}).unwrap();

@@ -60,6 +60,7 @@ fn harmonics_and_whole_mesh_have_the_same_spectrum() {
             friction_coefficients: &frictions,
             limit: ModeLimit::Lowest(12),
             shapes_at: &[],
+            lefts_at: &[],
             count_modes: false,
         };
         let sliding = contact(610.0);
@@ -111,6 +112,7 @@ fn the_frequency_of_a_block_follows_the_pressure_on_it() {
             friction_coefficients: &[0.0],
             limit: ModeLimit::Lowest(3),
             shapes_at: &[],
+            lefts_at: &[],
             count_modes: false,
         };
         let modes = &sparse::sweep(&tangent, &request, &|_| {}).unwrap().points[0].modes;
@@ -132,6 +134,7 @@ fn a_law_that_hardly_stiffens_is_linear_contact() {
         friction_coefficients: &[0.0, 0.4],
         limit: ModeLimit::Lowest(12),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     let spectrum = |stiffness: ContactStiffness, sliding: SlidingContact| {

@@ -37,6 +37,7 @@ fn modes(mesh: &Mesh, count: usize) -> Vec<ComplexMode> {
         friction_coefficients: &[contact.friction_coefficient],
         limit: ModeLimit::Lowest(count),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     let found = sweep(&tangent, &request, &|_| {}).unwrap();

@@ -80,6 +80,7 @@ fn eigenvalue() -> f64 {
         friction_coefficients: &[sliding().friction_coefficient],
         limit: ModeLimit::Lowest(8),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     let found = sweep(&tangent, &request, &|_| {}).unwrap();

@@ -72,6 +72,7 @@ pub fn solved(tangent: &SlidingTangent, frictions: &[f64]) -> FrictionSweep {
         friction_coefficients: frictions,
         limit: ModeLimit::Lowest(8),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     sweep(tangent, &request, &|_| {}).unwrap()

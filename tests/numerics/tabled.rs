@@ -91,6 +91,7 @@ fn every_mode_has_the_stiffness_of_its_own_frequency() {
             friction_coefficients: &frictions,
             limit: ModeLimit::MaxFrequency(limit_hz),
             shapes_at: &[],
+            lefts_at: &[],
             count_modes: false,
         };
         let found = sweep(&tangent, &request, &|_| {}).unwrap();
@@ -211,6 +212,7 @@ fn a_mode_beyond_the_table_is_refused_with_its_frequency() {
         friction_coefficients: &[0.0, 0.3],
         limit: ModeLimit::Lowest(8),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     let error = sweep(&tangent, &request, &|_| {}).unwrap_err();
@@ -300,6 +302,7 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
         friction_coefficients: &[0.0],
         limit: ModeLimit::Lowest(5),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     let found = eigenvalues(&sweep(&tangent, &request, &|_| {}).unwrap(), 0);

@@ -92,9 +92,6 @@ pub fn sweep(
 }
 
 /// [`sweep`] that keeps the waves of one sector at some of the friction coefficients.
-///
-/// # Errors
-/// As [`sweep`].
 pub fn sweep_with_waves(
     specification: &AnnulusSpecification,
     material: &dyn MaterialField,
@@ -129,9 +126,6 @@ pub fn sweep_with_waves(
 
 /// [`sweep`] over some harmonics, without a proof that no mode is missed: for the many
 /// samples of a model for some of which [`sweep`] has said which harmonics hold modes.
-///
-/// # Errors
-/// As [`sweep`].
 pub fn onsets(
     specification: &AnnulusSpecification,
     material: &dyn MaterialField,

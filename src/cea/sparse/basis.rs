@@ -279,9 +279,6 @@ impl<'a> BasisBuilder<'a> {
 
     /// Adds the vectors of the `count` lowest motions at `mu` from a Krylov-Schur iteration with the factors of `K(mu)`, which begins
     /// with a few combinations of the `leading` vectors of the basis, or with any; whether the basis grew.
-    ///
-    /// # Errors
-    /// As [`Self::search`].
     fn sample(&mut self, mu: f64, count: usize, leading: Option<usize>) -> Result<bool, CeaError> {
         let vectors = self.step(mu, |builder| builder.dominant_vectors(mu, count, leading))?;
         let has_grown = self.model.extend(vectors.clone(), SAME_SPACE).ncols() > 0;

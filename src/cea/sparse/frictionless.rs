@@ -68,9 +68,6 @@ impl FrictionlessModes {
     }
 
     /// [`Self::compute`], or what an earlier run of the same sweep found.
-    ///
-    /// # Errors
-    /// As [`Self::compute`].
     pub(super) fn compute_watched(
         tangent: &SlidingTangent,
         limit: ModeLimit,

@@ -1,6 +1,6 @@
 //! The full problem at one friction coefficient, with complex factors of its own.
 
-use crate::linalg::{ComplexSparseLu, LinalgError, LuAnalysis, SparsityPattern, c64};
+use crate::linalg::{ComplexSparseLu, LinalgError, LuAnalysis, Mat, MatRef, SparsityPattern, c64};
 use crate::prestress::{SlidingTangent, TabledGain};
 use std::sync::{Arc, OnceLock};
 
@@ -57,11 +57,30 @@ impl<'a> FullProblem<'a> {
         ComplexSparseLu::factorize(analysis.as_ref().map_err(Clone::clone)?, self.pencil(lambda))
     }
 
-    /// `T(lambda)^T w`.
-    pub fn transposed_times(&self, lambda: c64, w: &[c64]) -> Vec<c64> {
-        let values = self.pencil(lambda);
-        let along = |j: usize| self.pattern.column(j).map(|(at, i)| values[at] * w[i]).sum();
-        (0..self.dimension()).map(along).collect()
+    /// `T(lambda)^T w` of each of `values` with its two columns of `w`, real and imaginary part.
+    pub fn transposed_times(&self, values: &[c64], w: MatRef<'_, f64>) -> Mat<f64> {
+        let times = |matrix: &[f64]| self.pattern.multiply_transpose(matrix, w);
+        let matrices = self.values.each_ref().map(Vec::as_slice);
+        let [mut sum, damped, inert] = self.pattern.multiply_transpose_each(matrices, w);
+        let mut add = |factor: &dyn Fn(c64) -> c64, image: Mat<f64>| {
+            for (k, own) in values.iter().enumerate() {
+                let factor = factor(*own);
+                for i in 0..image.nrows() {
+                    let value = factor * c64::new(image[(i, 2 * k)], image[(i, 2 * k + 1)]);
+                    sum[(i, 2 * k)] += value.re;
+                    sum[(i, 2 * k + 1)] += value.im;
+                }
+            }
+        };
+        add(&|lambda| lambda, damped);
+        add(&|lambda| lambda * lambda, inert);
+        if !self.structural.is_empty() {
+            add(&|_| c64::new(0.0, 1.0), times(&self.structural));
+        }
+        for (gain, own) in &self.tabled {
+            add(&|lambda| gain.at(lambda), times(own));
+        }
+        sum
     }
 
     /// `w^T (2 lambda M + C) x`.

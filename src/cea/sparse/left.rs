@@ -2,6 +2,7 @@
 
 use super::StiffnessFactors;
 use super::full_problem::FullProblem;
+use crate::linalg::dense::{column, column_mut, dot, pick_columns};
 use crate::linalg::{Mat, c64};
 use crate::prestress::SlidingTangent;
 use rayon::prelude::*;
@@ -53,44 +54,43 @@ pub fn correct_lefts(
     pairs: &mut [OpenPair],
 ) {
     let problem = FullProblem::at(tangent, mu);
-    for group in pairs.chunks_mut(PAIRS_AT_A_TIME) {
-        correct_group(&problem, factors, group);
-    }
-    for OpenPair { eigenvalue, right, left } in pairs {
+    let groups = pairs.par_chunks_mut(PAIRS_AT_A_TIME);
+    groups.for_each(|group| correct_group(&problem, factors, group));
+    pairs.par_iter_mut().for_each(|OpenPair { eigenvalue, right, left }| {
         let scale = problem.slope(*eigenvalue, left, right);
         left.iter_mut().for_each(|w| *w /= scale);
-    }
+    });
 }
 
 fn correct_group(problem: &FullProblem<'_>, factors: &StiffnessFactors, pairs: &mut [OpenPair]) {
     let scales: Vec<f64> = pairs.iter().map(OpenPair::left_energy).collect();
+    // Real and imaginary parts side by side.
+    let mut lefts = Mat::from_fn(problem.dimension(), 2 * pairs.len(), |i, column| {
+        let value = pairs[column / 2].left[i];
+        if column % 2 == 0 { value.re } else { value.im }
+    });
     let mut energies = vec![f64::INFINITY; pairs.len()];
-    let (mut open, mut stalled): (Vec<usize>, Vec<usize>) =
-        ((0..pairs.len()).collect(), Vec::new());
+    let mut open: Vec<usize> = (0..pairs.len()).collect();
     for _ in 0..CORRECTIONS {
-        // The corrections of those that are open, real and imaginary parts side by side.
-        let own = open.par_iter().map(|&k| &pairs[k]);
-        let residuals = own.map(|pair| problem.transposed_times(pair.eigenvalue, &pair.left));
-        let residuals: Vec<Vec<c64>> = residuals.collect();
-        let mut corrections = Mat::from_fn(problem.dimension(), 2 * open.len(), |i, column| {
-            let value = residuals[column / 2][i];
-            if column % 2 == 0 { value.re } else { value.im }
-        });
+        let columns: Vec<usize> = open.iter().flat_map(|k| [2 * k, 2 * k + 1]).collect();
+        let values: Vec<c64> = open.iter().map(|&k| pairs[k].eigenvalue).collect();
+        let residuals = problem.transposed_times(&values, pick_columns(&lefts, &columns).as_ref());
+        let mut corrections = residuals.clone();
         factors.solve_in_place(&mut corrections);
         // Each is taken as long as corrections become smaller and still matter.
         let mut still_open = Vec::new();
-        for (at, (&k, residual)) in open.iter().zip(&residuals).enumerate() {
-            let [re, im] = [2 * at, 2 * at + 1].map(|column| corrections.col(column));
-            let parts = || re.iter().zip(im.iter()).zip(residual);
-            let energy: f64 = parts().map(|((re, im), r)| re * r.re + im * r.im).sum();
-            let energy = energy.abs();
+        for (at, &k) in open.iter().enumerate() {
+            let own = [2 * at, 2 * at + 1]
+                .map(|j| [&corrections, &residuals].map(|m| column(m.as_ref(), j)));
+            let energy = own.map(|[t, r]| dot(t, r)).iter().sum::<f64>().abs();
             if energy >= energies[k] {
-                stalled.push(k);
                 continue;
             }
             energies[k] = energy;
-            let entries = pairs[k].left.iter_mut().zip(parts());
-            entries.for_each(|(w, ((re, im), _))| *w -= c64::new(*re, *im));
+            for (half, [correction, _]) in own.into_iter().enumerate() {
+                let entries = column_mut(&mut lefts, 2 * k + half).iter_mut().zip(correction);
+                entries.for_each(|(w, t)| *w -= t);
+            }
             if energy > NEGLIGIBLE * scales[k] {
                 still_open.push(k);
             }
@@ -100,10 +100,12 @@ fn correct_group(problem: &FullProblem<'_>, factors: &StiffnessFactors, pairs: &
             break;
         }
     }
-    open.extend(stalled);
-    open.retain(|&k| energies[k] > COARSE * scales[k]);
-    for k in open {
-        iterate(problem, &mut pairs[k]);
+    for (k, pair) in pairs.iter_mut().enumerate() {
+        let [re, im] = [2 * k, 2 * k + 1].map(|j| column(lefts.as_ref(), j).iter());
+        pair.left = re.zip(im).map(|(re, im)| c64::new(*re, *im)).collect();
+        if energies[k] > COARSE * scales[k] {
+            iterate(problem, pair);
+        }
     }
 }
 

@@ -238,16 +238,19 @@ impl PointSolver<'_> {
         edge / (whole - friction)
     }
 
-    /// Right and left vectors of `modes` at `mu` over all nodal dofs, see [`ModeVectors`]; left ones are corrected by `factors`, of the
-    /// stiffness without friction.
+    /// Right and, `with_lefts`, left vectors of `modes` at `mu` over all nodal dofs, see [`ModeVectors`]; left ones are corrected by
+    /// `factors`, of the stiffness without friction.
     pub fn vectors(
         &self,
         (model, factors): (&ReducedModel, &StiffnessFactors),
-        mu: f64,
+        (mu, with_lefts): (f64, bool),
         modes: &[ReducedMode],
     ) -> Vec<ModeVectors> {
         let rights = self.expanded(model, modes, |mode| &mode.right);
-        let lefts = self.expanded(model, modes, |mode| &mode.left);
+        let lefts = match with_lefts {
+            true => self.expanded(model, modes, |mode| &mode.left),
+            false => vec![Vec::new(); modes.len()],
+        };
         let pairs = modes.iter().zip(rights.into_iter().zip(lefts));
         let pairs = pairs.map(|(mode, (right, left))| OpenPair {
             eigenvalue: mode.eigenvalue,
@@ -255,13 +258,18 @@ impl PointSolver<'_> {
             left,
         });
         let mut pairs: Vec<OpenPair> = pairs.collect();
-        correct_lefts(self.tangent, factors, mu, &mut pairs);
+        if with_lefts {
+            correct_lefts(self.tangent, factors, mu, &mut pairs);
+        }
         let pairs = modes.iter().zip(pairs);
         pairs
             .map(|(mode, pair)| {
                 let mut right = self.tangent.displacement(&pair.right);
                 let scale = normalize(&mut right);
-                let mut left = self.tangent.left_displacement(&pair.left, mu);
+                let mut left = match with_lefts {
+                    true => self.tangent.left_displacement(&pair.left, mu),
+                    false => Vec::new(),
+                };
                 left.iter_mut().for_each(|v| *v *= scale);
                 ModeVectors { eigenvalue: mode.eigenvalue, rate: mode.derivative, right, left }
             })

@@ -336,6 +336,7 @@ mod tests {
                 friction_coefficients: &[0.0, 0.1, 0.2, 0.3],
                 limit: ModeLimit::Lowest(6),
                 shapes_at: &[],
+                lefts_at: &[],
                 count_modes: false,
             };
             let mut sweep = SparseSweep::prepare(&tangent, &request, &Unwatched).unwrap();

@@ -118,9 +118,6 @@ pub fn find(map: &mut PeriodMap<'_>, start: PeriodicState) -> Result<Found, Peri
 }
 
 /// A periodic motion near a state that may be far from it: what a transient of so many plain periods leads to.
-///
-/// # Errors
-/// As [`find`].
 pub fn find_settled(map: &mut PeriodMap<'_>, start: PeriodicState) -> Result<Found, PeriodicError> {
     let found = attempt(map, start, [LONG; 2])?;
     if found.is_accepted() { Ok(found) } else { Err(found.not_converged()) }

@@ -30,9 +30,6 @@ pub struct SparseOperator<const D: usize> {
 
 impl SparseOperator<2> {
     /// The operator of a plane mesh with its boundary conditions and supports.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
     pub fn assemble(
         mesh: &Mesh,
         material: &dyn MaterialField,

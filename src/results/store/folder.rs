@@ -173,9 +173,6 @@ impl OutputFolder {
 
     /// Writes one file whole or not at all, but leaves it to the system when it reaches the disk: for
     /// the many large files (fields, figures) that a run after a power failure would make again.
-    ///
-    /// # Errors
-    /// As [`OutputFolder::write`].
     pub fn write_bulk(
         &self,
         name: &str,
@@ -216,9 +213,6 @@ impl OutputFolder {
 
     /// Ends a complete run: removes what an earlier run of the same case left and this one did not
     /// write again, and takes the place of the results that it replaces.
-    ///
-    /// # Errors
-    /// As [`OutputFolder::write`].
     pub fn finish(self) -> Result<(), FolderError> {
         self.seal()?;
         match self.path == self.destination {
@@ -229,9 +223,6 @@ impl OutputFolder {
 
     /// Ends a run before its time: its files stay where they are, and so do results that it was to replace. Gives that
     /// place.
-    ///
-    /// # Errors
-    /// As [`OutputFolder::write`].
     pub fn suspend(self) -> Result<PathBuf, FolderError> {
         self.seal()?;
         Ok(self.path)

@@ -165,9 +165,6 @@ impl SweepFolder {
     }
 
     /// As [`Self::find`] for another command that shares its folder with others of its kind.
-    ///
-    /// # Errors
-    /// As [`Self::find`].
     pub fn find_of(path: &Path, command: &str) -> Result<(Self, Manifest), FolderError> {
         let not_a_sweep = |reason: String| FolderError::NotASweep { path: path.to_owned(), reason };
         if !path.join(MANIFEST).is_file() {
@@ -259,9 +256,6 @@ impl SweepFolder {
     }
 
     /// Writes a finished point, whole or not at all, and before it what the clock says of it.
-    ///
-    /// # Errors
-    /// As [`SweepFolder::write`].
     pub fn write_point(&self, record: &PointRecord, clock: &PointClock) -> Result<(), FolderError> {
         self.write(&clock_name(record.point), |out| write_sealed(out, clock))?;
         self.write(&point_name(record.point), |out| write_sealed(out, record))
@@ -296,9 +290,6 @@ impl SweepFolder {
     }
 
     /// Draws a page.
-    ///
-    /// # Errors
-    /// As [`Self::write_page`].
     pub fn draw(&self, page: &Page, options: &DrawingOptions) -> Result<(), DrawingError> {
         for file in page.files(options)? {
             self.write(&file.name, |out| out.write_all(&file.bytes))?;

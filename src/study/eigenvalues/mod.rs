@@ -80,6 +80,7 @@ pub fn modes_and_onsets(case: &Case) -> Result<FrictionSweep, StudyError> {
             true => &[],
             false => &cea.shapes_at,
         },
+        lefts_at: &[],
         count_modes: false,
     };
     let model = Model::new(case, &cea)?;

@@ -5,7 +5,7 @@ use super::notes::{
     MISSING_SHOWN, count_notes, coverage_note, damping_note, ended_notes, friction_note,
     instead_note, overdamped_note, table_notes, uncertainty_note,
 };
-use super::reading::{read, shapes_needed};
+use super::reading::{lefts_needed, read, shapes_needed};
 use super::sensitivity::body_sensitivities;
 use super::solid::SolidBody;
 use super::{Progress, SlidingModel, Solution, StudyError};
@@ -38,16 +38,18 @@ fn solve_with(
     let friction = case.contact.sliding.friction_coefficient;
     let frictions = cea.solved_friction_coefficients();
     let waves_at: &[f64] = if with_reading { &frictions } else { &[] };
-    let shapes_at = |of: &Model| {
-        let modes = case.cost().cea.map_or(0, |cost| cost.modes) as f64;
-        let needed = with_reading.then(|| shapes_needed(case, of, &frictions, modes));
-        [cea.shapes_at.as_slice(), &needed.unwrap_or_default()].concat()
+    let modes = case.cost().cea.map_or(0, |cost| cost.modes) as f64;
+    let needed = |of: &Model| match with_reading {
+        true => shapes_needed(case, of, &frictions, modes),
+        false => Vec::new(),
     };
     let solve = |of: &Model| {
+        let needed = needed(of);
         let request = SweepRequest {
             friction_coefficients: &frictions,
             limit: mode_limit(cea),
-            shapes_at: &shapes_at(of),
+            shapes_at: &[cea.shapes_at.as_slice(), &needed].concat(),
+            lefts_at: &lefts_needed(case, cea, &needed, modes),
             count_modes: cea.count_modes && with_reading,
         };
         of.spectrum_with_waves(case, (&request, waves_at), progress)

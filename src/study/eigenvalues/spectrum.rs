@@ -50,6 +50,7 @@ pub fn modes_with_waves_below(
         friction_coefficients: &cea.friction_coefficients,
         limit: mode_limit(&cea),
         shapes_at,
+        lefts_at: &[],
         count_modes: false,
     };
     let found = model.spectrum(case, &request, &Unwatched)?;
@@ -70,6 +71,7 @@ pub fn modes_at_own_friction(
         friction_coefficients: &[case.contact.sliding.friction_coefficient],
         limit,
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     let solver = Solver::by_symmetry(case);
@@ -116,6 +118,7 @@ pub fn unstable_intervals(
         friction_coefficients: &frictions,
         limit: mode_limit(&cea),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     let options = tangent_options(case, cea.mass);

@@ -33,6 +33,7 @@ pub(super) fn shaped_modes(case: &Case, cea: &Cea) -> Result<Vec<ComplexMode>, S
         friction_coefficients: frictions,
         limit: mode_limit(cea),
         shapes_at: frictions,
+        lefts_at: &[],
         count_modes: false,
     };
     let found = model.spectrum(case, &request, &Unwatched)?;

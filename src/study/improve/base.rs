@@ -118,6 +118,7 @@ pub(super) fn spectrum_of(case: &Case, cea: &Cea) -> Result<(Model, FrictionSwee
         friction_coefficients: &frictions,
         limit: mode_limit(cea),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     let sweep = model.spectrum(case, &request, &Unwatched)?.sweep;

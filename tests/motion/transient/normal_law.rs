@@ -102,6 +102,7 @@ fn a_wave_on_contact_that_stiffens_grows_as_its_eigenvalue_says() {
             friction_coefficients: &[0.3],
             limit: ModeLimit::MaxFrequency(17600.0),
             shapes_at: &[],
+            lefts_at: &[],
             count_modes: false,
         };
         let sliding = contact(610.0);

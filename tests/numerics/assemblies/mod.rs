@@ -164,6 +164,7 @@ fn eigenvalues(assembly: &Assembly<'_>, friction: f64, count: usize) -> Vec<c64>
         friction_coefficients: &[friction],
         limit: ModeLimit::Lowest(count),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     let found = sweep(&tangent, &request, &|_| {}).unwrap();

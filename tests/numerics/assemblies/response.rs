@@ -74,6 +74,7 @@ fn lowest(tangent: &SlidingTangent, friction: f64) -> c64 {
         friction_coefficients: &[friction],
         limit: ModeLimit::Lowest(2),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     let found = sweep(tangent, &request, &|_| {}).unwrap();

@@ -137,6 +137,7 @@ fn a_free_ring_turns_and_both_frames_tell_the_same_of_its_waves() {
             friction_coefficients: &[0.0],
             limit: ModeLimit::Lowest(8),
             shapes_at: &[],
+            lefts_at: &[],
             count_modes: false,
         };
         let found = sweep(&tangent, &request, &|_| {}).unwrap();

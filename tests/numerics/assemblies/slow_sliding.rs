@@ -42,6 +42,7 @@ fn lists_of_lossy_modes_have_no_gaps_however_slow_the_sliding() {
                 friction_coefficients: &[0.5],
                 limit: ModeLimit::Lowest(count),
                 shapes_at: &[],
+                lefts_at: &[],
                 count_modes: false,
             };
             let found = sweep(&tangent, &request, &|_| {}).unwrap();

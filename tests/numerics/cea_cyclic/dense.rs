@@ -93,6 +93,7 @@ fn worst_difference(
         friction_coefficients: frictions,
         limit: ModeLimit::MaxFrequency(limit_hz),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     let cyclic = sweep(specification, material, options, contact, &request).unwrap();

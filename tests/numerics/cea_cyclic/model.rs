@@ -33,6 +33,7 @@ pub fn run(
         friction_coefficients: frictions,
         limit,
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     sweep(specification, &POLYCARBONATE, options, &contact(610.0), &request).unwrap()

@@ -27,6 +27,7 @@ fn swept(model: &CyclicModel, frictions: &[f64], limit_hz: f64) -> WaveSweep {
         friction_coefficients: frictions,
         limit: ModeLimit::MaxFrequency(limit_hz),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     let CyclicModel { specification, material, options, contact } = model;

@@ -54,6 +54,7 @@ fn unstable_intervals_do_not_depend_on_the_grid() {
             friction_coefficients: frictions,
             limit: ModeLimit::MaxFrequency(20000.0),
             shapes_at: &[],
+            lefts_at: &[],
             count_modes: false,
         };
         let specification = annulus(ElementKind::Quad4, 40, 10);
@@ -131,6 +132,7 @@ fn impossible_requests_name_their_key() {
             friction_coefficients: &frictions,
             limit,
             shapes_at: &[],
+            lefts_at: &[],
             count_modes: false,
         };
         let (material, options) = (POLYCARBONATE, paper_options());
@@ -156,6 +158,7 @@ fn branches_are_followed_past_an_eigenvalue_predicted_to_the_last_bit() {
             friction_coefficients: &frictions,
             limit: ModeLimit::MaxFrequency(17_500.0),
             shapes_at: &[],
+            lefts_at: &[],
             count_modes: false,
         };
         let found = sweep(&specification, &material, &options, &contact(1000.0), &request);

@@ -35,6 +35,7 @@ fn spectrum_branches_and_onsets_equal_those_of_the_sparse_solver() {
             friction_coefficients: &frictions,
             limit: ModeLimit::Lowest(18),
             shapes_at: &[],
+            lefts_at: &[],
             count_modes: false,
         };
         let sparse = sparse::sweep(&tangent, &request, &|_| {}).unwrap();
@@ -80,6 +81,7 @@ fn a_cut_through_a_pair_keeps_both_members_in_both_solvers() {
             friction_coefficients: &[0.0, 0.4],
             limit: ModeLimit::Lowest(asked),
             shapes_at: &[],
+            lefts_at: &[],
             count_modes: false,
         };
         let sparse = sparse::sweep(&tangent, &request, &|_| {}).unwrap();
@@ -110,6 +112,7 @@ fn solvers_differ_by_no_more_than_the_uncertainty_that_they_state() {
             friction_coefficients: &[0.4],
             limit: ModeLimit::Lowest(8),
             shapes_at: &[],
+            lefts_at: &[],
             count_modes: false,
         };
         let Ok(sparse) = sparse::sweep(&tangent, &request, &|_| {}) else {
@@ -142,6 +145,7 @@ fn expanded_shapes_are_eigenvectors_of_the_full_mesh() {
             friction_coefficients: &[0.6, 0.0],
             limit: ModeLimit::Lowest(20),
             shapes_at: &[0.6],
+            lefts_at: &[],
             count_modes: false,
         };
         let (material, contact) = (POLYCARBONATE, contact(610.0));

@@ -148,6 +148,7 @@ fn sweep_of_a_disc_is_complete_by_count() {
                 friction_coefficients: &[0.0, 0.3, 0.7],
                 limit,
                 shapes_at: &[],
+                lefts_at: &[],
                 count_modes: true,
             };
             let result = sweep(&tangent, &request, &|_| {}).unwrap();

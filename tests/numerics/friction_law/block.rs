@@ -111,6 +111,7 @@ fn growth_rate(mesh: &Mesh, speed: f64) -> f64 {
         friction_coefficients: &[0.3],
         limit: ModeLimit::Lowest(1),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     let found = sweep(&tangent, &request, &|_| {}).unwrap();

@@ -27,6 +27,7 @@ fn eigenvalue(contact: &SlidingContact, stiffness: ContactStiffness, harmonic: u
         friction_coefficients: &[contact.friction_coefficient],
         limit: ModeLimit::Lowest(24),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     let specification = annulus(ElementKind::Quad4, 60, 12);

@@ -36,6 +36,7 @@ fn swept(
         friction_coefficients: frictions,
         limit: ModeLimit::Lowest(18),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     cyclic::sweep(specification, material, options, contact, &request).unwrap()
@@ -81,6 +82,7 @@ fn harmonics_and_the_whole_mesh_have_one_spectrum_under_a_falling_law() {
             friction_coefficients: &frictions,
             limit: ModeLimit::Lowest(18),
             shapes_at: &[],
+            lefts_at: &[],
             count_modes: false,
         };
         let tangent = whole(&specification, &options, &contact);

@@ -77,6 +77,7 @@ fn cyclic_and_sparse_spectra_of_two_bodies_are_the_same() {
             friction_coefficients: &frictions,
             limit,
             shapes_at: &[],
+            lefts_at: &[],
             count_modes: false,
         };
         let sparse = sparse::sweep(&tangent, &request, &|_| {}).unwrap();

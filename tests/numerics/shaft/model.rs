@@ -63,6 +63,7 @@ pub fn spectrum(
         friction_coefficients: frictions,
         limit,
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     sweep(specification, materials, options, &contact(610.0), &request).unwrap()

@@ -59,6 +59,7 @@ fn a_branch_that_needs_small_steps_makes_no_other_take_them() {
         friction_coefficients: &values,
         limit: ModeLimit::Lowest(30),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     let found = solid_sweep(&model, &request).unwrap();

@@ -15,6 +15,7 @@ fn plane(
         friction_coefficients: &[0.3],
         limit: ModeLimit::MaxFrequency(limit_hz),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     let mut material = model.material;
@@ -57,6 +58,7 @@ fn the_estimate_of_what_the_small_space_of_a_harmonic_leaves_out_is_what_it_leav
             friction_coefficients: &[0.3],
             limit: ModeLimit::MaxFrequency(limit_hz),
             shapes_at: &[],
+            lefts_at: &[],
             count_modes: false,
         };
         solid_sweep(&model, &request).unwrap()

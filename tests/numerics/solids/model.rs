@@ -63,6 +63,7 @@ pub fn modes(model: &SolidModel, friction: f64, limit_hz: f64) -> Vec<ComplexMod
         friction_coefficients: &[friction],
         limit: ModeLimit::MaxFrequency(limit_hz),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     let found = solid_sweep(model, &request).unwrap();

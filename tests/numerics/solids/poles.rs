@@ -58,6 +58,7 @@ fn onsets(model: &SolidModel) -> Vec<UnstableInterval> {
         friction_coefficients: &[0.0, 0.1, 0.2, 0.3, 0.4, 0.5],
         limit: ModeLimit::MaxFrequency(12e3),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     let found = solid_sweep(model, &request).unwrap().sweep;

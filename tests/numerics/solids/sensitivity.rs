@@ -23,6 +23,7 @@ fn request() -> SweepRequest<'static> {
         friction_coefficients: &[0.0, 0.4],
         limit: ModeLimit::MaxFrequency(9e3),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     }
 }

@@ -30,6 +30,7 @@ fn solved(model: &SolidModel) -> WaveSweep {
         friction_coefficients: &[FRICTION],
         limit: ModeLimit::MaxFrequency(LIMIT),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     solid_sweep(model, &request).unwrap()

@@ -45,6 +45,7 @@ fn built_in(
         friction_coefficients: &[0.3],
         limit: ModeLimit::Lowest(count),
         shapes_at: &[],
+        lefts_at: &[],
         count_modes: false,
     };
     let options = options(MassKind::Consistent, geometric_stiffness);

@@ -143,8 +143,13 @@ pub fn modes_of(
     let stiffness = assemble_stiffness(mesh, material);
     let base = SteadySliding::solve(mesh, &stiffness, &contact()).unwrap();
     let tangent = SlidingTangent::linearize(mesh, material, &stiffness, &base, options);
-    let request =
-        SweepRequest { friction_coefficients: &[0.3], limit, shapes_at, count_modes: false };
+    let request = SweepRequest {
+        friction_coefficients: &[0.3],
+        limit,
+        shapes_at,
+        lefts_at: &[],
+        count_modes: false,
+    };
     let found = sweep(&tangent, &request, &|_| {}).unwrap();
     found.points.into_iter().next().unwrap().modes
 }

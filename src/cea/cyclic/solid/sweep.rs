@@ -72,9 +72,6 @@ pub fn solid_sweep(model: &SolidModel, request: &SweepRequest<'_>) -> Result<Wav
 }
 
 /// [`solid_sweep`] that keeps the waves of one sector at some of the friction coefficients.
-///
-/// # Errors
-/// As [`solid_sweep`].
 pub fn solid_sweep_with_waves(
     model: &SolidModel,
     request: &SweepRequest<'_>,

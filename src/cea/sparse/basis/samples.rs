@@ -249,9 +249,6 @@ impl BasisBuilder<'_> {
 
     /// Makes the tracking of branches over `from..to` surer: takes up the modes at an end or, after those, at the `place` between where a
     /// branch was lost; whether anything was left to do.
-    ///
-    /// # Errors
-    /// As [`Self::improve_at`].
     pub fn improve_between(&mut self, from: f64, to: f64, place: f64) -> Result<bool, CeaError> {
         let is_between = |mu: &&f64| (from..to).contains(*mu);
         let has_many = self.sampled.iter().filter(is_between).count() > MOST_BETWEEN;

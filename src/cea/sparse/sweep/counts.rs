@@ -178,6 +178,7 @@ mod tests {
                 friction_coefficients: &[0.0, 0.1, 0.2, 0.3],
                 limit: ModeLimit::Lowest(6),
                 shapes_at: &[],
+                lefts_at: &[],
                 count_modes: true,
             };
             let mut sweep = SparseSweep::prepare(&tangent, &request, &Unwatched).unwrap();

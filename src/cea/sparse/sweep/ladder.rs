@@ -208,6 +208,7 @@ mod tests {
                 friction_coefficients: &frictions,
                 limit: ModeLimit::Lowest(8),
                 shapes_at: &[],
+                lefts_at: &[],
                 count_modes: false,
             };
             let found = sweep(&tangent, &request, &|_| {}).unwrap();

@@ -13,9 +13,6 @@ use std::f64::consts::TAU;
 
 impl SparseSweep<'_> {
     /// The result, with shapes and critical friction coefficients.
-    ///
-    /// # Errors
-    /// As [`crate::cea::sparse::sweep`].
     pub fn finish(
         &mut self,
         request: &SweepRequest<'_>,
@@ -25,7 +22,8 @@ impl SparseSweep<'_> {
         let points: Vec<FrictionPoint> = frictions
             .map(|&mu| {
                 let k = self.grid.partition_point(|&g| g < mu);
-                self.friction_point(k, request.shapes_at.contains(&mu), branches)
+                let wanted = [request.shapes_at, request.lefts_at].map(|at| at.contains(&mu));
+                self.friction_point(k, wanted, branches)
             })
             .collect();
         let mut found = self.intervals(branches)?;
@@ -41,10 +39,10 @@ impl SparseSweep<'_> {
         let critical = |own: &FoundInterval| own.interval.critical_friction;
         found.sort_by(|a, b| critical(a).total_cmp(&critical(b)));
         let vectors = |own: &FoundInterval| {
-            let State { mu, mode } = own.onset().filter(|_| !request.shapes_at.is_empty())?;
+            let State { mu, mode } = own.onset().filter(|_| !request.lefts_at.is_empty())?;
             let solver = self.point_solver();
-            let found =
-                solver.vectors(self.builder.model_and_factors(), *mu, std::slice::from_ref(mode));
+            let own = (self.builder.model_and_factors(), (*mu, true));
+            let found = solver.vectors(own.0, own.1, std::slice::from_ref(mode));
             found.into_iter().next()
         };
         let crossings = found.iter().map(vectors).collect();
@@ -160,14 +158,14 @@ impl SparseSweep<'_> {
     fn friction_point(
         &self,
         k: usize,
-        with_shapes: bool,
+        [with_shapes, with_lefts]: [bool; 2],
         branches: &[TrackedBranch],
     ) -> FrictionPoint {
         let point = &self.points[k];
         let wanted = &point.modes[..point.wanted];
         let (solver, mu) = (self.point_solver(), point.friction_coefficient);
         let vectors = match with_shapes {
-            true => solver.vectors(self.builder.model_and_factors(), mu, wanted),
+            true => solver.vectors(self.builder.model_and_factors(), (mu, with_lefts), wanted),
             false => Vec::new(),
         };
         let mut vectors = vectors.into_iter();
@@ -187,6 +185,7 @@ impl SparseSweep<'_> {
                 && mode.eigenvalue.re.abs() <= check.uncertainty * mode.eigenvalue.norm();
             let own = vectors.next();
             let (shape, left) = own.map(|own| (own.right, own.left)).unzip();
+            let left = left.filter(|_| with_lefts);
             ComplexMode {
                 eigenvalue: match is_round_off {
                     true => c64::new(0.0, mode.eigenvalue.im),

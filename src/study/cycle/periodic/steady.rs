@@ -37,6 +37,7 @@ impl Steady {
                 friction_coefficients: &[friction],
                 limit: asked_modes(case, MODES),
                 shapes_at: &[friction],
+                lefts_at: &[],
                 count_modes: false,
             };
             return Self::of_assembly(assembly, &options_in_time(case), &request);
@@ -161,6 +162,7 @@ fn sweep_in_time(
         friction_coefficients: frictions,
         limit: asked_modes(case, MODES),
         shapes_at,
+        lefts_at: &[],
         count_modes: false,
     };
     let model = Model::with_solver(case, solver, options_in_time(case), frictions)?;

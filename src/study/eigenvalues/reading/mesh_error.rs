@@ -12,6 +12,7 @@
 //! with `a(e_w, e_x)` of [`DiscretizationError`]. Outlines that the mesh cuts off, and geometry of its own, are no part of it.
 
 use super::parts::Parts;
+use crate::case::Case;
 use crate::cea::{FrictionPoint, FrictionSweep, ModeVectors};
 use crate::fem::{DiscretizationError, MassKind};
 use crate::linalg::c64;
@@ -21,7 +22,17 @@ use std::f64::consts::TAU;
 /// Damping factor from which on a frequency says little of a mode.
 const MOST_DAMPED: f64 = 0.2;
 /// Modes for which the estimate is made at every friction value; of more, at the ends and at the case's own friction.
-const MOST_MODES: usize = 256;
+const MOST_MODES: f64 = 256.0;
+
+/// The friction values at which it is made, of those that are solved for about so many `modes` each.
+pub(super) fn frictions(case: &Case, all: &[f64], modes: f64) -> Vec<f64> {
+    if modes * all.len() as f64 <= MOST_MODES {
+        return all.to_vec();
+    }
+    let own = case.contact.sliding.friction_coefficient;
+    let ends = [all.first(), all.last(), Some(&own)].into_iter().flatten().copied();
+    ends.collect()
+}
 
 /// The errors of the modes that have both vectors, and of each critical friction of the sweep; none of a mass that is lumped, whose own
 /// error they would leave out, and of materials whose modulus follows a table.
@@ -34,12 +45,6 @@ pub(super) fn mesh_errors(
     if parts.options.mass != MassKind::Consistent || is_tabled {
         return (Vec::new(), Vec::new());
     }
-    let own = parts.case.contact.sliding.friction_coefficient;
-    let all: usize = points.iter().map(|point| point.modes.len()).sum();
-    let is_wanted = |k: usize| {
-        let is_end = k == 0 || k + 1 == points.len();
-        all <= MOST_MODES || is_end || points[k].friction_coefficient == own
-    };
     let estimate = DiscretizationError::new(parts.mesh, parts.case.materials());
     let error = |lambda: c64, forms: &[c64]| -> c64 {
         let regions = parts.regions.iter().zip(forms);
@@ -49,7 +54,7 @@ pub(super) fn mesh_errors(
     };
 
     let mut of_modes = Vec::new();
-    for (_, point) in points.iter().enumerate().filter(|(k, _)| is_wanted(*k)) {
+    for point in points {
         let numbered = point.modes.iter().enumerate();
         let (modes, pairs): (Vec<_>, Vec<_>) = numbered
             .filter(|(_, mode)| mode.damping_factor() < MOST_DAMPED)
