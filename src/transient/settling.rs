@@ -3,7 +3,7 @@
 use super::StatusCounts;
 use super::motion::TwoFrequencies;
 use super::recorder::{Recorder, SampleRow};
-use super::vibration::{last_fifth, main_vibration, rms, series};
+use super::vibration::{dies_out, last_fifth, main_vibration, quarters, rms, series};
 use crate::signal::round_off_floor;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;
@@ -30,11 +30,6 @@ const QUIET_BLOCKS: usize = 8;
 
 /// Growth of a harmonic from the first to the last quarter of the last fifth that is no accident.
 const GROWTH: f64 = 1.2;
-
-/// Share of its size that a vibration that dies out loses at least from each quarter of the last fifth to the next, and what these
-/// shares differ by at most: a cycle that is approached from above lets them fall.
-const LOSS: f64 = 0.05;
-const SAME_LOSS: f64 = 0.1;
 
 /// What a run ends in.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -195,7 +190,8 @@ impl Settling {
     /// Reads a record.
     pub fn of(record: &Recorder) -> Self {
         let fifth = last_fifth(record);
-        let main = main_vibration(record, fifth.clone()).filter(|_| !dies_out(record, &fifth));
+        let main = main_vibration(record, fifth.clone())
+            .filter(|_| !dies_out(record, &fifth, LARGEST_DRIFT));
         match Self::judge(record, &fifth, main) {
             Ok(settled) => settled,
             Err(reason) => Self {
@@ -317,15 +313,6 @@ fn state(record: &Recorder, rows: &[SampleRow], main: Option<(usize, f64)>) -> E
     }
 }
 
-/// Root mean square of a harmonic about its mean in each quarter of a stretch, m.
-fn quarters(record: &Recorder, stretch: &Range<usize>, harmonic: usize) -> [f64; 4] {
-    let quarter = stretch.len() / 4;
-    std::array::from_fn(|k| {
-        let start = stretch.start + k * quarter;
-        rms(&series(record, start..start + quarter, harmonic).unwrap_or_default())
-    })
-}
-
 /// A harmonic above round-off that grows from quarter to quarter.
 fn growing(record: &Recorder, fifth: &Range<usize>) -> Option<Unsettled> {
     let floor = round_off_floor(record.largest_motion(fifth.clone()));
@@ -340,19 +327,6 @@ fn growing(record: &Recorder, fifth: &Range<usize>) -> Option<Unsettled> {
             },
         )
     })
-}
-
-/// Whether the strongest vibration is small beside the deformation and falls off as a mode does that decays.
-fn dies_out(record: &Recorder, fifth: &Range<usize>) -> bool {
-    let sizes = record.followed_harmonics().map(|harmonic| quarters(record, fifth, harmonic));
-    let Some(sizes) = sizes.max_by(|a, b| a[0].total_cmp(&b[0])) else {
-        return false;
-    };
-    let losses: [f64; 3] = std::array::from_fn(|k| 1.0 - sizes[k + 1] / sizes[k]);
-    let [least, most] = losses.iter().fold(NOTHING, |[l, m], own| [l.min(*own), m.max(*own)]);
-    sizes[0] < LARGEST_DRIFT * record.largest_motion(fifth.clone())
-        && least >= LOSS
-        && most - least <= SAME_LOSS * most
 }
 
 impl Block {

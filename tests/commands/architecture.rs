@@ -45,7 +45,7 @@ const BUDGETS: &[(&str, usize)] = &[
     ("crates/signal", 6_633),
     ("src/app", 5_441),
     ("src/case", 12_033),
-    ("src/cea", 10_527),
+    ("src/cea", 10_528),
     ("src/contact", 2_671),
     ("src/cycle", 8_570),
     ("src/fem", 4_989),
@@ -56,9 +56,9 @@ const BUDGETS: &[(&str, usize)] = &[
     ("src/mesh", 4_603),
     ("src/output", 810),
     ("src/prestress", 5_275),
-    ("src/results", 20_732),
-    ("src/study", 12_598),
-    ("src/transient", 5_017),
+    ("src/results", 20_733),
+    ("src/study", 12_595),
+    ("src/transient", 5_019),
 ];
 
 /// Lines of a file before its unit tests.

@@ -215,10 +215,11 @@ impl RunFigures<'_> {
             .layers(nonlinear);
         let caption = match has_stage {
             true => {
-                "Growth of the tangential vibration of the contact edge, with the rate of the eigenvalue analysis."
+                "Growth of the tangential vibration of the contact edge, with the rate of the \
+                 eigenvalue analysis."
             }
             false => {
-                "Vibration of the contact edge about where it ends; the run has no linear stage."
+                "Vibration of the contact edge about its final mean; there is no linear stage."
             }
         };
         Figure::new("growth", caption).panel(panel)

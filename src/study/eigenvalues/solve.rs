@@ -44,12 +44,16 @@ fn solve_with(
         false => Vec::new(),
     };
     let solve = |of: &Model| {
-        let needed = needed(of);
+        let shown = [cea.shapes_at.as_slice(), &needed(of)].concat();
+        let lefts_at = match with_reading {
+            true => lefts_needed(case, cea.mass, &shown, modes),
+            false => Vec::new(),
+        };
         let request = SweepRequest {
             friction_coefficients: &frictions,
             limit: mode_limit(cea),
-            shapes_at: &[cea.shapes_at.as_slice(), &needed].concat(),
-            lefts_at: &lefts_needed(case, cea, &needed, modes),
+            shapes_at: &shown,
+            lefts_at: &lefts_at,
             count_modes: cea.count_modes && with_reading,
         };
         of.spectrum_with_waves(case, (&request, waves_at), progress)

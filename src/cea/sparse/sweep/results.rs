@@ -41,8 +41,8 @@ impl SparseSweep<'_> {
         let vectors = |own: &FoundInterval| {
             let State { mu, mode } = own.onset().filter(|_| !request.lefts_at.is_empty())?;
             let solver = self.point_solver();
-            let own = (self.builder.model_and_factors(), (*mu, true));
-            let found = solver.vectors(own.0, own.1, std::slice::from_ref(mode));
+            let basis = self.builder.model_and_factors();
+            let found = solver.vectors(basis, (*mu, true), std::slice::from_ref(mode));
             found.into_iter().next()
         };
         let crossings = found.iter().map(vectors).collect();

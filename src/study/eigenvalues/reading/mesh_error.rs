@@ -24,25 +24,31 @@ const MOST_DAMPED: f64 = 0.2;
 /// Modes for which the estimate is made at every friction value; of more, at the ends and at the case's own friction.
 const MOST_MODES: f64 = 256.0;
 
-/// The friction values at which it is made, of those that are solved for about so many `modes` each.
-pub(super) fn frictions(case: &Case, all: &[f64], modes: f64) -> Vec<f64> {
-    if modes * all.len() as f64 <= MOST_MODES {
-        return all.to_vec();
-    }
-    let own = case.contact.sliding.friction_coefficient;
-    let ends = [all.first(), all.last(), Some(&own)].into_iter().flatten().copied();
-    ends.collect()
+/// Whether it is made: not with a mass that is lumped, whose own error it would leave out, nor with a modulus that follows a table.
+fn is_made(case: &Case, mass: MassKind) -> bool {
+    let mut regions = 0..case.body.region_count();
+    mass == MassKind::Consistent && regions.all(|region| case.materials().table(region).is_none())
 }
 
-/// The errors of the modes that have both vectors, and of each critical friction of the sweep; none of a mass that is lumped, whose own
-/// error they would leave out, and of materials whose modulus follows a table.
+/// Those of the friction values `shown` with their shapes at which it is made, and so left vectors are needed, of about so many
+/// `modes` each.
+pub fn lefts_needed(case: &Case, mass: MassKind, shown: &[f64], modes: f64) -> Vec<f64> {
+    let least = shown.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = shown.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let own = case.contact.sliding.friction_coefficient;
+    let is_wanted =
+        |mu: &f64| modes * shown.len() as f64 <= MOST_MODES || [least, most, own].contains(mu);
+    let wanted = shown.iter().copied().filter(|mu| is_made(case, mass) && is_wanted(mu));
+    wanted.collect()
+}
+
+/// The errors of the modes that have both vectors, and of each critical friction of the sweep.
 pub(super) fn mesh_errors(
     parts: &Parts<'_>,
     points: &[&FrictionPoint],
     sweep: &FrictionSweep,
 ) -> (Vec<MeshError>, Vec<Option<f64>>) {
-    let is_tabled = parts.regions.iter().any(|region| region.is_tabled());
-    if parts.options.mass != MassKind::Consistent || is_tabled {
+    if !is_made(parts.case, parts.options.mass) {
         return (Vec::new(), Vec::new());
     }
     let estimate = DiscretizationError::new(parts.mesh, parts.case.materials());

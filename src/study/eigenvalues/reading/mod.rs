@@ -21,11 +21,11 @@ mod waves;
 
 use super::model::Model;
 use super::sliding::SlidingModel;
-use crate::case::{Case, Cea};
+use crate::case::Case;
 use crate::cea::{FrictionPoint, FrictionSweep};
-use crate::fem::MassKind;
 use crate::prestress::WaveTangent;
 use crate::results::cea::Reading;
+pub(super) use mesh_error::lefts_needed;
 use parts::Parts;
 use shapes::Shapes;
 
@@ -45,14 +45,6 @@ pub(super) fn shapes_needed(case: &Case, model: &Model, frictions: &[f64], modes
             let own = frictions.contains(&own).then_some(own);
             lowest.into_iter().chain(own).collect()
         }
-    }
-}
-
-/// Those of `frictions` whose left vectors the reading needs.
-pub(super) fn lefts_needed(case: &Case, cea: &Cea, frictions: &[f64], modes: f64) -> Vec<f64> {
-    match cea.mass {
-        MassKind::Consistent => mesh_error::frictions(case, frictions, modes),
-        MassKind::Lumped => Vec::new(),
     }
 }
 

@@ -49,11 +49,6 @@ pub(super) struct Region {
 }
 
 impl Region {
-    /// Whether its modulus follows a table.
-    pub fn is_tabled(&self) -> bool {
-        self.table.is_some()
-    }
-
     /// What its stiffness is multiplied by at the frequency of an eigenvalue: `1 + i eta`, or what a table says.
     pub fn ratio(&self, lambda: c64) -> c64 {
         match &self.table {
