@@ -44,10 +44,9 @@ impl OpenPair {
 /// w <- w - P^-1 T(lambda)^T w
 /// ```
 ///
-/// as long as the energy of the correction falls, and those that this does not mend by inverse iteration. It scales them to
-/// `w^T (2 lambda M + C) x = 1`. Right vectors at several friction
-/// coefficients span what is global in a left one; what is missing is near the contact, where the normal force works on its slip, and
-/// follows the load as in statics.
+/// as long as the energy of the correction falls, and by inverse iteration those that this does not mend; scales them to
+/// `w^T (2 lambda M + C) x = 1`. Right vectors at several friction coefficients span what is global in a left one; what is missing is
+/// near the contact, where the normal force works on its slip, and follows the load as in statics.
 pub fn correct_lefts(
     tangent: &SlidingTangent,
     factors: &StiffnessFactors,
