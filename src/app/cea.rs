@@ -212,6 +212,11 @@ mod tests {
         let table = std::fs::read_to_string(folder.path().join("eigenvalues.csv")).unwrap();
         // The values asked for, and the case's own, 0.3.
         assert_eq!(table.lines().count(), 4);
+        let elsewhere = ["cea.friction_coefficients=[0.1, 0.2]", "cea.shapes_at=[0.1]"];
+        let arguments = arguments(&folder.path().join("elsewhere"), &elsewhere);
+        run(&arguments).unwrap();
+        let table = folder.path().join("elsewhere/eigenvalues.csv");
+        assert_eq!(std::fs::read_to_string(table).unwrap().lines().count(), 4);
     }
 
     #[test]

@@ -114,7 +114,7 @@ pub(super) fn sections(
             ..contact
         })
         .collect();
-    if root.has("contact") {
+    if root.has("contact") && !root.has("contacts") {
         let section = root.section("contact", true);
         let mut own = short_form(&section);
         own.surfaces.name.clone_from(&own.name);

@@ -31,6 +31,8 @@ pub struct Cea {
     /// Friction coefficients whose mode shapes are written, rising; they need not be among
     /// `friction_coefficients`.
     pub shapes_at: Vec<f64>,
+    /// The case's own friction coefficient, where it is solved beside the others.
+    pub own_friction: Option<f64>,
     /// Whether derivatives are computed; where the case does not say, of bodies that are solved harmonic by harmonic.
     pub sensitivities: Option<bool>,
     /// Whether the modes of a whole mesh are counted under friction.
@@ -38,9 +40,10 @@ pub struct Cea {
 }
 
 impl Cea {
-    /// Friction coefficients to solve at: those of the tables and those of the shapes, rising.
+    /// Friction coefficients to solve at: those of the tables, those of the shapes and the case's own, rising.
     pub fn solved_friction_coefficients(&self) -> Vec<f64> {
         let mut all = [self.friction_coefficients.as_slice(), self.shapes_at.as_slice()].concat();
+        all.extend(self.own_friction);
         all.sort_by(f64::total_cmp);
         all.dedup();
         all
@@ -70,6 +73,7 @@ pub(super) fn cea(
         mass: section.choice("mass"),
         geometric_stiffness: section.flag("geometric_stiffness"),
         shapes_at: section.rising("shapes_at").unwrap_or_else(|| vec![friction_coefficient]),
+        own_friction: Some(friction_coefficient),
         friction_coefficients,
         sensitivities: section.has("sensitivities").then(|| section.flag("sensitivities")),
         count_modes: section.flag("count_modes"),

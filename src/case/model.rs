@@ -93,9 +93,12 @@ fn unmodified(
         .is_some_and(|read| read.dimension == 3);
     if root.has("contacts") || root.has("ties") || is_file_solid {
         if root.has("contact") && (root.has("contacts") || !is_file_solid) {
+            let _ = root.section("contact", false);
+            let names = root.section("contacts", false);
+            let name = names.remaining().first().map_or("NAME", |(name, _)| name);
             refuse!(root, "contact",
                 "[contact] is for a body with one contact: this case has [contacts.*] or [ties.*]";
-                "beside the contacts of an assembly"; "describe it under [contacts.NAME]");
+                "beside the contacts of an assembly"; "describe it under [contacts.{name}]");
         }
         let parts = (conditions.as_slice(), common, tables);
         let file = (&mesh, file.as_str(), scale);

@@ -147,7 +147,10 @@ fn merge(root: &mut RawTable, mut section: FileSection, at: &Location) -> Option
     } else if group == "material" && !section.keys.iter().any(|key| key.0 == "density") {
         // A formulation alone makes no material.
         return None;
-    } else if group == "contacts" && root.contains_key("contact") {
+    } else if group == "contacts"
+        && table_of(root, "contact").is_some_and(|own| own.contains_key("boundary"))
+    {
+        // A contact of the case's own, not a key meant for those of the file.
         return None;
     }
     if section.keys.is_empty() {

@@ -191,6 +191,13 @@ impl CeaError {
                 | Self::NoModes { .. }
                 | Self::TooManyModes { .. }
                 | Self::BeyondTable { .. }
+                | Self::Prestress(
+                    PrestressError::Unpressed { .. }
+                        | PrestressError::GapEverywhere { .. }
+                        | PrestressError::Pair { .. }
+                        | PrestressError::Overconstrained { .. }
+                        | PrestressError::MixedContacts
+                )
         )
     }
 }

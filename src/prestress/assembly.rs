@@ -231,6 +231,12 @@ impl<'a> Assembly<'a> {
             stiffness: &stiffness,
             load,
             elimination: self.joined.basis.clone(),
+            contacts: self
+                .joined
+                .contacts
+                .iter()
+                .map(|(own, surface)| (format!("contacts.{}", own.name), surface.points.len()))
+                .collect(),
             pushed: self.pushed().collect(),
             stiffnesses: stiffnesses.collect(),
             points: &points,

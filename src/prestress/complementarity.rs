@@ -145,6 +145,7 @@ fn pressed_points(
 ) -> Result<Vec<bool>, PrestressError> {
     let mut set = start.to_vec();
     let mut seen: Vec<Vec<bool>> = Vec::new();
+    let mut was_circling = false;
     for _ in 0..MAX_SETS {
         let state = bodies.state_of(friction_coefficient, &set)?;
         if state.separations.iter().any(|c| !c.is_finite()) {
@@ -157,6 +158,14 @@ fn pressed_points(
             return Ok(set);
         };
         let is_circling = seen.contains(&set);
+        if is_circling && !was_circling {
+            // Without friction the points of a contact that nothing presses pull as much as they push.
+            let all = bodies.state_of(0.0, &vec![true; set.len()])?;
+            if let Some(error) = bodies.pressing().unpressed(&all.normal_forces) {
+                return Err(error);
+            }
+        }
+        was_circling |= is_circling;
         seen.push(set.clone());
         if is_circling {
             set[worst] = !set[worst];

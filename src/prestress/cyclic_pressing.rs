@@ -52,6 +52,7 @@ impl Pressing<'_> {
             load: sector.load.clone(),
             elimination: sector.elimination.clone(),
             points: &sector.points,
+            contacts: Vec::new(),
             pushed: sector.first.iter().map(|&i| self.pushed[i]).collect(),
             stiffnesses: of_first(&self.stiffnesses),
             laws: sector.first.iter().map(|&i| self.laws[i]).collect(),

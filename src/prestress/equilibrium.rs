@@ -173,6 +173,7 @@ impl SlidingRange {
             stiffness: &supported,
             load: mesh.pressure_forces().unwrap_or_else(|| vec![0.0; total]),
             elimination: Elimination::holding(total, mesh.held_dofs()),
+            contacts: Vec::new(),
             pushed: points.iter().map(|point| contact.interference - point.gap).collect(),
             stiffnesses: points
                 .iter()

@@ -41,6 +41,15 @@ pub enum PrestressError {
         /// Interference, m.
         interference: f64,
     },
+    /// The forces on a contact are in balance by themselves.
+    #[error(
+        "nothing presses the two sides of {name} together: one of them is held by the contact \
+         alone; press it with a boundary pressure or an interference, or hold it by springs"
+    )]
+    Unpressed {
+        /// Section and name of the contact.
+        name: String,
+    },
     /// The complementarity problem has no solution that could be found.
     #[error(
         "there is no state of steady sliding at friction {friction_coefficient}: every choice of \

@@ -22,6 +22,9 @@ pub(super) const SHORT_RANGE: f64 = 0.1;
 const FEW_NODES: [usize; 2] = [3, 5];
 const EXACT: f64 = 1e-11;
 
+/// Share of all contact forces that round-off leaves of a sum that is zero.
+const UNPRESSED: f64 = 1e-9;
+
 /// Points through which it goes where the usual ones leave out more, over the range of the set and over their own.
 const MOST_USUAL: usize = 12;
 const MORE_NODES: [usize; 6] = [3, 5, 8, 12, 18, 24];
@@ -37,6 +40,8 @@ pub struct Pressing<'a> {
     pub elimination: Elimination,
     /// The contact points.
     pub points: &'a [Point],
+    /// Section and name of each contact and its number of points, in their order; empty where there is one contact.
+    pub contacts: Vec<(String, usize)>,
     /// How far the counterface is pushed in at each, `delta_i - g_i`, m.
     pub pushed: Vec<f64>,
     /// Stiffness of the contact of each, N/m, without pressure where it stiffens; `None` is rigid contact.
@@ -64,6 +69,18 @@ impl Pressing<'_> {
     /// Load over the unknowns.
     pub(super) fn restricted_load(&self, unknowns: &DofMap) -> Vec<f64> {
         unknowns.restrict(&self.elimination.transposed_forces(&self.load))
+    }
+
+    /// The contact whose forces on all its points are in balance by themselves, so that nothing presses it.
+    pub(super) fn unpressed(&self, forces: &[f64]) -> Option<PrestressError> {
+        let all: f64 = forces.iter().map(|force| force.abs()).sum();
+        let mut first = 0;
+        let found = self.contacts.iter().find(|(_, count)| {
+            let own: f64 = forces[first..first + count].iter().sum();
+            first += count;
+            own.abs() <= UNPRESSED * all
+        });
+        found.map(|(name, _)| PrestressError::Unpressed { name: name.clone() })
     }
 
     pub(super) fn gap_everywhere(&self) -> PrestressError {

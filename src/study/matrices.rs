@@ -21,12 +21,10 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A case without `[cea]`, a body of revolution, whose problem is one of complex matrices for each harmonic; no steady sliding.
 pub fn matrices(case: &Case, friction: Option<f64>) -> Result<ExportedSystem, StudyError> {
     let cea = case.require_cea()?;
-    let own = case.contact.sliding.friction_coefficient;
-    let mut frictions = cea.solved_friction_coefficients();
+    let frictions = cea.solved_friction_coefficients();
     let mut case = case.clone();
     if let Some(friction) = friction {
         case.contact.sliding.friction_coefficient = friction;
-        frictions.push(own);
     }
     let case = &case;
     if case.body.revolution().is_some() {

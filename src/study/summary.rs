@@ -33,7 +33,8 @@ pub fn summarize(
 /// Mode shapes are not computed.
 fn cea(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
     let start = Instant::now();
-    let cea = Cea { shapes_at: Vec::new(), ..case.require_cea()?.clone() };
+    let asked = case.require_cea()?.clone();
+    let cea = Cea { shapes_at: Vec::new(), own_friction: None, ..asked };
     let model = SlidingModel::new(case, &cea)?;
     let solution = eigenvalues::solve_modes(case, &cea, &model)?;
     eigenvalues::refuse_no_modes(case, &cea, &solution.sweep)?;

@@ -69,7 +69,6 @@ pub struct Solution {
 /// Those of the mesh, of steady sliding and of the solver; a frequency limit below the first mode.
 pub fn modes_and_onsets(case: &Case) -> Result<FrictionSweep, StudyError> {
     let cea = Cea {
-        // Solved beside the values of the sweep, where it is none of them.
         shapes_at: vec![case.contact.sliding.friction_coefficient],
         ..case.require_cea()?.clone()
     };
@@ -97,6 +96,7 @@ pub fn preflight(case: &Case, cea: &Cea) -> Result<(), StudyError> {
     let one = Cea {
         friction_coefficients: vec![cea.friction_coefficients[0]],
         shapes_at: Vec::new(),
+        own_friction: None,
         ..cea.clone()
     };
     let model = SlidingModel::new(case, &one)?;

@@ -15,9 +15,14 @@ pub(in crate::study) fn analysis(case: &Case, frictions: &[f64], limit_hz: f64) 
     let (modes, shapes_at) = (ModeSelection::BelowHz(limit_hz), Vec::new());
     let friction_coefficients = frictions.to_vec();
     match &case.cea {
-        Some(cea) => {
-            Cea { friction_coefficients, modes, shapes_at, count_modes: false, ..cea.clone() }
-        }
+        Some(cea) => Cea {
+            friction_coefficients,
+            modes,
+            shapes_at,
+            own_friction: None,
+            count_modes: false,
+            ..cea.clone()
+        },
         None => Cea {
             friction_coefficients,
             modes,
@@ -25,6 +30,7 @@ pub(in crate::study) fn analysis(case: &Case, frictions: &[f64], limit_hz: f64) 
             mass: MassKind::Consistent,
             geometric_stiffness: true,
             shapes_at,
+            own_friction: None,
             sensitivities: None,
             count_modes: false,
         },

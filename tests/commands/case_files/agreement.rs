@@ -112,9 +112,28 @@ fn check_knows_what_runs_of_rings_blocks_and_pads_refuse() {
     let cea = "[cea]\nmodes = 2\nfriction_coefficients = [0.3]\n";
     let frf = "[frf]\nforce_node = 1\nboundary = \"sliding\"\nfrequencies_hz = [100.0]\nforce_direction = \"z\"\n\
                response_direction = \"z\"\n";
+    // Nothing but the contact holds the upper block up.
+    let upper = |z| [0.0, 0.0, z];
+    let pair = [("lower", 0.0, 3), ("upper", 0.01, 2)].map(|(name, z, count)| Block {
+        name,
+        origin: upper(z),
+        size: [0.03, 0.02, 0.01],
+        counts: [count, count, 1],
+    });
+    std::fs::write(folder.path().join("pair.msh"), file_of(&pair, |point| point)).unwrap();
+    let floating = format!(
+        "[mesh]\nfile = \"pair.msh\"\n[material]\n{steel}[boundaries.lower_z0]\ncondition = \"clamped\"\n\
+         [boundaries.lower_x1]\ncondition = \"pressure\"\npressure = 1e6\n\
+         [boundaries.upper_z1]\ncondition = \"fixed\"\ndirections = [\"x\", \"y\"]\n\
+         [contacts.pads]\nsurface = \"lower_z1\"\ncounter = \"upper_z0\"\nfriction_coefficient = 0.3\n\
+         [motion.upper]\naxis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = 60.0\n"
+    );
+    let along = pad.replace("[1.0, 0.0, 0.0]", "[0.0, 0.0, 1.0]");
     let lossy = pad.replace("density", "loss_factor = 0.01\ndensity");
     for (text, reason) in [
         (format!("{pad}interference = 0.0\n{cea}"), "nothing presses the contact"),
+        (format!("{floating}{cea}"), "nothing presses the two sides of contacts.pads"),
+        (format!("{along}interference = 1e-6\n{cea}"), "would move along it"),
         (format!("{ring}{cea}"), "none of them lies under the ring alone"),
         (format!("{pad}interference = 1e-6\n{frf}"), "cannot move in z direction"),
         (

@@ -47,6 +47,13 @@ const ROWS: &[Row] = &[
         "of [contact]",
         &["contacts.Outer_Friction_face.normal_stiffness=1e12"],
     ),
+    (
+        BRAKE,
+        &["contact.friction_coefficient=0.4"],
+        "describe it under [contacts.Inner_Friction_face]",
+        "missing key",
+        &["contacts.Inner_Friction_face.friction_coefficient=0.4"],
+    ),
     (BRAKE, &["contacts.Outer_Friction_face.base_state=rigid"], "keys of", "of [contact]", &[]),
     (TREAD, &["contact.omega=3"], "did you mean `speed`?", "rotation", &["contact.speed=3"]),
     (TREAD, &["speed=2"], "did you mean `speed` of [contact]?", "rotation", &["contact.speed=2"]),
