@@ -237,7 +237,13 @@ impl<'a> Section<'a> {
                 format!("missing section [{}]", section.path),
                 "the case ends without it",
                 self.at.clone(),
-                "`frictionsim init` writes a complete case to start from",
+                match key {
+                    "contact" => {
+                        "a plane body has one contact, a part of solid elements may have \
+                                  none; `frictionsim init` writes a complete case"
+                    }
+                    _ => "`frictionsim init` writes a complete case to start from",
+                },
             ),
             None => {}
         }
