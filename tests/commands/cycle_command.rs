@@ -103,7 +103,11 @@ fn below_every_onset_steady_sliding_is_said_to_be_stable_once_and_that_is_no_fai
     let output = Command::new(env!("CARGO_BIN_EXE_frictionsim"))
         .args(["cycle", case, "--no-figures", "--out"])
         .arg(folder.path().join("cycle"))
-        .args(sized(&[&COARSE[..], &["--set", "cycle.harmonics=[1,3]"]].concat()[..], &[]))
+        .args(sized(
+            &["--set", "mesh.circumferential_elements=60", "--set", "mesh.radial_elements=10"][..],
+            &[],
+        ))
+        .args(sized(&["--set", "cycle.harmonics=[1,3]"][..], &[]))
         .args(["--set", "contact.friction_coefficient=0.1"])
         .output()
         .unwrap();

@@ -30,6 +30,8 @@ fn spectrum(frictions: &str) -> (Vec<[f64; 2]>, String) {
     let output = program.output().unwrap();
     let said = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{said}");
+    // How the input file was read is for `check` to say.
+    assert!(!said.contains("are numbered from") && !said.contains("taken from"), "{said}");
     let table = fs::read_to_string(folder.path().join("run/eigenvalues.csv")).unwrap();
     let rows = table
         .lines()

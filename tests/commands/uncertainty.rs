@@ -116,8 +116,11 @@ fn threads_shards_and_interruptions_leave_the_same_bytes() {
 fn a_design_is_named_that_brings_the_probability_below_a_bound() {
     let folder = tempfile::tempdir().unwrap();
     let few = ["uncertainty.samples=32", "uncertainty.index_samples=0"];
+    let idle = ["--robust", "transient.duration=0.1:0.3:2"];
     let design = ["--robust", "contact.friction_coefficient=0.02:0.3:5", "--bound", "0.2"];
-    let found = run(&folder.path().join("out"), &few, &design);
+    let found = run(&folder.path().join("out"), &few, &[&design[..], &idle].concat());
+    // A key that moves no onset is said to have no effect.
+    assert_eq!(found["robust"]["curves"][1]["has_effect"], false);
     let curve = &found["robust"]["curves"][0];
     let points = curve["points"].as_array().unwrap();
     assert_eq!(points.len(), 5);

@@ -3,6 +3,7 @@
 
 use crate::cycle_solids::Kept;
 use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use crate::tier::sized;
 use frictionsim::cea::Unwatched;
 use frictionsim::contact::{ContactStatus, SlidingContact};
 use frictionsim::cycle::{BranchEnd, CycleSolver, LimitCycle, OperatingPoint, Parameter};
@@ -12,8 +13,8 @@ use std::f64::consts::TAU;
 
 const FRICTION: f64 = 0.2;
 
-fn solver() -> CycleSolver {
-    let disc = annulus(ElementKind::Quad4, 90, 18);
+fn solver(elements: [usize; 2]) -> CycleSolver {
+    let disc = annulus(ElementKind::Quad4, elements[0], elements[1]);
     CycleSolver::new(&disc, &POLYCARBONATE, &DAMPING, 1, None).unwrap()
 }
 
@@ -26,7 +27,7 @@ fn cycle(solver: &CycleSolver, rpm: f64) -> LimitCycle {
 /// At friction 0.2 and 1000 rpm one and two nodal diameters live together; the transient is independent but for the matrices.
 #[test]
 fn two_waves_that_live_together_have_the_frequencies_of_a_transient() {
-    let solver = solver();
+    let solver = solver([90, 18]);
     let cycle = cycle(&solver, 1000.0);
     let stepping = solver.stepping(SimdLevel::detect()).unwrap();
     let found = stepping.two_waves(&cycle, 2, None, &Unwatched).unwrap();
@@ -59,7 +60,7 @@ fn two_waves_that_live_together_have_the_frequencies_of_a_transient() {
 /// The branch over the speed goes down to where the second wave vanishes: there the cycle's own exponent changes its sign.
 #[test]
 fn two_waves_are_born_where_the_cycle_loses_its_stability() {
-    let solver = solver();
+    let solver = solver(sized([72, 14], [90, 18]));
     let stepping = solver.stepping(SimdLevel::detect()).unwrap();
     let rpm = TAU / 60.0;
     let above = cycle(&solver, 700.0);

@@ -1,6 +1,7 @@
 //! What the mesh makes of frequencies and of critical friction, against finer meshes.
 
 use crate::bricks::{Block, file_of};
+use crate::tier::sized;
 use frictionsim::case::Case;
 use frictionsim::cea::Unwatched;
 use frictionsim::study::eigenvalues::{SlidingModel, Solution, solve};
@@ -56,7 +57,7 @@ fn estimates_of_frequencies_are_within_a_factor_of_two_of_the_error_by_refinemen
             name: "part",
             origin: [0.0; 3],
             size: [0.05, 0.04, 0.02],
-            counts: [10 * fineness, 8 * fineness, 6 * fineness],
+            counts: sized([7, 6, 4], [10, 8, 6]).map(|count| count * fineness),
         };
         fs::write(folder.join("part.msh"), file_of(&[block], |point| point)).unwrap();
         let text = "[mesh]\nfile = \"part.msh\"\n[material]\nyoung_modulus = 8e9\npoisson_ratio = 0.25\n\

@@ -19,7 +19,6 @@ use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::fs;
-use std::path::PathBuf;
 
 #[derive(Clone, Debug)]
 struct Slider {
@@ -98,8 +97,8 @@ fn quadrilaterals([along, across, _]: [usize; 3], [width, height, _]: [f64; 3]) 
 }
 
 fn case_of(slider: &Slider) -> Case {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("sliding-body");
-    fs::create_dir_all(&folder).unwrap();
+    // Tests run side by side, so each case has a folder of its own.
+    let folder = tempfile::tempdir().unwrap();
     let (mesh, direction, formulation) = if slider.is_plane {
         let mesh = quadrilaterals(slider.counts, slider.size).into_bytes();
         (mesh, "[1.0, 0.0]", "formulation = \"plane-strain\"\n")
@@ -108,7 +107,7 @@ fn case_of(slider: &Slider) -> Case {
             Block { name: "part", origin: [0.0; 3], size: slider.size, counts: slider.counts };
         (file_of(&[block], |point| point), "[1.0, 0.0, 0.0]", "")
     };
-    fs::write(folder.join("part.msh"), mesh).unwrap();
+    fs::write(folder.path().join("part.msh"), mesh).unwrap();
     let [normal, tangential, dashpot] = slider.support;
     // Pushed in by a millionth of its height: strains are small however soft the block is.
     let height = slider.size[if slider.is_plane { 1 } else { 2 }];
@@ -130,7 +129,7 @@ fn case_of(slider: &Slider) -> Case {
     if let Some(stiffness) = slider.contact_stiffness {
         writeln!(text, "normal_stiffness = {stiffness:e}").unwrap();
     }
-    let path = folder.join("part.toml");
+    let path = folder.path().join("part.toml");
     let parsed = Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]);
     parsed.unwrap_or_else(|errors| panic!("{errors}"))
 }

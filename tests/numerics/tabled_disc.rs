@@ -4,7 +4,6 @@ use faer::c64;
 use frictionsim::case::Case;
 use frictionsim::study::eigenvalues::modes_and_onsets;
 use std::fs;
-use std::path::PathBuf;
 
 /// A lining whose modulus and losses rise over the modes of a disc.
 const LINING: &str = "\
@@ -17,9 +16,10 @@ frequency_hz,young_modulus,loss_factor
 
 /// The disc of the paper, of a material and with sections of its own.
 fn disc_of(material: &str, sections: &str) -> Case {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("tabled-disc");
-    fs::create_dir_all(&folder).unwrap();
-    fs::write(folder.join("lining.csv"), LINING).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("lining.csv"), LINING).unwrap();
+    let flat = "frequency_hz,young_modulus,loss_factor\n0,3e9,0.1\n50000,3e9,0.1\n";
+    fs::write(folder.path().join("flat.csv"), flat).unwrap();
     let text = format!(
         r#"
 [geometry]
@@ -40,7 +40,7 @@ friction_coefficients = {{ from = 0.0, to = 0.6, count = 7 }}
 geometric_stiffness = false
 "#
     );
-    let path = folder.join("disc.toml");
+    let path = folder.path().join("disc.toml");
     Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]).unwrap()
 }
 
@@ -82,10 +82,6 @@ fn a_flat_table_of_a_shaft_is_its_material() {
         let points = modes_and_onsets(&case).unwrap().points;
         points.iter().flat_map(|point| point.modes.iter().map(|mode| mode.eigenvalue)).collect()
     };
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("tabled-disc");
-    fs::create_dir_all(&folder).unwrap();
-    let flat = "frequency_hz,young_modulus,loss_factor\n0,3e9,0.1\n50000,3e9,0.1\n";
-    fs::write(folder.join("flat.csv"), flat).unwrap();
     let constant = modes("young_modulus = 3e9\nloss_factor = 0.1");
     let tabled = modes("table = \"flat.csv\"");
     assert_eq!(constant.len(), tabled.len());

@@ -44,15 +44,31 @@ pub struct BranchEnd {
     pub is_damped: bool,
 }
 
+/// A mode where its branch was last seen.
+#[derive(Clone, Copy, Debug)]
+struct Seen {
+    /// Friction coefficient.
+    place: f64,
+    eigenvalue: c64,
+    /// Of the eigenvalue by the friction coefficient.
+    derivative: c64,
+}
+
+impl Seen {
+    fn of(place: f64, mode: &ReducedMode) -> Self {
+        Self { place, eigenvalue: mode.eigenvalue, derivative: mode.derivative }
+    }
+}
+
 /// Whether a mode may cease to oscillate within a step of friction, as friction across slow sliding, a dashpot of `mu p / V`, damps it.
-fn may_vanish(mode: &ReducedMode, step: f64) -> bool {
+fn may_vanish(mode: &Seen, step: f64) -> bool {
     let decay = -(mode.eigenvalue.re + mode.derivative.re * step);
     decay > NEARLY_CRITICAL * mode.eigenvalue.norm()
 }
 
 /// Whether a mode lies above what is wanted at the next friction coefficient, by more than it may be wrong there: of the lowest ones
 /// others may have come from below.
-fn leaves_range(mode: &ReducedMode, step: f64, range_end: f64) -> bool {
+fn leaves_range(mode: &Seen, step: f64, range_end: f64) -> bool {
     let (frequency, change) = (mode.eigenvalue.im, mode.derivative.im * step);
     frequency.min(frequency + change) > range_end * (1.0 + ABOVE_RANGE) + change.abs()
 }
@@ -62,19 +78,10 @@ fn leaves_range(mode: &ReducedMode, step: f64, range_end: f64) -> bool {
 pub struct Lost {
     /// Its name.
     pub label: BranchLabel,
-    /// Frequency where it was last seen, rad/s.
-    pub frequency: f64,
     /// Index of the last point where it was seen.
     pub point: usize,
     /// Friction coefficient about which it was lost, between that point and the next.
     pub place: f64,
-}
-
-impl Lost {
-    /// Whether both are one branch lost at one place.
-    fn is_same(&self, other: &Self) -> bool {
-        (self.label, self.point) == (other.label, other.point)
-    }
 }
 
 /// Names the first `count` modes of the frictionless point and rotates degenerate ones so that they are
@@ -173,18 +180,17 @@ fn rotate(
 /// Where this is not clear the interval is bisected.
 ///
 /// A wanted mode that no branch reaches has come from above the range, or from motions that did not oscillate: it starts a branch. A mode
-/// whose damping nears the critical one may cease to oscillate: its branch ends, as do those that are lost where `given_up` says so.
+/// whose damping nears the critical one may cease to oscillate: its branch ends, as do those that are lost, which are told beside.
 ///
 /// # Errors
-/// `Ok(Err(lost))` for a branch among the wanted modes with no continuation; `Err` if a dense
-/// decomposition fails.
+/// If a dense decomposition fails.
 pub fn track(
     points: &[SolvedPoint],
     model: &ReducedModel,
     edge: &ContactEdge,
     labels: &[BranchLabel],
-    given_up: &[Lost],
-) -> Result<Result<Vec<TrackedBranch>, Lost>, LinalgError> {
+) -> Result<(Vec<TrackedBranch>, Vec<Lost>), LinalgError> {
+    let mut all_lost = Vec::new();
     let mut branches: Vec<TrackedBranch> = labels
         .iter()
         .enumerate()
@@ -193,7 +199,8 @@ pub fn track(
     for k in 1..points.len() {
         let (before, after) = (&points[k - 1], &points[k]);
         let step = after.friction_coefficient - before.friction_coefficient;
-        let stays = |mode: &ReducedMode| !leaves_range(mode, step, after.range_end);
+        let seen_before = |mode: &ReducedMode| Seen::of(before.friction_coefficient, mode);
+        let stays = |mode: &ReducedMode| !leaves_range(&seen_before(mode), step, after.range_end);
         let last_to_stay = before.modes[..before.wanted].iter().rposition(stays);
         let needed = last_to_stay.map_or(0, |i| i + 1);
         let links = match_modes(
@@ -207,20 +214,17 @@ pub fn track(
             let last = branch.modes[k - 1];
             let next = last.and_then(|i| links[i].ok());
             if let Some(i) = last
-                && let Err(place) = links[i]
+                && let Err(seen) = links[i]
                 && i < needed
                 && stays(&before.modes[i])
+                && !leaves_range(&seen, after.friction_coefficient - seen.place, after.range_end)
             {
-                let is_damped = may_vanish(&before.modes[i], step);
-                let lost = Lost {
-                    label: branch.label,
-                    frequency: before.modes[i].eigenvalue.im,
-                    point: k - 1,
-                    place,
-                };
-                let is_given_up = given_up.iter().any(|own| own.is_same(&lost));
-                if !is_damped && !is_given_up {
-                    return Ok(Err(lost));
+                let left = after.friction_coefficient - seen.place;
+                let is_damped =
+                    may_vanish(&seen, left) || may_vanish(&seen_before(&before.modes[i]), step);
+                let lost = Lost { label: branch.label, point: k - 1, place: seen.place };
+                if !is_damped {
+                    all_lost.push(lost);
                 }
                 let after = k - 1;
                 branch.end = Some(BranchEnd { after, is_damped });
@@ -229,7 +233,7 @@ pub fn track(
         }
         adopt_newcomers(&mut branches, after, edge, k);
     }
-    Ok(Ok(branches))
+    Ok((branches, all_lost))
 }
 
 /// Starts a branch for every wanted mode of point `k` that has none.
@@ -255,8 +259,8 @@ fn adopt_newcomers(
 }
 
 type ModesAt<'a> = (f64, &'a [ReducedMode]);
-/// The mode that continues another one, or the friction coefficient about which that was lost.
-type Link = Result<usize, f64>;
+/// The mode that continues another one, or where that was last seen.
+type Link = Result<usize, Seen>;
 
 /// For each mode of `from` the mode of `to` that continues it. The first `needed` modes must be matched
 /// beyond doubt, or the interval is halved.
@@ -272,7 +276,8 @@ fn match_modes(
     let mut links = clear_links(from, to, &overlaps);
     let step = to.0 - from.0;
     let needed_links = links.iter().zip(from.1).take(needed);
-    let mut open = needed_links.filter(|(link, mode)| link.is_none() && !may_vanish(mode, step));
+    let mut open = needed_links
+        .filter(|(link, mode)| link.is_none() && !may_vanish(&Seen::of(from.0, mode), step));
     let is_clear = open.next().is_none();
     if !is_clear && depth < MAX_BISECTIONS {
         let modes = model.solve_between(middle, from.1.len().max(to.1.len()))?;
@@ -284,7 +289,8 @@ fn match_modes(
     if !is_clear {
         link_by_extrapolation(from, to, needed, &mut links);
     }
-    Ok(links.into_iter().map(|link| link.ok_or(middle)).collect())
+    let pairs = links.into_iter().zip(from.1);
+    Ok(pairs.map(|(link, mode)| link.ok_or(Seen::of(middle, mode))).collect())
 }
 
 /// `|w_i^T N x'_j| |w'_j^T N x_i|`, see [`track`].
@@ -327,7 +333,7 @@ fn link_by_extrapolation(
     let step = to.0 - from.0;
     for i in 0..needed.min(links.len()) {
         let a = &from.1[i];
-        if links[i].is_some() || may_vanish(a, step) {
+        if links[i].is_some() || may_vanish(&Seen::of(from.0, a), step) {
             continue;
         }
         let distance = |j: usize| (to.1[j].eigenvalue - a.eigenvalue).norm();

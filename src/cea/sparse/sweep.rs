@@ -294,24 +294,22 @@ impl<'a> SparseSweep<'a> {
     /// more friction coefficients about that place; in the end an independent iteration searches for it. A branch that stays lost
     /// ends there, and a note says so.
     pub fn track(&mut self) -> Result<Vec<TrackedBranch>, CeaError> {
-        let (mut given_up, mut searched) = (Vec::new(), Vec::new());
+        let mut searched = Vec::new();
         loop {
             let (model, edge) = (&self.builder.model, &self.edge);
-            let outcome = track(&self.points, model, edge, &self.labels, &given_up)?;
-            let lost = match outcome {
-                Ok(branches) => return Ok(branches),
-                Err(lost) => lost,
-            };
-            if searched.contains(&lost.point) {
-                given_up.push(lost);
-                continue;
+            let (branches, mut open) = track(&self.points, model, edge, &self.labels)?;
+            open.retain(|lost| !searched.contains(&lost.point));
+            open.dedup_by_key(|lost| lost.point);
+            if open.is_empty() {
+                return Ok(branches);
             }
-            let (from, to) = (self.grid[lost.point], self.grid[lost.point + 1]);
-            let is_sampling = self.builder.is_sampling();
-            let has_improved = is_sampling && self.builder.improve_between(from, to, lost.place)?;
-            if !has_improved {
-                searched.push(lost.point);
-                self.builder.search(to, TRACKING_MARGIN)?;
+            for lost in open {
+                let (from, to) = (self.grid[lost.point], self.grid[lost.point + 1]);
+                let is_sampling = self.builder.is_sampling();
+                if !(is_sampling && self.builder.improve_between(from, to, lost.place)?) {
+                    searched.push(lost.point);
+                    self.builder.search(to, TRACKING_MARGIN)?;
+                }
             }
             self.solve()?;
         }

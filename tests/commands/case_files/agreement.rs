@@ -129,6 +129,17 @@ fn check_knows_what_runs_of_rings_blocks_and_pads_refuse() {
          [motion.upper]\naxis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = 60.0\n"
     );
     let along = pad.replace("[1.0, 0.0, 0.0]", "[0.0, 0.0, 1.0]");
+    // The nodes of the first brick the other way round.
+    let good = std::fs::read_to_string(folder.path().join("pad.msh")).unwrap();
+    let is_brick = |line: &&str| line.split(' ').count() == 13 && line.contains(" 5 2 ");
+    let brick: Vec<&str> = good.lines().find(is_brick).unwrap().split(' ').collect();
+    let turned = [&brick[..5], &brick[9..], &brick[5..9]].concat().join(" ");
+    let inverted = good.replacen(&brick.join(" "), &turned, 1);
+    std::fs::write(folder.path().join("inverted.msh"), inverted).unwrap();
+    let inverted = format!("{pad}interference = 1e-6\n{cea}").replace("pad.msh", "inverted.msh");
+    let errors = Case::parse(path.to_str().unwrap(), inverted.as_bytes(), &[]).unwrap_err();
+    let said = errors.to_string();
+    assert!(said.contains("is inverted") && !said.contains("help: `mesh.file`"), "{said}");
     let lossy = pad.replace("density", "loss_factor = 0.01\ndensity");
     for (text, reason) in [
         (format!("{pad}interference = 0.0\n{cea}"), "nothing presses the contact"),

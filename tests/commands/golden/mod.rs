@@ -114,6 +114,8 @@ fn read_table(path: &Path) -> BTreeMap<String, Numbers> {
             if let Ok(value) = text.parse() {
                 column.add(value);
             }
+            // A flag has one spelling, `true` or `false`.
+            assert!(!["yes", "no", "True", "False"].contains(&text), "{}: {text}", path.display());
         }
     }
     names.into_iter().zip(columns).collect()
