@@ -74,9 +74,6 @@ fn show(bar: &ProgressBar, progress: SweepProgress) {
 }
 
 /// Runs the subcommand with a solver.
-///
-/// # Errors
-/// A bad case, contact that opens, a solver that fails, an output folder that cannot be written.
 fn run_with(
     arguments: &Arguments,
     solve: impl FnOnce(&Session, &Cea, &SlidingModel, &Progress<'_>) -> Result<Solution, Failure>,

@@ -178,9 +178,6 @@ pub(super) fn symmetry(
 }
 
 /// The body that a mesh file describes: what it has, or all the sectors of which it has one.
-///
-/// # Errors
-/// A file that cannot be read; a sector that does not meet its copies.
 pub(super) fn whole_body(
     mesh: &MeshBytes,
     symmetry: Option<&CyclicSymmetry>,

@@ -7,9 +7,6 @@ use std::path::{Path, PathBuf};
 /// The bytes of a mesh file; lines that include a file are replaced by its text.
 ///
 /// Names are relative to the file that names them, else to the first one.
-///
-/// # Errors
-/// What cannot be read, with the chain of files that leads there; a file that includes itself; more than a mesh may have.
 pub(super) fn mesh_file(path: &Path) -> Result<Vec<u8>, String> {
     let mut budget = Budget::new(MESH);
     let bytes = budget

@@ -32,9 +32,6 @@ struct Wanted {
 }
 
 /// Pushes every counterface in whose contact has a force, and says how far.
-///
-/// # Errors
-/// No base state; a force that no interference gives.
 pub(super) fn press(case: &mut Case) -> Result<(), CaseErrors> {
     let wanted = wanted(case);
     for _ in 0..MOST_ROUNDS {

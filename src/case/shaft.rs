@@ -103,9 +103,6 @@ fn bore_condition(root: &Section<'_>, boundaries: &[NamedCondition]) -> Boundary
 
 impl Case {
     /// An analysis that a deformable shaft has no part in.
-    ///
-    /// # Errors
-    /// A case with a shaft.
     pub(super) fn require_rigid_shaft(&self, what: &str) -> Result<(), CaseErrors> {
         let grid = self.body.grid();
         if grid.is_none_or(|grid| grid.shaft.is_none()) {

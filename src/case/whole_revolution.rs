@@ -12,9 +12,6 @@ use crate::prestress::{BaseChoice, SlidingSurfaces};
 use std::sync::Arc;
 
 /// The whole mesh of a body of revolution on its rigid cylinder, or under its rigid ring. It has no geometric stiffness.
-///
-/// # Errors
-/// Modifications that do not fit the body; supports that the whole mesh does not have.
 pub(super) fn whole_revolution(
     revolution: &Revolution,
     (material, contact): (&TabledMaterial, &Contact),

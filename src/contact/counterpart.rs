@@ -124,9 +124,6 @@ impl RigidCounterface {
     }
 
     /// Lays it against `surface`.
-    ///
-    /// # Errors
-    /// A surface that is not round about the axis or centre where no radius is given; a plane that moves out of itself.
     pub(super) fn placed(
         &self,
         mesh: &Mesh,

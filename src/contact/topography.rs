@@ -33,9 +33,6 @@ impl Topography {
     }
 
     /// Adds the measured gap to that of each point of a pair.
-    ///
-    /// # Errors
-    /// [`PairError::NotMeasured`] where no measured point is near: within half an element, or a tenth of the surface's size.
     pub(super) fn widen(&self, pair: &mut SurfacePair, surface: &str) -> Result<(), PairError> {
         let reach = pair.reach.max(REACH * pair.area.sqrt());
         let grids = self.grids(reach);

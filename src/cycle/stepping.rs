@@ -95,9 +95,6 @@ impl CycleSolver {
 
 impl MeshStepping<'_> {
     /// A transient on `cycle`, seeded with a velocity (m/s) in one harmonic where one is given, and its steps to a period.
-    ///
-    /// # Errors
-    /// [`CycleError::Stepping`] if it cannot start.
     pub(super) fn start(
         &self,
         cycle: &LimitCycle,

@@ -285,9 +285,6 @@ impl SolidSpecification {
 }
 
 /// Moves the corner radii so that both radii of a ring are among them, where they are not.
-///
-/// # Errors
-/// [`MeshError::NothingUnderRing`] for fewer elements than the ring and what is left of the face on either side.
 fn fit(radii: &mut [f64], inner: f64, outer: f64) -> Result<(), MeshError> {
     let last = radii.len() - 1;
     let (low, high) = (radii[0], radii[last]);

@@ -67,9 +67,6 @@ impl<S> PressedRange<S> {
 }
 
 /// States at every one of `friction_coefficients`: rising values, each starting from the set of the last.
-///
-/// # Errors
-/// [`PrestressError::NoState`] at the first friction coefficient without one; [`PrestressError::GapEverywhere`].
 pub(super) fn range(
     bodies: &mut impl PressedBodies,
     friction_coefficients: &[f64],

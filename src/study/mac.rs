@@ -109,9 +109,6 @@ pub fn assurance(
 }
 
 /// Measured points are nodes of the whole mesh.
-///
-/// # Errors
-/// A body of revolution.
 pub(in crate::study) fn refuse_revolution(case: &Case) -> Result<(), StudyError> {
     let Body::Revolution(_) = &case.body else {
         return Ok(());
@@ -124,9 +121,6 @@ pub(in crate::study) fn refuse_revolution(case: &Case) -> Result<(), StudyError>
 }
 
 /// The nodes of the points of some shapes.
-///
-/// # Errors
-/// A shape most of whose points lie off the body.
 pub(in crate::study) fn placed(
     case: &Case,
     mesh: &Mesh,

@@ -106,9 +106,6 @@ impl StepPlan {
     /// Chooses the step below a `limit` (s), that of the highest frequency (rad/s): the given one, or 0.95 of the limit, lowered
     /// so that it divides the sample interval. It does not depend on the duration; the run is as many whole sample intervals as
     /// lie within that.
-    ///
-    /// # Errors
-    /// [`TransientError`] names the setting that does not fit, with its bound.
     pub(super) fn within(
         limit: f64,
         largest_frequency: f64,

@@ -120,9 +120,6 @@ impl SweepRun<'_> {
     }
 
     /// Hash and summaries of a point, or its error in words.
-    ///
-    /// # Errors
-    /// [`Failure::Interrupted`] where the whole sweep is asked to stop.
     fn compute(&self, point: usize) -> Result<PointOutcome, Failure> {
         let case = match self.plan.point_case(point) {
             Ok(case) => case,

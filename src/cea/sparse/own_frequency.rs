@@ -23,9 +23,6 @@ const NEAR: f64 = 1e-4;
 /// `i` as long as stiffness rises less than with the square of the frequency: as many modes lie below `f` as the frozen problem has
 /// below `f`. Each is sought from its vectors at `start_hz` by Rayleigh quotients on the nonlinear problem; where that ends at a
 /// mode found already, or not at all, by that fixed point. A mode that does not settle is given as it is: its residual tells.
-///
-/// # Errors
-/// Those of `frozen`.
 pub(super) fn solve(
     at: &ProjectedMatrices,
     frozen: &(dyn Fn(f64) -> Result<Vec<ReducedMode>, LinalgError> + Sync),

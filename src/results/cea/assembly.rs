@@ -89,17 +89,11 @@ impl AssemblyReport {
     }
 
     /// Pressure on each contact surface.
-    ///
-    /// # Errors
-    /// [`ChartError::Empty`] for a base state that is free of stress.
     pub(super) fn prestress(&self, mesh: &Mesh) -> Result<Figure, ChartError> {
         self.traction(mesh, ("prestress", "contact pressure"), |point| point.pressure)
     }
 
     /// Friction on each contact surface.
-    ///
-    /// # Errors
-    /// [`ChartError::Empty`] for a base state that is free of stress.
     pub(super) fn shear(&self, mesh: &Mesh) -> Result<Figure, ChartError> {
         self.traction(mesh, ("shear", "friction traction"), |point| point.shear)
     }

@@ -129,9 +129,6 @@ impl Feed {
     }
 
     /// Growth for each area of the contact: lines along a plane edge, pictures of the surfaces of solid bodies.
-    ///
-    /// # Errors
-    /// [`ChartError::Empty`] where no mode is unstable.
     pub(super) fn figure(&self, report: &CeaReport<'_>) -> Result<Figure, ChartError> {
         let modes = self.fastest(report);
         let Some(first) = modes.first() else {

@@ -209,9 +209,6 @@ fn kilohertz(mode: &ModeName) -> String {
 const PANELS: usize = 6;
 
 /// Growth rate over friction of the modes that grow fastest, and what each part, support and contact adds to it.
-///
-/// # Errors
-/// [`ChartError::Empty`] where fewer than three friction values were read.
 pub(super) fn budget(report: &CeaReport<'_>, reading: &Reading) -> Result<Figure, ChartError> {
     let mut frictions: Vec<f64> = Vec::new();
     for row in &reading.contributions {

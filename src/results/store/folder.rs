@@ -280,9 +280,6 @@ pub(crate) fn write_contents(folder: &Path, contents: &Contents) -> Result<(), F
 }
 
 /// Removes files that a manifest lists.
-///
-/// # Errors
-/// A file that is there and cannot be removed.
 pub(crate) fn remove_files<'a>(
     folder: &Path,
     names: impl Iterator<Item = &'a String>,

@@ -137,9 +137,6 @@ fn whole_contents(path: &Path) -> Result<Contents, FolderError> {
 }
 
 /// The bytes of a file of a finished run, as they were written.
-///
-/// # Errors
-/// [`FolderError::NotResults`] if the run did not end, or the file is missing or damaged; those of the file system.
 pub(crate) fn read_own(path: &Path, name: &str) -> Result<Vec<u8>, FolderError> {
     let contents = whole_contents(path)?;
     let did_not_end = || lacks(path, format!("it has no {name}: the run did not end"));

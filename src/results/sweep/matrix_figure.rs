@@ -45,9 +45,6 @@ enum Role {
 
 /// Frequency of the unstable modes over the operating conditions, marked by growth; one panel for each direction of rotation
 /// and each choice of what is left over.
-///
-/// # Errors
-/// [`ChartError::Empty`] where fewer than two conditions were solved or none is unstable.
 pub(in crate::results) fn operating_matrix(records: &[PointRecord]) -> Result<Figure, ChartError> {
     let matrix = OperatingMatrix::of(records);
     let conditions = &matrix.conditions;

@@ -89,9 +89,6 @@ impl AssemblyModel {
     }
 
     /// The tangent of one of the states.
-    ///
-    /// # Errors
-    /// Those of [`Assembly::tangent`].
     pub(super) fn tangent(&self, state: usize) -> Result<SlidingTangent, CeaError> {
         let assembly = self.assembly();
         Ok(assembly.tangent(&self.range.states[state], &self.options)?)

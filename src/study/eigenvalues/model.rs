@@ -338,10 +338,6 @@ impl Model {
     }
 
     /// The tangent of one of them.
-    ///
-    /// # Errors
-    /// Those of the pairing of surfaces.
-    ///
     /// # Panics
     /// Of a body solved harmonic by harmonic, which has none.
     pub(in crate::study) fn tangent(

@@ -160,9 +160,6 @@ fn at_table(case: &Case, error: &CeaError) -> StudyError {
 }
 
 /// The whole mesh of a plane annulus, where `auto` chose its harmonics and a branch of them could not be followed.
-///
-/// # Errors
-/// No state of steady sliding.
 fn whole_mesh_instead(
     case: &Case,
     cea: &Cea,

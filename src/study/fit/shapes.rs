@@ -22,9 +22,6 @@ pub struct MeasuredShapes<'a> {
 
 impl MeasuredShapes<'_> {
     /// The shape of each line: each shape goes to the line whose frequency is nearest, the nearest pairs first.
-    ///
-    /// # Errors
-    /// A shape without a frequency, or none of whose neighbours is a line without a shape.
     pub(super) fn of_lines(&self, lines: &[MeasuredMode]) -> Result<Vec<Option<usize>>, FitError> {
         let refuse = |shape: &MeasuredShape, reason: String| FitError::Shape {
             name: shape.name.clone(),
@@ -61,9 +58,6 @@ impl MeasuredShapes<'_> {
     }
 
     /// Refuses a body without a whole mesh, and points off it.
-    ///
-    /// # Errors
-    /// Those of the body and of the points.
     pub(super) fn check(&self, case: &Case) -> Result<(), StudyError> {
         refuse_revolution(case)?;
         let mesh = case.mesh().map_err(crate::cea::CeaError::from)?;
@@ -72,9 +66,6 @@ impl MeasuredShapes<'_> {
     }
 
     /// The criterion of each mode with each shape, `[mode][shape]`.
-    ///
-    /// # Errors
-    /// A body whose parameters leave no mesh, or move it away from the points.
     pub(super) fn assurances(
         &self,
         case: &Case,

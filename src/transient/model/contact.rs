@@ -96,9 +96,6 @@ impl TransientModel<'_> {
     }
 
     /// The contact points, all open; `interface` are their nodes.
-    ///
-    /// # Errors
-    /// [`TransientError::Prestress`] where the springs of a compliant contact have no base state.
     pub(in crate::transient) fn lagrange_contact(
         &self,
         operator: &dyn StiffnessOperator,

@@ -114,9 +114,6 @@ const OUTPUTS: [&str; 14] = [
 ];
 
 /// Reads an input file; the files that it includes stand in it ([`included_text`](super::included_text)).
-///
-/// # Errors
-/// [`MeshFileError`] with the line.
 pub(super) fn read(bytes: &[u8]) -> Result<FileMesh, MeshFileError> {
     let text = String::from_utf8_lossy(bytes);
     let deck = Deck::new(&text, "**", false)?;

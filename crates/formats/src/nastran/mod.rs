@@ -52,9 +52,6 @@ struct Reader<'d, 'a> {
 }
 
 /// Reads bulk data; the files that it includes stand in it ([`included_text`](super::included_text)).
-///
-/// # Errors
-/// [`MeshFileError`] with the line.
 pub(super) fn read(bytes: &[u8]) -> Result<FileMesh, MeshFileError> {
     let text = String::from_utf8_lossy(bytes);
     let deck = Deck::new(&text, "$", false)?;

@@ -56,9 +56,6 @@ struct Group {
 }
 
 /// Reads a universal file.
-///
-/// # Errors
-/// [`MeshFileError`] with the line.
 pub(super) fn read(bytes: &[u8]) -> Result<FileMesh, MeshFileError> {
     let text = String::from_utf8_lossy(bytes);
     let deck = Deck::new(&text, "\0", true)?;

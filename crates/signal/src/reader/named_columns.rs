@@ -8,9 +8,6 @@ pub(super) type Wanted = (&'static str, &'static [&'static str]);
 
 impl Table {
     /// Where the wanted columns are; without names, as many columns in their order.
-    ///
-    /// # Errors
-    /// [`ReadError`] for a table that lacks one, with `header` as remedy.
     pub(super) fn places<const N: usize>(
         &self,
         wanted: &[Wanted; N],

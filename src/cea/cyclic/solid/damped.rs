@@ -41,9 +41,6 @@ pub(super) struct Range<'a> {
 }
 
 /// Branches of a harmonic, starting from these `(kappa, x)` at rest, complete at every friction coefficient of the range.
-///
-/// # Errors
-/// [`CeaError::Linalg`] where a decomposition fails, [`CeaError::Unrefined`] where an eigenvalue has no vectors.
 pub(super) fn follow_damped(
     problem: HarmonicProblem,
     pairs: &[(f64, Vec<f64>)],
@@ -262,9 +259,6 @@ fn is_same(a: &Eigenpair, b: &Eigenpair) -> bool {
 ///
 /// `C` enters through `T(sigma)` alone, so dashpots of any strength leave the matrix of the size of `1 / sigma`. `size` is that of
 /// the eigenvalues wanted, rad/s.
-///
-/// # Errors
-/// [`CeaError::Linalg`] where the decomposition fails.
 fn spectrum(problem: &HarmonicProblem, at: &Matrices, size: f64) -> Result<Vec<c64>, CeaError> {
     let n = problem.dimension;
     let (sigma, scale) = (c64::new(0.7 * size, 0.0), c64::new(size, 0.0));

@@ -102,9 +102,6 @@ impl BasisBuilder<'_> {
     }
 
     /// Takes up the modes at `mu` from a dense decomposition of the full matrices; whether the basis grew.
-    ///
-    /// # Errors
-    /// If the decomposition fails.
     fn sample_densely(&mut self, mu: f64) -> Result<bool, CeaError> {
         let unknowns = self.tangent.stiffness.dimension();
         let vectors = self.step(mu, |builder| {

@@ -42,9 +42,6 @@ impl SparseSweep<'_> {
     }
 
     /// The count at a point, after a search for what was missing.
-    ///
-    /// # Errors
-    /// Those of the search.
     fn completed_at(&mut self, counter: &ModeCounter<'_>, k: usize) -> Result<ModeCount, CeaError> {
         let before = self.count_at(counter, k);
         let Ok(missing @ 1..) = before.missing else {
