@@ -12,6 +12,7 @@ pub use mass::{consistent_mass, lumped_mass};
 use super::{ElasticMaterial, PlaneFormulation};
 use crate::mesh::{ElementKind, Mesh, QuadraturePoint};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use std::ops::Range;
 
 /// Strain `(xx, yy, zz, 2 xy, 2 yz, 2 zx)` or stress `(xx, yy, zz, xy, yz, zx)`.
 pub type Voigt = [f64; 6];
@@ -155,35 +156,64 @@ impl ElementGeometry {
         position
     }
 
-    /// Stiffness over the nodes and, where there are incompatible modes, their amplitudes; linear in the elasticity. Of a body
-    /// that is deformed, with `gradients` of its displacement at the points of the stiffness, by the strain of Green and
-    /// Lagrange: `delta E = sym(F^T grad delta u)`, `F = 1 + grad u`.
-    fn full_stiffness(
+    /// The given columns of the stiffness over the nodes and, where there are incompatible modes, their amplitudes, down to the
+    /// diagonal; linear in the elasticity. Of a body that is deformed, with `gradients` of its displacement at the points of the
+    /// stiffness, by the strain of Green and Lagrange: `delta E = sym(F^T grad delta u)`, `F = 1 + grad u`.
+    fn upper_stiffness(
         &self,
         material: &ElasticMaterial,
         gradients: Option<&[Matrix3<f64>]>,
+        columns: Range<usize>,
     ) -> DMatrix<f64> {
-        let internal = if self.has_incompatible_modes() { 9 } else { 0 };
-        let size = self.dimension() * self.node_count() + internal;
+        let size = self.nodal_count() + self.internal_count();
         let components = self.components();
         let material = self.solid_aware(material);
         let points = self.stiffness_points();
         let modes = self.incompatible_gradients(&points);
         let mut matrix = DMatrix::zeros(size, size);
+        let mut works = vec![0.0; size];
         for (i, (point, modes)) in points.iter().zip(&modes).enumerate() {
             let law = material.elasticity_at(self.position(point));
             let gradient = gradients.map(|gradients| &gradients[i]);
             let strains = self.strain_columns(point, modes, gradient);
-            for column in 0..size {
+            // Component by component over the rows: such loops run in vector registers.
+            let by_component = |&k: &usize| strains.iter().map(|strain| strain[k]).collect();
+            let rows: Vec<Vec<f64>> = components.iter().map(by_component).collect();
+            for column in columns.clone() {
                 let stress = stress_in(components, &law, &strains[column]);
-                let stress = stress.map(|component| component * point.measure);
-                for row in 0..=column {
-                    matrix[(row, column)] += work(components, &strains[row], &stress);
+                let works = &mut works[..=column];
+                works.fill(0.0);
+                for (&k, row) in components.iter().zip(&rows) {
+                    let stress = stress[k] * point.measure;
+                    works.iter_mut().zip(row).for_each(|(work, strain)| *work += strain * stress);
                 }
+                let sums = matrix.column_mut(column);
+                sums.into_iter().zip(works).for_each(|(sum, work)| *sum += *work);
             }
         }
+        matrix
+    }
+
+    /// Stiffness over the nodes and the amplitudes of incompatible modes, see [`Self::upper_stiffness`].
+    fn full_stiffness(
+        &self,
+        material: &ElasticMaterial,
+        gradients: Option<&[Matrix3<f64>]>,
+    ) -> DMatrix<f64> {
+        let all = 0..self.nodal_count() + self.internal_count();
+        let mut matrix = self.upper_stiffness(material, gradients, all);
         mirror_upper_triangle(&mut matrix);
         matrix
+    }
+
+    /// Displacements of its nodes.
+    fn nodal_count(&self) -> usize {
+        self.dimension() * self.node_count()
+    }
+
+    /// Amplitudes of its incompatible modes.
+    fn internal_count(&self) -> usize {
+        if self.has_incompatible_modes() { 9 } else { 0 }
     }
 
     /// The material as this element sees it: solid elements take no plane formulation.
@@ -218,20 +248,39 @@ impl ElementGeometry {
 
     /// A stiffness without the amplitudes of incompatible modes.
     fn condensed(&self, full: DMatrix<f64>) -> Condensed {
-        let nodal = self.dimension() * self.node_count();
-        let internal = full.nrows() - nodal;
-        if internal == 0 {
+        let nodal = self.nodal_count();
+        let Some(recovered) = self.recovered_of(&full) else {
             return Condensed { stiffness: full, recovered: None };
+        };
+        let coupling = full.view((0, nodal), (nodal, full.ncols() - nodal));
+        let mut condensed = full.view((0, 0), (nodal, nodal)) + coupling * &recovered;
+        mirror_upper_triangle(&mut condensed);
+        Condensed { stiffness: condensed, recovered: Some(recovered) }
+    }
+
+    /// See [`Condensed::recovered`].
+    pub fn recovered(&self, material: &ElasticMaterial) -> Option<DMatrix<f64>> {
+        let nodal = self.nodal_count();
+        let modes = nodal..nodal + self.internal_count();
+        match modes.is_empty() {
+            true => None,
+            false => self.recovered_of(&self.upper_stiffness(material, None, modes)),
         }
-        let coupling = full.view((nodal, 0), (internal, nodal)).into_owned();
-        let inner = full.view((nodal, nodal), (internal, internal)).into_owned();
+    }
+
+    /// The same of the upper triangle of a stiffness with the amplitudes of incompatible modes, if there are any.
+    fn recovered_of(&self, upper: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+        let (nodal, internal) = (self.nodal_count(), self.internal_count());
+        if internal == 0 {
+            return None;
+        }
+        let coupling = upper.view((0, nodal), (nodal, internal)).transpose();
+        let mut inner = upper.view((nodal, nodal), (internal, internal)).into_owned();
+        mirror_upper_triangle(&mut inner);
         let factor = inner
             .cholesky()
             .expect("incompatible modes of a sound element have positive stiffness");
-        let recovered = -factor.solve(&coupling);
-        let mut condensed = full.view((0, 0), (nodal, nodal)) + coupling.transpose() * &recovered;
-        mirror_upper_triangle(&mut condensed);
-        Condensed { stiffness: condensed, recovered: Some(recovered) }
+        Some(-factor.solve(&coupling))
     }
 
     /// Element geometric stiffness `K_sigma = ∫ (grad N_I . sigma . grad N_J) I dV` of the stress of nodal displacements
@@ -301,12 +350,6 @@ fn stress_in(components: &[usize], law: &[Voigt; 6], strain: &Voigt) -> Voigt {
         stress[row] = products.reduce(|sum, product| sum + product).unwrap_or(0.0);
     }
     stress
-}
-
-/// `epsilon . sigma` over some components.
-fn work(components: &[usize], strain: &Voigt, stress: &Voigt) -> f64 {
-    let products = components.iter().map(|&k| strain[k] * stress[k]);
-    products.reduce(|sum, product| sum + product).unwrap_or(0.0)
 }
 
 /// Cauchy stress of a displacement gradient at a place, Pa.

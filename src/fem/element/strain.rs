@@ -84,11 +84,7 @@ impl ElementGeometry {
         material: &ElasticMaterial,
         values: &[f64],
     ) -> Option<DVector<f64>> {
-        if !self.has_incompatible_modes() {
-            return None;
-        }
-        let recovered = self.stiffness(material).recovered?;
-        Some(recovered * DVector::from_column_slice(values))
+        Some(self.recovered(material)? * DVector::from_column_slice(values))
     }
 
     /// Strain at a point of each nodal displacement along its axis, and of each amplitude of the incompatible `modes`; of a body that is
@@ -122,11 +118,7 @@ impl ElementGeometry {
         material: &ElasticMaterial,
         points: &[IntegrationPoint],
     ) -> DMatrix<f64> {
-        let nodal = self.dimension() * self.node_count();
-        let recovered = match self.has_incompatible_modes() {
-            true => self.stiffness(material).recovered,
-            false => None,
-        };
+        let (nodal, recovered) = (self.nodal_count(), self.recovered(material));
         let (components, modes) = (self.components(), self.incompatible_gradients(points));
         let rows = components.len();
         let mut operator = DMatrix::zeros(rows * points.len(), nodal);

@@ -28,9 +28,5 @@ pub fn geometric_stiffness(
 /// What gives the amplitudes of the incompatible modes, of each element along a radius: layers are alike.
 fn recoveries(sector: &SolidSector, material: &ElasticMaterial) -> Vec<Option<DMatrix<f64>>> {
     let [radial, _] = sector.divisions();
-    let own = |e: usize| match sector.is_quadratic() {
-        true => None,
-        false => geometry(sector, e).stiffness(material).recovered,
-    };
-    (0..radial).map(own).collect()
+    (0..radial).map(|e| geometry(sector, e).recovered(material)).collect()
 }
