@@ -110,9 +110,16 @@ pub(super) fn uncertainty_note(case: &Case, sweep: &FrictionSweep) -> Option<Str
 /// What damping near the critical one hides.
 pub(super) fn damping_note(case: &Case, sweep: &FrictionSweep) -> Option<String> {
     let modes = || sweep.points.iter().flat_map(|point| &point.modes);
+    if modes().next().is_none() {
+        return Some(
+            "no mode oscillates: every motion is damped beyond the critical; is a damping \
+             coefficient, a loss factor or a dashpot too large, or the sliding too slow?"
+                .to_owned(),
+        );
+    }
     let largest = modes().map(|mode| mode.damping_factor()).fold(0.0, f64::max);
     let size = modes().map(|mode| mode.eigenvalue.norm()).fold(0.0, f64::max);
-    let at_limit = case.damping.rayleigh.damping_factor(size.max(f64::MIN_POSITIVE));
+    let at_limit = case.damping.rayleigh.damping_factor(size);
     if largest.max(at_limit) <= 0.5 {
         return None;
     }
