@@ -4,9 +4,15 @@ use crate::program::{Run, folder, shipped};
 use frictionsim::case::{Case, unset};
 use std::fs;
 
+/// The path of a shipped case, or of one that is here to be refused.
+fn place_of(name: &str) -> String {
+    let own = format!("{}/tests/commands/refused/{name}", env!("CARGO_MANIFEST_DIR"));
+    if fs::exists(&own).unwrap() { own } else { shipped(name) }
+}
+
 /// A case with changes: its text, its overrides, and the number of the line where an error must stand.
 fn changed(name: &str, changes: &str) -> (String, Vec<String>, Option<usize>) {
-    let mut text = fs::read_to_string(shipped(name)).unwrap();
+    let mut text = fs::read_to_string(place_of(name)).unwrap();
     let (mut overrides, mut place) = (Vec::new(), None);
     for change in changes.split(" ; ").filter(|change| !["", "(none)"].contains(change)) {
         if let Some((key, line)) = change.split_once(" := ") {
@@ -29,7 +35,7 @@ fn changed(name: &str, changes: &str) -> (String, Vec<String>, Option<usize>) {
 
 fn read(name: &str, changes: &str) -> (Result<Case, String>, Option<usize>) {
     let (text, overrides, place) = changed(name, changes);
-    let case = Case::parse(&shipped(name), text.as_bytes(), &overrides);
+    let case = Case::parse(&place_of(name), text.as_bytes(), &overrides);
     (case.map_err(|errors| errors.to_string()), place)
 }
 
@@ -61,10 +67,10 @@ fn said(head: &[&str], changes: &str) -> Result<String, String> {
             let folder = folder();
             let mut words: Vec<String> = head.iter().map(|word| (*word).to_owned()).collect();
             let (mut overrides, mut files) = (Vec::new(), 0);
-            if let Some(at) = head.iter().position(|word| fs::exists(shipped(word)).unwrap()) {
+            if let Some(at) = head.iter().position(|word| fs::exists(place_of(word)).unwrap()) {
                 let (text, own, _) = changed(head[at], changes);
                 overrides = own;
-                words[at] = shipped(head[at]);
+                words[at] = place_of(head[at]);
                 if text != fs::read_to_string(&words[at]).unwrap() {
                     fs::write(folder.path().join("case.toml"), text).unwrap();
                     (words[at], files) = ("case.toml".to_owned(), 1);
