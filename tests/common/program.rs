@@ -130,8 +130,13 @@ impl Run {
 impl Answer {
     #[track_caller]
     pub fn code(self, code: i32) -> Self {
-        assert_eq!(self.code, Some(code), "{}{}", self.stdout, self.stderr);
+        assert_eq!(self.code, Some(code), "{}", self.said());
         self
+    }
+
+    /// What was printed, with errors and warnings.
+    pub fn said(&self) -> String {
+        format!("{}{}", self.stdout, self.stderr)
     }
 
     /// Holds what was printed to all of these words.
@@ -210,7 +215,7 @@ impl Index<&str> for Row {
 
 /// The rows of a table.
 pub fn rows(path: &Path) -> Vec<Row> {
-    let mut reader = csv::Reader::from_path(path).unwrap();
+    let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(path).unwrap();
     reader.deserialize().map(|row| Row(row.unwrap())).collect()
 }
 
