@@ -8,7 +8,7 @@ use crate::table_1;
 use crate::tier::sized;
 use frictionsim::case::Case;
 use frictionsim::linalg::GaussianNoise;
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
+use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::signal::reader::MeasuredMode;
 use frictionsim::study::eigenvalues::modes_below;
 use frictionsim::study::fit::fit_case;
@@ -113,16 +113,7 @@ fn intervals_of_three_parameters_hold_the_truth_in_95_of_100_noisy_spectra() {
 #[test]
 fn intervals_hold_on_an_imported_mesh() {
     let folder = folder();
-    let specification = AnnulusSpecification {
-        inner_radius: 0.0205,
-        outer_radius: 0.0905,
-        circumferential_elements: 12,
-        radial_elements: 3,
-        radial_grading: 1.0,
-        element: ElementKind::Quad8,
-        outer: BoundaryCondition::Clamped,
-        shaft: None,
-    };
+    let specification = crate::disc::annulus(ElementKind::Quad8, 12, 3);
     let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
     let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
     let bytes = msh::write_msh(&mesh, msh::FORMS[0], &numbers, |p| p);

@@ -9,7 +9,7 @@ use faer::c64;
 use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping};
 use frictionsim::frf::{Direction, FrfSystem, ReductionSettings, Terminal, reduced_response};
 use frictionsim::linalg::GaussianNoise;
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
+use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::signal::{
     Estimate, FrequencyResponse, Identification, IdentificationOptions, ResonanceNote,
     ResponseQuantity, SignalError, identify,
@@ -28,16 +28,7 @@ fn noisy(values: &[c64], relative: f64, seed: u64) -> Vec<c64> {
 
 /// Driving-point accelerance of the free polycarbonate disc at its rim, up to 10 kHz.
 fn free_disc(step_hz: f64) -> (Vec<f64>, Vec<c64>) {
-    let specification = AnnulusSpecification {
-        inner_radius: 0.0205,
-        outer_radius: 0.0905,
-        circumferential_elements: 90,
-        radial_elements: 18,
-        radial_grading: 1.0,
-        element: ElementKind::Quad4,
-        outer: BoundaryCondition::Clamped,
-        shaft: None,
-    };
+    let specification = crate::disc::annulus(ElementKind::Quad4, 90, 18);
     let material = ElasticMaterial {
         young_modulus: 2.5e9,
         poisson_ratio: 0.3805,
