@@ -1,10 +1,9 @@
 //! The reference of columns is what the program writes, and the guide's page is the reference.
 
-use assert_cmd::Command;
+use crate::program::{Run, folder, shipped};
 use frictionsim::results::reference::{markdown, reference};
 use serde_json::Value;
 use std::fs;
-use std::path::Path;
 
 /// The guide's page of columns is what the declarations say; `FRICTIONSIM_WRITE_TABLE=1` writes it.
 #[test]
@@ -41,15 +40,10 @@ fn keys(path: &str, value: &Value, found: &mut Vec<String>) {
     }
 }
 
-fn check(command: &str, input: &[&str], set: &[&str]) {
-    let folder = tempfile::tempdir().unwrap();
+fn check(command: &str, case: &str, set: &[&str]) {
+    let folder = folder();
     let out = folder.path().join("out");
-    let mut program = Command::cargo_bin("frictionsim").unwrap();
-    program.arg(command).args(input).args(["--no-figures", "--quiet", "--out"]).arg(&out);
-    for text in set {
-        program.args(["--set", text]);
-    }
-    program.assert().success();
+    Run::of(command, shipped(case)).args(&["--quiet"]).out(&out).set(set).done();
     let all = reference();
     let mut read = 0;
     for entry in fs::read_dir(&out).unwrap() {
@@ -89,53 +83,44 @@ fn check(command: &str, input: &[&str], set: &[&str]) {
     assert!(read > 0, "{command} wrote nothing that is declared");
 }
 
-fn shipped(name: &str) -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name);
-    path.to_str().unwrap().to_owned()
-}
-
 const COARSE: [&str; 2] = ["mesh.circumferential_elements=24", "mesh.radial_elements=4"];
 
 #[test]
 fn every_column_and_key_that_cea_writes_is_declared() {
     let few = ["cea.friction_coefficients=[0.0,0.15,0.3]", "cea.sensitivities=true"];
-    check("cea", &[&shipped("polycarbonate-disc.toml")], &[&COARSE[..], &few].concat());
+    check("cea", "polycarbonate-disc.toml", &[&COARSE[..], &few].concat());
 }
 
 #[test]
 fn every_key_that_mesh_writes_is_declared() {
-    check("mesh", &[&shipped("polycarbonate-disc.toml")], &COARSE);
+    check("mesh", "polycarbonate-disc.toml", &COARSE);
 }
 
 #[test]
 fn every_column_and_key_that_uncertainty_writes_is_declared() {
     let few =
         ["cea.max_frequency_hz=14000", "uncertainty.samples=16", "uncertainty.index_samples=0"];
-    check("uncertainty", &[&shipped("squeal-probability.toml")], &[&COARSE[..], &few].concat());
+    check("uncertainty", "squeal-probability.toml", &[&COARSE[..], &few].concat());
 }
 
 #[test]
 fn every_column_and_key_that_convergence_writes_is_declared() {
     let few = ["convergence={factors=[0.5,0.75,1]}", "cea.friction_coefficients=[0.0,0.3]"];
-    check("convergence", &[&shipped("polycarbonate-disc.toml")], &[&COARSE[..], &few].concat());
+    check("convergence", "polycarbonate-disc.toml", &[&COARSE[..], &few].concat());
 }
 
 #[test]
 fn every_column_and_key_that_cycle_writes_is_declared() {
     let short = ["cycle.continuation.count=3", "cycle.stability=point", "cycle.frames=1"];
     let coarse = ["mesh.circumferential_elements=90", "mesh.radial_elements=18"];
-    check("cycle", &[&shipped("limit-cycle.toml")], &[&coarse[..], &short].concat());
+    check("cycle", "limit-cycle.toml", &[&coarse[..], &short].concat());
     let few = ["contact.friction_coefficient=0.7", "cycle={}"];
-    check("cycle", &[&shipped("sliding-block.toml")], &few);
+    check("cycle", "sliding-block.toml", &few);
 }
 
 #[test]
 fn columns_lists_what_holds_a_word_and_says_where_nothing_does() {
-    let columns = |word: &str| {
-        let mut command = Command::cargo_bin("frictionsim").unwrap();
-        command.args(["columns", word]).output().unwrap()
-    };
-    let found = String::from_utf8(columns("mesh_error").stdout).unwrap();
-    assert!(found.contains("eigenvalues.csv of cea") && found.contains("mesh_error"), "{found}");
-    assert_eq!(columns("nonesuch").status.code(), Some(2));
+    let columns = |word: &str| Run::new(&["columns", word]);
+    columns("mesh_error").done().says(&["eigenvalues.csv of cea", "mesh_error"]);
+    columns("nonesuch").refused(&[]);
 }

@@ -1,7 +1,7 @@
 //! `frictionsim convergence`: observed orders against the theory of the elements, the table of a transient, and what
 //! it refuses.
 
-use assert_cmd::Command;
+use crate::program::{Run, folder};
 use serde_json::Value;
 use std::path::Path;
 
@@ -32,21 +32,14 @@ const CEA: &str = "[cea]\nmax_frequency_hz = 9000.0\nfriction_coefficients = [0.
 const TRANSIENT: &str = "[transient]\nduration = 0.002\n\
                          [transient.perturbation]\nharmonics = [2]\n";
 
-fn command(folder: &Path, text: &str, arguments: &[&str]) -> assert_cmd::assert::Assert {
+fn study(folder: &Path, text: &str) -> Run {
     std::fs::write(folder.join("disc.toml"), text).unwrap();
-    Command::cargo_bin("frictionsim")
-        .unwrap()
-        .current_dir(folder)
-        .args(["convergence", "disc.toml", "--quiet", "--out", "out"])
-        .args(arguments)
-        .assert()
+    Run::new(&["convergence", "disc.toml", "--quiet", "--force"]).within(folder).out("out")
 }
 
 /// The summary of a run that works.
-fn summary(folder: &Path, text: &str, arguments: &[&str]) -> Value {
-    let arguments = [arguments, &["--json"]].concat();
-    let run = command(folder, text, &arguments).code(0);
-    serde_json::from_slice(&run.get_output().stdout).unwrap()
+fn summary(folder: &Path, text: &str, set: &[&str]) -> Value {
+    study(folder, text).args(&["--json", "--no-figures"]).set(set).done().value()
 }
 
 fn quantities(series: &Value) -> &Vec<Value> {
@@ -64,9 +57,9 @@ fn frequency_orders(summary: &Value) -> Vec<f64> {
 
 #[test]
 fn eigenvalues_of_bilinear_elements_converge_with_order_two() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let text = format!("{DISC}{CEA}[convergence]\nfactors = [1, 2, 4]\n");
-    let summary = summary(folder.path(), &text, &["--no-figures"]);
+    let summary = summary(folder.path(), &text, &[]);
     let orders = frequency_orders(&summary);
     // n = 0 once and n = 1 in both directions.
     assert_eq!(orders.len(), 3);
@@ -79,17 +72,10 @@ fn eigenvalues_of_bilinear_elements_converge_with_order_two() {
 
 #[test]
 fn eigenvalues_of_quadratic_elements_converge_with_order_four() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let text = format!("{DISC}{CEA}[convergence]\nfactors = [1, 1.5, 2.25]\n");
-    let coarse = [
-        "--set",
-        "mesh.element=quad8",
-        "--set",
-        "mesh.circumferential_elements=16",
-        "--set",
-        "mesh.radial_elements=4",
-        "--no-figures",
-    ];
+    let coarse =
+        ["mesh.element=quad8", "mesh.circumferential_elements=16", "mesh.radial_elements=4"];
     let orders = frequency_orders(&summary(folder.path(), &text, &coarse));
     assert_eq!(orders.len(), 3);
     assert!(orders.iter().all(|order| (order - 4.0).abs() < 0.5), "{orders:?}");
@@ -97,11 +83,11 @@ fn eigenvalues_of_quadratic_elements_converge_with_order_four() {
 
 #[test]
 fn richardson_of_coarse_meshes_comes_nearer_to_a_fine_one_than_the_finest_of_them() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let text = format!("{DISC}{CEA}[convergence]\nfactors = [1, 1.5, 2.25]\n");
-    let coarse = summary(folder.path(), &text, &["--no-figures"]);
+    let coarse = summary(folder.path(), &text, &[]);
     let text = text.replace("[1, 1.5, 2.25]", "[4, 6, 8]");
-    let fine = summary(folder.path(), &text, &["--no-figures", "--force"]);
+    let fine = summary(folder.path(), &text, &[]);
     let limit = |q: &Value| q["extrapolated"].as_f64().unwrap();
     for (coarse, fine) in
         quantities(&coarse["series"][0]).iter().zip(quantities(&fine["series"][0]))
@@ -119,38 +105,32 @@ fn richardson_of_coarse_meshes_comes_nearer_to_a_fine_one_than_the_finest_of_the
 
 #[test]
 fn a_transient_is_tabled_over_mesh_and_time_step_with_figures_and_report() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let text = format!(
         "{DISC}{CEA}{TRANSIENT}[convergence]\nfactors = [0.5, 0.75, 1]\n\
          time_step_factors = [1, 0.5, 0.25]\n"
     );
-    let run = command(folder.path(), &text, &[]).code(0);
-    let printed = String::from_utf8(run.get_output().stdout.clone()).unwrap();
-    for line in ["cea over the mesh", "transient over the mesh", "transient over the time step"] {
-        assert!(printed.contains(line), "{printed}");
-    }
+    let answer = study(folder.path(), &text).done().says(&[
+        "cea over the mesh",
+        "transient over the mesh",
+        "transient over the time step",
+    ]);
+    let printed = &answer.stdout;
     // What decides is printed, the other modes are in the table.
     let left = printed.lines().find(|line| line.contains("--verbose"));
     assert!(left.is_some_and(|line| line.contains("do not grow")), "{printed}");
     assert!(printed.lines().count() < 60, "{printed}");
-    let out = folder.path().join("out");
-    for name in [
-        "convergence.csv",
-        "summary.json",
-        "report.html",
-        "figures/convergence.svg",
-        "figures/convergence.pdf",
-    ] {
-        assert!(out.join(name).exists(), "{name}");
+    let figures = ["figures/convergence.svg", "figures/convergence.pdf"];
+    for name in ["convergence.csv", "summary.json", "report.html"].iter().chain(&figures) {
+        assert!(answer.path(name).exists(), "{name}");
     }
-    let summary: Value =
-        serde_json::from_str(&std::fs::read_to_string(out.join("summary.json")).unwrap()).unwrap();
+    let summary = answer.summary();
     let [cea, mesh, step] = [0, 1, 2].map(|k| &summary["series"][k]);
     assert_eq!(cea["levels"], serde_json::json!(["18 x 4", "27 x 6", "36 x 8"]));
     let steps: Vec<f64> = serde_json::from_value(step["sizes"].clone()).unwrap();
     // A quarter of a step that divides the sample interval divides it too.
     assert!((steps[0] / steps[2] - 4.0).abs() < 1e-12, "{steps:?}");
-    let table = std::fs::read_to_string(out.join("convergence.csv")).unwrap();
+    let table = answer.text("convergence.csv");
     let rows = [cea, mesh, step].map(|s| 3 * quantities(s).len());
     assert_eq!(table.lines().count(), 1 + rows.iter().sum::<usize>());
     // The finest mesh and the longest step are the case itself: both series hold the same run.
@@ -161,7 +141,7 @@ fn a_transient_is_tabled_over_mesh_and_time_step_with_figures_and_report() {
 
 #[test]
 fn bad_factors_are_refused_with_file_line_and_key() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let lines = DISC.lines().count() + CEA.lines().count() + 2;
     for (keys, message) in [
         ("factors = [1, 2]", "convergence.factors has 2 values"),
@@ -176,25 +156,20 @@ fn bad_factors_are_refused_with_file_line_and_key() {
         ("factor = [1, 2, 3]", "unknown key `convergence.factor`"),
     ] {
         let text = format!("{DISC}{CEA}[convergence]\n{keys}\n");
-        let run = command(folder.path(), &text, &[]).code(2);
-        let stderr = String::from_utf8(run.get_output().stderr.clone()).unwrap();
-        assert!(stderr.contains(message), "{keys}: {stderr}");
-        assert!(stderr.contains(&format!("disc.toml:{lines}")), "{lines}: {stderr}");
+        let place = format!("disc.toml:{lines}");
+        study(folder.path(), &text).refused(&[message, &place]);
     }
     let rising = format!("{DISC}{TRANSIENT}[convergence]\ntime_step_factors = [1, 2, 4]\n");
-    let run = command(folder.path(), &rising, &[]).code(2);
-    let stderr = String::from_utf8(run.get_output().stderr.clone()).unwrap();
-    assert!(stderr.contains("convergence.time_step_factors must fall"), "{stderr}");
-    let none = command(folder.path(), DISC, &[]).code(2);
-    let stderr = String::from_utf8(none.get_output().stderr.clone()).unwrap();
-    assert!(stderr.contains("no [convergence] section"), "{stderr}");
+    let said = "convergence.time_step_factors must fall";
+    study(folder.path(), &rising).refused(&[said]);
+    study(folder.path(), DISC).refused(&["no [convergence] section"]);
 }
 
 #[test]
 fn limit_cycles_are_compared_harmonic_by_harmonic_and_doubtful_levels_are_named() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let text = format!("{DISC}[cycle]\nharmonics = [1, 2]\n[convergence]\nfactors = [2, 2.5, 3]\n");
-    let found = summary(folder.path(), &text, &["--no-figures"]);
+    let found = summary(folder.path(), &text, &[]);
     let series = found["series"].as_array().unwrap();
     let names: Vec<&str> = series.iter().map(|s| s["analysis"].as_str().unwrap()).collect();
     assert_eq!(names, ["cycle-n1", "cycle-n1-onset2", "cycle-n2"]);
@@ -206,7 +181,7 @@ fn limit_cycles_are_compared_harmonic_by_harmonic_and_doubtful_levels_are_named(
         assert!((finest / wanted - 1.0).abs() < 3e-3, "{finest}");
     }
     let text = text.replace("[2, 2.5, 3]", "[1, 1.5, 2]").replace("[1, 2]", "[2]");
-    let found = summary(folder.path(), &text, &["--no-figures", "--force"]);
+    let found = summary(folder.path(), &text, &[]);
     let notes = found["series"][0]["notes"].to_string();
     assert!(notes.contains("36 x 8: NOT CONFIRMED") && notes.contains("54 x 12: n = 2"), "{notes}");
     let verdict = &quantities(&found["series"][0])[0]["verdict"];

@@ -1,18 +1,18 @@
 //! Commands inside another program: side by side, interrupted, panicking.
 
+use crate::program::shipped;
 use frictionsim::app::Failure;
 use frictionsim::app::embedded::{EmbeddedFailure, EmbeddedRun};
 use std::ffi::OsString;
 use std::fs;
-use std::path::Path;
 use std::time::{Duration, Instant};
 use tempfile::{TempDir, tempdir};
 
 /// A command on a shipped case with a coarse mesh, without figures, into `name` of a folder.
 fn words(command: &str, case: &str, folder: &TempDir, name: &str, set: &[&str]) -> Vec<OsString> {
-    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(case);
     let out = folder.path().join(name);
-    let mut words: Vec<OsString> = vec![command.into(), case.into(), "--out".into(), out.into()];
+    let mut words: Vec<OsString> =
+        vec![command.into(), shipped(case).into(), "--out".into(), out.into()];
     let coarse = ["mesh.circumferential_elements=16", "mesh.radial_elements=3"];
     for change in coarse.iter().chain(set) {
         words.extend(["--set".into(), change.into()]);

@@ -3,43 +3,26 @@
 //! Independent checks: the eigenvalues of Table 1 of the paper, and spectra of known parameters with noise.
 
 use crate::msh;
+use crate::program::{Answer, Run, folder, folder_with, shipped};
 use crate::table_1;
 use crate::tier::sized;
-use assert_cmd::Command;
 use frictionsim::case::Case;
 use frictionsim::linalg::GaussianNoise;
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
+use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::signal::reader::MeasuredMode;
 use frictionsim::study::eigenvalues::modes_below;
 use frictionsim::study::fit::fit_case;
-use serde_json::Value;
-use std::path::Path;
-
-fn path(name: &str) -> std::path::PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name)
-}
 
 fn case(name: &str, set: &[&str]) -> Case {
-    let path = path(name);
-    let set: Vec<String> = set.iter().map(|text| (*text).to_owned()).collect();
-    Case::parse(path.to_str().unwrap(), &std::fs::read(&path).unwrap(), &set).unwrap()
+    let (path, set) = (shipped(name), set.iter().map(|text| (*text).to_owned()));
+    Case::parse(&path, &std::fs::read(&path).unwrap(), &set.collect::<Vec<_>>()).unwrap()
 }
 
-/// Runs `frictionsim fit` on a table; exit code, the summary, what it said.
-fn run(name: &str, table: &str, set: &[&str]) -> (i32, Value, String) {
-    let folder = tempfile::tempdir().unwrap();
-    let modes = folder.path().join("modes.csv");
-    std::fs::write(&modes, table).unwrap();
-    let mut command = Command::cargo_bin("frictionsim").unwrap();
-    command.arg("fit").arg(path(name)).arg(&modes).args(["--json", "--no-figures", "--out"]);
-    command.arg(folder.path().join("out"));
-    for text in set {
-        command.args(["--set", text]);
-    }
-    let output = command.output().unwrap();
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    let object = serde_json::from_slice(&output.stdout).unwrap_or(Value::Null);
-    (output.status.code().unwrap(), object, said)
+/// Runs `frictionsim fit` on a table.
+fn fitted(name: &str, table: &str, set: &[&str]) -> Answer {
+    let folder = folder_with(&[("modes.csv", table.as_bytes())]);
+    let run = Run::of("fit", shipped(name)).args(&["modes.csv", "--json"]).within(&folder);
+    run.out("out").set(set).end()
 }
 
 const COARSE_DISC: [&str; 2] = ["mesh.circumferential_elements=40", "mesh.radial_elements=8"];
@@ -52,8 +35,7 @@ fn disc_table() -> String {
 #[test]
 fn table_1_gives_back_the_three_values_that_the_paper_leaves_out() {
     let set = ["mesh.circumferential_elements=60", "mesh.radial_elements=12", "fit.starts=4"];
-    let (code, found, said) = run("fit-table-1.toml", &disc_table(), &set);
-    assert_eq!(code, 0, "{said}");
+    let found = fitted("fit-table-1.toml", &disc_table(), &set).code(0).value();
     let value = |key: &str| found["parameters"][key]["value"].as_f64().unwrap();
     assert!((value("material.poisson_ratio") - 0.3805).abs() < 0.001);
     let ratio = value("material.young_modulus") / 1228.0;
@@ -70,10 +52,9 @@ fn table_1_gives_back_the_three_values_that_the_paper_leaves_out() {
 
 #[test]
 fn one_support_stiffness_explains_the_four_frequencies_heard() {
-    let table = std::fs::read_to_string(path("squeal.csv")).unwrap();
+    let table = std::fs::read_to_string(shipped("squeal.csv")).unwrap();
     let set = ["mesh.circumferential_elements=60", "mesh.radial_elements=16"];
-    let (code, found, said) = run("fit-test-bench.toml", &table, &set);
-    assert_eq!(code, 0, "{said}");
+    let found = fitted("fit-test-bench.toml", &table, &set).code(0).value();
     assert!(found["worst_percent"].as_f64().unwrap() < 5.0, "{found:#}");
     let stiffness = found["parameters"]["boundaries.outer.normal_stiffness"].clone();
     // The prototype of another discretisation fits between these two.
@@ -131,17 +112,8 @@ fn intervals_of_three_parameters_hold_the_truth_in_95_of_100_noisy_spectra() {
 
 #[test]
 fn intervals_hold_on_an_imported_mesh() {
-    let folder = tempfile::tempdir().unwrap();
-    let specification = AnnulusSpecification {
-        inner_radius: 0.0205,
-        outer_radius: 0.0905,
-        circumferential_elements: 12,
-        radial_elements: 3,
-        radial_grading: 1.0,
-        element: ElementKind::Quad8,
-        outer: BoundaryCondition::Clamped,
-        shaft: None,
-    };
+    let folder = folder();
+    let specification = crate::disc::annulus(ElementKind::Quad8, 12, 3);
     let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
     let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
     let bytes = msh::write_msh(&mesh, msh::FORMS[0], &numbers, |p| p);
@@ -164,31 +136,29 @@ fn intervals_hold_on_an_imported_mesh() {
 fn what_the_data_cannot_tell_apart_is_named() {
     let set = ["fit.parameters.\"material.density\"=[1000, 1500]", "fit.starts=2"];
     let set = [COARSE_DISC.as_slice(), &set].concat();
-    let (code, _, said) = run("fit-table-1.toml", &disc_table(), &set);
-    assert_eq!(code, 1, "{said}");
-    for part in
-        ["cannot tell", "material.young_modulus", "material.density", "contact.normal_stiffness"]
-    {
-        assert!(said.contains(part), "{part}: {said}");
-    }
+    fitted("fit-table-1.toml", &disc_table(), &set).code(1).warns(&[
+        "cannot tell",
+        "material.young_modulus",
+        "material.density",
+        "contact.normal_stiffness",
+    ]);
 }
 
 #[test]
 fn a_line_that_no_mode_can_be_is_named() {
     let table = "frequency_hz,harmonic,unstable\n7660,1,1\n9900,2,1\n10500,1,1\n9000,0,1\n";
-    let (code, _, said) = run("fit-table-1.toml", table, &COARSE_DISC);
-    assert_eq!(code, 1, "{said}");
-    assert!(said.contains("line 5") && said.contains("n = 0, unstable"), "{said}");
+    let answer = fitted("fit-table-1.toml", table, &COARSE_DISC).code(1);
+    answer.warns(&["line 5", "n = 0, unstable"]);
 }
 
 #[test]
 fn more_parameters_than_data_and_bad_tables_are_refused_before_anything_runs() {
-    let (code, _, said) = run("fit-table-1.toml", "frequency_hz\n5857\n7655\n", &COARSE_DISC);
-    assert_eq!(code, 2, "{said}");
-    assert!(said.contains("3 parameters") && said.contains("2 measured"), "{said}");
-    let (code, _, said) = run("fit-table-1.toml", "frequency_hz\nabc\n", &COARSE_DISC);
-    assert_eq!(code, 2, "{said}");
-    assert!(said.contains("modes.csv:2:1"), "{said}");
+    for (rows, said) in
+        [("5857\n7655", &["3 parameters", "2 measured"][..]), ("abc", &["modes.csv:2:1"])]
+    {
+        let table = format!("frequency_hz\n{rows}\n");
+        fitted("fit-table-1.toml", &table, &COARSE_DISC).code(2).warns(said);
+    }
 }
 
 #[test]
@@ -197,39 +167,8 @@ fn a_fit_on_its_bound_says_so() {
     let set = [COARSE_DISC.as_slice(), &set].concat();
     // The disc's lowest torsion and the lowest waves around it.
     let table = "frequency_hz,harmonic\n5857,0\n7655,1\n9884,2\n11258,3\n";
-    let (code, found, said) = run("fit-table-1.toml", table, &set);
-    assert_eq!(code, 0, "{said}");
-    assert_eq!(found["parameters"]["material.young_modulus"]["at_bound"], 2.2e9);
-    assert!(said.contains("is at its bound"), "{said}");
-}
-
-#[test]
-fn bad_parameters_are_errors_of_the_case() {
-    let file = std::fs::read_to_string(path("fit-table-1.toml")).unwrap();
-    for (text, part) in [
-        ("fit.parameters.\"material.poisson_ratio\"=[0.45, 0.3]", "must rise"),
-        ("fit.parameters.\"material.poisson_ratio\"=[0.3, 0.5]", "must lie strictly between"),
-        ("fit.parameters.\"material.poisson_ratio\"=0.3", "not bounds"),
-        ("fit.parameters.\"material.formulation\"=[0, 1]", "must be a number"),
-        ("fit.parameters.\"material.poisson\"=[0, 1]", "did you mean"),
-        ("fit.parameters.\"transient.duration\"=[0, 1]", "no parameter of the model"),
-        (
-            "fit.parameters.\"contact.interference\"={ from = 0, to = 1, scale = \"log\" }",
-            "positive bounds",
-        ),
-        (
-            "fit.parameters.\"contact.interference\"={ from = 1e-6, to = 1e-4, scales = \"log\" }",
-            "unknown key `scales`",
-        ),
-        (
-            "fit.parameters.\"contact.interference\"={ from = 1e-6, to = 1e-4, also = \"mesh.element\" }",
-            "also sets",
-        ),
-        ("fit.parameters={}", "empty"),
-    ] {
-        let error = Case::parse("case.toml", file.as_bytes(), &[text.to_owned()]).unwrap_err();
-        assert!(error.to_string().contains(part), "{text}: {error}");
-    }
+    let answer = fitted("fit-table-1.toml", table, &set).code(0).warns(&["is at its bound"]);
+    assert_eq!(answer.value()["parameters"]["material.young_modulus"]["at_bound"], 2.2e9);
 }
 
 /// Two modes on springs that share one stiffness, `f = 1000 sqrt(p)` and `1000 sqrt(2.4 - p)`: two values of `p` give the same two

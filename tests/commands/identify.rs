@@ -3,13 +3,13 @@
 //! Independent checks: the responses come from the finite-element model or from modal sums written
 //! here, never from the library's own modal model.
 
+use crate::program::{Run, folder, folder_with};
 use crate::tier::sized;
-use assert_cmd::Command;
 use faer::c64;
 use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping};
 use frictionsim::frf::{Direction, FrfSystem, ReductionSettings, Terminal, reduced_response};
 use frictionsim::linalg::GaussianNoise;
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
+use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::signal::{
     Estimate, FrequencyResponse, Identification, IdentificationOptions, ResonanceNote,
     ResponseQuantity, SignalError, identify,
@@ -28,16 +28,7 @@ fn noisy(values: &[c64], relative: f64, seed: u64) -> Vec<c64> {
 
 /// Driving-point accelerance of the free polycarbonate disc at its rim, up to 10 kHz.
 fn free_disc(step_hz: f64) -> (Vec<f64>, Vec<c64>) {
-    let specification = AnnulusSpecification {
-        inner_radius: 0.0205,
-        outer_radius: 0.0905,
-        circumferential_elements: 90,
-        radial_elements: 18,
-        radial_grading: 1.0,
-        element: ElementKind::Quad4,
-        outer: BoundaryCondition::Clamped,
-        shaft: None,
-    };
+    let specification = crate::disc::annulus(ElementKind::Quad4, 90, 18);
     let material = ElasticMaterial {
         young_modulus: 2.5e9,
         poisson_ratio: 0.3805,
@@ -59,9 +50,13 @@ fn free_disc(step_hz: f64) -> (Vec<f64>, Vec<c64>) {
     (f, accelerance)
 }
 
+fn poles(response: &FrequencyResponse) -> Result<Identification, SignalError> {
+    identify(std::slice::from_ref(response), &IdentificationOptions::default())
+}
+
 fn identified(f: &[f64], h: Vec<c64>) -> Identification {
     let response = FrequencyResponse::new(f.to_vec(), h, ResponseQuantity::Accelerance).unwrap();
-    identify(std::slice::from_ref(&response), &IdentificationOptions::default()).unwrap()
+    poles(&response).unwrap()
 }
 
 #[test]
@@ -189,8 +184,7 @@ fn a_response_without_phase_gives_the_same_damping() {
     let moduli: Vec<f64> = noisy(&h, 0.005, 5).iter().map(|z| z.norm()).collect();
     let response =
         FrequencyResponse::from_magnitudes(f, &moduli, ResponseQuantity::Accelerance).unwrap();
-    let found =
-        identify(std::slice::from_ref(&response), &IdentificationOptions::default()).unwrap();
+    let found = poles(&response).unwrap();
     assert_eq!(found.modes.len(), 4);
     for (mode, (frequency, zeta, _)) in found.modes.iter().zip(SEPARATE) {
         assert!((mode.fitted.frequency_hz.value / frequency - 1.0).abs() < 1e-3);
@@ -204,12 +198,10 @@ fn identification_does_not_depend_on_the_quantity_measured() {
     let (f, h) = modal_sum(&SEPARATE, 1.0, 5000.0);
     let response =
         FrequencyResponse::new(f, noisy(&h, 0.01, 9), ResponseQuantity::Accelerance).unwrap();
-    let want =
-        identify(std::slice::from_ref(&response), &IdentificationOptions::default()).unwrap();
+    let want = poles(&response).unwrap();
     for quantity in [ResponseQuantity::Mobility, ResponseQuantity::Receptance] {
         let converted = response.converted(quantity).unwrap();
-        let got =
-            identify(std::slice::from_ref(&converted), &IdentificationOptions::default()).unwrap();
+        let got = poles(&converted).unwrap();
         for (a, b) in got.modes.iter().zip(&want.modes) {
             let miss = a.fitted.damping_factor.value - b.fitted.damping_factor.value;
             // Same data, same relative noise; the additive part of the noise model may differ.
@@ -247,20 +239,18 @@ fn two_responses_of_one_body_have_common_poles_with_smaller_errors() {
 fn coarse_lines_and_flat_noise_are_refused_with_the_reason() {
     let (f, h) = modal_sum(&SEPARATE, 24.0, 5000.0);
     let response = FrequencyResponse::new(f, h, ResponseQuantity::Accelerance).unwrap();
-    let error =
-        identify(std::slice::from_ref(&response), &IdentificationOptions::default()).unwrap_err();
+    let error = poles(&response).unwrap_err();
     assert!(matches!(error, SignalError::Unresolved { .. }), "{error}");
     let f: Vec<f64> = (1..2000).map(f64::from).collect();
     let flat = noisy(&vec![c64::new(1.0, 0.0); f.len()], 0.02, 1);
     let response = FrequencyResponse::new(f, flat, ResponseQuantity::Accelerance).unwrap();
-    let error =
-        identify(std::slice::from_ref(&response), &IdentificationOptions::default()).unwrap_err();
+    let error = poles(&response).unwrap_err();
     assert!(matches!(error, SignalError::NoResonance { .. }), "{error}");
 }
 
 #[test]
 fn the_command_prints_both_estimators_and_a_block_that_parses() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let table = folder.path().join("hammer.csv");
     let (f, h) = modal_sum(&SEPARATE, 1.0, 5000.0);
     let rows: String = f
@@ -269,14 +259,9 @@ fn the_command_prints_both_estimators_and_a_block_that_parses() {
         .map(|(f, h)| format!("{f};{};{}\r\n", h.re, h.im).replace('.', ","))
         .collect();
     std::fs::write(&table, format!("Frequency [Hz];Real;Imag\r\n{rows}")).unwrap();
-    let run = |more: &[&str]| {
-        let mut command = Command::cargo_bin("frictionsim").unwrap();
-        command.current_dir(folder.path()).arg("identify").arg(&table).args(more);
-        command.output().unwrap()
-    };
-    let output = run(&["--json", "--quiet"]);
-    assert!(output.status.success(), "{output:?}");
-    let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let run =
+        |more: &[&str]| Run::new(&["identify", "hammer.csv"]).within(&folder).args(more).done();
+    let summary = run(&["--json", "--quiet"]).value();
     for key in ["mass_coefficient", "stiffness_coefficient"] {
         let part = |name: &str| summary[key][name].as_f64().unwrap();
         assert!(part("low") <= part("value") && part("value") <= part("high"));
@@ -289,23 +274,11 @@ fn the_command_prints_both_estimators_and_a_block_that_parses() {
     let parsed: toml::Table = block.parse().unwrap();
     assert!(parsed["damping"]["mass_coefficient"].is_float());
     assert!(results.join("figures/identification.png").exists());
-    let text = String::from_utf8(run(&[]).stdout).unwrap();
-    assert!(text.contains("half-power") && text.contains("[damping]"), "{text}");
+    run(&[]).says(&["half-power", "[damping]"]);
 }
 
 #[test]
 fn a_bad_table_ends_the_command_with_code_2_and_the_place() {
-    let folder = tempfile::tempdir().unwrap();
-    let table = folder.path().join("bad.csv");
-    std::fs::write(&table, "frequency_hz,real,imag\n1,2,3\n2,nan,3\n").unwrap();
-    let output = Command::cargo_bin("frictionsim")
-        .unwrap()
-        .current_dir(folder.path())
-        .arg("identify")
-        .arg(&table)
-        .output()
-        .unwrap();
-    assert_eq!(output.status.code(), Some(2));
-    let message = String::from_utf8(output.stderr).unwrap();
-    assert!(message.contains("bad.csv:3:3: `nan`"), "{message}");
+    let folder = folder_with(&[("bad.csv", b"frequency_hz,real,imag\n1,2,3\n2,nan,3\n")]);
+    Run::new(&["identify", "bad.csv"]).within(&folder).refused(&["bad.csv:3:3: `nan`"]);
 }

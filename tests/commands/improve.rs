@@ -1,32 +1,21 @@
 //! `frictionsim improve` from end to end, and the modifications that it runs again.
 
 use crate::coarse_disc::coarse_disc;
-use assert_cmd::Command;
-use serde_json::Value;
+use crate::program::{Run, folder};
 use std::path::Path;
 
 /// The paper's disc on a coarse mesh, without the effects of prestress that a change of the mesh would move.
 const CEA: &str = "[cea]\nmodes = 10\ngeometric_stiffness = false";
 
-fn run(folder: &Path, command: &str, set: &[&str]) -> std::process::Output {
+fn run(folder: &Path, command: &str, set: &[&str]) -> Run {
     std::fs::write(folder.join("case.toml"), coarse_disc(CEA)).unwrap();
-    let mut program = Command::cargo_bin("frictionsim").unwrap();
-    program.current_dir(folder);
-    program.args([command, "case.toml", "--out", "out", "--force"]);
-    for text in set {
-        program.args(["--set", text]);
-    }
-    program.output().unwrap()
-}
-
-fn summary(folder: &Path) -> Value {
-    serde_json::from_slice(&std::fs::read(folder.join("out/summary.json")).unwrap()).unwrap()
+    Run::new(&[command, "case.toml", "--force"]).within(folder).out("out").set(set)
 }
 
 /// What is predicted from all modes together is what the run with the modification gives; a hole that is moved silences a mode.
 #[test]
 fn predicted_candidates_are_those_that_run_again() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let set = [
         "improve.modifications=[\"mass\", \"dashpot\", \"damping\", \"removal\", \"offset\"]",
         "improve.min_frequency_hz=10000",
@@ -35,17 +24,15 @@ fn predicted_candidates_are_those_that_run_again() {
         "improve.confirm=5",
         "improve.forbidden=[\"outer\"]",
     ];
-    let output = run(folder.path(), "improve", &set);
-    let said = String::from_utf8_lossy(&output.stdout);
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{errors}");
-    let summary = summary(folder.path());
+    let answer = run(folder.path(), "improve", &set).done();
+    let (summary, said) = (answer.summary(), &answer.stdout);
     let candidates = summary["candidates"].as_array().unwrap();
     assert!(candidates.len() >= 3, "{said}");
     let base = summary["base"]["growth_rate_per_s"].as_f64().unwrap();
     assert!(base > 0.0);
     // A hole that is moved so far is no small change: its prediction only ranks it.
-    let is_small = |own: &&Value| own["confirmed"].is_object() && own["kind"] != "offset";
+    let is_small =
+        |own: &&serde_json::Value| own["confirmed"].is_object() && own["kind"] != "offset";
     assert!(candidates.iter().any(|own| own["kind"] == "offset"), "{said}");
     for own in candidates.iter().filter(is_small) {
         let [predicted, confirmed] = ["predicted", "confirmed"]
@@ -56,13 +43,12 @@ fn predicted_candidates_are_those_that_run_again() {
             "{own}"
         );
     }
-    let table = std::fs::read_to_string(folder.path().join("out/candidates.csv")).unwrap();
-    assert_eq!(table.lines().count(), 1 + candidates.len());
+    assert_eq!(answer.text("candidates.csv").lines().count(), 1 + candidates.len());
     for file in ["improve.vtu", "improved.toml", "report.html"] {
-        assert!(folder.path().join("out").join(file).exists(), "{file}");
+        assert!(answer.path(file).exists(), "{file}");
     }
     // The block is a case key for each line.
-    let best = std::fs::read_to_string(folder.path().join("out/improved.toml")).unwrap();
+    let best = answer.text("improved.toml");
     let keys = best.lines().filter(|line| !line.starts_with('#'));
     assert!(
         keys.clone().count() > 0
@@ -73,7 +59,7 @@ fn predicted_candidates_are_those_that_run_again() {
 /// Sums over parts hold with modifications: masses, springs and dashpots at nodes, patches, less material.
 #[test]
 fn contributions_of_a_modified_disc_are_its_growth_rates() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let set = [
         "modifications.a.at={ radius = 0.06, angle_deg = 30 }",
         "modifications.a.mass=0.01",
@@ -89,15 +75,9 @@ fn contributions_of_a_modified_disc_are_its_growth_rates() {
         "modifications.d.remove=true",
         "cea.friction_coefficients=[0.0, 0.3]",
     ];
-    let output = run(folder.path(), "cea", &set);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let table = |name: &str| -> Vec<std::collections::BTreeMap<String, String>> {
-        let path = folder.path().join("out").join(name);
-        let mut reader = csv::Reader::from_path(path).unwrap();
-        reader.deserialize().map(Result::unwrap).collect()
-    };
-    let rows = table("contributions.csv");
-    for mode in table("eigenvalues.csv") {
+    let answer = run(folder.path(), "cea", &set).done();
+    let rows = answer.rows("contributions.csv");
+    for mode in answer.rows("eigenvalues.csv") {
         let own = rows.iter().filter(|row| {
             row["mode"] == mode["mode"]
                 && row["friction_coefficient"] == mode["friction_coefficient"]
@@ -120,7 +100,7 @@ fn contributions_of_a_modified_disc_are_its_growth_rates() {
 
 #[test]
 fn what_cannot_be_improved_is_refused_with_the_remedy() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     for (command, set, said) in [
         ("improve", "contact.friction_coefficient=0.05", "there is nothing to improve"),
         ("improve", "improve.forbidden=rim", "it has \"disc\", \"inner\", \"outer\""),
@@ -134,11 +114,8 @@ fn what_cannot_be_improved_is_refused_with_the_remedy() {
         ("cea", "material.loss_factor=0.01", ""),
         ("improve", "material.loss_factor=0.01", "conjugate pairs"),
     ] {
-        let output = run(folder.path(), command, &[set]);
-        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.success(), said.is_empty(), "{set}: {errors}");
-        assert!(errors.contains(said), "{set}: {errors}");
-        assert!(said.is_empty() || output.status.code() == Some(2), "{set}: {errors}");
+        let answer = run(folder.path(), command, &[set]).end().warns(&[said]);
+        assert_eq!(answer.code, Some(if said.is_empty() { 0 } else { 2 }), "{set}");
     }
 }
 
@@ -147,7 +124,7 @@ fn what_cannot_be_improved_is_refused_with_the_remedy() {
 /// friction.
 #[test]
 fn what_is_attached_to_a_node_is_predicted_however_large() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let set = [
         "improve.modifications=[\"mass\", \"spring\"]",
         "improve.mass=0.003",
@@ -155,10 +132,7 @@ fn what_is_attached_to_a_node_is_predicted_however_large() {
         "improve.candidates=1",
         "improve.confirm=2",
     ];
-    let output = run(folder.path(), "improve", &set);
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{errors}");
-    let summary = summary(folder.path());
+    let summary = run(folder.path(), "improve", &set).done().summary();
     let base = summary["base"]["growth_rate_per_s"].as_f64().unwrap();
     let candidates = summary["candidates"].as_array().unwrap();
     assert_eq!(candidates.len(), 2);

@@ -1,11 +1,8 @@
 //! What is said of bad meshes, bad names and dangerous files, and that nothing of the user's is replaced.
 
-use assert_cmd::Command;
-use predicates::prelude::*;
-use predicates::str::contains;
+use crate::program::{Answer, Run, folder, folder_with, has};
 use std::fmt::Write as _;
 use std::fs;
-use std::path::Path;
 use tempfile::TempDir;
 
 /// A block of 4 x 4 mm on a plane, its mesh cut along the middle from `crack` on, clamped at the top.
@@ -76,76 +73,53 @@ impl Block {
     }
 }
 
-const CASE: &str = r#"title = "block"
-[mesh]
-file = "block.msh"
-[material]
-young_modulus = 2.1e11
-poisson_ratio = 0.3
-density = 7800.0
-[boundaries.top]
-condition = "clamped"
-[contact]
-boundary = "contact"
-counterface = "plane"
-direction = [1.0, 0.0]
-speed = 1.0
-friction_coefficient = 0.3
-interference = 1e-6
-[cea]
-modes = 2
-"#;
+const CASE: &str = include_str!("refused/block.toml");
+const MESH: &str = include_str!("refused/block.msh");
 
-/// A folder with `block.msh` and `block.toml`.
-fn folder(mesh: &str, case: &str) -> TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("block.msh"), mesh).unwrap();
-    fs::write(folder.path().join("block.toml"), case).unwrap();
-    folder
+/// The program in a folder with `block.msh` and `block.toml`.
+fn block_in(mesh: &str, case: &str) -> TempDir {
+    folder_with(&[("block.msh", mesh.as_bytes()), ("block.toml", case.as_bytes())])
 }
 
-fn frictionsim(folder: &TempDir, arguments: &[&str]) -> Command {
-    let mut command = Command::cargo_bin("frictionsim").unwrap();
-    command.current_dir(folder.path()).args(arguments);
-    command
+fn run(folder: &TempDir, words: &[&str]) -> Run {
+    Run::new(words).within(folder)
 }
 
-fn check(folder: &TempDir) -> assert_cmd::assert::Assert {
-    frictionsim(folder, &["check", "block.toml"]).assert()
+/// What `check` says of the block.
+fn on_block(mesh: &str, case: &str) -> Answer {
+    run(&block_in(mesh, case), &["check", "block.toml"]).end()
 }
 
 #[test]
 fn nodes_that_coincide_without_being_joined_are_counted_and_located() {
-    let whole = folder(&Block::new(SIDE + 1).text("block"), CASE);
-    check(&whole).code(0).stdout(contains("another one lies").not());
+    let whole = Block::new(SIDE + 1).text("block");
+    assert_eq!(whole, MESH);
+    on_block(&whole, CASE).code(0).says(&["!another one lies"]);
     // Columns 1 to 4 are doubled; 4 edges on either side of the crack are free, and 4 + 4 of the two vertical sides.
-    let cracked = folder(&Block::new(1).text("block"), CASE);
-    check(&cracked)
-        .code(0)
-        .stdout(contains("4 nodes lie where another one lies"))
-        .stdout(contains("12 and 26 at (0.001000, 0.002000) m"))
-        .stdout(contains("16 free edges are in no physical curve"));
+    on_block(&Block::new(1).text("block"), CASE).code(0).says(&[
+        "4 nodes lie where another one lies",
+        "12 and 26 at (0.001000, 0.002000) m",
+        "16 free edges are in no physical curve",
+    ]);
 }
 
 #[test]
 fn bodies_that_part_are_told_from_those_that_were_not_merged() {
-    let parted = folder(&Block::new(0).text("block"), CASE);
-    check(&parted)
-        .code(2)
-        .stderr(contains("a part of the body that touches no other"))
-        .stderr(contains("5 nodes lie where another one lies"))
-        .stderr(contains("merge the parts"));
+    on_block(&Block::new(0).text("block"), CASE).code(2).warns(&[
+        "a part of the body that touches no other",
+        "5 nodes lie where another one lies",
+        "merge the parts",
+    ]);
 }
 
 #[test]
 fn elements_given_twice_are_refused_with_their_numbers_and_place() {
     let mut block = Block::new(SIDE + 1);
-    let again = block.quads[5];
+    let [a, b, c, d] = block.quads[5];
     // The same element from another corner on.
-    block.quads.push([again[2], again[3], again[0], again[1]]);
-    check(&folder(&block.text("block"), CASE))
-        .code(2)
-        .stderr(contains("1 element is given twice (elements 14 and 25 at"));
+    block.quads.push([c, d, a, b]);
+    let said = "1 element is given twice (elements 14 and 25 at";
+    on_block(&block.text("block"), CASE).code(2).warns(&[said]);
 }
 
 #[test]
@@ -153,78 +127,14 @@ fn an_element_with_a_small_jacobian_is_said_with_its_place() {
     let mut block = Block::new(SIDE + 1);
     // The inner node of the lower left element, all but on its diagonal.
     block.points[6] = [0.51e-3, 0.51e-3];
-    check(&folder(&block.text("block"), CASE))
-        .code(0)
-        .stdout(contains("that of nodes 1, 2, 7, 6 at (0.000"));
+    on_block(&block.text("block"), CASE).code(0).says(&["that of nodes 1, 2, 7, 6 at (0.000"]);
 }
 
 #[test]
-fn a_plane_that_slides_into_the_face_or_away_from_it_is_refused_at_its_direction() {
-    let mesh = Block::new(SIDE + 1).text("block");
-    for direction in ["[0.0, 1.0]", "[0.0, -1.0]", "[1.0, 0.5]", "[-1.0, 0.0]"] {
-        let case = CASE.replace("direction = [1.0, 0.0]", &format!("direction = {direction}"));
-        check(&folder(&mesh, &case))
-            .code(2)
-            .stderr(contains(format!("direction = {direction}")))
-            .stderr(contains("must lie along the face"));
-    }
-    let slightly = CASE.replace("direction = [1.0, 0.0]", "direction = [1.0, 0.01]");
-    check(&folder(&mesh, &slightly)).code(0);
-}
-
-#[test]
-fn errors_of_names_stand_at_the_key_that_is_wrong() {
-    let mesh = Block::new(SIDE + 1).text("block");
-    let round = "counterface = \"cylinder\"\nrotation_speed_rpm = 60.0\ncenter = [0.0, -0.1]\n";
-    for (from, to, line, said) in [
-        (
-            "boundary = \"contact\"",
-            "boundary = \"contct\"",
-            "boundary = \"contct\"",
-            "did you mean \"contact\"?",
-        ),
-        ("[boundaries.top]", "[boundaries.tpo]", "[boundaries.tpo]", "did you mean \"top\"?"),
-        (
-            "counterface = \"plane\"",
-            "counterface = \"body\"\ncounter_boundary = \"tops\"",
-            "counter_boundary = \"tops\"",
-            "did you mean \"top\"?",
-        ),
-        (
-            "[boundaries.top]",
-            "[materials.blok]\nyoung_modulus = 1e9\npoisson_ratio = 0.3\ndensity = 1000.0\n[boundaries.top]",
-            "[materials.blok]",
-            "did you mean \"block\"?",
-        ),
-        (
-            "counterface = \"plane\"\ndirection = [1.0, 0.0]\nspeed = 1.0\n",
-            round,
-            "center = [0.0, -0.1]",
-            "is not a circle",
-        ),
-    ] {
-        let text = CASE.replace(from, to);
-        let number = 1 + text.lines().position(|found| found == line).unwrap();
-        check(&folder(&mesh, &text))
-            .code(2)
-            .stderr(contains(format!("block.toml:{number}:")))
-            .stderr(contains(line))
-            .stderr(contains(said));
-    }
-}
-
-#[test]
-fn a_mesh_in_millimetres_is_told_by_its_scale_and_one_beyond_all_lengths_refused() {
-    let mesh = Block::new(SIDE + 1).text("block");
-    let wide = CASE.replace("file = \"block.msh\"", "file = \"block.msh\"\nscale = 1e4");
-    check(&folder(&mesh, &wide))
-        .code(0)
-        .stdout(contains("the mesh is 40.0000 m wide"))
-        .stdout(contains("mesh.scale"))
-        .stdout(contains("geometry.inner_radius").not());
-    let far = mesh.replace("\n25 0.004 0.004 0\n", "\n25 1e300 0.004 0\n");
-    assert_ne!(far, mesh);
-    check(&folder(&far, CASE)).code(2).stderr(contains("node 25 lies at [1e300"));
+fn a_node_beyond_all_lengths_is_refused() {
+    let far = MESH.replace("\n25 0.004 0.004 0\n", "\n25 1e300 0.004 0\n");
+    assert_ne!(far, MESH);
+    on_block(&far, CASE).code(2).warns(&["node 25 lies at [1e300"]);
 }
 
 #[test]
@@ -235,33 +145,27 @@ fn meshes_of_other_programs_are_told_by_their_content_whatever_their_name() {
         ("    -1\n  2411\n", "it is truncated (-1 expected)"),
         ("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n", "meshio leaves such files"),
     ] {
-        check(&folder(text, CASE)).code(2).stderr(contains(said));
+        on_block(text, CASE).code(2).warns(&[said]);
     }
 }
 
 #[test]
 fn long_names_and_many_unknown_keys_are_bounded_in_time_and_in_what_is_said() {
     let mesh = Block::new(SIDE + 1).text(&"b".repeat(1 << 20));
-    check(&folder(&mesh, CASE))
-        .code(2)
-        .stderr(contains("the name of a physical group has 1048576 bytes"));
+    on_block(&mesh, CASE).code(2).warns(&["the name of a physical group has 1048576 bytes"]);
 
-    let mesh = Block::new(SIDE + 1).text("block");
     let mut case = CASE.to_owned();
     for i in 0..30_000 {
         writeln!(case, "unknown_key_{i} = 1").unwrap();
     }
     let start = std::time::Instant::now();
-    let assert = check(&folder(&mesh, &case)).code(2);
-    let said = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
+    let said = on_block(MESH, &case).code(2).warns(&["unknown key"]).stderr;
     assert!(said.len() < 10_000, "{} bytes", said.len());
-    assert!(said.contains("unknown key"), "{said}");
     // 52 s before; the limit leaves room for a busy machine.
     assert!(start.elapsed().as_secs() < 20);
 
     let long = format!("{CASE}{} = 1\n", "k".repeat(1 << 20));
-    let assert = check(&folder(&mesh, &long)).code(2);
-    assert!(assert.get_output().stderr.len() < 10_000);
+    assert!(on_block(MESH, &long).code(2).stderr.len() < 10_000);
 }
 
 /// A sine of 1 kHz, 1,000 samples at 20 kHz.
@@ -276,15 +180,10 @@ fn tone(channel: &str) -> String {
 
 #[test]
 fn a_measurement_is_never_replaced_by_its_own_sound() {
-    let folder = folder("", "");
+    let folder = folder_with(&[("tone.csv", tone("a").as_bytes())]);
     let at = |name: &str| folder.path().join(name);
-    fs::write(at("tone.csv"), tone("a")).unwrap();
-    let run = |arguments: &[&str]| {
-        let mut all = vec!["signal", "--no-figures", "-q"];
-        all.extend(arguments);
-        frictionsim(&folder, &all).assert()
-    };
-    run(&["tone.csv", "--wav", "tone.wav"]).code(0);
+    let signal = |words: &[&str]| run(&folder, &["signal", "--no-figures", "-q"]).args(words);
+    signal(&["tone.csv", "--wav", "tone.wav"]).done();
     let sound = fs::read(at("tone.wav")).unwrap();
     #[cfg(unix)]
     {
@@ -293,17 +192,16 @@ fn a_measurement_is_never_replaced_by_its_own_sound() {
         assert_eq!(mode("tone.wav"), mode("tone.csv"), "as any file, under the umask");
     }
     // The sound is now the measurement; neither it nor another file goes.
-    let refused = run(&["tone.wav", "--wav", "tone.wav", "--force", "-o", "s"]);
-    refused.code(2).stderr(contains("is the measurement itself"));
+    signal(&["tone.wav", "--wav", "tone.wav", "--force", "-o", "s"])
+        .refused(&["is the measurement itself"]);
     fs::write(at("other.wav"), "kept").unwrap();
     for option in ["--wav", "--uff"] {
-        let refused = run(&["tone.csv", option, "other.wav", "-o", "t"]);
-        refused.code(2).stderr(contains(option)).stderr(contains("the file exists"));
+        signal(&["tone.csv", option, "other.wav", "-o", "t"]).refused(&[option, "the file exists"]);
         assert!(!at("t").exists(), "nothing is done before");
     }
     assert_eq!(fs::read(at("tone.wav")).unwrap(), sound);
     assert_eq!(fs::read(at("other.wav")).unwrap(), b"kept");
-    run(&["tone.csv", "--wav", "other.wav", "--force", "-o", "t"]).code(0);
+    signal(&["tone.csv", "--wav", "other.wav", "--force", "-o", "t"]).done();
     assert_eq!(fs::read(at("other.wav")).unwrap(), sound);
 }
 
@@ -317,8 +215,7 @@ fn acts(text: &str) -> bool {
 fn nothing_from_a_file_or_an_option_acts_on_the_terminal() {
     const EVIL: &str = "x\u{1b}]0;owned\u{7}\u{9b}31m\u{202e}y";
     let title = "title = \"x\\u001b]0;owned\\u0007\\u009b31m\\u202ey\"";
-    let mesh = Block::new(SIDE + 1).text("block");
-    let folder = folder(&mesh, &CASE.replace("title = \"block\"", title));
+    let folder = block_in(MESH, &CASE.replace("title = \"block\"", title));
     fs::write(folder.path().join("tone.csv"), tone(EVIL)).unwrap();
     fs::write(folder.path().join(format!("{EVIL}.toml")), "a = 1").unwrap();
     let file = format!("{EVIL}.toml");
@@ -340,21 +237,18 @@ fn nothing_from_a_file_or_an_option_acts_on_the_terminal() {
         &["compare", EVIL, EVIL],
         &["init", EVIL],
     ] {
-        let output = frictionsim(&folder, arguments).output().unwrap();
-        for text in [&output.stdout, &output.stderr] {
-            let text = String::from_utf8_lossy(text);
-            assert!(!acts(&text), "{arguments:?}: {text:?}");
+        let answer = run(&folder, arguments).end();
+        for text in [&answer.stdout, &answer.stderr] {
+            assert!(!acts(text), "{arguments:?}: {text:?}");
         }
     }
-    let json = frictionsim(&folder, &["check", "block.toml", "--json"]).output().unwrap();
-    let object: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
+    let object = run(&folder, &["check", "block.toml", "--json"]).end().value();
     assert_eq!(object["cases"][0]["title"], EVIL);
 }
 
 #[test]
 fn results_outlive_a_forced_run_that_fails_and_are_replaced_by_one_that_ends() {
-    let mesh = Block::new(SIDE + 1).text("block");
-    let folder = folder(&mesh, CASE);
+    let folder = block_in(MESH, CASE);
     let listing = || {
         let entries = fs::read_dir(folder.path().join("out")).unwrap();
         let mut names: Vec<_> =
@@ -362,33 +256,24 @@ fn results_outlive_a_forced_run_that_fails_and_are_replaced_by_one_that_ends() {
         names.sort();
         names
     };
-    let out = ["--no-figures", "-q", "-o", "out"];
-    let run = |arguments: &[&str]| frictionsim(&folder, &[arguments, &out].concat()).assert();
-    run(&["mesh", "block.toml"]).code(0);
-    let before = listing();
-    let bytes = fs::read(folder.path().join("out/summary.json")).unwrap();
+    let onto = |command: &str, more: &[&str]| {
+        Run::of(command, "block.toml").within(&folder).out("out").args(&["-q"]).args(more)
+    };
+    let first = onto("mesh", &[]).done();
+    let (before, bytes) = (listing(), first.bytes("summary.json"));
 
     // Refused: another command without --force; nothing is left behind.
-    run(&["cea", "block.toml"]).code(2).stderr(contains("--force"));
+    onto("cea", &[]).refused(&["--force"]);
     assert_eq!(listing(), before);
     // Fails while it runs: the transient blows up.
-    let blows_up = [
-        "transient",
-        "block.toml",
-        "--force",
-        "--set",
-        "transient.duration=1e-3",
-        "--set",
-        "transient.time_step=1e-6",
-        "--set",
-        "output.sample_interval=1e-5",
-    ];
-    run(&blows_up).code(predicates::ord::gt(0));
+    let blows_up =
+        ["transient.duration=1e-3", "transient.time_step=1e-6", "output.sample_interval=1e-5"];
+    assert!(onto("transient", &["--force"]).set(&blows_up).end().code > Some(0));
     let kept: Vec<String> = listing().into_iter().filter(|name| name != ".replacing").collect();
     assert_eq!(kept, before);
-    assert_eq!(fs::read(folder.path().join("out/summary.json")).unwrap(), bytes);
+    assert_eq!(first.bytes("summary.json"), bytes);
     // One that ends takes the place of all of it.
-    run(&["cea", "block.toml", "--force"]).code(0);
+    onto("cea", &["--force"]).done();
     let after = listing();
     assert!(after.contains(&"eigenvalues.csv".to_owned()), "{after:?}");
     assert!(!after.contains(&".replacing".to_owned()), "{after:?}");
@@ -396,52 +281,46 @@ fn results_outlive_a_forced_run_that_fails_and_are_replaced_by_one_that_ends() {
 
 #[test]
 fn an_input_in_the_output_folder_is_not_replaced() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let inside = folder.path().join("in");
     fs::create_dir(&inside).unwrap();
     fs::write(inside.join("peaks.csv"), tone("a")).unwrap();
-    let arguments = ["signal", "in/peaks.csv", "-o", "in", "--force", "--no-figures"];
-    frictionsim(&folder, &arguments).assert().code(2).stderr(contains("which is the input"));
+    let signal = Run::of("signal", "in/peaks.csv").within(&folder).out("in").args(&["--force"]);
+    signal.refused(&["which is the input"]);
     assert_eq!(fs::read_to_string(inside.join("peaks.csv")).unwrap(), tone("a"));
     assert_eq!(fs::read_dir(&inside).unwrap().count(), 1, "no lock is left");
 }
 
 #[test]
 fn files_of_others_that_look_unfinished_stay() {
-    let folder = folder(&Block::new(SIDE + 1).text("block"), CASE);
+    let folder = block_in(MESH, CASE);
     let out = folder.path().join("out");
     fs::create_dir(&out).unwrap();
     for name in [".writing-report-of-mine", ".writing-abc"] {
         fs::write(out.join(name), "mine").unwrap();
     }
-    let arguments = ["mesh", "block.toml", "-o", "out", "--force", "--no-figures", "-q"];
-    frictionsim(&folder, &arguments).assert().code(0);
-    frictionsim(&folder, &arguments).assert().code(0);
+    for _ in 0..2 {
+        Run::of("mesh", "block.toml").within(&folder).out("out").args(&["--force", "-q"]).done();
+    }
     assert!(out.join(".writing-report-of-mine").exists() && out.join(".writing-abc").exists());
 }
 
 #[cfg(target_os = "linux")]
 #[test]
 fn a_file_size_limit_of_the_shell_is_a_full_disk() {
-    let folder = folder(&Block::new(SIDE + 1).text("block"), CASE);
-    let program = assert_cmd::cargo::cargo_bin("frictionsim");
-    let line = format!("ulimit -f 1; {} mesh block.toml --no-figures -q -o out", program.display());
-    Command::new("sh")
-        .current_dir(folder.path())
-        .args(["-c", &line])
-        .assert()
-        .code(1)
-        .stderr(contains("file size limit"));
+    let folder = block_in(MESH, CASE);
+    let program = env!("CARGO_BIN_EXE_frictionsim");
+    let line = format!("ulimit -f 1; {program} mesh block.toml --no-figures -q -o out");
+    let mut shell = std::process::Command::new("sh");
+    let output = shell.current_dir(folder.path()).args(["-c", &line]).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    has(&String::from_utf8(output.stderr).unwrap(), &["file size limit"]);
 }
 
 #[cfg(unix)]
 #[test]
 fn a_case_without_end_is_refused_at_the_limit() {
-    let folder = tempfile::tempdir().unwrap();
-    frictionsim(&folder, &["check", "/dev/zero"])
-        .assert()
-        .code(2)
-        .stderr(contains("larger than 16 MiB"));
+    run(&folder(), &["check", "/dev/zero"]).refused(&["larger than 16 MiB"]);
 }
 
 /// A MATLAB file of one compressed variable: `count` bytes that are all zero.
@@ -470,15 +349,10 @@ fn bomb(count: u32) -> Vec<u8> {
 
 #[test]
 fn a_small_file_that_inflates_to_a_huge_one_is_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    let path: &Path = &folder.path().join("bomb.mat");
-    fs::write(path, bomb(100 << 20)).unwrap();
-    assert!(fs::metadata(path).unwrap().len() < 1 << 20);
-    frictionsim(&folder, &["signal", "bomb.mat", "--rate", "1000", "--no-figures"])
-        .assert()
-        .code(2)
-        .stderr(contains("MATLAB file"))
-        .stderr(contains("million numbers, the limit"));
+    let bytes = bomb(100 << 20);
+    assert!(bytes.len() < 1 << 20);
+    run(&folder_with(&[("bomb.mat", &bytes)]), &["signal", "bomb.mat", "--rate", "1000"])
+        .refused(&["MATLAB file", "million numbers, the limit"]);
 }
 
 #[test]
@@ -486,7 +360,7 @@ fn a_run_that_was_interrupted_while_it_replaces_others_goes_on_where_it_was() {
     use frictionsim::results::{Manifest, OutputFolder, Replace};
     let manifest =
         |command: &str| Manifest { case_hash: command.to_owned(), ..Manifest::new(command) };
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let at = |name: &str| folder.path().join(name);
     let open = |command, replace| OutputFolder::open(folder.path(), &manifest(command), replace);
     let old = open("cea", Replace::SameCase).unwrap();
@@ -513,53 +387,19 @@ fn a_run_that_was_interrupted_while_it_replaces_others_goes_on_where_it_was() {
 }
 
 #[test]
-fn answers_to_common_slips_name_what_was_meant() {
-    let mesh = Block::new(SIDE + 1).text("block");
-    let folder = folder(&mesh, CASE);
-    fs::write(folder.path().join("table.toml"), "frequency_hz,real\n1,2\n3,4\n").unwrap();
-    fs::write(folder.path().join("mesh.toml"), &mesh).unwrap();
-    fs::write(folder.path().join("comma.toml"), "[contact]\nfriction_coefficient = 0,3\n").unwrap();
-    fs::write(folder.path().join("disc.csv"), &mesh).unwrap();
-    let frf = "frf.frequencies_hz={from=1,to=10,step=1}";
-    let continuation = "cycle.continuation={key=\"contact.friction\",from=0.1,to=0.2}";
-    for (arguments, said) in [
-        (&["check", "table.toml"][..], "this is a table of values, not a case"),
-        (
-            &["cea", "block.toml", "contact.friction_coefficient=0.2"],
-            "is changed by --set 'contact.friction_coefficient=0.2'",
-        ),
-        (&["check", "mesh.toml"], "this is a Gmsh mesh"),
-        (&["check", "comma.toml"], "decimal point, not a comma: 0.3"),
-        (&["signal", "disc.csv"], "this is a Gmsh mesh, not a measurement"),
-        (
-            &["check", "block.toml", "--set", "output.probes=[{r=0.02,angle=90}]"],
-            "did you mean `radius`?",
-        ),
-        (
-            &["check", "block.toml", "--set", "output.probes=[{r=0.02,angle=90}]"],
-            "did you mean `angle_deg`?",
-        ),
-        (
-            &["check", "block.toml", "--set", frf, "--set", "frf.force_node=1"],
-            "did you mean `count`?",
-        ),
-        (
-            &["check", "block.toml", "--set", continuation],
-            "did you mean \"contact.friction_coefficient\"?",
-        ),
-        (
-            &[
-                "check",
-                "block.toml",
-                "--set",
-                "uncertainty.distributions={\"material.youngs_modulus\"={uniform=[1,2]}}",
-            ],
-            "\"material.youngs_modulus\" in uncertainty.distributions cannot be varied",
-        ),
-        (&["eigen", "block.toml"], "`frictionsim cea`"),
+fn files_of_another_kind_are_named() {
+    let folder = folder_with(&[
+        ("table.toml", b"frequency_hz,real\n1,2\n3,4\n"),
+        ("mesh.toml", MESH.as_bytes()),
+        ("comma.toml", b"[contact]\nfriction_coefficient = 0,3\n"),
+        ("disc.csv", MESH.as_bytes()),
+    ]);
+    for (command, name, said) in [
+        ("check", "table.toml", "this is a table of values, not a case"),
+        ("check", "mesh.toml", "this is a Gmsh mesh"),
+        ("check", "comma.toml", "decimal point, not a comma: 0.3"),
+        ("signal", "disc.csv", "this is a Gmsh mesh, not a measurement"),
     ] {
-        frictionsim(&folder, arguments).assert().code(2).stderr(contains(said));
+        run(&folder, &[command, name]).refused(&[said]);
     }
-    let range = ["check", "block.toml", "--set", frf, "--set", "frf.force_node=1"];
-    frictionsim(&folder, &range).assert().code(2).stderr(contains("missing or empty").not());
 }

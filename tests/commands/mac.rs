@@ -1,14 +1,13 @@
 //! `frictionsim mac`: shapes that the program itself computed, turned in phase, scaled and noisy, find their modes again.
 
 use crate::coarse_disc::coarse_disc;
-use assert_cmd::Command;
+use crate::program::{Run, folder, folder_with};
 use frictionsim::case::Case;
 use frictionsim::linalg::c64;
 use frictionsim::mesh::FileMesh;
 use frictionsim::results::WholeMesh;
 use frictionsim::signal::reader::{ResponseOptions, read_response, read_shapes};
 use frictionsim::study::eigenvalues::{SlidingModel, solve_modes};
-use serde_json::Value;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -96,26 +95,21 @@ fn universal(shapes: &[Motion]) -> String {
     text
 }
 
-fn run(folder: &Path, shapes: &str, further: &[&str]) -> std::process::Output {
+fn run(folder: &Path, shapes: &str, further: &[&str]) -> Run {
     std::fs::write(folder.join("case.toml"), coarse_disc(CEA)).unwrap();
     std::fs::write(folder.join("shapes"), shapes).unwrap();
-    let mut program = Command::cargo_bin("frictionsim").unwrap();
-    program.current_dir(folder);
-    program.args(["mac", "case.toml", "shapes", "--out", "out", "--force"]);
-    program.args(further).output().unwrap()
+    let run = Run::new(&["mac", "case.toml", "shapes", "--force"]).within(folder).out("out");
+    run.args(further)
 }
 
 /// Noise of relative size 0.03 on each part of unit shapes leaves a criterion above 0.97 of the own mode.
 #[test]
 fn shapes_of_the_program_with_noise_find_their_modes() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let shapes = measured();
     for text in [table(&shapes, 1.0), universal(&shapes)] {
-        let output = run(folder.path(), &text, &[]);
-        let errors = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success(), "{errors}");
-        let summary = std::fs::read(folder.path().join("out/summary.json")).unwrap();
-        let summary: Value = serde_json::from_slice(&summary).unwrap();
+        let answer = run(folder.path(), &text, &[]).done();
+        let summary = answer.summary();
         let pairs = summary["pairs"].as_array().unwrap();
         assert_eq!(pairs.len(), shapes.len());
         for pair in pairs {
@@ -123,30 +117,22 @@ fn shapes_of_the_program_with_noise_find_their_modes() {
             assert_eq!(number("mode"), shapes.len() + 1 - number("shape"), "{pair}");
             assert!(pair["mac"].as_f64().unwrap() > 0.97, "{pair}");
         }
-        let rows = std::fs::read_to_string(folder.path().join("out/mac.csv")).unwrap();
-        assert_eq!(rows.lines().count(), 1 + shapes.len() * shapes.len());
-        assert!(folder.path().join("out/figures/mac.svg").exists());
+        assert_eq!(answer.text("mac.csv").lines().count(), 1 + shapes.len() * shapes.len());
+        assert!(answer.path("figures/mac.svg").exists());
     }
 }
 
 /// Six digits of each displacement leave a criterion of one to ten digits.
 #[test]
 fn shapes_and_responses_written_as_universal_files_are_read_back() {
-    let folder = tempfile::tempdir().unwrap();
     let frf = "[frf]\nforce_node = 40\nfrequencies_hz = { from = 1e3, to = 2e3, count = 11 }";
     let case = coarse_disc(&format!("{CEA}\n[output]\nuniversal = true\n{frf}"));
-    std::fs::write(folder.path().join("case.toml"), &case).unwrap();
-    let run = |arguments: &[&str]| {
-        let mut program = Command::cargo_bin("frictionsim").unwrap();
-        let output = program.current_dir(folder.path()).args(arguments).output().unwrap();
-        let errors = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success(), "{arguments:?}: {errors}");
-        let out = folder.path().join(arguments[arguments.len() - 1]);
-        let summary = std::fs::read(out.join("summary.json")).unwrap();
-        serde_json::from_slice::<Value>(&summary).unwrap()
+    let folder = folder_with(&[("case.toml", case.as_bytes())]);
+    let run = |words: &[&str], out: &str| {
+        Run::new(words).within(&folder).args(&["--no-figures"]).out(out).done().summary()
     };
-    run(&["cea", "case.toml", "--no-figures", "--out", "cea"]);
-    let mac = run(&["mac", "case.toml", "cea/modes.unv", "--no-figures", "--out", "mac"]);
+    run(&["cea", "case.toml"], "cea");
+    let mac = run(&["mac", "case.toml", "cea/modes.unv"], "mac");
     let pairs = mac["pairs"].as_array().unwrap();
     assert_eq!(pairs.len(), 8);
     for pair in pairs {
@@ -166,7 +152,7 @@ fn shapes_and_responses_written_as_universal_files_are_read_back() {
     let own = whole.elements().map(|(_, nodes)| nodes);
     assert!(file.elements.iter().map(|element| &element.nodes[..]).eq(own));
     // The response has the values of the table.
-    run(&["frf", "case.toml", "--no-figures", "--out", "frf"]);
+    run(&["frf", "case.toml"], "frf");
     let [table, universal] = ["frf/frf.csv", "frf/frf.unv"].map(|name| {
         let bytes = std::fs::read(folder.path().join(name)).unwrap();
         let file = read_response(&bytes, name, &ResponseOptions::default()).unwrap();
@@ -179,18 +165,15 @@ fn shapes_and_responses_written_as_universal_files_are_read_back() {
 
 #[test]
 fn points_off_the_body_are_counted_and_wrong_units_recognised() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let mut shapes = measured();
-    let output = run(folder.path(), &table(&shapes, 1e3), &[]);
-    let errors = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(2), "{errors}");
-    assert!(errors.contains("millimetres: add --scale 0.001"), "{errors}");
-    assert!(run(folder.path(), &table(&shapes, 1e3), &["--scale", "0.001"]).status.success());
+    let millimetres = table(&shapes, 1e3);
+    run(folder.path(), &millimetres, &[]).refused(&["millimetres: add --scale 0.001"]);
+    run(folder.path(), &millimetres, &["--scale", "0.001"]).done();
 
     shapes[0][3].0 = [0.5, 0.5];
-    let output = run(folder.path(), &table(&shapes, 1.0), &[]);
-    let said = String::from_utf8_lossy(&output.stdout).into_owned();
-    assert!(output.status.success() && said.contains("1 of 51 points lie off the body"), "{said}");
+    let said = "1 of 51 points lie off the body";
+    run(folder.path(), &table(&shapes, 1.0), &[]).done().says(&[said]);
 }
 
 #[test]
@@ -236,23 +219,20 @@ fn what_is_no_shape_is_named_with_its_place() {
 }
 
 /// A table of modes with the frequencies of [`table`]'s shapes replaced by those of the case, and both fitted.
-fn fit_with(folder: &Path, shapes: &str, set: &[&str]) -> std::process::Output {
+fn fit_with(folder: &Path, shapes: &str, set: &[&str]) -> Run {
     let fit =
         format!("{CEA}\n[fit]\nparameters = {{ \"material.young_modulus\" = [1.5e9, 4e9] }}\n");
     std::fs::write(folder.join("case.toml"), coarse_disc(&fit)).unwrap();
     std::fs::write(folder.join("shapes"), shapes).unwrap();
-    let mut program = Command::cargo_bin("frictionsim").unwrap();
-    program.current_dir(folder);
-    program.args(["fit", "case.toml", "modes.csv", "--shapes", "shapes"]);
-    program.args(["--out", "out", "--force", "--no-figures"]);
-    program.args(set).output().unwrap()
+    let words = ["fit", "case.toml", "modes.csv", "--shapes", "shapes", "--force", "--no-figures"];
+    Run::new(&words).within(folder).out("out").set(set)
 }
 
 /// Shapes and frequencies that the program itself computed give back the modulus of the case, each line with its own mode; points in
 /// millimetres, a shape of no line and a weight of nothing are refused with the remedy.
 #[test]
 fn measured_shapes_are_data_of_a_fit() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let case = Case::parse("case.toml", coarse_disc(CEA).as_bytes(), &[]).unwrap();
     let model = SlidingModel::new(&case, case.require_cea().unwrap()).unwrap();
     let solution = solve_modes(&case, case.require_cea().unwrap(), &model).unwrap();
@@ -270,28 +250,16 @@ fn measured_shapes_are_data_of_a_fit() {
     let rows: String = frequencies.iter().map(|f| format!("{f}\n")).collect();
     std::fs::write(folder.path().join("modes.csv"), format!("frequency_hz\n{rows}")).unwrap();
 
-    let output = fit_with(folder.path(), &named(1.0), &[]);
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{said}");
-    let summary = std::fs::read(folder.path().join("out/summary.json")).unwrap();
-    let summary: Value = serde_json::from_slice(&summary).unwrap();
+    let answer = fit_with(folder.path(), &named(1.0), &[]).done();
+    let summary = answer.summary();
     let modulus = summary["parameters"]["material.young_modulus"]["value"].as_f64();
     assert!((modulus.unwrap() / 2.5e9 - 1.0).abs() < 1e-3, "{modulus:?}");
     for line in summary["residuals"].as_array().unwrap() {
         assert!(line["mac"].as_f64().unwrap() > 0.97, "{line}");
     }
-    let head = std::fs::read_to_string(folder.path().join("out/fit.csv")).unwrap();
-    assert!(head.lines().next().unwrap().ends_with(",mac"));
+    assert!(answer.header("fit.csv").ends_with(",mac"));
 
-    let refused: [(String, &[&str], &str); 3] = [
-        (named(1000.0), &[], "--scale 0.001"),
-        (named(1.0), &["--set", "fit.shape_weight=0"], "fit.shape_weight"),
-        (table(&measured(), 1.0), &[], "belongs to no line"),
-    ];
-    for (shapes, set, words) in refused {
-        let output = fit_with(folder.path(), &shapes, set);
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{said}");
-        assert!(said.contains(words), "{words}: {said}");
-    }
+    fit_with(folder.path(), &named(1000.0), &[]).refused(&["--scale 0.001"]);
+    fit_with(folder.path(), &named(1.0), &["fit.shape_weight=0"]).refused(&["fit.shape_weight"]);
+    fit_with(folder.path(), &table(&measured(), 1.0), &[]).refused(&["belongs to no line"]);
 }

@@ -8,6 +8,8 @@ mod coarse_disc;
 mod disc;
 #[path = "../common/msh.rs"]
 mod msh;
+#[path = "../common/program.rs"]
+mod program;
 #[path = "../common/table_1.rs"]
 mod table_1;
 #[path = "../common/tier.rs"]
@@ -39,6 +41,7 @@ mod normal_force;
 mod normal_law;
 mod plot;
 mod reading;
+mod refusals;
 mod results;
 mod rigid_counterface;
 mod rotor;

@@ -1,19 +1,17 @@
 //! `contacts.*.gap`: a measured surface beside a case.
 
-use assert_cmd::Command;
+use crate::program::{Answer, Run, folder, shipped};
 use std::fmt::Write;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use tempfile::TempDir;
 
 /// The shipped brake in a folder of its own.
-fn brake(folder: &TempDir) -> PathBuf {
-    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
+fn brake(folder: &TempDir) {
     fs::create_dir(folder.path().join("meshes")).unwrap();
     for name in ["brake.toml", "meshes/brake.inp"] {
-        fs::copy(cases.join(name), folder.path().join(name)).unwrap();
+        fs::copy(shipped(name), folder.path().join(name)).unwrap();
     }
-    folder.path().join("brake.toml")
 }
 
 /// The face of the outer lining, worn by `gap` of the angle from its middle (degrees) and the radius (m).
@@ -30,19 +28,11 @@ fn table(header: &str, gap: impl Fn(f64, f64) -> f64) -> String {
     text
 }
 
-/// Standard output and standard error of an analysis with one mode.
-fn cea(case: &Path, set: &[&str]) -> (bool, String) {
-    let mut program = Command::cargo_bin("frictionsim").unwrap();
-    program.arg("cea").arg(case).args(["--out", "run", "--force", "--no-figures"]);
-    program.current_dir(case.parent().unwrap());
-    program.args(["--unset", "cea.max_frequency_hz", "--set", "cea.modes=1"]);
-    program.args(["--set", "cea.friction_coefficients=[0.4]"]);
-    for text in set {
-        program.args(["--set", text]);
-    }
-    let output = program.output().unwrap();
-    let said = [output.stdout, output.stderr].concat();
-    (output.status.success(), String::from_utf8(said).unwrap())
+/// An analysis with one mode.
+fn cea(folder: &Path, set: &[&str]) -> Answer {
+    let run = Run::of("cea", "brake.toml").within(folder).out("run").args(&["--force"]);
+    let run = run.args(&["--unset", "cea.max_frequency_hz"]);
+    run.set(&["cea.modes=1", "cea.friction_coefficients=[0.4]"]).set(set).end()
 }
 
 const GAP: &str = "contacts.Outer_Friction_face.gap=wear.csv";
@@ -50,21 +40,18 @@ const GAP: &str = "contacts.Outer_Friction_face.gap=wear.csv";
 /// Worn by a millimetre beyond a third of its arc, far more than the pressure closes.
 #[test]
 fn a_pad_that_is_worn_at_one_end_touches_at_the_other_and_keeps_its_table() {
-    let folder = tempfile::tempdir().unwrap();
-    let case = brake(&folder);
+    let folder = folder();
+    brake(&folder);
     let worn = table("x,y,z,gap", |angle, _| if angle > 8.0 { 1e-3 } else { 0.0 });
     fs::write(folder.path().join("wear.csv"), &worn).unwrap();
-    let (is_done, said) = cea(&case, &[GAP]);
-    assert!(is_done, "{said}");
-    let run = folder.path().join("run");
-    assert_eq!(fs::read_to_string(run.join("gap-Outer_Friction_face.csv")).unwrap(), worn);
-    let points = fs::read_to_string(run.join("prestress.csv")).unwrap();
+    let answer = cea(folder.path(), &[GAP]).code(0);
+    assert_eq!(answer.text("gap-Outer_Friction_face.csv"), worn);
+    let points = answer.rows("prestress.csv");
     let mut counts = [[0; 2]; 2];
-    for row in points.lines().skip(1).filter(|row| row.starts_with("Outer")) {
-        let cells: Vec<&str> = row.split(',').collect();
-        let [x, y]: [f64; 2] = [1, 2].map(|k| cells[k].parse().unwrap());
+    for row in points.iter().filter(|row| row["contact"].starts_with("Outer")) {
+        let [x, y] = row.numbers(["x_m", "y_m"]);
         let angle = y.atan2(x).to_degrees() - 90.0;
-        let is_open = usize::from(cells[7] == "open");
+        let is_open = usize::from(row["status"] == "open");
         if angle > 9.5 {
             counts[1][is_open] += 1;
         } else if angle < -5.0 {
@@ -78,13 +65,12 @@ fn a_pad_that_is_worn_at_one_end_touches_at_the_other_and_keeps_its_table() {
 
 #[test]
 fn measured_surfaces_that_cannot_be_meant_are_refused_with_the_remedy() {
-    let folder = tempfile::tempdir().unwrap();
-    let case = brake(&folder);
+    let folder = folder();
+    brake(&folder);
     let write = |text: String| fs::write(folder.path().join("wear.csv"), text).unwrap();
     let refused = |set: &[&str], parts: &[&str]| {
-        let (is_done, said) = cea(&case, set);
-        assert!(!is_done, "{said}");
-        parts.iter().for_each(|part| assert!(said.contains(part), "{part}: {said}"));
+        let answer = cea(folder.path(), set).warns(parts);
+        assert_ne!(answer.code, Some(0));
     };
     refused(&[GAP], &["cannot read the table", "wear.csv"]);
     write(table("x,y,z,gap_um", |_, _| 1.0));

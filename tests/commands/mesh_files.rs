@@ -1,28 +1,13 @@
 //! Mesh files of other programs on the command line.
 
-use assert_cmd::Command;
-use serde_json::Value;
+use crate::program::{Run, folder, folder_with, has, shipped};
 use std::fs;
-use std::path::Path;
-use tempfile::TempDir;
-
-fn shipped(name: &str) -> String {
-    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
-    cases.join(name).display().to_string()
-}
-
-/// Runs the program in a folder of its own; the object that it prints.
-fn object(folder: &TempDir, arguments: &[&str]) -> Value {
-    let mut command = Command::cargo_bin("frictionsim").unwrap();
-    let assert = command.current_dir(folder.path()).args(arguments).assert().success();
-    serde_json::from_slice(&assert.get_output().stdout).unwrap()
-}
 
 /// Closed form: a ring of 36 straight-sided sectors, and pads of 7 and 8 of them.
 #[test]
 fn the_statistics_of_a_brake_of_an_input_file_are_those_of_its_geometry() {
-    let folder = tempfile::tempdir().unwrap();
-    let summary = object(&folder, &["mesh", &shipped("brake.toml"), "--json", "--no-figures"]);
+    let folder = folder();
+    let summary = Run::of("mesh", shipped("brake.toml")).out(folder.path()).done().summary();
     let mesh = &summary["mesh"];
     assert_eq!(mesh["nodes"], 1140);
     assert_eq!(mesh["elements_by_kind"]["hex8"], 592);
@@ -56,60 +41,36 @@ fn the_statistics_of_a_brake_of_an_input_file_are_those_of_its_geometry() {
         let boundary = boundaries.iter().find(|boundary| boundary["name"] == name);
         assert_eq!(boundary.unwrap()["condition"], condition, "{name}");
     }
-    let not_used = summary["not_used"].to_string();
-    assert!(not_used.contains("*COMPLEX FREQUENCY (line "), "{not_used}");
-    assert!(
-        summary["notes"]
-            .to_string()
-            .contains("ties taken from meshes/brake.inp: Glue_Outer, Glue_Inner")
-    );
+    has(&summary["not_used"].to_string(), &["*COMPLEX FREQUENCY (line "]);
+    let ties = "ties taken from meshes/brake.inp: Glue_Outer, Glue_Inner";
+    has(&summary["notes"].to_string(), &[ties]);
 }
 
 #[test]
 fn the_case_that_init_writes_for_an_input_file_runs_as_it_is() {
-    let folder = tempfile::tempdir().unwrap();
-    fs::copy(shipped("meshes/brake.inp"), folder.path().join("brake.inp")).unwrap();
-    let mut init = Command::cargo_bin("frictionsim").unwrap();
-    init.current_dir(folder.path()).args(["init", "--from", "brake.inp"]).assert().success();
+    let folder = folder_with(&[("brake.inp", &fs::read(shipped("meshes/brake.inp")).unwrap())]);
+    let init = || Run::new(&["init", "--from", "brake.inp"]).within(&folder);
+    init().done();
     let text = fs::read_to_string(folder.path().join("brake.toml")).unwrap();
-    assert!(
-        text.contains("file = \"brake.inp\"") && text.contains("# Not used: *COMPLEX FREQUENCY"),
-        "{text}"
-    );
+    has(&text, &["file = \"brake.inp\"", "# Not used: *COMPLEX FREQUENCY"]);
     // Stress-free contacts: the base state of thousands of points is not what is tested here.
     let closed = ["Outer", "Inner"].map(|pad| format!("contacts.{pad}_Friction_face.state=closed"));
-    let summary = object(
-        &folder,
-        &[
-            "cea",
-            "brake.toml",
-            "--json",
-            "--no-figures",
-            "--set",
-            &closed[0],
-            "--set",
-            &closed[1],
-            "--set",
-            "cea.modes=2",
-            "--set",
-            "cea.friction_coefficients=[0.4]",
-        ],
-    );
+    let run = Run::of("cea", "brake.toml").within(&folder).out("out").set(&closed);
+    let summary = run.set(&["cea.modes=2", "cea.friction_coefficients=[0.4]"]).done().summary();
     let lowest = summary["friction"][0]["modes"][0]["frequency_hz"].as_f64();
     println!("{lowest:?} {}", summary["largest_residual"]);
     assert!(summary["largest_residual"].as_f64().unwrap() < 1e-8, "{summary}");
     // A second time nothing is replaced.
-    let mut again = Command::cargo_bin("frictionsim").unwrap();
-    again.current_dir(folder.path()).args(["init", "--from", "brake.inp"]).assert().code(2);
+    init().refused(&[]);
 }
 
 /// The picture names every region and what holds, loads and touches the bodies; `plot` draws it again to the same bytes.
 #[test]
 fn the_picture_of_solid_bodies_names_regions_and_boundaries() {
-    let folder = tempfile::tempdir().unwrap();
-    let picture = folder.path().join("out/figures/mesh.svg");
-    object(&folder, &["mesh", &shipped("brake.toml"), "--json", "-o", "out"]);
-    let drawn = fs::read_to_string(&picture).unwrap();
+    let folder = folder();
+    let answer = Run::new(&["mesh", &shipped("brake.toml")]).within(&folder).out("out").done();
+    let drawn = answer.text("figures/mesh.svg");
+    // Nothing of the case is a support.
     let words = [
         "Disc_Disc_iron",
         "Outer_Lining",
@@ -121,55 +82,32 @@ fn the_picture_of_solid_bodies_names_regions_and_boundaries() {
         "tie",
         "free",
         "regions, turned over",
+        "!>support<",
     ];
-    for word in words {
-        assert!(drawn.contains(word), "{word}");
-    }
-    // Nothing of the case is a support.
-    assert!(!drawn.contains(">support<"));
-    let report = fs::read_to_string(folder.path().join("out/report.html")).unwrap();
-    assert!(report.contains("Outer_Piston") && report.contains("mass (kg)"));
-    fs::remove_file(&picture).unwrap();
-    let mut plot = Command::cargo_bin("frictionsim").unwrap();
-    plot.current_dir(folder.path()).args(["plot", "out"]);
-    plot.assert().success();
-    assert_eq!(fs::read_to_string(&picture).unwrap(), drawn);
+    has(&drawn, &words);
+    has(&answer.text("report.html"), &["Outer_Piston", "mass (kg)"]);
+    fs::remove_file(answer.path("figures/mesh.svg")).unwrap();
+    Run::new(&["plot", "out"]).within(&folder).done();
+    assert_eq!(answer.text("figures/mesh.svg"), drawn);
 }
 
 /// Stress of solid bodies stands in the files for ParaView, of base states and of snapshots.
 #[test]
 fn fields_of_bodies_of_revolution_have_their_stress() {
-    let folder = tempfile::tempdir().unwrap();
-    let coarse = [
-        "--set",
-        "mesh.circumferential_elements=16",
-        "--set",
-        "mesh.radial_elements=10",
-        "--no-figures",
-        "-qq",
-        "-o",
-        "out",
-    ];
+    let folder = folder();
+    let coarse = ["mesh.circumferential_elements=16", "mesh.radial_elements=10"];
     let run = |command: &str, changes: &[&str]| {
-        let mut run = Command::cargo_bin("frictionsim").unwrap();
-        let case = shipped("ring-on-layer.toml");
-        run.current_dir(folder.path()).args([command, &case, "--force"]);
-        run.args(coarse).args(changes).assert().success();
+        let run = Run::of(command, shipped("ring-on-layer.toml")).within(&folder).out("out");
+        run.args(&["-qq", "--force"]).set(&coarse).set(changes).done()
     };
-    let holds_stress = |file: &str| {
-        let bytes = fs::read(folder.path().join("out").join(file)).unwrap();
-        let text = String::from_utf8_lossy(&bytes);
-        for name in ["von_mises_pa", "stress_zz_pa", "stress_rt_pa", "stress_rz_pa"] {
-            assert!(text.contains(&format!("Name=\"{name}\"")), "{file}: {name}");
-        }
+    let stress = ["von_mises_pa", "stress_zz_pa", "stress_rt_pa", "stress_rz_pa"]
+        .map(|name| format!("Name=\"{name}\""));
+    let holds_stress = |bytes: Vec<u8>| {
+        has(&String::from_utf8_lossy(&bytes), &stress.each_ref().map(String::as_str));
     };
-    run(
-        "cea",
-        &["--set", "cea.friction_coefficients=[0.2]", "--set", "cea.max_frequency_hz=8000.0"],
-    );
-    holds_stress("prestress.vtu");
-    run("transient", &["--set", "transient.duration=1e-4", "--set", "output.snapshots=[1e-4]"]);
-    let snapshots = fs::read_dir(folder.path().join("out/snapshots")).unwrap();
-    let first = snapshots.flatten().next().unwrap().file_name();
-    holds_stress(&format!("snapshots/{}", first.to_string_lossy()));
+    let few = ["cea.friction_coefficients=[0.2]", "cea.max_frequency_hz=8000.0"];
+    holds_stress(run("cea", &few).bytes("prestress.vtu"));
+    let answer = run("transient", &["transient.duration=1e-4", "output.snapshots=[1e-4]"]);
+    let first = fs::read_dir(answer.path("snapshots")).unwrap().flatten().next().unwrap();
+    holds_stress(fs::read(first.path()).unwrap());
 }

@@ -2,40 +2,26 @@
 //!
 //! Consistency checks: what the figures show is checked where they are drawn.
 
-use assert_cmd::Command;
-use predicates::str::contains;
+use crate::program::{Run, folder, has, shipped};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
 
-fn case(name: &str) -> String {
-    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
-    cases.join(name).display().to_string()
+/// A command on a shipped case into `folder/out`, with overrides.
+fn run(folder: &TempDir, command: &str, case: &str, set: &[&str]) -> Run {
+    Run::new(&[command, &shipped(case), "--quiet"]).within(folder).out("out").set(set)
 }
 
-/// Runs a command into `folder/out` with overrides.
-fn run(folder: &TempDir, command: &str, case_name: &str, set: &[&str], more: &[&str]) {
-    run_on(folder, command, &case(case_name), set, more);
+/// Runs it, and holds its figures and their drawing again; the text of one figure.
+fn redrawn(run: Run, folder: &TempDir, expected: &[&str], figure: &str) -> String {
+    let answer = run.done();
+    check_redrawn(folder, expected);
+    answer.text(&format!("figures/{figure}.svg"))
 }
 
-/// Runs a command on any file into `folder/out`.
-fn run_on(folder: &TempDir, command: &str, input: &str, set: &[&str], more: &[&str]) {
-    let mut run = Command::cargo_bin("frictionsim").unwrap();
-    run.current_dir(folder.path());
-    run.args([command, input, "--out", "out", "--quiet"]);
-    run.args(more);
-    for text in set {
-        run.args(["--set", text]);
-    }
-    run.assert().code(0);
-}
-
-fn plot(folder: &TempDir, more: &[&str]) -> Command {
-    let mut run = Command::cargo_bin("frictionsim").unwrap();
-    run.current_dir(folder.path());
-    run.args(["plot", "out"]).args(more);
-    run
+fn plot(folder: &TempDir, more: &[&str]) -> Run {
+    Run::new(&["plot", "out"]).within(folder).args(more)
 }
 
 /// Every file below a folder with its bytes; locks and the manifest, whose file list grows, left out.
@@ -77,14 +63,15 @@ fn check_redrawn(folder: &TempDir, expected: &[&str]) {
         assert!(rows.into_iter().all(|row| columns == 0 || row.matches("<td").count() == columns));
     }
 
-    plot(folder, &["--threads", "1"]).assert().code(0).stdout(contains("figures in")).stderr("");
+    let answer = plot(folder, &["--threads", "1"]).done().says(&["figures in"]);
+    assert_eq!(answer.stderr, "");
     assert_same(&first, &files(&out));
     fs::remove_dir_all(out.join("figures")).unwrap();
     fs::remove_file(out.join("report.html")).unwrap();
-    plot(folder, &[]).assert().code(0);
+    plot(folder, &[]).done();
     assert_same(&first, &files(&out));
 
-    plot(folder, &["--dpi", "50"]).assert().code(0);
+    plot(folder, &["--dpi", "50"]).done();
     for (name, bytes) in files(&out) {
         let is_smaller = bytes.len() < first[&name].len();
         assert_eq!(is_smaller, name.ends_with(".png"), "{name}");
@@ -102,16 +89,15 @@ const COARSE: [&str; 2] = ["mesh.circumferential_elements=60", "mesh.radial_elem
 
 #[test]
 fn eigenvalue_figures_are_drawn_again_to_the_same_bytes() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let set = [
         COARSE[0],
         COARSE[1],
         "cea.friction_coefficients={from=0.0,to=0.4,count=5}",
         "cea.shapes_at=[0.2,0.3]",
     ];
-    run(&folder, "cea", "polycarbonate-disc.toml", &set, &[]);
     let expected = ["locus", "pairs", "prestress", "modes-mu-0.3", "branch-n1-2-against"];
-    check_redrawn(&folder, &expected);
+    redrawn(run(&folder, "cea", "polycarbonate-disc.toml", &set), &folder, &expected, "locus");
 }
 
 const SHORT: [&str; 5] = [
@@ -124,8 +110,7 @@ const SHORT: [&str; 5] = [
 
 #[test]
 fn transient_figures_are_drawn_again_to_the_same_bytes() {
-    let folder = tempfile::tempdir().unwrap();
-    run(&folder, "transient", "polycarbonate-610rpm.toml", &SHORT, &[]);
+    let folder = folder();
     let expected = [
         "overview-1",
         "overview-200",
@@ -137,15 +122,15 @@ fn transient_figures_are_drawn_again_to_the_same_bytes() {
         "contact",
         "energy",
     ];
-    check_redrawn(&folder, &expected);
+    let run = run(&folder, "transient", "polycarbonate-610rpm.toml", &SHORT);
     // The modes are those of the run's own linear stage: lumped mass, rigid contact.
-    let growth = fs::read_to_string(folder.path().join("out/figures/growth.svg")).unwrap();
-    assert!(growth.contains("rate of the eigenvalue analysis"));
+    let growth = redrawn(run, &folder, &expected, "growth");
+    has(&growth, &["rate of the eigenvalue analysis"]);
 }
 
 #[test]
 fn study_figures_are_drawn_again_to_the_same_bytes() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let set = [
         COARSE[0],
         COARSE[1],
@@ -154,11 +139,9 @@ fn study_figures_are_drawn_again_to_the_same_bytes() {
         "sweep.\"contact.rotation_speed_rpm\"=[70,610]",
         "sweep.\"contact.friction_coefficient\"=[0.3]",
     ];
-    run(&folder, "sweep", "speed-friction-study.toml", &set, &[]);
-    check_redrawn(&folder, &["frequencies", "status"]);
-    let drawing = folder.path().join("out/figures/frequencies.svg");
-    let text = fs::read_to_string(drawing).unwrap();
-    assert!(text.contains("unstable mode of the eigenvalue analysis"));
+    let run = run(&folder, "sweep", "speed-friction-study.toml", &set);
+    let text = redrawn(run, &folder, &["frequencies", "status"], "frequencies");
+    has(&text, &["unstable mode of the eigenvalue analysis"]);
 }
 
 const CYCLE_MESH: [&str; 2] = ["mesh.circumferential_elements=90", "mesh.radial_elements=18"];
@@ -166,8 +149,7 @@ const CYCLE: [&str; 3] = [CYCLE_MESH[0], CYCLE_MESH[1], "cycle.continuation.coun
 
 #[test]
 fn limit_cycle_figures_are_drawn_again_to_the_same_bytes() {
-    let folder = tempfile::tempdir().unwrap();
-    run(&folder, "cycle", "limit-cycle.toml", &CYCLE, &[]);
+    let folder = folder();
     let expected = [
         "contact-n1",
         "history-n1",
@@ -180,21 +162,19 @@ fn limit_cycle_figures_are_drawn_again_to_the_same_bytes() {
         "branch-frequencies",
         "branch-shares",
     ];
-    check_redrawn(&folder, &expected);
-    let drawing = folder.path().join("out/figures/branch-frequencies.svg");
-    let text = fs::read_to_string(drawing).unwrap();
-    assert!(text.contains("rotation speed") && text.contains("onset of the instability"));
+    let run = run(&folder, "cycle", "limit-cycle.toml", &CYCLE);
+    let text = redrawn(run, &folder, &expected, "branch-frequencies");
+    has(&text, &["rotation speed", "onset of the instability"]);
 }
 
 #[test]
 fn cycles_of_a_whole_mesh_are_drawn_again_to_the_same_bytes() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let set = [
         "contact.friction_coefficient=0.7",
         "cycle.stability=\"branch\"",
         "cycle.continuation={ key = \"contact.friction_coefficient\", from = 0.69, to = 0.71, count = 3 }",
     ];
-    run(&folder, "cycle", "sliding-block.toml", &set, &[]);
     let expected = [
         "status-mode7",
         "contact-mode7",
@@ -206,12 +186,12 @@ fn cycles_of_a_whole_mesh_are_drawn_again_to_the_same_bytes() {
         "velocity",
         "shear-stress",
     ];
-    check_redrawn(&folder, &expected);
+    redrawn(run(&folder, "cycle", "sliding-block.toml", &set), &folder, &expected, "velocity");
 }
 
 #[test]
 fn study_of_limit_cycles_is_drawn_again_to_the_same_bytes() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let set = [
         CYCLE[0],
         CYCLE[1],
@@ -220,31 +200,27 @@ fn study_of_limit_cycles_is_drawn_again_to_the_same_bytes() {
         "cycle.confirmation_periods=0",
         "sweep.\"contact.friction_coefficient\"=[0.2,0.3]",
     ];
-    run(&folder, "sweep", "limit-cycle.toml", &set, &[]);
-    check_redrawn(&folder, &["branch-frequencies", "branch-shares"]);
-    let drawing = folder.path().join("out/figures/branch-shares.svg");
-    let text = fs::read_to_string(drawing).unwrap();
-    for curve in ["n</tspan> = 1", "n</tspan> = 2", "μ</tspan> = 0.2", "μ</tspan> = 0.3"] {
-        assert!(text.contains(curve), "{curve}");
-    }
+    let run = run(&folder, "sweep", "limit-cycle.toml", &set);
+    let text = redrawn(run, &folder, &["branch-frequencies", "branch-shares"], "branch-shares");
+    has(&text, &["n</tspan> = 1", "n</tspan> = 2", "μ</tspan> = 0.2", "μ</tspan> = 0.3"]);
 }
 
 #[test]
 fn convergence_figures_are_drawn_again_to_the_same_bytes() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let set = [
         "mesh.circumferential_elements=36",
         "mesh.radial_elements=8",
         "transient.duration=0.002",
         "cea.max_frequency_hz=9000.0",
     ];
-    run(&folder, "convergence", "convergence.toml", &set, &[]);
-    check_redrawn(&folder, &["convergence"]);
+    let run = run(&folder, "convergence", "convergence.toml", &set);
+    redrawn(run, &folder, &["convergence"], "convergence");
 }
 
 #[test]
 fn response_and_identification_are_drawn_again_to_the_same_bytes() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let set = [
         "mesh.circumferential_elements=60",
         "mesh.radial_elements=12",
@@ -252,20 +228,19 @@ fn response_and_identification_are_drawn_again_to_the_same_bytes() {
         "frf.response_node=13",
         "frf.frequencies_hz={from=4.0,to=10000.0,count=2500}",
     ];
-    run(&folder, "frf", "hammer-test.toml", &set, &[]);
-    check_redrawn(&folder, &["response"]);
+    redrawn(run(&folder, "frf", "hammer-test.toml", &set), &folder, &["response"], "response");
     let table = folder.path().join("response.csv");
     fs::rename(folder.path().join("out/frf.csv"), &table).unwrap();
     // The tables are not needed.
-    plot(&folder, &[]).assert().code(0);
+    plot(&folder, &[]).done();
     fs::remove_dir_all(folder.path().join("out")).unwrap();
-    run_on(&folder, "identify", "response.csv", &[], &[]);
+    Run::new(&["identify", "response.csv", "--quiet"]).within(&folder).out("out").done();
     check_redrawn(&folder, &["identification"]);
 }
 
 #[test]
 fn signal_figures_are_drawn_again_to_the_same_bytes() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let mut text = String::from("time_s,left,right\n");
     for j in 0..4000 {
         let t = f64::from(j) * 1e-5;
@@ -273,33 +248,32 @@ fn signal_figures_are_drawn_again_to_the_same_bytes() {
         text += &format!("{t:?},{left:?},{right:?}\n");
     }
     fs::write(folder.path().join("signal.csv"), text).unwrap();
-    run_on(&folder, "signal", "signal.csv", &[], &["--channel", "right", "--window", "0.002"]);
+    let words = ["signal", "signal.csv", "--quiet", "--channel", "right", "--window", "0.002"];
+    Run::new(&words).within(&folder).out("out").done();
     check_redrawn(&folder, &["signal-1", "spectrum-1"]);
 }
 
 #[test]
 fn a_run_without_figures_keeps_none_to_draw() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let out = folder.path().join("out");
-    run(&folder, "transient", "polycarbonate-610rpm.toml", &SHORT, &[]);
+    run(&folder, "transient", "polycarbonate-610rpm.toml", &SHORT).done();
     assert!(out.join("figures/overview-200.png").exists());
     // Figures belong to the run: without them it starts from a clean folder.
-    run(&folder, "transient", "polycarbonate-610rpm.toml", &SHORT, &["--no-figures"]);
+    run(&folder, "transient", "polycarbonate-610rpm.toml", &SHORT).args(&["--no-figures"]).done();
     for name in ["figures/overview-200.png", "report.html", "figures.bin"] {
         assert!(!out.join(name).exists(), "{name}");
     }
-    plot(&folder, &[]).assert().code(2).stderr(contains("it has no figures.bin"));
+    plot(&folder, &[]).refused(&["it has no figures.bin"]);
 }
 
 #[test]
 fn folders_that_cannot_be_drawn_are_bad_usage_with_a_reason() {
-    let folder = tempfile::tempdir().unwrap();
-    let refuse = |more: &[&str], reason: &str| {
-        plot(&folder, more).assert().code(2).stderr(contains(reason));
-    };
+    let folder = folder();
+    let refuse = |more: &[&str], reason: &str| plot(&folder, more).refused(&[reason]);
     refuse(&[], "it has no manifest.json");
     refuse(&["--dpi", "5"], "20 to 1200");
-    run(&folder, "mesh", "polycarbonate-disc.toml", &COARSE, &[]);
+    run(&folder, "mesh", "polycarbonate-disc.toml", &COARSE).done();
     let figures = folder.path().join("out/figures.bin");
     let whole = fs::read(&figures).unwrap();
     let mut bytes = whole.clone();
@@ -322,35 +296,33 @@ fn folders_that_cannot_be_drawn_are_bad_usage_with_a_reason() {
 
 #[test]
 fn plot_draws_the_picture_of_a_mesh_again_to_the_same_bytes() {
-    let folder = tempfile::tempdir().unwrap();
-    run(&folder, "mesh", "polycarbonate-disc.toml", &COARSE, &[]);
+    let folder = folder();
+    run(&folder, "mesh", "polycarbonate-disc.toml", &COARSE).done();
     let before = files(&folder.path().join("out"));
     assert!(before.contains_key("report.html"));
-    plot(&folder, &[]).assert().code(0);
+    plot(&folder, &[]).done();
     assert_eq!(files(&folder.path().join("out")), before);
 }
 
 #[test]
 fn the_picture_of_an_imported_mesh_names_boundaries_regions_and_normals() {
-    let folder = tempfile::tempdir().unwrap();
-    run(&folder, "mesh", "pad-on-disc.toml", &[], &[]);
-    let out = folder.path().join("out");
-    let picture = fs::read_to_string(out.join("figures/mesh.svg")).unwrap();
-    for text in [
-        ">lining<",
-        ">rim<",
-        ">hub<",
-        "pad: ",
-        "counterface edge",
-        "outward normal of the contact edge",
-    ] {
-        assert!(picture.contains(text), "{text}");
-    }
-    let summary = fs::read_to_string(out.join("summary.json")).unwrap();
-    let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+    let folder = folder();
+    let answer = run(&folder, "mesh", "pad-on-disc.toml", &[]).done();
+    has(
+        &answer.text("figures/mesh.svg"),
+        &[
+            ">lining<",
+            ">rim<",
+            ">hub<",
+            "pad: ",
+            "counterface edge",
+            "outward normal of the contact edge",
+        ],
+    );
+    let summary = answer.summary();
     let boundaries = summary["mesh"]["boundaries"].as_array().unwrap();
     let rim = boundaries.iter().find(|b| b["name"] == "rim").unwrap();
     assert_eq!(rim["condition"], "counterface");
-    let fields = fs::read(out.join("mesh.vtu")).unwrap();
-    assert!(String::from_utf8_lossy(&fields).contains("Name=\"region_id\""));
+    let fields = answer.bytes("mesh.vtu");
+    has(&String::from_utf8_lossy(&fields), &["Name=\"region_id\""]);
 }

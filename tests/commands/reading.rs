@@ -2,7 +2,7 @@
 
 use crate::bricks::{Block, file_of};
 use crate::coarse_disc::coarse_disc;
-use assert_cmd::Command;
+use crate::program::{Answer, Row, Run, folder, folder_with, shipped};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -32,72 +32,48 @@ fn pads() -> Vec<u8> {
     file_of(&blocks, |point| point)
 }
 
-/// The rows of a table by column.
-fn table(path: &Path) -> Vec<BTreeMap<String, String>> {
-    let mut reader = csv::Reader::from_path(path).unwrap();
-    let rows = reader.deserialize();
-    rows.map(|row| row.unwrap()).collect()
+fn cea(folder: &Path, case: impl AsRef<Path>, set: &[&str]) -> Answer {
+    Run::of("cea", case.as_ref()).within(folder).out("out").args(&["--force"]).set(set).done()
 }
 
-fn number(row: &BTreeMap<String, String>, column: &str) -> f64 {
-    row[column].parse().unwrap_or(f64::NAN)
-}
-
-fn cea(folder: &Path, case: &Path, set: &[&str]) -> String {
-    let mut command = Command::cargo_bin("frictionsim").unwrap();
-    command.arg("cea").arg(case).args(["--out"]).arg(folder.join("out"));
-    command.args(["--force", "--no-figures"]);
-    for text in set {
-        command.args(["--set", text]);
-    }
-    let output = command.output().unwrap();
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{errors}");
-    String::from_utf8(output.stdout).unwrap()
+/// Whether two rows are about one mode at one friction value.
+fn same_mode(row: &Row, other: &Row) -> bool {
+    ["mode", "friction_coefficient"].iter().all(|name| row[*name] == other[*name])
 }
 
 /// Exact identities: what parts, supports and two contacts add is the growth rate; without friction the contacts add nothing,
 /// and each region takes `(alpha T + beta U) / 2` of its shares `T`, `U` of the energies.
 #[test]
 fn what_parts_supports_and_contacts_add_is_the_growth_rate() {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("pads.msh"), pads()).unwrap();
-    let case = folder.path().join("case.toml");
-    std::fs::write(&case, CASE).unwrap();
-    let said = cea(folder.path(), &case, &[]);
-    let out = folder.path().join("out");
-    let rows = table(&out.join("contributions.csv"));
+    let folder = folder_with(&[("pads.msh", &pads()), ("case.toml", CASE.as_bytes())]);
+    let answer = cea(folder.path(), "case.toml", &[]);
+    let rows = answer.rows("contributions.csv");
     let coefficients =
         BTreeMap::from([("slab", [10.0, 1e-7]), ("left", [5.0, 2e-7]), ("right", [40.0, 4.5e-7])]);
     let mut is_fed = false;
-    for mode in table(&out.join("eigenvalues.csv")) {
-        let is_own = |row: &&BTreeMap<String, String>| {
-            row["mode"] == mode["mode"]
-                && row["friction_coefficient"] == mode["friction_coefficient"]
-        };
-        let own: Vec<_> = rows.iter().filter(is_own).collect();
+    for mode in answer.rows("eigenvalues.csv") {
+        let own: Vec<_> = rows.iter().filter(|row| same_mode(row, &mode)).collect();
         assert_eq!(own.len(), 6, "three parts, a support, two contacts");
-        let (growth, omega) =
-            (number(&mode, "growth_rate_per_s"), TAU * number(&mode, "frequency_hz"));
-        let sum: f64 = own.iter().map(|row| number(row, "growth_rate_per_s")).sum();
+        let (growth, omega) = (mode.number("growth_rate_per_s"), TAU * mode.number("frequency_hz"));
+        let sum: f64 = own.iter().map(|row| row.number("growth_rate_per_s")).sum();
         // Contacts are found from their forces, which a residual of 1e-12 of the eigenproblem carries.
         assert!((sum - growth).abs() < 1e-8 * omega, "{sum} {growth}");
         for share in ["kinetic_share", "strain_share"] {
-            let shares = own.iter().map(|row| number(row, share)).filter(|share| share.is_finite());
+            let shares = own.iter().map(|row| row.number(share)).filter(|share| share.is_finite());
             assert!((shares.sum::<f64>() - 1.0).abs() < 1e-12);
         }
         let fed = own.iter().filter(|row| row["kind"] == "contact");
-        let fed: Vec<f64> = fed.map(|row| number(row, "growth_rate_per_s")).collect();
-        if number(&mode, "friction_coefficient") == 0.0 {
+        let fed: Vec<f64> = fed.map(|row| row.number("growth_rate_per_s")).collect();
+        if mode.number("friction_coefficient") == 0.0 {
             assert!(fed.iter().all(|fed| fed.abs() < 1e-8 * omega), "{fed:?} without friction");
             // `-2 g_r = alpha_r T_r + beta_r U_r`: every region tells the same strain energy of the whole.
             let parts = own.iter().filter(|row| row["kind"] == "part");
             let whole: Vec<f64> = parts
                 .map(|row| {
                     let [alpha, beta] = coefficients[row["name"].as_str()];
-                    let damped = -2.0 * number(row, "growth_rate_per_s");
-                    let rest = damped - alpha * number(row, "kinetic_share");
-                    rest / (beta * number(row, "strain_share"))
+                    let damped = -2.0 * row.number("growth_rate_per_s");
+                    let rest = damped - alpha * row.number("kinetic_share");
+                    rest / (beta * row.number("strain_share"))
                 })
                 .collect();
             let same = |energy: &f64| (energy / whole[0] - 1.0).abs() < 1e-6;
@@ -108,42 +84,35 @@ fn what_parts_supports_and_contacts_add_is_the_growth_rate() {
     }
     assert!(is_fed, "friction feeds a mode");
     // The most unstable mode in words, if there is one.
-    let couplings = table(&out.join("coupling.csv"));
-    assert_eq!(couplings.is_empty(), !said.contains("feeds"), "{said}");
+    let feeds = answer.stdout.contains("feeds");
+    assert_eq!(answer.rows("coupling.csv").is_empty(), !feeds, "{}", answer.stdout);
 }
 
 /// Exact identities: without friction what one support or one contact loses is the whole growth rate where nothing else is
 /// damped, and the other takes nothing; with friction the sum stays the growth rate.
 #[test]
 fn loss_factors_of_supports_and_contacts_are_told_where_they_act() {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("pads.msh"), pads()).unwrap();
-    let case = folder.path().join("case.toml");
     let undamped = CASE
         .lines()
         .filter(|line| !line.contains("_coefficient = ") || line.contains("friction"))
         .map(|line| line.replace("normal_damping = 1e4", ""));
-    std::fs::write(&case, undamped.collect::<Vec<_>>().join("\n")).unwrap();
+    let case = undamped.collect::<Vec<_>>().join("\n");
+    let folder = folder_with(&[("pads.msh", &pads()), ("case.toml", case.as_bytes())]);
     for (lossy, name) in [
         ("boundaries.slab_z0.loss_factor=0.1", "slab_z0"),
         ("contacts.first.loss_factor=0.1", "first"),
     ] {
-        cea(folder.path(), &case, &[lossy]);
-        let out = folder.path().join("out");
-        let rows = table(&out.join("contributions.csv"));
+        let answer = cea(folder.path(), "case.toml", &[lossy]);
+        let rows = answer.rows("contributions.csv");
         let mut largest = 0.0_f64;
-        for mode in table(&out.join("eigenvalues.csv")) {
-            let is_own = |row: &&BTreeMap<String, String>| {
-                row["mode"] == mode["mode"]
-                    && row["friction_coefficient"] == mode["friction_coefficient"]
-            };
-            let own = || rows.iter().filter(is_own);
-            let growth = number(&mode, "growth_rate_per_s");
-            let omega = TAU * number(&mode, "frequency_hz");
-            let rate = |row: &BTreeMap<String, String>| number(row, "growth_rate_per_s");
+        for mode in answer.rows("eigenvalues.csv") {
+            let own = || rows.iter().filter(|row| same_mode(row, &mode));
+            let growth = mode.number("growth_rate_per_s");
+            let omega = TAU * mode.number("frequency_hz");
+            let rate = |row: &Row| row.number("growth_rate_per_s");
             let sum: f64 = own().map(rate).sum();
             assert!((sum - growth).abs() < 1e-8 * omega, "{name} {sum} {growth}");
-            if number(&mode, "friction_coefficient") == 0.0 {
+            if mode.number("friction_coefficient") == 0.0 {
                 let taken = own().find(|row| row["name"] == name).map(rate).unwrap();
                 assert!((taken - growth).abs() < 1e-8 * omega, "{name} {taken} {growth}");
                 assert!(growth <= 0.0);
@@ -158,8 +127,8 @@ fn loss_factors_of_supports_and_contacts_are_told_where_they_act() {
 /// Bessel's inequality: modes without friction are orthogonal by mass, so that shares never sum to more than one.
 #[test]
 fn an_unstable_mode_consists_of_the_modes_without_friction() {
-    let folder = tempfile::tempdir().unwrap();
-    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/polycarbonate-disc.toml");
+    let folder = folder();
+    let case = shipped("polycarbonate-disc.toml");
     let set = [
         "mesh.circumferential_elements=48",
         "mesh.radial_elements=8",
@@ -167,13 +136,12 @@ fn an_unstable_mode_consists_of_the_modes_without_friction() {
     ];
     for method in ["cyclic", "sparse"] {
         let method = format!("cea.method={method}");
-        let said = cea(folder.path(), &case, &[&set[..], &[method.as_str()]].concat());
-        assert!(said.contains("comes from mode") && said.contains("contact feeds"), "{said}");
-        let rows = table(&folder.path().join("out/coupling.csv"));
+        let answer = cea(folder.path(), &case, &[&set[..], &[method.as_str()]].concat());
+        let rows = answer.says(&["comes from mode", "contact feeds"]).rows("coupling.csv");
         let mut sums: BTreeMap<(String, String), f64> = BTreeMap::new();
         for row in &rows {
             let key = (row["friction_coefficient"].clone(), row["mode"].clone());
-            *sums.entry(key).or_default() += number(row, "share");
+            *sums.entry(key).or_default() += row.number("share");
         }
         assert!(!sums.is_empty());
         for (mode, sum) in sums {
@@ -186,10 +154,9 @@ fn an_unstable_mode_consists_of_the_modes_without_friction() {
 /// springs and rigid, in the plane and in space, friction constant and falling.
 #[test]
 fn the_feed_over_the_contact_points_adds_up_to_that_of_the_contacts() {
-    let folder = tempfile::tempdir().unwrap();
-    let disc = folder.path().join("disc.toml");
-    std::fs::write(&disc, coarse_disc("[cea]\nmodes = 10\n")).unwrap();
-    let brake = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/operating-matrix.toml");
+    let text = coarse_disc("[cea]\nmodes = 10\n");
+    let folder = folder_with(&[("disc.toml", text.as_bytes())]);
+    let brake = &shipped("operating-matrix.toml");
     let soft = [
         "cea.max_frequency_hz=2800",
         "cea.friction_coefficients=[0.4]",
@@ -198,37 +165,37 @@ fn the_feed_over_the_contact_points_adds_up_to_that_of_the_contacts() {
     ];
     let compliant = ["contact.normal_stiffness=7.4e12", "cea.method=\"sparse\""];
     let falling = ["contact.static_friction_ratio=1.3", "contact.decay_speed=1.0"];
-    let kinds: [(&Path, &[&str]); 4] =
-        [(&brake, &soft), (&disc, &[]), (&disc, &compliant), (&disc, &falling)];
+    let disc = "disc.toml";
+    let kinds: [(&str, &[&str]); 4] =
+        [(brake, &soft), (disc, &[]), (disc, &compliant), (disc, &falling)];
     for (path, set) in kinds {
-        cea(folder.path(), path, set);
-        let out = folder.path().join("out");
-        let (feed, rows) = (table(&out.join("feed.csv")), table(&out.join("contributions.csv")));
+        let answer = cea(folder.path(), path, set);
+        let (feed, rows) = (answer.rows("feed.csv"), answer.rows("contributions.csv"));
         let own: BTreeSet<&String> = feed.iter().map(|row| &row["mode"]).collect();
         assert!(!own.is_empty(), "{set:?}: no unstable mode");
-        let friction = number(&feed[0], "friction_coefficient");
+        let friction = feed[0].number("friction_coefficient");
         for mode in own {
             let points = feed.iter().filter(|row| row["mode"] == **mode);
-            let sum: f64 = points.clone().map(|row| number(row, "growth_rate_per_s")).sum();
-            let size: f64 = points.map(|row| number(row, "growth_rate_per_s").abs()).sum();
-            let is_contact = |row: &&BTreeMap<String, String>| {
+            let sum: f64 = points.clone().map(|row| row.number("growth_rate_per_s")).sum();
+            let size: f64 = points.map(|row| row.number("growth_rate_per_s").abs()).sum();
+            let is_contact = |row: &&Row| {
                 row["mode"] == **mode
                     && row["kind"] == "contact"
-                    && number(row, "friction_coefficient") == friction
+                    && row.number("friction_coefficient") == friction
             };
             let contacts = rows.iter().filter(is_contact);
-            let fed: f64 = contacts.map(|row| number(row, "growth_rate_per_s")).sum();
-            let omega = TAU * number(rows.iter().find(is_contact).unwrap(), "frequency_hz");
+            let fed: f64 = contacts.map(|row| row.number("growth_rate_per_s")).sum();
+            let omega = TAU * rows.iter().find(is_contact).unwrap().number("frequency_hz");
             // What is left is the residual of the eigenpair, 1e-12 of the forces of inertia and less.
             assert!((sum - fed).abs() < 1e-9 * (omega + size), "{set:?}: {sum} {fed}");
         }
-        assert!(out.join("feed.vtu").exists());
+        assert!(answer.path("feed.vtu").exists());
     }
 }
 
 /// Rows of a table by friction value, mode and what they are about.
-fn rows_by(path: &Path, names: &[&str]) -> BTreeMap<Vec<String>, BTreeMap<String, String>> {
-    let rows = table(path).into_iter();
+fn rows_by(rows: Vec<Row>, names: &[&str]) -> BTreeMap<Vec<String>, Row> {
+    let rows = rows.into_iter();
     rows.map(|row| (names.iter().map(|name| row[*name].clone()).collect(), row)).collect()
 }
 
@@ -237,10 +204,8 @@ fn rows_by(path: &Path, names: &[&str]) -> BTreeMap<Vec<String>, BTreeMap<String
 /// two solvers agree to 1e-10 of the frequency, and with them growth rates.
 #[test]
 fn sectors_tell_the_same_budget_as_the_whole_mesh() {
-    let folder = tempfile::tempdir().unwrap();
-    let case = folder.path().join("disc.toml");
-    let cea_section = "[cea]\nmodes = 8\nfriction_coefficients = [0.0, 0.2, 0.3]\n";
-    std::fs::write(&case, coarse_disc(cea_section)).unwrap();
+    let text = coarse_disc("[cea]\nmodes = 8\nfriction_coefficients = [0.0, 0.2, 0.3]\n");
+    let folder = folder_with(&[("disc.toml", text.as_bytes())]);
     let rim = [
         "boundaries.outer.condition=\"support\"",
         "boundaries.outer.normal_stiffness=2e12",
@@ -274,18 +239,17 @@ fn sectors_tell_the_same_budget_as_the_whole_mesh() {
         let mut found = Vec::new();
         for method in ["cyclic", "sparse"] {
             let method = format!("cea.method=\"{method}\"");
-            cea(folder.path(), &case, &[&set[..], &[&method]].concat());
-            let out = folder.path().join("out");
+            let answer = cea(folder.path(), "disc.toml", &[&set[..], &[&method]].concat());
             let names = ["friction_coefficient", "mode", "name"];
-            let budget = rows_by(&out.join("contributions.csv"), &names);
+            let budget = rows_by(answer.rows("contributions.csv"), &names);
             let names = ["friction_coefficient", "mode", "reference_mode"];
-            let shares = rows_by(&out.join("coupling.csv"), &names);
+            let shares = rows_by(answer.rows("coupling.csv"), &names);
             let mut sums: BTreeMap<Vec<String>, f64> = BTreeMap::new();
             for (key, row) in &shares {
-                *sums.entry(key[..2].to_vec()).or_default() += number(row, "share");
+                *sums.entry(key[..2].to_vec()).or_default() += row.number("share");
             }
             // Place by place: contact, x, y.
-            let feed = table(&out.join("feed.csv"));
+            let feed = answer.rows("feed.csv");
             found.push((budget, sums, feed));
         }
         let [(budget, sums, feed), (whole, whole_sums, whole_feed)] = &found[..] else {
@@ -293,13 +257,13 @@ fn sectors_tell_the_same_budget_as_the_whole_mesh() {
         };
         assert_eq!(budget.keys().collect::<Vec<_>>(), whole.keys().collect::<Vec<_>>());
         for (key, row) in budget {
-            let omega = TAU * number(row, "frequency_hz");
+            let omega = TAU * row.number("frequency_hz");
             for (column, scale) in [
                 ("growth_rate_per_s", 1e-9 * omega),
                 ("kinetic_share", 1e-7),
                 ("strain_share", 1e-7),
             ] {
-                let [own, other] = [number(row, column), number(&whole[key], column)];
+                let [own, other] = [row.number(column), whole[key].number(column)];
                 let is_same = (own - other).abs() <= scale || own.is_nan() && other.is_nan();
                 assert!(is_same, "{set:?} {key:?} {column}: {own} {other}");
             }
@@ -310,11 +274,11 @@ fn sectors_tell_the_same_budget_as_the_whole_mesh() {
             assert!((sum - whole_sums[key]).abs() < 1e-6, "{set:?} {key:?}");
         }
         assert!(!feed.is_empty() && feed.len() == whole_feed.len());
-        let size = feed.iter().map(|row| number(row, "growth_rate_per_s").abs());
+        let size = feed.iter().map(|row| row.number("growth_rate_per_s").abs());
         let size = size.fold(0.0, f64::max);
         for (own, other) in feed.iter().zip(whole_feed) {
             assert_eq!((&own["x_m"], &own["mode"]), (&other["x_m"], &other["mode"]));
-            let [a, b] = [own, other].map(|row| number(row, "growth_rate_per_s"));
+            let [a, b] = [own, other].map(|row| row.number("growth_rate_per_s"));
             assert!((a - b).abs() < 1e-6 * size, "{set:?}: {a} {b}");
         }
     }
@@ -324,10 +288,8 @@ fn sectors_tell_the_same_budget_as_the_whole_mesh() {
 /// of the plane disc, and are fed evenly over the height of the contact.
 #[test]
 fn a_guided_body_of_revolution_has_the_budget_of_the_plane_disc() {
-    let folder = tempfile::tempdir().unwrap();
-    let case = folder.path().join("disc.toml");
-    let cea_section = "[cea]\nmodes = 12\nfriction_coefficients = [0.0, 0.15, 0.3]\n";
-    std::fs::write(&case, coarse_disc(cea_section)).unwrap();
+    let text = coarse_disc("[cea]\nmodes = 12\nfriction_coefficients = [0.0, 0.15, 0.3]\n");
+    let folder = folder_with(&[("disc.toml", text.as_bytes())]);
     let plane = ["mesh.element=\"quad8\"", "cea.method=\"cyclic\""];
     let solid = [
         "mesh.element=\"quad8\"",
@@ -337,42 +299,35 @@ fn a_guided_body_of_revolution_has_the_budget_of_the_plane_disc() {
         "boundaries.bottom.condition=\"guide\"",
         "cea.modes=40",
     ];
-    let out = folder.path().join("out");
-    cea(folder.path(), &case, &plane);
-    let (budget, feed) = (table(&out.join("contributions.csv")), table(&out.join("feed.csv")));
-    cea(folder.path(), &case, &solid);
-    let solids = table(&out.join("contributions.csv"));
+    let answer = cea(folder.path(), "disc.toml", &plane);
+    let (budget, feed) = (answer.rows("contributions.csv"), answer.rows("feed.csv"));
+    let answer = cea(folder.path(), "disc.toml", &solid);
+    let solids = answer.rows("contributions.csv");
     for row in &budget {
-        let frequency = number(row, "frequency_hz");
-        let same = |other: &&BTreeMap<String, String>| {
+        let frequency = row.number("frequency_hz");
+        let same = |other: &&Row| {
             ["friction_coefficient", "name", "harmonic", "direction"]
                 .iter()
                 .all(|name| row[*name] == other[*name])
-                && (number(other, "frequency_hz") / frequency - 1.0).abs() < 1e-4
+                && (other.number("frequency_hz") / frequency - 1.0).abs() < 1e-4
         };
         let other = solids.iter().find(same);
         let other = other.unwrap_or_else(|| panic!("no solid mode like {row:?}"));
-        let [own, other] = [row, other].map(|row| number(row, "growth_rate_per_s"));
+        let [own, other] = [row, other].map(|row| row.number("growth_rate_per_s"));
         // Bricks of 20 nodes are integrated in another way than the plane's elements.
         let close = 1e-3 * own.abs() + 1e-6 * TAU * frequency;
         assert!((own - other).abs() < close, "{row:?}: {own} {other}");
     }
-    let rings = table(&out.join("feed.csv"));
+    let rings = answer.rows("feed.csv");
     let modes: BTreeSet<&String> = rings.iter().map(|row| &row["mode"]).collect();
     let mut is_found = false;
     for mode in modes {
         let own = rings.iter().filter(|row| row["mode"] == *mode);
-        let own: Vec<[f64; 3]> = own
-            .map(|row| {
-                ["frequency_hz", "growth_rate_per_s", "growth_rate_per_s_m2"]
-                    .map(|column| number(row, column))
-            })
-            .collect();
-        let is_it = |row: &&BTreeMap<String, String>| {
-            (number(row, "frequency_hz") / own[0][0] - 1.0).abs() < 1e-4
-        };
+        let columns = ["frequency_hz", "growth_rate_per_s", "growth_rate_per_s_m2"];
+        let own: Vec<[f64; 3]> = own.map(|row| row.numbers(columns)).collect();
+        let is_it = |row: &&Row| (row.number("frequency_hz") / own[0][0] - 1.0).abs() < 1e-4;
         let flat = feed.iter().filter(is_it);
-        let flat: f64 = flat.map(|row| number(row, "growth_rate_per_s")).sum();
+        let flat: f64 = flat.map(|row| row.number("growth_rate_per_s")).sum();
         if flat == 0.0 {
             continue;
         }
@@ -408,7 +363,6 @@ const ROTOR: &str = "title = \"Two pads on a rotor\"
 /// that decay; without friction they feed nothing, and with friction all rows add up to the growth rate.
 #[test]
 fn gyroscopic_forces_have_their_own_row_in_the_budget() {
-    let folder = tempfile::tempdir().unwrap();
     let block = |name, origin, size, counts| Block { name, origin, size, counts };
     let blocks = [
         block("ring", [0.06, 0.0, 0.0], [0.06, TAU, 0.01], [2, 24, 1]),
@@ -419,27 +373,21 @@ fn gyroscopic_forces_have_their_own_row_in_the_budget() {
         let (sin, cos) = angle.sin_cos();
         [radius * cos, radius * sin, z]
     });
-    std::fs::write(folder.path().join("rotor.msh"), file).unwrap();
-    let case = folder.path().join("case.toml");
-    std::fs::write(&case, ROTOR).unwrap();
-    cea(folder.path(), &case, &[]);
-    let out = folder.path().join("out");
-    let rows = table(&out.join("contributions.csv"));
+    let folder = folder_with(&[("rotor.msh", &file), ("case.toml", ROTOR.as_bytes())]);
+    let answer = cea(folder.path(), "case.toml", &[]);
+    let rows = answer.rows("contributions.csv");
     let mut largest = 0.0_f64;
-    for mode in table(&out.join("eigenvalues.csv")) {
-        let own = rows.iter().filter(|row| {
-            row["mode"] == mode["mode"]
-                && row["friction_coefficient"] == mode["friction_coefficient"]
-        });
+    for mode in answer.rows("eigenvalues.csv") {
+        let own = rows.iter().filter(|row| same_mode(row, &mode));
         let own: Vec<(&str, f64)> =
-            own.map(|row| (row["kind"].as_str(), number(row, "growth_rate_per_s"))).collect();
-        let omega = TAU * number(&mode, "frequency_hz");
+            own.map(|row| (row["kind"].as_str(), row.number("growth_rate_per_s"))).collect();
+        let omega = TAU * mode.number("frequency_hz");
         let sum: f64 = own.iter().map(|(_, rate)| rate).sum();
-        let growth = number(&mode, "growth_rate_per_s");
+        let growth = mode.number("growth_rate_per_s");
         assert!((sum - growth).abs() < 1e-9 * omega, "{sum} {growth}");
         let turned = own.iter().find(|(kind, _)| *kind == "rotation").unwrap();
         largest = largest.max(turned.1.abs() / growth.abs());
-        if number(&mode, "friction_coefficient") == 0.0 {
+        if mode.number("friction_coefficient") == 0.0 {
             let fed = own.iter().filter(|(kind, _)| *kind == "contact");
             for (_, rate) in fed {
                 assert!(rate.abs() < 1e-8 * omega, "{own:?}");

@@ -1,7 +1,7 @@
 //! Three-dimensional bodies on a rigid counterface: from a mesh file, and generated ones on their whole mesh.
 
 use crate::bricks::{Block, file_of};
-use assert_cmd::Command;
+use crate::program::{Answer, Run, folder, rows, shipped};
 use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
@@ -73,29 +73,18 @@ fn block() -> Vec<u8> {
     file_of(&[block], |point| point)
 }
 
-/// What a command says of a case, and whether it succeeds.
-fn run(folder: &Path, command: &str, case: &str, out: &str, sets: &[&str]) -> (bool, String) {
+/// A command on a case beside the block.
+fn run(folder: &Path, command: &str, case: &str, out: &str, sets: &[&str]) -> Answer {
     fs::write(folder.join("block.msh"), block()).unwrap();
-    fs::write(folder.join("case.toml"), case).unwrap();
-    let mut program = Command::cargo_bin("frictionsim").unwrap();
-    program.current_dir(folder);
-    program.args([command, "case.toml", "--out", out, "--force", "--no-figures"]);
-    sets.iter().for_each(|set| {
-        program.args(["--set", set]);
-    });
-    let output = program.output().unwrap();
-    let said = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
-    (output.status.success(), said.into_owned())
+    let run = Run::of_text(command, folder, case).set(sets);
+    if command == "check" { run.end() } else { run.args(&["--force"]).out(out).end() }
 }
 
 /// Friction, frequency and growth rate of every mode.
 fn modes(folder: &Path, out: &str) -> Vec<[f64; 3]> {
-    let mut reader = csv::Reader::from_path(folder.join(out).join("eigenvalues.csv")).unwrap();
-    let headers = reader.headers().unwrap().clone();
-    let of = |name| headers.iter().position(|header| header == name).unwrap();
-    let columns = ["friction_coefficient", "frequency_hz", "growth_rate_per_s"].map(of);
-    let rows = reader.records().map(|row| row.unwrap());
-    rows.map(|row| columns.map(|column| row[column].parse().unwrap())).collect()
+    let rows = rows(&folder.join(out).join("eigenvalues.csv")).into_iter();
+    let columns = ["friction_coefficient", "frequency_hz", "growth_rate_per_s"];
+    rows.map(|row| row.numbers(columns)).collect()
 }
 
 /// Largest distance of a mode from the nearest of the others at the same friction, relative.
@@ -112,7 +101,7 @@ fn distance(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
 /// of friction across the sliding, which the one spreads over elements and the other has at nodes, is small.
 #[test]
 fn the_whole_mesh_of_a_body_of_revolution_has_the_spectrum_of_its_harmonics() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let ring = DISC.replace(
         "rotation_speed_rpm",
         "boundary = \"top\"\nring_inner_radius = 0.04\nring_outer_radius = 0.07\nrotation_speed_rpm",
@@ -121,8 +110,7 @@ fn the_whole_mesh_of_a_body_of_revolution_has_the_spectrum_of_its_harmonics() {
     for case in [DISC, &ring] {
         for (out, method) in [("cyclic", "auto"), ("whole", "sparse")] {
             let set = format!("cea.method=\"{method}\"");
-            let (is_done, said) = run(folder.path(), "cea", case, out, &[&set]);
-            assert!(is_done, "{said}");
+            run(folder.path(), "cea", case, out, &[&set]).code(0);
         }
         let [cyclic, whole] = ["cyclic", "whole"].map(|out| modes(folder.path(), out));
         let at_rest = |all: &[[f64; 3]]| -> Vec<[f64; 3]> {
@@ -141,15 +129,12 @@ fn the_whole_mesh_of_a_body_of_revolution_has_the_spectrum_of_its_harmonics() {
 /// What the harmonics cannot do is done on the whole mesh: a mass on the disc, its losses, its matrices.
 #[test]
 fn a_generated_body_of_revolution_takes_what_breaks_its_symmetry() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let mass =
         format!("{DISC}\n[modifications.weight]\nat = {{ x = 0.0905, y = 0.0 }}\nmass = 0.01\n");
     let free = "boundaries.outer={condition=\"support\",normal_stiffness=1e10,tangential_stiffness=1e10,axial_stiffness=1e10}";
-    let (is_done, said) =
-        run(folder.path(), "cea", DISC, "plain", &[free, "cea.method=\"sparse\""]);
-    assert!(is_done, "{said}");
-    let (is_done, said) = run(folder.path(), "cea", &mass, "mass", &[free]);
-    assert!(is_done, "{said}");
+    run(folder.path(), "cea", DISC, "plain", &[free, "cea.method=\"sparse\""]).code(0);
+    run(folder.path(), "cea", &mass, "mass", &[free]).code(0);
     let [plain, loaded] = ["plain", "mass"].map(|out| modes(folder.path(), out));
     assert!(loaded[0][1] < plain[0][1] * (1.0 - 1e-4), "{loaded:?} {plain:?}");
     // Without damping of its own, losses of 1 % damp a mode that contact does not by half as much.
@@ -158,23 +143,20 @@ fn a_generated_body_of_revolution_takes_what_breaks_its_symmetry() {
         "damping.mass_coefficient=0",
         "damping.stiffness_coefficient=0",
     ];
-    let (is_done, said) = run(folder.path(), "cea", DISC, "lossy", &lossy);
-    assert!(is_done, "{said}");
+    run(folder.path(), "cea", DISC, "lossy", &lossy).code(0);
     for mode in modes(folder.path(), "lossy").iter().filter(|mode| mode[0] == 0.0) {
         let damping = -mode[2] / (TAU * mode[1]);
         assert!((damping - 0.005).abs() < 1e-5, "{mode:?}");
     }
-    let (is_done, said) = run(folder.path(), "matrices", DISC, "refused", &[]);
-    assert!(!is_done && said.contains("cea.method = \"sparse\""), "{said}");
-    let (is_done, said) =
-        run(folder.path(), "matrices", DISC, "written", &["cea.method=\"sparse\""]);
-    assert!(is_done, "{said}");
+    let refused = run(folder.path(), "matrices", DISC, "refused", &[]);
+    refused.code(2).warns(&["cea.method = \"sparse\""]);
+    run(folder.path(), "matrices", DISC, "written", &["cea.method=\"sparse\""]).code(0);
 }
 
 /// Every analysis takes a solid block on a rigid plane.
 #[test]
 fn a_block_of_solid_elements_slides_on_a_rigid_plane() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let analyses = [
         ("check", ""),
         ("mesh", ""),
@@ -195,35 +177,21 @@ fn a_block_of_solid_elements_slides_on_a_rigid_plane() {
         } else {
             BLOCK.to_owned()
         };
-        let (is_done, said) = match command {
-            "check" => {
-                fs::write(folder.path().join("block.msh"), block()).unwrap();
-                fs::write(folder.path().join("case.toml"), &case).unwrap();
-                let mut program = Command::cargo_bin("frictionsim").unwrap();
-                let output = program
-                    .current_dir(folder.path())
-                    .args(["check", "case.toml"])
-                    .output()
-                    .unwrap();
-                (output.status.success(), String::from_utf8_lossy(&output.stderr).into_owned())
-            }
-            _ => run(folder.path(), command, &case, command, &sets),
-        };
+        let answer = run(folder.path(), command, &case, command, &sets);
         // A body that is stable has nothing to improve.
-        assert!(is_done || said.contains("grows"), "{command}: {said}");
+        assert!(answer.code == Some(0) || answer.said().contains("grows"), "{}", answer.said());
     }
-    let summary = fs::read_to_string(folder.path().join("transient/summary.json")).unwrap();
-    let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+    let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
+    let summary: serde_json::Value = serde_json::from_str(&read("transient/summary.json")).unwrap();
     let residual = summary["max_balance_residual"].as_f64().unwrap();
     assert!(residual < 1e-10, "{residual:e}");
-    let summary = fs::read_to_string(folder.path().join("cea/summary.json")).unwrap();
-    assert!(summary.contains("drag_n"), "{summary}");
+    assert!(read("cea/summary.json").contains("drag_n"));
 }
 
 /// Errors name the key.
 #[test]
 fn rigid_counterfaces_of_solid_bodies_that_cannot_be_are_refused_at_their_keys() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     for (change, parts) in [
         (("speed = 0.5", ""), ["missing key `contact.speed`", "--> case.toml"]),
         (
@@ -244,28 +212,18 @@ fn rigid_counterfaces_of_solid_bodies_that_cannot_be_are_refused_at_their_keys()
     ] {
         let case = BLOCK.replace(change.0, change.1);
         assert_ne!(case, BLOCK);
-        let (is_done, said) = run(folder.path(), "cea", &case, "run", &[]);
-        assert!(!is_done, "{change:?}");
-        for part in parts {
-            assert!(said.contains(part), "{part:?} is not in\n{said}");
-        }
+        let answer = run(folder.path(), "cea", &case, "run", &[]).warns(&parts);
+        assert_ne!(answer.code, Some(0), "{change:?}");
     }
 }
 
 /// Numbers by LAPACK: the dense eigenvalues of the exported matrices at this friction have a mode at 1424.66 Hz with growth 0.0 1/s.
 #[test]
 fn the_shipped_tread_block_squeals_in_its_shear_mode() {
-    let folder = tempfile::tempdir().unwrap();
-    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
-    fs::create_dir(folder.path().join("meshes")).unwrap();
-    let mesh = "meshes/tread-block.msh";
-    fs::copy(cases.join(mesh), folder.path().join(mesh)).unwrap();
-    let case = fs::read_to_string(cases.join("tread-block.toml")).unwrap();
+    let folder = folder();
     let sets = ["cea.friction_coefficients=[0.0,0.4,0.5]", "cea.modes=4"];
-    let (is_done, said) = run(folder.path(), "cea", &case, "run", &sets);
-    assert!(is_done, "{said}");
-    let summary = fs::read_to_string(folder.path().join("run/summary.json")).unwrap();
-    let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+    let run = Run::of("cea", shipped("tread-block.toml")).out(folder.path()).set(&sets);
+    let summary = run.done().summary();
     let onset = &summary["critical_frictions"][0];
     let [friction, frequency] =
         ["critical_friction", "frequency_hz"].map(|key| onset[key].as_f64().unwrap());

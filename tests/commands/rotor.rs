@@ -1,6 +1,6 @@
 //! Bodies that turn as a user meets them: input files of CalculiX with a centrifugal load, both frames, refusals.
 
-use assert_cmd::Command;
+use crate::program::{Run, folder, folder_with};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -128,26 +128,11 @@ fn columns_of<const N: usize>(
     columns: [&str; N],
 ) -> Vec<[f64; N]> {
     std::fs::write(folder.join("rotor.inp"), deck).unwrap();
-    let run = |arguments: &[&str]| {
-        let mut program = Command::cargo_bin("frictionsim").unwrap();
-        let output = program.current_dir(folder).args(arguments).output().unwrap();
-        let errors = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success(), "{arguments:?}: {errors}");
-    };
-    run(&["init", "--from", "rotor.inp", "--force"]);
+    Run::new(&["init", "--from", "rotor.inp", "--force"]).within(folder).done();
     let case = std::fs::read_to_string(folder.join("rotor.toml")).unwrap();
     std::fs::write(folder.join("rotor.toml"), format!("{case}\n{more}")).unwrap();
-    let options = ["--no-figures", "--force", "--out", "out"];
-    run(&[&[command, "rotor.toml"], options.as_slice()].concat());
-    let table = std::fs::read_to_string(folder.join("out").join(table)).unwrap();
-    let mut lines = table.lines().filter(|line| !line.starts_with('#'));
-    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let places = columns.map(|column| names.iter().position(|name| *name == column).unwrap());
-    let values = |line: &str| {
-        let values: Vec<&str> = line.split(',').collect();
-        places.map(|place| values[place].parse().unwrap())
-    };
-    lines.map(values).collect()
+    let run = Run::of(command, "rotor.toml").within(folder).args(&["--force"]).out("out");
+    run.done().rows(table).iter().map(|row| row.numbers(columns)).collect()
 }
 
 /// Frequencies of an input file with `cea` keys added, rad/s.
@@ -161,7 +146,7 @@ fn modes_of(folder: &Path, deck: &str, more: &str) -> Vec<f64> {
 /// highest it lists are not converged in that (`rotor` modes 9 and 10 are 14 and 13 % above those of all unknowns), and are left out.
 #[test]
 fn a_rotor_above_its_critical_speed_has_the_published_frequencies_in_its_turning_frame() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let (nodes, mesh) = rotor().text();
     let load = turning("3.0853e8");
 
@@ -207,7 +192,7 @@ fn a_rotor_above_its_critical_speed_has_the_published_frequencies_in_its_turning
 /// (0.21700 - 0.03623i).
 #[test]
 fn an_undamped_rotor_answers_a_force_in_its_turning_frame_by_a_hermitian_matrix() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let holes = [15, 0, 1, 2, 3, 4].map(|sector| [11, sector]).to_vec();
     let (nodes, mut text) = Revolved { holes, ..rotor() }.text();
     hold_ends(&mut text, &nodes);
@@ -237,7 +222,7 @@ fn an_undamped_rotor_answers_a_force_in_its_turning_frame_by_a_hermitian_matrix(
 /// the frame at rest, with Coriolis forces, centrifugal stress and all; and so for springs that are alike in every direction.
 #[test]
 fn frequencies_of_a_turning_ring_in_both_frames_differ_by_multiples_of_its_speed() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let ring = Revolved {
         around: 64,
         cells: vec![[60.0, 80.0, 0.0, 8.0], [80.0, 100.0, 0.0, 8.0]],
@@ -268,18 +253,9 @@ fn frequencies_of_a_turning_ring_in_both_frames_differ_by_multiples_of_its_speed
 
 #[test]
 fn a_frame_that_turns_turns_with_every_region_and_needs_the_inertia() {
-    let folder = tempfile::tempdir().unwrap();
     let ring = Revolved { around: 8, cells: vec![[60.0, 80.0, 0.0, 8.0]], holes: Vec::new() };
-    let (_, mesh) = ring.text();
-    std::fs::write(folder.path().join("ring.inp"), mesh).unwrap();
+    let folder = folder_with(&[("ring.inp", ring.text().1.as_bytes())]);
     let case = "[mesh]\nfile = \"ring.inp\"\nunits = \"mm-t-s\"\n[motion.Eall]\naxis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = 100.0\nframe = \"turning\"\n[cea]\nmodes = 2\n";
-    std::fs::write(folder.path().join("case.toml"), case).unwrap();
-    let mut program = Command::cargo_bin("frictionsim").unwrap();
-    let output = program.current_dir(folder.path()).args(["check", "case.toml"]).output().unwrap();
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(!output.status.success());
-    assert!(
-        errors.contains("motion.Eall.frame") && errors.contains("rotation_terms = true"),
-        "{errors}"
-    );
+    Run::of_text("check", folder.path(), case)
+        .refused(&["motion.Eall.frame", "rotation_terms = true"]);
 }

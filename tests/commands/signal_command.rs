@@ -1,6 +1,6 @@
 //! `frictionsim signal` on a synthetic squeal, beside the modes of a case.
 
-use assert_cmd::Command;
+use crate::program::{Run, folder_with};
 use std::f64::consts::TAU;
 
 const CASE: &str = r#"
@@ -43,17 +43,9 @@ fn squeal() -> String {
 
 #[test]
 fn a_squeal_is_named_by_its_mode_with_superharmonics_and_growth_rate() {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("probe.csv"), squeal()).unwrap();
-    std::fs::write(folder.path().join("disc.toml"), CASE).unwrap();
-    let output = Command::cargo_bin("frictionsim")
-        .unwrap()
-        .current_dir(folder.path())
-        .args(["signal", "probe.csv", "--case", "disc.toml", "--json", "--quiet"])
-        .output()
-        .unwrap();
-    assert!(output.status.success(), "{output:?}");
-    let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let folder = folder_with(&[("probe.csv", squeal().as_bytes()), ("disc.toml", CASE.as_bytes())]);
+    let words = ["signal", "probe.csv", "--case", "disc.toml", "--json", "--quiet"];
+    let summary = Run::new(&words).within(&folder).done().value();
     let channel = &summary["channels"][0];
     let main = channel["main_frequency_hz"].as_f64().unwrap();
     // 0.1 %: what the comparison of limit cycles asks for.
@@ -77,23 +69,15 @@ fn a_squeal_is_named_by_its_mode_with_superharmonics_and_growth_rate() {
 
 #[test]
 fn a_steady_tone_beside_no_unstable_mode_is_given_none_and_can_be_heard() {
-    let folder = tempfile::tempdir().unwrap();
     let tone = |k: u32| (TAU * 9433.0 * f64::from(k) / 2.5e5).sin();
     let rows: String =
         (0..20_000).map(|k| format!("{:.7},{:.9}\n", f64::from(k) / 2.5e5, tone(k))).collect();
-    std::fs::write(folder.path().join("tone.csv"), format!("time_s,x\n{rows}")).unwrap();
-    std::fs::write(folder.path().join("disc.toml"), CASE).unwrap();
+    let table = format!("time_s,x\n{rows}");
+    let folder = folder_with(&[("tone.csv", table.as_bytes()), ("disc.toml", CASE.as_bytes())]);
     let run = |more: &[&str]| {
-        let mut command = Command::cargo_bin("frictionsim").unwrap();
-        command
-            .current_dir(folder.path())
-            .args(["signal", "tone.csv", "--no-figures", "--case", "disc.toml"])
-            .args(more);
-        command.output().unwrap()
+        Run::of("signal", "tone.csv").within(&folder).args(&["--case", "disc.toml"]).args(more)
     };
-    let output = run(&["--json", "--quiet", "--wav", "tone.wav"]);
-    assert!(output.status.success(), "{output:?}");
-    let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let summary = run(&["--json", "--quiet", "--wav", "tone.wav"]).done().value();
     let channel = &summary["channels"][0];
     assert!(channel["mode"].is_null(), "{channel}");
     // The unstable mode of two nodal diameters lies more than 3 % above: too far to be named.
@@ -108,25 +92,15 @@ fn a_steady_tone_beside_no_unstable_mode_is_given_none_and_can_be_heard() {
     let sound = std::fs::read(folder.path().join("tone.wav")).unwrap();
     assert_eq!(&sound[24..28], 50_000u32.to_le_bytes());
     for nonsense in [["--window", "0"], ["--resolution", "1"], ["--max-frequency", "0"]] {
-        let refused = run(&nonsense);
-        assert_eq!(refused.status.code(), Some(2), "{nonsense:?}");
-        let message = String::from_utf8(refused.stderr).unwrap();
-        assert!(message.contains(nonsense[0]), "{message}");
+        run(&nonsense).refused(&[nonsense[0]]);
     }
 }
 
 #[test]
 fn a_signal_without_time_needs_a_rate_and_says_so() {
-    let folder = tempfile::tempdir().unwrap();
     let rows: String = (0..200).map(|i| format!("{}\n", (0.5 * f64::from(i)).sin())).collect();
-    std::fs::write(folder.path().join("bare.txt"), rows).unwrap();
-    let run = |more: &[&str]| {
-        let mut command = Command::cargo_bin("frictionsim").unwrap();
-        command.current_dir(folder.path()).args(["signal", "bare.txt"]).args(more);
-        command.output().unwrap()
-    };
-    let refused = run(&[]);
-    assert_eq!(refused.status.code(), Some(2));
-    assert!(String::from_utf8(refused.stderr).unwrap().contains("--rate HZ"));
-    assert!(run(&["--rate", "1000"]).status.success());
+    let folder = folder_with(&[("bare.txt", rows.as_bytes())]);
+    let run = || Run::new(&["signal", "bare.txt"]).within(&folder);
+    run().refused(&["--rate HZ"]);
+    run().args(&["--rate", "1000"]).done();
 }

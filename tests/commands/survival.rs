@@ -3,11 +3,12 @@
 #![cfg(unix)]
 
 use crate::coarse_disc::coarse_disc;
+use crate::program::{Run, folder_with, has, shipped};
 use crate::tier::sized;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Output, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::time::Instant;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_frictionsim");
@@ -32,36 +33,39 @@ struct Study {
 
 impl Study {
     fn new() -> Self {
-        let root = tempfile::tempdir().unwrap();
-        std::fs::write(root.path().join("study.toml"), coarse_disc(STUDY)).unwrap();
-        Self { root }
+        Self { root: folder_with(&[("study.toml", coarse_disc(STUDY).as_bytes())]) }
     }
 
     fn folder(&self, name: &str) -> PathBuf {
         self.root.path().join(name)
     }
 
-    fn sweep(&self, folder: &str, options: &[&str]) -> Command {
-        let mut command = Command::new(PROGRAM);
-        command
-            .args(["sweep", "study.toml", "--quiet", "--threads", "2", "--out", folder])
-            .args(options)
-            .current_dir(self.root.path());
-        command
-    }
-
-    fn run(&self, folder: &str, options: &[&str]) -> Output {
-        let output = self.sweep(folder, options).output().unwrap();
-        let errors = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success(), "{folder} {options:?}: {errors}");
-        output
+    fn sweep(&self, folder: &str, options: &[&str]) -> Run {
+        let words = ["sweep", "study.toml", "--quiet", "--threads", "2"];
+        Run::new(&words).args(options).within(&self.root).out(folder)
     }
 
     fn start(&self, folder: &str, options: &[&str]) -> Child {
-        let mut command = self.sweep(folder, options);
-        command.stdout(Stdio::null()).stderr(Stdio::null());
-        command.spawn().unwrap()
+        let mut command = self.sweep(folder, options).program();
+        command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
     }
+
+    /// Another program in the folder of the study.
+    fn shell(&self, script: &str, words: &[&str]) -> std::process::Output {
+        let mut shell = Command::new("sh");
+        shell.args(["-c", script, PROGRAM]).args(words).current_dir(&self.root);
+        shell.output().unwrap()
+    }
+}
+
+/// Stops a run, which must say how to go on.
+fn terminate(child: Child) {
+    let kill = Command::new("kill").arg(child.id().to_string()).status();
+    assert!(kill.unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    let errors = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(130), "{errors}");
+    has(&errors, &["--resume"]);
 }
 
 /// The finished points by file name, byte for byte.
@@ -94,7 +98,7 @@ fn next_random(state: &mut u64) -> f64 {
 fn killed_sweeps_resume_to_identical_results() {
     let study = Study::new();
     let clock = Instant::now();
-    study.run("whole", &[]);
+    study.sweep("whole", &[]).done();
     let whole_time = clock.elapsed();
     let (expected, expected_points) =
         (table(&study.folder("whole")), points(&study.folder("whole")));
@@ -129,13 +133,12 @@ fn killed_sweeps_resume_to_identical_results() {
 #[test]
 fn processes_side_by_side_share_the_points_of_one_folder() {
     let study = Study::new();
-    study.run("alone", &[]);
+    study.sweep("alone", &[]).done();
     let mut children: Vec<Child> = (0..3).map(|_| study.start("shared", &["--resume"])).collect();
     for child in &mut children {
         assert!(child.wait().unwrap().success());
     }
-    let output = study.run("shared", &["--resume", "--json"]);
-    let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let summary = study.sweep("shared", &["--resume", "--json"]).done().value();
     assert_eq!(summary["ran"], 0);
     assert_eq!(table(&study.folder("shared")), table(&study.folder("alone")));
     assert_eq!(points(&study.folder("shared")), points(&study.folder("alone")));
@@ -144,56 +147,41 @@ fn processes_side_by_side_share_the_points_of_one_folder() {
 #[test]
 fn shards_collect_to_the_table_of_the_whole_sweep() {
     let study = Study::new();
-    study.run("whole", &[]);
-    study.run("shards", &["--shard", "2/3"]);
-    let collect = || {
-        let mut command = Command::new(PROGRAM);
-        command.args(["collect", "shards"]).current_dir(study.root.path());
-        command.output().unwrap()
-    };
-    study.run("shards", &["--shard", "1/3"]);
-    let partial = collect();
-    assert_eq!(partial.status.code(), Some(1));
-    let text = String::from_utf8_lossy(&partial.stdout);
-    assert!(text.contains("missing: 3, 6, 9, 12, 15, 18, 21, 24, 27, 30"), "{text}");
+    study.sweep("whole", &[]).done();
+    study.sweep("shards", &["--shard", "2/3"]).done();
+    let collect = || Run::new(&["collect", "shards"]).within(&study.root).end();
+    study.sweep("shards", &["--shard", "1/3"]).done();
+    collect().code(1).says(&["missing: 3, 6, 9, 12, 15, 18, 21, 24, 27, 30"]);
     assert_eq!(table(&study.folder("shards")).lines().count(), 21);
-    study.run("shards", &["--shard", "3/3"]);
-    assert!(collect().status.success());
+    study.sweep("shards", &["--shard", "3/3"]).done();
+    collect().code(0);
     assert_eq!(table(&study.folder("shards")), table(&study.folder("whole")));
 }
 
 #[test]
 fn a_full_disk_is_named_and_leaves_earlier_points_whole() {
     let study = Study::new();
-    study.run("whole", &[]);
-    study.run("full", &["--shard", "1/2"]);
+    study.sweep("whole", &[]).done();
+    study.sweep("full", &["--shard", "1/2"]).done();
     let before = points(&study.folder("full"));
     // No file above 512 bytes, which no point fits into; the signal that comes with the limit is
     // ignored, so that writing fails as it does on a full disk.
     let script = "trap '' XFSZ; ulimit -f 1; exec \"$0\" \"$@\"";
-    let mut limited = Command::new("sh");
-    limited
-        .args(["-c", script, PROGRAM, "sweep", "study.toml", "--quiet", "--out", "full"])
-        .args(["--shard", "2/2"])
-        .current_dir(study.root.path());
-    let output = limited.output().unwrap();
-    let errors = String::from_utf8_lossy(&output.stderr);
+    let words = ["sweep", "study.toml", "--quiet", "--out", "full", "--shard", "2/2"];
+    let output = study.shell(script, &words);
+    let errors = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(1), "{errors}");
-    assert!(errors.contains("no room left") && errors.contains("point-"), "{errors}");
+    has(&errors, &["no room left", "point-"]);
     assert_eq!(points(&study.folder("full")), before);
-    study.run("full", &["--resume"]);
+    study.sweep("full", &["--resume"]).done();
     assert_eq!(table(&study.folder("full")), table(&study.folder("whole")));
 }
 
 #[test]
 fn a_failed_point_ends_in_exit_code_1_after_all_others_are_done() {
     let study = Study::new();
-    let output = study
-        .sweep("failing", &["--set", "sweep.\"transient.time_step\"=[\"auto\", 3.9e-6]", "--json"])
-        .output()
-        .unwrap();
-    assert_eq!(output.status.code(), Some(1));
-    let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let set = "sweep.\"transient.time_step\"=[\"auto\", 3.9e-6]";
+    let summary = study.sweep("failing", &["--json"]).set(&[set]).end().code(1).value();
     assert_eq!(summary["finished"], 60);
     let failed = summary["failed"].as_array().unwrap();
     assert_eq!(failed.len(), 30, "{failed:?}");
@@ -208,15 +196,13 @@ fn a_shell_loop_over_transients_gives_what_the_sweep_gives() {
     let script = "for mu in 0.2 0.3; do \
          \"$0\" transient study.toml --set contact.friction_coefficient=$mu --json --quiet --no-figures \
          || exit; done";
-    let mut shell = Command::new("sh");
-    shell.args(["-c", script, PROGRAM]).current_dir(study.root.path());
-    let output = shell.output().unwrap();
+    let output = study.shell(script, &[]);
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{errors}");
     let summaries = serde_json::Deserializer::from_slice(&output.stdout).into_iter::<Value>();
     let looped: Vec<Value> = summaries.map(Result::unwrap).collect();
     let set = "sweep={ \"contact.friction_coefficient\" = [0.2, 0.3] }";
-    study.run("swept", &["--set", set]);
+    study.sweep("swept", &["--set", set]).done();
     let swept = points(&study.folder("swept"));
     assert_eq!((looped.len(), swept.len()), (2, 2));
     for (one, text) in looped.iter().zip(swept.values()) {
@@ -231,31 +217,17 @@ fn a_shell_loop_over_transients_gives_what_the_sweep_gives() {
 #[test]
 fn a_terminated_sweep_says_how_to_go_on() {
     let study = Study::new();
-    let mut command = study.sweep("stopped", &[]);
-    command.stdout(Stdio::null()).stderr(Stdio::piped());
-    let child = command.spawn().unwrap();
+    let mut command = study.sweep("stopped", &[]).program();
+    let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
     while points(&study.folder("stopped")).is_empty() {
         std::thread::sleep(std::time::Duration::from_millis(5));
     }
-    let kill = Command::new("kill").arg(child.id().to_string()).status();
-    assert!(kill.unwrap().success());
-    let output = child.wait_with_output().unwrap();
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(130), "{errors}");
-    assert!(errors.contains("--resume"), "{errors}");
+    terminate(child);
 }
 
 /// Runs `cea` of a body without symmetry into a folder.
-fn cea(folder: &Path, options: &[&str]) -> Command {
-    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/sliding-block.toml");
-    let mut command = Command::new(PROGRAM);
-    command
-        .arg("cea")
-        .arg(case)
-        .args(["--quiet", "--no-figures", "--out"])
-        .arg(folder)
-        .args(options);
-    command
+fn cea(folder: &Path, options: &[&str]) -> Run {
+    Run::of("cea", shipped("sliding-block.toml")).args(&["--quiet"]).out(folder).args(options)
 }
 
 /// Steps that an interrupted eigenvalue sweep has left.
@@ -268,28 +240,21 @@ fn steps(folder: &Path) -> usize {
 
 #[test]
 fn an_eigenvalue_sweep_stopped_twice_resumes_to_identical_tables() {
-    let root = tempfile::tempdir().unwrap();
+    let root = folder_with(&[]);
     let (stopped, whole) = (root.path().join("stopped"), root.path().join("whole"));
     for (options, wanted) in [(&[][..], 2), (&["--resume"], 4)] {
         // On a busy machine the first run may have come further than it was let.
         let wanted = wanted.max(steps(&stopped) + 1);
-        let mut command = cea(&stopped, options);
-        command.stdout(Stdio::null()).stderr(Stdio::piped());
-        let mut child = command.spawn().unwrap();
+        let mut command = cea(&stopped, options).program();
+        let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
         while steps(&stopped) < wanted {
             assert!(child.try_wait().unwrap().is_none(), "over before it was stopped");
             std::thread::sleep(std::time::Duration::from_millis(2));
         }
-        let kill = Command::new("kill").arg(child.id().to_string()).status();
-        assert!(kill.unwrap().success());
-        let output = child.wait_with_output().unwrap();
-        let errors = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(130), "{errors}");
-        assert!(errors.contains("--resume"), "{errors}");
+        terminate(child);
     }
     for (folder, options) in [(&stopped, &["--resume"][..]), (&whole, &[])] {
-        let output = cea(folder, options).output().unwrap();
-        assert!(output.status.success(), "{output:?}");
+        cea(folder, options).done();
         assert!(!folder.join("progress").exists());
     }
     for table in ["eigenvalues.csv", "stability.csv"] {

@@ -2,7 +2,7 @@
 //! place of a solver, so that the checks are about who runs what and what is kept of it.
 
 use crate::coarse_disc::coarse_disc;
-use assert_cmd::Command;
+use crate::program::{Row, Run, folder};
 use frictionsim::app::Failure;
 use frictionsim::app::sweep::{
     Finished, PointRunner, Shard, SweepPlan, SweepProgress, SweepRun, gather,
@@ -11,7 +11,6 @@ use frictionsim::case::Case;
 use frictionsim::results::sweep::{Start, SweepFolder};
 use frictionsim::results::{FolderError, Manifest, OutputFolder, Replace};
 use serde_json::{Map, Value, json};
-use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -83,7 +82,7 @@ fn table(folder: &Path) -> String {
 #[test]
 fn the_table_is_the_same_bytes_for_any_threads_shards_and_restarts() {
     let case = study(GRID);
-    let root = tempfile::tempdir().unwrap();
+    let root = folder();
     let whole = root.path().join("whole");
     assert_eq!(sweep(&case, &whole, None, 1, Start::Fresh, &formula).unwrap(), 15);
     let expected = table(&whole);
@@ -111,7 +110,7 @@ fn the_table_is_the_same_bytes_for_any_threads_shards_and_restarts() {
 #[test]
 fn a_failed_point_is_a_row_and_the_others_go_on() {
     let case = study(GRID);
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let calls = AtomicUsize::new(0);
     let runner = |point: &Case| {
         calls.fetch_add(1, Ordering::Relaxed);
@@ -145,7 +144,7 @@ fn values_that_do_not_go_together_fail_their_point_alone() {
     let sweep_text = "\n[sweep]\n\"geometry.inner_radius\" = [0.01, 0.05]\n\
         \"geometry.outer_radius\" = [0.04, 0.0905]\nanalyses = [\"cea\"]\n";
     let case = study(sweep_text);
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     sweep(&case, folder.path(), None, 2, Start::Fresh, &formula).unwrap();
     let text = table(folder.path());
     let errors: Vec<bool> = text.lines().map(|row| row.contains("radius =")).collect();
@@ -155,7 +154,7 @@ fn values_that_do_not_go_together_fail_their_point_alone() {
 #[test]
 fn finished_points_are_kept_unless_asked_otherwise() {
     let case = study(GRID);
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let run = |shard, start| sweep(&case, folder.path(), shard, 2, start, &formula);
     assert_eq!(run(Some("1/3"), Start::Fresh).unwrap(), 5);
     // Another shard is not in its way; the same one, or the whole, is.
@@ -173,7 +172,7 @@ fn finished_points_are_kept_unless_asked_otherwise() {
 #[test]
 fn a_damaged_point_is_run_again() {
     let case = study(GRID);
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     sweep(&case, folder.path(), None, 2, Start::Fresh, &formula).unwrap();
     let expected = table(folder.path());
     let path = |point: usize| folder.path().join(format!("points/point-{point:06}.json"));
@@ -188,7 +187,7 @@ fn a_damaged_point_is_run_again() {
 #[test]
 fn points_of_another_case_are_refused_and_replaced_only_by_force() {
     let (case, other) = (study(GRID), study(&GRID.replace("0.4", "0.5")));
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     sweep(&case, folder.path(), None, 2, Start::Fresh, &formula).unwrap();
     let expected = table(folder.path());
     for start in [Start::Fresh, Start::Resume] {
@@ -204,7 +203,7 @@ fn points_of_another_case_are_refused_and_replaced_only_by_force() {
 #[test]
 fn two_runs_on_one_folder_share_the_points() {
     let case = study(GRID);
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let calls = AtomicUsize::new(0);
     let runner = |point: &Case| {
         calls.fetch_add(1, Ordering::Relaxed);
@@ -227,7 +226,7 @@ fn two_runs_on_one_folder_share_the_points() {
 fn sweeps_and_other_commands_keep_out_of_each_others_folder() {
     let case = study(GRID);
     let plan = SweepPlan::new(&case).unwrap();
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let manifest = manifest(&case);
     let open = |start| SweepFolder::open(folder.path(), &manifest, plan.count(), &[1], start);
     let other = Manifest::new("cea");
@@ -264,40 +263,25 @@ fn the_operating_matrix_lists_every_unstable_mode_and_reversed_rotation_mirrors_
     let sections = "[cea]\nmodes = 8\nfriction_coefficients = [0.1, 0.3]\n[sweep]\nanalyses = [\"cea\"]\n\
         \"contact.rotation_speed_rpm\" = [-610.0, 610.0]\n\
         \"material.young_modulus\" = [2.5e9, 5e9]\n";
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     std::fs::write(folder.path().join("case.toml"), coarse_disc(sections)).unwrap();
-    let mut program = Command::cargo_bin("frictionsim").unwrap();
-    let output = program
-        .current_dir(folder.path())
-        .args(["sweep", "case.toml", "--out", "out"])
-        .output()
-        .unwrap();
-    assert!(output.status.success(), "{output:?}");
-    let printed = String::from_utf8_lossy(&output.stdout);
-    assert!(printed.contains("of 8 operating conditions (4 points)"), "{printed}");
+    let run = Run::new(&["sweep", "case.toml"]).within(&folder).out("out");
+    let answer = run.done().says(&["of 8 operating conditions (4 points)"]);
 
     // Every row of the modes of the points that grows is in the table, at both frictions.
-    let rows = |name: &str| -> Vec<BTreeMap<String, String>> {
-        let mut reader = csv::Reader::from_path(folder.path().join("out").join(name)).unwrap();
-        reader.deserialize().map(Result::unwrap).collect()
-    };
-    let unstable = rows("unstable_modes.csv");
-    let at = |friction: &str, modulus: &str, speed: &str| -> Vec<(f64, f64, f64)> {
+    let unstable = answer.rows("unstable_modes.csv");
+    let at = |friction: &str, modulus: &str, speed: &str| -> Vec<[f64; 3]> {
+        let modulus: f64 = modulus.parse().unwrap();
         let own = unstable.iter().filter(|row| {
             row["friction_coefficient"] == friction
-                && row["material.young_modulus"].parse::<f64>().unwrap()
-                    == modulus.parse::<f64>().unwrap()
+                && row.number("material.young_modulus") == modulus
                 && row["contact.rotation_speed_rpm"].starts_with('-') == (speed == "-")
         });
-        let number = |row: &BTreeMap<String, String>, key: &str| row[key].parse().unwrap();
-        own.map(|row| {
-            let keys = ["frequency_hz", "growth_rate_per_s", "critical_friction"];
-            let [f, growth, critical] = keys.map(|key| number(row, key));
-            (f, growth, critical)
-        })
-        .collect()
+        let numbers =
+            |row: &Row| row.numbers(["frequency_hz", "growth_rate_per_s", "critical_friction"]);
+        own.map(numbers).collect()
     };
-    let own = rows("modes.csv");
+    let own = answer.rows("modes.csv");
     let grows = own.iter().filter(|row| row["unstable"] == "true").count();
     let of_own = unstable.iter().filter(|row| row["friction_coefficient"] == "0.3");
     assert_eq!(of_own.count(), grows);
@@ -307,18 +291,18 @@ fn the_operating_matrix_lists_every_unstable_mode_and_reversed_rotation_mirrors_
         assert_eq!(one.len(), other.len());
         for (a, b) in one.iter().zip(&other) {
             let near = |x: f64, y: f64| (x - y).abs() < 1e-6 * x.abs();
-            assert!(near(a.0, b.0) && near(a.1, b.1) && near(a.2, b.2), "{a:?} {b:?}");
+            assert!((0..3).all(|k| near(a[k], b[k])), "{a:?} {b:?}");
             // It grows behind its critical friction.
-            assert!(a.1 > 0.0 && a.2 < 0.3, "{a:?}");
+            assert!(a[1] > 0.0 && a[2] < 0.3, "{a:?}");
         }
     }
 
     // The figure has a panel for each direction, the report its table.
-    let html = std::fs::read_to_string(folder.path().join("out/report.html")).unwrap();
+    let html = answer.text("report.html");
     for text in ["unstable_modes.csv", "forward, speed", "reverse, speed"] {
         assert!(html.contains(text), "{text}");
     }
-    assert!(folder.path().join("out/figures/operating-matrix.png").exists());
+    assert!(answer.path("figures/operating-matrix.png").exists());
 }
 
 #[test]
@@ -334,16 +318,4 @@ fn keys_that_go_together_take_the_same_values_at_every_point() {
         json!({ "contact.friction_coefficient": 0.2, "damping.mass_coefficient": 2, "cea.max_frequency_hz": 2 })
     );
     assert_eq!(plan.keys().len(), 3);
-    let file = include_str!("../../cases/polycarbonate-disc.toml");
-    for (also, said) in [
-        ("[\"material.densty\"]", "did you mean \"material.density\"?"),
-        ("[\"contact.friction_coefficient\"]", "contact.friction_coefficient is set twice"),
-    ] {
-        let sweep = format!(
-            "\n[sweep]\n\"contact.friction_coefficient\" = [0.2]\n\"damping.mass_coefficient\" = {{ values = [1.0], also = {also} }}\n"
-        );
-        let errors = Case::parse("study.toml", format!("{file}{sweep}").as_bytes(), &[]);
-        let errors = errors.unwrap_err().to_string();
-        assert!(errors.contains(said), "{errors}");
-    }
 }

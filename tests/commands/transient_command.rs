@@ -1,28 +1,17 @@
 //! `frictionsim transient` as a user meets it: files, checkpoints, exit codes, and the shipped cases on coarse meshes.
 
 use crate::bricks::{Block, file_of};
-use assert_cmd::Command;
-use predicates::str::contains;
+use crate::program::{Answer, Run, folder, has, shipped};
 use serde_json::Value;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
-use tempfile::TempDir;
 
 const BRICK: Block = Block { name: "brick", origin: [0.0; 3], size: [0.01; 3], counts: [2, 1, 1] };
 
-fn case(name: &str) -> String {
-    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
-    cases.join(name).display().to_string()
-}
-
-fn folder() -> TempDir {
-    tempfile::tempdir().unwrap()
-}
-
-/// The 610 rpm case on a mesh that steps in a microsecond, with every override as `KEY=VALUE`.
-fn arguments(out: &Path, overrides: &[&str]) -> Vec<String> {
+/// A command on a shipped case of the disc, on a mesh that steps in a microsecond.
+fn coarse(command: &str, name: &str, out: &Path, overrides: &[&str]) -> Run {
     let coarse = [
         "mesh.circumferential_elements=60",
         "mesh.radial_elements=12",
@@ -30,27 +19,20 @@ fn arguments(out: &Path, overrides: &[&str]) -> Vec<String> {
         "output.snapshots=[0.002]",
         "transient.duration=0.004",
     ];
-    let mut arguments = vec!["transient".to_owned(), case("polycarbonate-610rpm.toml")];
-    arguments.extend(["--out".to_owned(), out.display().to_string()]);
-    arguments.push("--no-figures".to_owned());
-    for text in coarse.iter().chain(overrides) {
-        arguments.extend(["--set".to_owned(), (*text).to_owned()]);
-    }
-    arguments
+    Run::new(&[command, &shipped(name)]).out(out).set(&coarse).set(overrides)
 }
 
-fn frictionsim(arguments: &[String]) -> Command {
-    let mut command = Command::cargo_bin("frictionsim").unwrap();
-    command.args(arguments);
-    command
+/// A transient of the 610 rpm case, without figures.
+fn transient(out: &Path, overrides: &[&str]) -> Run {
+    coarse("transient", "polycarbonate-610rpm.toml", out, overrides).args(&["--no-figures"])
 }
 
-fn summary(folder: &Path) -> Value {
-    serde_json::from_slice(&fs::read(folder.join("summary.json")).unwrap()).unwrap()
+fn resumed(out: &Path, overrides: &[&str]) -> Run {
+    transient(out, overrides).args(&["--resume"])
 }
 
 /// Every result file but those that hold wall-clock times.
-fn results(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+fn results(answer: &Answer) -> Vec<(&'static str, Vec<u8>)> {
     let names = [
         "probe-1.csv",
         "probe-200.csv",
@@ -61,29 +43,31 @@ fn results(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
         "snapshots.pvd",
         "snapshots/snapshot-001.vtu",
     ];
-    names.iter().map(|name| (PathBuf::from(name), fs::read(folder.join(name)).unwrap())).collect()
+    names.map(|name| (name, answer.bytes(name))).to_vec()
+}
+
+/// Holds all results of two runs to the same bytes.
+fn assert_same(found: &Answer, expected: &Answer) {
+    for (found, expected) in results(found).into_iter().zip(results(expected)) {
+        assert!(found == expected, "{}", expected.0);
+    }
 }
 
 #[test]
 fn every_promised_file_column_and_summary_key_is_there() {
     let folder = folder();
-    let out = folder.path().join("out");
-    frictionsim(&arguments(&out, &[])).assert().code(0).stdout(contains("over the last fifth"));
-    let first_line = |name: &str| {
-        let text = fs::read_to_string(out.join(name)).unwrap();
-        text.lines().next().unwrap().to_owned()
-    };
+    let answer = transient(folder.path(), &[]).done().says(&["over the last fifth"]);
     assert_eq!(
-        first_line("probe-200.csv"),
+        answer.header("probe-200.csv"),
         "time_s,u_r_m,u_theta_m,v_r_m_per_s,v_theta_m_per_s,a_r_m_per_s2,a_theta_m_per_s2"
     );
     assert_eq!(
-        first_line("energy.csv"),
+        answer.header("energy.csv"),
         "time_s,kinetic_j,strain_j,external_w,stick_w,slide_w,contact_dissipated_w,material_damping_w,\
          normal_contact_w,balance_residual"
     );
-    assert_eq!(first_line("contact.csv"), "time_s,stick,slip,open");
-    let summary = summary(&out);
+    assert_eq!(answer.header("contact.csv"), "time_s,stick,slip,open");
+    let summary = answer.summary();
     for key in [
         "/steps",
         "/time_step_s",
@@ -104,11 +88,6 @@ fn every_promised_file_column_and_summary_key_is_there() {
         "/first_nonlinearity_s",
         "/manifest/case_hash",
         "/manifest/simd",
-    ] {
-        assert!(summary.pointer(key).is_some(), "{key}");
-    }
-    assert!(summary["max_balance_residual"].as_f64().unwrap() < 1e-10);
-    for key in [
         "/settled",
         "/settled_from_s",
         "/end_state",
@@ -122,6 +101,7 @@ fn every_promised_file_column_and_summary_key_is_there() {
     ] {
         assert!(summary.pointer(key).is_some(), "{key}");
     }
+    assert!(summary["max_balance_residual"].as_f64().unwrap() < 1e-10);
 }
 
 /// At friction 0.2 and 1000 rpm the wave of two nodal diameters lives on beside that of one.
@@ -137,13 +117,8 @@ const TWO_FREQUENCIES: [&str; 6] = [
 #[test]
 fn a_vibration_of_two_frequencies_is_named_with_both_and_its_envelope() {
     let folder = folder();
-    let out = folder.path().join("out");
-    frictionsim(&arguments(&out, &TWO_FREQUENCIES))
-        .assert()
-        .code(0)
-        .stdout(contains("two frequencies, which is no limit cycle"))
-        .stdout(contains("is above cea.max_frequency_hz = 9000"));
-    let summary = summary(&out);
+    let said = ["two frequencies, which is no limit cycle", "is above cea.max_frequency_hz = 9000"];
+    let summary = transient(folder.path(), &TWO_FREQUENCIES).done().says(&said).summary();
     assert_eq!(summary["end_state"], "two-frequency");
     let [first, second] = [0, 1].map(|k| summary["frequencies_hz"][k].as_f64().unwrap());
     assert!(first > second + 500.0, "{first} {second}");
@@ -153,65 +128,34 @@ fn a_vibration_of_two_frequencies_is_named_with_both_and_its_envelope() {
 #[test]
 fn a_sweep_marks_points_that_are_no_limit_cycles_in_table_report_and_figures() {
     let folder = folder();
-    let out = folder.path().join("out");
-    let mut arguments = arguments(&out, &TWO_FREQUENCIES);
-    arguments[0] = "sweep".to_owned();
-    arguments.retain(|text| text != "--no-figures");
     let swept = "sweep={\"contact.rotation_speed_rpm\"=[1000.0, 10.0]}";
-    arguments.extend(["--set".to_owned(), swept.to_owned()]);
-    frictionsim(&arguments)
-        .assert()
-        .code(0)
-        .stdout(contains("ends in"))
-        .stdout(contains("two-frequency"))
-        .stdout(contains("at 1 of 2 points (1)"));
-    let read = |name: &str| fs::read_to_string(out.join(name)).unwrap();
-    assert!(read("report.html").contains("two-frequency"));
+    let case = "polycarbonate-610rpm.toml";
+    let run = coarse("sweep", case, folder.path(), &TWO_FREQUENCIES).set(&[swept]);
+    let answer = run.done().says(&["ends in", "two-frequency", "at 1 of 2 points (1)"]);
+    has(&answer.text("report.html"), &["two-frequency"]);
     for figure in ["figures/frequencies.svg", "figures/status.svg"] {
-        assert!(read(figure).contains("two frequencies"), "{figure}");
-    }
-}
-
-#[test]
-fn a_ring_without_an_element_under_it_is_refused_with_the_count_that_it_needs() {
-    let folder = folder();
-    for command in ["transient", "cea"] {
-        for elements in [1, 2] {
-            Command::cargo_bin("frictionsim")
-                .unwrap()
-                .args([command, &case("ring-on-layer.toml"), "--no-figures", "--out"])
-                .arg(folder.path().join("out"))
-                .args(["--set", &format!("mesh.radial_elements={elements}")])
-                .assert()
-                .code(2)
-                .stderr(contains("mesh.radial_elements"))
-                .stderr(contains("at least 3 are needed"));
-        }
+        has(&answer.text(figure), &["two frequencies"]);
     }
 }
 
 #[test]
 fn a_jammed_block_is_said_to_jam_and_to_leave_small_displacements() {
     let folder = folder();
-    let out = folder.path().join("out");
-    let assert = Command::cargo_bin("frictionsim")
-        .unwrap()
-        .args(["transient", &case("sliding-block.toml"), "--no-figures", "--out"])
-        .arg(&out)
-        .args(["--set", "contact.friction_coefficient=0.9", "--set", "transient.duration=0.002"])
-        .assert()
-        .code(0)
-        .stdout(contains("the body jams: there is no state of steady sliding"))
-        .stdout(contains("leaves the theory of small displacements"));
+    let jams = ["contact.friction_coefficient=0.9", "transient.duration=0.002"];
+    let run = Run::of("transient", shipped("sliding-block.toml")).out(folder.path()).set(&jams);
     // A body without symmetry has no harmonic anywhere.
-    let text = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
-    assert!(!text.contains("harmonic") && !text.contains("nodal"), "{text}");
-    let summary = summary(&out);
+    let answer = run.done().says(&[
+        "the body jams: there is no state of steady sliding",
+        "leaves the theory of small displacements",
+        "!harmonic",
+        "!nodal",
+    ]);
+    let summary = answer.summary();
     assert_eq!(summary["notes"].as_array().unwrap().len(), 2);
     assert!(summary["main_harmonic"].is_null());
     assert_eq!(summary["harmonics"].as_array().unwrap().len(), 0);
     assert_eq!(summary["significant_harmonics_m"].as_object().unwrap().len(), 0);
-    assert!(!out.join("harmonics.csv").exists());
+    assert!(!answer.path("harmonics.csv").exists());
     assert!(summary["growth"].as_array().unwrap().iter().all(|g| g["harmonic"].is_null()));
 }
 
@@ -219,22 +163,15 @@ fn a_jammed_block_is_said_to_jam_and_to_leave_small_displacements() {
 #[test]
 fn a_vibration_that_decays_ends_in_steady_sliding() {
     let folder = folder();
-    let out = folder.path().join("out");
-    Command::cargo_bin("frictionsim")
-        .unwrap()
-        .args(["transient", &case("sliding-block.toml"), "--no-figures", "--out"])
-        .arg(&out)
-        .args(["--set", "damping.mass_coefficient=400.0", "--set", "transient.duration=0.04"])
-        .assert()
-        .code(0)
-        .stdout(contains("The run ends in steady sliding"));
-    assert_eq!(summary(&out)["end_state"], "steady-sliding");
+    let decays = ["damping.mass_coefficient=400.0", "transient.duration=0.04"];
+    let run = Run::of("transient", shipped("sliding-block.toml")).out(folder.path()).set(&decays);
+    let answer = run.done().says(&["The run ends in steady sliding"]);
+    assert_eq!(answer.summary()["end_state"], "steady-sliding");
 }
 
 #[test]
 fn a_run_from_a_limit_cycle_has_no_linear_stage() {
     let folder = folder();
-    let out = folder.path().join("out");
     let start = [
         "transient.initial=\"limit-cycle\"",
         "transient.limit_cycle_harmonic=2",
@@ -242,10 +179,7 @@ fn a_run_from_a_limit_cycle_has_no_linear_stage() {
         "mesh.circumferential_elements=90",
         "mesh.radial_elements=18",
     ];
-    let assert = frictionsim(&arguments(&out, &start)).assert().code(0);
-    let text = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
-    assert!(!text.contains("linear stage"), "{text}");
-    let summary = summary(&out);
+    let summary = transient(folder.path(), &start).done().says(&["!linear stage"]).summary();
     assert!(summary["growth"].as_array().unwrap().is_empty());
     assert!(summary["no_growth"].as_object().unwrap().is_empty());
 }
@@ -254,14 +188,10 @@ fn a_run_from_a_limit_cycle_has_no_linear_stage() {
 fn results_scale_with_the_thickness_and_nothing_else_does() {
     let folder = folder();
     let power = |thickness: &str| {
-        let out = folder.path().join(thickness);
         let set = format!("geometry.thickness={thickness}");
-        frictionsim(&arguments(&out, &[&set])).assert().code(0);
-        let summary = summary(&out);
-        [
-            summary["power_w"]["external"].as_f64().unwrap(),
-            summary["harmonics"][0].as_f64().unwrap(),
-        ]
+        let summary = transient(&folder.path().join(thickness), &[&set]).done().summary();
+        ["/power_w/external", "/harmonics/0"]
+            .map(|at| summary.pointer(at).unwrap().as_f64().unwrap())
     };
     let (thin, thick) = (power("0.009"), power("0.018"));
     assert!((thick[0] / thin[0] - 2.0).abs() < 1e-14);
@@ -272,20 +202,15 @@ fn results_scale_with_the_thickness_and_nothing_else_does() {
 fn results_are_the_same_bytes_for_any_number_of_threads() {
     let folder = folder();
     let run = |threads: &str| {
-        let out = folder.path().join(threads);
-        let mut arguments = arguments(&out, &[]);
-        arguments.extend(["--threads".to_owned(), threads.to_owned()]);
-        frictionsim(&arguments).assert().code(0);
-        results(&out)
+        transient(&folder.path().join(threads), &[]).args(&["--threads", threads]).done()
     };
-    assert_eq!(run("1"), run("2"));
+    assert_same(&run("1"), &run("2"));
 }
 
-/// Starts a run and waits for its first checkpoint.
-fn start_until_checkpoint(arguments: &[String], out: &Path) -> Child {
-    let mut command = std::process::Command::new(assert_cmd::cargo::cargo_bin("frictionsim"));
-    command.args(arguments).stdout(Stdio::null()).stderr(Stdio::piped());
-    let child = command.spawn().unwrap();
+/// Starts a run that keeps its state often, and waits for its first checkpoint.
+fn start_until_checkpoint(out: &Path) -> Child {
+    let mut command = transient(out, &OFTEN).program();
+    let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
     let start = Instant::now();
     while !out.join("checkpoint.bin").exists() {
         assert!(start.elapsed() < Duration::from_secs(60), "no checkpoint after a minute");
@@ -300,23 +225,19 @@ const OFTEN: [&str; 2] = ["output.checkpoint_interval=0.02", "transient.duration
 fn a_killed_run_resumes_to_the_bytes_of_an_uninterrupted_one() {
     let folder = folder();
     let (whole, killed) = (folder.path().join("whole"), folder.path().join("killed"));
-    frictionsim(&arguments(&whole, &OFTEN)).assert().code(0);
-    let mut arguments = arguments(&killed, &OFTEN);
-    let mut child = start_until_checkpoint(&arguments, &killed);
+    let whole = transient(&whole, &OFTEN).done();
+    let mut child = start_until_checkpoint(&killed);
     child.kill().unwrap();
     child.wait().unwrap();
-    arguments.push("--resume".to_owned());
-    frictionsim(&arguments).assert().code(0);
-    for (found, expected) in results(&killed).into_iter().zip(results(&whole)) {
-        assert!(found == expected, "{}", expected.0.display());
-    }
+    let killed = resumed(&killed, &OFTEN).done();
+    assert_same(&killed, &whole);
     let without_times = |mut summary: Value| {
         for key in ["wall_s", "element_steps_per_s"] {
             summary[key] = Value::Null;
         }
         summary
     };
-    assert_eq!(without_times(summary(&killed)), without_times(summary(&whole)));
+    assert_eq!(without_times(killed.summary()), without_times(whole.summary()));
 }
 
 #[cfg(unix)]
@@ -324,8 +245,7 @@ fn a_killed_run_resumes_to_the_bytes_of_an_uninterrupted_one() {
 fn an_interrupted_run_keeps_what_it_has_and_says_how_to_go_on() {
     let folder = folder();
     let out = folder.path().join("out");
-    let mut arguments = arguments(&out, &OFTEN);
-    let child = start_until_checkpoint(&arguments, &out);
+    let child = start_until_checkpoint(&out);
     let status =
         std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
     assert!(status.unwrap().success());
@@ -335,13 +255,11 @@ fn an_interrupted_run_keeps_what_it_has_and_says_how_to_go_on() {
         return;
     }
     assert_eq!(output.status.code(), Some(130));
-    let message = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(message.contains("--resume"), "{message}");
-    assert_eq!(summary(&out)["finished"], false);
+    has(&String::from_utf8(output.stderr).unwrap(), &["--resume"]);
+    let summary = fs::read(out.join("summary.json")).unwrap();
+    assert_eq!(serde_json::from_slice::<Value>(&summary).unwrap()["finished"], false);
     assert!(out.join("energy.csv").exists());
-    arguments.push("--resume".to_owned());
-    frictionsim(&arguments).assert().code(0);
-    assert_eq!(summary(&out)["finished"], true);
+    assert_eq!(resumed(&out, &OFTEN).done().summary()["finished"], true);
 }
 
 /// Longer runs of a finished one: the bytes of a run that was asked to last that long at once.
@@ -350,83 +268,51 @@ fn a_finished_run_is_extended_bit_for_bit() {
     let folder = folder();
     let (whole, part) = (folder.path().join("whole"), folder.path().join("part"));
     let asked = |duration: &'static str| {
-        let mut all =
-            vec!["output.snapshots=[0.002, 0.005]", "transient.perturbation.velocity=0.5"];
-        all.push(duration);
-        all
+        ["output.snapshots=[0.002, 0.005]", "transient.perturbation.velocity=0.5", duration]
     };
-    frictionsim(&arguments(&whole, &asked("transient.duration=0.006"))).assert().code(0);
-    frictionsim(&arguments(&part, &asked("transient.duration=0.003")))
-        .assert()
-        .code(0)
-        .stderr(contains("0.005 s lies after the end of the run"));
-    let mut longer = arguments(&part, &asked("transient.duration=0.006"));
-    longer.push("--resume".to_owned());
-    frictionsim(&longer).assert().code(0);
-    for (found, expected) in results(&part).into_iter().zip(results(&whole)) {
-        assert!(found == expected, "{}", expected.0.display());
-    }
-    let bytes = |folder: &Path, name: &str| fs::read(folder.join(name)).unwrap();
+    let (short, long) = (asked("transient.duration=0.003"), asked("transient.duration=0.006"));
+    let whole = transient(&whole, &long).done();
+    transient(&part, &short).done().warns(&["0.005 s lies after the end of the run"]);
+    let longer = resumed(&part, &long).done();
+    assert_same(&longer, &whole);
     for name in ["record.bin", "checkpoint.bin", "snapshots/snapshot-002.vtu"] {
-        assert!(bytes(&part, name) == bytes(&whole, name), "{name}");
+        assert!(longer.bytes(name) == whole.bytes(name), "{name}");
     }
     // Asked for again, it has nothing left to do; shorter than it is it cannot become.
-    frictionsim(&longer).assert().code(0);
-    let mut shorter = arguments(&part, &asked("transient.duration=0.004"));
-    shorter.push("--resume".to_owned());
-    frictionsim(&shorter)
-        .assert()
-        .code(2)
-        .stderr(contains("has come to 0.006000 s, beyond transient.duration = 0.004 s"));
+    resumed(&part, &long).done();
+    resumed(&part, &asked("transient.duration=0.004"))
+        .refused(&["has come to 0.006000 s, beyond transient.duration = 0.004 s"]);
     // Nor can it go on from other seeds.
-    let mut other = arguments(
-        &part,
-        &[
-            "output.snapshots=[0.002, 0.005]",
-            "transient.duration=0.006",
-            "transient.perturbation={ harmonics = [2], velocity = 0.5, noise = 1e-3, noise_seed = 2 }",
-        ],
-    );
-    other.push("--resume".to_owned());
-    frictionsim(&other)
-        .assert()
-        .code(2)
-        .stderr(contains("transient.perturbation.noise is 0.001 here, not given there"));
+    let seeds =
+        "transient.perturbation={ harmonics = [2], velocity = 0.5, noise = 1e-3, noise_seed = 2 }";
+    resumed(&part, &[long[0], long[2], seeds])
+        .refused(&["transient.perturbation.noise is 0.001 here, not given there"]);
 }
 
 /// A mesh file that has changed since is another body: what is there stays as it is, and a plain rerun needs --force.
 #[test]
 fn a_refused_continuation_leaves_the_finished_folder_as_it_was() {
     let folder = folder();
-    let mesh = String::from_utf8(file_of(&[BRICK], |point| point)).unwrap();
-    let (path, case) = (folder.path().join("body.msh"), folder.path().join("case.toml"));
-    fs::write(&path, &mesh).unwrap();
-    fs::write(
-        &case,
-        "[mesh]\nfile = \"body.msh\"\n[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n\
+    let path = folder.path().join("body.msh");
+    fs::write(&path, file_of(&[BRICK], |point| point)).unwrap();
+    let case = "[mesh]\nfile = \"body.msh\"\n[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n\
          [boundaries.brick_z1]\ncondition = \"clamped\"\n[contact]\nboundary = \"brick_z0\"\ncounterface = \"plane\"\n\
          direction = [1.0, 0.0, 0.0]\nspeed = 1.0\nfriction_coefficient = 0.3\ninterference = 1e-5\n\
-         normal_stiffness = 1e12\n[transient]\nduration = 4e-5\nexpansion_time = 1e-5\n",
-    )
-    .unwrap();
+         normal_stiffness = 1e12\n[transient]\nduration = 4e-5\nexpansion_time = 1e-5\n";
     let out = folder.path().join("out");
-    let run = |further: &[&str]| {
-        let mut all = vec!["transient", case.to_str().unwrap(), "--no-figures", "-qq", "--out"];
-        all.push(out.to_str().unwrap());
-        all.extend(further);
-        frictionsim(&all.into_iter().map(str::to_owned).collect::<Vec<_>>()).assert()
-    };
-    run(&[]).code(0);
+    let run =
+        |further: &[&str]| Run::of_text("transient", folder.path(), case).out("out").args(further);
+    run(&[]).done();
     let known = ["manifest.json", "mesh.msh", "summary.json", "checkpoint.bin"];
     let bytes = || known.map(|name| fs::read(out.join(name)).unwrap());
     let before = bytes();
     let moved = Block { size: [0.011, 0.01, 0.01], ..BRICK };
     fs::write(&path, file_of(&[moved], |point| point)).unwrap();
-    run(&["--resume"]).code(2);
+    run(&["--resume"]).refused(&[]);
     assert!(bytes() == before, "the folder has changed");
-    run(&[]).code(2).stderr(contains("--force"));
+    run(&[]).refused(&["--force"]);
     assert!(bytes() == before);
-    run(&["--force"]).code(0);
+    run(&["--force"]).done();
     assert!(bytes() != before);
 }
 
@@ -436,14 +322,9 @@ fn no_number_that_is_none_is_printed_or_written() {
     for (name, set) in
         [("still", "contact.rotation_speed_rpm=0"), ("short", "transient.duration=0.0006")]
     {
-        let out = folder.path().join(name);
-        let output = frictionsim(&arguments(&out, &[set])).output().unwrap();
-        assert!(output.status.success(), "{output:?}");
-        let mut texts = vec![String::from_utf8_lossy(&output.stdout).into_owned()];
-        for file in ["summary.json", "energy.csv", "contact.csv", "harmonics.csv", "probe-1.csv"] {
-            texts.push(fs::read_to_string(out.join(file)).unwrap());
-        }
-        for text in &texts {
+        let answer = transient(&folder.path().join(name), &[set]).done();
+        let files = ["summary.json", "energy.csv", "contact.csv", "harmonics.csv", "probe-1.csv"];
+        for text in files.map(|file| answer.text(file)).iter().chain([&answer.stdout]) {
             let words = text.split(|c: char| c.is_whitespace() || ",:(".contains(c));
             for word in words {
                 let word = word.trim_end_matches(['%', '.', ')']);
@@ -459,8 +340,7 @@ fn no_number_that_is_none_is_printed_or_written() {
 fn a_damaged_checkpoint_is_refused_with_the_reason_and_left_alone() {
     let folder = folder();
     let out = folder.path().join("out");
-    let mut arguments = arguments(&out, &OFTEN);
-    let mut child = start_until_checkpoint(&arguments, &out);
+    let mut child = start_until_checkpoint(&out);
     child.kill().unwrap();
     child.wait().unwrap();
     let path = out.join("checkpoint.bin");
@@ -468,38 +348,13 @@ fn a_damaged_checkpoint_is_refused_with_the_reason_and_left_alone() {
     let middle = bytes.len() / 2;
     bytes[middle] ^= 1;
     fs::write(&path, &bytes).unwrap();
-    arguments.push("--resume".to_owned());
-    frictionsim(&arguments).assert().code(2).stderr(contains("checksum"));
+    resumed(&out, &OFTEN).refused(&["checksum"]);
     fs::write(&path, &bytes[..middle]).unwrap();
-    frictionsim(&arguments).assert().code(2).stderr(contains("bytes where"));
+    resumed(&out, &OFTEN).refused(&["bytes where"]);
     bytes[8] = 99;
     fs::write(&path, &bytes).unwrap();
-    frictionsim(&arguments).assert().code(2).stderr(contains("format 99"));
+    resumed(&out, &OFTEN).refused(&["format 99"]);
     assert_eq!(fs::read(&path).unwrap(), bytes);
-}
-
-#[test]
-fn bad_settings_are_bad_cases_with_their_bound() {
-    let folder = folder();
-    let out = folder.path().join("out");
-    for (overrides, message) in [
-        ("transient.time_step=2e-6", "above the stability limit of"),
-        ("output.probes=[10000]", "10000"),
-        ("transient.duration=0", "transient.duration"),
-        ("transient.perturbation.harmonics=[31]", "30"),
-        (
-            "transient.perturbation.velocity=[1e-3, 2e-3]",
-            "has 2 values, transient.perturbation.harmonics has 1",
-        ),
-        ("transient.perturbation={ phase_deg = 90 }", "without harmonics"),
-        ("transient.perturbation.at=0.0041", "after the end of the run"),
-        ("transient.perturbation.noise_seed=2", "without noise"),
-        ("transient.expansion_time=0.005", "never be fully expanded"),
-        ("output.sample_interval=0.01", "above transient.duration"),
-    ] {
-        frictionsim(&arguments(&out, &[overrides])).assert().code(2).stderr(contains(message));
-    }
-    assert!(!out.join("summary.json").exists());
 }
 
 /// The shipped cases keep their character on a coarse mesh.
@@ -510,10 +365,8 @@ fn shipped_cases_end_in_the_limit_cycles_that_their_titles_say() {
         [("polycarbonate-610rpm.toml", 2, true), ("polycarbonate-70rpm.toml", 1, false)]
     {
         let out = folder.path().join(name);
-        let mut arguments = arguments(&out, &["transient.duration=0.04"]);
-        arguments[1] = case(name);
-        frictionsim(&arguments).assert().code(0);
-        let summary = summary(&out);
+        let run = coarse("transient", name, &out, &["transient.duration=0.04"]);
+        let summary = run.args(&["--no-figures"]).done().summary();
         assert_eq!(summary["main_harmonic"], harmonic, "{name}");
         let open = summary["status"]["open"].as_f64().unwrap();
         assert_eq!(open > 0.0, lifts_off, "{name}: {open}");

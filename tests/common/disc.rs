@@ -1,8 +1,13 @@
 //! The paper's disc: geometry, material, damping and contact. Poisson's ratio and density are a fit to its Table 1.
 
-use frictionsim::contact::SlidingContact;
-use frictionsim::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
+#![allow(dead_code, reason = "each binary uses a part")]
+
+use frictionsim::cea::{ModeLimit, SweepRequest};
+use frictionsim::contact::{ContactStiffness, SlidingContact};
+use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping};
 use frictionsim::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind};
+use frictionsim::prestress::{DampingModel, TangentOptions};
+use frictionsim::transient::{InitialState, Perturbation, TimeStep, TransientSettings};
 use std::f64::consts::PI;
 
 pub const POLYCARBONATE: ElasticMaterial = ElasticMaterial {
@@ -41,5 +46,64 @@ pub fn contact(rotation_speed_rpm: f64) -> SlidingContact {
         friction_coefficient: 0.3,
         interference: 25e-6,
         rotation_speed: rotation_speed_rpm * PI / 30.0,
+    }
+}
+
+/// Rigid contact without dashpots.
+pub const RIGID: ContactStiffness = ContactStiffness {
+    law: None,
+    law_damping: 0.0,
+    loss_factor: 0.0,
+    normal_stiffness: None,
+    normal_damping: 0.0,
+    tangential_damping: 0.0,
+    is_base_compliant: false,
+};
+
+/// The disc's linearisation without the stress of its base state.
+pub const TANGENT: TangentOptions = TangentOptions {
+    mass: MassKind::Consistent,
+    geometric_stiffness: false,
+    damping: DAMPING,
+    damping_model: DampingModel::WholeTangent,
+    contact: RIGID,
+};
+
+/// Young's modulus, Poisson's ratio and density.
+pub const fn elastic(
+    young_modulus: f64,
+    poisson_ratio: f64,
+    density: f64,
+    formulation: PlaneFormulation,
+) -> ElasticMaterial {
+    ElasticMaterial { young_modulus, poisson_ratio, density, formulation, ..ElasticMaterial::PLAIN }
+}
+
+/// Constant friction.
+pub const fn sliding_at(friction: f64, interference: f64, rotation_speed: f64) -> SlidingContact {
+    SlidingContact { decay: None, friction_coefficient: friction, interference, rotation_speed }
+}
+
+/// Eigenvalues without shapes.
+pub fn sweep_request(friction_coefficients: &[f64], limit: ModeLimit) -> SweepRequest<'_> {
+    SweepRequest { friction_coefficients, limit, shapes_at: &[], lefts_at: &[], count_modes: false }
+}
+
+/// A transient with the step that its model has.
+pub fn transient_settings(
+    duration: f64,
+    sample_interval: f64,
+    expansion_time: f64,
+    initial: InitialState,
+    perturbation: Perturbation,
+) -> TransientSettings {
+    let time_step = TimeStep::Auto;
+    TransientSettings {
+        duration,
+        time_step,
+        sample_interval,
+        expansion_time,
+        initial,
+        perturbation,
     }
 }

@@ -1,12 +1,13 @@
 //! Transients of solid bodies that are tied together and slide on each other.
 
 use crate::bricks::{Block, file_of};
+use crate::disc::{RIGID, TANGENT, elastic, sliding_at, sweep_request, transient_settings};
 use crate::tier::sized;
 use frictionsim::cea::sparse::sweep;
-use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest};
+use frictionsim::cea::{ComplexMode, ModeLimit};
 use frictionsim::contact::{
     ContactStiffness, Counterpart, FrictionDecay, Motion, NormalLaw, PairFriction,
-    RigidCounterface, RigidMotion, RigidShape, SlidingContact,
+    RigidCounterface, RigidMotion, RigidShape,
 };
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::fem::{
@@ -20,16 +21,10 @@ use frictionsim::prestress::{
 };
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    SteppedBody, TimeStep, TransientAnalysis, TransientModel, TransientSettings,
+    SteppedBody, TransientAnalysis, TransientModel, TransientSettings,
 };
 
-const STEEL: ElasticMaterial = ElasticMaterial {
-    young_modulus: 2e11,
-    poisson_ratio: 0.3,
-    density: 7850.0,
-    formulation: PlaneFormulation::ThreeDimensional,
-    ..ElasticMaterial::PLAIN
-};
+const STEEL: ElasticMaterial = elastic(2e11, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
 
 const DAMPING: RayleighDamping =
     RayleighDamping { mass_coefficient: 50.0, stiffness_coefficient: 1e-7 };
@@ -118,7 +113,7 @@ fn between<'a>(
         surface: boundary(mesh, "upper_z0"),
         counter,
         friction: PairFriction { ratio: 1.0, decay },
-        stiffness: ContactStiffness { normal_stiffness, ..ContactStiffness::default() },
+        stiffness: ContactStiffness { normal_stiffness, ..RIGID },
         law,
         topography: None,
     };
@@ -133,25 +128,19 @@ fn between<'a>(
 
 fn model<'a>(assembly: &'a Assembly<'a>) -> TransientModel<'a> {
     let axis = [[0.02, -0.2, 0.0], [0.0, 0.0, 1.0]];
-    let contact = SlidingContact {
-        friction_coefficient: FRICTION,
-        decay: None,
-        interference: 0.0,
-        rotation_speed: 10.0,
-    };
+    let contact = sliding_at(FRICTION, 0.0, 10.0);
     let body = SteppedBody::Assembly { assembly, axis };
     TransientModel::new(body, assembly.materials(), DAMPING, contact)
 }
 
 fn settings(initial: InitialState, duration: f64, noise: f64) -> TransientSettings {
-    TransientSettings {
+    transient_settings(
         duration,
-        time_step: TimeStep::Auto,
-        sample_interval: 2e-6,
-        expansion_time: 1e-4,
+        2e-6,
+        1e-4,
         initial,
-        perturbation: Perturbation { noise, ..Perturbation::default() },
-    }
+        Perturbation { noise, ..Perturbation::default() },
+    )
 }
 
 /// The record of a run, and the largest speed at its end, m/s.
@@ -169,22 +158,15 @@ fn run(assembly: &Assembly<'_>, settings: &TransientSettings) -> (Recorder, f64)
 fn modes(assembly: &Assembly<'_>) -> Vec<ComplexMode> {
     let options = TangentOptions {
         mass: MassKind::Lumped,
-        geometric_stiffness: false,
         damping: DAMPING,
         damping_model: DampingModel::BodyOnly,
-        contact: ContactStiffness::default(),
+        ..TANGENT
     };
     // The eigenvalue analysis starts without friction: stiffness that depends on friction is known there too.
     let range = assembly.range(&[FRICTION, 0.0]).unwrap();
     let state = &range.states[range.state_of[0]];
     let tangent = assembly.tangent(state, &options).unwrap();
-    let request = SweepRequest {
-        friction_coefficients: &[FRICTION],
-        limit: ModeLimit::Lowest(40),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let request = sweep_request(&[FRICTION], ModeLimit::Lowest(40));
     let found = sweep(&tangent, &request, &|_| {}).unwrap();
     found.points.into_iter().flat_map(|point| point.modes).collect()
 }

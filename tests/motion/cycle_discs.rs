@@ -3,6 +3,7 @@
 //! Onsets are held to the eigenvalue analysis, results to scaling, stability and power to transients that start beside the
 //! cycle. The transients are independent of the grid of phases: they share with it the element matrices alone.
 
+use crate::disc::{elastic, sliding_at};
 use crate::tier::sized;
 use frictionsim::cea::ModeLimit;
 use frictionsim::contact::SlidingContact;
@@ -26,13 +27,7 @@ fn ring(radii: [f64; 2], elements: [usize; 2]) -> AnnulusSpecification {
 }
 
 fn metal(young_modulus: f64, poisson_ratio: f64, density: f64) -> ElasticMaterial {
-    ElasticMaterial {
-        young_modulus,
-        poisson_ratio,
-        density,
-        formulation: PlaneFormulation::PlaneStress,
-        ..ElasticMaterial::PLAIN
-    }
+    elastic(young_modulus, poisson_ratio, density, PlaneFormulation::PlaneStress)
 }
 
 /// Aluminium, 30 to 75 mm.
@@ -42,12 +37,7 @@ fn aluminium(elements: [usize; 2]) -> (DiscModel, SlidingContact) {
         material: metal(70e9, 0.33, 2700.0),
         damping: RayleighDamping { mass_coefficient: 0.0, stiffness_coefficient: 1.5e-7 },
     };
-    let contact = SlidingContact {
-        decay: None,
-        friction_coefficient: 0.35,
-        interference: 10e-6,
-        rotation_speed: 900.0 * TAU / 60.0,
-    };
+    let contact = sliding_at(0.35, 10e-6, 900.0 * TAU / 60.0);
     (model, contact)
 }
 
@@ -61,12 +51,7 @@ fn steel(elements: [usize; 2]) -> (DiscModel, SlidingContact) {
         },
         damping: RayleighDamping { mass_coefficient: 100.0, stiffness_coefficient: 4e-7 },
     };
-    let contact = SlidingContact {
-        decay: None,
-        friction_coefficient: 0.5,
-        interference: 40e-6,
-        rotation_speed: 750.0 * TAU / 60.0,
-    };
+    let contact = sliding_at(0.5, 40e-6, 750.0 * TAU / 60.0);
     (model, contact)
 }
 

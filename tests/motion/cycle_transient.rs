@@ -3,14 +3,14 @@
 //!
 //! Full size, 180 x 35 elements; the two methods share the element matrices and nothing else.
 
-use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact, transient_settings};
 use crate::tier::sized;
 use frictionsim::cycle::{CycleSolver, LimitCycle, OperatingPoint, Verdict};
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    TimeStep, TransientAnalysis, TransientError, TransientModel, TransientSettings,
+    TransientAnalysis, TransientError, TransientModel,
 };
 
 fn operating(rpm: f64) -> OperatingPoint {
@@ -27,14 +27,13 @@ fn run(solver: &CycleSolver, cycle: &LimitCycle, perturbed: usize, duration: f64
     let annulus = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 180, 35)).unwrap();
     let model =
         TransientModel::of_annulus(&annulus, &POLYCARBONATE, DAMPING, cycle.state.point.contact);
-    let settings = TransientSettings {
+    let settings = transient_settings(
         duration,
-        time_step: TimeStep::Auto,
-        sample_interval: 2e-6,
-        expansion_time: 0.0,
-        initial: InitialState::LimitCycle { harmonic: cycle.harmonic, onset: 1 },
-        perturbation: Perturbation::of(&[perturbed], 1e-3),
-    };
+        2e-6,
+        0.0,
+        InitialState::LimitCycle { harmonic: cycle.harmonic, onset: 1 },
+        Perturbation::of(&[perturbed], 1e-3),
+    );
     let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let operator = operator.as_ref();
     let refused = CentralDifference::start(model, operator, &settings);

@@ -1,12 +1,15 @@
 //! Bodies of any plane shape: mesh files, supports, partial contact, transients (independent checks, unless a test
 //! says otherwise).
 
-use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use crate::disc::{
+    DAMPING, POLYCARBONATE, TANGENT, annulus, contact, sliding_at, sweep_request,
+    transient_settings,
+};
 use crate::msh::{FORMS, Form, write_msh};
 use frictionsim::cea::cyclic;
 use frictionsim::cea::sparse::sweep;
-use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest};
-use frictionsim::contact::{ContactStiffness, SlidingContact};
+use frictionsim::cea::{ComplexMode, ModeLimit};
+use frictionsim::contact::SlidingContact;
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::fem::{
     ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
@@ -15,25 +18,17 @@ use frictionsim::mesh::{
     AnnulusMesh, BodySpecification, BoundaryCondition, CounterfaceSpecification, ElasticSupport,
     ElementKind, FileMesh, Mesh,
 };
-use frictionsim::prestress::{
-    DampingModel, SlidingRange, SlidingTangent, SteadySliding, TangentOptions,
-};
+use frictionsim::prestress::{SlidingRange, SlidingTangent, SteadySliding, TangentOptions};
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    SteppedBody, TimeStep, TransientAnalysis, TransientModel, TransientSettings,
+    SteppedBody, TransientAnalysis, TransientModel,
 };
 
 const CYLINDER: CounterfaceSpecification =
     CounterfaceSpecification::Cylinder { center: [0.0; 2], radius: None };
 
 fn options(mass: MassKind, geometric_stiffness: bool) -> TangentOptions {
-    TangentOptions {
-        mass,
-        geometric_stiffness,
-        damping: DAMPING,
-        damping_model: DampingModel::WholeTangent,
-        contact: ContactStiffness::default(),
-    }
+    TangentOptions { mass, geometric_stiffness, ..TANGENT }
 }
 
 /// The disc as the body of a file: hole `inner`, rim `outer` clamped.
@@ -52,13 +47,8 @@ fn modes(mesh: &Mesh, options: &TangentOptions, contact: &SlidingContact) -> Vec
     let stiffness = assemble_stiffness(mesh, &POLYCARBONATE);
     let base = SteadySliding::solve(mesh, &stiffness, contact).unwrap();
     let tangent = SlidingTangent::linearize(mesh, &POLYCARBONATE, &stiffness, &base, options);
-    let request = SweepRequest {
-        friction_coefficients: &[contact.friction_coefficient],
-        limit: ModeLimit::Lowest(8),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let at = [contact.friction_coefficient];
+    let request = sweep_request(&at, ModeLimit::Lowest(8));
     let found = sweep(&tangent, &request, &|_| {}).unwrap();
     found.points.into_iter().next().unwrap().modes
 }
@@ -151,13 +141,7 @@ fn a_supported_rim_gives_the_sounds_of_the_prototype() {
     for (outer, expected) in rows {
         let mut specification = annulus(ElementKind::Quad8, 96, 20);
         specification.outer = outer;
-        let request = SweepRequest {
-            friction_coefficients: &[0.3],
-            limit: ModeLimit::MaxFrequency(17000.0),
-            shapes_at: &[],
-            lefts_at: &[],
-            count_modes: false,
-        };
+        let request = sweep_request(&[0.3], ModeLimit::MaxFrequency(17000.0));
         let options = options(MassKind::Consistent, false);
         let found =
             cyclic::sweep(&specification, &material, &options, &contact(610.0), &request).unwrap();
@@ -188,13 +172,7 @@ fn a_supported_rim_has_one_spectrum_by_sectors_and_as_a_whole() {
     let options = options(MassKind::Lumped, true);
     let whole = AnnulusMesh::generate(&specification).unwrap();
     let sparse = modes(&whole.mesh, &options, &contact(610.0));
-    let request = SweepRequest {
-        friction_coefficients: &[0.3],
-        limit: ModeLimit::Lowest(8),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let request = sweep_request(&[0.3], ModeLimit::Lowest(8));
     let found =
         cyclic::sweep(&specification, &POLYCARBONATE, &options, &contact(610.0), &request).unwrap();
     assert_one_spectrum(&sparse, &found.sweep.points[0].modes, 1e-8);
@@ -251,7 +229,7 @@ fn block_specification() -> BodySpecification {
 }
 
 fn plane(friction_coefficient: f64) -> SlidingContact {
-    SlidingContact { decay: None, friction_coefficient, interference: 0.0, rotation_speed: 1.5 }
+    sliding_at(friction_coefficient, 0.0, 1.5)
 }
 
 /// A block that a pressure presses on a moving plane and a smooth stop holds: forces balance, no node is pulled, no
@@ -336,14 +314,13 @@ fn a_body_without_symmetry_grows_in_time_as_its_eigenvalue_says() {
         contact,
     );
     let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
-    let settings = TransientSettings {
-        duration: 0.03,
-        time_step: TimeStep::Auto,
-        sample_interval: 4e-6,
-        expansion_time: 0.0,
-        initial: InitialState::SteadySliding,
-        perturbation: Perturbation::of(&[1, 2], 1e-12),
-    };
+    let settings = transient_settings(
+        0.03,
+        4e-6,
+        0.0,
+        InitialState::SteadySliding,
+        Perturbation::of(&[1, 2], 1e-12),
+    );
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
     let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
     run.run(&mut record).unwrap();
@@ -379,14 +356,8 @@ fn energy_closes_with_supports_pressure_and_partial_contact() {
         plane(0.5),
     );
     let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
-    let settings = TransientSettings {
-        duration: 2e-3,
-        time_step: TimeStep::Auto,
-        sample_interval: 5e-6,
-        expansion_time: 1e-4,
-        initial: InitialState::Rest,
-        perturbation: Perturbation::default(),
-    };
+    let settings =
+        transient_settings(2e-3, 5e-6, 1e-4, InitialState::Rest, Perturbation::default());
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
     let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
     run.run(&mut record).unwrap();

@@ -3,7 +3,7 @@
 
 mod counts;
 
-use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use crate::disc::{POLYCARBONATE, RIGID, TANGENT, annulus, contact, sweep_request};
 use crate::table_1::TABLE_1;
 use faer::{Mat, c64};
 use frictionsim::cea::sparse::{
@@ -14,7 +14,7 @@ use frictionsim::cea::{
     CeaError, ComplexMode, FrictionSweep, ModeLimit, SweepProgress, SweepRequest, SweepWatch,
 };
 use frictionsim::contact::ContactStiffness;
-use frictionsim::fem::{DofMap, MassKind, RayleighDamping, assemble_stiffness};
+use frictionsim::fem::{DofMap, RayleighDamping, assemble_stiffness};
 use frictionsim::linalg::dense::random_columns;
 use frictionsim::linalg::dense_eigen::real_eigen;
 use frictionsim::linalg::{
@@ -97,27 +97,17 @@ impl Disc {
         let contact = contact(610.0);
         let base = SteadySliding::solve(&mesh, &elastic, &contact).unwrap();
         let options = TangentOptions {
-            mass: MassKind::Consistent,
             geometric_stiffness: self.geometric_stiffness,
-            damping: DAMPING,
             damping_model: self.damping_model,
-            contact: ContactStiffness {
-                normal_stiffness: self.normal_stiffness,
-                ..Default::default()
-            },
+            contact: ContactStiffness { normal_stiffness: self.normal_stiffness, ..RIGID },
+            ..TANGENT
         };
         SlidingTangent::linearize(&mesh, &material, &elastic, &base, &options)
     }
 }
 
 fn run(tangent: &SlidingTangent, values: &[f64], limit: ModeLimit) -> FrictionSweep {
-    let request = SweepRequest {
-        friction_coefficients: values,
-        limit,
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let request = sweep_request(values, limit);
     sweep(tangent, &request, &|_| {}).unwrap()
 }
 
@@ -321,11 +311,8 @@ fn sweep_is_bitwise_equal_on_one_and_two_threads() {
     let tangent = Disc::coarse().tangent();
     let values: Vec<f64> = (0..9).map(|i| f64::from(i) * 0.1).collect();
     let request = SweepRequest {
-        friction_coefficients: &values,
-        limit: ModeLimit::MaxFrequency(15_000.0),
         shapes_at: &[values[3]],
-        lefts_at: &[],
-        count_modes: false,
+        ..sweep_request(&values, ModeLimit::MaxFrequency(15_000.0))
     };
     let on_threads = |count| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build().unwrap();
@@ -365,13 +352,7 @@ fn sweep_goes_on_from_any_step_to_the_same_bits() {
     for damping_model in [DampingModel::WholeTangent, DampingModel::BodyOnly] {
         let disc = Disc { circumferential: 24, radial: 6, damping_model, ..Disc::coarse() };
         let (tangent, values) = (disc.tangent(), [0.1, 0.2, 0.3]);
-        let request = SweepRequest {
-            friction_coefficients: &values,
-            limit: ModeLimit::Lowest(6),
-            shapes_at: &[],
-            lefts_at: &[],
-            count_modes: false,
-        };
+        let request = sweep_request(&values, ModeLimit::Lowest(6));
         let first = Kept::default();
         let whole = sweep(&tangent, &request, &first).unwrap();
         let steps = first.new.into_inner().unwrap();
@@ -422,13 +403,7 @@ fn reversed_rotation_mirrors_the_modes() {
 fn bad_requests_are_refused_with_the_bound() {
     let tangent = Disc::coarse().tangent();
     let ask = |values: &[f64], limit| {
-        let request = SweepRequest {
-            friction_coefficients: values,
-            limit,
-            shapes_at: &[],
-            lefts_at: &[],
-            count_modes: false,
-        };
+        let request = sweep_request(values, limit);
         sweep(&tangent, &request, &|_| {}).unwrap_err()
     };
     let none = ask(&[0.1], ModeLimit::MaxFrequency(1000.0));

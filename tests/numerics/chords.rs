@@ -2,7 +2,7 @@
 
 use crate::block::block;
 use crate::bricks::{Block, file_of};
-use crate::disc::{POLYCARBONATE, annulus, contact};
+use crate::disc::{POLYCARBONATE, RIGID, annulus, contact};
 use crate::triangles::body;
 use frictionsim::case::Case;
 use frictionsim::contact::{
@@ -63,7 +63,7 @@ fn pressed(file: &FileMesh, interference: f64) -> [f64; 2] {
         surface: mesh.boundaries.iter().position(|boundary| boundary.name == "z0").unwrap(),
         counter: Counterpart::Rigid(ball(interference)),
         friction: PairFriction { ratio: 1.0, decay: None },
-        stiffness: ContactStiffness { normal_stiffness: Some(1e13), ..ContactStiffness::default() },
+        stiffness: ContactStiffness { normal_stiffness: Some(1e13), ..RIGID },
         law: None,
         topography: None,
     };

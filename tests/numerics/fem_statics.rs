@@ -1,11 +1,12 @@
 //! Independent checks of the element matrices against elasticity theory.
 
+use crate::disc::{elastic, sliding_at};
 use frictionsim::contact::SlidingContact;
 use frictionsim::fem::{
     DofMap, ElasticMaterial, MassKind, PlaneFormulation, assemble_mass, assemble_stiffness,
     nodal_stress,
 };
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind, Mesh};
+use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, Mesh};
 use frictionsim::prestress::{PrestressError, SteadySliding};
 use std::f64::consts::PI;
 
@@ -13,26 +14,14 @@ const ELEMENTS: [ElementKind; 2] = [ElementKind::Quad4, ElementKind::Quad8];
 
 fn annulus(element: ElementKind, circumferential: usize, radial: usize) -> Mesh {
     let specification = AnnulusSpecification {
-        inner_radius: 0.0205,
-        outer_radius: 0.0905,
-        circumferential_elements: circumferential,
-        radial_elements: radial,
         radial_grading: 1.05,
-        element,
-        outer: BoundaryCondition::Clamped,
-        shaft: None,
+        ..crate::disc::annulus(element, circumferential, radial)
     };
     AnnulusMesh::generate(&specification).unwrap().mesh
 }
 
 fn polycarbonate(formulation: PlaneFormulation) -> ElasticMaterial {
-    ElasticMaterial {
-        young_modulus: 2.5e9,
-        poisson_ratio: 0.38,
-        density: 1228.0,
-        formulation,
-        ..ElasticMaterial::PLAIN
-    }
+    elastic(2.5e9, 0.38, 1228.0, formulation)
 }
 
 /// A Cartesian displacement field sampled in nodal frames.
@@ -106,12 +95,7 @@ fn both_mass_matrices_carry_the_mass_of_the_ring() {
 }
 
 fn paper_contact() -> SlidingContact {
-    SlidingContact {
-        decay: None,
-        friction_coefficient: 0.3,
-        interference: 25e-6,
-        rotation_speed: 610.0 * PI / 30.0,
-    }
+    sliding_at(0.3, 25e-6, 610.0 * PI / 30.0)
 }
 
 /// Lame's solution for the paper's disc: 2.827 MPa and 2239 N m for each metre of thickness.

@@ -1,40 +1,24 @@
 //! Frequency responses of the finite-element model against theory and against each other.
 
-use frictionsim::contact::{ContactStiffness, SlidingContact};
+use crate::disc::{TANGENT, elastic, sliding_at};
 use frictionsim::fem::{
     ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
 };
 use frictionsim::frf::{
     Direction, FrfError, FrfSystem, ReductionSettings, Terminal, direct_response, reduced_response,
 };
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
+use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
 use std::f64::consts::{PI, TAU};
 
 const RADIAL: usize = 10;
 
 fn annulus() -> AnnulusMesh {
-    AnnulusMesh::generate(&AnnulusSpecification {
-        inner_radius: 0.0205,
-        outer_radius: 0.0905,
-        circumferential_elements: 48,
-        radial_elements: RADIAL,
-        radial_grading: 1.0,
-        element: ElementKind::Quad4,
-        outer: BoundaryCondition::Clamped,
-        shaft: None,
-    })
-    .unwrap()
+    AnnulusMesh::generate(&crate::disc::annulus(ElementKind::Quad4, 48, RADIAL)).unwrap()
 }
 
 fn material() -> ElasticMaterial {
-    ElasticMaterial {
-        young_modulus: 2.5e9,
-        poisson_ratio: 0.3805,
-        density: 1228.0,
-        formulation: PlaneFormulation::PlaneStrain,
-        ..ElasticMaterial::PLAIN
-    }
+    elastic(2.5e9, 0.3805, 1228.0, PlaneFormulation::PlaneStrain)
 }
 
 const DAMPING: RayleighDamping =
@@ -48,25 +32,10 @@ fn body(is_clamped: bool, damping: RayleighDamping) -> FrfSystem {
 fn sliding(damping_model: DampingModel) -> FrfSystem {
     let mesh = annulus().mesh;
     let stiffness = assemble_stiffness(&mesh, &material());
-    let contact = SlidingContact {
-        decay: None,
-        friction_coefficient: 0.3,
-        interference: 25e-6,
-        rotation_speed: 610.0 * PI / 30.0,
-    };
+    let contact = sliding_at(0.3, 25e-6, 610.0 * PI / 30.0);
     let base = SteadySliding::solve(&mesh, &stiffness, &contact).unwrap();
-    let options = TangentOptions {
-        mass: MassKind::Consistent,
-        geometric_stiffness: true,
-        damping: DAMPING,
-        damping_model,
-        contact: ContactStiffness {
-            normal_stiffness: None,
-            normal_damping: 0.0,
-            tangential_damping: 0.0,
-            ..ContactStiffness::default()
-        },
-    };
+    let options =
+        TangentOptions { geometric_stiffness: true, damping: DAMPING, damping_model, ..TANGENT };
     let tangent = SlidingTangent::linearize(&mesh, &material(), &stiffness, &base, &options);
     FrfSystem::sliding(&tangent, 0.3)
 }

@@ -1,7 +1,7 @@
 //! Frequency responses harmonic by harmonic against sparse solutions of the whole mesh (another
 //! assembly, another factorization: independent checks).
 
-use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use crate::disc::{DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, contact};
 use frictionsim::case::{Case, unset};
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::{MassKind, assemble_stiffness};
@@ -98,11 +98,10 @@ fn harmonics_in_sliding_contact_sum_to_the_response_of_the_whole_mesh() {
         for damping_model in [DampingModel::WholeTangent, DampingModel::BodyOnly] {
             for normal_stiffness in [None, Some(7.4e12)] {
                 let options = TangentOptions {
-                    mass: MassKind::Consistent,
                     geometric_stiffness: true,
-                    damping: DAMPING,
                     damping_model,
-                    contact: ContactStiffness { normal_stiffness, ..ContactStiffness::default() },
+                    contact: ContactStiffness { normal_stiffness, ..RIGID },
+                    ..TANGENT
                 };
                 let whole =
                     SlidingTangent::linearize(&mesh, &POLYCARBONATE, &stiffness, &base, &options);

@@ -1,12 +1,12 @@
 //! Frequency responses in sliding contact against eigenvalues and eigenvectors: of a dense
 //! decomposition, and of the eigenvalue analysis (other equations, other solvers: independent checks).
 
-use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use crate::disc::{POLYCARBONATE, RIGID, TANGENT, annulus, contact, sweep_request};
 use faer::{Mat, c64};
+use frictionsim::cea::ModeLimit;
 use frictionsim::cea::sparse::sweep;
-use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::contact::ContactStiffness;
-use frictionsim::fem::{MassKind, assemble_stiffness};
+use frictionsim::fem::assemble_stiffness;
 use frictionsim::frf::{
     CyclicSystem, Direction, FrfSystem, Terminal, cyclic_response, direct_response,
 };
@@ -26,13 +26,7 @@ fn specification() -> AnnulusSpecification {
 }
 
 fn options(damping_model: DampingModel, contact: ContactStiffness) -> TangentOptions {
-    TangentOptions {
-        mass: MassKind::Consistent,
-        geometric_stiffness: true,
-        damping: DAMPING,
-        damping_model,
-        contact,
-    }
+    TangentOptions { geometric_stiffness: true, damping_model, contact, ..TANGENT }
 }
 
 fn tangent(options: &TangentOptions) -> SlidingTangent {
@@ -141,7 +135,7 @@ fn responses_in_sliding_contact_are_the_sums_over_right_and_left_eigenvectors() 
         normal_stiffness: Some(7.4e12),
         normal_damping: 3e5,
         tangential_damping: 2e5,
-        ..ContactStiffness::default()
+        ..RIGID
     };
     // Unstable modes included: the response is that of the equations, not of a steady state.
     let frequencies: Vec<f64> = (1..=40).map(|k| 431.7 * f64::from(k)).collect();
@@ -195,13 +189,7 @@ fn at_a_critical_friction_of_the_eigenvalue_analysis_the_response_grows_as_one_o
     let options = options(DampingModel::WholeTangent, ContactStiffness::default());
     let tangent = tangent(&options);
     let values: Vec<f64> = (0..=10).map(|k| 0.05 * f64::from(k)).collect();
-    let request = SweepRequest {
-        friction_coefficients: &values,
-        limit: ModeLimit::MaxFrequency(17_500.0),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let request = sweep_request(&values, ModeLimit::MaxFrequency(17_500.0));
     let found = sweep(&tangent, &request, &|_| {}).unwrap();
     let onsets: Vec<_> =
         found.intervals.iter().filter(|interval| !interval.unstable_from_start).collect();

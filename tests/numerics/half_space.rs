@@ -4,13 +4,13 @@
 //! with frictional boundary conditions, J. Vib. Acoust. 117 (1995) 445. Short waves on the inner edge of an annulus tend to
 //! them as their number grows.
 
+use crate::disc::{TANGENT, elastic, sliding_at};
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
-use frictionsim::contact::{ContactStiffness, SlidingContact};
-use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping};
+use frictionsim::fem::{PlaneFormulation, RayleighDamping};
 use frictionsim::linalg::banded::BandedMatrix;
 use frictionsim::mesh::{AnnulusSpecification, ElementKind, SectorMesh};
-use frictionsim::prestress::{DampingModel, TangentOptions, WaveTangent};
+use frictionsim::prestress::{TangentOptions, WaveTangent};
 
 const POISSON_RATIO: f64 = 0.3;
 const FRICTION: f64 = 2.0;
@@ -54,27 +54,11 @@ fn annulus_speed(n: usize) -> c64 {
         shaft: None,
     };
     // Shear modulus and density one: speeds come in units of that of shear waves.
-    let material = ElasticMaterial {
-        young_modulus: 2.0 * (1.0 + POISSON_RATIO),
-        poisson_ratio: POISSON_RATIO,
-        density: 1.0,
-        formulation: PlaneFormulation::PlaneStrain,
-        ..ElasticMaterial::PLAIN
-    };
+    let material =
+        elastic(2.0 * (1.0 + POISSON_RATIO), POISSON_RATIO, 1.0, PlaneFormulation::PlaneStrain);
     let undamped = RayleighDamping { mass_coefficient: 0.0, stiffness_coefficient: 0.0 };
-    let options = TangentOptions {
-        mass: MassKind::Consistent,
-        geometric_stiffness: false,
-        damping: undamped,
-        damping_model: DampingModel::WholeTangent,
-        contact: ContactStiffness::default(),
-    };
-    let contact = SlidingContact {
-        decay: None,
-        friction_coefficient: FRICTION,
-        interference: 1e-6,
-        rotation_speed: 1.0,
-    };
+    let options = TangentOptions { damping: undamped, ..TANGENT };
+    let contact = sliding_at(FRICTION, 1e-6, 1.0);
     let sector = SectorMesh::generate(&specification).unwrap();
     let tangent = WaveTangent::of_annulus(&sector, &material, &options, &contact).unwrap();
     let harmonic = tangent.harmonic(n);

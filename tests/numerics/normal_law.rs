@@ -1,14 +1,14 @@
 //! Contact of plane bodies that stiffens with pressure.
 
 use crate::cea_cyclic::model::paper_options;
-use crate::disc::{POLYCARBONATE, annulus, contact};
+use crate::disc::{POLYCARBONATE, RIGID, TANGENT, annulus, contact, sliding_at, sweep_request};
 use crate::friction_law::block::{MASS, STEEL, WIDTH, block};
-use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest, cyclic, sparse};
+use frictionsim::cea::{ComplexMode, ModeLimit, cyclic, sparse};
 use frictionsim::contact::{ContactStiffness, NormalLaw, SlidingContact};
-use frictionsim::fem::{MassKind, RayleighDamping, assemble_stiffness, sector};
+use frictionsim::fem::{RayleighDamping, assemble_stiffness, sector};
 use frictionsim::mesh::{AnnulusMesh, ElementKind, SectorMesh};
 use frictionsim::prestress::{
-    DampingModel, SectorSliding, SlidingRange, SlidingTangent, SteadySliding, TangentOptions,
+    SectorSliding, SlidingRange, SlidingTangent, SteadySliding, TangentOptions,
 };
 use std::f64::consts::TAU;
 
@@ -18,11 +18,7 @@ const LAWS: [NormalLaw; 2] = [
 ];
 
 fn stiffening(law: NormalLaw) -> ContactStiffness {
-    ContactStiffness {
-        normal_stiffness: Some(law.stiffness(0.0)),
-        law: Some(law),
-        ..ContactStiffness::default()
-    }
+    ContactStiffness { normal_stiffness: Some(law.stiffness(0.0)), law: Some(law), ..RIGID }
 }
 
 /// Closed form: disc and interface share the interference, so that the pressure is that of rigid contact in the share of the
@@ -56,13 +52,7 @@ fn harmonics_and_whole_mesh_have_the_same_spectrum() {
         let mut options = paper_options();
         options.contact = stiffening(law);
         let frictions = [0.0, 0.4];
-        let request = SweepRequest {
-            friction_coefficients: &frictions,
-            limit: ModeLimit::Lowest(12),
-            shapes_at: &[],
-            lefts_at: &[],
-            count_modes: false,
-        };
+        let request = sweep_request(&frictions, ModeLimit::Lowest(12));
         let sliding = contact(610.0);
         let own = cyclic::sweep(&specification, &POLYCARBONATE, &options, &sliding, &request);
         let own = own.unwrap().sweep;
@@ -90,31 +80,18 @@ fn the_frequency_of_a_block_follows_the_pressure_on_it() {
     for pressure in [1e4, 1e5, 1e6] {
         let mesh = block(pressure);
         let elastic = assemble_stiffness(&mesh, &STEEL);
-        let sliding = SlidingContact {
-            decay: None,
-            friction_coefficient: 0.0,
-            interference: 0.0,
-            rotation_speed: 1.0,
-        };
+        let sliding = sliding_at(0.0, 0.0, 1.0);
         let base = SteadySliding::solve_with(&mesh, &elastic, &sliding, Some(law)).unwrap();
         for found in base.pressures(0.0) {
             assert!((found / pressure - 1.0).abs() < 2e-3, "{found} {pressure}");
         }
         let options = TangentOptions {
-            mass: MassKind::Consistent,
-            geometric_stiffness: false,
             damping: RayleighDamping::default(),
-            damping_model: DampingModel::WholeTangent,
             contact: stiffening(law),
+            ..TANGENT
         };
         let tangent = SlidingTangent::linearize(&mesh, &STEEL, &elastic, &base, &options);
-        let request = SweepRequest {
-            friction_coefficients: &[0.0],
-            limit: ModeLimit::Lowest(3),
-            shapes_at: &[],
-            lefts_at: &[],
-            count_modes: false,
-        };
+        let request = sweep_request(&[0.0], ModeLimit::Lowest(3));
         let modes = &sparse::sweep(&tangent, &request, &|_| {}).unwrap().points[0].modes;
         let expected = ((pressure + 1e5) * WIDTH / (5e-4 * MASS)).sqrt();
         let apart = |mode: &ComplexMode| (mode.eigenvalue.im / expected - 1.0).abs();
@@ -130,13 +107,7 @@ fn the_frequency_of_a_block_follows_the_pressure_on_it() {
 fn a_law_that_hardly_stiffens_is_linear_contact() {
     let law = NormalLaw::Cubic { stiffness: 7.4e12, cubic_stiffness: 1.0 };
     let specification = annulus(ElementKind::Quad4, 24, 5);
-    let request = SweepRequest {
-        friction_coefficients: &[0.0, 0.4],
-        limit: ModeLimit::Lowest(12),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let request = sweep_request(&[0.0, 0.4], ModeLimit::Lowest(12));
     let spectrum = |stiffness: ContactStiffness, sliding: SlidingContact| {
         let mut options = paper_options();
         options.geometric_stiffness = false;
@@ -148,7 +119,7 @@ fn a_law_that_hardly_stiffens_is_linear_contact() {
     };
     let sliding = contact(610.0);
     let own = spectrum(stiffening(law), sliding);
-    let linear = ContactStiffness { normal_stiffness: Some(7.4e12), ..ContactStiffness::default() };
+    let linear = ContactStiffness { normal_stiffness: Some(7.4e12), ..RIGID };
     for (a, b) in own.iter().zip(spectrum(linear, sliding)) {
         assert!((a - b).norm() < 1e-11 * b.norm(), "{a} {b}");
     }

@@ -1,16 +1,16 @@
 //! Eigenvalues on unstructured meshes against Table 1 and the exact continuum (independent checks).
 
 use crate::continuum::{Annulus, Contact};
-use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use crate::disc::{DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, contact, sweep_request};
 use crate::msh::{FORMS, write_msh};
 use crate::table_1::TABLE_1;
 use crate::triangles::{body, triangles};
 use frictionsim::cea::sparse::sweep;
-use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest};
+use frictionsim::cea::{ComplexMode, ModeLimit};
 use frictionsim::contact::ContactStiffness;
-use frictionsim::fem::{MassKind, assemble_stiffness};
+use frictionsim::fem::assemble_stiffness;
 use frictionsim::mesh::{AnnulusMesh, ElementKind, FileMesh, Mesh, refined_file};
-use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
+use frictionsim::prestress::{SlidingTangent, SteadySliding, TangentOptions};
 
 const NORMAL_STIFFNESS: f64 = 7.4e12;
 
@@ -20,26 +20,15 @@ const EXACT: [(usize, usize, i8); 7] =
 
 fn modes(mesh: &Mesh, count: usize) -> Vec<ComplexMode> {
     let options = TangentOptions {
-        mass: MassKind::Consistent,
-        geometric_stiffness: false,
-        damping: DAMPING,
-        damping_model: DampingModel::WholeTangent,
-        contact: ContactStiffness {
-            normal_stiffness: Some(NORMAL_STIFFNESS),
-            ..ContactStiffness::default()
-        },
+        contact: ContactStiffness { normal_stiffness: Some(NORMAL_STIFFNESS), ..RIGID },
+        ..TANGENT
     };
     let contact = contact(610.0);
     let stiffness = assemble_stiffness(mesh, &POLYCARBONATE);
     let base = SteadySliding::solve(mesh, &stiffness, &contact).unwrap();
     let tangent = SlidingTangent::linearize(mesh, &POLYCARBONATE, &stiffness, &base, &options);
-    let request = SweepRequest {
-        friction_coefficients: &[contact.friction_coefficient],
-        limit: ModeLimit::Lowest(count),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let at = [contact.friction_coefficient];
+    let request = sweep_request(&at, ModeLimit::Lowest(count));
     let found = sweep(&tangent, &request, &|_| {}).unwrap();
     found.points.into_iter().next().unwrap().modes
 }

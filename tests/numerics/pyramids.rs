@@ -1,17 +1,12 @@
 //! Pyramids between bricks and tetrahedra (theory: the patch test), and as Gmsh and Nastran number them (independent: their manuals).
 
+use crate::disc::elastic;
 use frictionsim::fem::{ElasticMaterial, PlaneFormulation, assemble_stiffness, solid_stress};
 use frictionsim::mesh::{ElementKind, FileElement, FileMesh, Mesh};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-const STEEL: ElasticMaterial = ElasticMaterial {
-    young_modulus: 2e11,
-    poisson_ratio: 0.3,
-    density: 7850.0,
-    formulation: PlaneFormulation::ThreeDimensional,
-    ..ElasticMaterial::PLAIN
-};
+const STEEL: ElasticMaterial = elastic(2e11, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
 
 /// Three cells in a row: a brick, six pyramids, and tetrahedra with a pyramid on the side of the others.
 fn row(is_quadratic: bool) -> FileMesh {

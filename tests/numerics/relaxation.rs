@@ -1,9 +1,9 @@
 //! Maxwell chains in time: growth against the eigenvalue, energy to round-off, restart to the bit.
 
-use crate::disc::{POLYCARBONATE, annulus, contact};
+use crate::disc::{POLYCARBONATE, TANGENT, annulus, contact, sweep_request, transient_settings};
+use frictionsim::cea::ModeLimit;
 use frictionsim::cea::sparse::sweep;
-use frictionsim::cea::{ModeLimit, SweepRequest};
-use frictionsim::contact::{ContactStiffness, SlidingContact};
+use frictionsim::contact::SlidingContact;
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::fem::{
     ElasticMaterial, MassKind, MaxwellChain, ModulusTable, RayleighDamping, RegionMaterial,
@@ -11,10 +11,10 @@ use frictionsim::fem::{
 };
 use frictionsim::linalg::c64;
 use frictionsim::mesh::{AnnulusMesh, ElementKind};
-use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
+use frictionsim::prestress::{SlidingTangent, SteadySliding, TangentOptions};
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    TimeStep, TransientAnalysis, TransientModel, TransientSettings,
+    TransientAnalysis, TransientModel, TransientSettings,
 };
 use std::sync::Arc;
 
@@ -39,14 +39,13 @@ fn disc() -> AnnulusMesh {
 }
 
 fn settings(duration: f64, at: f64) -> TransientSettings {
-    TransientSettings {
+    transient_settings(
         duration,
-        time_step: TimeStep::Auto,
-        sample_interval: 4e-6,
-        expansion_time: 1e-4,
-        initial: InitialState::SteadySliding,
-        perturbation: Perturbation { time: at, ..Perturbation::of(&[HARMONIC], 1e-8) },
-    }
+        4e-6,
+        1e-4,
+        InitialState::SteadySliding,
+        Perturbation { time: at, ..Perturbation::of(&[HARMONIC], 1e-8) },
+    )
 }
 
 /// The largest growth rate of the body (1/s), its modulus a table that the chain fills, lumped as the time loop has it.
@@ -68,21 +67,11 @@ fn eigenvalue() -> f64 {
     let mesh = disc().mesh;
     let elastic = assemble_stiffness(&mesh, &materials);
     let base = SteadySliding::solve(&mesh, &elastic, &sliding()).unwrap();
-    let options = TangentOptions {
-        mass: MassKind::Lumped,
-        geometric_stiffness: false,
-        damping: RayleighDamping::default(),
-        damping_model: DampingModel::WholeTangent,
-        contact: ContactStiffness::default(),
-    };
+    let options =
+        TangentOptions { mass: MassKind::Lumped, damping: RayleighDamping::default(), ..TANGENT };
     let tangent = SlidingTangent::linearize(&mesh, &materials, &elastic, &base, &options);
-    let request = SweepRequest {
-        friction_coefficients: &[sliding().friction_coefficient],
-        limit: ModeLimit::Lowest(8),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let at = [sliding().friction_coefficient];
+    let request = sweep_request(&at, ModeLimit::Lowest(8));
     let found = sweep(&tangent, &request, &|_| {}).unwrap();
     let modes = found.points[0].modes.iter();
     let own = modes.filter(|mode| mode.harmonic == HARMONIC);

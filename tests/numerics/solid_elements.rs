@@ -1,6 +1,7 @@
 //! Solid elements of every kind against theory and against each other.
 
 use crate::block::{SOLIDS, block};
+use crate::disc::elastic;
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 use faer::sparse::{SparseColMat, Triplet};
@@ -13,13 +14,7 @@ use frictionsim::mesh::{BoundaryCondition, ElasticSupport, ElementKind, FileMesh
 use nalgebra::{DMatrix, Matrix3, Rotation3, SymmetricEigen, Vector3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-const STEEL: ElasticMaterial = ElasticMaterial {
-    young_modulus: 2e11,
-    poisson_ratio: 0.3,
-    density: 7850.0,
-    formulation: PlaneFormulation::ThreeDimensional,
-    ..ElasticMaterial::PLAIN
-};
+const STEEL: ElasticMaterial = elastic(2e11, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
 
 /// A parallelepiped without right angles.
 fn skewed([x, y, z]: [f64; 3]) -> [f64; 3] {

@@ -1,16 +1,11 @@
 //! Uniform refinement of solid bodies (independent: volumes, surfaces, exact eigenvalues of the meshed block).
 
 use crate::block::{SOLIDS, block};
+use crate::disc::elastic;
 use frictionsim::fem::{ElasticMaterial, PlaneFormulation, lumped_masses};
 use frictionsim::mesh::{BoundaryCondition, ElementKind, FileMesh, Mesh};
 
-const STEEL: ElasticMaterial = ElasticMaterial {
-    young_modulus: 2e11,
-    poisson_ratio: 0.3,
-    density: 7850.0,
-    formulation: PlaneFormulation::ThreeDimensional,
-    ..ElasticMaterial::PLAIN
-};
+const STEEL: ElasticMaterial = elastic(2e11, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
 
 /// A barrel-shaped block.
 fn barrel([x, y, z]: [f64; 3]) -> [f64; 3] {

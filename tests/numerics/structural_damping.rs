@@ -1,14 +1,13 @@
 //! Structural damping `K (1 + i eta)`: closed form where one loss factor holds for the whole body, dense complex matrices where
 //! disc and shaft have their own.
 
-use crate::disc::{POLYCARBONATE, annulus, contact};
+use crate::disc::{POLYCARBONATE, RIGID, TANGENT, annulus, contact, sweep_request};
 use faer::{Mat, c64};
 use frictionsim::cea::sparse::{mode_pairs, sweep};
-use frictionsim::cea::{FrictionSweep, ModeLimit, SweepRequest};
+use frictionsim::cea::{FrictionSweep, ModeLimit};
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::{
-    AnnulusMaterials, ElasticMaterial, MassKind, RayleighDamping, RegionMaterial,
-    assemble_stiffness,
+    AnnulusMaterials, ElasticMaterial, RayleighDamping, RegionMaterial, assemble_stiffness,
 };
 use frictionsim::frf::{Direction, FrfSystem, Terminal, direct_response};
 use frictionsim::linalg::dense_eigen::complex_eigenvalues;
@@ -17,7 +16,7 @@ use frictionsim::mesh::{
     AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElasticSupport, ElementKind,
     ShaftSpecification,
 };
-use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
+use frictionsim::prestress::{SlidingTangent, SteadySliding, TangentOptions};
 use std::f64::consts::TAU;
 
 /// The disc on a deformable shaft of steel, with a loss factor each.
@@ -57,24 +56,12 @@ fn tangent_with(
     };
     let elastic = assemble_stiffness(&mesh, &materials);
     let base = SteadySliding::solve(&mesh, &elastic, &contact(610.0)).unwrap();
-    let options = TangentOptions {
-        mass: MassKind::Consistent,
-        geometric_stiffness: false,
-        damping,
-        damping_model: DampingModel::WholeTangent,
-        contact: contact_stiffness,
-    };
+    let options = TangentOptions { damping, contact: contact_stiffness, ..TANGENT };
     SlidingTangent::linearize(&mesh, &materials, &elastic, &base, &options)
 }
 
 pub fn solved(tangent: &SlidingTangent, frictions: &[f64]) -> FrictionSweep {
-    let request = SweepRequest {
-        friction_coefficients: frictions,
-        limit: ModeLimit::Lowest(8),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let request = sweep_request(frictions, ModeLimit::Lowest(8));
     sweep(tangent, &request, &|_| {}).unwrap()
 }
 
@@ -155,11 +142,7 @@ fn loss_factors_of_disc_and_shaft_have_the_spectrum_of_the_dense_matrices() {
 /// Independent check: the same of the springs of a contact, which friction follows, and of a support.
 #[test]
 fn loss_factors_of_contact_and_support_have_the_spectrum_of_the_dense_matrices() {
-    let springs = ContactStiffness {
-        normal_stiffness: Some(2e12),
-        loss_factor: 0.15,
-        ..ContactStiffness::default()
-    };
+    let springs = ContactStiffness { normal_stiffness: Some(2e12), loss_factor: 0.15, ..RIGID };
     let mounting = BoundaryCondition::Support(ElasticSupport {
         normal_stiffness: 1e11,
         tangential_stiffness: 2e11,
@@ -227,11 +210,7 @@ fn the_response_with_loss_factors_is_that_of_the_dense_matrix() {
 #[test]
 fn derivatives_with_loss_factors_are_differences_of_eigenvalues() {
     let with = |eta: f64| {
-        let springs = ContactStiffness {
-            normal_stiffness: Some(2e12),
-            loss_factor: eta,
-            ..ContactStiffness::default()
-        };
+        let springs = ContactStiffness { normal_stiffness: Some(2e12), loss_factor: eta, ..RIGID };
         let held = BoundaryCondition::Clamped;
         tangent_with([0.02, 0.1], RayleighDamping::default(), springs, held)
     };

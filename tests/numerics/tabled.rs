@@ -2,15 +2,15 @@
 
 use crate::block::block;
 use crate::bricks::{Block, file_of};
-use crate::disc::{POLYCARBONATE, annulus, contact};
+use crate::disc::{POLYCARBONATE, RIGID, TANGENT, annulus, contact, sweep_request};
 use crate::structural_damping::{dense_eigenvalues, eigenvalues, largest_error, solved};
 use faer::c64;
 use frictionsim::case::Case;
 use frictionsim::cea::sparse::{mode_pairs, sweep};
-use frictionsim::cea::{CeaError, ModeLimit, SweepRequest};
+use frictionsim::cea::{CeaError, ModeLimit};
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::{
-    ElasticMaterial, MassKind, ModulusTable, PlaneFormulation, RayleighDamping, RegionMaterial,
+    ElasticMaterial, ModulusTable, PlaneFormulation, RayleighDamping, RegionMaterial,
     TabledMaterial, assemble_stiffness,
 };
 use frictionsim::frf::{Direction, FrfSystem, Terminal, direct_response};
@@ -18,9 +18,7 @@ use frictionsim::mesh::{
     AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElasticSupport, ElementKind, Mesh,
     ShaftSpecification,
 };
-use frictionsim::prestress::{
-    Assembly, BaseChoice, DampingModel, SlidingTangent, SteadySliding, TangentOptions,
-};
+use frictionsim::prestress::{Assembly, BaseChoice, SlidingTangent, SteadySliding, TangentOptions};
 use frictionsim::study::eigenvalues::{modes_and_onsets, preflight};
 use frictionsim::study::response::FrequencyStudy;
 use std::f64::consts::TAU;
@@ -66,11 +64,10 @@ fn tangent(rows: Vec<[f64; 3]>, contact_stiffness: ContactStiffness) -> SlidingT
     let elastic = assemble_stiffness(&mesh, &materials);
     let base = SteadySliding::solve(&mesh, &elastic, &contact(610.0)).unwrap();
     let options = TangentOptions {
-        mass: MassKind::Consistent,
         geometric_stiffness: true,
         damping: RayleighDamping { mass_coefficient: 20.0, stiffness_coefficient: 1e-7 },
-        damping_model: DampingModel::WholeTangent,
         contact: contact_stiffness,
+        ..TANGENT
     };
     SlidingTangent::linearize(&mesh, &materials, &elastic, &base, &options)
 }
@@ -79,21 +76,11 @@ fn tangent(rows: Vec<[f64; 3]>, contact_stiffness: ContactStiffness) -> SlidingT
 /// and frozen at the limit as many below it as were found; at the critical friction there is no growth.
 #[test]
 fn every_mode_has_the_stiffness_of_its_own_frequency() {
-    let springs = ContactStiffness {
-        normal_stiffness: Some(2e12),
-        loss_factor: 0.05,
-        ..ContactStiffness::default()
-    };
+    let springs = ContactStiffness { normal_stiffness: Some(2e12), loss_factor: 0.05, ..RIGID };
     for contact_stiffness in [ContactStiffness::default(), springs] {
         let tangent = tangent(rubber(1e9), contact_stiffness);
         let (frictions, limit_hz) = ([0.0, 0.3, 0.6, 0.9], 11000.0);
-        let request = SweepRequest {
-            friction_coefficients: &frictions,
-            limit: ModeLimit::MaxFrequency(limit_hz),
-            shapes_at: &[],
-            lefts_at: &[],
-            count_modes: false,
-        };
+        let request = sweep_request(&frictions, ModeLimit::MaxFrequency(limit_hz));
         let found = sweep(&tangent, &request, &|_| {}).unwrap();
         for (point, &mu) in frictions.iter().enumerate() {
             let own = eigenvalues(&found, point);
@@ -139,7 +126,7 @@ fn a_flat_table_is_a_material_with_a_loss_factor() {
 /// Consistency check: derivatives by friction and by the modulus are differences of whole solutions, the stiffness following.
 #[test]
 fn derivatives_follow_the_frequency_of_the_mode() {
-    let springs = ContactStiffness { normal_stiffness: Some(2e12), ..ContactStiffness::default() };
+    let springs = ContactStiffness { normal_stiffness: Some(2e12), ..RIGID };
     let (mu, step) = (0.4, 1e-3);
     let tangent_of = |scale: f64| tangent(rubber(scale), springs);
     let own = tangent_of(1e9);
@@ -208,13 +195,7 @@ fn a_line_of_the_response_has_the_stiffness_of_its_frequency() {
 fn a_mode_beyond_the_table_is_refused_with_its_frequency() {
     let short = vec![[100.0, 2e9, 0.1], [3000.0, 2.5e9, 0.1]];
     let tangent = tangent(short, ContactStiffness::default());
-    let request = SweepRequest {
-        friction_coefficients: &[0.0, 0.3],
-        limit: ModeLimit::Lowest(8),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let request = sweep_request(&[0.0, 0.3], ModeLimit::Lowest(8));
     let error = sweep(&tangent, &request, &|_| {}).unwrap_err();
     let CeaError::BeyondTable { range_hz, frequency_hz, .. } = &error else {
         panic!("{error}");
@@ -290,21 +271,9 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
     let closed = BaseChoice::Closed;
     let assembly = Assembly::new(&mesh, &materials, &[], &[], &[], closed).unwrap();
     let state = assembly.range(&[0.0]).unwrap();
-    let options = TangentOptions {
-        mass: MassKind::Consistent,
-        geometric_stiffness: false,
-        damping: RayleighDamping::default(),
-        damping_model: DampingModel::WholeTangent,
-        contact: ContactStiffness::default(),
-    };
+    let options = TangentOptions { damping: RayleighDamping::default(), ..TANGENT };
     let tangent = assembly.tangent(&state.states[0], &options).unwrap();
-    let request = SweepRequest {
-        friction_coefficients: &[0.0],
-        limit: ModeLimit::Lowest(5),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let request = sweep_request(&[0.0], ModeLimit::Lowest(5));
     let found = eigenvalues(&sweep(&tangent, &request, &|_| {}).unwrap(), 0);
 
     let mass = 2.0 * FACE * 2700.0 + CORE * 1000.0;

@@ -4,8 +4,8 @@ use super::dense::{column, column_mut, product, random_columns};
 use super::{ComplexDenseLu, LinalgError, interruption};
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::evd::{ComputeEigenvectors, evd_cplx, evd_real, evd_scratch};
-use faer::{Mat, MatRef, Par, c64};
+use faer::linalg::evd::{ComputeEigenvectors, EvdParams, evd_cplx, evd_real, evd_scratch};
+use faer::{Auto, Mat, MatRef, Par, c64};
 
 /// Residual, relative to the eigenvalue, above which an eigenvector is computed anew.
 const VECTOR_TOLERANCE: f64 = 1e-9;
@@ -129,7 +129,10 @@ fn decomposed(
         true => ComputeEigenvectors::Yes,
         false => ComputeEigenvectors::No,
     });
-    let scratch = evd_scratch::<f64>(n, of_left, of_right, Par::Seq, Default::default());
+    // Aggressive early deflation sorts 2 x 2 blocks without end where eigenvalues are equal (faer 0.24): double shifts alone.
+    let mut params: EvdParams = Auto::<f64>::auto();
+    params.schur.blocking_threshold = usize::MAX;
+    let scratch = evd_scratch::<f64>(n, of_left, of_right, Par::Seq, params.into());
     evd_real(
         matrix,
         real.as_mut(),
@@ -138,7 +141,7 @@ fn decomposed(
         right.map(|right| right.as_mut()),
         Par::Seq,
         MemStack::new(&mut MemBuffer::new(scratch)),
-        Default::default(),
+        params.into(),
     )
     .map_err(|_| failure)?;
     let parts = real.column_vector().iter().zip(imaginary.column_vector().iter());

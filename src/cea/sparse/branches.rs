@@ -12,8 +12,11 @@ use crate::linalg::{Mat, c64};
 const SAME: f64 = 0.5;
 /// Part of the end of a range by which a mode is above it beyond doubt.
 const ABOVE_RANGE: f64 = 0.01;
-/// Bisections of an interval before modes are matched by their extrapolated eigenvalue.
+/// Bisections of an interval before modes are matched by their extrapolated eigenvalue, one within the other and in all.
 const MAX_BISECTIONS: usize = 10;
+const MOST_BETWEEN: usize = 60;
+/// Relative distance of eigenvalues that are the same.
+const EQUAL: f64 = 1e-6;
 
 /// Name of a branch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -208,7 +211,7 @@ pub fn track(
             (after.friction_coefficient, &after.modes),
             needed,
             model,
-            0,
+            (0, &mut 0),
         )?;
         for branch in &mut branches {
             let last = branch.modes[k - 1];
@@ -269,7 +272,7 @@ fn match_modes(
     to: ModesAt<'_>,
     needed: usize,
     model: &ReducedModel,
-    depth: usize,
+    (depth, solved): (usize, &mut usize),
 ) -> Result<Vec<Link>, LinalgError> {
     let middle = 0.5 * (from.0 + to.0);
     let overlaps = overlaps(from, to, model);
@@ -279,11 +282,12 @@ fn match_modes(
     let mut open = needed_links
         .filter(|(link, mode)| link.is_none() && !may_vanish(&Seen::of(from.0, mode), step));
     let is_clear = open.next().is_none();
-    if !is_clear && depth < MAX_BISECTIONS {
+    if !is_clear && depth < MAX_BISECTIONS && *solved < MOST_BETWEEN {
+        *solved += 1;
         let modes = model.solve_between(middle, from.1.len().max(to.1.len()))?;
-        let first = match_modes(from, (middle, &modes), needed, model, depth + 1)?;
+        let first = match_modes(from, (middle, &modes), needed, model, (depth + 1, solved))?;
         let reached = first.iter().take(needed).flatten().max().map_or(0, |&i| i + 1);
-        let second = match_modes((middle, &modes), to, reached, model, depth + 1)?;
+        let second = match_modes((middle, &modes), to, reached, model, (depth + 1, solved))?;
         return Ok(first.iter().map(|link| link.and_then(|i| second[i])).collect());
     }
     if !is_clear {
@@ -315,7 +319,20 @@ fn clear_links(from: ModesAt<'_>, to: ModesAt<'_>, overlaps: &Mat<f64>) -> Vec<O
         let predicted = a.eigenvalue + (a.derivative + b.derivative) * (0.5 * step);
         let reach = 0.5 * (a.derivative.norm() + b.derivative.norm()) * step;
         let error = (b.eigenvalue - predicted).norm();
-        if error <= 0.5 * reach + 1e-6 * a.eigenvalue.norm() {
+        if error <= 0.5 * reach + EQUAL * a.eigenvalue.norm() {
+            *link = Some(j);
+            taken[j] = true;
+        }
+    }
+    // Of a multiple eigenvalue that friction does not move each vector continues all: one branch is as good as the other.
+    for (i, link) in links.iter_mut().enumerate().filter(|(_, link)| link.is_none()) {
+        let a = &from.1[i];
+        let is_still = |mode: &ReducedMode| {
+            mode.derivative.norm() * step <= EQUAL * a.eigenvalue.norm()
+                && (mode.eigenvalue - a.eigenvalue).norm() <= EQUAL * a.eigenvalue.norm()
+        };
+        let free = (0..to.1.len()).find(|&j| !taken[j] && is_still(&to.1[j]));
+        if let Some(j) = free.filter(|_| is_still(a)) {
             *link = Some(j);
             taken[j] = true;
         }

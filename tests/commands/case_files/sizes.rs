@@ -1,6 +1,6 @@
 //! Consistency checks of sizes: what a case asks for is weighed before anything of it is made.
 
-use super::{DISC, RUN, STUDY, assert_reports, parse, report, valid};
+use super::{RUN, STUDY, assert_reports, parse, valid};
 use std::time::{Duration, Instant};
 
 /// Reads a case under an override, well or not, and says how long that took.
@@ -42,17 +42,6 @@ fn no_override_is_costly() {
 }
 
 #[test]
-fn a_study_too_large_names_the_key_that_makes_it_so() {
-    let many = "sweep.\"contact.rotation_speed_rpm\"={ from = 1, to = 2, count = 500000 }";
-    assert_reports(
-        &report(STUDY, &[many]),
-        &["1500000 points", "contact.rotation_speed_rpm", "--set:1:"],
-    );
-    let long = "cea.friction_coefficients={ from = 0, to = 1, count = 1000000 }";
-    assert_reports(&report(DISC, &[long]), &["count of at most 100000"]);
-}
-
-#[test]
 fn memory_is_refused_at_the_key_that_asks_for_it() {
     const CYCLES: &str = include_str!("../../../cases/limit-cycle.toml");
     for (text, overrides, command, key) in [
@@ -73,23 +62,6 @@ fn memory_is_refused_at_the_key_that_asks_for_it() {
         let errors = case.memory_error(command, bytes, 1e9).to_string();
         assert_reports(&errors, &[key, "GiB are available", "--set:1:"]);
     }
-}
-
-#[test]
-fn a_run_without_end_or_without_stability_is_refused_for_what_it_is() {
-    assert_reports(
-        &report(RUN, &["transient.duration=1e9"]),
-        &["transient.duration = 1000000000", "time steps"],
-    );
-    // The sample interval is shorter still, but that is not the point.
-    assert_reports(
-        &report(RUN, &["transient.time_step=1e-3"]),
-        &["transient.time_step = 0.001", "stability limit"],
-    );
-    assert_reports(
-        &report(RUN, &["contact.normal_stiffness=1e30"]),
-        &["contact.normal_stiffness", "use normal_stiffness = \"rigid\""],
-    );
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Figures of a real run: the polycarbonate disc on a coarse mesh, seeded with harmonic 2.
 
-use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact, transient_settings};
 use crate::figures::check;
 use frictionsim::chart::Figure;
 use frictionsim::contact::SlidingContact;
@@ -11,7 +11,7 @@ use frictionsim::results::charts::ModeLine;
 use frictionsim::results::transient::{RunFigures, draw_run};
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    TimeStep, TransientAnalysis, TransientModel, TransientSettings,
+    TransientAnalysis, TransientModel,
 };
 
 #[test]
@@ -20,14 +20,8 @@ fn a_run_gets_every_figure_of_its_record() {
     let contact = SlidingContact { decay: None, friction_coefficient: 0.4, ..contact(610.0) };
     let rotation_speed = contact.rotation_speed;
     let model = TransientModel::of_annulus(&annulus, &POLYCARBONATE, DAMPING, contact);
-    let settings = TransientSettings {
-        duration: 0.02,
-        time_step: TimeStep::Auto,
-        sample_interval: 2e-6,
-        expansion_time: 5e-4,
-        initial: InitialState::Rest,
-        perturbation: Perturbation::of(&[2], 1e-2),
-    };
+    let settings =
+        transient_settings(0.02, 2e-6, 5e-4, InitialState::Rest, Perturbation::of(&[2], 1e-2));
     let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
     // Node 1 + 15 * 13 lies on the contact edge at 90 degrees, seven nodes further out on its ray.

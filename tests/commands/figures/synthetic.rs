@@ -2,7 +2,7 @@
 
 use faer::c64;
 use frictionsim::cea::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval};
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, Mesh};
+use frictionsim::mesh::{AnnulusMesh, ElementKind, Mesh};
 use std::f64::consts::{PI, TAU};
 
 pub const MASS_COEFFICIENT: f64 = 40.0;
@@ -29,16 +29,11 @@ const PAIRS: [(f64, usize, usize, f64); 16] = [
 ];
 
 pub fn mesh(circumferential_elements: usize, radial_elements: usize) -> Mesh {
-    AnnulusMesh::generate(&AnnulusSpecification {
-        inner_radius: 0.0205,
-        outer_radius: 0.0905,
+    AnnulusMesh::generate(&crate::disc::annulus(
+        ElementKind::Quad4,
         circumferential_elements,
         radial_elements,
-        radial_grading: 1.0,
-        element: ElementKind::Quad4,
-        outer: frictionsim::mesh::BoundaryCondition::Clamped,
-        shaft: None,
-    })
+    ))
     .unwrap()
     .mesh
 }

@@ -1,7 +1,8 @@
 //! The contact law, the steady start, and an exact impact.
 
+use crate::disc::sliding_at;
 use crate::transient::model::{Watch, disc, largest, model, settings};
-use frictionsim::contact::{ContactStatus, SlidingContact};
+use frictionsim::contact::ContactStatus;
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::fem::{RayleighDamping, assemble_stiffness, lumped_masses};
 use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ShaftSpecification};
@@ -134,12 +135,7 @@ fn bar_rebounds_from_a_rigid_wall_as_one_dimensional_theory_says() {
     .unwrap();
     let mut model = model(&annulus, 0.0);
     model.damping = RayleighDamping::default();
-    model.contact = SlidingContact {
-        decay: None,
-        friction_coefficient: 0.0,
-        interference: 0.0,
-        rotation_speed: 0.0,
-    };
+    model.contact = sliding_at(0.0, 0.0, 0.0);
     let [lambda, shear] = model.material.of(0).lame_constants();
     let density = model.material.of(0).density;
     let wave_speed = ((lambda + 2.0 * shear) / density).sqrt();

@@ -1,14 +1,14 @@
 //! The linear stage against the complex eigenvalues of the same model.
 
+use crate::disc::TANGENT;
 use crate::transient::model::{disc, model, settings};
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
-use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::fem::{MassKind, assemble_stiffness};
 use frictionsim::linalg::MatrixPolynomial;
 use frictionsim::mesh::AnnulusMesh;
-use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
+use frictionsim::prestress::{SlidingTangent, SteadySliding, TangentOptions};
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
     SteppedBody, TransientAnalysis, TransientModel,
@@ -61,13 +61,7 @@ fn least_stable(model: &TransientModel<'_>, n: usize) -> c64 {
     };
     let stiffness = assemble_stiffness(mesh, model.material);
     let base = SteadySliding::solve(mesh, &stiffness, &model.contact).unwrap();
-    let options = TangentOptions {
-        mass: MassKind::Lumped,
-        geometric_stiffness: false,
-        damping: model.damping,
-        damping_model: DampingModel::WholeTangent,
-        contact: ContactStiffness::default(),
-    };
+    let options = TangentOptions { mass: MassKind::Lumped, damping: model.damping, ..TANGENT };
     let tangent = SlidingTangent::linearize(mesh, model.material, &stiffness, &base, &options);
     let mass = harmonic(&tangent.mass, &tangent, annulus, n);
     let stiffness = harmonic(&tangent.stiffness, &tangent, annulus, n);

@@ -1,9 +1,9 @@
 //! The disc of the paper on meshes that run in seconds.
 
-use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact, transient_settings};
 use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::transient::{
-    InitialState, Observer, Perturbation, Sample, TimeStep, TransientModel, TransientSettings,
+    InitialState, Observer, Perturbation, Sample, TransientModel, TransientSettings,
 };
 use std::ops::ControlFlow;
 
@@ -17,14 +17,7 @@ pub fn model(annulus: &AnnulusMesh, rotation_speed_rpm: f64) -> TransientModel<'
 }
 
 pub fn settings(duration: f64, harmonics: &[usize]) -> TransientSettings {
-    TransientSettings {
-        duration,
-        time_step: TimeStep::Auto,
-        sample_interval: 4e-6,
-        expansion_time: 1e-4,
-        initial: InitialState::Rest,
-        perturbation: Perturbation::of(harmonics, 1e-3),
-    }
+    transient_settings(duration, 4e-6, 1e-4, InitialState::Rest, Perturbation::of(harmonics, 1e-3))
 }
 
 /// Hands every sample to a closure.

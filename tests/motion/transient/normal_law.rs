@@ -1,15 +1,14 @@
 //! Contact that stiffens with pressure, step by step.
 
-use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use crate::disc::{DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, contact, sweep_request};
 use crate::transient::model::{Watch, settings};
 use frictionsim::cea::ModeLimit;
-use frictionsim::cea::SweepRequest;
 use frictionsim::cea::cyclic::sweep;
 use frictionsim::contact::{ContactStiffness, NormalLaw};
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::fem::{MassKind, assemble_stiffness};
 use frictionsim::mesh::{AnnulusMesh, ElementKind};
-use frictionsim::prestress::{DampingModel, SteadySliding, TangentOptions};
+use frictionsim::prestress::{SteadySliding, TangentOptions};
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
     Sample, TransientAnalysis, TransientModel,
@@ -21,11 +20,7 @@ const LAWS: [NormalLaw; 2] = [
 ];
 
 fn stiffening(law: NormalLaw) -> ContactStiffness {
-    ContactStiffness {
-        normal_stiffness: Some(law.stiffness(0.0)),
-        law: Some(law),
-        ..ContactStiffness::default()
-    }
+    ContactStiffness { normal_stiffness: Some(law.stiffness(0.0)), law: Some(law), ..RIGID }
 }
 
 fn disc(stiffness: ContactStiffness, mesh: &AnnulusMesh) -> TransientModel<'_> {
@@ -91,20 +86,9 @@ fn a_wave_on_contact_that_stiffens_grows_as_its_eigenvalue_says() {
     let mesh = AnnulusMesh::generate(&specification).unwrap();
     let harmonic = 2;
     for law in LAWS {
-        let options = TangentOptions {
-            mass: MassKind::Lumped,
-            geometric_stiffness: false,
-            damping: DAMPING,
-            damping_model: DampingModel::WholeTangent,
-            contact: stiffening(law),
-        };
-        let request = SweepRequest {
-            friction_coefficients: &[0.3],
-            limit: ModeLimit::MaxFrequency(17600.0),
-            shapes_at: &[],
-            lefts_at: &[],
-            count_modes: false,
-        };
+        let options =
+            TangentOptions { mass: MassKind::Lumped, contact: stiffening(law), ..TANGENT };
+        let request = sweep_request(&[0.3], ModeLimit::MaxFrequency(17600.0));
         let sliding = contact(610.0);
         let found = sweep(&specification, &POLYCARBONATE, &options, &sliding, &request).unwrap();
         let modes = found.sweep.points[0].modes.iter();

@@ -1,5 +1,6 @@
 //! Saved and restored states.
 
+use crate::disc::RIGID;
 use crate::transient::model::{Watch, disc, model, settings};
 use frictionsim::contact::{ContactStiffness, FrictionDecay};
 use frictionsim::fem::operator::SimdLevel;
@@ -39,7 +40,7 @@ fn restarted_run_equals_uninterrupted_run_bitwise() {
         normal_stiffness: Some(2e12),
         normal_damping: 1e5,
         tangential_damping: 1e4,
-        ..ContactStiffness::default()
+        ..RIGID
     };
     for (model, choice) in [
         (rigid, OperatorChoice::Cyclic),

@@ -8,40 +8,24 @@ mod slow_sliding;
 mod topography;
 
 use crate::bricks::{Block, file_of, file_of_order};
+use crate::disc::{RIGID, TANGENT, elastic, sweep_request};
 use crate::structural_damping::dense;
+use frictionsim::cea::ModeLimit;
 use frictionsim::cea::sparse::sweep;
-use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::contact::{ContactStiffness, Counterpart, Motion, PairError, PairFriction};
-use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping};
+use frictionsim::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
 use frictionsim::linalg::c64;
 use frictionsim::mesh::{BoundaryCondition, FileMesh, Mesh};
 use frictionsim::prestress::{
-    Assembly, BaseChoice, DampingModel, PrestressError, SlidingSurfaces, SlidingTangent,
-    TangentOptions, TiedSurfaces,
+    Assembly, BaseChoice, PrestressError, SlidingSurfaces, SlidingTangent, TangentOptions,
+    TiedSurfaces,
 };
 
-const STEEL: ElasticMaterial = ElasticMaterial {
-    young_modulus: 2e11,
-    poisson_ratio: 0.3,
-    density: 7850.0,
-    formulation: PlaneFormulation::ThreeDimensional,
-    ..ElasticMaterial::PLAIN
-};
+const STEEL: ElasticMaterial = elastic(2e11, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
 
 const OPTIONS: TangentOptions = TangentOptions {
-    mass: MassKind::Consistent,
-    geometric_stiffness: false,
     damping: RayleighDamping { mass_coefficient: 0.0, stiffness_coefficient: 0.0 },
-    damping_model: DampingModel::WholeTangent,
-    contact: ContactStiffness {
-        law: None,
-        law_damping: 0.0,
-        loss_factor: 0.0,
-        normal_stiffness: None,
-        normal_damping: 0.0,
-        tangential_damping: 0.0,
-        is_base_compliant: false,
-    },
+    ..TANGENT
 };
 
 fn mesh_of(bytes: &[u8], conditions: &[(&str, BoundaryCondition)]) -> Mesh {
@@ -62,7 +46,7 @@ fn sliding(mesh: &Mesh, normal_stiffness: Option<f64>) -> SlidingSurfaces {
         surface: boundary(mesh, "upper_z0"),
         counter: Counterpart::Surface(boundary(mesh, "lower_z1")),
         friction: PairFriction { ratio: 1.0, decay: None },
-        stiffness: ContactStiffness { normal_stiffness, ..ContactStiffness::default() },
+        stiffness: ContactStiffness { normal_stiffness, ..RIGID },
         law: None,
         topography: None,
     }
@@ -160,13 +144,8 @@ fn constant_pressure_passes_a_tie_between_meshes_that_do_not_match() {
 fn eigenvalues(assembly: &Assembly<'_>, friction: f64, count: usize) -> Vec<c64> {
     let range = assembly.range(&[friction]).unwrap();
     let tangent = assembly.tangent(&range.states[0], &OPTIONS).unwrap();
-    let request = SweepRequest {
-        friction_coefficients: &[friction],
-        limit: ModeLimit::Lowest(count),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let at = [friction];
+    let request = sweep_request(&at, ModeLimit::Lowest(count));
     let found = sweep(&tangent, &request, &|_| {}).unwrap();
     let modes = found.points.into_iter().flat_map(|point| point.modes);
     modes.map(|mode| mode.eigenvalue).collect()

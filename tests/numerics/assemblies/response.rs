@@ -3,8 +3,9 @@
 use super::rotation::{ring, turning as spinning};
 use super::{OPTIONS, PRESSED, STEEL, boundary, mesh_of, sliding, stacked, turning};
 use crate::bricks::{Block, file_of};
+use crate::disc::sweep_request;
+use frictionsim::cea::ModeLimit;
 use frictionsim::cea::sparse::sweep;
-use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::fem::{RayleighDamping, RotationFrame};
 use frictionsim::frf::{Axis, Direction, FrfError, FrfSystem, Terminal, direct_response};
 use frictionsim::linalg::{MatrixPolynomial, c64};
@@ -70,13 +71,8 @@ fn the_response_of_a_sliding_assembly_has_the_poles_of_its_eigenvalue_analysis()
 }
 
 fn lowest(tangent: &SlidingTangent, friction: f64) -> c64 {
-    let request = SweepRequest {
-        friction_coefficients: &[friction],
-        limit: ModeLimit::Lowest(2),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let at = [friction];
+    let request = sweep_request(&at, ModeLimit::Lowest(2));
     let found = sweep(tangent, &request, &|_| {}).unwrap();
     found.points[0].modes[0].eigenvalue
 }

@@ -2,8 +2,9 @@
 
 use super::{OPTIONS, STEEL, boundary, eigenvalues, mesh_of};
 use crate::bricks::{Block, file_of};
+use crate::disc::sweep_request;
+use frictionsim::cea::ModeLimit;
 use frictionsim::cea::sparse::sweep;
-use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::contact::Motion;
 use frictionsim::fem::{MassKind, RotationFrame, assemble_mass, assemble_supports};
 use frictionsim::mesh::{BoundaryCondition, ElasticSupport, Mesh};
@@ -133,13 +134,7 @@ fn a_free_ring_turns_and_both_frames_tell_the_same_of_its_waves() {
         let assembly = Assembly::new(&mesh, &STEEL, ties, &[], &[motion], closed).unwrap();
         let range = assembly.range(&[0.0]).unwrap();
         let tangent = assembly.tangent(&range.states[0], &OPTIONS).unwrap();
-        let request = SweepRequest {
-            friction_coefficients: &[0.0],
-            limit: ModeLimit::Lowest(8),
-            shapes_at: &[],
-            lefts_at: &[],
-            count_modes: false,
-        };
+        let request = sweep_request(&[0.0], ModeLimit::Lowest(8));
         let found = sweep(&tangent, &request, &|_| {}).unwrap();
         assert!(found.intervals.is_empty(), "{:?}", found.intervals);
         let own = found.points[0].modes.iter().map(|mode| mode.eigenvalue.im);

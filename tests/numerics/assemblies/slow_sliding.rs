@@ -2,6 +2,7 @@
 //! imaginary part, too.
 
 use super::*;
+use crate::disc::sweep_request;
 use crate::structural_damping::dense_eigenvalues;
 use frictionsim::fem::RayleighDamping;
 
@@ -38,13 +39,7 @@ fn lists_of_lossy_modes_have_no_gaps_however_slow_the_sliding() {
         let tangent = assembly.tangent(&range.states[0], &options).unwrap();
         let exact = dense_eigenvalues(&tangent, 0.5);
         for count in 4..9 {
-            let request = SweepRequest {
-                friction_coefficients: &[0.5],
-                limit: ModeLimit::Lowest(count),
-                shapes_at: &[],
-                lefts_at: &[],
-                count_modes: false,
-            };
+            let request = sweep_request(&[0.5], ModeLimit::Lowest(count));
             let found = sweep(&tangent, &request, &|_| {}).unwrap();
             let modes = found.points[0].modes.iter();
             let listed: Vec<c64> = modes.map(|mode| mode.eigenvalue).collect();

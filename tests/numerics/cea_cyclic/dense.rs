@@ -1,11 +1,11 @@
 //! Independent checks: dense solutions of harmonics folded from the matrices of the full mesh.
 
 use crate::cea_cyclic::model::{paper_options, run};
-use crate::disc::{POLYCARBONATE, annulus, contact};
+use crate::disc::{POLYCARBONATE, RIGID, annulus, contact, sweep_request};
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
+use frictionsim::cea::ModeLimit;
 use frictionsim::cea::cyclic::sweep;
-use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::contact::{ContactStiffness, SlidingContact};
 use frictionsim::fem::{
     ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
@@ -89,13 +89,7 @@ fn worst_difference(
     frictions: &[f64],
     limit_hz: f64,
 ) -> f64 {
-    let request = SweepRequest {
-        friction_coefficients: frictions,
-        limit: ModeLimit::MaxFrequency(limit_hz),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let request = sweep_request(frictions, ModeLimit::MaxFrequency(limit_hz));
     let cyclic = sweep(specification, material, options, contact, &request).unwrap();
     let mesh = AnnulusMesh::generate(specification).unwrap();
     let elastic = assemble_stiffness(&mesh.mesh, material);
@@ -175,12 +169,8 @@ fn quadratic_problem_equals_dense_companion_solution() {
         {
             let mut options = paper_options();
             options.damping_model = damping_model;
-            options.contact = ContactStiffness {
-                normal_stiffness,
-                normal_damping,
-                tangential_damping,
-                ..ContactStiffness::default()
-            };
+            options.contact =
+                ContactStiffness { normal_stiffness, normal_damping, tangential_damping, ..RIGID };
             for element in [ElementKind::Quad4, ElementKind::Quad8] {
                 let worst = worst_difference(
                     &annulus(element, 14, 5),

@@ -1,11 +1,11 @@
 //! Independent check: sensitivities against finite differences of the whole analysis.
 
 use crate::cea_cyclic::model::paper_options;
-use crate::disc::{POLYCARBONATE, annulus, contact};
+use crate::disc::{POLYCARBONATE, RIGID, annulus, contact, sweep_request};
 use crate::waves::{STEP, difference, is_of, pairs, rates};
 use faer::c64;
+use frictionsim::cea::ModeLimit;
 use frictionsim::cea::cyclic::{WavePair, WaveSweep, sweep};
-use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::contact::{ContactStiffness, NormalLaw, SlidingContact};
 use frictionsim::fem::{AnnulusMaterials, ElasticMaterial, PlaneFormulation};
 use frictionsim::mesh::{AnnulusSpecification, ElementKind, SectorMesh};
@@ -23,13 +23,7 @@ struct CyclicModel {
 }
 
 fn swept(model: &CyclicModel, frictions: &[f64], limit_hz: f64) -> WaveSweep {
-    let request = SweepRequest {
-        friction_coefficients: frictions,
-        limit: ModeLimit::MaxFrequency(limit_hz),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let request = sweep_request(frictions, ModeLimit::MaxFrequency(limit_hz));
     let CyclicModel { specification, material, options, contact } = model;
     sweep(specification, material, options, contact, &request).unwrap()
 }
@@ -136,7 +130,7 @@ fn sensitivities_of_stiffening_contact_equal_finite_differences() {
     let of = |law: NormalLaw| ContactStiffness {
         normal_stiffness: Some(law.stiffness(0.0)),
         law: Some(law),
-        ..ContactStiffness::default()
+        ..RIGID
     };
     for (law, element) in laws.into_iter().zip([ElementKind::Quad8, ElementKind::Quad4]) {
         let mut contact = contact(610.0);

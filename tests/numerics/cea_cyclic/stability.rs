@@ -1,10 +1,10 @@
 //! Onsets, intervals, completeness and maps, against the paper, the continuum and each other.
 
 use crate::cea_cyclic::model::{paper_options, run};
-use crate::disc::{POLYCARBONATE, annulus, contact};
+use crate::disc::{POLYCARBONATE, annulus, contact, sweep_request};
 use crate::table_1::TABLE_1;
 use frictionsim::cea::cyclic::sweep;
-use frictionsim::cea::{ModeBranch, ModeLimit, SweepRequest, UnstableInterval};
+use frictionsim::cea::{ModeBranch, ModeLimit, UnstableInterval};
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::{ElasticMaterial, MassKind};
 use frictionsim::mesh::ElementKind;
@@ -50,13 +50,7 @@ fn unstable_intervals_do_not_depend_on_the_grid() {
     options.damping.stiffness_coefficient = 0.0;
     let material = ElasticMaterial { poisson_ratio: 0.45, ..POLYCARBONATE };
     let solve = |frictions: &[f64]| {
-        let request = SweepRequest {
-            friction_coefficients: frictions,
-            limit: ModeLimit::MaxFrequency(20000.0),
-            shapes_at: &[],
-            lefts_at: &[],
-            count_modes: false,
-        };
+        let request = sweep_request(frictions, ModeLimit::MaxFrequency(20000.0));
         let specification = annulus(ElementKind::Quad4, 40, 10);
         sweep(&specification, &material, &options, &contact(610.0), &request).unwrap()
     };
@@ -128,13 +122,7 @@ fn impossible_requests_name_their_key() {
         (vec![0.1], ModeLimit::Lowest(1000), "cea.modes"),
         (vec![0.1], ModeLimit::MaxFrequency(-5.0), "cea.max_frequency_hz"),
     ] {
-        let request = SweepRequest {
-            friction_coefficients: &frictions,
-            limit,
-            shapes_at: &[],
-            lefts_at: &[],
-            count_modes: false,
-        };
+        let request = sweep_request(&frictions, limit);
         let (material, options) = (POLYCARBONATE, paper_options());
         let outcome = sweep(&specification, &material, &options, &contact(610.0), &request);
         assert!(outcome.unwrap_err().to_string().contains(key));
@@ -154,13 +142,7 @@ fn branches_are_followed_past_an_eigenvalue_predicted_to_the_last_bit() {
     };
     let intervals = |young_modulus: f64| {
         let material = ElasticMaterial { young_modulus, ..POLYCARBONATE };
-        let request = SweepRequest {
-            friction_coefficients: &frictions,
-            limit: ModeLimit::MaxFrequency(17_500.0),
-            shapes_at: &[],
-            lefts_at: &[],
-            count_modes: false,
-        };
+        let request = sweep_request(&frictions, ModeLimit::MaxFrequency(17_500.0));
         let found = sweep(&specification, &material, &options, &contact(1000.0), &request);
         found.unwrap().sweep.intervals
     };

@@ -1,7 +1,7 @@
 //! Cross-method checks: the sparse solver and the matrices of the whole mesh.
 
 use crate::cea_cyclic::model::{paper_options, run};
-use crate::disc::{POLYCARBONATE, annulus, contact};
+use crate::disc::{POLYCARBONATE, annulus, contact, sweep_request};
 use faer::c64;
 use frictionsim::cea::cyclic::sweep;
 use frictionsim::cea::sparse;
@@ -31,13 +31,7 @@ fn spectrum_branches_and_onsets_equal_those_of_the_sparse_solver() {
         let elastic = assemble_stiffness(&mesh, &material);
         let base = SteadySliding::solve(&mesh, &elastic, &contact).unwrap();
         let tangent = SlidingTangent::linearize(&mesh, &material, &elastic, &base, &options);
-        let request = SweepRequest {
-            friction_coefficients: &frictions,
-            limit: ModeLimit::Lowest(18),
-            shapes_at: &[],
-            lefts_at: &[],
-            count_modes: false,
-        };
+        let request = sweep_request(&frictions, ModeLimit::Lowest(18));
         let sparse = sparse::sweep(&tangent, &request, &|_| {}).unwrap();
         for (ours, theirs) in cyclic.points.iter().zip(&sparse.points) {
             assert_eq!(ours.modes.len(), theirs.modes.len());
@@ -77,13 +71,7 @@ fn a_cut_through_a_pair_keeps_both_members_in_both_solvers() {
     let tangent = SlidingTangent::linearize(&mesh, &POLYCARBONATE, &elastic, &base, &options);
     for asked in 2..6 {
         let cyclic = run(&specification, &options, &[0.0, 0.4], ModeLimit::Lowest(asked)).sweep;
-        let request = SweepRequest {
-            friction_coefficients: &[0.0, 0.4],
-            limit: ModeLimit::Lowest(asked),
-            shapes_at: &[],
-            lefts_at: &[],
-            count_modes: false,
-        };
+        let request = sweep_request(&[0.0, 0.4], ModeLimit::Lowest(asked));
         let sparse = sparse::sweep(&tangent, &request, &|_| {}).unwrap();
         for found in [cyclic, sparse] {
             let [rest, sliding] = [0, 1].map(|i| &found.points[i].modes);
@@ -108,13 +96,7 @@ fn solvers_differ_by_no_more_than_the_uncertainty_that_they_state() {
         let elastic = assemble_stiffness(&mesh, &POLYCARBONATE);
         let base = SteadySliding::solve(&mesh, &elastic, &contact(610.0)).unwrap();
         let tangent = SlidingTangent::linearize(&mesh, &POLYCARBONATE, &elastic, &base, &options);
-        let request = SweepRequest {
-            friction_coefficients: &[0.4],
-            limit: ModeLimit::Lowest(8),
-            shapes_at: &[],
-            lefts_at: &[],
-            count_modes: false,
-        };
+        let request = sweep_request(&[0.4], ModeLimit::Lowest(8));
         let Ok(sparse) = sparse::sweep(&tangent, &request, &|_| {}) else {
             assert!(penalty > 1e20, "{penalty:e}");
             continue;
@@ -141,13 +123,8 @@ fn expanded_shapes_are_eigenvectors_of_the_full_mesh() {
         let mut options = paper_options();
         options.contact.normal_stiffness = normal_stiffness;
         let specification = annulus(element, 24, 6);
-        let request = SweepRequest {
-            friction_coefficients: &[0.6, 0.0],
-            limit: ModeLimit::Lowest(20),
-            shapes_at: &[0.6],
-            lefts_at: &[],
-            count_modes: false,
-        };
+        let request =
+            SweepRequest { shapes_at: &[0.6], ..sweep_request(&[0.6, 0.0], ModeLimit::Lowest(20)) };
         let (material, contact) = (POLYCARBONATE, contact(610.0));
         let found = sweep(&specification, &material, &options, &contact, &request).unwrap();
         let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;

@@ -1,6 +1,7 @@
 //! Counts by the argument principle against dense spectra and against lists that are short on purpose.
 
 use super::{Disc, Entries, dense_eigenvalues, problem};
+use crate::disc::sweep_request;
 use faer::{Mat, c64};
 use frictionsim::cea::sparse::{ModeCounter, sweep};
 use frictionsim::cea::{CountedRegion, ModeLimit, SweepRequest};
@@ -144,13 +145,8 @@ fn sweep_of_a_disc_is_complete_by_count() {
         let disc = Disc { damping_model, ..Disc::coarse() };
         let tangent = disc.tangent();
         for limit in [ModeLimit::Lowest(13), ModeLimit::MaxFrequency(15_000.0)] {
-            let request = SweepRequest {
-                friction_coefficients: &[0.0, 0.3, 0.7],
-                limit,
-                shapes_at: &[],
-                lefts_at: &[],
-                count_modes: true,
-            };
+            let request =
+                SweepRequest { count_modes: true, ..sweep_request(&[0.0, 0.3, 0.7], limit) };
             let result = sweep(&tangent, &request, &|_| {}).unwrap();
             assert_eq!(result.counts.len(), 3);
             for (count, point) in result.counts.iter().zip(&result.points) {

@@ -1,14 +1,15 @@
 //! The program's discrete problem, solved densely one circumferential harmonic at a time.
 
 use crate::continuum::{Annulus, Contact, Eigenvalue, Rayleigh, damped_pair, smallest_first};
+use crate::disc::{RIGID, TANGENT, sliding_at};
 use faer::{Mat, c64};
-use frictionsim::contact::{ContactStiffness, SlidingContact};
+use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::{
     ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
 };
 use frictionsim::linalg::MatrixPolynomial;
 use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification};
-use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
+use frictionsim::prestress::{SlidingTangent, SteadySliding, TangentOptions};
 use std::f64::consts::TAU;
 
 /// Radial expansion of the cylinder, m.
@@ -34,12 +35,7 @@ pub const FORWARD: f64 = 60.0;
 
 /// Steady sliding of a rotor turning at `rotation_speed`.
 pub fn base_state(mesh: &AnnulusMesh, annulus: &Annulus, rotation_speed: f64) -> SteadySliding {
-    let sliding = SlidingContact {
-        decay: None,
-        friction_coefficient: 0.3,
-        interference: INTERFERENCE,
-        rotation_speed,
-    };
+    let sliding = sliding_at(0.3, INTERFERENCE, rotation_speed);
     let stiffness = assemble_stiffness(&mesh.mesh, &material(annulus));
     SteadySliding::solve(&mesh.mesh, &stiffness, &sliding).expect("the disc is pressed everywhere")
 }
@@ -86,13 +82,8 @@ impl Discretisation {
                 mass_coefficient: rayleigh.0,
                 stiffness_coefficient: rayleigh.1,
             },
-            damping_model: DampingModel::WholeTangent,
-            contact: ContactStiffness {
-                normal_stiffness: contact.normal_stiffness,
-                normal_damping: 0.0,
-                tangential_damping: 0.0,
-                ..ContactStiffness::default()
-            },
+            contact: ContactStiffness { normal_stiffness: contact.normal_stiffness, ..RIGID },
+            ..TANGENT
         };
         let base = base_state(&mesh, annulus, rotation_speed);
         let elastic = assemble_stiffness(&mesh.mesh, &material);

@@ -2,30 +2,23 @@
 //!
 //! `M u'' + (c + N mu'(V)) u' + k u = 0` about steady sliding: unstable below `V = v_c ln(N mu (q - 1) / (v_c c))`.
 
+use crate::disc::{TANGENT, elastic, sweep_request, transient_settings};
+use frictionsim::cea::ModeLimit;
 use frictionsim::cea::sparse::sweep;
-use frictionsim::cea::{ModeLimit, SweepRequest};
-use frictionsim::contact::{ContactStiffness, FrictionDecay, SlidingContact};
+use frictionsim::contact::{FrictionDecay, SlidingContact};
 use frictionsim::fem::operator::SimdLevel;
-use frictionsim::fem::{
-    ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
-};
+use frictionsim::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping, assemble_stiffness};
 use frictionsim::mesh::{
     BodySpecification, BoundaryCondition, CounterfaceSpecification, ElasticSupport, FileMesh, Mesh,
 };
-use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
+use frictionsim::prestress::{SlidingTangent, SteadySliding, TangentOptions};
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    SampleRow, SteppedBody, TimeStep, TransientModel, TransientSettings,
+    SampleRow, SteppedBody, TransientModel,
 };
 
 /// So stiff that the block moves as one: its own modes lie above 30 kHz.
-pub const STEEL: ElasticMaterial = ElasticMaterial {
-    young_modulus: 2.1e11,
-    poisson_ratio: 0.3,
-    density: 7850.0,
-    formulation: PlaneFormulation::PlaneStrain,
-    ..ElasticMaterial::PLAIN
-};
+pub const STEEL: ElasticMaterial = elastic(2.1e11, 0.3, 7850.0, PlaneFormulation::PlaneStrain);
 pub const WIDTH: f64 = 0.04;
 const HEIGHT: f64 = 0.03;
 pub const MASS: f64 = 7850.0 * WIDTH * HEIGHT;
@@ -99,21 +92,9 @@ pub fn block(pressure: f64) -> Mesh {
 fn growth_rate(mesh: &Mesh, speed: f64) -> f64 {
     let stiffness = assemble_stiffness(mesh, &STEEL);
     let base = SteadySliding::solve(mesh, &stiffness, &contact(speed)).unwrap();
-    let options = TangentOptions {
-        mass: MassKind::Consistent,
-        geometric_stiffness: false,
-        damping: RayleighDamping::default(),
-        damping_model: DampingModel::WholeTangent,
-        contact: ContactStiffness::default(),
-    };
+    let options = TangentOptions { damping: RayleighDamping::default(), ..TANGENT };
     let tangent = SlidingTangent::linearize(mesh, &STEEL, &stiffness, &base, &options);
-    let request = SweepRequest {
-        friction_coefficients: &[0.3],
-        limit: ModeLimit::Lowest(1),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let request = sweep_request(&[0.3], ModeLimit::Lowest(1));
     let found = sweep(&tangent, &request, &|_| {}).unwrap();
     let mode = &found.points[0].modes[0];
     // The block on its spring.
@@ -148,14 +129,13 @@ fn samples(mesh: &Mesh, speed: f64) -> Vec<SampleRow> {
     );
     let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let period = std::f64::consts::TAU * (MASS / SPRING).sqrt();
-    let settings = TransientSettings {
-        duration: 40.0 * period,
-        time_step: TimeStep::Auto,
-        sample_interval: 0.02 * period,
-        expansion_time: 0.0,
-        initial: InitialState::SteadySliding,
-        perturbation: Perturbation { noise: 1e-2 * speed, ..Perturbation::default() },
-    };
+    let settings = transient_settings(
+        40.0 * period,
+        0.02 * period,
+        0.0,
+        InitialState::SteadySliding,
+        Perturbation { noise: 1e-2 * speed, ..Perturbation::default() },
+    );
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
     let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
     run.run(&mut record).unwrap();

@@ -1,35 +1,26 @@
 //! Growth of a seeded wave in the transient against the eigenvalue.
 
-use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use crate::disc::{
+    DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, contact, sweep_request, transient_settings,
+};
 use crate::friction_law::falling;
+use frictionsim::cea::ModeLimit;
 use frictionsim::cea::cyclic::sweep;
-use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::contact::{ContactStiffness, SlidingContact};
 use frictionsim::fem::MassKind;
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::mesh::{AnnulusMesh, ElementKind};
-use frictionsim::prestress::{DampingModel, TangentOptions};
+use frictionsim::prestress::TangentOptions;
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    SampleRow, TimeStep, TransientAnalysis, TransientModel, TransientSettings,
+    SampleRow, TransientAnalysis, TransientModel, TransientSettings,
 };
 
 /// Largest growth rate of a harmonic (1/s) as the time loop has it: lumped mass, no geometric stiffness.
 fn eigenvalue(contact: &SlidingContact, stiffness: ContactStiffness, harmonic: usize) -> f64 {
-    let options = TangentOptions {
-        mass: MassKind::Lumped,
-        geometric_stiffness: false,
-        damping: DAMPING,
-        damping_model: DampingModel::WholeTangent,
-        contact: stiffness,
-    };
-    let request = SweepRequest {
-        friction_coefficients: &[contact.friction_coefficient],
-        limit: ModeLimit::Lowest(24),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let options = TangentOptions { mass: MassKind::Lumped, contact: stiffness, ..TANGENT };
+    let at = [contact.friction_coefficient];
+    let request = sweep_request(&at, ModeLimit::Lowest(24));
     let specification = annulus(ElementKind::Quad4, 60, 12);
     let found = sweep(&specification, &POLYCARBONATE, &options, contact, &request).unwrap();
     let modes = found.sweep.points[0].modes.iter();
@@ -38,14 +29,7 @@ fn eigenvalue(contact: &SlidingContact, stiffness: ContactStiffness, harmonic: u
 }
 
 fn settings(duration: f64, perturbation: Perturbation) -> TransientSettings {
-    TransientSettings {
-        duration,
-        time_step: TimeStep::Auto,
-        sample_interval: 4e-6,
-        expansion_time: 1e-4,
-        initial: InitialState::SteadySliding,
-        perturbation,
-    }
+    transient_settings(duration, 4e-6, 1e-4, InitialState::SteadySliding, perturbation)
 }
 
 /// Growth rate of a seeded harmonic in a transient that stays linear, 1/s.
@@ -94,7 +78,7 @@ fn a_wave_on_a_compliant_contact_grows_as_its_eigenvalue_says() {
         normal_stiffness: Some(5e11),
         normal_damping: 1e5,
         tangential_damping: 1e4,
-        ..ContactStiffness::default()
+        ..RIGID
     };
     let rigid = ContactStiffness::default();
     for contact in [contact(610.0), falling(610.0)] {
@@ -149,7 +133,7 @@ fn steady_sliding_does_not_depend_on_the_contact_stiffness() {
     let annulus = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 45, 9)).unwrap();
     let forces = |normal_stiffness: Option<f64>| {
         let model = TransientModel {
-            stiffness: ContactStiffness { normal_stiffness, ..ContactStiffness::default() },
+            stiffness: ContactStiffness { normal_stiffness, ..RIGID },
             ..TransientModel::of_annulus(&annulus, &POLYCARBONATE, DAMPING, falling(610.0))
         };
         let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();

@@ -1,27 +1,23 @@
 //! Eigenvalues, onsets, responses and sensitivities of the disc.
 
-use crate::disc::{DAMPING, POLYCARBONATE, annulus};
+use crate::disc::{POLYCARBONATE, RIGID, TANGENT, annulus, sweep_request};
 use crate::friction_law::falling;
 use crate::waves::{STEP, is_of, pairs, rates};
 use frictionsim::cea::cyclic::{self, WaveSweep};
-use frictionsim::cea::{ComplexMode, FrictionSweep, ModeLimit, SweepRequest, sparse};
+use frictionsim::cea::{ComplexMode, FrictionSweep, ModeLimit, sparse};
 use frictionsim::contact::{ContactStiffness, FrictionDecay, SlidingContact};
-use frictionsim::fem::{ElasticMaterial, MassKind, assemble_stiffness};
+use frictionsim::fem::{ElasticMaterial, assemble_stiffness};
 use frictionsim::frf::{
     CyclicSystem, Direction, FrfSystem, Terminal, cyclic_response, direct_response,
 };
 use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, SectorMesh};
-use frictionsim::prestress::{
-    DampingModel, SlidingTangent, SteadySliding, TangentOptions, WaveTangent,
-};
+use frictionsim::prestress::{SlidingTangent, SteadySliding, TangentOptions, WaveTangent};
 
 fn options(normal_stiffness: Option<f64>) -> TangentOptions {
     TangentOptions {
-        mass: MassKind::Consistent,
         geometric_stiffness: true,
-        damping: DAMPING,
-        damping_model: DampingModel::WholeTangent,
-        contact: ContactStiffness { normal_stiffness, ..ContactStiffness::default() },
+        contact: ContactStiffness { normal_stiffness, ..RIGID },
+        ..TANGENT
     }
 }
 
@@ -32,13 +28,7 @@ fn swept(
     contact: &SlidingContact,
     frictions: &[f64],
 ) -> WaveSweep {
-    let request = SweepRequest {
-        friction_coefficients: frictions,
-        limit: ModeLimit::Lowest(18),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let request = sweep_request(frictions, ModeLimit::Lowest(18));
     cyclic::sweep(specification, material, options, contact, &request).unwrap()
 }
 
@@ -78,13 +68,7 @@ fn harmonics_and_the_whole_mesh_have_one_spectrum_under_a_falling_law() {
         let specification = annulus(element, sectors, 6);
         let frictions = [0.0, 0.2, 0.4];
         let ours = swept(&specification, &POLYCARBONATE, &options, &contact, &frictions);
-        let request = SweepRequest {
-            friction_coefficients: &frictions,
-            limit: ModeLimit::Lowest(18),
-            shapes_at: &[],
-            lefts_at: &[],
-            count_modes: false,
-        };
+        let request = sweep_request(&frictions, ModeLimit::Lowest(18));
         let tangent = whole(&specification, &options, &contact);
         let theirs = sparse::sweep(&tangent, &request, &|_| {}).unwrap();
         assert_same(&ours.sweep, &theirs);

@@ -1,9 +1,9 @@
 //! Small motions of disc and shaft.
 
-use crate::disc::{POLYCARBONATE, annulus, contact};
+use crate::disc::{POLYCARBONATE, RIGID, annulus, contact, sweep_request};
 use crate::shaft::model::{STEEL, on, rigid_contact, spectrum, stiffer, with_shaft};
 use crate::waves::{STEP, is_of, pairs, rates};
-use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest, sparse};
+use frictionsim::cea::{ComplexMode, ModeLimit, sparse};
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::{
     AnnulusMaterials, MassKind, RayleighDamping, RegionMaterial, assemble_stiffness,
@@ -28,7 +28,7 @@ fn cyclic_and_sparse_spectra_of_two_bodies_are_the_same() {
         normal_stiffness: Some(7.4e12),
         normal_damping: 1e3,
         tangential_damping: 2e3,
-        ..ContactStiffness::default()
+        ..RIGID
     };
     let damped = |mut materials: AnnulusMaterials| {
         if let Some(shaft) = &mut materials.shaft {
@@ -73,13 +73,7 @@ fn cyclic_and_sparse_spectra_of_two_bodies_are_the_same() {
         let elastic = assemble_stiffness(&mesh, &materials);
         let base = SteadySliding::solve(&mesh, &elastic, &contact(610.0)).unwrap();
         let tangent = SlidingTangent::linearize(&mesh, &materials, &elastic, &base, &options);
-        let request = SweepRequest {
-            friction_coefficients: &frictions,
-            limit,
-            shapes_at: &[],
-            lefts_at: &[],
-            count_modes: false,
-        };
+        let request = sweep_request(&frictions, limit);
         let sparse = sparse::sweep(&tangent, &request, &|_| {}).unwrap();
         for (ours, theirs) in cyclic.points.iter().zip(&sparse.points) {
             for mode in &ours.modes {

@@ -1,22 +1,13 @@
 //! The paper's disc on a deformable shaft.
 
-use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use crate::disc::{POLYCARBONATE, TANGENT, annulus, contact, elastic, sweep_request};
+use frictionsim::cea::ModeLimit;
 use frictionsim::cea::cyclic::{WaveSweep, sweep};
-use frictionsim::cea::{ModeLimit, SweepRequest};
-use frictionsim::contact::ContactStiffness;
-use frictionsim::fem::{
-    AnnulusMaterials, ElasticMaterial, MassKind, PlaneFormulation, RegionMaterial,
-};
+use frictionsim::fem::{AnnulusMaterials, ElasticMaterial, PlaneFormulation, RegionMaterial};
 use frictionsim::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind, ShaftSpecification};
-use frictionsim::prestress::{DampingModel, TangentOptions};
+use frictionsim::prestress::TangentOptions;
 
-pub const STEEL: ElasticMaterial = ElasticMaterial {
-    young_modulus: 2.1e11,
-    poisson_ratio: 0.3,
-    density: 7850.0,
-    formulation: PlaneFormulation::PlaneStrain,
-    ..ElasticMaterial::PLAIN
-};
+pub const STEEL: ElasticMaterial = elastic(2.1e11, 0.3, 7850.0, PlaneFormulation::PlaneStrain);
 
 /// The disc with a bore of 6 mm in its shaft.
 pub fn with_shaft(element: ElementKind, around: usize, radial: [usize; 2]) -> AnnulusSpecification {
@@ -43,13 +34,7 @@ pub fn stiffer(factor: f64) -> AnnulusMaterials {
 }
 
 pub fn rigid_contact(geometric_stiffness: bool) -> TangentOptions {
-    TangentOptions {
-        mass: MassKind::Consistent,
-        geometric_stiffness,
-        damping: DAMPING,
-        damping_model: DampingModel::WholeTangent,
-        contact: ContactStiffness::default(),
-    }
+    TangentOptions { geometric_stiffness, ..TANGENT }
 }
 
 pub fn spectrum(
@@ -59,12 +44,6 @@ pub fn spectrum(
     frictions: &[f64],
     limit: ModeLimit,
 ) -> WaveSweep {
-    let request = SweepRequest {
-        friction_coefficients: frictions,
-        limit,
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let request = sweep_request(frictions, limit);
     sweep(specification, materials, options, &contact(610.0), &request).unwrap()
 }

@@ -1,6 +1,6 @@
 //! The stencil that steps disc and shaft, and the contact between its rows.
 
-use crate::disc::{DAMPING, POLYCARBONATE, contact};
+use crate::disc::{DAMPING, POLYCARBONATE, contact, transient_settings};
 use crate::shaft::model::{STEEL, on, rigid_contact, spectrum, with_shaft};
 use frictionsim::cea::ModeLimit;
 use frictionsim::fem::operator::SimdLevel;
@@ -9,19 +9,12 @@ use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::prestress::TangentOptions;
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    TimeStep, TransientAnalysis, TransientModel, TransientSettings,
+    TransientAnalysis, TransientModel, TransientSettings,
 };
 use std::f64::consts::TAU;
 
 fn settings(duration: f64, perturbation: Perturbation) -> TransientSettings {
-    TransientSettings {
-        duration,
-        time_step: TimeStep::Auto,
-        sample_interval: 4e-6,
-        expansion_time: 1e-4,
-        initial: InitialState::SteadySliding,
-        perturbation,
-    }
+    transient_settings(duration, 4e-6, 1e-4, InitialState::SteadySliding, perturbation)
 }
 
 fn run(

@@ -1,8 +1,9 @@
 //! The disc of the source paper with its thickness.
 
+use crate::disc::sweep_request;
 use crate::solids::model::{disc, modes};
 use frictionsim::cea::cyclic::solid_sweep;
-use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest};
+use frictionsim::cea::{ComplexMode, ModeLimit};
 use frictionsim::fem::solid;
 use frictionsim::mesh::{ElementKind, SolidSector};
 use frictionsim::prestress::SolidSliding;
@@ -55,13 +56,7 @@ fn a_branch_that_needs_small_steps_makes_no_other_take_them() {
     let mut model = disc(ElementKind::Quad4, [180, 35, 4]);
     model.options.geometric_stiffness = true;
     let values: Vec<f64> = (0..21).map(|i| 0.03 * f64::from(i)).collect();
-    let request = SweepRequest {
-        friction_coefficients: &values,
-        limit: ModeLimit::Lowest(30),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let request = sweep_request(&values, ModeLimit::Lowest(30));
     let found = solid_sweep(&model, &request).unwrap();
     let modes: usize = found.sweep.points.iter().map(|p| p.modes.len()).sum();
     // Branches above the range are followed too, and strongly coupled ones take several steps; small steps all along spend 18.

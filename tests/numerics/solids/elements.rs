@@ -1,5 +1,6 @@
 //! Bricks: constant strain, objectivity, bending.
 
+use crate::disc::RIGID;
 use crate::solids::model::{disc, modes};
 use frictionsim::cea::ComplexMode;
 use frictionsim::contact::ContactStiffness;
@@ -111,8 +112,7 @@ fn bricks_of_8_and_20_nodes_bend_like_a_thin_plate() {
         model.specification.thickness = thickness;
         model.material.poisson_ratio = 1.0 / 3.0;
         // As good as free.
-        model.options.contact =
-            ContactStiffness { normal_stiffness: Some(1.0), ..ContactStiffness::default() };
+        model.options.contact = ContactStiffness { normal_stiffness: Some(1.0), ..RIGID };
         let e = model.material.young_modulus;
         let rigidity = e * thickness.powi(3) / (12.0 * (1.0 - 1.0 / 9.0));
         let unit = (rigidity / (model.material.density * thickness)).sqrt() / (outer * outer) / TAU;

@@ -1,8 +1,9 @@
 //! Three dimensions where the plane program knows the answer.
 
+use crate::disc::sweep_request;
 use crate::solids::model::{disc, modes};
 use frictionsim::cea::cyclic::{solid_sweep, sweep};
-use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest};
+use frictionsim::cea::{ComplexMode, ModeLimit};
 use frictionsim::fem::{PlaneFormulation, revolved_stress};
 use frictionsim::mesh::{BoundaryCondition, ElementKind, SolidSector};
 
@@ -11,13 +12,7 @@ fn plane(
     formulation: PlaneFormulation,
     limit_hz: f64,
 ) -> Vec<ComplexMode> {
-    let request = SweepRequest {
-        friction_coefficients: &[0.3],
-        limit: ModeLimit::MaxFrequency(limit_hz),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let request = sweep_request(&[0.3], ModeLimit::MaxFrequency(limit_hz));
     let mut material = model.material;
     material.formulation = formulation;
     let found =
@@ -54,13 +49,7 @@ fn guided_faces_give_plane_strain() {
 fn the_estimate_of_what_the_small_space_of_a_harmonic_leaves_out_is_what_it_leaves_out() {
     let model = disc(ElementKind::Quad8, [24, 5, 1]);
     let up_to = |limit_hz: f64| {
-        let request = SweepRequest {
-            friction_coefficients: &[0.3],
-            limit: ModeLimit::MaxFrequency(limit_hz),
-            shapes_at: &[],
-            lefts_at: &[],
-            count_modes: false,
-        };
+        let request = sweep_request(&[0.3], ModeLimit::MaxFrequency(limit_hz));
         solid_sweep(&model, &request).unwrap()
     };
     let (small, large) = (up_to(9000.0), up_to(18_000.0));

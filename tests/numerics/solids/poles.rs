@@ -1,11 +1,12 @@
 //! Poles of the frequency response of sliding bodies of revolution against the eigenvalues of `cea`. Cross-method: the response
 //! knows no modes.
 
+use crate::disc::{RIGID, sweep_request};
 use crate::solids::model::{disc, modes};
 use crate::solids::response::{at, sliding};
 use faer::{Mat, c64};
 use frictionsim::cea::cyclic::{SolidModel, solid_sweep};
-use frictionsim::cea::{ModeLimit, SweepRequest, UnstableInterval};
+use frictionsim::cea::{ModeLimit, UnstableInterval};
 use frictionsim::contact::{ContactStiffness, FrictionDecay, NormalLaw};
 use frictionsim::frf::Direction::Tangential;
 use frictionsim::frf::cyclic_response;
@@ -54,13 +55,7 @@ fn pole_beside(
 
 /// Where branches below 12 kHz turn unstable.
 fn onsets(model: &SolidModel) -> Vec<UnstableInterval> {
-    let request = SweepRequest {
-        friction_coefficients: &[0.0, 0.1, 0.2, 0.3, 0.4, 0.5],
-        limit: ModeLimit::MaxFrequency(12e3),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let request = sweep_request(&[0.0, 0.1, 0.2, 0.3, 0.4, 0.5], ModeLimit::MaxFrequency(12e3));
     let found = solid_sweep(model, &request).unwrap().sweep;
     let onsets = found.intervals.into_iter();
     onsets.filter(|i| !i.unstable_from_start).collect()
@@ -93,11 +88,8 @@ fn on_a_base_state_that_springs_carry_the_response_has_the_poles_of_the_eigenval
     {
         let mut model = disc(element, divisions);
         model.options.geometric_stiffness = true;
-        model.options.contact = ContactStiffness {
-            normal_stiffness: Some(1e12),
-            is_base_compliant: true,
-            ..ContactStiffness::default()
-        };
+        model.options.contact =
+            ContactStiffness { normal_stiffness: Some(1e12), is_base_compliant: true, ..RIGID };
         has_poles_at_onsets(&model);
     }
 }
@@ -113,7 +105,7 @@ fn on_a_contact_that_stiffens_the_response_has_the_poles_of_the_eigenvalue_analy
         model.options.contact = ContactStiffness {
             normal_stiffness: Some(law.stiffness(0.0)),
             law: Some(law),
-            ..ContactStiffness::default()
+            ..RIGID
         };
         has_poles_at_onsets(&model);
     }

@@ -1,5 +1,6 @@
 //! Frequency responses of bodies of revolution.
 
+use crate::disc::RIGID;
 use crate::solids::model::disc;
 use crate::solids::whole_ring::WholeRing;
 use faer::c64;
@@ -144,7 +145,7 @@ fn harmonics_in_sliding_contact_sum_to_the_response_of_a_whole_ring_of_bricks() 
         normal_stiffness: Some(1e12),
         normal_damping: 3e4,
         tangential_damping: 2e4,
-        ..ContactStiffness::default()
+        ..RIGID
     };
     let ring = SolidContact::Ring { inner_radius: 0.03, outer_radius: 0.06 };
     let (hex8, hex20) = (ElementKind::Quad4, ElementKind::Quad8);

@@ -1,5 +1,6 @@
 //! Independent check: sensitivities of bodies of revolution against central differences of the whole analysis, base state included.
 
+use crate::disc::{RIGID, sweep_request};
 use crate::solids::model::disc;
 use crate::tier::sized;
 use crate::waves::{STEP, pairs, rates};
@@ -19,13 +20,7 @@ const FRICTION: f64 = 0.35;
 type Name = (usize, usize, i8);
 
 fn request() -> SweepRequest<'static> {
-    SweepRequest {
-        friction_coefficients: &[0.0, 0.4],
-        limit: ModeLimit::MaxFrequency(9e3),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    }
+    sweep_request(&[0.0, 0.4], ModeLimit::MaxFrequency(9e3))
 }
 
 fn tangent(model: &SolidModel) -> WaveTangent {
@@ -162,23 +157,17 @@ fn compare(model: &SolidModel, what: &str) {
 }
 
 const SPRINGS: ContactStiffness = ContactStiffness {
-    law: None,
-    law_damping: 0.0,
-    loss_factor: 0.0,
     normal_stiffness: Some(2e12),
     normal_damping: 3e4,
     tangential_damping: 2e4,
-    is_base_compliant: false,
+    ..RIGID
 };
 
 const COMPLIANT: ContactStiffness = ContactStiffness {
-    law: None,
-    law_damping: 0.0,
-    loss_factor: 0.0,
     normal_stiffness: Some(4e11),
     normal_damping: 3e4,
-    tangential_damping: 0.0,
     is_base_compliant: true,
+    ..RIGID
 };
 
 /// Of about the stiffness of the body where it is pressed.

@@ -3,10 +3,11 @@
 //! Independent check: all eigenvalues of a coarse whole harmonic by a dense decomposition, at finite speed and with the motion across the
 //! sliding held.
 
+use crate::disc::sweep_request;
 use crate::solids::model::disc;
 use assert_cmd::Command;
+use frictionsim::cea::ModeLimit;
 use frictionsim::cea::cyclic::{SolidModel, WaveSweep, solid_sweep};
-use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::linalg::{ComplexDenseLu, Mat, c64};
 use frictionsim::mesh::{BoundaryCondition, ElementKind, SolidContact, SolidSector};
 use frictionsim::prestress::WaveTangent;
@@ -26,13 +27,7 @@ fn turning(element: ElementKind, divisions: [usize; 3], rpm: f64) -> SolidModel 
 }
 
 fn solved(model: &SolidModel) -> WaveSweep {
-    let request = SweepRequest {
-        friction_coefficients: &[FRICTION],
-        limit: ModeLimit::MaxFrequency(LIMIT),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let request = sweep_request(&[FRICTION], ModeLimit::MaxFrequency(LIMIT));
     solid_sweep(model, &request).unwrap()
 }
 

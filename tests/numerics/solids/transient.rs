@@ -1,5 +1,6 @@
 //! The transient of a body of revolution against its eigenvalue analysis and against itself.
 
+use crate::disc::transient_settings;
 use crate::solids::model::{disc, modes};
 use crate::tier::sized;
 use frictionsim::cea::cyclic::SolidModel;
@@ -46,14 +47,13 @@ fn run(model: &SolidModel, settings: &TransientSettings) -> Recorder {
 }
 
 fn seeded(harmonic: usize, velocity: f64, duration: f64) -> TransientSettings {
-    TransientSettings {
+    transient_settings(
         duration,
-        time_step: TimeStep::Auto,
-        sample_interval: 1e-5,
-        expansion_time: 0.0,
-        initial: InitialState::SteadySliding,
-        perturbation: Perturbation::of(&[harmonic], velocity),
-    }
+        1e-5,
+        0.0,
+        InitialState::SteadySliding,
+        Perturbation::of(&[harmonic], velocity),
+    )
 }
 
 fn lumped(element: ElementKind, divisions: [usize; 3]) -> SolidModel {

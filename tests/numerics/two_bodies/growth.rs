@@ -1,6 +1,6 @@
 //! The linear stage of the transient between meshes that do not match, against the eigenvalues of the same bodies.
 
-use crate::disc::{DAMPING, POLYCARBONATE};
+use crate::disc::{DAMPING, POLYCARBONATE, transient_settings};
 use crate::two_bodies::model::{contact, modes_of, options, rings};
 use frictionsim::cea::ModeLimit;
 use frictionsim::fem::operator::SimdLevel;
@@ -11,7 +11,7 @@ use frictionsim::linalg::c64;
 use frictionsim::prestress::SteadySliding;
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    SteppedBody, TimeStep, TransientAnalysis, TransientModel, TransientSettings,
+    SteppedBody, TransientAnalysis, TransientModel,
 };
 use std::f64::consts::TAU;
 
@@ -70,14 +70,8 @@ fn run(
         contact(),
     );
     let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
-    let settings = TransientSettings {
-        duration: 0.004,
-        time_step: TimeStep::Auto,
-        sample_interval: 4e-6,
-        expansion_time: 0.0,
-        initial: InitialState::SteadySliding,
-        perturbation: Perturbation::default(),
-    };
+    let settings =
+        transient_settings(0.004, 4e-6, 0.0, InitialState::SteadySliding, Perturbation::default());
     let step = model.plan(operator.as_ref(), &settings).unwrap().time_step;
     let elastic = assemble_stiffness(mesh, materials);
     let base = SteadySliding::solve(mesh, &elastic, &contact()).unwrap();

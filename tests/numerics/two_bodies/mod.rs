@@ -6,11 +6,13 @@ mod model;
 mod refusals;
 mod sweeps;
 
-use crate::disc::{DAMPING, POLYCARBONATE, annulus};
+use crate::disc::{
+    DAMPING, POLYCARBONATE, RIGID, annulus, sliding_at, sweep_request, transient_settings,
+};
 use faer::c64;
 use frictionsim::cea::cyclic;
-use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest};
-use frictionsim::contact::{ContactInterface, ContactStiffness, SlidingContact};
+use frictionsim::cea::{ComplexMode, ModeLimit};
+use frictionsim::contact::{ContactInterface, ContactStiffness};
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::fem::{ElasticMaterial, MassKind, assemble_stiffness};
 use frictionsim::mesh::{
@@ -20,7 +22,7 @@ use frictionsim::mesh::{
 use frictionsim::prestress::SteadySliding;
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    SteppedBody, TimeStep, TransientModel, TransientSettings,
+    SteppedBody, TransientModel,
 };
 use model::{Part, contact, file_of, modes, one_material, options, rectangle, rings};
 use std::collections::BTreeMap;
@@ -41,13 +43,7 @@ fn built_in(
         }),
         ..annulus(element, around, radial[1])
     };
-    let request = SweepRequest {
-        friction_coefficients: &[0.3],
-        limit: ModeLimit::Lowest(count),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let request = sweep_request(&[0.3], ModeLimit::Lowest(count));
     let options = options(MassKind::Consistent, geometric_stiffness);
     let material = one_material();
     let found = cyclic::sweep(&specification, material, &options, &contact(), &request).unwrap();
@@ -174,12 +170,7 @@ fn a_block_on_a_block_of_another_mesh_is_pressed_alike_everywhere() {
     let materials = vec![region(stiff), region(material)];
     assert_eq!(mesh.regions, ["lower", "upper"]);
     let stiffness = assemble_stiffness(&mesh, &materials);
-    let sliding = SlidingContact {
-        decay: None,
-        friction_coefficient: 0.0,
-        interference: 1e-5,
-        rotation_speed: 1.0,
-    };
+    let sliding = sliding_at(0.0, 1e-5, 1.0);
     let base = SteadySliding::solve(&mesh, &stiffness, &sliding).unwrap();
     // Springs and block in a row: `delta = p (1 / k + h / E)`.
     let expected = 1e-5 / (1.0 / mounting().normal_stiffness + 0.03 / material.young_modulus);
@@ -196,7 +187,7 @@ fn energy_closes_through_stick_and_opening_between_meshes_that_do_not_match() {
         normal_stiffness: Some(2e12),
         normal_damping: 1e4,
         tangential_damping: 1e3,
-        ..ContactStiffness::default()
+        ..RIGID
     };
     for stiffness in [ContactStiffness::default(), compliant] {
         let record = run(&mesh, stiffness, InitialState::Rest, 2e-3, 4.0);
@@ -222,14 +213,8 @@ fn run(
         ..TransientModel::new(body, one_material(), DAMPING, contact())
     };
     let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
-    let settings = TransientSettings {
-        duration,
-        time_step: TimeStep::Auto,
-        sample_interval: 4e-6,
-        expansion_time: 1e-4,
-        initial,
-        perturbation: Perturbation::of(&[1, 2], velocity),
-    };
+    let settings =
+        transient_settings(duration, 4e-6, 1e-4, initial, Perturbation::of(&[1, 2], velocity));
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
     let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
     run.run(&mut record).unwrap();

@@ -1,15 +1,15 @@
 //! Two bodies of a mesh file, four-node elements, their meshes matching or not.
 
-use crate::disc::{self, DAMPING, POLYCARBONATE, annulus};
+use crate::disc::{self, POLYCARBONATE, TANGENT, annulus, sweep_request};
 use frictionsim::cea::sparse::sweep;
 use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest};
-use frictionsim::contact::{ContactStiffness, SlidingContact};
+use frictionsim::contact::SlidingContact;
 use frictionsim::fem::{MassKind, MaterialField, assemble_stiffness};
 use frictionsim::mesh::{
     AnnulusMesh, AnnulusSpecification, BodySpecification, Boundary, BoundaryCondition,
     CounterfaceSpecification, ElementKind, FileMesh, Mesh,
 };
-use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
+use frictionsim::prestress::{SlidingTangent, SteadySliding, TangentOptions};
 
 /// A body with the names that its boundaries have in the file.
 pub struct Part<'a> {
@@ -110,13 +110,7 @@ pub fn ring(element: ElementKind, radii: [f64; 2], around: usize, radial: usize)
 }
 
 pub fn options(mass: MassKind, geometric_stiffness: bool) -> TangentOptions {
-    TangentOptions {
-        mass,
-        geometric_stiffness,
-        damping: DAMPING,
-        damping_model: DampingModel::WholeTangent,
-        contact: ContactStiffness::default(),
-    }
+    TangentOptions { mass, geometric_stiffness, ..TANGENT }
 }
 
 pub fn contact() -> SlidingContact {
@@ -143,13 +137,7 @@ pub fn modes_of(
     let stiffness = assemble_stiffness(mesh, material);
     let base = SteadySliding::solve(mesh, &stiffness, &contact()).unwrap();
     let tangent = SlidingTangent::linearize(mesh, material, &stiffness, &base, options);
-    let request = SweepRequest {
-        friction_coefficients: &[0.3],
-        limit,
-        shapes_at,
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let request = SweepRequest { shapes_at, ..sweep_request(&[0.3], limit) };
     let found = sweep(&tangent, &request, &|_| {}).unwrap();
     found.points.into_iter().next().unwrap().modes
 }

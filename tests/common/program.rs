@@ -1,0 +1,231 @@
+//! The program as a user starts it: a command, its case and overrides, and what it says and leaves.
+
+#![allow(dead_code, reason = "each binary uses a part")]
+
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::ffi::OsStr;
+use std::io::Write;
+use std::ops::Index;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// A run that is being put together.
+pub struct Run {
+    program: Command,
+    input: Vec<u8>,
+    within: PathBuf,
+    out: PathBuf,
+}
+
+/// What a run said, and the folder of its results.
+pub struct Answer {
+    pub code: Option<i32>,
+    pub stdout: String,
+    pub stderr: String,
+    pub out: PathBuf,
+}
+
+/// A row of a table, its words by column.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row(pub BTreeMap<String, String>);
+
+/// The path of a shipped case.
+pub fn shipped(name: &str) -> String {
+    format!("{}/cases/{name}", env!("CARGO_MANIFEST_DIR"))
+}
+
+pub fn folder() -> tempfile::TempDir {
+    tempfile::tempdir().unwrap()
+}
+
+/// A folder with files.
+pub fn folder_with(files: &[(&str, &[u8])]) -> tempfile::TempDir {
+    let folder = folder();
+    for (name, bytes) in files {
+        std::fs::write(folder.path().join(name), bytes).unwrap();
+    }
+    folder
+}
+
+impl Run {
+    /// The program with any words.
+    pub fn new<S: AsRef<OsStr>>(words: &[S]) -> Self {
+        let mut program = Command::new(env!("CARGO_BIN_EXE_frictionsim"));
+        program.args(words);
+        Self { program, input: Vec::new(), within: PathBuf::new(), out: PathBuf::new() }
+    }
+
+    /// A command on a case, without figures.
+    pub fn of(command: &str, case: impl AsRef<OsStr>) -> Self {
+        let plain = if command == "check" { "-q" } else { "--no-figures" };
+        Self::new(&[OsStr::new(command), case.as_ref(), OsStr::new(plain)])
+    }
+
+    /// A command on the text of a case, in a file of the folder.
+    pub fn of_text(command: &str, folder: &Path, text: &str) -> Self {
+        std::fs::write(folder.join("case.toml"), text).unwrap();
+        Self::of(command, "case.toml").within(folder)
+    }
+
+    pub fn within(mut self, folder: impl AsRef<Path>) -> Self {
+        self.within = folder.as_ref().to_owned();
+        self.program.current_dir(&self.within);
+        self
+    }
+
+    pub fn args<S: AsRef<OsStr>>(mut self, words: &[S]) -> Self {
+        self.program.args(words);
+        self
+    }
+
+    /// Changes values, each as `KEY=VALUE`.
+    pub fn set<S: AsRef<OsStr>>(mut self, changes: &[S]) -> Self {
+        for change in changes {
+            self.program.arg("--set").arg(change);
+        }
+        self
+    }
+
+    pub fn out(mut self, folder: impl AsRef<Path>) -> Self {
+        self.out = folder.as_ref().to_owned();
+        self.program.arg("--out").arg(&self.out);
+        self
+    }
+
+    /// What stands on standard input.
+    pub fn input(mut self, bytes: Vec<u8>) -> Self {
+        self.input = bytes;
+        self
+    }
+
+    /// The command itself, for runs that are watched or stopped.
+    pub fn program(self) -> Command {
+        self.program
+    }
+
+    pub fn end(mut self) -> Answer {
+        let pipes = [Stdio::piped(), Stdio::piped(), Stdio::piped()];
+        let [input, output, errors] = pipes;
+        let mut child = self.program.stdin(input).stdout(output).stderr(errors).spawn().unwrap();
+        // A run that refuses its case does not read on.
+        let _ = child.stdin.take().unwrap().write_all(&self.input);
+        let output = child.wait_with_output().unwrap();
+        let [stdout, stderr] =
+            [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
+        Answer { code: output.status.code(), stdout, stderr, out: self.within.join(self.out) }
+    }
+
+    /// A run that must end well.
+    pub fn done(self) -> Answer {
+        self.end().code(0)
+    }
+
+    /// A run that must be refused as bad usage or a bad case, with all of these words.
+    pub fn refused(self, parts: &[&str]) -> Answer {
+        self.end().code(2).warns(parts)
+    }
+}
+
+impl Answer {
+    #[track_caller]
+    pub fn code(self, code: i32) -> Self {
+        assert_eq!(self.code, Some(code), "{}", self.said());
+        self
+    }
+
+    /// What was printed, with errors and warnings.
+    pub fn said(&self) -> String {
+        format!("{}{}", self.stdout, self.stderr)
+    }
+
+    /// Holds what was printed to all of these words.
+    #[track_caller]
+    pub fn says(self, parts: &[&str]) -> Self {
+        has(&self.stdout, parts);
+        self
+    }
+
+    /// Holds errors and warnings to all of these words.
+    #[track_caller]
+    pub fn warns(self, parts: &[&str]) -> Self {
+        has(&self.stderr, parts);
+        self
+    }
+
+    /// What was printed, its words a space apart.
+    pub fn words(&self) -> String {
+        self.stdout.split_whitespace().collect::<Vec<&str>>().join(" ")
+    }
+
+    /// What `--json` printed.
+    pub fn value(&self) -> Value {
+        serde_json::from_str(&self.stdout).unwrap()
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.out.join(name)
+    }
+
+    pub fn bytes(&self, name: &str) -> Vec<u8> {
+        let path = self.path(name);
+        std::fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+    }
+
+    pub fn text(&self, name: &str) -> String {
+        String::from_utf8(self.bytes(name)).unwrap()
+    }
+
+    pub fn json(&self, name: &str) -> Value {
+        serde_json::from_slice(&self.bytes(name)).unwrap()
+    }
+
+    pub fn summary(&self) -> Value {
+        self.json("summary.json")
+    }
+
+    /// The first line of a table.
+    pub fn header(&self, name: &str) -> String {
+        self.text(name).lines().next().unwrap().to_owned()
+    }
+
+    pub fn rows(&self, name: &str) -> Vec<Row> {
+        rows(&self.path(name))
+    }
+}
+
+impl Row {
+    /// The number in a column; NaN where there is none.
+    pub fn number(&self, column: &str) -> f64 {
+        self[column].parse().unwrap_or(f64::NAN)
+    }
+
+    pub fn numbers<const N: usize>(&self, columns: [&str; N]) -> [f64; N] {
+        columns.map(|column| self.number(column))
+    }
+}
+
+impl Index<&str> for Row {
+    type Output = String;
+
+    fn index(&self, column: &str) -> &String {
+        self.0.get(column).unwrap_or_else(|| panic!("no column {column}: {self:?}"))
+    }
+}
+
+/// The rows of a table.
+pub fn rows(path: &Path) -> Vec<Row> {
+    let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(path).unwrap();
+    reader.deserialize().map(|row| Row(row.unwrap())).collect()
+}
+
+/// Holds a text to all of these parts; a part behind `!` must not be there.
+#[track_caller]
+pub fn has(text: &str, parts: &[&str]) {
+    for part in parts {
+        match part.strip_prefix('!') {
+            Some(never) => assert!(!text.contains(never), "{never:?} is in\n{text}"),
+            None => assert!(text.contains(part), "{part:?} is not in\n{text}"),
+        }
+    }
+}
