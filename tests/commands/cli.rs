@@ -3,7 +3,7 @@
 use crate::program::{Run, folder, has, shipped};
 use serde_json::Value;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use tempfile::TempDir;
 
 /// A coarse mesh, so that each run takes milliseconds.

@@ -252,3 +252,27 @@ fn slow_motions_close_together_keep_their_digits_beside_fast_modes() {
         check(&slider, true).unwrap();
     }
 }
+
+/// Shear waves between the faces of a block without Poisson's ratio, which friction does not move, have equal eigenvalues. The dense
+/// decomposition must end where it meets them, and each is listed.
+#[test]
+fn equal_eigenvalues_that_friction_does_not_move_are_all_listed() {
+    let folder = tempfile::tempdir().unwrap();
+    let size = [0.07207033928546175, 0.005263329653561904, 0.0062918081827297535];
+    let block = Block { name: "part", origin: [0.0; 3], size, counts: [3, 2, 5] };
+    fs::write(folder.path().join("part.msh"), file_of(&[block], |point| point)).unwrap();
+    let text = "[mesh]\nfile = \"part.msh\"\n[material]\nyoung_modulus = 1.720164e8\npoisson_ratio = 0.0\n\
+                density = 7850.0\n[boundaries.part_z1]\ncondition = \"support\"\nnormal_stiffness = 8757.597\n\
+                tangential_stiffness = 454.318\n[contact]\nboundary = \"part_z0\"\ncounterface = \"plane\"\n\
+                direction = [1.0, 0.0, 0.0]\nspeed = 5.134476e-3\nfriction_coefficient = 0.2\n\
+                interference = 6.291808e-9\nnormal_stiffness = 2.698371e11\n\
+                [cea]\nfriction_coefficients = [0.0, 0.2]\ngeometric_stiffness = false\nmodes = 27\n";
+    let path = folder.path().join("part.toml");
+    let case = Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]).unwrap();
+    for point in modes_and_onsets(&case).unwrap().points {
+        let frequencies: Vec<f64> = point.modes.iter().map(|mode| mode.frequency_hz()).collect();
+        let equal = frequencies.iter().filter(|hz| (*hz / 3397.2346 - 1.0).abs() < 1e-6);
+        assert!(equal.count() >= 7 && frequencies.len() >= 26, "{frequencies:?}");
+        assert!(point.modes.iter().all(|mode| mode.residual < 1e-9));
+    }
+}
