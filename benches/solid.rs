@@ -8,6 +8,8 @@
 
 #[path = "../tests/common/bricks.rs"]
 mod bricks;
+#[path = "../tests/common/disc.rs"]
+mod disc;
 #[path = "../tests/common/fma_peak.rs"]
 mod fma_peak;
 #[allow(dead_code)]

@@ -89,11 +89,10 @@ fn said(head: &[&str], changes: &str) -> Result<String, String> {
 fn hold(is_read: bool) {
     let (mut head, mut wrong, mut rows) = (Vec::new(), String::new(), 0);
     for line in include_str!("refusals.txt").lines() {
-        if let Some(words) = line.strip_prefix('[').and_then(|line| line.strip_suffix(']')) {
-            if !line.contains(" => ") {
-                head = words.split(' ').collect();
-                continue;
-            }
+        let words = line.strip_prefix('[').and_then(|line| line.strip_suffix(']'));
+        if let Some(words) = words.filter(|_| !line.contains(" => ")) {
+            head = words.split(' ').collect();
+            continue;
         }
         if line.is_empty()
             || line.starts_with('#')
