@@ -40,6 +40,11 @@ pub struct Cea {
 }
 
 impl Cea {
+    /// The same at the friction coefficients of the tables alone.
+    pub fn of_tables(&self) -> Self {
+        Self { shapes_at: Vec::new(), own_friction: None, ..self.clone() }
+    }
+
     /// Friction coefficients to solve at: those of the tables, those of the shapes and the case's own, rising.
     pub fn solved_friction_coefficients(&self) -> Vec<f64> {
         let mut all = [self.friction_coefficients.as_slice(), self.shapes_at.as_slice()].concat();

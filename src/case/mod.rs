@@ -283,6 +283,9 @@ impl Case {
     }
 
     /// The body's mesh, of one in three dimensions that of its section across the axis.
+    ///
+    /// # Errors
+    /// [`MeshError`] of a mesh that cannot be generated.
     pub fn mesh(&self) -> Result<Arc<Mesh>, MeshError> {
         self.body.mesh()
     }

@@ -238,10 +238,7 @@ impl<'a> Section<'a> {
                 "the case ends without it",
                 self.at.clone(),
                 match key {
-                    "contact" => {
-                        "a plane body has one contact, a part of solid elements may have \
-                                  none; `frictionsim init` writes a complete case"
-                    }
+                    "contact" => "a plane body needs it; `frictionsim init` writes a complete case",
                     _ => "`frictionsim init` writes a complete case to start from",
                 },
             ),

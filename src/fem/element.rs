@@ -12,7 +12,6 @@ pub use mass::{consistent_mass, lumped_mass};
 use super::{ElasticMaterial, PlaneFormulation};
 use crate::mesh::{ElementKind, Mesh, QuadraturePoint};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
-use std::ops::Range;
 
 /// Strain `(xx, yy, zz, 2 xy, 2 yz, 2 zx)` or stress `(xx, yy, zz, xy, yz, zx)`.
 pub type Voigt = [f64; 6];
@@ -156,14 +155,14 @@ impl ElementGeometry {
         position
     }
 
-    /// The given columns of the stiffness over the nodes and, where there are incompatible modes, their amplitudes, down to the
-    /// diagonal; linear in the elasticity. Of a body that is deformed, with `gradients` of its displacement at the points of the
+    /// The columns from the `first` on of the stiffness over the nodes and, where there are incompatible modes, their amplitudes, down to
+    /// the diagonal; linear in the elasticity. Of a body that is deformed, with `gradients` of its displacement at the points of the
     /// stiffness, by the strain of Green and Lagrange: `delta E = sym(F^T grad delta u)`, `F = 1 + grad u`.
     fn upper_stiffness(
         &self,
         material: &ElasticMaterial,
         gradients: Option<&[Matrix3<f64>]>,
-        columns: Range<usize>,
+        first: usize,
     ) -> DMatrix<f64> {
         let size = self.nodal_count() + self.internal_count();
         let components = self.components();
@@ -179,7 +178,7 @@ impl ElementGeometry {
             // Component by component over the rows: such loops run in vector registers.
             let by_component = |&k: &usize| strains.iter().map(|strain| strain[k]).collect();
             let rows: Vec<Vec<f64>> = components.iter().map(by_component).collect();
-            for column in columns.clone() {
+            for column in first..size {
                 let stress = stress_in(components, &law, &strains[column]);
                 let works = &mut works[..=column];
                 works.fill(0.0);
@@ -191,18 +190,6 @@ impl ElementGeometry {
                 sums.into_iter().zip(works).for_each(|(sum, work)| *sum += *work);
             }
         }
-        matrix
-    }
-
-    /// Stiffness over the nodes and the amplitudes of incompatible modes, see [`Self::upper_stiffness`].
-    fn full_stiffness(
-        &self,
-        material: &ElasticMaterial,
-        gradients: Option<&[Matrix3<f64>]>,
-    ) -> DMatrix<f64> {
-        let all = 0..self.nodal_count() + self.internal_count();
-        let mut matrix = self.upper_stiffness(material, gradients, all);
-        mirror_upper_triangle(&mut matrix);
         matrix
     }
 
@@ -227,7 +214,7 @@ impl ElementGeometry {
     /// Element stiffness `K_e = ∫ B^T D B dV` in nodal frames, N/m, in the plane for each metre of thickness; the incompatible
     /// modes of bricks with 8 nodes condensed.
     pub fn stiffness(&self, material: &ElasticMaterial) -> Condensed {
-        self.condensed(self.full_stiffness(material, None))
+        self.condensed(self.upper_stiffness(material, None, 0))
     }
 
     /// What the displacements `values` of the nodes, in their frames, m, add to [`Self::stiffness`]: the elements stand where these
@@ -242,30 +229,27 @@ impl ElementGeometry {
         let points = self.stiffness_points();
         let internal = self.internal_amplitudes(material, values);
         let gradients = self.displacement_gradients(&points, values, internal.as_ref());
-        let deformed = self.full_stiffness(material, Some(&gradients));
+        let deformed = self.upper_stiffness(material, Some(&gradients), 0);
         self.condensed(deformed).stiffness - self.stiffness(material).stiffness
     }
 
-    /// A stiffness without the amplitudes of incompatible modes.
-    fn condensed(&self, full: DMatrix<f64>) -> Condensed {
-        let nodal = self.nodal_count();
-        let Some(recovered) = self.recovered_of(&full) else {
-            return Condensed { stiffness: full, recovered: None };
-        };
-        let coupling = full.view((0, nodal), (nodal, full.ncols() - nodal));
-        let mut condensed = full.view((0, 0), (nodal, nodal)) + coupling * &recovered;
-        mirror_upper_triangle(&mut condensed);
-        Condensed { stiffness: condensed, recovered: Some(recovered) }
+    /// A stiffness, of which the upper triangle is given, without the amplitudes of incompatible modes.
+    fn condensed(&self, mut upper: DMatrix<f64>) -> Condensed {
+        let (nodal, internal) = (self.nodal_count(), self.internal_count());
+        let recovered = self.recovered_of(&upper);
+        if let Some(recovered) = &recovered {
+            let coupling = upper.view((0, nodal), (nodal, internal));
+            upper = upper.view((0, 0), (nodal, nodal)) + coupling * recovered;
+        }
+        mirror_upper_triangle(&mut upper);
+        Condensed { stiffness: upper, recovered }
     }
 
     /// See [`Condensed::recovered`].
     pub fn recovered(&self, material: &ElasticMaterial) -> Option<DMatrix<f64>> {
-        let nodal = self.nodal_count();
-        let modes = nodal..nodal + self.internal_count();
-        match modes.is_empty() {
-            true => None,
-            false => self.recovered_of(&self.upper_stiffness(material, None, modes)),
-        }
+        self.has_incompatible_modes()
+            .then(|| self.upper_stiffness(material, None, self.nodal_count()))
+            .and_then(|upper| self.recovered_of(&upper))
     }
 
     /// The same of the upper triangle of a stiffness with the amplitudes of incompatible modes, if there are any.

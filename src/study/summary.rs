@@ -4,7 +4,7 @@ use super::cycle::{CycleStudy, PeriodicStudy, refuse_nothing};
 use super::eigenvalues::{self, SlidingModel};
 use super::transient::TransientStudy;
 use super::{StudyError, basin};
-use crate::case::{Analysis, Case, Cea};
+use crate::case::{Analysis, Case};
 use crate::cea::Unwatched;
 use crate::fem::operator::SimdLevel;
 use crate::results::cycle::{CycleReport, CycleSummary};
@@ -33,8 +33,7 @@ pub fn summarize(
 /// Mode shapes are not computed.
 fn cea(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
     let start = Instant::now();
-    let asked = case.require_cea()?.clone();
-    let cea = Cea { shapes_at: Vec::new(), own_friction: None, ..asked };
+    let cea = case.require_cea()?.of_tables();
     let model = SlidingModel::new(case, &cea)?;
     let solution = eigenvalues::solve_modes(case, &cea, &model)?;
     eigenvalues::refuse_no_modes(case, &cea, &solution.sweep)?;

@@ -108,11 +108,14 @@ fn dense(system: &ExportedSystem) -> Vec<f64> {
 
 /// Whether the modes of a body are those of the dense decomposition.
 fn check(body: &Body, folder: &str) -> Result<(), TestCaseError> {
-    let case = case_of(body, folder);
-    let expected = dense(&matrices(&case, None).unwrap());
-    let found = modes_and_onsets(&case).map_err(|error| TestCaseError::fail(error.to_string()))?;
+    check_case(&case_of(body, folder), body.modes)
+}
+
+fn check_case(case: &Case, count: usize) -> Result<(), TestCaseError> {
+    let expected = dense(&matrices(case, None).unwrap());
+    let found = modes_and_onsets(case).map_err(|error| TestCaseError::fail(error.to_string()))?;
     let modes = &found.points[0].modes;
-    prop_assert!(modes.len() >= body.modes, "{} modes of {}", modes.len(), body.modes);
+    prop_assert!(modes.len() >= count, "{} modes of {count}", modes.len());
     // A few roundings of the stiffest wave, on either side.
     let rounding = 64.0 * f64::EPSILON * expected[expected.len() - 1];
     for (mode, square) in modes.iter().zip(&expected[found.rigid_motions..]) {
@@ -148,5 +151,66 @@ fn rigid_motions_take_no_places_of_modes_however_many_are_asked_for() {
             modes,
         };
         check(&body, "rigid-motions").unwrap_or_else(|error| panic!("{modes} modes: {error}"));
+    }
+}
+
+/// A ring of 80 to 120 mm and 20 mm thickness, of bricks in one layer; its outer face is `rim`.
+fn ring(sectors: usize) -> String {
+    let radii = [0.08, 0.1, 0.12];
+    let node = |sector: usize, radius: usize, side: usize| {
+        1 + (sector % sectors * radii.len() + radius) * 2 + side
+    };
+    let (mut nodes, mut elements) = (String::new(), String::new());
+    for sector in 0..sectors {
+        let (sine, cosine) = (TAU * sector as f64 / sectors as f64).sin_cos();
+        for (i, radius) in radii.iter().enumerate() {
+            for (side, z) in [0.0, 0.02].into_iter().enumerate() {
+                let [x, y] = [radius * cosine, radius * sine];
+                writeln!(nodes, "{} {x:?} {y:?} {z}", node(sector, i, side)).unwrap();
+            }
+        }
+        let face = |i, side| [node(sector, i, side), node(sector + 1, i, side)];
+        let mut element = |number: usize, kind: usize, pairs: &[[usize; 2]]| {
+            let corners = pairs.iter().flatten().map(usize::to_string).collect::<Vec<_>>();
+            let number = 3 * sector + number;
+            writeln!(
+                elements,
+                "{number} {kind} 2 {0} {0} {1}",
+                usize::from(kind == 3) + 1,
+                corners.join(" ")
+            )
+            .unwrap();
+        };
+        let back = |[a, b]: [usize; 2]| [b, a];
+        for i in 0..2 {
+            let side = |side| [back(face(i, side)), face(i + 1, side)];
+            element(1 + i, 5, [side(0), side(1)].as_flattened());
+        }
+        element(3, 3, &[face(2, 0), back(face(2, 1))]);
+    }
+    format!(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"ring\"\n2 2 \"rim\"\n$EndPhysicalNames\n\
+         $Nodes\n{}\n{nodes}$EndNodes\n$Elements\n{}\n{elements}$EndElements\n",
+        6 * sectors,
+        3 * sectors
+    )
+}
+
+/// Pairs of equal frequencies, and the rigid motions of any stiffness between soft and stiff.
+#[test]
+fn a_ring_on_springs_at_its_rim_has_its_modes_at_every_stiffness() {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("supported-ring");
+    fs::create_dir_all(&folder).unwrap();
+    fs::write(folder.join("ring.msh"), ring(16)).unwrap();
+    let path = folder.join("ring.toml");
+    for exponent in 2..14 {
+        let text = format!(
+            "[mesh]\nfile = \"ring.msh\"\n[material]\nyoung_modulus = 2.1e11\npoisson_ratio = 0.3\ndensity = 7850.0\n\
+             [boundaries.rim]\ncondition = \"support\"\nnormal_stiffness = 1e{exponent}\n\
+             [cea]\nfriction_coefficients = [0.0]\nmodes = 24\n"
+        );
+        let parsed = Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]);
+        let case = parsed.unwrap_or_else(|errors| panic!("{errors}"));
+        check_case(&case, 24).unwrap_or_else(|error| panic!("1e{exponent} Pa/m: {error}"));
     }
 }

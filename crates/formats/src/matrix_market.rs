@@ -199,6 +199,9 @@ impl MarketMatrix {
     }
 
     /// Writes it as `coordinate real general`, every number in the shortest form that reads back as the same bits.
+    ///
+    /// # Errors
+    /// Those of the writer.
     pub fn write(&self, comment: &str, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "%%MatrixMarket matrix coordinate real general")?;
         for line in comment.lines() {

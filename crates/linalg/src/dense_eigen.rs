@@ -69,6 +69,9 @@ pub type ComplexEigen = (Vec<c64>, Mat<c64>, Option<Mat<c64>>);
 
 /// Eigenvalues `lambda` of a complex square matrix `A`, right vectors `A x = lambda x` and, where they are asked for, left ones
 /// `y^H A = lambda y^H`, as columns, in no particular order.
+///
+/// # Errors
+/// As [`complex_eigenvalues`].
 pub fn complex_eigen(
     matrix: MatRef<'_, c64>,
     with_left: bool,
@@ -102,6 +105,9 @@ pub fn complex_eigen(
 }
 
 /// Eigenvalues of a real square matrix, in no particular order, without vectors.
+///
+/// # Errors
+/// As [`complex_eigenvalues`].
 pub fn real_eigenvalues(matrix: MatRef<'_, f64>) -> Result<Vec<c64>, LinalgError> {
     decomposed(matrix, None, None)
 }

@@ -48,30 +48,23 @@ pub struct BranchEnd {
 }
 
 /// A mode where its branch was last seen.
-#[derive(Clone, Copy, Debug)]
-struct Seen {
-    /// Friction coefficient.
+#[derive(Clone, Debug)]
+struct LastSeen {
+    mode: ReducedMode,
+    friction_coefficient: f64,
+    /// About which friction coefficient the branch was lost.
     place: f64,
-    eigenvalue: c64,
-    /// Of the eigenvalue by the friction coefficient.
-    derivative: c64,
-}
-
-impl Seen {
-    fn of(place: f64, mode: &ReducedMode) -> Self {
-        Self { place, eigenvalue: mode.eigenvalue, derivative: mode.derivative }
-    }
 }
 
 /// Whether a mode may cease to oscillate within a step of friction, as friction across slow sliding, a dashpot of `mu p / V`, damps it.
-fn may_vanish(mode: &Seen, step: f64) -> bool {
+fn may_vanish(mode: &ReducedMode, step: f64) -> bool {
     let decay = -(mode.eigenvalue.re + mode.derivative.re * step);
     decay > NEARLY_CRITICAL * mode.eigenvalue.norm()
 }
 
 /// Whether a mode lies above what is wanted at the next friction coefficient, by more than it may be wrong there: of the lowest ones
 /// others may have come from below.
-fn leaves_range(mode: &Seen, step: f64, range_end: f64) -> bool {
+fn leaves_range(mode: &ReducedMode, step: f64, range_end: f64) -> bool {
     let (frequency, change) = (mode.eigenvalue.im, mode.derivative.im * step);
     frequency.min(frequency + change) > range_end * (1.0 + ABOVE_RANGE) + change.abs()
 }
@@ -202,8 +195,7 @@ pub fn track(
     for k in 1..points.len() {
         let (before, after) = (&points[k - 1], &points[k]);
         let step = after.friction_coefficient - before.friction_coefficient;
-        let seen_before = |mode: &ReducedMode| Seen::of(before.friction_coefficient, mode);
-        let stays = |mode: &ReducedMode| !leaves_range(&seen_before(mode), step, after.range_end);
+        let stays = |mode: &ReducedMode| !leaves_range(mode, step, after.range_end);
         let last_to_stay = before.modes[..before.wanted].iter().rposition(stays);
         let needed = last_to_stay.map_or(0, |i| i + 1);
         let links = match_modes(
@@ -215,19 +207,18 @@ pub fn track(
         )?;
         for branch in &mut branches {
             let last = branch.modes[k - 1];
-            let next = last.and_then(|i| links[i].ok());
+            let next = last.and_then(|i| links[i].as_ref().ok().copied());
             if let Some(i) = last
-                && let Err(seen) = links[i]
+                && let Err(seen) = &links[i]
                 && i < needed
                 && stays(&before.modes[i])
-                && !leaves_range(&seen, after.friction_coefficient - seen.place, after.range_end)
+                && let left = after.friction_coefficient - seen.friction_coefficient
+                && !leaves_range(&seen.mode, left, after.range_end)
             {
-                let left = after.friction_coefficient - seen.place;
-                let is_damped =
-                    may_vanish(&seen, left) || may_vanish(&seen_before(&before.modes[i]), step);
-                let lost = Lost { label: branch.label, point: k - 1, place: seen.place };
+                let is_damped = may_vanish(&seen.mode, left) || may_vanish(&before.modes[i], step);
                 if !is_damped {
-                    all_lost.push(lost);
+                    let (label, place) = (branch.label, seen.place);
+                    all_lost.push(Lost { label, point: k - 1, place });
                 }
                 let after = k - 1;
                 branch.end = Some(BranchEnd { after, is_damped });
@@ -263,7 +254,7 @@ fn adopt_newcomers(
 
 type ModesAt<'a> = (f64, &'a [ReducedMode]);
 /// The mode that continues another one, or where that was last seen.
-type Link = Result<usize, Seen>;
+type Link = Result<usize, LastSeen>;
 
 /// For each mode of `from` the mode of `to` that continues it. The first `needed` modes must be matched
 /// beyond doubt, or the interval is halved.
@@ -279,8 +270,7 @@ fn match_modes(
     let mut links = clear_links(from, to, &overlaps);
     let step = to.0 - from.0;
     let needed_links = links.iter().zip(from.1).take(needed);
-    let mut open = needed_links
-        .filter(|(link, mode)| link.is_none() && !may_vanish(&Seen::of(from.0, mode), step));
+    let mut open = needed_links.filter(|(link, mode)| link.is_none() && !may_vanish(mode, step));
     let is_clear = open.next().is_none();
     if !is_clear && depth < MAX_BISECTIONS && *solved < MOST_BETWEEN {
         *solved += 1;
@@ -288,13 +278,19 @@ fn match_modes(
         let first = match_modes(from, (middle, &modes), needed, model, (depth + 1, solved))?;
         let reached = first.iter().take(needed).flatten().max().map_or(0, |&i| i + 1);
         let second = match_modes((middle, &modes), to, reached, model, (depth + 1, solved))?;
-        return Ok(first.iter().map(|link| link.and_then(|i| second[i])).collect());
+        return Ok(first.into_iter().map(|link| link.and_then(|i| second[i].clone())).collect());
     }
-    if !is_clear {
+    // Only over a step so short is the nearest eigenvalue the same branch; one that is lost is told.
+    if !is_clear && depth == MAX_BISECTIONS {
         link_by_extrapolation(from, to, needed, &mut links);
     }
+    let last_seen = |mode: &ReducedMode| LastSeen {
+        mode: mode.clone(),
+        friction_coefficient: from.0,
+        place: middle,
+    };
     let pairs = links.into_iter().zip(from.1);
-    Ok(pairs.map(|(link, mode)| link.ok_or(Seen::of(middle, mode))).collect())
+    Ok(pairs.map(|(link, mode)| link.ok_or_else(|| last_seen(mode))).collect())
 }
 
 /// `|w_i^T N x'_j| |w'_j^T N x_i|`, see [`track`].
@@ -350,7 +346,7 @@ fn link_by_extrapolation(
     let step = to.0 - from.0;
     for i in 0..needed.min(links.len()) {
         let a = &from.1[i];
-        if links[i].is_some() || may_vanish(&Seen::of(from.0, a), step) {
+        if links[i].is_some() || may_vanish(a, step) {
             continue;
         }
         let distance = |j: usize| (to.1[j].eigenvalue - a.eigenvalue).norm();

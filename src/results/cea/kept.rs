@@ -57,6 +57,9 @@ impl<'a> KeptSteps<'a> {
     }
 
     /// Drops all steps: the run is complete, or starts anew.
+    ///
+    /// # Errors
+    /// A file that cannot be removed.
     pub fn discard(&self) -> Result<(), FolderError> {
         let mut names = self.names.lock().unwrap_or_else(PoisonError::into_inner);
         std::mem::take(&mut *names).iter().try_for_each(|name| self.folder.discard(name))?;

@@ -203,6 +203,9 @@ impl OutputFolder {
     }
 
     /// Removes a file that has served its purpose, written by this run or an earlier one.
+    ///
+    /// # Errors
+    /// A file that cannot be removed.
     pub fn discard(&self, name: &str) -> Result<(), FolderError> {
         self.written().remove(name);
         remove_files(&self.path, std::iter::once(&name.to_owned()))

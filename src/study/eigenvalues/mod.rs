@@ -93,12 +93,7 @@ pub fn modes_and_onsets(case: &Case) -> Result<FrictionSweep, StudyError> {
 /// # Errors
 /// As [`solve`] and [`refuse_no_modes`].
 pub fn preflight(case: &Case, cea: &Cea) -> Result<(), StudyError> {
-    let one = Cea {
-        friction_coefficients: vec![cea.friction_coefficients[0]],
-        shapes_at: Vec::new(),
-        own_friction: None,
-        ..cea.clone()
-    };
+    let one = Cea { friction_coefficients: vec![cea.friction_coefficients[0]], ..cea.of_tables() };
     let model = SlidingModel::new(case, &one)?;
     let solution = solve_modes(case, &one, &model)?;
     refuse_no_modes(case, &one, &solution.sweep)

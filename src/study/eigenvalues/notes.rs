@@ -111,11 +111,9 @@ pub(super) fn uncertainty_note(case: &Case, sweep: &FrictionSweep) -> Option<Str
 pub(super) fn damping_note(case: &Case, sweep: &FrictionSweep) -> Option<String> {
     let modes = || sweep.points.iter().flat_map(|point| &point.modes);
     if modes().next().is_none() {
-        return Some(
-            "no mode oscillates: every motion is damped beyond the critical; is a damping \
-             coefficient, a loss factor or a dashpot too large, or the sliding too slow?"
-                .to_owned(),
-        );
+        let all = "no mode oscillates: every motion is damped beyond the critical; is a damping \
+                   coefficient, a loss factor or a dashpot too large, or the sliding too slow?";
+        return sweep.unconverged.is_empty().then(|| all.to_owned());
     }
     let largest = modes().map(|mode| mode.damping_factor()).fold(0.0, f64::max);
     let size = modes().map(|mode| mode.eigenvalue.norm()).fold(0.0, f64::max);

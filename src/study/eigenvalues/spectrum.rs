@@ -12,24 +12,17 @@ use crate::study::tangent_options;
 
 /// What `[cea]` says of a case, or its defaults, for these friction coefficients and modes up to a frequency.
 pub(in crate::study) fn analysis(case: &Case, frictions: &[f64], limit_hz: f64) -> Cea {
-    let (modes, shapes_at) = (ModeSelection::BelowHz(limit_hz), Vec::new());
+    let modes = ModeSelection::BelowHz(limit_hz);
     let friction_coefficients = frictions.to_vec();
     match &case.cea {
-        Some(cea) => Cea {
-            friction_coefficients,
-            modes,
-            shapes_at,
-            own_friction: None,
-            count_modes: false,
-            ..cea.clone()
-        },
+        Some(cea) => Cea { friction_coefficients, modes, count_modes: false, ..cea.of_tables() },
         None => Cea {
             friction_coefficients,
             modes,
             method: CeaMethod::Auto,
             mass: MassKind::Consistent,
             geometric_stiffness: true,
-            shapes_at,
+            shapes_at: Vec::new(),
             own_friction: None,
             sensitivities: None,
             count_modes: false,
