@@ -8,15 +8,16 @@ use super::{MULTIPLE, NEARLY_CRITICAL};
 use crate::linalg::{ComplexDenseLu, LinalgError};
 use crate::linalg::{Mat, c64};
 
-/// Overlap above which two modes at neighbouring friction coefficients are one.
-const SAME: f64 = 0.5;
+/// Distance of an overlap from 1 within which two modes at neighbouring friction coefficients may be one, and are one beyond doubt.
+const SAME: [f64; 2] = [0.5, 0.1];
 /// Part of the end of a range by which a mode is above it beyond doubt.
 const ABOVE_RANGE: f64 = 0.01;
-/// Bisections of an interval before modes are matched by their extrapolated eigenvalue, one within the other and in all.
+/// Bisections of an interval, one within the other, before modes are matched by their extrapolated eigenvalue.
 const MAX_BISECTIONS: usize = 10;
-const MOST_BETWEEN: usize = 60;
-/// Relative distance of eigenvalues that are the same.
-const EQUAL: f64 = 1e-6;
+/// Bisections of an interval in all; a branch that these do not follow is lost.
+const MOST_BETWEEN: usize = 250;
+/// Relative distance of eigenvalues that are the same, and to what the eigenvalue of a mode that is the same beyond doubt is predicted.
+const EQUAL: [f64; 2] = [1e-6, 1e-3];
 
 /// Name of a branch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,9 +52,8 @@ pub struct BranchEnd {
 #[derive(Clone, Debug)]
 struct LastSeen {
     mode: ReducedMode,
-    friction_coefficient: f64,
-    /// About which friction coefficient the branch was lost.
-    place: f64,
+    /// The friction coefficient there, and the next one, where it is none of the modes.
+    between: [f64; 2],
 }
 
 /// Whether a mode may cease to oscillate within a step of friction, as friction across slow sliding, a dashpot of `mu p / V`, damps it.
@@ -212,12 +212,12 @@ pub fn track(
                 && let Err(seen) = &links[i]
                 && i < needed
                 && stays(&before.modes[i])
-                && let left = after.friction_coefficient - seen.friction_coefficient
-                && !leaves_range(&seen.mode, left, after.range_end)
+                && let [seen_at, lost_at] = seen.between
+                && !leaves_range(&seen.mode, after.friction_coefficient - seen_at, after.range_end)
             {
-                let is_damped = may_vanish(&seen.mode, left) || may_vanish(&before.modes[i], step);
+                let is_damped = may_vanish(&before.modes[i], step);
                 if !is_damped {
-                    let (label, place) = (branch.label, seen.place);
+                    let (label, place) = (branch.label, 0.5 * (seen_at + lost_at));
                     all_lost.push(Lost { label, point: k - 1, place });
                 }
                 let after = k - 1;
@@ -284,11 +284,8 @@ fn match_modes(
     if !is_clear && depth == MAX_BISECTIONS {
         link_by_extrapolation(from, to, needed, &mut links);
     }
-    let last_seen = |mode: &ReducedMode| LastSeen {
-        mode: mode.clone(),
-        friction_coefficient: from.0,
-        place: middle,
-    };
+    let between = [from.0, to.0];
+    let last_seen = |mode: &ReducedMode| LastSeen { mode: mode.clone(), between };
     let pairs = links.into_iter().zip(from.1);
     Ok(pairs.map(|(link, mode)| link.ok_or_else(|| last_seen(mode))).collect())
 }
@@ -307,28 +304,31 @@ fn clear_links(from: ModesAt<'_>, to: ModesAt<'_>, overlaps: &Mat<f64>) -> Vec<O
     let mut taken = vec![false; to.1.len()];
     for (i, link) in links.iter_mut().enumerate() {
         let a = &from.1[i];
-        let best = (0..to.1.len()).max_by(|&j, &k| overlaps[(i, j)].total_cmp(&overlaps[(i, k)]));
-        let Some(j) = best.filter(|&j| overlaps[(i, j)] > SAME && !taken[j]) else {
+        let distance = |j: usize| (overlaps[(i, j)] - 1.0).abs();
+        let best = (0..to.1.len()).min_by(|&j, &k| distance(j).total_cmp(&distance(k)));
+        let Some(j) = best.filter(|&j| distance(j) < SAME[0] && !taken[j]) else {
             continue;
         };
         let b = &to.1[j];
         let predicted = a.eigenvalue + (a.derivative + b.derivative) * (0.5 * step);
         let reach = 0.5 * (a.derivative.norm() + b.derivative.norm()) * step;
         let error = (b.eigenvalue - predicted).norm();
-        if error <= 0.5 * reach + EQUAL * a.eigenvalue.norm() {
+        let accuracy = if distance(j) < SAME[1] { EQUAL[1] } else { EQUAL[0] };
+        if error <= 0.5 * reach + accuracy * a.eigenvalue.norm() {
             *link = Some(j);
             taken[j] = true;
         }
     }
-    // Of a multiple eigenvalue that friction does not move each vector continues all: one branch is as good as the other.
+    // A multiple eigenvalue that friction does not move: each vector continues all, and their derivatives are worth nothing where it is
+    // defective. One branch is as good as the other.
     for (i, link) in links.iter_mut().enumerate().filter(|(_, link)| link.is_none()) {
         let a = &from.1[i];
-        let is_still = |mode: &ReducedMode| {
-            mode.derivative.norm() * step <= EQUAL * a.eigenvalue.norm()
-                && (mode.eigenvalue - a.eigenvalue).norm() <= EQUAL * a.eigenvalue.norm()
+        let is_equal = |b: &ReducedMode| {
+            (b.eigenvalue - a.eigenvalue).norm() <= EQUAL[0] * a.eigenvalue.norm()
         };
-        let free = (0..to.1.len()).find(|&j| !taken[j] && is_still(&to.1[j]));
-        if let Some(j) = free.filter(|_| is_still(a)) {
+        let is_multiple = from.1.iter().filter(|b| is_equal(b)).nth(1).is_some();
+        let free = (0..to.1.len()).find(|&j| !taken[j] && is_equal(&to.1[j]));
+        if let Some(j) = free.filter(|_| is_multiple) {
             *link = Some(j);
             taken[j] = true;
         }
