@@ -30,13 +30,7 @@ fn solve(circumferential: usize, radial: usize, values: usize) -> WaveSweep {
     };
     let last = (values - 1) as f64;
     let frictions: Vec<f64> = (0..values).map(|i| i as f64 / last).collect();
-    let request = SweepRequest {
-        friction_coefficients: &frictions,
-        limit: ModeLimit::Lowest(30),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let request = SweepRequest::new(&frictions, ModeLimit::Lowest(30));
     sweep(&specification, &POLYCARBONATE, &options, &contact(610.0), &request)
         .expect("the disc can be solved")
 }

@@ -38,13 +38,7 @@ fn tangent(circumferential: usize, radial: usize) -> SlidingTangent {
 }
 
 fn request(friction_coefficients: &[f64]) -> SweepRequest<'_> {
-    SweepRequest {
-        friction_coefficients,
-        limit: ModeLimit::Lowest(30),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    }
+    SweepRequest::new(friction_coefficients, ModeLimit::Lowest(30))
 }
 
 fn values() -> Vec<f64> {

@@ -187,13 +187,7 @@ fn eigenvalues(divisions: [usize; 3]) -> f64 {
     let mut model: SolidModel = model::disc(ElementKind::Quad4, divisions);
     model.options.geometric_stiffness = true;
     let frictions: Vec<f64> = (0..21).map(|i| f64::from(i) / 20.0).collect();
-    let request = SweepRequest {
-        friction_coefficients: &frictions,
-        limit: ModeLimit::Lowest(30),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let request = SweepRequest::new(&frictions, ModeLimit::Lowest(30));
     let clock = Instant::now();
     let found = solid_sweep(&model, &request).expect("the disc can be solved");
     assert!(found.sweep.points.iter().all(|point| point.modes.len() >= 30));

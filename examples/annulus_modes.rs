@@ -42,13 +42,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         interference: 25e-6,
         rotation_speed: 1.0,
     };
-    let request = SweepRequest {
-        friction_coefficients: &[0.0],
-        limit: ModeLimit::Lowest(12),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let request = SweepRequest::new(&[0.0], ModeLimit::Lowest(12));
     let found = sweep(&annulus, &polycarbonate, &options, &contact, &request)?;
     println!("{:>3} {:>6} {:>12}", "n", "branch", "Hz");
     for mode in &found.sweep.points[0].modes {

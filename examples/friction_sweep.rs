@@ -50,13 +50,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         contact: ContactStiffness { normal_stiffness: Some(7.4e12), ..ContactStiffness::default() },
     };
     let tangent = SlidingTangent::linearize(&mesh, &polycarbonate, &stiffness, &base, &options);
-    let request = SweepRequest {
-        friction_coefficients: &[0.0, 0.1, 0.2, 0.3],
-        limit: ModeLimit::Lowest(10),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let request = SweepRequest::new(&[0.0, 0.1, 0.2, 0.3], ModeLimit::Lowest(10));
     let found = sweep(&tangent, &request, &|_| {})?;
     for interval in &found.intervals {
         println!(

@@ -156,7 +156,10 @@ impl<B: BranchSolver> Search<'_, B> {
         for t in cubic.turning_points() {
             let value = cubic.real_part(t);
             let changes_sign = value.signum() != a.signum() || value.signum() != b.signum();
-            if value.abs() < doubt || changes_sign {
+            // What turns by round-off alone, as a branch that stays neutral does, comes no nearer to zero than the ends.
+            let turn = (value - a).abs().min((value - b).abs());
+            let is_turn = turn > B::ROUND_OFF * last.eigenvalue.norm();
+            if is_turn && (value.abs() < doubt || changes_sign) {
                 let origin = first.friction_coefficient;
                 let friction = origin + t * cubic.width;
                 states.extend(self.solve(start, end, &cubic, origin, friction)?);

@@ -39,9 +39,24 @@ pub struct SweepRequest<'a> {
     pub lefts_at: &'a [f64],
     /// Whether the modes of a whole mesh are counted by the argument principle, too.
     pub count_modes: bool,
+    /// Whether it goes on from a sweep that ends at its first friction coefficient: branches begin there, not without friction, and
+    /// their names are for the caller to give.
+    pub is_continued: bool,
 }
 
-impl SweepRequest<'_> {
+impl<'a> SweepRequest<'a> {
+    /// Modes alone, at some friction coefficients.
+    pub fn new(friction_coefficients: &'a [f64], limit: ModeLimit) -> Self {
+        Self {
+            friction_coefficients,
+            limit,
+            shapes_at: &[],
+            lefts_at: &[],
+            count_modes: false,
+            is_continued: false,
+        }
+    }
+
     /// The friction coefficients rising, once each.
     pub(super) fn rising_grid(&self) -> Result<Vec<f64>, CeaError> {
         let values = self.friction_coefficients;

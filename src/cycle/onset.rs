@@ -66,13 +66,8 @@ impl DiscModel {
             contact: ContactStiffness::default(),
         };
         let contact = unloaded(&self.specification);
-        let request = SweepRequest {
-            friction_coefficients: &[highest_friction],
-            limit,
-            shapes_at: &[],
-            lefts_at: &[],
-            count_modes: false,
-        };
+        let frictions = [highest_friction];
+        let request = SweepRequest::new(&frictions, limit);
         let (specification, material) = (&self.specification, &self.material);
         let found = cyclic::sweep(specification, material, &options, &contact, &request)
             .map_err(|error| CycleError::Spectrum(error.to_string()))?;

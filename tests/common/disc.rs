@@ -86,7 +86,7 @@ pub const fn sliding_at(friction: f64, interference: f64, rotation_speed: f64) -
 
 /// Eigenvalues without shapes.
 pub fn sweep_request(friction_coefficients: &[f64], limit: ModeLimit) -> SweepRequest<'_> {
-    SweepRequest { friction_coefficients, limit, shapes_at: &[], lefts_at: &[], count_modes: false }
+    SweepRequest::new(friction_coefficients, limit)
 }
 
 /// A transient with the step that its model has.

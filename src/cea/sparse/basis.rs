@@ -164,12 +164,6 @@ impl<'a> BasisBuilder<'a> {
     /// If a dense decomposition or an iteration fails.
     pub fn cover(&mut self, values: &[f64]) -> Result<(), CeaError> {
         if self.is_sampling {
-            if values[0] > 0.0 && !self.tangent.tabled.is_empty() {
-                // Branches begin there, each at its own frequency.
-                self.improve_at(0.0)?;
-            } else if values[0] > 0.0 {
-                self.hold_frictionless();
-            }
             for mu in [values[values.len() - 1], values[0], values[values.len() / 2]] {
                 self.improve_at(mu)?;
             }

@@ -24,7 +24,7 @@ const EQUAL: [f64; 2] = [1e-6, 1e-3];
 pub struct BranchLabel {
     /// Circumferential harmonic.
     pub harmonic: usize,
-    /// Rank by frequency within the harmonic without friction, 1 = lowest.
+    /// Rank by frequency within the harmonic at the first point, without friction unless the sweep is continued, 1 = lowest.
     pub branch: usize,
 }
 
@@ -80,9 +80,9 @@ pub struct Lost {
     pub place: f64,
 }
 
-/// Names the first `count` modes of the frictionless point and rotates degenerate ones so that they are
-/// the limits of the modes with friction.
-pub fn label_frictionless(
+/// Names the first `count` modes of the first point and rotates degenerate ones so that they are the limits of the modes with more
+/// friction.
+pub fn label_first(
     point: &mut SolvedPoint,
     model: &ReducedModel,
     edge: &ContactEdge,
@@ -102,20 +102,20 @@ pub fn label_frictionless(
             BranchLabel { harmonic, branch: branch + 1 }
         })
         .collect();
-    split_degenerate(&mut point.modes, model, count)?;
+    split_degenerate(point, model, count)?;
     Ok(labels)
 }
 
 /// First-order perturbation theory within each cluster of equal eigenvalues.
 ///
 /// With biorthonormal vectors, `dlambda/dmu` are the eigenvalues of `-W^T T'(lambda) X`, and its
-/// eigenvectors are the combinations that continue into `mu > 0`.
+/// eigenvectors are the combinations that continue into more friction.
 fn split_degenerate(
-    modes: &mut [ReducedMode],
+    SolvedPoint { friction_coefficient: mu, modes, .. }: &mut SolvedPoint,
     model: &ReducedModel,
     count: usize,
 ) -> Result<(), LinalgError> {
-    let (at, rate) = (model.at(0.0), model.derivative_at(0.0));
+    let (at, rate) = (model.at(*mu), model.derivative_at(*mu));
     let mut first = 0;
     while first < count.min(modes.len()) {
         let lambda = modes[first].eigenvalue;
@@ -131,7 +131,7 @@ fn split_degenerate(
             rotate(cluster, &operator, &gram)?;
             // What each mode's own frequency does to it is a matter of single modes.
             if !at.tabled.is_empty() {
-                model.complete(cluster, &at, 0.0);
+                model.complete(cluster, &at, *mu);
             }
         }
         first += size.max(1);
@@ -168,7 +168,7 @@ fn rotate(
     Ok(())
 }
 
-/// Continues all branches over `points` (ascending friction coefficients, the first one frictionless).
+/// Continues all branches over `points` (ascending friction coefficients).
 ///
 /// Neighbouring points are matched by the overlap
 /// `|w_i^T N x'_j| |w'_j^T N x_i|`, `N = (lambda_i + lambda'_j) M + C`, which is 1 for one mode and 0 for

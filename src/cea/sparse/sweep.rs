@@ -5,7 +5,7 @@ mod ladder;
 mod results;
 
 use super::basis::BasisBuilder;
-use super::branches::{BranchLabel, TrackedBranch, label_frictionless, track};
+use super::branches::{BranchLabel, TrackedBranch, label_first, track};
 use super::edge::ContactEdge;
 use super::frictionless::FrictionlessModes;
 use super::linearization::Linearization;
@@ -25,6 +25,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 const MIN_SAMPLES: usize = 6;
 /// Friction values up to which each of a body without symmetry has an iteration of its own, where damping is proportional.
 const FEW_VALUES: usize = 6;
+/// Range of friction coefficients over which modes hardly change.
+const SHORT_RANGE: f64 = 0.05;
 /// Change of a critical friction coefficient below which its mode needs no more corrections.
 const SETTLED: f64 = 1e-10;
 /// Highest modes that stiffness which depends on frequency is referred to, one after the other.
@@ -95,10 +97,12 @@ pub struct SparseSweep<'a> {
     limit: ModeLimit,
     edge: ContactEdge,
     builder: BasisBuilder<'a>,
-    /// Friction coefficients, ascending, 0 first.
+    /// Friction coefficients, ascending, 0 first unless the sweep is continued.
     grid: Vec<f64>,
     /// Smallest friction coefficient asked for.
     lowest: f64,
+    /// Whether branches begin at the first friction coefficient asked for.
+    is_continued: bool,
     points: Vec<SolvedPoint>,
     /// Points where motions near critical damping that do not converge are left out.
     leaves_out: Vec<bool>,
@@ -118,7 +122,9 @@ impl<'a> SparseSweep<'a> {
         let mut grid = request.rising_grid()?;
         request.limit.check()?;
         let lowest = grid[0];
-        if lowest > 0.0 {
+        // What structural damping leaves of rigid motions is recognised by following them from rest.
+        let is_continued = request.is_continued && !tangent.is_lossy();
+        if lowest > 0.0 && !is_continued {
             grid.insert(0, 0.0);
         }
         let modes = FrictionlessModes::compute_watched(tangent, request.limit, watch)?;
@@ -138,6 +144,7 @@ impl<'a> SparseSweep<'a> {
             ),
             grid,
             lowest,
+            is_continued,
             points: Vec::new(),
             leaves_out: Vec::new(),
             unconverged: Vec::new(),
@@ -150,6 +157,13 @@ impl<'a> SparseSweep<'a> {
     pub fn cover(&mut self) -> Result<(), CeaError> {
         if self.builder.is_sampling() {
             let first = self.first_asked();
+            // Over a short range the modes at its middle are corrected to those at its ends.
+            if self.is_continued && self.grid[self.grid.len() - 1] - self.lowest < SHORT_RANGE {
+                return self.builder.improve_at(self.grid[self.grid.len() / 2]).map(|_| ());
+            }
+            if self.lowest > 0.0 {
+                self.builder.begin_at_rest()?;
+            }
             return self.builder.cover(&self.grid[first..]);
         }
         // A basis for all friction values is wide where the body has no symmetry: few values are cheaper each by itself.
@@ -170,7 +184,7 @@ impl<'a> SparseSweep<'a> {
         }
         // The undamped modes are those of the frictionless problem where damping is proportional.
         if matches!(self.linearization, Linearization::Reduced(..)) && samples.len() > 1 {
-            samples.remove(0);
+            samples.retain(|mu| *mu > 0.0);
         }
         self.builder.cover(&samples)
     }
@@ -205,12 +219,8 @@ impl<'a> SparseSweep<'a> {
         }
         let model = &self.builder.model;
         self.points.par_iter_mut().for_each(|point| point.refine_lefts(model));
-        self.labels = label_frictionless(
-            &mut self.points[0],
-            &self.builder.model,
-            &self.edge,
-            self.builder.count,
-        )?;
+        self.labels =
+            label_first(&mut self.points[0], &self.builder.model, &self.edge, self.builder.count)?;
         Ok(())
     }
 
@@ -290,7 +300,7 @@ impl<'a> SparseSweep<'a> {
         Ok(())
     }
 
-    /// Continues all branches from `mu = 0`. Where one is lost the basis takes up, of the quadratic problem, modes at
+    /// Continues all branches from the first point. Where one is lost the basis takes up, of the quadratic problem, modes at
     /// more friction coefficients about that place; in the end an independent iteration searches for it. A branch that stays lost
     /// ends there, and a note says so.
     pub fn track(&mut self) -> Result<Vec<TrackedBranch>, CeaError> {
@@ -330,13 +340,7 @@ mod tests {
     fn deliberately_lost_mode_is_found_again() {
         for is_proportional in [true, false] {
             let tangent = string_on_belt(60, 0.4, is_proportional);
-            let request = SweepRequest {
-                friction_coefficients: &[0.0, 0.1, 0.2, 0.3],
-                limit: ModeLimit::Lowest(6),
-                shapes_at: &[],
-                lefts_at: &[],
-                count_modes: false,
-            };
+            let request = SweepRequest::new(&[0.0, 0.1, 0.2, 0.3], ModeLimit::Lowest(6));
             let mut sweep = SparseSweep::prepare(&tangent, &request, &Unwatched).unwrap();
             sweep.cover().unwrap();
             sweep.solve().unwrap();

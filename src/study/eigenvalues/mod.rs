@@ -72,16 +72,9 @@ pub fn modes_and_onsets(case: &Case) -> Result<FrictionSweep, StudyError> {
         shapes_at: vec![case.contact.sliding.friction_coefficient],
         ..case.require_cea()?.clone()
     };
-    let request = SweepRequest {
-        friction_coefficients: &cea.solved_friction_coefficients(),
-        limit: mode_limit(&cea),
-        shapes_at: match case.body.has_sectors() {
-            true => &[],
-            false => &cea.shapes_at,
-        },
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let frictions = cea.solved_friction_coefficients();
+    let shapes_at: &[f64] = if case.body.has_sectors() { &[] } else { &cea.shapes_at };
+    let request = SweepRequest { shapes_at, ..SweepRequest::new(&frictions, mode_limit(&cea)) };
     let model = Model::new(case, &cea)?;
     let sweep = model.spectrum(case, &request, &Unwatched)?.sweep;
     refuse_no_modes(case, &cea, &sweep)?;

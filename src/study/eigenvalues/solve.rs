@@ -50,11 +50,10 @@ fn solve_with(
             false => Vec::new(),
         };
         let request = SweepRequest {
-            friction_coefficients: &frictions,
-            limit: mode_limit(cea),
             shapes_at: &shown,
             lefts_at: &lefts_at,
             count_modes: cea.count_modes && with_reading,
+            ..SweepRequest::new(&frictions, mode_limit(cea))
         };
         of.spectrum_with_waves(case, (&request, waves_at), progress)
     };

@@ -46,11 +46,8 @@ pub fn modes_with_waves_below(
     let cea = analysis(case, &[friction], limit_hz);
     let model = Model::new(case, &cea)?;
     let request = SweepRequest {
-        friction_coefficients: &cea.friction_coefficients,
-        limit: mode_limit(&cea),
         shapes_at,
-        lefts_at: &[],
-        count_modes: false,
+        ..SweepRequest::new(&cea.friction_coefficients, mode_limit(&cea))
     };
     let found = model.spectrum(case, &request, &Unwatched)?;
     let point = found.sweep.points.into_iter().next();
@@ -66,16 +63,10 @@ pub fn modes_at_own_friction(
     options: &TangentOptions,
     limit: ModeLimit,
 ) -> Result<Vec<ComplexMode>, CeaError> {
-    let request = SweepRequest {
-        friction_coefficients: &[case.contact.sliding.friction_coefficient],
-        limit,
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let frictions = [case.contact.sliding.friction_coefficient];
+    let request = SweepRequest::new(&frictions, limit);
     let solver = Solver::by_symmetry(case);
-    let frictions = request.friction_coefficients;
-    let model = Model::with_solver(case, solver, *options, frictions)?;
+    let model = Model::with_solver(case, solver, *options, &frictions)?;
     let found = model.spectrum(case, &request, &Unwatched)?;
     let point = found.sweep.points.into_iter().next();
     Ok(point.map_or_else(Vec::new, |point| point.modes))
@@ -113,13 +104,7 @@ pub fn unstable_intervals(
         frictions.sort_by(f64::total_cmp);
         frictions.dedup();
     }
-    let request = SweepRequest {
-        friction_coefficients: &frictions,
-        limit: mode_limit(&cea),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let request = SweepRequest::new(&frictions, mode_limit(&cea));
     let options = tangent_options(case, cea.mass);
     let model = Model::with_solver(case, solver, options, &frictions)?;
     if let Some(harmonics) = harmonics

@@ -215,7 +215,9 @@ impl<S> States<'_, S> {
                         0 => format!("state-{k}-"),
                         round => format!("round-{round}-state-{k}-"),
                     };
-                    let own = SweepRequest { friction_coefficients: &values, ..*request };
+                    let is_continued = k > 0;
+                    let own =
+                        SweepRequest { friction_coefficients: &values, is_continued, ..*request };
                     let sweep = self.part(state, &own, (progress, name), common)?;
                     let key = (pressed.to_vec(), values, sweep.clone());
                     common.solved.push(key);

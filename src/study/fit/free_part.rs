@@ -29,13 +29,8 @@ pub(super) fn shaped_modes(case: &Case, cea: &Cea) -> Result<Vec<ComplexMode>, S
     let frictions = cea.friction_coefficients.as_slice();
     let options = tangent_options(case, cea.mass);
     let model = Model::with_solver(case, Solver::Assembly, options, frictions)?;
-    let request = SweepRequest {
-        friction_coefficients: frictions,
-        limit: mode_limit(cea),
-        shapes_at: frictions,
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let request =
+        SweepRequest { shapes_at: frictions, ..SweepRequest::new(frictions, mode_limit(cea)) };
     let found = model.spectrum(case, &request, &Unwatched)?;
     let point = found.sweep.points.into_iter().next();
     Ok(point.map_or_else(Vec::new, |point| point.modes))

@@ -114,13 +114,7 @@ pub(super) fn spectrum_of(case: &Case, cea: &Cea) -> Result<(Model, FrictionSwee
     let frictions = friction_steps(case);
     let options = tangent_options(case, cea.mass);
     let model = Model::with_solver(case, solver, options, &frictions)?;
-    let request = SweepRequest {
-        friction_coefficients: &frictions,
-        limit: mode_limit(cea),
-        shapes_at: &[],
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let request = SweepRequest::new(&frictions, mode_limit(cea));
     let sweep = model.spectrum(case, &request, &Unwatched)?.sweep;
     Ok((model, sweep))
 }

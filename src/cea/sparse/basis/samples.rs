@@ -33,6 +33,15 @@ impl BasisBuilder<'_> {
         Ok(())
     }
 
+    /// Takes up the modes without friction, where branches begin: where stiffness depends on frequency, each at its own.
+    pub fn begin_at_rest(&mut self) -> Result<(), CeaError> {
+        match self.tangent.tabled.is_empty() {
+            true => self.hold_frictionless(),
+            false => self.improve_at(0.0).map(|_| ())?,
+        }
+        Ok(())
+    }
+
     /// Leading vectors of the basis that are motions without friction: rigid ones and modes.
     pub(super) fn leading_count(&self) -> usize {
         self.rigid + self.count
@@ -50,7 +59,7 @@ impl BasisBuilder<'_> {
     }
 
     /// Branches begin without friction: the modes there, without damping too, are near enough, or those of proportional damping.
-    pub(super) fn hold_frictionless(&mut self) {
+    fn hold_frictionless(&mut self) {
         let modes = Mat::identity(self.model.dimension(), self.leading_count());
         self.model.hold_coordinates(0.0, modes);
         if let Linearization::Reduced(..) = self.linearization {

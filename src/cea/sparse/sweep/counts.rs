@@ -172,11 +172,8 @@ mod tests {
         for is_proportional in [true, false] {
             let tangent = string_on_belt(60, 0.4, is_proportional);
             let request = SweepRequest {
-                friction_coefficients: &[0.0, 0.1, 0.2, 0.3],
-                limit: ModeLimit::Lowest(6),
-                shapes_at: &[],
-                lefts_at: &[],
                 count_modes: true,
+                ..SweepRequest::new(&[0.0, 0.1, 0.2, 0.3], ModeLimit::Lowest(6))
             };
             let mut sweep = SparseSweep::prepare(&tangent, &request, &Unwatched).unwrap();
             sweep.cover().unwrap();

@@ -204,13 +204,7 @@ mod tests {
         let frictions = [0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6];
         for dashpot in [0.1, 0.5, 2.0] {
             let tangent = slowly_sliding(dashpot);
-            let request = SweepRequest {
-                friction_coefficients: &frictions,
-                limit: ModeLimit::Lowest(8),
-                shapes_at: &[],
-                lefts_at: &[],
-                count_modes: false,
-            };
+            let request = SweepRequest::new(&frictions, ModeLimit::Lowest(8));
             let found = sweep(&tangent, &request, &|_| {}).unwrap();
             for point in &found.points {
                 let exact = dense(&tangent, point.friction_coefficient);

@@ -31,22 +31,19 @@ impl Steady {
     /// # Errors
     /// A body without a state of steady sliding; those of the eigenvalue solver.
     pub fn of(case: &Case, stepped: &SteppedMesh<'_>) -> Result<Self, StudyError> {
-        let friction = case.contact.sliding.friction_coefficient;
+        let own = [case.contact.sliding.friction_coefficient];
         if let Some(assembly) = &stepped.assembly {
             let request = SweepRequest {
-                friction_coefficients: &[friction],
-                limit: asked_modes(case, MODES),
-                shapes_at: &[friction],
-                lefts_at: &[],
-                count_modes: false,
+                shapes_at: &own,
+                ..SweepRequest::new(&own, asked_modes(case, MODES))
             };
             return Self::of_assembly(assembly, &options_in_time(case), &request);
         }
-        let (model, sweep) = sweep_in_time(case, &[friction], &[friction])?;
+        let (model, sweep) = sweep_in_time(case, &own, &own)?;
         let point = sweep.points.into_iter().next();
         let modes = point.map_or_else(Vec::new, |point| point.modes);
         let base = match &model {
-            Model::Whole(whole) => whole.base().displacement(friction),
+            Model::Whole(whole) => whole.base().displacement(own[0]),
             _ => {
                 let body = stepped.body(case);
                 body.sliding_displacement().map_err(StudyError::Transient)?
@@ -158,13 +155,8 @@ fn sweep_in_time(
         Body::Revolution(_) => Solver::by_symmetry(case),
         _ => Solver::WholeMesh,
     };
-    let request = SweepRequest {
-        friction_coefficients: frictions,
-        limit: asked_modes(case, MODES),
-        shapes_at,
-        lefts_at: &[],
-        count_modes: false,
-    };
+    let request =
+        SweepRequest { shapes_at, ..SweepRequest::new(frictions, asked_modes(case, MODES)) };
     let model = Model::with_solver(case, solver, options_in_time(case), frictions)?;
     let found = model.spectrum(case, &request, &Unwatched)?;
     Ok((model, found.sweep))

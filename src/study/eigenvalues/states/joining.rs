@@ -3,6 +3,7 @@
 use crate::cea::{
     BeyondMode, ComplexMode, FrictionPoint, FrictionSweep, ModeCount, ModeVectors, UnstableInterval,
 };
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// The sweep of one base state.
@@ -107,7 +108,7 @@ pub fn undecided(parts: &[Part]) -> impl Iterator<Item = Undecided> {
 pub fn label(parts: &mut [Part]) {
     for k in 1..parts.len() {
         let (before, after) = parts.split_at_mut(k);
-        relabel(&before[k - 1], &mut after[0].sweep);
+        relabel(&before[k - 1], &mut after[0]);
     }
 }
 
@@ -178,13 +179,9 @@ fn joined_intervals(parts: &mut [Part]) -> Vec<(UnstableInterval, Option<ModeVec
     found
 }
 
-/// Gives the branches of `after` the numbers that their nearest eigenvalues have in `before` where both meet.
-fn relabel(before: &Part, after: &mut FrictionSweep) {
-    let first = after
-        .points
-        .iter()
-        .min_by(|a, b| a.friction_coefficient.total_cmp(&b.friction_coefficient));
-    let (Some(last), Some(first)) = (before.last(), first) else {
+/// Gives the branches of `after` the names that their nearest eigenvalues have in `before` where both meet.
+fn relabel(before: &Part, after: &mut Part) {
+    let (Some(last), Some(first)) = (before.last(), after.first()) else {
         return;
     };
     // Nearest pairs first, each mode once.
@@ -198,32 +195,24 @@ fn relabel(before: &Part, after: &mut FrictionSweep) {
     }
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut is_old_taken = vec![false; last.modes.len()];
-    let mut number_of: Vec<Option<usize>> = vec![None; first.modes.len()];
+    let mut name_at = BTreeMap::new();
     for (_, i, j) in pairs {
-        if !is_old_taken[i] && number_of[j].is_none() {
+        if !is_old_taken[i] && !name_at.contains_key(&name(&first.modes[j])) {
             is_old_taken[i] = true;
-            number_of[j] = Some(last.modes[i].branch);
+            name_at.insert(name(&first.modes[j]), name(&last.modes[i]));
         }
     }
+    // Others have new numbers.
     let known = before.sweep.points.iter().flat_map(|point| &point.modes).map(|mode| mode.branch);
     let mut next = known.max().map_or(1, |branch| branch + 1);
-    let mut new_number = std::collections::BTreeMap::new();
-    for (mode, number) in first.modes.iter().zip(number_of) {
-        new_number.insert(
-            mode.branch,
-            number.unwrap_or_else(|| {
-                next += 1;
-                next - 1
-            }),
-        );
-    }
-    let renumber = |branch: &mut usize| {
-        *branch = *new_number.entry(*branch).or_insert_with(|| {
+    let mut rename = |harmonic: &mut usize, branch: &mut usize| {
+        (*harmonic, *branch) = *name_at.entry((*harmonic, *branch)).or_insert_with(|| {
             next += 1;
-            next - 1
+            (*harmonic, next - 1)
         });
     };
-    let modes = after.points.iter_mut().flat_map(|point| &mut point.modes);
-    let branches = modes.map(|mode| &mut mode.branch);
-    branches.chain(after.intervals.iter_mut().map(|i| &mut i.branch)).for_each(renumber);
+    let modes = after.sweep.points.iter_mut().flat_map(|point| &mut point.modes);
+    modes.for_each(|mode| rename(&mut mode.harmonic, &mut mode.branch));
+    let intervals = after.sweep.intervals.iter_mut();
+    intervals.for_each(|own| rename(&mut own.harmonic, &mut own.branch));
 }
