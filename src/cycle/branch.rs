@@ -6,6 +6,7 @@
 //! the state of that one point changes, and the curve goes on to the side on which its new
 //! inequality holds. Folds need no special care, and no iteration over contact states can cycle.
 
+use super::continuation::Values;
 use super::parameter::Parameter;
 use super::state::{Event, PointState, WaveState};
 use super::system::{Closure, Heading, System};
@@ -27,6 +28,9 @@ const STAGNANT: f64 = 1e-9;
 /// Inequalities broken by less than this share of the mean normal force are round-off.
 const TOLERANCE: f64 = 1e-8;
 
+/// Values of the parameter that differ by less than this share are one.
+const SAME: f64 = 1e-12;
+
 /// Where one step along a branch ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
@@ -38,7 +42,8 @@ pub enum Step {
 
 /// A branch of limit cycles over one parameter.
 pub struct Branch<'a> {
-    wave: &'a Wave<'a>,
+    /// The wave.
+    pub wave: &'a Wave<'a>,
     parameter: Parameter,
     /// Where it is.
     pub state: WaveState,
@@ -96,10 +101,10 @@ impl<'a> Branch<'a> {
         self.direction
     }
 
-    /// One step: to the next change of contact state, the next of `samples` (rising) or the longest step.
+    /// One step: to the next change of contact state, the next of `samples` or the longest step.
     ///
     /// `None` where the curve cannot be followed any further.
-    pub fn advance(&mut self, samples: &[f64]) -> Option<Step> {
+    pub fn advance(&mut self, samples: &Values) -> Option<Step> {
         let flipped = self.pending.take().map(|event| self.flip(event));
         let linear = Linearization::at(self.wave, &self.state, self.parameter);
         let system = System::new(&self.state, self.parameter, self.force_scale);
@@ -147,16 +152,13 @@ impl<'a> Branch<'a> {
     }
 
     /// A wanted value that lies strictly between here and `state`: the curve bends more than its heading said.
-    fn skipped(&self, state: &WaveState, samples: &[f64], goal: Goal) -> Option<f64> {
+    fn skipped(&self, state: &WaveState, samples: &Values, goal: Goal) -> Option<f64> {
         if matches!(goal, Goal::Value(_)) {
             return None;
         }
         let (from, to) = (self.value(), self.parameter.of(&state.point));
-        let slightly = 1e-12 * from.abs();
-        let mut between = samples.iter().filter(|&&sample| {
-            sample > from.min(to) + slightly && sample < from.max(to) - slightly
-        });
-        between.next().copied()
+        let between = samples.between(from.min(to), from.max(to), SAME * from.abs());
+        between.first().copied()
     }
 
     fn accept(&mut self, state: WaveState, heading: Heading, length: f64, goal: Goal) -> Step {
@@ -260,7 +262,7 @@ impl<'a> Branch<'a> {
         inequalities: &[Inequality],
         flipped: Option<Event>,
         heading: &Heading,
-        samples: &[f64],
+        samples: &Values,
     ) -> (f64, Goal) {
         let mut best = (LONGEST_STEP, Goal::Length);
         for &(event, slack, rate) in inequalities {
@@ -272,13 +274,8 @@ impl<'a> Branch<'a> {
             }
         }
         let value = self.value();
-        let slightly = 1e-12 * value.abs();
-        let ahead = if heading.parameter > 0.0 {
-            samples.iter().find(|&&sample| sample > value + slightly)
-        } else {
-            samples.iter().rev().find(|&&sample| sample < value - slightly)
-        };
-        if let Some(&sample) = ahead {
+        let ahead = samples.ahead(value, heading.parameter > 0.0, SAME * value.abs());
+        if let Some(&sample) = ahead.first() {
             let length = (sample - value) / heading.parameter;
             if length <= best.0 {
                 best = (length, Goal::Value(sample));

@@ -7,6 +7,7 @@ use super::motion::PeriodicMotion;
 use super::multipliers::{COLUMNS, FloquetMultipliers, from_columns, to_columns};
 use super::search::Found;
 use crate::cea::SweepWatch;
+use crate::cycle::continuation::{Values, both_halves, joined};
 use crate::cycle::{BranchEnd, Parameter, Verdict};
 use crate::transient::TransientError;
 use rayon::prelude::*;
@@ -155,9 +156,6 @@ impl PeriodicBranch {
     }
 }
 
-/// Points of one half of a branch, from the start on, places of folds among them, and why it ends.
-type Half = (Vec<Point>, Vec<usize>, BranchEnd);
-
 /// What a branch is followed with.
 pub struct BranchRequest<'a, 'b> {
     /// The parameter.
@@ -190,55 +188,30 @@ impl BranchRequest<'_, '_> {
         found: &Found,
         steps: usize,
     ) -> Result<PeriodicBranch, TransientError> {
-        let mut values = self.values.to_vec();
-        values.sort_by(f64::total_cmp);
-        let [least, most] = [values[0], values[values.len() - 1]];
+        let mut values = Values::new(self.values);
+        let [least, most] = values.range();
         if self.kept > least && self.kept < most {
-            values.push(self.kept);
-            values.sort_by(f64::total_cmp);
+            values = Values::new(&[self.values, &[self.kept]].concat());
         }
-        values.dedup();
         let scales = [most - least, found.image.amplitude];
-        let first = Point { value: start, steps, found: found.clone() };
-        // Down from it, up from it.
-        let half = |name: &str, direction: f64| -> Result<Half, TransientError> {
-            let leads_out = match direction > 0.0 {
-                true => start >= most,
-                false => start <= least,
-            };
+        let half = |direction: f64| {
             let mut corrector = Corrector::new((self.map)()?, self.tune, scales);
-            corrector.map.step_in(first.steps);
-            let mut half = Follower::new(&mut corrector, &values, first.clone(), direction);
-            let end = match leads_out {
-                true => BranchEnd::Range,
-                false => half.run(name, self.watch)?,
-            };
-            Ok((half.points, half.folds, end))
+            corrector.map.step_in(steps);
+            let first = Point { value: start, steps, found: found.clone(), is_fold: false };
+            Ok(Follower::new(corrector, &values, first, direction))
         };
-        let (down, up) = rayon::join(|| half("down", -1.0), || half("up", 1.0));
-        let (mut down, mut up) = (down?, up?);
-        // One list in the order of the branch.
-        let shift = down.0.len() - 1;
-        let mut folds: Vec<usize> = down.1.iter().map(|i| shift - i).collect();
-        folds.extend(up.1.iter().map(|i| shift + i));
-        let mut points: Vec<Point> = down.0.drain(..).rev().collect();
-        points.extend(up.0.drain(..).skip(1));
+        let [(down, low_end), (mut up, high_end)] = both_halves(&values, start, self.watch, half)?;
+        let mut points = joined(down.points, None, up.points.split_off(1));
         let slightly = 1e-9 * scales[0];
-        let within = |point: &Point| (least - slightly..=most + slightly).contains(&point.value);
-        let kept: Vec<(Point, bool)> = points
-            .into_iter()
-            .enumerate()
-            .filter(|(_, point)| within(point))
-            .map(|(i, point)| (point, folds.contains(&i)))
-            .collect();
-        let at_own = kept.iter().filter(|(point, _)| point.value == self.kept);
+        points.retain(|own| (least - slightly..=most + slightly).contains(&own.value));
+        let at_own = points.iter().filter(|point| point.value == self.kept);
         let at_own =
-            at_own.map(|(point, _)| KeptMotion { found: point.found.clone(), steps: point.steps });
+            at_own.map(|point| KeptMotion { found: point.found.clone(), steps: point.steps });
         Ok(PeriodicBranch {
             parameter: self.parameter,
             kept: at_own.collect(),
-            motions: self.motions(&kept)?,
-            ends: [down.2, up.2],
+            motions: self.motions(&points)?,
+            ends: [low_end, high_end],
             own: self.kept,
             start,
             onsets: Vec::new(),
@@ -246,14 +219,14 @@ impl BranchRequest<'_, '_> {
     }
 
     /// The motions of points, with their stability where it is wanted.
-    fn motions(&self, points: &[(Point, bool)]) -> Result<Vec<BranchMotion>, TransientError> {
+    fn motions(&self, points: &[Point]) -> Result<Vec<BranchMotion>, TransientError> {
         let groups = points.par_chunks(GROUP).enumerate();
         let groups = groups.map(|(number, group)| {
             let name = format!("stability-{number}");
             let known = self.watch.recall(&name).unwrap_or_default();
             let known: Vec<_> = known.chunks_exact(COLUMNS).map(from_columns).collect();
             let mut map = (self.map)()?;
-            let motions = group.iter().enumerate().map(|(i, (point, is_fold))| {
+            let motions = group.iter().enumerate().map(|(i, point)| {
                 (self.tune)(&mut map, point.value)?;
                 map.step_in(point.steps);
                 let motion = PeriodicMotion::in_brief(&mut map, &point.found);
@@ -264,7 +237,8 @@ impl BranchRequest<'_, '_> {
                         multipliers.map_err(|error| error.to_string())
                     }
                 });
-                Ok(BranchMotion { value: point.value, motion, is_fold: *is_fold, stability })
+                let &Point { value, is_fold, .. } = point;
+                Ok(BranchMotion { value, motion, is_fold, stability })
             });
             let motions = motions.collect::<Result<Vec<_>, TransientError>>()?;
             if self.with_stability && known.len() < motions.len() {

@@ -26,6 +26,9 @@ const GAINED: f64 = 0.7;
 /// Residual that is no neighbour's any more.
 const ASTRAY: f64 = 0.7;
 
+/// Columns of a point.
+pub(super) const POINT_COLUMNS: usize = 3;
+
 /// Parameter and amplitude of a point, each over a scale: the plane in which a branch is a curve.
 pub(super) type Place = [f64; 2];
 
@@ -75,6 +78,8 @@ pub(super) struct Point {
     pub found: Found,
     /// Steps of its period.
     pub steps: usize,
+    /// Whether the branch turns back here.
+    pub is_fold: bool,
 }
 
 impl Point {
@@ -83,10 +88,10 @@ impl Point {
         [self.value / scales[0], self.found.image.amplitude / scales[1]]
     }
 
-    /// What it is found again from: those of its motion, and the value.
+    /// What it is found again from: those of its motion, the value, and whether it is a fold.
     pub fn columns(&self) -> Vec<Vec<f64>> {
         let mut columns = self.found.columns(self.steps);
-        columns.push(vec![self.value]);
+        columns.push(vec![self.value, f64::from(u8::from(self.is_fold))]);
         columns
     }
 
@@ -161,19 +166,14 @@ impl<'b, 'a> Corrector<'b, 'a> {
     }
 
     /// A point from its columns: one period from its state; none where they are of another body.
-    ///
-    /// # Errors
-    /// A body that the time loop cannot take.
-    pub fn recalled(&mut self, columns: &[Vec<f64>]) -> Result<Option<Point>, TransientError> {
-        let [found @ .., last] = columns else {
-            return Ok(None);
+    pub fn recalled(&mut self, columns: &[Vec<f64>]) -> Option<Point> {
+        let (last, found) = columns.split_last()?;
+        let &[value, is_fold] = &last[..] else {
+            return None;
         };
-        let &[value] = &last[..] else {
-            return Ok(None);
-        };
-        (self.tune)(&mut self.map, value)?;
-        let found = Found::recalled(&mut self.map, found);
-        Ok(found.map(|found| Point { value, steps: self.map.steps(), found }))
+        (self.tune)(&mut self.map, value).ok()?;
+        let found = Found::recalled(&mut self.map, found)?;
+        Some(Point { value, steps: self.map.steps(), found, is_fold: is_fold > 0.0 })
     }
 
     /// A point's motion with its vibration about its mean so many times as large, at another value.
@@ -339,6 +339,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
         Point {
             value: guess.value,
             steps: self.map.steps(),
+            is_fold: false,
             found: Found {
                 state: guess.state.clone(),
                 image: image.clone(),
