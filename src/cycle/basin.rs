@@ -1,10 +1,11 @@
 //! Basin boundary of two waves: the amplitude ratio at saturation that separates them.
 
+use super::field::{amplitude, slips};
 use super::onset::DiscModel;
 use super::{CycleError, OperatingPoint};
 use crate::contact::ContactStatus;
 use crate::fem::operator::{SimdLevel, StiffnessOperator, largest_frequency};
-use crate::linalg::{c64, interruption};
+use crate::linalg::interruption;
 use crate::mesh::AnnulusMesh;
 use crate::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, StandingWave, TimeStep,
@@ -245,15 +246,8 @@ impl Contest<'_> {
 
     /// Amplitudes of both harmonics of the edge's tangential displacement, m.
     fn amplitudes(&self, run: &CentralDifference<'_>) -> Amplitudes {
-        let displacement = &run.fields().displacement;
-        let count = run.interface().len();
-        self.request.harmonics.map(|harmonic| {
-            let terms = (0..count).map(|j| {
-                let angle = TAU * ((harmonic * j) % count) as f64 / count as f64;
-                run.contact().slip(j, displacement) * c64::from_polar(2.0 / count as f64, -angle)
-            });
-            terms.sum::<c64>().norm()
-        })
+        let edge = slips(run);
+        self.request.harmonics.map(|harmonic| amplitude(&edge, harmonic as isize).norm())
     }
 }
 

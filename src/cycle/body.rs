@@ -77,6 +77,8 @@ pub struct WaveBody {
     harmonic: isize,
     /// Number of sectors, each with one contact node.
     pub sector_count: usize,
+    /// Nodes on a ray, those that are held with them.
+    pub rays: usize,
     /// Radius of the contact edge `a`, m.
     pub radius: f64,
     /// Edge length of one contact node, m.
@@ -125,6 +127,7 @@ impl WaveBody {
             }),
             harmonic,
             sector_count: mesh.sector_count(),
+            rays: specification.radial_elements + 1,
             radius: specification.inner_radius,
             tributary_length: mesh.tributary_lengths()[0],
             node_frequency,

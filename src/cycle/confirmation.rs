@@ -1,5 +1,6 @@
 //! A limit cycle put to the test: does a transient that starts beside it stay there?
 
+use super::field::{amplitude, slips};
 use super::limit_cycle::LimitCycle;
 use super::stepping::MeshStepping;
 use super::{CycleError, CycleStability, Verdict};
@@ -114,14 +115,14 @@ impl MeshStepping<'_> {
                 run.take_sums();
             }
             if (step - first).is_multiple_of(look_every) {
-                let edge = self.edge(&run);
+                let edge = slips(&run);
                 let is_first = step == first;
                 if is_first {
                     from = step;
                 }
                 until = step;
                 for (turning, &m) in turnings.iter_mut().zip(&harmonics) {
-                    turning.look(amplitude(&edge, m), is_first);
+                    turning.look(amplitude(&edge, m as isize), is_first);
                 }
             }
         }
@@ -153,14 +154,4 @@ impl Turning {
         self.last = now;
         self.amplitude += now.norm();
     }
-}
-
-/// Amplitude of harmonic `m` of values on equal nodes.
-fn amplitude(edge: &[f64], m: usize) -> c64 {
-    let count = edge.len();
-    let terms = edge.iter().enumerate().map(|(j, &value)| {
-        let angle = TAU * ((m * j) % count) as f64 / count as f64;
-        value * c64::from_polar(2.0 / count as f64, -angle)
-    });
-    terms.sum()
 }

@@ -3,7 +3,7 @@
 use super::branch::{Branch, Step};
 use super::continuation::{BranchEnd, Values, Way, both_halves, joined};
 use super::cycle_branch::{CycleBranch, Turning};
-use super::field::{HarmonicField, summed};
+use super::field::{field, start_of};
 use super::grid::PhaseGrid;
 use super::limit_cycle::LimitCycle;
 use super::onset::{DiscModel, MODES, largest_linear_wave, refined};
@@ -276,18 +276,13 @@ impl CycleSolver {
     ///
     /// The state of a contact node at angle `theta` is that of phase `n theta + omega t`.
     pub fn field(&self, cycle: &LimitCycle, time: f64) -> [Vec<f64>; 2] {
-        let wave = self.wave();
-        let profiles = cycle.profiles(&wave);
-        // Clamped nodes have no place in a profile.
-        let rays = self.specification.radial_elements + 1;
-        let harmonics = profiles.into_iter().enumerate();
-        let harmonics = harmonics.map(|(k, (rate, profile))| HarmonicField {
-            around: k as isize * self.body.harmonic(),
-            phase: k as f64 * cycle.state.frequency * time,
-            rate,
-            profile,
-        });
-        summed(harmonics, [rays, self.body.sector_count])
+        field(&self.wave(), &cycle.state, [self.body.harmonic(), 0], time)
+    }
+
+    /// Displacement of a limit cycle at time zero (m) and its velocity half a step earlier (m/s), over all dofs in nodal
+    /// frames: what the time loop starts from.
+    pub fn starting_fields(&self, cycle: &LimitCycle, time_step: f64) -> [Vec<f64>; 2] {
+        start_of(|time| self.field(cycle, time), time_step)
     }
 }
 

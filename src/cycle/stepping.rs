@@ -1,6 +1,7 @@
 //! Limit cycles in the mesh's own time stepping. What one period of the explicit transient does to
 //! a cycle, and to small perturbations that ride on it.
 
+use super::field::start_of;
 use super::limit_cycle::{CyclePowers, LimitCycle};
 use super::{CycleError, CycleSolver};
 use crate::contact::ContactStatus;
@@ -70,14 +71,6 @@ pub struct Period<'a> {
 }
 
 impl CycleSolver {
-    /// Displacement of a limit cycle at time zero (m) and its velocity half a step earlier (m/s), over all dofs in nodal
-    /// frames: what the time loop starts from.
-    pub fn starting_fields(&self, cycle: &LimitCycle, time_step: f64) -> [Vec<f64>; 2] {
-        let [displacement, _] = self.field(cycle, 0.0);
-        let [_, velocity] = self.field(cycle, -0.5 * time_step);
-        [displacement, velocity]
-    }
-
     /// The time stepping of its mesh.
     ///
     /// # Errors
@@ -100,16 +93,15 @@ impl MeshStepping<'_> {
         cycle: &LimitCycle,
         seed: Option<(usize, f64)>,
     ) -> Result<(CentralDifference<'_>, usize), CycleError> {
-        self.start_from(cycle, seed, |time_step| self.solver.starting_fields(cycle, time_step))
+        self.start_from(cycle, seed, |time| self.solver.field(cycle, time))
     }
 
-    /// The same at the operating point of `cycle` from other fields: displacement at time zero (m) and velocity half a step of so
-    /// many seconds earlier (m/s).
+    /// The same at the operating point of `cycle` from other fields: displacement (m) and velocity (m/s) at a time (s).
     pub(super) fn start_from(
         &self,
         cycle: &LimitCycle,
         seed: Option<(usize, f64)>,
-        fields: impl Fn(f64) -> [Vec<f64>; 2],
+        field: impl Fn(f64) -> [Vec<f64>; 2],
     ) -> Result<(CentralDifference<'_>, usize), CycleError> {
         let point = &cycle.state.point;
         let duration = TAU / cycle.state.frequency;
@@ -135,17 +127,11 @@ impl MeshStepping<'_> {
                 Perturbation::of(&[harmonic], velocity)
             }),
         };
-        let [displacement, velocity] = fields(time_step);
+        let [displacement, velocity] = start_of(field, time_step);
         let operator = self.operator.as_ref();
         let run =
             CentralDifference::start_from(model, operator, &settings, &displacement, velocity)?;
         Ok((run, steps))
-    }
-
-    /// Tangential displacement of the contact nodes, m.
-    pub(super) fn edge(&self, run: &CentralDifference<'_>) -> Vec<f64> {
-        let nodes = 0..run.interface().len();
-        nodes.map(|i| run.contact().slip(i, &run.fields().displacement)).collect()
     }
 
     /// One period of the transient that starts on `cycle`, after a few others.

@@ -4,6 +4,7 @@ use super::map::{PeriodMap, PeriodicState};
 use super::motion::PeriodicMotion;
 use super::multipliers::FloquetMultiplier;
 use crate::cycle::confirmation::{agree, telling_periods};
+use crate::cycle::field::slips;
 use crate::linalg::{GaussianNoise, c64, interruption};
 use std::f64::consts::TAU;
 
@@ -105,10 +106,7 @@ fn first_harmonic(map: &mut PeriodMap<'_>) -> Vec<c64> {
     for step in 0..steps {
         map.run.advance();
         let turn = c64::from_polar(1.0, -TAU * step as f64 / steps as f64);
-        let (law, displacement) = (map.run.contact(), &map.run.fields().displacement);
-        for (i, sum) in sums.iter_mut().enumerate() {
-            *sum += law.slip(i, displacement) * turn;
-        }
+        sums.iter_mut().zip(slips(&map.run)).for_each(|(sum, slip)| *sum += slip * turn);
     }
     sums
 }

@@ -2,6 +2,7 @@
 
 use super::error::PeriodicError;
 use super::map::{PeriodMap, PeriodicState};
+use crate::cycle::field::slips;
 use crate::linalg::{c64, interruption};
 use crate::signal::{RotatingLine, rotating_lines};
 
@@ -72,13 +73,11 @@ fn sampled(map: &mut PeriodMap<'_>, start: &PeriodicState) -> (Vec<Vec<f64>>, f6
         interruption::check();
         (0..steps).for_each(|_| map.run.advance());
     }
-    let nodes = map.interface().len();
     let sample = |step: usize| {
         if step.is_multiple_of(SAMPLES) {
             interruption::check();
         }
-        let (law, displacement) = (map.run.contact(), &map.run.fields().displacement);
-        let sample: Vec<f64> = (0..nodes).map(|i| law.slip(i, displacement)).collect();
+        let sample = slips(&map.run);
         (0..every).for_each(|_| map.run.advance());
         sample
     };

@@ -1,5 +1,6 @@
 //! What a transient of the mesh says of two waves: frequencies, phases, and the contact forces over both phases.
 
+use super::super::field::{amplitude, slips};
 use super::super::parameter::OperatingPoint;
 use super::super::state::{PointState, SecondPhase, WaveState};
 use super::TwoWaves;
@@ -84,8 +85,7 @@ impl History {
                     pairs.for_each(|(sum, force)| *sum += force / every as f64);
                 }
                 if step == every / 2 {
-                    let displacement = &run.fields().displacement;
-                    let edge: Vec<f64> = (0..count).map(|i| law.slip(i, displacement)).collect();
+                    let edge = slips(run);
                     for (wave, &harmonic) in history.waves.iter_mut().zip(&harmonics) {
                         wave.push(amplitude(&edge, harmonic));
                     }
@@ -207,14 +207,4 @@ impl History {
             point: *point,
         }
     }
-}
-
-/// Amplitude of harmonic `n` of values on equal nodes, `u = Re(a e^{i n theta})`.
-fn amplitude(edge: &[f64], harmonic: isize) -> c64 {
-    let count = edge.len() as isize;
-    let terms = edge.iter().enumerate().map(|(j, &value)| {
-        let angle = TAU * (harmonic * j as isize).rem_euclid(count) as f64 / count as f64;
-        value * c64::from_polar(2.0 / count as f64, -angle)
-    });
-    terms.sum()
 }

@@ -112,15 +112,7 @@ impl MeshStepping<'_> {
         let [a, b] = settled.frequencies.map(|omega| omega / std::f64::consts::TAU);
         let state = waves.solved(&start, parameter, value);
         let motion = waves.motion(state.ok_or(NoTwoWaves::NotConverged(a, b))?);
-        let shape = [
-            self.solver.specification.radial_elements + 1,
-            self.solver.specification.circumferential_elements,
-        ];
-        let (mut run, steps) = self.start_from(cycle, None, |time_step| {
-            let [displacement, _] = waves.field(&motion, 0.0, shape);
-            let [_, velocity] = waves.field(&motion, -0.5 * time_step, shape);
-            [displacement, velocity]
-        })?;
+        let (mut run, steps) = self.start_from(cycle, None, |time| waves.field(&motion, time))?;
         let confirmation = History::of(&mut run, harmonics, steps, WINDOWS[1]).measured();
         let numbers = [Some(settled), confirmation].map(|own| own.as_ref().map(Measured::numbers));
         let mut columns = numbers.map(Option::unwrap_or_default).to_vec();
