@@ -23,18 +23,19 @@ const HARMONICS: usize = 8;
 /// three are at most 0.003, 0.016 and 0.034; a wave that is no motion of the disc is left within a few periods.
 const TOLERANCE: [f64; 3] = [0.01, 0.05, 0.1];
 
-/// The last fifth of a short transient that started beside a limit cycle, for each metre of thickness.
+/// The last fifth of a short transient that started beside a limit cycle, a wave or a motion of the whole mesh; for each metre of
+/// thickness.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Confirmation {
     /// Length of the run in periods of the cycle.
     pub periods: usize,
-    /// Frequency of the largest harmonic of the contact edge, Hz; `None` if it has stopped to vibrate.
+    /// Frequency of the largest harmonic of the contact edge, or of the contact nodes, Hz; `None` if it has stopped to vibrate.
     pub main_frequency_hz: Option<f64>,
-    /// That harmonic, of 1 to 8 and the wave's own.
+    /// That harmonic, of 1 to 8 and the wave's own; none of motions of the whole mesh.
     pub main_harmonic: Option<usize>,
     /// Fractions of contact nodes that `[stick, slip, open]`.
     pub status: [f64; 3],
-    /// Power of the rotor, W/m.
+    /// Power of the counterface, W/m.
     pub external_power: f64,
     /// E-folds of the leading perturbation over the run; negative where it decays, 0 where it is not known.
     pub e_folds: f64,
@@ -43,24 +44,25 @@ pub struct Confirmation {
 impl Confirmation {
     /// Whether the transient still is on the cycle.
     pub fn agrees(&self, cycle: &LimitCycle) -> bool {
-        let frequency = [self.main_frequency_hz.unwrap_or(0.0), cycle.frequency_hz()];
-        let power = [self.external_power, cycle.powers.contact.external];
+        let wanted = [cycle.frequency_hz(), cycle.powers.contact.external];
         self.main_harmonic == Some(cycle.harmonic)
-            && agree([frequency, power], [self.status, cycle.fractions], TOLERANCE)
+            && self.is_within(wanted, cycle.fractions, TOLERANCE)
     }
-}
 
-/// Whether `[found, wanted]` frequencies and powers, and fractions of contact nodes, agree: the first two relative to what is wanted.
-pub(super) fn agree(
-    values: [[f64; 2]; 2],
-    [status, wanted]: [[f64; 3]; 2],
-    [frequency_bound, power_bound, status_bound]: [f64; 3],
-) -> bool {
-    let pairs = values.into_iter().zip([frequency_bound, power_bound]);
-    let mut within = pairs.map(|([found, wanted], bound)| (found / wanted - 1.0).abs() <= bound);
-    let mut statuses = status.iter().zip(wanted);
-    within.all(|is_within| is_within)
-        && statuses.all(|(found, wanted)| (found - wanted).abs() <= status_bound)
+    /// Whether it has the `[frequency, power]` that are wanted, within bounds relative to them, and the fractions of contact nodes.
+    pub(super) fn is_within(
+        &self,
+        wanted: [f64; 2],
+        fractions: [f64; 3],
+        [frequency_bound, power_bound, status_bound]: [f64; 3],
+    ) -> bool {
+        let found = [self.main_frequency_hz.unwrap_or(0.0), self.external_power];
+        let near = |i: usize, bound: f64| (found[i] / wanted[i] - 1.0).abs() <= bound;
+        let mut statuses = self.status.iter().zip(fractions);
+        near(0, frequency_bound)
+            && near(1, power_bound)
+            && statuses.all(|(found, wanted)| (found - wanted).abs() <= status_bound)
+    }
 }
 
 /// Periods that tell: `least`, or as many as a perturbation that may grow, at a rate with its uncertainty (1/s), needs for so many

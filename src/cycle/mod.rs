@@ -52,7 +52,7 @@ pub use onset::{DiscModel, LARGEST_FRICTION, MODES, Onset};
 pub use parameter::{CriticalValue, OperatingPoint, Parameter};
 pub use solver::CycleSolver;
 pub use solver_stability::SteppedCycle;
-pub use stability::{CycleStability, FloquetExponent, StabilityChange, Verdict};
+pub use stability::{CycleStability, FloquetExponent, StabilityChange, Verdict, differing};
 pub use state::{PointState, WaveState};
 pub use stepping::{MeshStepping, Period};
 pub use two_waves::{Measured, NoTwoWaves, TwoWaveBranch, TwoWaveMotion, TwoWaveSearch, TwoWaves};

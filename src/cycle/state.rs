@@ -174,18 +174,14 @@ impl WaveState {
 
     /// The state of [`Self::columns`] at an operating point; none where they are no state.
     pub(super) fn from_columns(columns: &[Vec<f64>], point: OperatingPoint) -> Option<Self> {
-        let [normal, tangential, contact, scalars] = columns else {
-            return None;
-        };
-        let [frequency, origin, ref second @ ..] = scalars[..] else {
-            return None;
-        };
-        let second = match *second {
-            [frequency, origin, points] => {
-                Some(SecondPhase { frequency, origin, points: points as usize })
-            }
-            _ => None,
-        };
+        let [normal, tangential, contact, scalars]: &[Vec<f64>; 4] = columns.try_into().ok()?;
+        let (&[frequency, origin], second) = scalars.split_first_chunk()?;
+        let second = second.try_into().ok();
+        let second = second.map(|[frequency, origin, points]: [f64; 3]| SecondPhase {
+            frequency,
+            origin,
+            points: points as usize,
+        });
         let state = |code: &f64| POINT_STATES.get(*code as usize).copied();
         Some(Self {
             normal: normal.clone(),

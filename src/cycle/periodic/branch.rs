@@ -8,7 +8,8 @@ use super::multipliers::{COLUMNS, FloquetMultipliers, from_columns, to_columns};
 use super::search::Found;
 use crate::cea::SweepWatch;
 use crate::cycle::continuation::{Values, both_halves, joined};
-use crate::cycle::{BranchEnd, Parameter, Verdict};
+use crate::cycle::stability::{crossing, differing};
+use crate::cycle::{BranchEnd, Parameter};
 use crate::transient::TransientError;
 use rayon::prelude::*;
 
@@ -41,10 +42,7 @@ impl BranchMotion {
 
     /// Whether it is stable, where that is known for sure.
     pub fn is_stable(&self) -> Option<bool> {
-        match self.stability.as_ref()?.as_ref().ok()?.verdict() {
-            Verdict::Undecided => None,
-            verdict => Some(verdict == Verdict::Stable),
-        }
+        self.stability.as_ref()?.as_ref().ok()?.verdict().is_stable()
     }
 }
 
@@ -141,18 +139,10 @@ impl PeriodicBranch {
     pub fn stability_changes(&self) -> Vec<f64> {
         let pieces = self.motions.split(|own| own.is_fold);
         let changes = pieces.flat_map(|piece| {
-            let known = piece.iter();
-            let known: Vec<(f64, f64, bool)> = known
-                .filter_map(|own| Some((own.value, own.growth_rate()?, own.is_stable()?)))
-                .collect();
-            let pairs = known.windows(2).filter(|pair| pair[0].2 != pair[1].2);
-            let at = |pair: &[(f64, f64, bool)]| {
-                let [(a, low, _), (b, high, _)] = [pair[0], pair[1]];
-                a + (b - a) * (low / (low - high)).clamp(0.0, 1.0)
-            };
-            pairs.map(at).collect::<Vec<f64>>()
+            let known = piece.iter().filter(|own| own.growth_rate().is_some());
+            differing(known.map(|own| (own.is_stable(), (own.value, own.growth_rate()))))
         });
-        changes.collect()
+        changes.map(crossing).collect()
     }
 }
 

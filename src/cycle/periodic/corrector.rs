@@ -168,9 +168,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
     /// A point from its columns: one period from its state; none where they are of another body.
     pub fn recalled(&mut self, columns: &[Vec<f64>]) -> Option<Point> {
         let (last, found) = columns.split_last()?;
-        let &[value, is_fold] = &last[..] else {
-            return None;
-        };
+        let [value, is_fold] = last[..].try_into().ok()?;
         (self.tune)(&mut self.map, value).ok()?;
         let found = Found::recalled(&mut self.map, found)?;
         Some(Point { value, steps: self.map.steps(), found, is_fold: is_fold > 0.0 })

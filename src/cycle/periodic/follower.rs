@@ -53,9 +53,7 @@ impl Way for Follower<'_, '_, '_> {
 
     fn recall(&mut self, columns: &[Vec<f64>]) -> Option<()> {
         let (course, points) = columns.split_first()?;
-        let &[along, amplitude, length, largest, steps] = &course[..] else {
-            return None;
-        };
+        let [along, amplitude, length, largest, steps]: [f64; 5] = course[..].try_into().ok()?;
         let points = points.chunks_exact(POINT_COLUMNS).map(|own| self.corrector.recalled(own));
         let points: Vec<Point> = points.collect::<Option<_>>()?;
         points.first()?;

@@ -73,12 +73,8 @@ impl Found {
 
     /// The motion of such columns, one period from its state; none where they are of another body.
     pub fn recalled(map: &mut PeriodMap<'_>, columns: &[Vec<f64>]) -> Option<Self> {
-        let [motion, numbers] = columns else {
-            return None;
-        };
-        let &[period, steps, residual, periods] = &numbers[..] else {
-            return None;
-        };
+        let [motion, numbers]: &[Vec<f64>; 2] = columns.try_into().ok()?;
+        let [period, steps, residual, periods]: [f64; 4] = numbers[..].try_into().ok()?;
         if motion.len() != map.unknowns() || !(period > 0.0 && steps >= 1.0) {
             return None;
         }

@@ -110,9 +110,7 @@ impl Way for Half<'_> {
     }
 
     fn recall(&mut self, columns: &[Vec<f64>]) -> Option<()> {
-        let [shrinking, birth, motions @ ..] = columns else {
-            return None;
-        };
+        let ([shrinking, birth], motions) = columns.split_first_chunk()?;
         let motion = |columns: &[Vec<f64>]| {
             let (value, state) = columns.split_first()?;
             let mut point = self.here.state.point;

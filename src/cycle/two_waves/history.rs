@@ -38,9 +38,7 @@ impl Measured {
 
     /// The waves of [`Self::numbers`]; none where these are no waves.
     pub(super) fn from_numbers(numbers: &[f64]) -> Option<Self> {
-        let &[a, b, c, d, e, f] = numbers else {
-            return None;
-        };
+        let [a, b, c, d, e, f] = numbers.try_into().ok()?;
         Some(Self { frequencies: [a, b], amplitudes: [c, d], origins: [e, f] })
     }
 }

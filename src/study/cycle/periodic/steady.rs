@@ -4,6 +4,7 @@ use super::super::operating_point;
 use crate::case::{Body, Case};
 use crate::cea::{CeaError, ComplexMode, FrictionSweep, SweepRequest, Unwatched, sparse};
 use crate::cycle::Parameter;
+use crate::cycle::periodic::GrowingMode;
 use crate::fem::MassKind;
 use crate::prestress::{Assembly, TangentOptions};
 use crate::study::eigenvalues::{Model, Solver, asked_modes};
@@ -134,6 +135,13 @@ impl Steady {
     pub fn least_stable(&self) -> Option<usize> {
         let growth = |i: usize| self.modes[i].growth_rate();
         (0..self.modes.len()).max_by(|&a, &b| growth(a).total_cmp(&growth(b)))
+    }
+
+    /// The mode of a place, from which a motion may grow.
+    pub fn mode(&self, place: usize) -> GrowingMode<'_> {
+        let mode = &self.modes[place];
+        let shape = mode.shape.as_deref().unwrap_or_default();
+        GrowingMode { eigenvalue: mode.eigenvalue, shape, base: &self.base }
     }
 
     /// Its growth rate, 1/s.
