@@ -16,7 +16,7 @@ pub enum PointState {
     SlipBackward,
 }
 
-/// Contact states by their codes.
+/// Contact states by their codes, in their order.
 const POINT_STATES: [PointState; 4] =
     [PointState::Open, PointState::Stick, PointState::SlipForward, PointState::SlipBackward];
 /// Columns of a state.
@@ -163,11 +163,10 @@ impl WaveState {
     pub(super) fn columns(&self) -> [Vec<f64>; STATE_COLUMNS] {
         let second = self.second.iter();
         let second = second.flat_map(|own| [own.frequency, own.origin, own.points as f64]);
-        let code = |state: &PointState| POINT_STATES.iter().position(|own| own == state);
         [
             self.normal.clone(),
             self.tangential.clone(),
-            (self.contact.iter().filter_map(code)).map(|code| code as f64).collect(),
+            self.contact.iter().map(|&state| f64::from(state as u8)).collect(),
             [self.frequency, self.origin].into_iter().chain(second).collect(),
         ]
     }

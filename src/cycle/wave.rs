@@ -305,6 +305,8 @@ impl Linearization {
             }
         });
         let mut first: Vec<FirstHarmonic> = first.collect();
+
+        // What the parameter changes besides the receptances.
         let by_parameter = &mut by[phases.len()];
         match parameter {
             Parameter::FrictionCoefficient => {
