@@ -73,12 +73,9 @@ pub(super) fn telling_periods(growth: Option<[f64; 2]>, e_folds: f64, least: usi
     least.max(wanted.min(MOST_PERIODS))
 }
 
-/// Amplitude of one harmonic of the edge over time, and the angle that it has turned through.
-#[derive(Clone, Copy, Default)]
-struct Turning {
-    last: c64,
-    angle: f64,
-    amplitude: f64,
+/// Angle that an amplitude turns through, rad.
+pub(super) fn turned(amplitudes: &[c64]) -> f64 {
+    amplitudes.windows(2).map(|pair| (pair[1] * pair[0].conj()).arg()).sum()
 }
 
 impl MeshStepping<'_> {
@@ -99,61 +96,46 @@ impl MeshStepping<'_> {
         let surface_speed = cycle.state.point.contact.rotation_speed * self.solver.body().radius;
         let seed = leading.map(|found| (found.harmonic, SEED * surface_speed));
         let (mut run, steps) = self.start(cycle, seed)?;
-        let mut harmonics: Vec<usize> = (1..=HARMONICS.min(run.interface().len() / 2)).collect();
-        if !harmonics.contains(&cycle.harmonic) {
-            harmonics.push(cycle.harmonic);
-        }
         let look_every = (steps / LOOKS).max(1);
         let first = (periods - periods / 5) * steps;
-        let mut turnings = vec![Turning::default(); harmonics.len()];
-        let (mut from, mut until) = (0, 0);
-        for step in 0..periods * steps {
+        for _ in 0..=first {
             interruption::check();
             run.advance();
-            if step < first {
-                continue;
-            }
-            if step == first {
-                run.take_sums();
-            }
-            if (step - first).is_multiple_of(look_every) {
-                let edge = slips(&run);
-                let is_first = step == first;
-                if is_first {
-                    from = step;
-                }
-                until = step;
-                for (turning, &m) in turnings.iter_mut().zip(&harmonics) {
-                    turning.look(amplitude(&edge, m as isize), is_first);
-                }
+        }
+
+        // The last fifth.
+        run.take_sums();
+        let counted = periods * steps - first - 1;
+        let mut looks = vec![slips(&run)];
+        for step in 1..=counted {
+            interruption::check();
+            run.advance();
+            if step.is_multiple_of(look_every) {
+                looks.push(slips(&run));
             }
         }
-        let duration = (until - from) as f64 * run.plan().time_step;
         let (powers, _, counts) = run.take_sums();
-        let counted = (periods * steps - first - 1) as f64;
-        let main = harmonics.iter().zip(&turnings);
-        let main = main.max_by(|a, b| a.1.amplitude.total_cmp(&b.1.amplitude));
+        let duration = ((looks.len() - 1) * look_every) as f64 * run.plan().time_step;
+
+        // The largest harmonic, if it is one.
+        let highest = HARMONICS.min(run.interface().len() / 2);
+        let own = (cycle.harmonic > highest).then_some(cycle.harmonic);
+        let harmonics = (1..=highest).chain(own).map(|m| {
+            let over_time = looks.iter().map(|edge| amplitude(edge, m as isize));
+            (m, over_time.collect::<Vec<c64>>())
+        });
+        let size = |own: &[c64]| own.iter().map(|a| a.norm()).sum::<f64>() / looks.len() as f64;
+        let main = harmonics.max_by(|a, b| size(&a.1).total_cmp(&size(&b.1)));
         let least = 1e-4 * cycle.state.point.contact.interference;
-        let looks = (until - from) / look_every + 1;
-        let main = main.filter(|(_, turning)| turning.amplitude / looks as f64 > least);
+        let main = main.filter(|(_, own)| size(own) > least);
         Ok(Confirmation {
             periods,
-            main_frequency_hz: main.map(|(_, turning)| turning.angle.abs() / TAU / duration),
-            main_harmonic: main.map(|(&harmonic, _)| harmonic),
+            main_frequency_hz: main.as_ref().map(|(_, own)| turned(own).abs() / TAU / duration),
+            main_harmonic: main.map(|(harmonic, _)| harmonic),
             status: counts.fractions(),
-            external_power: powers.external / counted,
+            external_power: powers.external / counted as f64,
             e_folds: leading
                 .map_or(0.0, |found| found.exponent.re * periods as f64 / cycle.frequency_hz()),
         })
-    }
-}
-
-impl Turning {
-    fn look(&mut self, now: c64, is_first: bool) {
-        if !is_first {
-            self.angle += (now * self.last.conj()).arg();
-        }
-        self.last = now;
-        self.amplitude += now.norm();
     }
 }

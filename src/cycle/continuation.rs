@@ -80,10 +80,7 @@ impl Values {
     pub fn between(&self, from: f64, to: f64, slightly: f64) -> Vec<f64> {
         let [low, high] = [from.min(to) + slightly, from.max(to) - slightly];
         let between = self.0.iter().filter(|&&value| value > low && value < high);
-        match to < from {
-            true => between.rev().copied().collect(),
-            false => between.copied().collect(),
-        }
+        if to < from { between.rev().copied().collect() } else { between.copied().collect() }
     }
 
     /// Those farther than `slightly` beyond one, nearest first.

@@ -309,12 +309,8 @@ impl<'a> System<'a> {
         let mut values: Vec<f64> = Vec::with_capacity(self.size());
         values.extend(self.contact.iter().map(|&i| heading.normal[i] / self.force_scale));
         values.extend(self.stick.iter().map(|&i| heading.tangential[i] / self.force_scale));
-        let [first, second] = heading.frequencies;
-        let scalars = match self.phases.len() {
-            1 => vec![first, heading.parameter],
-            _ => vec![first, second, heading.parameter],
-        };
-        let pairs = scalars.iter().zip(&self.scales);
+        let frequencies = heading.frequencies[..self.phases.len()].iter();
+        let pairs = frequencies.chain([&heading.parameter]).zip(&self.scales);
         values.extend(pairs.map(|(value, scale)| value / scale));
         values
     }

@@ -92,10 +92,7 @@ impl PeriodicBranch {
         let further = BORN_BEYOND * (high - low);
         let shrinks = self.ends.contains(&BranchEnd::Birth);
         let of = |farthest: f64, sense: f64| {
-            let value = match shrinks {
-                true => farthest + sense * further,
-                false => farthest,
-            };
+            let value = if shrinks { farthest + sense * further } else { farthest };
             ((value - growing) * sense > 0.0 && value >= 0.0).then_some(value)
         };
         [of(low, -1.0), of(high, 1.0)]
@@ -109,10 +106,7 @@ impl PeriodicBranch {
         let slightly = SAME * (high - low);
         // Sliding is unstable where the search has started.
         let pairs = self.onsets.iter().filter_map(|&onset| {
-            let [from, to] = match onset < self.start {
-                true => [low, onset],
-                false => [onset, high],
-            };
+            let [from, to] = if onset < self.start { [low, onset] } else { [onset, high] };
             (to - from > slightly).then_some([from, to])
         });
         pairs.collect()

@@ -3,7 +3,7 @@
 use super::map::{PeriodMap, PeriodicState};
 use super::motion::PeriodicMotion;
 use super::multipliers::FloquetMultiplier;
-use crate::cycle::confirmation::{Confirmation, telling_periods};
+use crate::cycle::confirmation::{Confirmation, telling_periods, turned};
 use crate::cycle::field::slips;
 use crate::linalg::{GaussianNoise, c64, interruption};
 use std::f64::consts::TAU;
@@ -57,8 +57,7 @@ impl Confirmation {
         }
         // What the first harmonic turns by from period to period is the difference of the frequencies.
         let (powers, _, counts) = map.run.take_sums();
-        let turned: f64 = turns.windows(2).map(|pair| (pair[1] * pair[0].conj()).arg()).sum();
-        let share = turned / TAU / (turns.len() - 1).max(1) as f64;
+        let share = turned(&turns) / TAU / (turns.len() - 1).max(1) as f64;
         let steps = (periods - first) * map.steps();
         Self {
             periods,

@@ -160,10 +160,7 @@ fn extreme(places: &[Place], turn: usize) -> Option<f64> {
     let margin = 0.02 * low.min(high);
     let is_useful =
         vertex > a[1] + margin && vertex < c[1] - margin && (vertex - b[1]).abs() > 1e-3 * margin;
-    Some(match turn % 3 == 2 || !is_useful {
-        true => longer,
-        false => vertex,
-    })
+    Some(if turn % 3 == 2 || !is_useful { longer } else { vertex })
 }
 
 #[cfg(test)]
