@@ -50,7 +50,6 @@ enum NodeContact {
 pub struct Period<'a> {
     stepping: &'a MeshStepping<'a>,
     coefficients: StepCoefficients,
-    steps: usize,
     friction_coefficient: f64,
     /// Places of the normal and tangential dof of each contact node.
     places: Vec<[usize; 2]>,
@@ -156,7 +155,6 @@ impl MeshStepping<'_> {
                 mass_coefficient: point.damping.mass_coefficient,
                 stiffness_coefficient: point.damping.stiffness_coefficient,
             },
-            steps,
             friction_coefficient: point.contact.friction_coefficient,
             places: (0..law.status.len()).map(|i| law.places(i)).collect(),
             contact: Vec::with_capacity(steps * law.status.len()),
@@ -171,33 +169,22 @@ impl MeshStepping<'_> {
         for _ in 0..steps {
             interruption::check();
             run.advance();
-            period.record(&run);
+            let law = run.contact();
+            let nodes = law.status.iter().zip(&law.tangential_force);
+            period.contact.extend(nodes.map(|(status, force)| match status {
+                ContactStatus::Open => NodeContact::Open,
+                ContactStatus::Stick => NodeContact::Stick,
+                ContactStatus::Slip => NodeContact::Slip(force.signum()),
+            }));
         }
-        period.summarize(&mut run);
+        let (contact, material_damping, counts) = run.take_sums();
+        period.powers = CyclePowers { contact, material_damping }.scaled(1.0 / steps as f64);
+        period.fractions = counts.fractions();
         Ok(period)
     }
 }
 
 impl Period<'_> {
-    /// Keeps the contact of the last step.
-    fn record(&mut self, run: &CentralDifference<'_>) {
-        let law = run.contact();
-        let nodes = law.status.iter().zip(&law.tangential_force);
-        self.contact.extend(nodes.map(|(status, force)| match status {
-            ContactStatus::Open => NodeContact::Open,
-            ContactStatus::Stick => NodeContact::Stick,
-            ContactStatus::Slip => NodeContact::Slip(force.signum()),
-        }));
-    }
-
-    /// Means over the steps since the sums were last taken.
-    fn summarize(&mut self, run: &mut CentralDifference<'_>) {
-        let (sums, damping, counts) = run.take_sums();
-        let powers = CyclePowers { contact: sums, material_damping: damping };
-        self.powers = powers.scaled(1.0 / self.steps as f64);
-        self.fractions = counts.fractions();
-    }
-
     /// The cycle with the powers and fractions of this period.
     pub(super) fn stepped(&self, cycle: &LimitCycle) -> LimitCycle {
         LimitCycle { powers: self.powers, fractions: self.fractions, ..cycle.clone() }

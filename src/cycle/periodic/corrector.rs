@@ -261,15 +261,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
             }
             // One step of the secants.
             if let Some(last) = last.take() {
-                if periods > 1 && norm(&image.residual) > GAINED * norm(&last.residual) {
-                    self.secants.keep_latest(periods);
-                }
-                self.secants.push(Change {
-                    motion: difference(&guess.state.motion, &last.guess.state.motion),
-                    period: guess.state.period - last.guess.state.period,
-                    place: [0, 1].map(|i| place[i] - last.place[i]),
-                    residual: difference(&image.residual, &last.residual),
-                });
+                self.learn(&last, (&guess, place), &image.residual, periods);
             }
             let mut next = self.step(&guess, &image, closure);
             if let Goal::Value(value) = goal {
@@ -281,6 +273,25 @@ impl<'b, 'a> Corrector<'b, 'a> {
                 residual: image.residual,
             });
         }
+    }
+
+    /// Adds the change from the iterate before, the older ones gone where that has gained nothing.
+    fn learn(
+        &mut self,
+        last: &Iterate,
+        (guess, place): (&Guess, Place),
+        residual: &[f64],
+        periods: usize,
+    ) {
+        if periods > 1 && norm(residual) > GAINED * norm(&last.residual) {
+            self.secants.keep_latest(periods);
+        }
+        self.secants.push(Change {
+            motion: difference(&guess.state.motion, &last.guess.state.motion),
+            period: guess.state.period - last.guess.state.period,
+            place: [0, 1].map(|i| place[i] - last.place[i]),
+            residual: difference(residual, &last.residual),
+        });
     }
 
     /// The next guess: by the secants, of which the older half goes as long as they lead too far.
@@ -324,11 +335,8 @@ impl<'b, 'a> Corrector<'b, 'a> {
         }
         let residual = image.relative_residual();
         if residual > ASTRAY {
-            return Err(PeriodicError::NotConverged {
-                periods,
-                residual,
-                frequency_hz: 1.0 / near.found.state.period,
-            });
+            let period = near.found.state.period;
+            return Err(PeriodicError::not_converged(periods, residual, period));
         }
         Ok(residual)
     }
@@ -355,12 +363,8 @@ fn accepted(best: Option<Point>, periods: usize) -> Result<Point, PeriodicError>
     let residual = point.found.residual;
     point.found.residual = point.found.image.relative_residual();
     point.found.periods = periods;
-    match residual <= ACCEPTED {
-        true => Ok(point),
-        false => Err(PeriodicError::NotConverged {
-            periods,
-            residual,
-            frequency_hz: 1.0 / point.found.state.period,
-        }),
+    if residual <= ACCEPTED {
+        return Ok(point);
     }
+    Err(PeriodicError::not_converged(periods, residual, point.found.state.period))
 }

@@ -57,11 +57,7 @@ impl Found {
     }
 
     fn not_converged(&self) -> PeriodicError {
-        PeriodicError::NotConverged {
-            periods: self.periods,
-            residual: self.residual,
-            frequency_hz: 1.0 / self.state.period,
-        }
+        PeriodicError::not_converged(self.periods, self.residual, self.state.period)
     }
 
     /// What it is found again from, with the steps of its period: the motion, and its numbers.
@@ -217,11 +213,7 @@ impl Search {
         let residual = image.relative_residual();
         let period = self.state.period;
         if !(WIDEST.recip()..=WIDEST).contains(&(period / self.first_period)) {
-            return Err(PeriodicError::NotConverged {
-                periods,
-                residual,
-                frequency_hz: 1.0 / period,
-            });
+            return Err(PeriodicError::not_converged(periods, residual, period));
         }
         if residual < 0.5 * self.improved.1 {
             self.improved = (self.spent, residual);
