@@ -334,8 +334,7 @@ fn slacks<'a>(
     linear: &'a Linearization,
 ) -> impl Iterator<Item = (Event, f64)> + 'a {
     let friction = state.point.contact.friction_coefficient;
-    let points = state.contact.iter().enumerate();
-    points.flat_map(move |(i, &contact)| {
+    state.contact.iter().enumerate().flat_map(move |(i, &contact)| {
         let (normal, tangential) = (state.normal[i], state.tangential[i]);
         let list: [Option<(Event, f64)>; 3] = match contact {
             PointState::Open => {

@@ -186,8 +186,7 @@ pub(super) fn powers(
     let surface_speed = contact.rotation_speed * wave.body.radius;
     let mut powers = ContactPowers::default();
     let velocity = [0, 1].map(|component| {
-        let pairs = edge.displacement.iter().zip(&edge.rates);
-        wave.values(pairs.map(|(u, rate)| u[component] * rate))
+        wave.values(edge.displacement.iter().zip(&edge.rates).map(|(u, rate)| u[component] * rate))
     });
     for (i, point) in points.iter().enumerate() {
         let (normal, tangential) = (state.normal[i], state.tangential[i]);

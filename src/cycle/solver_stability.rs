@@ -34,8 +34,7 @@ impl SteppedCycle {
 impl CycleSolver {
     /// Growth of small perturbations of a cycle.
     pub fn stability(&self, cycle: &LimitCycle) -> Result<CycleStability, CycleError> {
-        let stepping = self.stepping(SimdLevel::detect())?;
-        Ok(stepping.settle(cycle, None)?.stability)
+        Ok(self.stepping(SimdLevel::detect())?.settle(cycle, None)?.stability)
     }
 }
 

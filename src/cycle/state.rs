@@ -143,8 +143,7 @@ impl WaveState {
 
     /// Normal force where the point slips, with the sign of its drag: `dT / dmu`.
     pub fn slipping_normal(&self) -> Vec<f64> {
-        let pairs = self.contact.iter().zip(&self.normal);
-        pairs.map(|(state, normal)| state.drag() * normal).collect()
+        self.contact.iter().zip(&self.normal).map(|(state, normal)| state.drag() * normal).collect()
     }
 
     /// Imposes Coulomb's law where points slip and no force where they are open.

@@ -138,8 +138,7 @@ impl<'a> System<'a> {
 
     /// Which point of the grid lies from `from` as `to` from its first.
     fn lag(&self, from: usize, to: usize) -> usize {
-        let phases = self.phases.iter();
-        let lags = phases.map(|own| {
+        let lags = self.phases.iter().map(|own| {
             let [from, to] = [from, to].map(|i| (i / own.stride) % own.points);
             own.stride * if to >= from { to - from } else { to + own.points - from }
         });
@@ -183,8 +182,7 @@ impl<'a> System<'a> {
         let mut matrix = Mat::zeros(size, size);
         let mut residual = vec![0.0; size];
         let gaps = self.contact.iter().map(|&i| (i, Law::Gap));
-        let laws = gaps.chain(self.stick.iter().map(|&i| (i, Law::Slip)));
-        for (at, (i, law)) in laws.enumerate() {
+        for (at, (i, law)) in gaps.chain(self.stick.iter().map(|&i| (i, Law::Slip))).enumerate() {
             self.response_row(&mut matrix, at, i, linear, law);
             residual[at] = self.missed(linear, law, i);
         }
@@ -347,8 +345,7 @@ impl<'a> System<'a> {
         let mut length = self.length(&solution);
         // The closure may have picked the plane at an angle beyond a right one.
         if let Some(previous) = previous {
-            let row = self.scaled(previous);
-            let along: f64 = row.iter().zip(&solution).map(|(a, b)| a * b).sum();
+            let along: f64 = self.scaled(previous).iter().zip(&solution).map(|(a, b)| a * b).sum();
             length = length.copysign(along);
         }
         let scaled: Vec<f64> = solution.iter().map(|value| value / length).collect();
@@ -366,16 +363,13 @@ impl<'a> System<'a> {
             *own = 1.0;
         }
         for j in 0..self.size() {
-            let rows = largest.iter().enumerate();
-            rows.for_each(|(row, largest)| matrix[(row, j)] /= largest);
+            largest.iter().enumerate().for_each(|(row, largest)| matrix[(row, j)] /= largest);
         }
-        let rows = right_side.iter_mut().zip(&largest);
-        rows.for_each(|(own, largest)| *own /= largest);
+        right_side.iter_mut().zip(&largest).for_each(|(own, largest)| *own /= largest);
         let count = right_side.len();
         let columns = MatMut::from_column_major_slice_mut(&mut right_side, count, 1);
         DenseLu::factorize(matrix).solve_in_place(columns);
-        let is_finite = right_side.iter().all(|value| value.is_finite());
-        is_finite.then_some(right_side)
+        right_side.iter().all(|value| value.is_finite()).then_some(right_side)
     }
 
     fn heading(&self, solution: &[f64]) -> Heading {

@@ -159,8 +159,7 @@ impl<'a> Wave<'a> {
     pub fn harmonics(&self, values: &[f64]) -> Vec<c64> {
         let mut spectrum: Vec<c64> = values.iter().map(|&value| c64::new(value, 0.0)).collect();
         self.transform(&mut spectrum, &self.forward);
-        let orders = self.orders.iter();
-        orders.map(|&order| spectrum[self.place(order)]).collect()
+        self.orders.iter().map(|&order| spectrum[self.place(order)]).collect()
     }
 
     /// Values on the points of harmonics, the inverse of [`Self::harmonics`].

@@ -36,8 +36,7 @@ pub struct BranchMotion {
 impl BranchMotion {
     /// Growth rate of its leading perturbation, 1/s, where it is known.
     pub fn growth_rate(&self) -> Option<f64> {
-        let known = self.stability.as_ref()?.as_ref().ok()?;
-        Some(known.leading()?.growth_rate)
+        Some(self.stability.as_ref()?.as_ref().ok()?.leading()?.growth_rate)
     }
 
     /// Whether it is stable, where that is known for sure.
@@ -125,14 +124,12 @@ impl PeriodicBranch {
 
     /// Values at which it turns back, SI, in its order.
     pub fn folds(&self) -> Vec<f64> {
-        let folds = self.motions.iter().filter(|own| own.is_fold);
-        folds.map(|own| own.value).collect()
+        self.motions.iter().filter(|own| own.is_fold).map(|own| own.value).collect()
     }
 
     /// Values at which it changes its stability between two folds, by the growth rates on both sides, SI.
     pub fn stability_changes(&self) -> Vec<f64> {
-        let pieces = self.motions.split(|own| own.is_fold);
-        let changes = pieces.flat_map(|piece| {
+        let changes = self.motions.split(|own| own.is_fold).flat_map(|piece| {
             let known = piece.iter().filter(|own| own.growth_rate().is_some());
             differing(known.map(|own| (own.is_stable(), (own.value, own.growth_rate()))))
         });

@@ -301,8 +301,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
             let (step, period, value) = self.secants.step(&image.residual, closure, &image.rate);
             let lengths =
                 [norm(&step) / image.vibration, period.abs() / guess.state.period, value.abs()];
-            let shares = lengths.iter().zip(LONGEST);
-            let share = shares.fold(1.0_f64, |share, (length, longest)| {
+            let share = lengths.iter().zip(LONGEST).fold(1.0_f64, |share, (length, longest)| {
                 share.min(longest / length.max(f64::MIN_POSITIVE))
             });
             if share == 1.0 || self.secants.count() <= FEWEST {

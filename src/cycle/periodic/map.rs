@@ -196,8 +196,7 @@ impl<'a> PeriodMap<'a> {
         let moving = self.moving.iter();
         let displacement =
             moving.map(|&(place, root)| self.frequency * root * fields.displacement[place]);
-        let moving = self.moving.iter();
-        let velocity = moving.map(|&(place, root)| root * fields.velocity[place]);
+        let velocity = self.moving.iter().map(|&(place, root)| root * fields.velocity[place]);
         displacement.chain(velocity).collect()
     }
 
@@ -265,7 +264,6 @@ impl<'a> PeriodMap<'a> {
 
     fn twice_kinetic_energy(&self) -> f64 {
         let velocity = &self.run.fields().velocity;
-        let moving = self.moving.iter();
-        moving.map(|&(place, root)| (root * velocity[place]).powi(2)).sum()
+        self.moving.iter().map(|&(place, root)| (root * velocity[place]).powi(2)).sum()
     }
 }

@@ -93,8 +93,7 @@ impl FloquetMultipliers {
         let found = found.map_err(|dimension| PeriodicError::Multipliers { dimension })?;
         // What nodes that change their status at another step leave of linearity.
         let first_listed = &found.listed[0];
-        let vector = found.vector(first_listed);
-        let along = unit(vector.iter().map(|value| value.re).collect());
+        let along = unit(found.vector(first_listed).iter().map(|value| value.re).collect());
         let against: Vec<f64> = along.iter().map(|value| -value).collect();
         let sums = apply(&along).into_iter().zip(apply(&against));
         let sums: Vec<f64> = sums.map(|(one, other)| 0.5 * (one + other)).collect();

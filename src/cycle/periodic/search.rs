@@ -254,8 +254,7 @@ impl Search {
         }
         let (step, period, _) = self.secants.step(&image.residual, 0.0, &image.rate);
         let lengths = [norm(&step) / image.vibration, period.abs() / self.state.period];
-        let shares = lengths.iter().zip(LONGEST);
-        let share = shares.fold(1.0_f64, |share, (length, longest)| {
+        let share = lengths.iter().zip(LONGEST).fold(1.0_f64, |share, (length, longest)| {
             share.min(longest / length.max(f64::MIN_POSITIVE))
         });
         self.last = Some((self.state.clone(), image.residual));

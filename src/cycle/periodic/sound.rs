@@ -61,8 +61,7 @@ impl FlatFace {
             }
             groups.push((!is_curved).then_some(group));
         }
-        let groups = groups.into_iter().flatten();
-        let flat = groups.map(|group| {
+        let flat = groups.into_iter().flatten().map(|group| {
             let own = group.iter().map(|&face| &faces[face]);
             Self::joined(mesh, own, normals[group[0]])
         });

@@ -174,14 +174,12 @@ impl History {
             }
         }
         let mean = |sum: &[f64]| -> Vec<f64> {
-            let pairs = sum.iter().zip(&counts);
-            pairs.map(|(sum, count)| sum / f64::max(*count, 1.0)).collect()
+            sum.iter().zip(&counts).map(|(sum, count)| sum / f64::max(*count, 1.0)).collect()
         };
         let [normal, tangential] = [mean(&sums[0]), mean(&sums[1])];
         // Contact states as the mean forces have them.
         let scale = normal.iter().sum::<f64>() / points as f64;
-        let pairs = normal.iter().zip(&tangential);
-        let contact = pairs.map(|(normal, shear)| {
+        let contact = normal.iter().zip(&tangential).map(|(normal, shear)| {
             let limit = DRAGGED * point.contact.friction_coefficient * normal;
             match () {
                 () if *normal < OPEN * scale => PointState::Open,

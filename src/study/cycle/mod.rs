@@ -152,8 +152,7 @@ impl<'a> CycleStudy<'a> {
     }
 
     fn onsets_of(&self, harmonic: usize) -> Vec<Onset> {
-        let own = self.onsets.iter().filter(|o| o.harmonic == harmonic);
-        own.copied().collect()
+        self.onsets.iter().filter(|o| o.harmonic == harmonic).copied().collect()
     }
 
     /// Why a family whose onset is known has no cycle.

@@ -76,8 +76,7 @@ impl<'a> PeriodicStudy<'a> {
                 }
             }
             (true, None) => {
-                let found = Steady::critical_friction(case, &stepped);
-                critical = found.map(|value| CriticalValue {
+                critical = Steady::critical_friction(case, &stepped).map(|value| CriticalValue {
                     parameter: Parameter::FrictionCoefficient,
                     value,
                 });
@@ -259,8 +258,7 @@ impl<'a> PeriodicStudy<'a> {
         let motion = PeriodicMotion::of(&mut map, &found, request);
         // What small perturbations do, by multipliers and by a transient.
         let stability = (self.choices.stability != StabilityChoice::None).then(|| {
-            let multipliers = FloquetMultipliers::of(&mut map, &found.state);
-            multipliers.map_err(|error| error.to_string())
+            FloquetMultipliers::of(&mut map, &found.state).map_err(|error| error.to_string())
         });
         let known = stability.as_ref().and_then(|found| found.as_ref().ok());
         let leading = known.and_then(FloquetMultipliers::leading).copied();

@@ -48,10 +48,7 @@ impl Steady {
         let modes = point.map_or_else(Vec::new, |point| point.modes);
         let base = match &model {
             Model::Whole(whole) => whole.base().displacement(friction),
-            _ => {
-                let body = stepped.body(case);
-                body.sliding_displacement().map_err(StudyError::Transient)?
-            }
+            _ => stepped.body(case).sliding_displacement().map_err(StudyError::Transient)?,
         };
         Ok(Self { base, modes })
     }
@@ -146,8 +143,7 @@ impl Steady {
 
     /// Its growth rate, 1/s.
     pub fn growth_rate(&self) -> f64 {
-        let least = self.least_stable();
-        least.map_or(f64::NEG_INFINITY, |place| self.modes[place].growth_rate())
+        self.least_stable().map_or(f64::NEG_INFINITY, |place| self.modes[place].growth_rate())
     }
 }
 
