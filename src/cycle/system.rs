@@ -1,7 +1,7 @@
 //! The linear systems of one step along a branch, of one wave or of two.
 
 use super::parameter::Parameter;
-use super::state::{Event, Phase, PointState, WaveState};
+use super::state::{Event, Phase, WaveState};
 use super::wave::Linearization;
 use crate::linalg::{DenseLu, Mat, MatMut, c64};
 
@@ -286,10 +286,7 @@ impl<'a> System<'a> {
                 residual[at] = self.missed(linear, Law::Slip, i);
             }
             Event::SlideForward(i) | Event::SlideBackward(i) => {
-                let drag = match event {
-                    Event::SlideForward(_) => PointState::SlipForward.drag(),
-                    _ => PointState::SlipBackward.drag(),
-                };
+                let drag = if matches!(event, Event::SlideForward(_)) { 1.0 } else { -1.0 };
                 let friction = self.state.point.contact.friction_coefficient;
                 let (force, shear) = (self.state.normal[i], self.state.tangential[i]);
                 matrix[(at, place(&self.contact, i))] = friction;

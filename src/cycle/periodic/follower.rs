@@ -68,8 +68,7 @@ impl Way for Follower<'_, '_, '_> {
         if self.points.len() >= POINTS[0] * self.values.count() + POINTS[1] {
             return Ok(Some(BranchEnd::Steps));
         }
-        let (goal, reach) = self.goal();
-        let Some(goal) = goal else {
+        let Some((goal, reach)) = self.goal() else {
             return Ok(Some(BranchEnd::Range));
         };
         let guess = self.guess(&goal, reach);
@@ -135,20 +134,18 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
     }
 
     /// Where the coming step ends, and how long it is; none where the range ends here.
-    fn goal(&self) -> (Option<Goal>, f64) {
+    fn goal(&self) -> Option<(Goal, f64)> {
         let (place, scale) = (self.place(), self.corrector.scales[0]);
         let slope = self.tangent[0];
         let slightly = 1e-9 * scale;
         let value = self.here().value;
-        let Some(&next) = self.values.ahead(value, slope > 0.0, slightly).first() else {
-            return (None, 0.0);
-        };
+        let next = *self.values.ahead(value, slope > 0.0, slightly).first()?;
         let distance = (next / scale - place[0]) / slope;
         if slope.abs() > ALONG && distance <= self.length {
-            return (Some(Goal::Value(next)), distance);
+            return Some((Goal::Value(next), distance));
         }
         let goal = Goal::Length { from: place, tangent: self.tangent, length: self.length };
-        (Some(goal), self.length)
+        Some((goal, self.length))
     }
 
     /// Where the step probably leads: on along the last points.
@@ -219,9 +216,8 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
         // Beyond the range: its end is the last point, if there is one.
         let [least, most] = self.values.range();
         let from = self.here().value;
-        let edges = [(least, next.value < least), (most, next.value > most)];
-        let left = edges.into_iter().find(|(_, is_beyond)| *is_beyond);
-        if let Some((edge, _)) = left.filter(|_| (least..=most).contains(&from)) {
+        let edge = next.value.clamp(least, most);
+        if edge != next.value && (least..=most).contains(&from) {
             let share = (edge - from) / (next.value - from);
             let guess = self.here().towards(&next, share);
             let here = self.here().clone();

@@ -236,14 +236,11 @@ impl<'a> PeriodicStudy<'a> {
         // From the growing mode to the motion that repeats itself, and along the parameter.
         let watch =
             PartWatch { whole: watch, prefix: format!("mode{}-", place + 1), is_heard: false };
-        let mut found = match watch.recall("cycle") {
-            Some(columns) => Found::recalled(&mut map, &columns),
-            None => None,
+        let known = watch.recall("cycle").and_then(|columns| Found::recalled(&mut map, &columns));
+        let mut found = match known {
+            Some(found) => found,
+            None => find_from(&mut map, &self.steady.mode(place))?,
         };
-        if found.is_none() {
-            found = Some(find_from(&mut map, &self.steady.mode(place))?);
-        }
-        let mut found = found.ok_or(PeriodicError::Died { periods: 0 })?;
         watch.keep("cycle", &found.columns(map.steps()));
         let steps = map.steps();
         let branch = self.branch(operator, mode, (&found, steps), &watch);
