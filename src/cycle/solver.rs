@@ -42,8 +42,8 @@ pub struct CycleSolver {
     onset: Onset,
     body: WaveBody,
     grid: PhaseGrid,
-    pub(super) specification: AnnulusSpecification,
-    pub(super) material: ElasticMaterial,
+    /// The disc; its cycles have a damping of their own.
+    pub(super) model: DiscModel,
 }
 
 impl CycleSolver {
@@ -103,14 +103,7 @@ impl CycleSolver {
         let node_frequency = body(0)?.node_frequency;
         let nodes = specification.circumferential_elements as f64 / family.harmonic as f64;
         let grid = PhaseGrid::new(onset.frequency, node_frequency, nodes, points);
-        Ok(Self {
-            family,
-            onset: *onset,
-            body: body(grid.points / 2)?,
-            grid,
-            specification: *specification,
-            material: *material,
-        })
+        Ok(Self { family, onset: *onset, body: body(grid.points / 2)?, grid, model: *model })
     }
 
     /// The family that it solves for.
@@ -121,15 +114,6 @@ impl CycleSolver {
     /// The body.
     pub fn body(&self) -> &WaveBody {
         &self.body
-    }
-
-    /// The disc that it solves for, with the damping of its onset left open.
-    pub(super) fn model(&self) -> DiscModel {
-        DiscModel {
-            specification: self.specification,
-            material: self.material,
-            damping: RayleighDamping::default(),
-        }
     }
 
     /// Its phases.
@@ -248,8 +232,7 @@ impl CycleSolver {
         values: &[f64],
     ) -> Option<CycleBranch> {
         let points = FINER * self.grid.points;
-        let model = self.model();
-        let finer = Self::born_at(&model, self.family, &self.onset, Some(points)).ok()?;
+        let finer = Self::born_at(&self.model, self.family, &self.onset, Some(points)).ok()?;
         let own = finer.find(&cycle.state.point).ok()?;
         Some(finer.both_ways(&own, parameter, values))
     }

@@ -32,6 +32,15 @@ impl PointState {
         }
     }
 
+    /// The inequalities that hold at a point in this state.
+    pub(super) fn events(self) -> &'static [fn(usize) -> Event] {
+        match self {
+            Self::Open => &[Event::Touch],
+            Self::Stick => &[Event::Lift, Event::SlideForward, Event::SlideBackward],
+            Self::SlipForward | Self::SlipBackward => &[Event::Lift, Event::Rest],
+        }
+    }
+
     /// Its status as of a contact node.
     pub fn status(self) -> ContactStatus {
         match self {
@@ -58,6 +67,18 @@ pub enum Event {
 }
 
 impl Event {
+    /// What the inequality leaves, N/m, of the normal and tangential force, the gap and the slip as forces and the friction limit at
+    /// its point, or the rate of that along the rates of these.
+    pub(super) fn slack(self, drag: f64, [normal, tangential, gap, slip, limit]: [f64; 5]) -> f64 {
+        match self {
+            Self::Lift(_) => normal,
+            Self::Touch(_) => gap,
+            Self::SlideForward(_) => limit - tangential,
+            Self::SlideBackward(_) => limit + tangential,
+            Self::Rest(_) => -drag * slip,
+        }
+    }
+
     /// The point at which it breaks.
     pub(super) fn point(self) -> usize {
         match self {

@@ -75,10 +75,10 @@ impl CycleSolver {
     /// # Errors
     /// [`CycleError::Stepping`] for a mesh that it cannot take.
     pub fn stepping(&self, simd: SimdLevel) -> Result<MeshStepping<'_>, CycleError> {
-        let annulus = AnnulusMesh::generate(&self.specification)?;
+        let annulus = AnnulusMesh::generate(&self.model.specification)?;
         let undamped = RayleighDamping::default();
-        let unloaded = super::onset::unloaded(&self.specification);
-        let model = TransientModel::of_annulus(&annulus, &self.material, undamped, unloaded);
+        let unloaded = super::onset::unloaded(&self.model.specification);
+        let model = TransientModel::of_annulus(&annulus, &self.model.material, undamped, unloaded);
         let operator = model.operator(OperatorChoice::Auto, simd)?;
         let largest_frequency = largest_frequency(operator.as_ref());
         Ok(MeshStepping { solver: self, annulus, operator, largest_frequency })
@@ -109,7 +109,7 @@ impl MeshStepping<'_> {
         let time_step = duration / steps as f64;
         let model = TransientModel::of_annulus(
             &self.annulus,
-            &self.solver.material,
+            &self.solver.model.material,
             point.damping,
             point.contact,
         );

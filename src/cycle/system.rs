@@ -2,53 +2,59 @@
 
 use super::parameter::Parameter;
 use super::state::{Event, Phase, WaveState};
+use super::vector::{add, difference};
 use super::wave::Linearization;
 use crate::linalg::{DenseLu, Mat, MatMut, c64};
 
 /// A change of forces, frequencies and parameter.
 #[derive(Clone, Debug)]
 pub struct Heading {
-    /// Change of the normal force at each point.
-    pub normal: Vec<f64>,
-    /// Change of the tangential force.
-    pub tangential: Vec<f64>,
-    /// Change of both frequencies; zero for a second wave that is not there.
-    pub frequencies: [f64; 2],
-    /// Change of the parameter.
-    pub parameter: f64,
+    /// Changes of the normal force at each point, of the tangential forces, of both frequencies (zero for a second wave that is not
+    /// there), and of the parameter.
+    values: Vec<f64>,
+    points: usize,
 }
 
 impl Heading {
     /// From one state to another.
     pub fn between(from: &WaveState, to: &WaveState, parameter: Parameter) -> Self {
-        let difference = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| b - a).collect();
-        Self {
-            normal: difference(&from.normal, &to.normal),
-            tangential: difference(&from.tangential, &to.tangential),
-            frequencies: [0, 1].map(|i| to.frequencies()[i] - from.frequencies()[i]),
-            parameter: parameter.of(&to.point) - parameter.of(&from.point),
-        }
+        let flat = |state: &WaveState| {
+            let scalars = [&state.frequencies()[..], &[parameter.of(&state.point)]].concat();
+            [&state.normal[..], &state.tangential, &scalars].concat()
+        };
+        Self { values: difference(&flat(to), &flat(from)), points: from.normal.len() }
+    }
+
+    /// Change of the normal force at each point.
+    pub fn normal(&self) -> &[f64] {
+        &self.values[..self.points]
+    }
+
+    /// Change of the tangential force.
+    pub fn tangential(&self) -> &[f64] {
+        &self.values[self.points..2 * self.points]
+    }
+
+    /// Changes of both frequencies and of the parameter.
+    pub fn scalars(&self) -> [f64; 3] {
+        [0, 1, 2].map(|i| self.values[2 * self.points + i])
     }
 
     /// Turns it round.
     pub fn reverse(&mut self) {
-        self.normal.iter_mut().for_each(|value| *value = -*value);
-        self.tangential.iter_mut().for_each(|value| *value = -*value);
-        self.frequencies = self.frequencies.map(|value| -value);
-        self.parameter = -self.parameter;
+        self.values.iter_mut().for_each(|value| *value = -*value);
     }
 
     /// Moves a state by `length` times this; contact laws with fixed drag hold exactly afterwards.
     pub fn add_to(&self, state: &mut WaveState, length: f64, parameter: Parameter) {
-        for i in 0..self.normal.len() {
-            state.normal[i] += length * self.normal[i];
-            state.tangential[i] += length * self.tangential[i];
+        add(&mut state.normal, length, self.normal());
+        add(&mut state.tangential, length, self.tangential());
+        let [first, second, change] = self.scalars();
+        state.frequency += length * first;
+        if let Some(own) = &mut state.second {
+            own.frequency += length * second;
         }
-        state.frequency += length * self.frequencies[0];
-        if let Some(second) = &mut state.second {
-            second.frequency += length * self.frequencies[1];
-        }
-        let value = parameter.of(&state.point) + length * self.parameter;
+        let value = parameter.of(&state.point) + length * change;
         parameter.set(&mut state.point, value);
         state.impose_law();
     }
@@ -101,8 +107,8 @@ pub struct System<'a> {
     contact: Vec<usize>,
     stick: Vec<usize>,
     force_scale: f64,
-    /// Scales of the scalars.
-    scales: Vec<f64>,
+    /// Place of each unknown in a [`Heading`], and its scale.
+    unknowns: Vec<(usize, f64)>,
 }
 
 impl<'a> System<'a> {
@@ -110,21 +116,18 @@ impl<'a> System<'a> {
     pub fn new(state: &'a WaveState, parameter: Parameter, force_scale: f64) -> Self {
         let (contact, stick) = state.active();
         let phases = state.phases();
-        let frequencies = state.frequencies();
-        let scales = phases.iter().map(|own| 0.01 * frequencies[own.index]);
-        Self {
-            state,
-            parameter,
-            contact,
-            stick,
-            force_scale,
-            scales: scales.chain([parameter.of(&state.point).abs().max(1e-12)]).collect(),
-            phases,
-        }
+        let (points, frequencies) = (state.contact.len(), state.frequencies());
+        let forces = contact.iter().copied().chain(stick.iter().map(|i| points + i));
+        let own = phases.iter().map(|own| own.index);
+        let own = own.map(|index| (2 * points + index, 0.01 * frequencies[index]));
+        let last = (2 * points + 2, parameter.of(&state.point).abs().max(1e-12));
+        let unknowns = forces.map(|place| (place, force_scale)).chain(own).chain([last]);
+        let unknowns = unknowns.collect();
+        Self { state, parameter, contact, stick, force_scale, unknowns, phases }
     }
 
     fn size(&self) -> usize {
-        self.forces() + self.scales.len()
+        self.unknowns.len()
     }
 
     /// Unknown forces: the scalars come after them.
@@ -132,8 +135,13 @@ impl<'a> System<'a> {
         self.contact.len() + self.stick.len()
     }
 
+    /// The frequencies and the parameter.
+    fn scalars(&self) -> &[(usize, f64)] {
+        &self.unknowns[self.forces()..]
+    }
+
     fn parameter_scale(&self) -> f64 {
-        self.scales[self.scales.len() - 1]
+        self.unknowns[self.size() - 1].1
     }
 
     /// Which point of the grid lies from `from` as `to` from its first.
@@ -166,7 +174,7 @@ impl<'a> System<'a> {
         for (j, &i) in self.stick.iter().enumerate() {
             matrix[(at, self.contact.len() + j)] = force * columns[1][self.lag(i, row)];
         }
-        for (j, (own, by)) in self.scales.iter().zip(&linear.by).enumerate() {
+        for (j, ((_, own), by)) in self.scalars().iter().zip(&linear.by).enumerate() {
             matrix[(at, self.forces() + j)] = scale * own * by[law as usize][row];
         }
     }
@@ -220,7 +228,7 @@ impl<'a> System<'a> {
         for (j, &i) in self.stick.iter().enumerate() {
             matrix[(at, self.contact.len() + j)] = force * part(turn(i) * first.row[1]);
         }
-        for (j, (own, by)) in self.scales.iter().zip(&first.by).enumerate() {
+        for (j, ((_, own), by)) in self.scalars().iter().zip(&first.by).enumerate() {
             matrix[(at, self.forces() + j)] = scale * own * part(*by);
         }
         scale * part(first.value)
@@ -301,13 +309,7 @@ impl<'a> System<'a> {
 
     /// Scaled components of a heading along the unknowns.
     fn scaled(&self, heading: &Heading) -> Vec<f64> {
-        let mut values: Vec<f64> = Vec::with_capacity(self.size());
-        values.extend(self.contact.iter().map(|&i| heading.normal[i] / self.force_scale));
-        values.extend(self.stick.iter().map(|&i| heading.tangential[i] / self.force_scale));
-        let frequencies = heading.frequencies[..self.phases.len()].iter();
-        let pairs = frequencies.chain([&heading.parameter]).zip(&self.scales);
-        values.extend(pairs.map(|(value, scale)| value / scale));
-        values
+        self.unknowns.iter().map(|&(place, scale)| heading.values[place] / scale).collect()
     }
 
     /// Distance from another state, in the measure in which headings have length one.
@@ -371,31 +373,21 @@ impl<'a> System<'a> {
 
     fn heading(&self, solution: &[f64]) -> Heading {
         let points = self.state.contact.len();
-        let friction = self.state.point.contact.friction_coefficient;
-        let end = self.size();
-        let parameter = solution[end - 1] * self.parameter_scale();
-        let scalars = solution[self.forces()..].iter().zip(&self.scales);
-        let mut frequencies = [0.0; 2];
-        for (own, (value, scale)) in frequencies[..self.phases.len()].iter_mut().zip(scalars) {
-            *own = value * scale;
+        let mut values = vec![0.0; 2 * points + 3];
+        for (&(place, scale), value) in self.unknowns.iter().zip(solution) {
+            values[place] = value * scale;
         }
-        let mut heading = Heading {
-            normal: vec![0.0; points],
-            tangential: vec![0.0; points],
-            frequencies,
-            parameter,
-        };
-        for (j, &i) in self.contact.iter().enumerate() {
-            heading.normal[i] = solution[j] * self.force_scale;
+        // Slipping points are dragged along, by as much more as the friction coefficient rises.
+        let friction = self.state.point.contact.friction_coefficient;
+        let is_friction = self.parameter == Parameter::FrictionCoefficient;
+        let rise = if is_friction { values[2 * points + 2] } else { 0.0 };
+        for &i in &self.contact {
             let drag = self.state.contact[i].drag();
-            heading.tangential[i] = drag * friction * heading.normal[i];
-            if self.parameter == Parameter::FrictionCoefficient {
-                heading.tangential[i] += drag * self.state.normal[i] * parameter;
+            if drag != 0.0 {
+                values[points + i] = drag * friction * values[i];
+                values[points + i] += drag * self.state.normal[i] * rise;
             }
         }
-        for (j, &i) in self.stick.iter().enumerate() {
-            heading.tangential[i] = solution[self.contact.len() + j] * self.force_scale;
-        }
-        heading
+        Heading { values, points }
     }
 }

@@ -87,7 +87,7 @@ impl MeshStepping<'_> {
     ) -> Result<TwoWaveSearch, NoTwoWaves> {
         let harmonics = [self.solver.body().harmonic(), second];
         let grid = |settled: &Measured| {
-            TwoWaves::new(&self.solver.model(), harmonics, settled.frequencies, side)
+            TwoWaves::new(&self.solver.model, harmonics, settled.frequencies, side)
         };
         if let Some([settled, confirmation, state @ ..]) = watch.recall("found").as_deref()
             && let Some(settled) = Measured::from_numbers(settled)
