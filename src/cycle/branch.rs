@@ -157,8 +157,7 @@ impl<'a> Branch<'a> {
             return None;
         }
         let (from, to) = (self.value(), self.parameter.of(&state.point));
-        let between = samples.between(from.min(to), from.max(to), SAME * from.abs());
-        between.first().copied()
+        samples.between(from.min(to), from.max(to), SAME * from.abs()).first().copied()
     }
 
     fn accept(&mut self, state: WaveState, heading: Heading, length: f64, goal: Goal) -> Step {

@@ -121,8 +121,7 @@ impl MeshStepping<'_> {
         let highest = HARMONICS.min(run.interface().len() / 2);
         let own = (cycle.harmonic > highest).then_some(cycle.harmonic);
         let harmonics = (1..=highest).chain(own).map(|m| {
-            let over_time = looks.iter().map(|edge| amplitude(edge, m as isize));
-            (m, over_time.collect::<Vec<c64>>())
+            (m, looks.iter().map(|edge| amplitude(edge, m as isize)).collect::<Vec<c64>>())
         });
         let size = |own: &[c64]| own.iter().map(|a| a.norm()).sum::<f64>() / looks.len() as f64;
         let main = harmonics.max_by(|a, b| size(&a.1).total_cmp(&size(&b.1)));

@@ -62,8 +62,7 @@ impl TwoWaveSearch {
     pub fn agrees(&self) -> bool {
         let own = self.motion.state.frequencies();
         self.confirmation.is_some_and(|found| {
-            let pairs = found.frequencies.iter().zip(own);
-            pairs.into_iter().all(|(a, b)| (a / b - 1.0).abs() < AGREES)
+            found.frequencies.iter().zip(own).all(|(a, b)| (a / b - 1.0).abs() < AGREES)
         })
     }
 }
