@@ -1,10 +1,11 @@
 //! Basin boundary of two waves: the amplitude ratio at saturation that separates them.
 
+use super::field::{amplitude, slips};
 use super::onset::DiscModel;
 use super::{CycleError, OperatingPoint};
 use crate::contact::ContactStatus;
 use crate::fem::operator::{SimdLevel, StiffnessOperator, largest_frequency};
-use crate::linalg::{c64, interruption};
+use crate::linalg::interruption;
 use crate::mesh::AnnulusMesh;
 use crate::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, StandingWave, TimeStep,
@@ -164,18 +165,15 @@ struct Contest<'a> {
     request: &'a BasinRequest,
 }
 
-/// Amplitudes of the two waves, summed over the looks of a window.
-type Amplitudes = [f64; 2];
-
 impl Contest<'_> {
     fn run(&self, seed_ratio: f64) -> Result<BasinRun, CycleError> {
         let mut run = self.start(seed_ratio)?;
         let steps = (self.period / run.plan().time_step).round().max(1.0) as usize;
         let look_every = (steps / LOOKS).max(1);
         let window = WINDOW * steps;
-        let mut sums: Amplitudes = [0.0; 2];
+        let mut sums = [0.0; 2];
         let mut saturation_ratio = None;
-        let (mut before, mut agreeing) = (seed_ratio, 0);
+        let (mut share, mut agreeing) = (seed_ratio, 0);
         for step in 1..=self.request.periods * steps {
             interruption::check();
             run.advance();
@@ -188,34 +186,22 @@ impl Contest<'_> {
                 sums.iter_mut().zip(found).for_each(|(sum, a)| *sum += a);
             }
             if step % window == 0 {
-                let share = sums[1] / sums[0];
+                let before = std::mem::replace(&mut share, sums[1] / sums[0]);
                 sums = [0.0; 2];
                 let is_end = saturation_ratio.is_some() && is_final(before, share);
                 agreeing = if is_end { agreeing + 1 } else { 0 };
-                before = share;
                 if agreeing >= AGREEING_WINDOWS {
-                    return Ok(self.outcome(&run, seed_ratio, saturation_ratio, share, true));
+                    break;
                 }
             }
         }
-        Ok(self.outcome(&run, seed_ratio, saturation_ratio, before, false))
-    }
-
-    fn outcome(
-        &self,
-        run: &CentralDifference<'_>,
-        seed_ratio: f64,
-        saturation_ratio: Option<f64>,
-        share: f64,
-        is_settled: bool,
-    ) -> BasinRun {
-        BasinRun {
+        Ok(BasinRun {
             seed_ratio,
             saturation_ratio,
             winner: self.request.harmonics[usize::from(share > 1.0)],
-            is_settled,
+            is_settled: agreeing >= AGREEING_WINDOWS,
             duration: run.steps_done() as f64 * run.plan().time_step,
-        }
+        })
     }
 
     /// Steady sliding with both waves seeded, the larger with a fixed share of what saturates it.
@@ -244,16 +230,9 @@ impl Contest<'_> {
     }
 
     /// Amplitudes of both harmonics of the edge's tangential displacement, m.
-    fn amplitudes(&self, run: &CentralDifference<'_>) -> Amplitudes {
-        let displacement = &run.fields().displacement;
-        let count = run.interface().len();
-        self.request.harmonics.map(|harmonic| {
-            let terms = (0..count).map(|j| {
-                let angle = TAU * ((harmonic * j) % count) as f64 / count as f64;
-                run.contact().slip(j, displacement) * c64::from_polar(2.0 / count as f64, -angle)
-            });
-            terms.sum::<c64>().norm()
-        })
+    fn amplitudes(&self, run: &CentralDifference<'_>) -> [f64; 2] {
+        let edge = slips(run);
+        self.request.harmonics.map(|harmonic| amplitude(&edge, harmonic as isize).norm())
     }
 }
 

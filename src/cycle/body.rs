@@ -77,6 +77,8 @@ pub struct WaveBody {
     harmonic: isize,
     /// Number of sectors, each with one contact node.
     pub sector_count: usize,
+    /// Nodes on a ray, those that are held with them.
+    pub rays: usize,
     /// Radius of the contact edge `a`, m.
     pub radius: f64,
     /// Edge length of one contact node, m.
@@ -125,6 +127,7 @@ impl WaveBody {
             }),
             harmonic,
             sector_count: mesh.sector_count(),
+            rays: specification.radial_elements + 1,
             radius: specification.inner_radius,
             tributary_length: mesh.tributary_lengths()[0],
             node_frequency,
@@ -150,16 +153,26 @@ impl WaveBody {
     }
 
     /// Receptance of harmonic `k` and its derivatives along changes of the coefficients.
-    ///
-    /// Condensation from the clamped edge inwards, `S_i = D_i - U_i S_{i+1}^-1 U_i^T`, `R = S_0^-1`.
     pub fn receptance<const N: usize>(
         &self,
         k: usize,
         at: DynamicCoefficients,
         changes: [DynamicCoefficients; N],
     ) -> (Receptance, [Receptance; N]) {
+        let (inverses, rates) = self.condensed(k, at, changes);
+        (polar(&inverses[0]), rates.map(|rate| polar(&rate)))
+    }
+
+    /// `S_i^-1` of every node, the condensation from the clamped edge inwards, `S_i = D_i - U_i S_{i+1}^-1 U_i^T`, `R = S_0^-1`, with
+    /// the derivatives of `R`.
+    fn condensed<const N: usize>(
+        &self,
+        k: usize,
+        at: DynamicCoefficients,
+        changes: [DynamicCoefficients; N],
+    ) -> (Vec<Receptance>, [Receptance; N]) {
         let blocks = &self.harmonics[k];
-        let mut inverse = Receptance::zeros();
+        let mut inverses = vec![Receptance::zeros(); self.masses.len()];
         let mut rates = [Receptance::zeros(); N];
         for i in (0..self.masses.len()).rev() {
             let mass = Receptance::identity() * c64::new(self.masses[i], 0.0);
@@ -173,43 +186,29 @@ impl WaveBody {
             }
             if let Some(outward) = blocks.outward.get(i) {
                 let outward = complex(outward);
-                let across = outward * inverse * outward.transpose();
+                let across = outward * inverses[i + 1] * outward.transpose();
                 matrix -= across * (at.stiffness * at.stiffness);
                 for (slope, (change, rate)) in slopes.iter_mut().zip(changes.iter().zip(&rates)) {
                     *slope -= across * (2.0 * at.stiffness * change.stiffness)
                         + outward * rate * outward.transpose() * (at.stiffness * at.stiffness);
                 }
             }
-            inverse = inverted(&matrix);
+            let inverse = inverted(&matrix);
             rates = slopes.map(|slope| -(inverse * slope * inverse));
+            inverses[i] = inverse;
         }
-        (polar(&inverse), rates.map(|rate| polar(&rate)))
+        (inverses, rates)
     }
 
     /// Displacement `(u_r, u_theta)` of every free node outwards for a displacement of the contact edge.
     pub fn profile(&self, k: usize, at: DynamicCoefficients, edge: [c64; 2]) -> Vec<[c64; 2]> {
         let blocks = &self.harmonics[k];
-        let count = self.masses.len();
-        let mut inverses = vec![Receptance::zeros(); count];
-        for i in (1..count).rev() {
-            let mass = c64::new(self.masses[i], 0.0) * at.mass;
-            let mut matrix = complex(&blocks.diagonal[i]) * at.stiffness;
-            matrix += Receptance::identity() * mass;
-            if let Some(support) = self.support_at(i) {
-                matrix += support(at);
-            }
-            if let Some(outward) = blocks.outward.get(i) {
-                let outward = complex(outward);
-                let across = outward * inverses[i + 1] * outward.transpose();
-                matrix -= across * (at.stiffness * at.stiffness);
-            }
-            inverses[i] = inverted(&matrix);
-        }
+        let (inverses, []) = self.condensed(k, at, []);
         let unit = c64::new(0.0, 1.0);
         // Real basis: u_theta = i w.
         let mut current = nalgebra::Vector2::new(edge[0], -unit * edge[1]);
         let mut profile = vec![edge];
-        for i in 1..count {
+        for i in 1..inverses.len() {
             let inward = complex(&blocks.outward[i - 1]).transpose();
             current = -(inverses[i] * inward * current) * at.stiffness;
             profile.push([current[0], unit * current[1]]);

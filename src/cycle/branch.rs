@@ -6,6 +6,7 @@
 //! the state of that one point changes, and the curve goes on to the side on which its new
 //! inequality holds. Folds need no special care, and no iteration over contact states can cycle.
 
+use super::continuation::Values;
 use super::parameter::Parameter;
 use super::state::{Event, PointState, WaveState};
 use super::system::{Closure, Heading, System};
@@ -27,6 +28,9 @@ const STAGNANT: f64 = 1e-9;
 /// Inequalities broken by less than this share of the mean normal force are round-off.
 const TOLERANCE: f64 = 1e-8;
 
+/// Values of the parameter that differ by less than this share are one.
+const SAME: f64 = 1e-12;
+
 /// Where one step along a branch ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
@@ -38,7 +42,8 @@ pub enum Step {
 
 /// A branch of limit cycles over one parameter.
 pub struct Branch<'a> {
-    wave: &'a Wave<'a>,
+    /// The wave.
+    pub wave: &'a Wave<'a>,
     parameter: Parameter,
     /// Where it is.
     pub state: WaveState,
@@ -96,10 +101,10 @@ impl<'a> Branch<'a> {
         self.direction
     }
 
-    /// One step: to the next change of contact state, the next of `samples` (rising) or the longest step.
+    /// One step: to the next change of contact state, the next of `samples` or the longest step.
     ///
     /// `None` where the curve cannot be followed any further.
-    pub fn advance(&mut self, samples: &[f64]) -> Option<Step> {
+    pub fn advance(&mut self, samples: &Values) -> Option<Step> {
         let flipped = self.pending.take().map(|event| self.flip(event));
         let linear = Linearization::at(self.wave, &self.state, self.parameter);
         let system = System::new(&self.state, self.parameter, self.force_scale);
@@ -108,14 +113,14 @@ impl<'a> Branch<'a> {
         let mut inequalities = self.inequalities(&linear, &heading);
         let sense = match flipped {
             Some(event) => inequalities.iter().find(|i| i.0 == event)?.2,
-            None if self.heading.is_none() => self.direction * heading.parameter,
+            None if self.heading.is_none() => self.direction * heading.scalars()[2],
             None => 1.0,
         };
         if sense < 0.0 {
             heading.reverse();
             inequalities.iter_mut().for_each(|inequality| inequality.2 *= -1.0);
         }
-        self.direction = heading.parameter.signum();
+        self.direction = heading.scalars()[2].signum();
         let (mut length, mut goal) = self.nearest(&inequalities, flipped, &heading, samples);
         // An inequality that breaks on the way after all becomes the goal; each such shortening is progress.
         for _ in 0..12 {
@@ -147,16 +152,12 @@ impl<'a> Branch<'a> {
     }
 
     /// A wanted value that lies strictly between here and `state`: the curve bends more than its heading said.
-    fn skipped(&self, state: &WaveState, samples: &[f64], goal: Goal) -> Option<f64> {
+    fn skipped(&self, state: &WaveState, samples: &Values, goal: Goal) -> Option<f64> {
         if matches!(goal, Goal::Value(_)) {
             return None;
         }
         let (from, to) = (self.value(), self.parameter.of(&state.point));
-        let slightly = 1e-12 * from.abs();
-        let mut between = samples.iter().filter(|&&sample| {
-            sample > from.min(to) + slightly && sample < from.max(to) - slightly
-        });
-        between.next().copied()
+        samples.between(from.min(to), from.max(to), SAME * from.abs()).first().copied()
     }
 
     fn accept(&mut self, state: WaveState, heading: Heading, length: f64, goal: Goal) -> Step {
@@ -204,37 +205,35 @@ impl<'a> Branch<'a> {
     }
 
     fn inequalities(&self, linear: &Linearization, heading: &Heading) -> Vec<Inequality> {
-        let rates = self.wave_rates(linear, heading);
-        slacks(&self.state, linear)
-            .map(|(event, slack)| {
-                let i = event.point();
-                let friction = self.state.point.contact.friction_coefficient;
-                let cone = friction * heading.normal[i]
-                    + match self.parameter {
-                        Parameter::FrictionCoefficient => self.state.normal[i] * heading.parameter,
-                        _ => 0.0,
-                    };
-                let rate = match event {
-                    Event::Lift(_) => heading.normal[i],
-                    Event::Touch(_) => linear.normal_scale() * rates[0][i],
-                    Event::SlideForward(_) => cone - heading.tangential[i],
-                    Event::SlideBackward(_) => cone + heading.tangential[i],
-                    Event::Rest(_) => {
-                        -self.state.contact[i].drag() * linear.tangential_scale() * rates[1][i]
-                    }
-                };
-                (event, slack, rate)
-            })
-            .collect()
+        let [gap, slip] = self.wave_rates(linear, heading);
+        let friction = self.state.point.contact.friction_coefficient;
+        let rise = match self.parameter {
+            Parameter::FrictionCoefficient => heading.scalars()[2],
+            _ => 0.0,
+        };
+        let with_rate = |(event, slack): (Event, f64)| {
+            let i = event.point();
+            let normal = heading.normal()[i];
+            let rates = [
+                normal,
+                heading.tangential()[i],
+                linear.normal_scale() * gap[i],
+                linear.tangential_scale() * slip[i],
+                friction * normal + self.state.normal[i] * rise,
+            ];
+            (event, slack, event.slack(self.state.contact[i].drag(), rates))
+        };
+        slacks(&self.state, linear).map(with_rate).collect()
     }
 
     /// Rates of gap and slip along a heading. Its tangential forces hold the friction coefficient's change already.
     fn wave_rates(&self, linear: &Linearization, heading: &Heading) -> [Vec<f64>; 2] {
         let forces =
-            [self.wave.harmonics(&heading.normal), self.wave.harmonics(&heading.tangential)];
-        let along_parameter = match self.parameter {
+            [heading.normal(), heading.tangential()].map(|force| self.wave.harmonics(force));
+        let [frequency, _, parameter] = heading.scalars();
+        let parameter = match self.parameter {
             Parameter::FrictionCoefficient => 0.0,
-            _ => heading.parameter,
+            _ => parameter,
         };
         let [by_frequency, by_parameter] = &linear.by[..] else {
             unreachable!("branches of one wave have one frequency");
@@ -248,7 +247,7 @@ impl<'a> Branch<'a> {
             );
             let by = by_frequency[row].iter().zip(&by_parameter[row]);
             for (value, (by_frequency, by_parameter)) in rate.iter_mut().zip(by) {
-                *value += by_frequency * heading.frequencies[0] + by_parameter * along_parameter;
+                *value += by_frequency * frequency + by_parameter * parameter;
             }
             rate
         })
@@ -260,7 +259,7 @@ impl<'a> Branch<'a> {
         inequalities: &[Inequality],
         flipped: Option<Event>,
         heading: &Heading,
-        samples: &[f64],
+        samples: &Values,
     ) -> (f64, Goal) {
         let mut best = (LONGEST_STEP, Goal::Length);
         for &(event, slack, rate) in inequalities {
@@ -272,14 +271,10 @@ impl<'a> Branch<'a> {
             }
         }
         let value = self.value();
-        let slightly = 1e-12 * value.abs();
-        let ahead = if heading.parameter > 0.0 {
-            samples.iter().find(|&&sample| sample > value + slightly)
-        } else {
-            samples.iter().rev().find(|&&sample| sample < value - slightly)
-        };
-        if let Some(&sample) = ahead {
-            let length = (sample - value) / heading.parameter;
+        let [_, _, rise] = heading.scalars();
+        let ahead = samples.ahead(value, rise > 0.0, SAME * value.abs());
+        if let Some(&sample) = ahead.first() {
+            let length = (sample - value) / rise;
             if length <= best.0 {
                 best = (length, Goal::Value(sample));
             }
@@ -338,23 +333,13 @@ fn slacks<'a>(
 ) -> impl Iterator<Item = (Event, f64)> + 'a {
     let friction = state.point.contact.friction_coefficient;
     let points = state.contact.iter().enumerate();
-    points.flat_map(move |(i, &contact)| {
-        let (normal, tangential) = (state.normal[i], state.tangential[i]);
-        let list: [Option<(Event, f64)>; 3] = match contact {
-            PointState::Open => {
-                [Some((Event::Touch(i), linear.normal_scale() * linear.gap[i])), None, None]
-            }
-            PointState::Stick => [
-                Some((Event::Lift(i), normal)),
-                Some((Event::SlideForward(i), friction * normal - tangential)),
-                Some((Event::SlideBackward(i), friction * normal + tangential)),
-            ],
-            slip => [
-                Some((Event::Lift(i), normal)),
-                Some((Event::Rest(i), -slip.drag() * linear.tangential_scale() * linear.slip[i])),
-                None,
-            ],
-        };
-        list.into_iter().flatten()
+    let events = points.flat_map(|(i, contact)| contact.events().iter().map(move |event| event(i)));
+    events.map(move |event| {
+        let i = event.point();
+        let normal = state.normal[i];
+        let gap = linear.normal_scale() * linear.gap[i];
+        let slip = linear.tangential_scale() * linear.slip[i];
+        let parts = [normal, state.tangential[i], gap, slip, friction * normal];
+        (event, event.slack(state.contact[i].drag(), parts))
     })
 }

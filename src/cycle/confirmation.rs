@@ -1,5 +1,6 @@
 //! A limit cycle put to the test: does a transient that starts beside it stay there?
 
+use super::field::{amplitude, slips};
 use super::limit_cycle::LimitCycle;
 use super::stepping::MeshStepping;
 use super::{CycleError, CycleStability, Verdict};
@@ -22,18 +23,19 @@ const HARMONICS: usize = 8;
 /// three are at most 0.003, 0.016 and 0.034; a wave that is no motion of the disc is left within a few periods.
 const TOLERANCE: [f64; 3] = [0.01, 0.05, 0.1];
 
-/// The last fifth of a short transient that started beside a limit cycle, for each metre of thickness.
+/// The last fifth of a short transient that started beside a limit cycle, a wave or a motion of the whole mesh; for each metre of
+/// thickness.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Confirmation {
     /// Length of the run in periods of the cycle.
     pub periods: usize,
-    /// Frequency of the largest harmonic of the contact edge, Hz; `None` if it has stopped to vibrate.
+    /// Frequency of the largest harmonic of the contact edge, or of the contact nodes, Hz; `None` if it has stopped to vibrate.
     pub main_frequency_hz: Option<f64>,
-    /// That harmonic, of 1 to 8 and the wave's own.
+    /// That harmonic, of 1 to 8 and the wave's own; none of motions of the whole mesh.
     pub main_harmonic: Option<usize>,
     /// Fractions of contact nodes that `[stick, slip, open]`.
     pub status: [f64; 3],
-    /// Power of the rotor, W/m.
+    /// Power of the counterface, W/m.
     pub external_power: f64,
     /// E-folds of the leading perturbation over the run; negative where it decays, 0 where it is not known.
     pub e_folds: f64,
@@ -42,24 +44,25 @@ pub struct Confirmation {
 impl Confirmation {
     /// Whether the transient still is on the cycle.
     pub fn agrees(&self, cycle: &LimitCycle) -> bool {
-        let frequency = [self.main_frequency_hz.unwrap_or(0.0), cycle.frequency_hz()];
-        let power = [self.external_power, cycle.powers.contact.external];
+        let wanted = [cycle.frequency_hz(), cycle.powers.contact.external];
         self.main_harmonic == Some(cycle.harmonic)
-            && agree([frequency, power], [self.status, cycle.fractions], TOLERANCE)
+            && self.is_within(wanted, cycle.fractions, TOLERANCE)
     }
-}
 
-/// Whether `[found, wanted]` frequencies and powers, and fractions of contact nodes, agree: the first two relative to what is wanted.
-pub(super) fn agree(
-    values: [[f64; 2]; 2],
-    [status, wanted]: [[f64; 3]; 2],
-    [frequency_bound, power_bound, status_bound]: [f64; 3],
-) -> bool {
-    let pairs = values.into_iter().zip([frequency_bound, power_bound]);
-    let mut within = pairs.map(|([found, wanted], bound)| (found / wanted - 1.0).abs() <= bound);
-    let mut statuses = status.iter().zip(wanted);
-    within.all(|is_within| is_within)
-        && statuses.all(|(found, wanted)| (found - wanted).abs() <= status_bound)
+    /// Whether it has the `[frequency, power]` that are wanted, within bounds relative to them, and the fractions of contact nodes.
+    pub(super) fn is_within(
+        &self,
+        wanted: [f64; 2],
+        fractions: [f64; 3],
+        [frequency_bound, power_bound, status_bound]: [f64; 3],
+    ) -> bool {
+        let found = [self.main_frequency_hz.unwrap_or(0.0), self.external_power];
+        let near = |i: usize, bound: f64| (found[i] / wanted[i] - 1.0).abs() <= bound;
+        let mut statuses = self.status.iter().zip(fractions);
+        near(0, frequency_bound)
+            && near(1, power_bound)
+            && statuses.all(|(found, wanted)| (found - wanted).abs() <= status_bound)
+    }
 }
 
 /// Periods that tell: `least`, or as many as a perturbation that may grow, at a rate with its uncertainty (1/s), needs for so many
@@ -70,12 +73,9 @@ pub(super) fn telling_periods(growth: Option<[f64; 2]>, e_folds: f64, least: usi
     least.max(wanted.min(MOST_PERIODS))
 }
 
-/// Amplitude of one harmonic of the edge over time, and the angle that it has turned through.
-#[derive(Clone, Copy, Default)]
-struct Turning {
-    last: c64,
-    angle: f64,
-    amplitude: f64,
+/// Angle that an amplitude turns through, rad.
+pub(super) fn turned(amplitudes: &[c64]) -> f64 {
+    amplitudes.windows(2).map(|pair| (pair[1] * pair[0].conj()).arg()).sum()
 }
 
 impl MeshStepping<'_> {
@@ -96,71 +96,45 @@ impl MeshStepping<'_> {
         let surface_speed = cycle.state.point.contact.rotation_speed * self.solver.body().radius;
         let seed = leading.map(|found| (found.harmonic, SEED * surface_speed));
         let (mut run, steps) = self.start(cycle, seed)?;
-        let mut harmonics: Vec<usize> = (1..=HARMONICS.min(run.interface().len() / 2)).collect();
-        if !harmonics.contains(&cycle.harmonic) {
-            harmonics.push(cycle.harmonic);
-        }
         let look_every = (steps / LOOKS).max(1);
         let first = (periods - periods / 5) * steps;
-        let mut turnings = vec![Turning::default(); harmonics.len()];
-        let (mut from, mut until) = (0, 0);
-        for step in 0..periods * steps {
+        for _ in 0..=first {
             interruption::check();
             run.advance();
-            if step < first {
-                continue;
-            }
-            if step == first {
-                run.take_sums();
-            }
-            if (step - first).is_multiple_of(look_every) {
-                let edge = self.edge(&run);
-                let is_first = step == first;
-                if is_first {
-                    from = step;
-                }
-                until = step;
-                for (turning, &m) in turnings.iter_mut().zip(&harmonics) {
-                    turning.look(amplitude(&edge, m), is_first);
-                }
+        }
+
+        // The last fifth.
+        run.take_sums();
+        let counted = periods * steps - first - 1;
+        let mut looks = vec![slips(&run)];
+        for step in 1..=counted {
+            interruption::check();
+            run.advance();
+            if step.is_multiple_of(look_every) {
+                looks.push(slips(&run));
             }
         }
-        let duration = (until - from) as f64 * run.plan().time_step;
         let (powers, _, counts) = run.take_sums();
-        let counted = (periods * steps - first - 1) as f64;
-        let main = harmonics.iter().zip(&turnings);
-        let main = main.max_by(|a, b| a.1.amplitude.total_cmp(&b.1.amplitude));
+        let duration = ((looks.len() - 1) * look_every) as f64 * run.plan().time_step;
+
+        // The largest harmonic, if it is one.
+        let highest = HARMONICS.min(run.interface().len() / 2);
+        let own = (cycle.harmonic > highest).then_some(cycle.harmonic);
+        let harmonics = (1..=highest).chain(own).map(|m| {
+            (m, looks.iter().map(|edge| amplitude(edge, m as isize)).collect::<Vec<c64>>())
+        });
+        let size = |own: &[c64]| own.iter().map(|a| a.norm()).sum::<f64>() / looks.len() as f64;
+        let main = harmonics.max_by(|a, b| size(&a.1).total_cmp(&size(&b.1)));
         let least = 1e-4 * cycle.state.point.contact.interference;
-        let looks = (until - from) / look_every + 1;
-        let main = main.filter(|(_, turning)| turning.amplitude / looks as f64 > least);
+        let main = main.filter(|(_, own)| size(own) > least);
         Ok(Confirmation {
             periods,
-            main_frequency_hz: main.map(|(_, turning)| turning.angle.abs() / TAU / duration),
-            main_harmonic: main.map(|(&harmonic, _)| harmonic),
+            main_frequency_hz: main.as_ref().map(|(_, own)| turned(own).abs() / TAU / duration),
+            main_harmonic: main.map(|(harmonic, _)| harmonic),
             status: counts.fractions(),
-            external_power: powers.external / counted,
+            external_power: powers.external / counted as f64,
             e_folds: leading
                 .map_or(0.0, |found| found.exponent.re * periods as f64 / cycle.frequency_hz()),
         })
     }
-}
-
-impl Turning {
-    fn look(&mut self, now: c64, is_first: bool) {
-        if !is_first {
-            self.angle += (now * self.last.conj()).arg();
-        }
-        self.last = now;
-        self.amplitude += now.norm();
-    }
-}
-
-/// Amplitude of harmonic `m` of values on equal nodes.
-fn amplitude(edge: &[f64], m: usize) -> c64 {
-    let count = edge.len();
-    let terms = edge.iter().enumerate().map(|(j, &value)| {
-        let angle = TAU * ((m * j) % count) as f64 / count as f64;
-        value * c64::from_polar(2.0 / count as f64, -angle)
-    });
-    terms.sum()
 }

@@ -1,5 +1,6 @@
 //! Limit cycles along a parameter.
 
+use super::continuation::BranchEnd;
 use super::limit_cycle::LimitCycle;
 use super::parameter::Parameter;
 
@@ -50,39 +51,6 @@ impl Turning {
             self.folds.push(self.farthest);
             self.direction = -self.direction;
             self.farthest = value;
-        }
-    }
-}
-
-/// Why a branch ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BranchEnd {
-    /// The range asked for ends there.
-    Range,
-    /// The whole edge slips: the cycle shrinks into steady sliding.
-    Birth,
-    /// The curve could not be followed any further.
-    Lost,
-    /// The most steps were spent.
-    Steps,
-    /// The body leaves its counterface.
-    Separated,
-    /// The wave is no motion of the disc, see [`LimitCycle::is_physical`].
-    Unphysical,
-}
-
-impl BranchEnd {
-    /// In words.
-    pub fn describe(self) -> &'static str {
-        match self {
-            Self::Range => "the range ends",
-            Self::Birth => "the cycle shrinks into steady sliding",
-            Self::Lost => "the curve cannot be followed",
-            Self::Steps => "too many steps were spent",
-            Self::Separated => "the body leaves its counterface",
-            Self::Unphysical => {
-                "the wave opens inside the cylinder or draws energy from the normal contact: refine the mesh"
-            }
         }
     }
 }

@@ -19,12 +19,17 @@ pub struct PhaseGrid {
 /// Landing time, in units of `1 / omega` of a contact node between fixed neighbours.
 const LANDING: f64 = 0.5;
 /// Landing time, in phases, that is resolved.
-const RESOLVED: f64 = 0.5;
+pub(super) const RESOLVED: f64 = 0.5;
 /// Fewest and most phases where none are given.
 const POINTS: (usize, usize) = (91, 181);
 
 /// Phases kept between `M` and a multiple of `2 N / n`, at most.
 const CLEARANCE: f64 = 12.0;
+
+/// Landing time, as a share of the period, of a wave of about `frequency` (rad/s) on contact nodes of the frequency `node`.
+pub(super) fn landing_share(frequency: f64, node: f64) -> f64 {
+    LANDING / node * frequency / TAU
+}
 
 impl PhaseGrid {
     /// The grid for a wave of about `frequency` (rad/s) on a mesh whose contact nodes have the frequency `node`, with
@@ -34,7 +39,7 @@ impl PhaseGrid {
     /// highest harmonics, which the differences in time take for slow ones, are long waves to the mesh and would
     /// resonate: there fewer phases are taken.
     pub fn new(frequency: f64, node: f64, nodes: f64, points: Option<usize>) -> Self {
-        let wanted = LANDING / node * frequency / TAU;
+        let wanted = landing_share(frequency, node);
         let wished = points.unwrap_or_else(|| {
             let points = (RESOLVED / wanted).round() as usize;
             points.clamp(POINTS.0, POINTS.1)

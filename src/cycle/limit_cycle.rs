@@ -101,20 +101,6 @@ impl LimitCycle {
         }
     }
 
-    /// Rate `i s` and displacement amplitude of every free node outwards, for each temporal harmonic.
-    pub fn profiles(&self, wave: &Wave<'_>) -> Vec<(c64, Vec<[c64; 2]>)> {
-        let edge = EdgeMotion::of(wave, &self.state);
-        let damping = &self.state.point.damping;
-        let pairs = edge.displacement.iter().zip(&edge.rates).enumerate();
-        pairs
-            .map(|(k, (u, &rate))| {
-                let share = if k == 0 { 1.0 } else { 2.0 } / wave.points() as f64;
-                let amplitude = u.map(|value| value * share);
-                (rate, wave.profile(k, rate, damping, amplitude))
-            })
-            .collect()
-    }
-
     /// Speed of the cylinder above which a cycle without stick no longer depends on it, `max v_theta / a`, rad/s: friction
     /// then knows only the sense of sliding. `None` for a cycle with sticking points.
     pub fn saturation_speed(&self, inner_radius: f64) -> Option<f64> {
@@ -200,8 +186,7 @@ pub(super) fn powers(
     let surface_speed = contact.rotation_speed * wave.body.radius;
     let mut powers = ContactPowers::default();
     let velocity = [0, 1].map(|component| {
-        let pairs = edge.displacement.iter().zip(&edge.rates);
-        wave.values(pairs.map(|(u, rate)| u[component] * rate))
+        wave.values(edge.displacement.iter().zip(&edge.rates).map(|(u, rate)| u[component] * rate))
     });
     for (i, point) in points.iter().enumerate() {
         let (normal, tangential) = (state.normal[i], state.tangential[i]);

@@ -1,18 +1,20 @@
 //! Limit cycles of one harmonic: from birth to an operating point, and along a parameter.
 
 use super::branch::{Branch, Step};
-use super::cycle_branch::{BranchEnd, CycleBranch, Turning};
-use super::field::{HarmonicField, summed};
+use super::continuation::{BranchEnd, Values, Way, both_halves, joined};
+use super::cycle_branch::{CycleBranch, Turning};
+use super::field::{field, start_of};
 use super::grid::PhaseGrid;
 use super::limit_cycle::LimitCycle;
 use super::onset::{DiscModel, MODES, largest_linear_wave, refined};
 use super::parameter::{OperatingPoint, Parameter};
-use super::state::{PointState, WaveState};
+use super::state::PointState;
 use super::wave::Wave;
 use super::{CycleError, Family, Onset, WaveBody};
-use crate::cea::ModeLimit;
+use crate::cea::{ModeLimit, Unwatched};
 use crate::fem::{ElasticMaterial, RayleighDamping};
 use crate::mesh::{AnnulusSpecification, ElementKind};
+use std::convert::Infallible;
 use std::f64::consts::TAU;
 
 /// Most changes of contact state along one branch.
@@ -40,8 +42,8 @@ pub struct CycleSolver {
     onset: Onset,
     body: WaveBody,
     grid: PhaseGrid,
-    pub(super) specification: AnnulusSpecification,
-    pub(super) material: ElasticMaterial,
+    /// The disc; its cycles have a damping of their own.
+    pub(super) model: DiscModel,
 }
 
 impl CycleSolver {
@@ -101,14 +103,7 @@ impl CycleSolver {
         let node_frequency = body(0)?.node_frequency;
         let nodes = specification.circumferential_elements as f64 / family.harmonic as f64;
         let grid = PhaseGrid::new(onset.frequency, node_frequency, nodes, points);
-        Ok(Self {
-            family,
-            onset: *onset,
-            body: body(grid.points / 2)?,
-            grid,
-            specification: *specification,
-            material: *material,
-        })
+        Ok(Self { family, onset: *onset, body: body(grid.points / 2)?, grid, model: *model })
     }
 
     /// The family that it solves for.
@@ -119,15 +114,6 @@ impl CycleSolver {
     /// The body.
     pub fn body(&self) -> &WaveBody {
         &self.body
-    }
-
-    /// The disc that it solves for, with the damping of its onset left open.
-    pub(super) fn model(&self) -> DiscModel {
-        DiscModel {
-            specification: self.specification,
-            material: self.material,
-            damping: RayleighDamping::default(),
-        }
     }
 
     /// Its phases.
@@ -167,30 +153,14 @@ impl CycleSolver {
         for shift in ORIGINS {
             let origin = TAU * shift / wave.points() as f64;
             let (state, event) = largest_linear_wave(&wave, point, &onset, origin);
-            let mut branch = Branch::new(&wave, parameter, state, 1.0, Some(event));
-            let end = run(&mut branch, &[target], MOST_STEPS_FROM_BIRTH, |branch, step| {
-                matches!(step, Step::At(_)).then_some(branch.value())
-            });
-            let end = end.and_then(|_| {
-                let cycle = LimitCycle::new(&wave, branch.state.clone());
-                cycle.is_physical().then_some(cycle).ok_or(BranchEnd::Unphysical)
-            });
-            match end {
+            let branch = Branch::new(&wave, parameter, state, 1.0, Some(event));
+            match Half::new(branch, &Values::new(&[target]), MOST_STEPS_FROM_BIRTH).reach() {
                 Ok(cycle) => return Ok(cycle),
-                Err(reason) if branch.value() > failure.0 => failure = (branch.value(), reason),
+                Err(end) if end.0 > failure.0 => failure = end,
                 Err(_) => {}
             }
         }
-        if failure.1 == BranchEnd::Unphysical {
-            return Err(self.unphysical());
-        }
-        Err(CycleError::NotReached {
-            family: self.family,
-            key: parameter.key(),
-            value: target,
-            reached: failure.0,
-            reason: failure.1.describe().to_owned(),
-        })
+        Err(self.not_reached(parameter, target, failure))
     }
 
     /// The limit cycle at `point` from the one of a neighbouring point that differs in `parameter`.
@@ -204,35 +174,34 @@ impl CycleSolver {
         parameter: Parameter,
         value: f64,
     ) -> Result<LimitCycle, CycleError> {
-        let wave = self.wave();
         let direction = value - parameter.of(&cycle.state.point);
         if direction == 0.0 {
             return Ok(cycle.clone());
         }
-        let mut branch = Branch::new(&wave, parameter, cycle.state.clone(), direction, None);
-        let end = run(&mut branch, &[value], MOST_STEPS, |branch, step| {
-            matches!(step, Step::At(_)).then_some(branch.value())
-        });
-        match end {
-            Ok(_) => {
-                let cycle = LimitCycle::new(&wave, branch.state);
-                if cycle.is_physical() {
-                    return Ok(cycle);
-                }
-                Err(self.unphysical())
-            }
-            Err(reason) => Err(CycleError::NotReached {
-                family: self.family,
-                key: parameter.key(),
-                value,
-                reached: branch.value(),
-                reason: reason.describe().to_owned(),
-            }),
-        }
+        let wave = self.wave();
+        let branch = Branch::new(&wave, parameter, cycle.state.clone(), direction, None);
+        let found = Half::new(branch, &Values::new(&[value]), MOST_STEPS).reach();
+        found.map_err(|end| self.not_reached(parameter, value, end))
     }
 
-    fn unphysical(&self) -> CycleError {
-        CycleError::Unphysical { family: self.family, sectors: self.body.sector_count }
+    /// Why a branch that ends at a value has no cycle at another.
+    fn not_reached(
+        &self,
+        parameter: Parameter,
+        value: f64,
+        (reached, end): (f64, BranchEnd),
+    ) -> CycleError {
+        let (family, sectors) = (self.family, self.body.sector_count);
+        match end {
+            BranchEnd::Unphysical => CycleError::Unphysical { family, sectors },
+            _ => CycleError::NotReached {
+                family,
+                key: parameter.key(),
+                value,
+                reached,
+                reason: end.describe().to_owned(),
+            },
+        }
     }
 
     /// The whole branch through `cycle` over `parameter` between the smallest and the largest of `values` (SI), with a
@@ -263,77 +232,26 @@ impl CycleSolver {
         values: &[f64],
     ) -> Option<CycleBranch> {
         let points = FINER * self.grid.points;
-        let model = self.model();
-        let finer = Self::born_at(&model, self.family, &self.onset, Some(points)).ok()?;
+        let finer = Self::born_at(&self.model, self.family, &self.onset, Some(points)).ok()?;
         let own = finer.find(&cycle.state.point).ok()?;
         Some(finer.both_ways(&own, parameter, values))
     }
 
     fn both_ways(&self, cycle: &LimitCycle, parameter: Parameter, values: &[f64]) -> CycleBranch {
-        let mut samples = values.to_vec();
-        samples.sort_by(f64::total_cmp);
-        samples.dedup();
-        let mut down = self.half(cycle, parameter, &samples, -1.0);
-        let up = self.half(cycle, parameter, &samples, 1.0);
-        down.cycles.reverse();
-        down.folds.reverse();
+        let (wave, values) = (self.wave(), Values::new(values));
         let start = parameter.of(&cycle.state.point);
-        if samples.contains(&start) {
-            down.cycles.push(cycle.clone());
-        }
-        down.cycles.extend(up.cycles);
-        down.folds.extend(up.folds);
+        let half = |direction: f64| {
+            let branch = Branch::new(&wave, parameter, cycle.state.clone(), direction, None);
+            Ok(Half::new(branch, &values, MOST_STEPS))
+        };
+        let Ok([(down, low_end), (up, high_end)]) = both_halves(&values, start, &Unwatched, half);
+        let own = values.contains(start).then(|| cycle.clone());
         CycleBranch {
             parameter,
-            cycles: down.cycles,
-            folds: down.folds,
-            ends: [down.ends[1], up.ends[1]],
-            factorizations: down.factorizations + up.factorizations,
-        }
-    }
-
-    /// The branch from `cycle` in one direction.
-    fn half(
-        &self,
-        cycle: &LimitCycle,
-        parameter: Parameter,
-        samples: &[f64],
-        direction: f64,
-    ) -> CycleBranch {
-        let wave = self.wave();
-        let mut cycles = Vec::new();
-        let mut branch = Branch::new(&wave, parameter, cycle.state.clone(), direction, None);
-        let (first, last) = (samples[0], samples[samples.len() - 1]);
-        let start = branch.value();
-        let mut turning = Turning::new(start, direction.signum(), self.grid().points);
-        // A start outside the range has nothing to find on the way out.
-        if (start <= first && direction < 0.0) || (start >= last && direction > 0.0) {
-            return CycleBranch {
-                parameter,
-                cycles,
-                folds: Vec::new(),
-                ends: [BranchEnd::Range; 2],
-                factorizations: 0,
-            };
-        }
-        let end = run(&mut branch, samples, MOST_STEPS, |branch, step| {
-            turning.follow(branch.value());
-            let direction = branch.direction();
-            let Step::At(value) = step else { return None };
-            let cycle = LimitCycle::new(&wave, branch.state.clone());
-            if !cycle.is_physical() {
-                return Some(BranchEnd::Unphysical);
-            }
-            cycles.push(cycle);
-            let leaves = (value == first && direction < 0.0) || (value == last && direction > 0.0);
-            leaves.then_some(BranchEnd::Range)
-        });
-        CycleBranch {
-            parameter,
-            cycles,
-            folds: turning.folds,
-            ends: [BranchEnd::Range, end.unwrap_or_else(|reason| reason)],
-            factorizations: branch.factorizations,
+            cycles: joined(down.cycles, own, up.cycles),
+            folds: joined(down.turning.folds, None, up.turning.folds),
+            ends: [low_end, high_end],
+            factorizations: down.branch.factorizations + up.branch.factorizations,
         }
     }
 
@@ -341,47 +259,80 @@ impl CycleSolver {
     ///
     /// The state of a contact node at angle `theta` is that of phase `n theta + omega t`.
     pub fn field(&self, cycle: &LimitCycle, time: f64) -> [Vec<f64>; 2] {
-        let wave = self.wave();
-        let profiles = cycle.profiles(&wave);
-        // Clamped nodes have no place in a profile.
-        let rays = self.specification.radial_elements + 1;
-        let harmonics = profiles.into_iter().enumerate();
-        let harmonics = harmonics.map(|(k, (rate, profile))| HarmonicField {
-            around: k as isize * self.body.harmonic(),
-            phase: k as f64 * cycle.state.frequency * time,
-            rate,
-            profile,
-        });
-        summed(harmonics, [rays, self.body.sector_count])
+        field(&self.wave(), &cycle.state, [self.body.harmonic(), 0], time)
+    }
+
+    /// Displacement of a limit cycle at time zero (m) and its velocity half a step earlier (m/s), over all dofs in nodal
+    /// frames: what the time loop starts from.
+    pub fn starting_fields(&self, cycle: &LimitCycle, time_step: f64) -> [Vec<f64>; 2] {
+        start_of(|time| self.field(cycle, time), time_step)
     }
 }
 
-/// Steps until `done` says so.
-fn run<T>(
-    branch: &mut Branch<'_>,
-    samples: &[f64],
-    most_steps: usize,
-    mut done: impl FnMut(&Branch<'_>, Step) -> Option<T>,
-) -> Result<T, BranchEnd> {
-    for _ in 0..most_steps {
-        let step = branch.advance(samples).ok_or(BranchEnd::Lost)?;
-        if let Some(result) = done(branch, step) {
-            return Ok(result);
-        }
-        if is_full_slip(&branch.state) {
-            return Err(BranchEnd::Birth);
-        }
-        let friction = branch.state.point.contact.friction_coefficient;
-        if !(friction < HIGHEST_FRICTION) {
-            return Err(BranchEnd::Lost);
-        }
-    }
-    Err(BranchEnd::Steps)
+/// One half of a branch of waves.
+struct Half<'a> {
+    branch: Branch<'a>,
+    values: &'a Values,
+    /// The cycles at values asked for.
+    cycles: Vec<LimitCycle>,
+    turning: Turning,
+    /// Changes of contact state that may still come.
+    steps: usize,
 }
 
-fn is_full_slip(state: &WaveState) -> bool {
-    let mut points = state.contact.iter();
-    points.all(|&point| point == PointState::SlipForward)
+impl<'a> Half<'a> {
+    fn new(branch: Branch<'a>, values: &'a Values, steps: usize) -> Self {
+        let turning =
+            Turning::new(branch.value(), branch.direction().signum(), branch.wave.points());
+        Self { branch, values, cycles: Vec::new(), turning, steps }
+    }
+
+    /// The cycle at the only value asked for, or where the branch ends before and why.
+    fn reach(mut self) -> Result<LimitCycle, (f64, BranchEnd)> {
+        let Ok(end) = self.run("", &Unwatched);
+        self.cycles.pop().ok_or((self.branch.value(), end))
+    }
+
+    /// One step of the branch, with the cycle where it ends at a value asked for.
+    fn step(&mut self) -> Option<BranchEnd> {
+        let Some(left) = self.steps.checked_sub(1) else {
+            return Some(BranchEnd::Steps);
+        };
+        self.steps = left;
+        let Some(step) = self.branch.advance(self.values) else {
+            return Some(BranchEnd::Lost);
+        };
+        self.turning.follow(self.branch.value());
+        let state = &self.branch.state;
+        if let Step::At(value) = step {
+            let cycle = LimitCycle::new(self.branch.wave, state.clone());
+            if !cycle.is_physical() {
+                return Some(BranchEnd::Unphysical);
+            }
+            self.cycles.push(cycle);
+            if self.values.end_at(value, self.branch.direction() > 0.0) {
+                return Some(BranchEnd::Range);
+            }
+        }
+        if state.contact.iter().all(|&point| point == PointState::SlipForward) {
+            return Some(BranchEnd::Birth);
+        }
+        let is_beyond = !(state.point.contact.friction_coefficient < HIGHEST_FRICTION);
+        is_beyond.then_some(BranchEnd::Lost)
+    }
+}
+
+impl Way for Half<'_> {
+    type Error = Infallible;
+    const BLOCK: usize = usize::MAX;
+
+    fn count(&self) -> usize {
+        self.cycles.len()
+    }
+
+    fn advance(&mut self) -> Result<Option<BranchEnd>, Infallible> {
+        Ok(self.step())
+    }
 }
 
 fn check_mesh(specification: &AnnulusSpecification, harmonic: usize) -> Result<(), CycleError> {

@@ -3,7 +3,7 @@
 use super::floquet::LeadingExponents;
 use super::limit_cycle::LimitCycle;
 use super::parameter::Parameter;
-use super::stability::{CycleStability, StabilityChange};
+use super::stability::{CycleStability, StabilityChange, crossing};
 use super::stepping::MeshStepping;
 use super::{CycleError, CycleSolver};
 use crate::fem::operator::SimdLevel;
@@ -34,8 +34,7 @@ impl SteppedCycle {
 impl CycleSolver {
     /// Growth of small perturbations of a cycle.
     pub fn stability(&self, cycle: &LimitCycle) -> Result<CycleStability, CycleError> {
-        let stepping = self.stepping(SimdLevel::detect())?;
-        Ok(stepping.settle(cycle, None)?.stability)
+        Ok(self.stepping(SimdLevel::detect())?.settle(cycle, None)?.stability)
     }
 }
 
@@ -86,14 +85,9 @@ impl MeshStepping<'_> {
             ends[side] = settled;
         }
         let growing = ends[1].stability.leading();
-        let rate = |side: usize| ends[side].stability.leading().map(|found| found.exponent.re);
-        // Stable cycles without a slow exponent say nothing about how far the change is.
-        let share = match (rate(0), rate(1)) {
-            (Some(before), Some(after)) if after > before => -before / (after - before),
-            _ => 0.5,
-        };
+        let rate = |end: &SteppedCycle| end.stability.leading().map(|found| found.exponent.re);
         Ok(StabilityChange {
-            value: at(&ends[0]) + share * (at(&ends[1]) - at(&ends[0])),
+            value: crossing(ends.each_ref().map(|end| (at(end), rate(end)))),
             harmonic: growing.map_or(0, |found| found.harmonic),
             frequency_hz: growing.map_or(0.0, |found| found.frequency_hz),
         })

@@ -45,6 +45,11 @@ impl Verdict {
         known.unwrap_or(Self::Stable)
     }
 
+    /// Whether all decay, where that is known for sure.
+    pub fn is_stable(self) -> Option<bool> {
+        (self != Self::Undecided).then_some(self == Self::Stable)
+    }
+
     /// In one word.
     pub fn word(self) -> &'static str {
         match self {
@@ -75,6 +80,23 @@ pub struct StabilityChange {
     pub harmonic: usize,
     /// Its frequency in the fixed frame, Hz.
     pub frequency_hz: f64,
+}
+
+/// Where a branch changes its stability: neighbours that differ in it, among those of which it is known.
+pub fn differing<T: Copy>(branch: impl Iterator<Item = (Option<bool>, T)>) -> Vec<[T; 2]> {
+    let known: Vec<(bool, T)> = branch.filter_map(|(known, own)| Some((known?, own))).collect();
+    let pairs = known.windows(2).filter(|pair| pair[0].0 != pair[1].0);
+    pairs.map(|pair| [pair[0].1, pair[1].1]).collect()
+}
+
+/// The value between two at which the growth rate passes zero in a straight line; half way where one has no rate, which says nothing
+/// about how far the change is.
+pub(super) fn crossing([(from, one), (to, other)]: [(f64, Option<f64>); 2]) -> f64 {
+    let share = match (one, other) {
+        (Some(one), Some(other)) if one != other => (one / (one - other)).clamp(0.0, 1.0),
+        _ => 0.5,
+    };
+    from + share * (to - from)
 }
 
 impl StabilityChange {

@@ -16,7 +16,7 @@ pub enum PointState {
     SlipBackward,
 }
 
-/// Contact states by their codes.
+/// Contact states by their codes, in their order.
 const POINT_STATES: [PointState; 4] =
     [PointState::Open, PointState::Stick, PointState::SlipForward, PointState::SlipBackward];
 /// Columns of a state.
@@ -29,6 +29,15 @@ impl PointState {
             Self::Open | Self::Stick => 0.0,
             Self::SlipForward => 1.0,
             Self::SlipBackward => -1.0,
+        }
+    }
+
+    /// The inequalities that hold at a point in this state.
+    pub(super) fn events(self) -> &'static [fn(usize) -> Event] {
+        match self {
+            Self::Open => &[Event::Touch],
+            Self::Stick => &[Event::Lift, Event::SlideForward, Event::SlideBackward],
+            Self::SlipForward | Self::SlipBackward => &[Event::Lift, Event::Rest],
         }
     }
 
@@ -58,6 +67,18 @@ pub enum Event {
 }
 
 impl Event {
+    /// What the inequality leaves, N/m, of the normal and tangential force, the gap and the slip as forces and the friction limit at
+    /// its point, or the rate of that along the rates of these.
+    pub(super) fn slack(self, drag: f64, [normal, tangential, gap, slip, limit]: [f64; 5]) -> f64 {
+        match self {
+            Self::Lift(_) => normal,
+            Self::Touch(_) => gap,
+            Self::SlideForward(_) => limit - tangential,
+            Self::SlideBackward(_) => limit + tangential,
+            Self::Rest(_) => -drag * slip,
+        }
+    }
+
     /// The point at which it breaks.
     pub(super) fn point(self) -> usize {
         match self {
@@ -143,8 +164,7 @@ impl WaveState {
 
     /// Normal force where the point slips, with the sign of its drag: `dT / dmu`.
     pub fn slipping_normal(&self) -> Vec<f64> {
-        let pairs = self.contact.iter().zip(&self.normal);
-        pairs.map(|(state, normal)| state.drag() * normal).collect()
+        self.contact.iter().zip(&self.normal).map(|(state, normal)| state.drag() * normal).collect()
     }
 
     /// Imposes Coulomb's law where points slip and no force where they are open.
@@ -163,29 +183,24 @@ impl WaveState {
     pub(super) fn columns(&self) -> [Vec<f64>; STATE_COLUMNS] {
         let second = self.second.iter();
         let second = second.flat_map(|own| [own.frequency, own.origin, own.points as f64]);
-        let code = |state: &PointState| POINT_STATES.iter().position(|own| own == state);
         [
             self.normal.clone(),
             self.tangential.clone(),
-            (self.contact.iter().filter_map(code)).map(|code| code as f64).collect(),
+            self.contact.iter().map(|&state| f64::from(state as u8)).collect(),
             [self.frequency, self.origin].into_iter().chain(second).collect(),
         ]
     }
 
     /// The state of [`Self::columns`] at an operating point; none where they are no state.
     pub(super) fn from_columns(columns: &[Vec<f64>], point: OperatingPoint) -> Option<Self> {
-        let [normal, tangential, contact, scalars] = columns else {
-            return None;
-        };
-        let [frequency, origin, ref second @ ..] = scalars[..] else {
-            return None;
-        };
-        let second = match *second {
-            [frequency, origin, points] => {
-                Some(SecondPhase { frequency, origin, points: points as usize })
-            }
-            _ => None,
-        };
+        let [normal, tangential, contact, scalars]: &[Vec<f64>; 4] = columns.try_into().ok()?;
+        let (&[frequency, origin], second) = scalars.split_first_chunk()?;
+        let second = second.try_into().ok();
+        let second = second.map(|[frequency, origin, points]: [f64; 3]| SecondPhase {
+            frequency,
+            origin,
+            points: points as usize,
+        });
         let state = |code: &f64| POINT_STATES.get(*code as usize).copied();
         Some(Self {
             normal: normal.clone(),

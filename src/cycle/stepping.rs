@@ -1,6 +1,7 @@
 //! Limit cycles in the mesh's own time stepping. What one period of the explicit transient does to
 //! a cycle, and to small perturbations that ride on it.
 
+use super::field::start_of;
 use super::limit_cycle::{CyclePowers, LimitCycle};
 use super::{CycleError, CycleSolver};
 use crate::contact::ContactStatus;
@@ -49,7 +50,6 @@ enum NodeContact {
 pub struct Period<'a> {
     stepping: &'a MeshStepping<'a>,
     coefficients: StepCoefficients,
-    steps: usize,
     friction_coefficient: f64,
     /// Places of the normal and tangential dof of each contact node.
     places: Vec<[usize; 2]>,
@@ -70,23 +70,15 @@ pub struct Period<'a> {
 }
 
 impl CycleSolver {
-    /// Displacement of a limit cycle at time zero (m) and its velocity half a step earlier (m/s), over all dofs in nodal
-    /// frames: what the time loop starts from.
-    pub fn starting_fields(&self, cycle: &LimitCycle, time_step: f64) -> [Vec<f64>; 2] {
-        let [displacement, _] = self.field(cycle, 0.0);
-        let [_, velocity] = self.field(cycle, -0.5 * time_step);
-        [displacement, velocity]
-    }
-
     /// The time stepping of its mesh.
     ///
     /// # Errors
     /// [`CycleError::Stepping`] for a mesh that it cannot take.
     pub fn stepping(&self, simd: SimdLevel) -> Result<MeshStepping<'_>, CycleError> {
-        let annulus = AnnulusMesh::generate(&self.specification)?;
+        let annulus = AnnulusMesh::generate(&self.model.specification)?;
         let undamped = RayleighDamping::default();
-        let unloaded = super::onset::unloaded(&self.specification);
-        let model = TransientModel::of_annulus(&annulus, &self.material, undamped, unloaded);
+        let unloaded = super::onset::unloaded(&self.model.specification);
+        let model = TransientModel::of_annulus(&annulus, &self.model.material, undamped, unloaded);
         let operator = model.operator(OperatorChoice::Auto, simd)?;
         let largest_frequency = largest_frequency(operator.as_ref());
         Ok(MeshStepping { solver: self, annulus, operator, largest_frequency })
@@ -100,16 +92,15 @@ impl MeshStepping<'_> {
         cycle: &LimitCycle,
         seed: Option<(usize, f64)>,
     ) -> Result<(CentralDifference<'_>, usize), CycleError> {
-        self.start_from(cycle, seed, |time_step| self.solver.starting_fields(cycle, time_step))
+        self.start_from(cycle, seed, |time| self.solver.field(cycle, time))
     }
 
-    /// The same at the operating point of `cycle` from other fields: displacement at time zero (m) and velocity half a step of so
-    /// many seconds earlier (m/s).
+    /// The same at the operating point of `cycle` from other fields: displacement (m) and velocity (m/s) at a time (s).
     pub(super) fn start_from(
         &self,
         cycle: &LimitCycle,
         seed: Option<(usize, f64)>,
-        fields: impl Fn(f64) -> [Vec<f64>; 2],
+        field: impl Fn(f64) -> [Vec<f64>; 2],
     ) -> Result<(CentralDifference<'_>, usize), CycleError> {
         let point = &cycle.state.point;
         let duration = TAU / cycle.state.frequency;
@@ -118,7 +109,7 @@ impl MeshStepping<'_> {
         let time_step = duration / steps as f64;
         let model = TransientModel::of_annulus(
             &self.annulus,
-            &self.solver.material,
+            &self.solver.model.material,
             point.damping,
             point.contact,
         );
@@ -135,17 +126,11 @@ impl MeshStepping<'_> {
                 Perturbation::of(&[harmonic], velocity)
             }),
         };
-        let [displacement, velocity] = fields(time_step);
+        let [displacement, velocity] = start_of(field, time_step);
         let operator = self.operator.as_ref();
         let run =
             CentralDifference::start_from(model, operator, &settings, &displacement, velocity)?;
         Ok((run, steps))
-    }
-
-    /// Tangential displacement of the contact nodes, m.
-    pub(super) fn edge(&self, run: &CentralDifference<'_>) -> Vec<f64> {
-        let nodes = 0..run.interface().len();
-        nodes.map(|i| run.contact().slip(i, &run.fields().displacement)).collect()
     }
 
     /// One period of the transient that starts on `cycle`, after a few others.
@@ -170,7 +155,6 @@ impl MeshStepping<'_> {
                 mass_coefficient: point.damping.mass_coefficient,
                 stiffness_coefficient: point.damping.stiffness_coefficient,
             },
-            steps,
             friction_coefficient: point.contact.friction_coefficient,
             places: (0..law.status.len()).map(|i| law.places(i)).collect(),
             contact: Vec::with_capacity(steps * law.status.len()),
@@ -185,33 +169,22 @@ impl MeshStepping<'_> {
         for _ in 0..steps {
             interruption::check();
             run.advance();
-            period.record(&run);
+            let law = run.contact();
+            let nodes = law.status.iter().zip(&law.tangential_force);
+            period.contact.extend(nodes.map(|(status, force)| match status {
+                ContactStatus::Open => NodeContact::Open,
+                ContactStatus::Stick => NodeContact::Stick,
+                ContactStatus::Slip => NodeContact::Slip(force.signum()),
+            }));
         }
-        period.summarize(&mut run);
+        let (contact, material_damping, counts) = run.take_sums();
+        period.powers = CyclePowers { contact, material_damping }.scaled(1.0 / steps as f64);
+        period.fractions = counts.fractions();
         Ok(period)
     }
 }
 
 impl Period<'_> {
-    /// Keeps the contact of the last step.
-    fn record(&mut self, run: &CentralDifference<'_>) {
-        let law = run.contact();
-        let nodes = law.status.iter().zip(&law.tangential_force);
-        self.contact.extend(nodes.map(|(status, force)| match status {
-            ContactStatus::Open => NodeContact::Open,
-            ContactStatus::Stick => NodeContact::Stick,
-            ContactStatus::Slip => NodeContact::Slip(force.signum()),
-        }));
-    }
-
-    /// Means over the steps since the sums were last taken.
-    fn summarize(&mut self, run: &mut CentralDifference<'_>) {
-        let (sums, damping, counts) = run.take_sums();
-        let powers = CyclePowers { contact: sums, material_damping: damping };
-        self.powers = powers.scaled(1.0 / self.steps as f64);
-        self.fractions = counts.fractions();
-    }
-
     /// The cycle with the powers and fractions of this period.
     pub(super) fn stepped(&self, cycle: &LimitCycle) -> LimitCycle {
         LimitCycle { powers: self.powers, fractions: self.fractions, ..cycle.clone() }

@@ -1,54 +1,60 @@
 //! The linear systems of one step along a branch, of one wave or of two.
 
 use super::parameter::Parameter;
-use super::state::{Event, Phase, PointState, WaveState};
+use super::state::{Event, Phase, WaveState};
+use super::vector::{add, difference};
 use super::wave::Linearization;
 use crate::linalg::{DenseLu, Mat, MatMut, c64};
 
 /// A change of forces, frequencies and parameter.
 #[derive(Clone, Debug)]
 pub struct Heading {
-    /// Change of the normal force at each point.
-    pub normal: Vec<f64>,
-    /// Change of the tangential force.
-    pub tangential: Vec<f64>,
-    /// Change of both frequencies; zero for a second wave that is not there.
-    pub frequencies: [f64; 2],
-    /// Change of the parameter.
-    pub parameter: f64,
+    /// Changes of the normal force at each point, of the tangential forces, of both frequencies (zero for a second wave that is not
+    /// there), and of the parameter.
+    values: Vec<f64>,
+    points: usize,
 }
 
 impl Heading {
     /// From one state to another.
     pub fn between(from: &WaveState, to: &WaveState, parameter: Parameter) -> Self {
-        let difference = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| b - a).collect();
-        Self {
-            normal: difference(&from.normal, &to.normal),
-            tangential: difference(&from.tangential, &to.tangential),
-            frequencies: [0, 1].map(|i| to.frequencies()[i] - from.frequencies()[i]),
-            parameter: parameter.of(&to.point) - parameter.of(&from.point),
-        }
+        let flat = |state: &WaveState| {
+            let scalars = [&state.frequencies()[..], &[parameter.of(&state.point)]].concat();
+            [&state.normal[..], &state.tangential, &scalars].concat()
+        };
+        Self { values: difference(&flat(to), &flat(from)), points: from.normal.len() }
+    }
+
+    /// Change of the normal force at each point.
+    pub fn normal(&self) -> &[f64] {
+        &self.values[..self.points]
+    }
+
+    /// Change of the tangential force.
+    pub fn tangential(&self) -> &[f64] {
+        &self.values[self.points..2 * self.points]
+    }
+
+    /// Changes of both frequencies and of the parameter.
+    pub fn scalars(&self) -> [f64; 3] {
+        [0, 1, 2].map(|i| self.values[2 * self.points + i])
     }
 
     /// Turns it round.
     pub fn reverse(&mut self) {
-        self.normal.iter_mut().for_each(|value| *value = -*value);
-        self.tangential.iter_mut().for_each(|value| *value = -*value);
-        self.frequencies = self.frequencies.map(|value| -value);
-        self.parameter = -self.parameter;
+        self.values.iter_mut().for_each(|value| *value = -*value);
     }
 
     /// Moves a state by `length` times this; contact laws with fixed drag hold exactly afterwards.
     pub fn add_to(&self, state: &mut WaveState, length: f64, parameter: Parameter) {
-        for i in 0..self.normal.len() {
-            state.normal[i] += length * self.normal[i];
-            state.tangential[i] += length * self.tangential[i];
+        add(&mut state.normal, length, self.normal());
+        add(&mut state.tangential, length, self.tangential());
+        let [first, second, change] = self.scalars();
+        state.frequency += length * first;
+        if let Some(own) = &mut state.second {
+            own.frequency += length * second;
         }
-        state.frequency += length * self.frequencies[0];
-        if let Some(second) = &mut state.second {
-            second.frequency += length * self.frequencies[1];
-        }
-        let value = parameter.of(&state.point) + length * self.parameter;
+        let value = parameter.of(&state.point) + length * change;
         parameter.set(&mut state.point, value);
         state.impose_law();
     }
@@ -101,8 +107,8 @@ pub struct System<'a> {
     contact: Vec<usize>,
     stick: Vec<usize>,
     force_scale: f64,
-    /// Scales of the scalars.
-    scales: Vec<f64>,
+    /// Place of each unknown in a [`Heading`], and its scale.
+    unknowns: Vec<(usize, f64)>,
 }
 
 impl<'a> System<'a> {
@@ -110,21 +116,18 @@ impl<'a> System<'a> {
     pub fn new(state: &'a WaveState, parameter: Parameter, force_scale: f64) -> Self {
         let (contact, stick) = state.active();
         let phases = state.phases();
-        let frequencies = state.frequencies();
-        let scales = phases.iter().map(|own| 0.01 * frequencies[own.index]);
-        Self {
-            state,
-            parameter,
-            contact,
-            stick,
-            force_scale,
-            scales: scales.chain([parameter.of(&state.point).abs().max(1e-12)]).collect(),
-            phases,
-        }
+        let (points, frequencies) = (state.contact.len(), state.frequencies());
+        let forces = contact.iter().copied().chain(stick.iter().map(|i| points + i));
+        let own = phases.iter().map(|own| own.index);
+        let own = own.map(|index| (2 * points + index, 0.01 * frequencies[index]));
+        let last = (2 * points + 2, parameter.of(&state.point).abs().max(1e-12));
+        let unknowns = forces.map(|place| (place, force_scale)).chain(own).chain([last]);
+        let unknowns = unknowns.collect();
+        Self { state, parameter, contact, stick, force_scale, unknowns, phases }
     }
 
     fn size(&self) -> usize {
-        self.forces() + self.scales.len()
+        self.unknowns.len()
     }
 
     /// Unknown forces: the scalars come after them.
@@ -132,14 +135,18 @@ impl<'a> System<'a> {
         self.contact.len() + self.stick.len()
     }
 
+    /// The frequencies and the parameter.
+    fn scalars(&self) -> &[(usize, f64)] {
+        &self.unknowns[self.forces()..]
+    }
+
     fn parameter_scale(&self) -> f64 {
-        self.scales[self.scales.len() - 1]
+        self.unknowns[self.size() - 1].1
     }
 
     /// Which point of the grid lies from `from` as `to` from its first.
     fn lag(&self, from: usize, to: usize) -> usize {
-        let phases = self.phases.iter();
-        let lags = phases.map(|own| {
+        let lags = self.phases.iter().map(|own| {
             let [from, to] = [from, to].map(|i| (i / own.stride) % own.points);
             own.stride * if to >= from { to - from } else { to + own.points - from }
         });
@@ -167,7 +174,7 @@ impl<'a> System<'a> {
         for (j, &i) in self.stick.iter().enumerate() {
             matrix[(at, self.contact.len() + j)] = force * columns[1][self.lag(i, row)];
         }
-        for (j, (own, by)) in self.scales.iter().zip(&linear.by).enumerate() {
+        for (j, ((_, own), by)) in self.scalars().iter().zip(&linear.by).enumerate() {
             matrix[(at, self.forces() + j)] = scale * own * by[law as usize][row];
         }
     }
@@ -183,8 +190,7 @@ impl<'a> System<'a> {
         let mut matrix = Mat::zeros(size, size);
         let mut residual = vec![0.0; size];
         let gaps = self.contact.iter().map(|&i| (i, Law::Gap));
-        let laws = gaps.chain(self.stick.iter().map(|&i| (i, Law::Slip)));
-        for (at, (i, law)) in laws.enumerate() {
+        for (at, (i, law)) in gaps.chain(self.stick.iter().map(|&i| (i, Law::Slip))).enumerate() {
             self.response_row(&mut matrix, at, i, linear, law);
             residual[at] = self.missed(linear, law, i);
         }
@@ -222,7 +228,7 @@ impl<'a> System<'a> {
         for (j, &i) in self.stick.iter().enumerate() {
             matrix[(at, self.contact.len() + j)] = force * part(turn(i) * first.row[1]);
         }
-        for (j, (own, by)) in self.scales.iter().zip(&first.by).enumerate() {
+        for (j, ((_, own), by)) in self.scalars().iter().zip(&first.by).enumerate() {
             matrix[(at, self.forces() + j)] = scale * own * part(*by);
         }
         scale * part(first.value)
@@ -288,10 +294,7 @@ impl<'a> System<'a> {
                 residual[at] = self.missed(linear, Law::Slip, i);
             }
             Event::SlideForward(i) | Event::SlideBackward(i) => {
-                let drag = match event {
-                    Event::SlideForward(_) => PointState::SlipForward.drag(),
-                    _ => PointState::SlipBackward.drag(),
-                };
+                let drag = if matches!(event, Event::SlideForward(_)) { 1.0 } else { -1.0 };
                 let friction = self.state.point.contact.friction_coefficient;
                 let (force, shear) = (self.state.normal[i], self.state.tangential[i]);
                 matrix[(at, place(&self.contact, i))] = friction;
@@ -306,17 +309,7 @@ impl<'a> System<'a> {
 
     /// Scaled components of a heading along the unknowns.
     fn scaled(&self, heading: &Heading) -> Vec<f64> {
-        let mut values: Vec<f64> = Vec::with_capacity(self.size());
-        values.extend(self.contact.iter().map(|&i| heading.normal[i] / self.force_scale));
-        values.extend(self.stick.iter().map(|&i| heading.tangential[i] / self.force_scale));
-        let [first, second] = heading.frequencies;
-        let scalars = match self.phases.len() {
-            1 => vec![first, heading.parameter],
-            _ => vec![first, second, heading.parameter],
-        };
-        let pairs = scalars.iter().zip(&self.scales);
-        values.extend(pairs.map(|(value, scale)| value / scale));
-        values
+        self.unknowns.iter().map(|&(place, scale)| heading.values[place] / scale).collect()
     }
 
     /// Distance from another state, in the measure in which headings have length one.
@@ -351,8 +344,7 @@ impl<'a> System<'a> {
         let mut length = self.length(&solution);
         // The closure may have picked the plane at an angle beyond a right one.
         if let Some(previous) = previous {
-            let row = self.scaled(previous);
-            let along: f64 = row.iter().zip(&solution).map(|(a, b)| a * b).sum();
+            let along: f64 = self.scaled(previous).iter().zip(&solution).map(|(a, b)| a * b).sum();
             length = length.copysign(along);
         }
         let scaled: Vec<f64> = solution.iter().map(|value| value / length).collect();
@@ -370,45 +362,32 @@ impl<'a> System<'a> {
             *own = 1.0;
         }
         for j in 0..self.size() {
-            let rows = largest.iter().enumerate();
-            rows.for_each(|(row, largest)| matrix[(row, j)] /= largest);
+            largest.iter().enumerate().for_each(|(row, largest)| matrix[(row, j)] /= largest);
         }
-        let rows = right_side.iter_mut().zip(&largest);
-        rows.for_each(|(own, largest)| *own /= largest);
+        right_side.iter_mut().zip(&largest).for_each(|(own, largest)| *own /= largest);
         let count = right_side.len();
         let columns = MatMut::from_column_major_slice_mut(&mut right_side, count, 1);
         DenseLu::factorize(matrix).solve_in_place(columns);
-        let is_finite = right_side.iter().all(|value| value.is_finite());
-        is_finite.then_some(right_side)
+        right_side.iter().all(|value| value.is_finite()).then_some(right_side)
     }
 
     fn heading(&self, solution: &[f64]) -> Heading {
         let points = self.state.contact.len();
-        let friction = self.state.point.contact.friction_coefficient;
-        let end = self.size();
-        let parameter = solution[end - 1] * self.parameter_scale();
-        let scalars = solution[self.forces()..].iter().zip(&self.scales);
-        let mut frequencies = [0.0; 2];
-        for (own, (value, scale)) in frequencies[..self.phases.len()].iter_mut().zip(scalars) {
-            *own = value * scale;
+        let mut values = vec![0.0; 2 * points + 3];
+        for (&(place, scale), value) in self.unknowns.iter().zip(solution) {
+            values[place] = value * scale;
         }
-        let mut heading = Heading {
-            normal: vec![0.0; points],
-            tangential: vec![0.0; points],
-            frequencies,
-            parameter,
-        };
-        for (j, &i) in self.contact.iter().enumerate() {
-            heading.normal[i] = solution[j] * self.force_scale;
+        // Slipping points are dragged along, by as much more as the friction coefficient rises.
+        let friction = self.state.point.contact.friction_coefficient;
+        let is_friction = self.parameter == Parameter::FrictionCoefficient;
+        let rise = if is_friction { values[2 * points + 2] } else { 0.0 };
+        for &i in &self.contact {
             let drag = self.state.contact[i].drag();
-            heading.tangential[i] = drag * friction * heading.normal[i];
-            if self.parameter == Parameter::FrictionCoefficient {
-                heading.tangential[i] += drag * self.state.normal[i] * parameter;
+            if drag != 0.0 {
+                values[points + i] = drag * friction * values[i];
+                values[points + i] += drag * self.state.normal[i] * rise;
             }
         }
-        for (j, &i) in self.stick.iter().enumerate() {
-            heading.tangential[i] = solution[self.contact.len() + j] * self.force_scale;
-        }
-        heading
+        Heading { values, points }
     }
 }

@@ -1,22 +1,6 @@
 //! Sums over long vectors.
 
-/// `a . b`, in eight sums side by side.
-pub fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (blocks, others) = (a.chunks_exact(8), b.chunks_exact(8));
-    let rest: f64 = blocks.remainder().iter().zip(others.remainder()).map(|(a, b)| a * b).sum();
-    let mut sums = [0.0; 8];
-    for (block, other) in blocks.zip(others) {
-        for ((sum, a), b) in sums.iter_mut().zip(block).zip(other) {
-            *sum += a * b;
-        }
-    }
-    sums.iter().sum::<f64>() + rest
-}
-
-/// `|a|`.
-pub fn norm(a: &[f64]) -> f64 {
-    dot(a, a).sqrt()
-}
+pub use crate::linalg::dense::{dot, norm};
 
 /// `a - b`.
 pub fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {

@@ -159,8 +159,7 @@ impl<'a> Wave<'a> {
     pub fn harmonics(&self, values: &[f64]) -> Vec<c64> {
         let mut spectrum: Vec<c64> = values.iter().map(|&value| c64::new(value, 0.0)).collect();
         self.transform(&mut spectrum, &self.forward);
-        let orders = self.orders.iter();
-        orders.map(|&order| spectrum[self.place(order)]).collect()
+        self.orders.iter().map(|&order| spectrum[self.place(order)]).collect()
     }
 
     /// Values on the points of harmonics, the inverse of [`Self::harmonics`].
@@ -256,6 +255,27 @@ impl HarmonicResponse {
     }
 }
 
+/// Displacement of the edge at each harmonic under the forces of a state, and its derivatives with both frequencies and the
+/// parameter.
+fn displacements(
+    wave: &Wave<'_>,
+    state: &WaveState,
+    parameter: Parameter,
+    responses: &[HarmonicResponse],
+) -> Vec<[[c64; 2]; 4]> {
+    let forces = [&state.normal, &state.tangential].map(|force| wave.harmonics(force));
+    let moved = responses.iter().enumerate();
+    let mut moved: Vec<[[c64; 2]; 4]> =
+        moved.map(|(k, own)| own.displacement([forces[0][k], forces[1][k]])).collect();
+    if parameter == Parameter::FrictionCoefficient {
+        let change = wave.harmonics(&state.slipping_normal());
+        for ((moved, own), change) in moved.iter_mut().zip(responses).zip(change) {
+            moved[3] = own.displacement([c64::new(0.0, 0.0), change])[0];
+        }
+    }
+    moved
+}
+
 impl Linearization {
     /// Linearizes the edge around `state` with respect to forces, frequencies and `parameter`.
     pub fn at(wave: &Wave<'_>, state: &WaveState, parameter: Parameter) -> Self {
@@ -268,10 +288,7 @@ impl Linearization {
         };
         let slip_column =
             |j: usize| wave.values(enumerated().map(|(_, r)| r.slip_rate * r.receptance[(1, j)]));
-        let normal = wave.harmonics(&state.normal);
-        let tangential = wave.harmonics(&state.tangential);
-        let moved: Vec<[[c64; 2]; 4]> =
-            enumerated().map(|(k, r)| r.displacement([normal[k], tangential[k]])).collect();
+        let moved = displacements(wave, state, parameter, &responses);
         let gap_of = |which: usize| {
             wave.values(enumerated().map(|(k, _)| wave.look_ahead(k) * moved[k][which][0]))
         };
@@ -288,7 +305,7 @@ impl Linearization {
         let surface_speed = contact.rotation_speed * wave.body.radius;
         slip.iter_mut().for_each(|slip| *slip -= surface_speed);
 
-        // Each frequency, the parameter.
+        // By each frequency and by the parameter.
         let phases = state.phases();
         let scalars: Vec<usize> = (0..phases.len()).chain([2]).collect();
         let by = scalars.iter();
@@ -304,24 +321,12 @@ impl Linearization {
                 by: by.map(|&which| share * moved[k][1 + which][1]).collect(),
             }
         });
-        let mut first: Vec<FirstHarmonic> = first.collect();
-        let by_parameter = &mut by[phases.len()];
+        let first = first.collect();
+        let [by_gap, by_slip] = &mut by[phases.len()];
         match parameter {
-            Parameter::FrictionCoefficient => {
-                let change = wave.harmonics(&state.slipping_normal());
-                let respond = |row: usize, k: usize| responses[k].receptance[(row, 1)] * change[k];
-                *by_parameter = [
-                    wave.values(enumerated().map(|(k, _)| wave.look_ahead(k) * respond(0, k))),
-                    wave.values(enumerated().map(|(k, r)| r.slip_rate * respond(1, k))),
-                ];
-                for (first, phase) in first.iter_mut().zip(&phases) {
-                    let share = c64::from_polar(2.0 / wave.points() as f64, -phase.origin);
-                    first.by[phases.len()] = share * respond(1, wave.first(phase.index));
-                }
-            }
-            Parameter::RotationSpeed | Parameter::Speed => by_parameter[1].fill(-wave.body.radius),
-            Parameter::Interference => by_parameter[0].fill(-1.0),
-            Parameter::MassDamping | Parameter::StiffnessDamping => {}
+            Parameter::RotationSpeed | Parameter::Speed => by_slip.fill(-wave.body.radius),
+            Parameter::Interference => by_gap.fill(-1.0),
+            _ => {}
         }
         let gap_columns = [gap_column(0), gap_column(1)];
         let slip_columns = [slip_column(0), slip_column(1)];

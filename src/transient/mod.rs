@@ -27,7 +27,7 @@ pub use central_difference::{CentralDifference, RunEnd, TransientState};
 pub use contact::{ContactPowers, LagrangeContact, StatusCounts};
 pub use error::{Breakdown, TransientError};
 pub use model::{SteppedBody, TransientModel};
-pub use motion::TwoFrequencies;
+pub use motion::{TwoFrequencies, WEAKEST_LINE, strongest_two};
 pub use perturbation::{Perturbation, StandingWave};
 pub use recorder::{ContactFrame, Recorder, RecorderSettings, SampleRow, Snapshot};
 pub use sample::{Observer, Sample};

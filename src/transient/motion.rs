@@ -9,8 +9,8 @@ use std::ops::Range;
 /// A line weaker than this share of the strongest makes no motion of two frequencies.
 const SECOND: f64 = 0.05;
 
-/// Lines weaker than this share of the strongest are not looked at.
-const WEAKEST: f64 = 0.02;
+/// Lines weaker than this share of the vibration are not looked at.
+pub const WEAKEST_LINE: f64 = 0.02;
 
 /// Periods after which a periodic motion repeats itself at the latest: subharmonics of that order are of one frequency.
 const LONGEST_REPETITION: usize = 3;
@@ -51,40 +51,47 @@ impl TwoFrequencies {
             .followed_harmonics()
             .filter_map(|n| Some((n, series(record, range.clone(), n)?)))
             .flat_map(|(n, series)| {
-                let lines = rotating_lines(&series, rate, WEAKEST * largest);
+                let lines = rotating_lines(&series, rate, WEAKEST_LINE * largest);
                 lines.into_iter().map(move |line| (n, line))
             })
             .collect();
-        let strongest = |lines: &mut dyn Iterator<Item = &(usize, RotatingLine)>| {
-            lines.max_by(|a, b| a.1.amplitude.total_cmp(&b.1.amplitude)).copied()
-        };
-        let (_, first) = strongest(&mut lines.iter().filter(|(n, _)| *n == wave))?;
-        let frequency = first.frequency_hz;
-        let width = rate / range.len() as f64;
-        let is_at = |line: f64, expected: f64| {
-            (line - expected).abs() < LINES_APART * width + RELATIVELY_APART * expected.abs()
-        };
-
-        // What neither repeats itself with the strongest line nor turns with its wave.
-        let is_foreign = |(n, line): &&(usize, RotatingLine), repetition: usize| {
-            let fundamental = frequency / repetition as f64;
-            let multiple = (line.frequency_hz / fundamental).round();
-            let turning = frequency * *n as f64 / wave as f64;
-            line.amplitude >= SECOND * first.amplitude
-                && !is_at(line.frequency_hz, multiple * fundamental)
-                && !(wave > 0 && is_at(line.frequency_hz, turning))
-        };
-        let foreign = |repetition: usize| {
-            let mut own = lines.iter().filter(|line| is_foreign(line, repetition));
-            strongest(&mut own)
-        };
-        let found: Option<Vec<_>> = (1..=LONGEST_REPETITION).map(foreign).collect();
-        let (_, second) = *found?.first()?;
-        Some(Self {
-            frequencies_hz: [frequency, second.frequency_hz].map(f64::abs),
-            envelope_ratio: envelope_ratio(record, range, frequency.abs()),
-        })
+        let (first, second) = strongest_two(&lines, wave, rate / range.len() as f64)?;
+        let frequencies_hz = [first, second?].map(|line| line.frequency_hz.abs());
+        let envelope_ratio = envelope_ratio(record, range, frequencies_hz[0]);
+        Some(Self { frequencies_hz, envelope_ratio })
     }
+}
+
+/// The strongest of the lines of harmonic `wave`, and the strongest of all that is foreign to it, as [`TwoFrequencies`] has them;
+/// `lines` come with their harmonics, `width` is that of a line of the spectrum, Hz.
+pub fn strongest_two(
+    lines: &[(usize, RotatingLine)],
+    wave: usize,
+    width: f64,
+) -> Option<(RotatingLine, Option<RotatingLine>)> {
+    let strongest = |lines: &mut dyn Iterator<Item = &(usize, RotatingLine)>| {
+        lines.max_by(|a, b| a.1.amplitude.total_cmp(&b.1.amplitude)).map(|line| line.1)
+    };
+    let first = strongest(&mut lines.iter().filter(|(n, _)| *n == wave))?;
+    let frequency = first.frequency_hz;
+    let is_at = |line: f64, expected: f64| {
+        (line - expected).abs() < LINES_APART * width + RELATIVELY_APART * expected.abs()
+    };
+
+    // What neither repeats itself with the strongest line nor turns with its wave.
+    let is_foreign = |(n, line): &&(usize, RotatingLine), repetition: usize| {
+        let fundamental = frequency / repetition as f64;
+        let multiple = (line.frequency_hz / fundamental).round();
+        let turning = frequency * *n as f64 / wave as f64;
+        line.amplitude >= SECOND * first.amplitude
+            && !is_at(line.frequency_hz, multiple * fundamental)
+            && !(wave > 0 && is_at(line.frequency_hz, turning))
+    };
+    let foreign = |repetition: usize| {
+        strongest(&mut lines.iter().filter(|line| is_foreign(line, repetition)))
+    };
+    let found: Option<Vec<_>> = (1..=LONGEST_REPETITION).map(foreign).collect();
+    Some((first, found.and_then(|lines| lines.first().copied())))
 }
 
 /// Largest over smallest half range over a period of the tangential displacement of the first contact node.

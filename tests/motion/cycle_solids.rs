@@ -98,7 +98,7 @@ fn the_cycle_of_a_pad_on_a_disc_is_that_of_its_transient() {
     let motion = &cycle.motion;
     // The balance of the time loop closes; what the motion misses its start by is left.
     assert!(motion.powers.balance_residual() < 1e-6);
-    assert!(cycle.confirmation.as_ref().unwrap().agrees(motion));
+    assert!(cycle.confirmation.as_ref().unwrap().agrees_with(motion));
     // Nodes lift off and strike again: no linear vibration.
     let lifts = |share: &[f64; 3]| share[1] > 0.01 && share[2] > 0.01;
     assert!(motion.shares.iter().any(lifts), "{:?}", motion.shares);
@@ -126,7 +126,7 @@ fn the_cycle_of_a_ring_on_a_layer_is_that_of_its_transient() {
     ));
     let cycle = found(&result);
     assert!(cycle.motion.powers.balance_residual() < 1e-6);
-    assert!(cycle.confirmation.as_ref().unwrap().agrees(&cycle.motion));
+    assert!(cycle.confirmation.as_ref().unwrap().agrees_with(&cycle.motion));
 }
 
 /// Keeps every step of a search, and gives back those of an earlier one.

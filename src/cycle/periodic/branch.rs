@@ -7,7 +7,9 @@ use super::motion::PeriodicMotion;
 use super::multipliers::{COLUMNS, FloquetMultipliers, from_columns, to_columns};
 use super::search::Found;
 use crate::cea::SweepWatch;
-use crate::cycle::{BranchEnd, Parameter, Verdict};
+use crate::cycle::continuation::{Values, both_halves, joined};
+use crate::cycle::stability::{crossing, differing};
+use crate::cycle::{BranchEnd, Parameter};
 use crate::transient::TransientError;
 use rayon::prelude::*;
 
@@ -34,16 +36,12 @@ pub struct BranchMotion {
 impl BranchMotion {
     /// Growth rate of its leading perturbation, 1/s, where it is known.
     pub fn growth_rate(&self) -> Option<f64> {
-        let known = self.stability.as_ref()?.as_ref().ok()?;
-        Some(known.leading()?.growth_rate)
+        Some(self.stability.as_ref()?.as_ref().ok()?.leading()?.growth_rate)
     }
 
     /// Whether it is stable, where that is known for sure.
     pub fn is_stable(&self) -> Option<bool> {
-        match self.stability.as_ref()?.as_ref().ok()?.verdict() {
-            Verdict::Undecided => None,
-            verdict => Some(verdict == Verdict::Stable),
-        }
+        self.stability.as_ref()?.as_ref().ok()?.verdict().is_stable()
     }
 }
 
@@ -93,10 +91,7 @@ impl PeriodicBranch {
         let further = BORN_BEYOND * (high - low);
         let shrinks = self.ends.contains(&BranchEnd::Birth);
         let of = |farthest: f64, sense: f64| {
-            let value = match shrinks {
-                true => farthest + sense * further,
-                false => farthest,
-            };
+            let value = if shrinks { farthest + sense * further } else { farthest };
             ((value - growing) * sense > 0.0 && value >= 0.0).then_some(value)
         };
         [of(low, -1.0), of(high, 1.0)]
@@ -110,10 +105,7 @@ impl PeriodicBranch {
         let slightly = SAME * (high - low);
         // Sliding is unstable where the search has started.
         let pairs = self.onsets.iter().filter_map(|&onset| {
-            let [from, to] = match onset < self.start {
-                true => [low, onset],
-                false => [onset, high],
-            };
+            let [from, to] = if onset < self.start { [low, onset] } else { [onset, high] };
             (to - from > slightly).then_some([from, to])
         });
         pairs.collect()
@@ -132,31 +124,18 @@ impl PeriodicBranch {
 
     /// Values at which it turns back, SI, in its order.
     pub fn folds(&self) -> Vec<f64> {
-        let folds = self.motions.iter().filter(|own| own.is_fold);
-        folds.map(|own| own.value).collect()
+        self.motions.iter().filter(|own| own.is_fold).map(|own| own.value).collect()
     }
 
     /// Values at which it changes its stability between two folds, by the growth rates on both sides, SI.
     pub fn stability_changes(&self) -> Vec<f64> {
-        let pieces = self.motions.split(|own| own.is_fold);
-        let changes = pieces.flat_map(|piece| {
-            let known = piece.iter();
-            let known: Vec<(f64, f64, bool)> = known
-                .filter_map(|own| Some((own.value, own.growth_rate()?, own.is_stable()?)))
-                .collect();
-            let pairs = known.windows(2).filter(|pair| pair[0].2 != pair[1].2);
-            let at = |pair: &[(f64, f64, bool)]| {
-                let [(a, low, _), (b, high, _)] = [pair[0], pair[1]];
-                a + (b - a) * (low / (low - high)).clamp(0.0, 1.0)
-            };
-            pairs.map(at).collect::<Vec<f64>>()
+        let changes = self.motions.split(|own| own.is_fold).flat_map(|piece| {
+            let known = piece.iter().filter(|own| own.growth_rate().is_some());
+            differing(known.map(|own| (own.is_stable(), (own.value, own.growth_rate()))))
         });
-        changes.collect()
+        changes.map(crossing).collect()
     }
 }
-
-/// Points of one half of a branch, from the start on, places of folds among them, and why it ends.
-type Half = (Vec<Point>, Vec<usize>, BranchEnd);
 
 /// What a branch is followed with.
 pub struct BranchRequest<'a, 'b> {
@@ -190,55 +169,30 @@ impl BranchRequest<'_, '_> {
         found: &Found,
         steps: usize,
     ) -> Result<PeriodicBranch, TransientError> {
-        let mut values = self.values.to_vec();
-        values.sort_by(f64::total_cmp);
-        let [least, most] = [values[0], values[values.len() - 1]];
+        let mut values = Values::new(self.values);
+        let [least, most] = values.range();
         if self.kept > least && self.kept < most {
-            values.push(self.kept);
-            values.sort_by(f64::total_cmp);
+            values = Values::new(&[self.values, &[self.kept]].concat());
         }
-        values.dedup();
         let scales = [most - least, found.image.amplitude];
-        let first = Point { value: start, steps, found: found.clone() };
-        // Down from it, up from it.
-        let half = |name: &str, direction: f64| -> Result<Half, TransientError> {
-            let leads_out = match direction > 0.0 {
-                true => start >= most,
-                false => start <= least,
-            };
+        let half = |direction: f64| {
             let mut corrector = Corrector::new((self.map)()?, self.tune, scales);
-            corrector.map.step_in(first.steps);
-            let mut half = Follower::new(&mut corrector, &values, first.clone(), direction);
-            let end = match leads_out {
-                true => BranchEnd::Range,
-                false => half.run(name, self.watch)?,
-            };
-            Ok((half.points, half.folds, end))
+            corrector.map.step_in(steps);
+            let first = Point { value: start, steps, found: found.clone(), is_fold: false };
+            Ok(Follower::new(corrector, &values, first, direction))
         };
-        let (down, up) = rayon::join(|| half("down", -1.0), || half("up", 1.0));
-        let (mut down, mut up) = (down?, up?);
-        // One list in the order of the branch.
-        let shift = down.0.len() - 1;
-        let mut folds: Vec<usize> = down.1.iter().map(|i| shift - i).collect();
-        folds.extend(up.1.iter().map(|i| shift + i));
-        let mut points: Vec<Point> = down.0.drain(..).rev().collect();
-        points.extend(up.0.drain(..).skip(1));
+        let [(down, low_end), (mut up, high_end)] = both_halves(&values, start, self.watch, half)?;
+        let mut points = joined(down.points, None, up.points.split_off(1));
         let slightly = 1e-9 * scales[0];
-        let within = |point: &Point| (least - slightly..=most + slightly).contains(&point.value);
-        let kept: Vec<(Point, bool)> = points
-            .into_iter()
-            .enumerate()
-            .filter(|(_, point)| within(point))
-            .map(|(i, point)| (point, folds.contains(&i)))
-            .collect();
-        let at_own = kept.iter().filter(|(point, _)| point.value == self.kept);
+        points.retain(|own| (least - slightly..=most + slightly).contains(&own.value));
+        let at_own = points.iter().filter(|point| point.value == self.kept);
         let at_own =
-            at_own.map(|(point, _)| KeptMotion { found: point.found.clone(), steps: point.steps });
+            at_own.map(|point| KeptMotion { found: point.found.clone(), steps: point.steps });
         Ok(PeriodicBranch {
             parameter: self.parameter,
             kept: at_own.collect(),
-            motions: self.motions(&kept)?,
-            ends: [down.2, up.2],
+            motions: self.motions(&points)?,
+            ends: [low_end, high_end],
             own: self.kept,
             start,
             onsets: Vec::new(),
@@ -246,14 +200,14 @@ impl BranchRequest<'_, '_> {
     }
 
     /// The motions of points, with their stability where it is wanted.
-    fn motions(&self, points: &[(Point, bool)]) -> Result<Vec<BranchMotion>, TransientError> {
+    fn motions(&self, points: &[Point]) -> Result<Vec<BranchMotion>, TransientError> {
         let groups = points.par_chunks(GROUP).enumerate();
         let groups = groups.map(|(number, group)| {
             let name = format!("stability-{number}");
             let known = self.watch.recall(&name).unwrap_or_default();
             let known: Vec<_> = known.chunks_exact(COLUMNS).map(from_columns).collect();
             let mut map = (self.map)()?;
-            let motions = group.iter().enumerate().map(|(i, (point, is_fold))| {
+            let motions = group.iter().enumerate().map(|(i, point)| {
                 (self.tune)(&mut map, point.value)?;
                 map.step_in(point.steps);
                 let motion = PeriodicMotion::in_brief(&mut map, &point.found);
@@ -264,7 +218,8 @@ impl BranchRequest<'_, '_> {
                         multipliers.map_err(|error| error.to_string())
                     }
                 });
-                Ok(BranchMotion { value: point.value, motion, is_fold: *is_fold, stability })
+                let &Point { value, is_fold, .. } = point;
+                Ok(BranchMotion { value, motion, is_fold, stability })
             });
             let motions = motions.collect::<Result<Vec<_>, TransientError>>()?;
             if self.with_stability && known.len() < motions.len() {

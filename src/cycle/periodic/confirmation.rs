@@ -3,7 +3,8 @@
 use super::map::{PeriodMap, PeriodicState};
 use super::motion::PeriodicMotion;
 use super::multipliers::FloquetMultiplier;
-use crate::cycle::confirmation::{agree, telling_periods};
+use crate::cycle::confirmation::{Confirmation, telling_periods, turned};
+use crate::cycle::field::slips;
 use crate::linalg::{GaussianNoise, c64, interruption};
 use std::f64::consts::TAU;
 
@@ -16,32 +17,16 @@ const E_FOLDS: f64 = 8.0;
 /// relative, and of the fractions of contact nodes.
 const TOLERANCE: [f64; 3] = [1e-3, 0.02, 0.02];
 
-/// The last fifth of a short transient that started beside a periodic motion, for each metre of thickness.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MotionConfirmation {
-    /// Length of the run in periods of the cycle.
-    pub periods: usize,
-    /// Frequency of the contact nodes, Hz.
-    pub main_frequency_hz: f64,
-    /// Fractions of contact nodes that `[stick, slip, open]`.
-    pub status: [f64; 3],
-    /// Power of the counterface, W/m.
-    pub external_power: f64,
-    /// E-folds of the leading perturbation over the run; negative where it decays, 0 where it is not known.
-    pub e_folds: f64,
-}
-
-impl MotionConfirmation {
-    /// Whether the transient still is on the cycle.
-    pub fn agrees(&self, motion: &PeriodicMotion) -> bool {
-        let frequency = [self.main_frequency_hz, motion.frequency_hz];
-        let power = [self.external_power, motion.powers.contact.external];
-        agree([frequency, power], [self.status, motion.fractions], TOLERANCE)
+impl Confirmation {
+    /// Whether the transient still is on the motion.
+    pub fn agrees_with(&self, motion: &PeriodicMotion) -> bool {
+        let wanted = [motion.frequency_hz, motion.powers.contact.external];
+        self.is_within(wanted, motion.fractions, TOLERANCE)
     }
 
     /// Steps the body through `least` periods or more from a cycle that is perturbed by a hundredth of its amplitude at random,
     /// and reads the last fifth.
-    pub fn run(
+    pub fn beside(
         map: &mut PeriodMap<'_>,
         state: &PeriodicState,
         leading: Option<&FloquetMultiplier>,
@@ -72,12 +57,12 @@ impl MotionConfirmation {
         }
         // What the first harmonic turns by from period to period is the difference of the frequencies.
         let (powers, _, counts) = map.run.take_sums();
-        let turned: f64 = turns.windows(2).map(|pair| (pair[1] * pair[0].conj()).arg()).sum();
-        let share = turned / TAU / (turns.len() - 1).max(1) as f64;
+        let share = turned(&turns) / TAU / (turns.len() - 1).max(1) as f64;
         let steps = (periods - first) * map.steps();
         Self {
             periods,
-            main_frequency_hz: (1.0 + share) / state.period,
+            main_frequency_hz: Some((1.0 + share) / state.period),
+            main_harmonic: None,
             status: counts.fractions(),
             external_power: powers.external / steps as f64,
             e_folds: leading.map_or(0.0, |found| found.growth_rate * periods as f64 * state.period),
@@ -105,10 +90,7 @@ fn first_harmonic(map: &mut PeriodMap<'_>) -> Vec<c64> {
     for step in 0..steps {
         map.run.advance();
         let turn = c64::from_polar(1.0, -TAU * step as f64 / steps as f64);
-        let (law, displacement) = (map.run.contact(), &map.run.fields().displacement);
-        for (i, sum) in sums.iter_mut().enumerate() {
-            *sum += law.slip(i, displacement) * turn;
-        }
+        sums.iter_mut().zip(slips(&map.run)).for_each(|(sum, slip)| *sum += slip * turn);
     }
     sums
 }

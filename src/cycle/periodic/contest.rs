@@ -48,8 +48,7 @@ impl<'m, 'a> ModeContest<'m, 'a> {
         map.fit(period);
         let rest = modes[0].1.state(&map, 0.0);
         let seeded = modes.iter().map(|&(number, mode)| {
-            let slips = mode.slips(&map);
-            let slip = slips.iter().map(|slip| slip.norm()).fold(0.0, f64::max);
+            let slip = mode.slips(&map).iter().map(|slip| slip.norm()).fold(0.0, f64::max);
             // The shape as it is, and a quarter of a period later.
             let turned: Vec<c64> = mode.shape.iter().map(|u| u * c64::new(0.0, 1.0)).collect();
             let later = GrowingMode { shape: &turned, ..mode };
@@ -176,8 +175,7 @@ impl<'m, 'a> ModeContest<'m, 'a> {
             patterns.map(|pattern| dot(pattern, &motion)),
         );
         let found = &self.inverse * products;
-        let pairs = found.as_slice().chunks_exact(2);
-        pairs.map(|pair| pair[0].hypot(pair[1])).collect()
+        found.as_slice().chunks_exact(2).map(|pair| pair[0].hypot(pair[1])).collect()
     }
 
     /// Whether a node sticks, or more of them are open than in steady sliding.

@@ -26,6 +26,9 @@ const GAINED: f64 = 0.7;
 /// Residual that is no neighbour's any more.
 const ASTRAY: f64 = 0.7;
 
+/// Columns of a point.
+pub(super) const POINT_COLUMNS: usize = 3;
+
 /// Parameter and amplitude of a point, each over a scale: the plane in which a branch is a curve.
 pub(super) type Place = [f64; 2];
 
@@ -75,6 +78,8 @@ pub(super) struct Point {
     pub found: Found,
     /// Steps of its period.
     pub steps: usize,
+    /// Whether the branch turns back here.
+    pub is_fold: bool,
 }
 
 impl Point {
@@ -83,10 +88,10 @@ impl Point {
         [self.value / scales[0], self.found.image.amplitude / scales[1]]
     }
 
-    /// What it is found again from: those of its motion, and the value.
+    /// What it is found again from: those of its motion, the value, and whether it is a fold.
     pub fn columns(&self) -> Vec<Vec<f64>> {
         let mut columns = self.found.columns(self.steps);
-        columns.push(vec![self.value]);
+        columns.push(vec![self.value, f64::from(u8::from(self.is_fold))]);
         columns
     }
 
@@ -161,19 +166,12 @@ impl<'b, 'a> Corrector<'b, 'a> {
     }
 
     /// A point from its columns: one period from its state; none where they are of another body.
-    ///
-    /// # Errors
-    /// A body that the time loop cannot take.
-    pub fn recalled(&mut self, columns: &[Vec<f64>]) -> Result<Option<Point>, TransientError> {
-        let [found @ .., last] = columns else {
-            return Ok(None);
-        };
-        let &[value] = &last[..] else {
-            return Ok(None);
-        };
-        (self.tune)(&mut self.map, value)?;
-        let found = Found::recalled(&mut self.map, found);
-        Ok(found.map(|found| Point { value, steps: self.map.steps(), found }))
+    pub fn recalled(&mut self, columns: &[Vec<f64>]) -> Option<Point> {
+        let (last, found) = columns.split_last()?;
+        let [value, is_fold] = last[..].try_into().ok()?;
+        (self.tune)(&mut self.map, value).ok()?;
+        let found = Found::recalled(&mut self.map, found)?;
+        Some(Point { value, steps: self.map.steps(), found, is_fold: is_fold > 0.0 })
     }
 
     /// A point's motion with its vibration about its mean so many times as large, at another value.
@@ -263,15 +261,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
             }
             // One step of the secants.
             if let Some(last) = last.take() {
-                if periods > 1 && norm(&image.residual) > GAINED * norm(&last.residual) {
-                    self.secants.keep_latest(periods);
-                }
-                self.secants.push(Change {
-                    motion: difference(&guess.state.motion, &last.guess.state.motion),
-                    period: guess.state.period - last.guess.state.period,
-                    place: [0, 1].map(|i| place[i] - last.place[i]),
-                    residual: difference(&image.residual, &last.residual),
-                });
+                self.learn(&last, (&guess, place), &image.residual, periods);
             }
             let mut next = self.step(&guess, &image, closure);
             if let Goal::Value(value) = goal {
@@ -285,6 +275,25 @@ impl<'b, 'a> Corrector<'b, 'a> {
         }
     }
 
+    /// Adds the change from the iterate before, the older ones gone where that has gained nothing.
+    fn learn(
+        &mut self,
+        last: &Iterate,
+        (guess, place): (&Guess, Place),
+        residual: &[f64],
+        periods: usize,
+    ) {
+        if periods > 1 && norm(residual) > GAINED * norm(&last.residual) {
+            self.secants.keep_latest(periods);
+        }
+        self.secants.push(Change {
+            motion: difference(&guess.state.motion, &last.guess.state.motion),
+            period: guess.state.period - last.guess.state.period,
+            place: [0, 1].map(|i| place[i] - last.place[i]),
+            residual: difference(residual, &last.residual),
+        });
+    }
+
     /// The next guess: by the secants, of which the older half goes as long as they lead too far.
     fn step(&mut self, guess: &Guess, image: &PeriodImage, closure: f64) -> Guess {
         let closure = self.weight * closure;
@@ -292,8 +301,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
             let (step, period, value) = self.secants.step(&image.residual, closure, &image.rate);
             let lengths =
                 [norm(&step) / image.vibration, period.abs() / guess.state.period, value.abs()];
-            let shares = lengths.iter().zip(LONGEST);
-            let share = shares.fold(1.0_f64, |share, (length, longest)| {
+            let share = lengths.iter().zip(LONGEST).fold(1.0_f64, |share, (length, longest)| {
                 share.min(longest / length.max(f64::MIN_POSITIVE))
             });
             if share == 1.0 || self.secants.count() <= FEWEST {
@@ -326,11 +334,8 @@ impl<'b, 'a> Corrector<'b, 'a> {
         }
         let residual = image.relative_residual();
         if residual > ASTRAY {
-            return Err(PeriodicError::NotConverged {
-                periods,
-                residual,
-                frequency_hz: 1.0 / near.found.state.period,
-            });
+            let period = near.found.state.period;
+            return Err(PeriodicError::not_converged(periods, residual, period));
         }
         Ok(residual)
     }
@@ -339,6 +344,7 @@ impl<'b, 'a> Corrector<'b, 'a> {
         Point {
             value: guess.value,
             steps: self.map.steps(),
+            is_fold: false,
             found: Found {
                 state: guess.state.clone(),
                 image: image.clone(),
@@ -356,12 +362,8 @@ fn accepted(best: Option<Point>, periods: usize) -> Result<Point, PeriodicError>
     let residual = point.found.residual;
     point.found.residual = point.found.image.relative_residual();
     point.found.periods = periods;
-    match residual <= ACCEPTED {
-        true => Ok(point),
-        false => Err(PeriodicError::NotConverged {
-            periods,
-            residual,
-            frequency_hz: 1.0 / point.found.state.period,
-        }),
+    if residual <= ACCEPTED {
+        return Ok(point);
     }
+    Err(PeriodicError::not_converged(periods, residual, point.found.state.period))
 }

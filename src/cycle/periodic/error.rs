@@ -80,3 +80,10 @@ pub enum PeriodicError {
     #[error(transparent)]
     Stepping(#[from] TransientError),
 }
+
+impl PeriodicError {
+    /// A motion of such a period that still misses its start.
+    pub(super) fn not_converged(periods: usize, residual: f64, period: f64) -> Self {
+        Self::NotConverged { periods, residual, frequency_hz: 1.0 / period }
+    }
+}

@@ -22,7 +22,7 @@ impl Follower<'_, '_, '_> {
         let good = self.points.iter().rposition(is_good).unwrap_or(0);
         let at = good.max(self.points.len().saturating_sub(4));
         self.points.truncate(at + 1);
-        if at == 0 || self.folds.contains(&at) || self.tangent[0].abs() < ALONG {
+        if at == 0 || self.here().is_fold || self.tangent[0].abs() < ALONG {
             return Ok(false);
         }
         let (place, scales, here) = (self.place(), self.corrector.scales, self.here().clone());
@@ -44,7 +44,7 @@ impl Follower<'_, '_, '_> {
                 let distance = step[0].hypot(step[1]);
                 let is_other = self.off_branch(to) > 0.2 * length;
                 if step[0] * along < 0.0 && distance < FAR * length && is_other {
-                    self.folds.push(at);
+                    self.points[at].is_fold = true;
                     self.tangent = step.map(|part| part / distance);
                     self.length = distance;
                     self.points.push(next);
@@ -81,13 +81,13 @@ impl Follower<'_, '_, '_> {
         let place = |point: &Point| point.place(scales);
         let values: Vec<f64> = three.iter().map(|point| place(point)[0]).collect();
         let sense = (values[1] - values[0]).signum();
-        if (values[2] - values[1]) * sense >= 0.0 || self.folds.contains(&(count - 2)) {
+        if (values[2] - values[1]) * sense >= 0.0 || self.points[count - 2].is_fold {
             return;
         }
         // By rising amplitude; a branch that turns back in both is left as it is.
         let middle = place(&three[1])[1];
         if (place(&three[0])[1] - middle) * (place(&three[2])[1] - middle) >= 0.0 {
-            self.folds.push(count - 2);
+            self.points[count - 2].is_fold = true;
             return;
         }
         let is_rising = place(&three[0])[1] < middle;
@@ -131,7 +131,7 @@ impl Follower<'_, '_, '_> {
             self.points.insert(count - 1, fold);
             count - 1
         };
-        self.folds.push(at);
+        self.points[at].is_fold = true;
     }
 
     /// The motion of an amplitude, over its scale, between three that lie around it.
@@ -160,10 +160,7 @@ fn extreme(places: &[Place], turn: usize) -> Option<f64> {
     let margin = 0.02 * low.min(high);
     let is_useful =
         vertex > a[1] + margin && vertex < c[1] - margin && (vertex - b[1]).abs() > 1e-3 * margin;
-    Some(match turn % 3 == 2 || !is_useful {
-        true => longer,
-        false => vertex,
-    })
+    Some(if turn % 3 == 2 || !is_useful { longer } else { vertex })
 }
 
 #[cfg(test)]

@@ -1,9 +1,8 @@
 //! The way along a branch: tangents, steps, values asked for, folds, ends.
 
-use super::corrector::{Corrector, Goal, Guess, Place, Point, TOLERANCE};
+use super::corrector::{Corrector, Goal, Guess, POINT_COLUMNS, Place, Point, TOLERANCE};
 use super::error::PeriodicError;
-use crate::cea::SweepWatch;
-use crate::cycle::BranchEnd;
+use crate::cycle::continuation::{BranchEnd, Values, Way};
 use crate::transient::TransientError;
 
 /// Longest and shortest step in the plane of parameter and amplitude, each over its scale.
@@ -18,137 +17,58 @@ const BORN: f64 = 0.02;
 const KNOWN: usize = 3;
 /// Points for each value asked for, and besides, after which a branch is given up.
 const POINTS: [usize; 2] = [6, 60];
-/// Points between two at which what is done is kept.
-const BLOCK: usize = 20;
-/// Ends by their codes.
-const ENDS: [BranchEnd; 5] =
-    [BranchEnd::Range, BranchEnd::Birth, BranchEnd::Lost, BranchEnd::Steps, BranchEnd::Separated];
-
 /// One half of a branch, from its first point on.
 pub(super) struct Follower<'c, 'b, 'a> {
-    pub corrector: &'c mut Corrector<'b, 'a>,
-    /// Values asked for, rising.
-    pub values: &'c [f64],
+    pub corrector: Corrector<'b, 'a>,
+    /// Values asked for.
+    values: &'c Values,
     /// The points, from the first on.
     pub points: Vec<Point>,
-    /// Places of folds among the points.
-    pub folds: Vec<usize>,
     pub(super) tangent: Place,
     pub(super) length: f64,
     /// Largest amplitude so far, over its scale.
     pub(super) largest: f64,
 }
 
-impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
-    /// A half that leaves `first` towards rising (`direction` > 0) or falling values.
-    pub fn new(
-        corrector: &'c mut Corrector<'b, 'a>,
-        values: &'c [f64],
-        first: Point,
-        direction: f64,
-    ) -> Self {
-        Self {
-            largest: first.place(corrector.scales)[1],
-            corrector,
-            values,
-            points: vec![first],
-            folds: Vec::new(),
-            tangent: [direction, 0.0],
-            length: STEPS[0],
-        }
+impl Way for Follower<'_, '_, '_> {
+    type Error = TransientError;
+    const BLOCK: usize = 20;
+
+    fn count(&self) -> usize {
+        self.points.len()
     }
 
-    /// Follows the half to its end.
-    ///
-    /// What is done is kept under `name` at every twentieth point, with all that the way on depends on; there the secants are
-    /// forgotten, so that a search which goes on takes the same course as one that was never interrupted.
-    ///
-    /// # Errors
-    /// A body that the time loop cannot take.
-    pub fn run(&mut self, name: &str, kept: &dyn SweepWatch) -> Result<BranchEnd, TransientError> {
-        let most = POINTS[0] * self.values.len() + POINTS[1];
-        let mut end = match kept.recall(name) {
-            Some(columns) => self.recall(&columns)?,
-            None => None,
-        };
-        while end.is_none() {
-            self.corrector.forget();
-            self.rescale();
-            let next = self.points.len() + BLOCK;
-            while end.is_none() && self.points.len() < next {
-                end = match self.points.len() < most {
-                    true => self.advance()?,
-                    false => Some(BranchEnd::Steps),
-                };
-            }
-            kept.keep(name, &self.columns(end));
-        }
-        Ok(end.unwrap_or(BranchEnd::Lost))
+    fn begin_block(&mut self) {
+        self.corrector.forget();
+        self.rescale();
     }
 
-    /// Makes the largest amplitude so far the scale of amplitudes.
-    fn rescale(&mut self) {
-        let amplitudes = self.points.iter().map(|own| own.found.image.amplitude);
-        self.corrector.scales[1] = amplitudes.fold(0.0, f64::max);
-        self.largest = 1.0;
-        self.length = self.length.min(STEPS[0]);
-        if let [.., before, here] = &self.points[..] {
-            let [from, to] = [before, here].map(|point| point.place(self.corrector.scales));
-            let step = [to[0] - from[0], to[1] - from[1]];
-            let length = step[0].hypot(step[1]);
-            self.tangent = step.map(|part| part / length);
-        }
-    }
-
-    /// Everything that the way on depends on.
-    fn columns(&self, end: Option<BranchEnd>) -> Vec<Vec<f64>> {
-        let place = |end: BranchEnd| ENDS.iter().position(|known| *known == end);
-        let end = end.and_then(place).map_or(-1.0, |place| place as f64);
+    fn columns(&self) -> Vec<Vec<f64>> {
         let [along, amplitude] = self.tangent;
         let steps = self.corrector.map.steps() as f64;
-        let course = vec![along, amplitude, self.length, self.largest, steps, end];
-        let folds = self.folds.iter().map(|&fold| fold as f64).collect();
+        let course = vec![along, amplitude, self.length, self.largest, steps];
         let points = self.points.iter().flat_map(Point::columns);
-        [course, folds].into_iter().chain(points).collect()
+        std::iter::once(course).chain(points).collect()
     }
 
-    /// Takes up what was kept, if it belongs to this half.
-    fn recall(&mut self, columns: &[Vec<f64>]) -> Result<Option<BranchEnd>, TransientError> {
-        let [course, folds, points @ ..] = columns else {
-            return Ok(None);
-        };
-        let [along, amplitude, length, largest, steps, end] = course[..] else {
-            return Ok(None);
-        };
-        let mut all = Vec::new();
-        for own in points.chunks_exact(3) {
-            match self.corrector.recalled(own)? {
-                Some(point) => all.push(point),
-                None => return Ok(None),
-            }
-        }
-        if all.is_empty() {
-            return Ok(None);
-        }
-        (self.points, self.tangent) = (all, [along, amplitude]);
+    fn recall(&mut self, columns: &[Vec<f64>]) -> Option<()> {
+        let (course, points) = columns.split_first()?;
+        let [along, amplitude, length, largest, steps]: [f64; 5] = course[..].try_into().ok()?;
+        let points = points.chunks_exact(POINT_COLUMNS).map(|own| self.corrector.recalled(own));
+        let points: Vec<Point> = points.collect::<Option<_>>()?;
+        points.first()?;
+        (self.points, self.tangent) = (points, [along, amplitude]);
         (self.length, self.largest) = (length, largest);
-        self.folds = folds.iter().map(|&fold| fold as usize).collect();
         self.corrector.map.step_in(steps as usize);
-        Ok((end >= 0.0).then(|| ENDS.get(end as usize).copied()).flatten())
-    }
-
-    pub(super) fn here(&self) -> &Point {
-        &self.points[self.points.len() - 1]
-    }
-
-    pub(super) fn place(&self) -> Place {
-        self.here().place(self.corrector.scales)
+        Some(())
     }
 
     /// One more point, or why there is none.
     fn advance(&mut self) -> Result<Option<BranchEnd>, TransientError> {
-        let (goal, reach) = self.goal();
-        let Some(goal) = goal else {
+        if self.points.len() >= POINTS[0] * self.values.count() + POINTS[1] {
+            return Ok(Some(BranchEnd::Steps));
+        }
+        let Some((goal, reach)) = self.goal() else {
             return Ok(Some(BranchEnd::Range));
         };
         let guess = self.guess(&goal, reach);
@@ -171,26 +91,61 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
             }
         }
     }
+}
+
+impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
+    /// A half that leaves `first` towards rising (`direction` > 0) or falling values.
+    pub fn new(
+        corrector: Corrector<'b, 'a>,
+        values: &'c Values,
+        first: Point,
+        direction: f64,
+    ) -> Self {
+        Self {
+            largest: first.place(corrector.scales)[1],
+            corrector,
+            values,
+            points: vec![first],
+            tangent: [direction, 0.0],
+            length: STEPS[0],
+        }
+    }
+
+    /// Makes the largest amplitude so far the scale of amplitudes.
+    fn rescale(&mut self) {
+        let amplitudes = self.points.iter().map(|own| own.found.image.amplitude);
+        self.corrector.scales[1] = amplitudes.fold(0.0, f64::max);
+        self.largest = 1.0;
+        self.length = self.length.min(STEPS[0]);
+        if let [.., before, here] = &self.points[..] {
+            let [from, to] = [before, here].map(|point| point.place(self.corrector.scales));
+            let step = [to[0] - from[0], to[1] - from[1]];
+            let length = step[0].hypot(step[1]);
+            self.tangent = step.map(|part| part / length);
+        }
+    }
+
+    pub(super) fn here(&self) -> &Point {
+        &self.points[self.points.len() - 1]
+    }
+
+    pub(super) fn place(&self) -> Place {
+        self.here().place(self.corrector.scales)
+    }
 
     /// Where the coming step ends, and how long it is; none where the range ends here.
-    fn goal(&self) -> (Option<Goal>, f64) {
+    fn goal(&self) -> Option<(Goal, f64)> {
         let (place, scale) = (self.place(), self.corrector.scales[0]);
         let slope = self.tangent[0];
         let slightly = 1e-9 * scale;
         let value = self.here().value;
-        let ahead = match slope > 0.0 {
-            true => self.values.iter().find(|next| **next > value + slightly),
-            false => (self.values.iter().rev()).find(|next| **next < value - slightly),
-        };
-        let Some(&next) = ahead else {
-            return (None, 0.0);
-        };
+        let next = *self.values.ahead(value, slope > 0.0, slightly).first()?;
         let distance = (next / scale - place[0]) / slope;
         if slope.abs() > ALONG && distance <= self.length {
-            return (Some(Goal::Value(next)), distance);
+            return Some((Goal::Value(next), distance));
         }
         let goal = Goal::Length { from: place, tangent: self.tangent, length: self.length };
-        (Some(goal), self.length)
+        Some((goal, self.length))
     }
 
     /// Where the step probably leads: on along the last points.
@@ -208,7 +163,8 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
         }
         // A fold may be a corner: no point before it says anything of the way on.
         let count = self.points.len();
-        let since = self.folds.last().map_or(0, |&fold| fold.min(count - 2));
+        let fold = self.points.iter().rposition(|own| own.is_fold);
+        let since = fold.map_or(0, |fold| fold.min(count - 2));
         let last = &self.points[since.max(count.saturating_sub(KNOWN))..];
         let scales = self.corrector.scales;
         let mut at = vec![0.0];
@@ -258,11 +214,10 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
         self.length = self.length.max(2.0 * STEPS[1]);
 
         // Beyond the range: its end is the last point, if there is one.
-        let [least, most] = [self.values[0], self.values[self.values.len() - 1]];
+        let [least, most] = self.values.range();
         let from = self.here().value;
-        let edges = [(least, next.value < least), (most, next.value > most)];
-        let left = edges.into_iter().find(|(_, is_beyond)| *is_beyond);
-        if let Some((edge, _)) = left.filter(|_| (least..=most).contains(&from)) {
+        let edge = next.value.clamp(least, most);
+        if edge != next.value && (least..=most).contains(&from) {
             let share = (edge - from) / (next.value - from);
             let guess = self.here().towards(&next, share);
             let here = self.here().clone();
@@ -282,12 +237,7 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
     /// The values asked for that lie between here and a point further on.
     fn fill(&mut self, next: &Point) {
         let here = self.here().clone();
-        let mut between: Vec<f64> = self.values.to_vec();
-        between.retain(|value| (value - here.value) * (value - next.value) < 0.0);
-        if next.value < here.value {
-            between.reverse();
-        }
-        for value in between {
+        for value in self.values.between(here.value, next.value, 0.0) {
             let share = (value - here.value) / (next.value - here.value);
             let guess = here.towards(next, share);
             let found = self.corrector.correct(&here, guess, &Goal::Value(value));

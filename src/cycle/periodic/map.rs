@@ -2,7 +2,7 @@
 
 use crate::contact::{ContactInterface, SlidingContact};
 use crate::cycle::vector::{add, difference, dot, norm};
-use crate::fem::operator::StiffnessOperator;
+use crate::fem::operator::{StiffnessOperator, scatter};
 use crate::linalg::interruption;
 use crate::transient::{
     CentralDifference, ContactPowers, InitialState, Perturbation, StatusCounts, TimeStep,
@@ -182,16 +182,11 @@ impl<'a> PeriodMap<'a> {
 
     /// The state of a displacement `u_0` (m) and a velocity `v_{-1/2}` (m/s) over all dofs in nodal frames.
     pub fn state(&self, displacement: &[f64], velocity: &[f64], period: f64) -> PeriodicState {
-        let operator = self.run.operator();
-        let masses = operator.masses();
-        let dofs = (0..operator.dof_count()).filter(|&dof| masses[operator.position(dof)] > 0.0);
-        let dofs: Vec<usize> = dofs.collect();
-        let part = |field: &[f64], weight: f64| -> Vec<f64> {
-            let pairs = dofs.iter().zip(&self.moving);
-            pairs.map(|(&dof, (_, root))| weight * root * field[dof]).collect()
+        let weighed = |field: &[f64], weight: f64| -> Vec<f64> {
+            let placed = scatter(self.run.operator(), field);
+            self.moving.iter().map(|&(place, root)| weight * root * placed[place]).collect()
         };
-        let mut motion = part(displacement, self.frequency);
-        motion.extend(part(velocity, 1.0));
+        let motion = [weighed(displacement, self.frequency), weighed(velocity, 1.0)].concat();
         PeriodicState { motion, period }
     }
 
@@ -201,8 +196,7 @@ impl<'a> PeriodMap<'a> {
         let moving = self.moving.iter();
         let displacement =
             moving.map(|&(place, root)| self.frequency * root * fields.displacement[place]);
-        let moving = self.moving.iter();
-        let velocity = moving.map(|&(place, root)| root * fields.velocity[place]);
+        let velocity = self.moving.iter().map(|&(place, root)| root * fields.velocity[place]);
         displacement.chain(velocity).collect()
     }
 
@@ -270,7 +264,6 @@ impl<'a> PeriodMap<'a> {
 
     fn twice_kinetic_energy(&self) -> f64 {
         let velocity = &self.run.fields().velocity;
-        let moving = self.moving.iter();
-        moving.map(|&(place, root)| (root * velocity[place]).powi(2)).sum()
+        self.moving.iter().map(|&(place, root)| (root * velocity[place]).powi(2)).sum()
     }
 }

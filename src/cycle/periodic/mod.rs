@@ -45,7 +45,6 @@ mod start;
 mod two_frequencies;
 
 pub use branch::{BranchMotion, BranchRequest, KeptMotion, PeriodicBranch};
-pub use confirmation::MotionConfirmation;
 pub use contest::ModeContest;
 pub use error::PeriodicError;
 pub use ladder::{ASTRAY, find_from};

@@ -157,8 +157,7 @@ impl PeriodicMotion {
             }
             if let Some([displacement, earlier]) = fields {
                 let later = gather(map.run.operator(), &map.run.fields().velocity);
-                let pairs = earlier.iter().zip(&later);
-                let velocity = pairs.map(|(a, b)| 0.5 * (a + b)).collect();
+                let velocity = earlier.iter().zip(&later).map(|(a, b)| 0.5 * (a + b)).collect();
                 self.frames.push(MotionFrame {
                     time,
                     fields: [displacement, velocity],

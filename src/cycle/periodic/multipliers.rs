@@ -93,8 +93,7 @@ impl FloquetMultipliers {
         let found = found.map_err(|dimension| PeriodicError::Multipliers { dimension })?;
         // What nodes that change their status at another step leave of linearity.
         let first_listed = &found.listed[0];
-        let vector = found.vector(first_listed);
-        let along = unit(vector.iter().map(|value| value.re).collect());
+        let along = unit(found.vector(first_listed).iter().map(|value| value.re).collect());
         let against: Vec<f64> = along.iter().map(|value| -value).collect();
         let sums = apply(&along).into_iter().zip(apply(&against));
         let sums: Vec<f64> = sums.map(|(one, other)| 0.5 * (one + other)).collect();
@@ -132,45 +131,38 @@ impl FloquetMultipliers {
 }
 
 /// Columns of numbers that keep what is known of one motion.
-pub(super) const COLUMNS: usize = 3;
+pub(super) const COLUMNS: usize = 2;
 
-/// What is known of a motion as columns: multipliers, their rates, the shift; or why there are none, byte by byte.
+/// What is known of a motion as columns: why there are no multipliers, byte by byte, or their periods, shift and numbers.
 pub(super) fn to_columns(known: &Result<FloquetMultipliers, String>) -> [Vec<f64>; COLUMNS] {
     let found = match known {
         Ok(found) => found,
-        Err(reason) => return [reason.bytes().map(f64::from).collect(), vec![], vec![]],
+        Err(reason) => return [reason.bytes().map(f64::from).collect(), vec![]],
     };
-    let all = || found.multipliers.iter();
-    let parts = all().flat_map(|own| [own.multiplier.re, own.multiplier.im]);
-    let rates = all().flat_map(|own| [own.growth_rate, own.uncertainty, own.beat_hz]);
-    let shift = found.shift.map_or(vec![], |shift| vec![shift.re, shift.im]);
-    let rest = [vec![found.periods as f64], shift].concat();
-    [parts.collect(), rates.collect(), rest]
+    let shift = found.shift.unwrap_or(c64::new(f64::NAN, f64::NAN));
+    let course = [found.periods as f64, shift.re, shift.im];
+    let numbers = found.multipliers.iter().flat_map(|own| {
+        let c64 { re, im } = own.multiplier;
+        [re, im, own.growth_rate, own.uncertainty, own.beat_hz]
+    });
+    [vec![], course.into_iter().chain(numbers).collect()]
 }
 
 /// The inverse of [`to_columns`].
 pub(super) fn from_columns(columns: &[Vec<f64>]) -> Result<FloquetMultipliers, String> {
-    let [parts, rates, rest] = columns else {
-        return Err(String::new());
-    };
-    let Some((&periods, shift)) = rest.split_first() else {
-        let bytes = parts.iter().map(|&byte| byte as u8).collect();
+    let Some((&[periods, re, im], numbers)) = columns[1].split_first_chunk() else {
+        let bytes = columns[0].iter().map(|&byte| byte as u8).collect();
         return Err(String::from_utf8(bytes).unwrap_or_default());
     };
-    let pairs = parts.chunks_exact(2).zip(rates.chunks_exact(3));
+    let multipliers = numbers.chunks_exact(5).map(|own| FloquetMultiplier {
+        multiplier: c64::new(own[0], own[1]),
+        growth_rate: own[2],
+        uncertainty: own[3],
+        beat_hz: own[4],
+    });
     Ok(FloquetMultipliers {
-        multipliers: pairs
-            .map(|(part, rate)| FloquetMultiplier {
-                multiplier: c64::new(part[0], part[1]),
-                growth_rate: rate[0],
-                uncertainty: rate[1],
-                beat_hz: rate[2],
-            })
-            .collect(),
-        shift: match shift {
-            [re, im] => Some(c64::new(*re, *im)),
-            _ => None,
-        },
+        multipliers: multipliers.collect(),
+        shift: (!re.is_nan()).then(|| c64::new(re, im)),
         periods: periods as usize,
     })
 }

@@ -57,11 +57,7 @@ impl Found {
     }
 
     fn not_converged(&self) -> PeriodicError {
-        PeriodicError::NotConverged {
-            periods: self.periods,
-            residual: self.residual,
-            frequency_hz: 1.0 / self.state.period,
-        }
+        PeriodicError::not_converged(self.periods, self.residual, self.state.period)
     }
 
     /// What it is found again from, with the steps of its period: the motion, and its numbers.
@@ -73,12 +69,8 @@ impl Found {
 
     /// The motion of such columns, one period from its state; none where they are of another body.
     pub fn recalled(map: &mut PeriodMap<'_>, columns: &[Vec<f64>]) -> Option<Self> {
-        let [motion, numbers] = columns else {
-            return None;
-        };
-        let &[period, steps, residual, periods] = &numbers[..] else {
-            return None;
-        };
+        let [motion, numbers]: &[Vec<f64>; 2] = columns.try_into().ok()?;
+        let [period, steps, residual, periods]: [f64; 4] = numbers[..].try_into().ok()?;
         if motion.len() != map.unknowns() || !(period > 0.0 && steps >= 1.0) {
             return None;
         }
@@ -221,11 +213,7 @@ impl Search {
         let residual = image.relative_residual();
         let period = self.state.period;
         if !(WIDEST.recip()..=WIDEST).contains(&(period / self.first_period)) {
-            return Err(PeriodicError::NotConverged {
-                periods,
-                residual,
-                frequency_hz: 1.0 / period,
-            });
+            return Err(PeriodicError::not_converged(periods, residual, period));
         }
         if residual < 0.5 * self.improved.1 {
             self.improved = (self.spent, residual);
@@ -266,8 +254,7 @@ impl Search {
         }
         let (step, period, _) = self.secants.step(&image.residual, 0.0, &image.rate);
         let lengths = [norm(&step) / image.vibration, period.abs() / self.state.period];
-        let shares = lengths.iter().zip(LONGEST);
-        let share = shares.fold(1.0_f64, |share, (length, longest)| {
+        let share = lengths.iter().zip(LONGEST).fold(1.0_f64, |share, (length, longest)| {
             share.min(longest / length.max(f64::MIN_POSITIVE))
         });
         self.last = Some((self.state.clone(), image.residual));

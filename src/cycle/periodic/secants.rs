@@ -106,8 +106,7 @@ impl SecantSpace {
             return;
         }
         let values = change.motion.iter_mut().chain(&mut change.residual);
-        let values = values.chain(&mut change.place);
-        values.for_each(|value| *value /= length);
+        values.chain(&mut change.place).for_each(|value| *value /= length);
         change.period /= length;
         self.changes.truncate(self.depth - 1);
         for (other, products) in &mut self.changes {

@@ -61,8 +61,7 @@ impl FlatFace {
             }
             groups.push((!is_curved).then_some(group));
         }
-        let groups = groups.into_iter().flatten();
-        let flat = groups.map(|group| {
+        let flat = groups.into_iter().flatten().map(|group| {
             let own = group.iter().map(|&face| &faces[face]);
             Self::joined(mesh, own, normals[group[0]])
         });
@@ -90,8 +89,7 @@ impl FlatFace {
             let along = mesh.frame(node).transpose() * normal;
             flat.places.push(mesh.nodes[node]);
             flat.areas.push(area);
-            let row = (0..3).map(|c| (3 * node + c, along[c]));
-            flat.normals.push(row.collect());
+            flat.normals.push((0..3).map(|c| (3 * node + c, along[c])).collect());
         }
         flat
     }
@@ -144,15 +142,12 @@ impl Sound {
         let steps = map.steps();
         let audible = (AUDIBLE * state.period) as usize;
         let count = audible.clamp(1, MOST_HARMONICS).min((steps - 1) / 2);
-        let rows: Vec<Vec<(usize, f64)>> = {
-            let operator = map.run.operator();
-            let rows = faces.iter().flat_map(|face| &face.normals);
-            let placed = rows.map(|row| {
-                let row = row.iter().map(|&(dof, along)| (operator.position(dof), along));
-                row.collect()
-            });
-            placed.collect()
-        };
+        let operator = map.run.operator();
+        let rows = faces
+            .iter()
+            .flat_map(|face| &face.normals)
+            .map(|row| row.iter().map(|&(dof, along)| (operator.position(dof), along)).collect());
+        let rows: Vec<Vec<(usize, f64)>> = rows.collect();
         let mut amplitudes = vec![vec![c64::new(0.0, 0.0); rows.len()]; count];
         map.place(state);
         for step in 0..steps {
@@ -161,10 +156,8 @@ impl Sound {
             }
             map.run.advance();
             let field = &map.run.fields().velocity;
-            let velocity = rows
-                .iter()
-                .map(|row| -> f64 { row.iter().map(|&(place, along)| along * field[place]).sum() });
-            let velocity: Vec<f64> = velocity.collect();
+            let moved = |&(place, along): &(usize, f64)| along * field[place];
+            let velocity: Vec<f64> = rows.iter().map(|row| row.iter().map(moved).sum()).collect();
             for (k, own) in amplitudes.iter_mut().enumerate() {
                 let turns = ((k + 1) * step) % steps;
                 let turn = c64::from_polar(2.0 / steps as f64, -TAU * turns as f64 / steps as f64);
@@ -198,8 +191,7 @@ impl Sound {
 /// Unit normal of a face.
 fn normal(mesh: &Mesh, face: &BoundaryFace) -> Vector3<f64> {
     let [a, b, c] = [0, 1, 2].map(|k| Vector3::from(mesh.nodes[face.nodes[k] as usize]));
-    let normal = (b - a).cross(&(c - a));
-    normal.try_normalize(0.0).unwrap_or_default()
+    (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_default()
 }
 
 /// The faces with which each has an edge in common.

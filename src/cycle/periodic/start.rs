@@ -40,10 +40,7 @@ impl GrowingMode<'_> {
         let part = |of: fn(&c64) -> f64| -> Vec<f64> { self.shape.iter().map(of).collect() };
         let [real, imaginary] = [part(|u| u.re), part(|u| u.im)].map(|u| scatter(operator, &u));
         let slip = |i: usize| match map.run.model().components() {
-            2 => {
-                let parts = interface.slip(i);
-                parts.map(|(dof, along)| self.shape[dof] * along).sum()
-            }
+            2 => interface.slip(i).map(|(dof, along)| self.shape[dof] * along).sum(),
             _ => c64::new(law.slip(i, &real), law.slip(i, &imaginary)),
         };
         (0..interface.len()).map(slip).collect()
@@ -52,8 +49,7 @@ impl GrowingMode<'_> {
     /// The amplitude at which the mode brings the first contact node to the speed of its counterface.
     pub fn sticking_amplitude(&self, map: &PeriodMap<'_>) -> f64 {
         let law = map.run.contact();
-        let slips = self.slips(map).into_iter().enumerate();
-        let amplitudes = slips.map(|(i, slip)| {
+        let amplitudes = self.slips(map).into_iter().enumerate().map(|(i, slip)| {
             let speed = (slip * self.eigenvalue).norm();
             law.counterface_speed(i).abs() / speed.max(f64::MIN_POSITIVE)
         });

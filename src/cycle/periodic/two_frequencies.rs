@@ -2,19 +2,15 @@
 
 use super::error::PeriodicError;
 use super::map::{PeriodMap, PeriodicState};
+use crate::cycle::field::slips;
 use crate::linalg::{c64, interruption};
 use crate::signal::{RotatingLine, rotating_lines};
+use crate::transient::{WEAKEST_LINE, strongest_two};
 
 /// Periods before the motion is looked at, and those over which it is.
 const PERIODS: [usize; 2] = [300, 200];
 /// Samples of a period.
 const SAMPLES: usize = 16;
-/// Lines weaker than this share of the vibration are not looked at; a second frequency is no weaker than that of the first.
-const SHARES: [f64; 2] = [0.02, 0.05];
-/// Periods after which a periodic motion repeats itself at the latest.
-const LONGEST_REPETITION: usize = 3;
-/// Distance of two frequencies that are one and the same, in lines of the spectrum and relative.
-const APART: [f64; 2] = [0.3, 1e-3];
 
 /// The end of a transient of 500 periods from a state, with the period of its vibration; none where it has come to no vibration.
 ///
@@ -40,27 +36,11 @@ pub fn transient_from(
 /// neither a multiple of it nor of its half or third, if there is one.
 fn frequencies(series: &[c64], rate: f64) -> Option<(f64, Option<f64>)> {
     let size = series.iter().map(|value| value.norm_sqr()).sum::<f64>() / series.len() as f64;
-    let lines = rotating_lines(series, rate, SHARES[0] * size.sqrt());
-    let lines: Vec<RotatingLine> =
-        lines.into_iter().filter(|line| line.frequency_hz > 0.0).collect();
-    let strongest = |lines: &mut dyn Iterator<Item = &RotatingLine>| {
-        lines.max_by(|a, b| a.amplitude.total_cmp(&b.amplitude)).copied()
-    };
-    let first = strongest(&mut lines.iter())?;
-    let width = rate / series.len() as f64;
-    let foreign = |repetition: usize| {
-        let fundamental = first.frequency_hz / repetition as f64;
-        let mut own = lines.iter().filter(|line| {
-            let expected = (line.frequency_hz / fundamental).round() * fundamental;
-            let distance = (line.frequency_hz - expected).abs();
-            line.amplitude >= SHARES[1] * first.amplitude
-                && distance >= APART[0] * width + APART[1] * expected
-        });
-        strongest(&mut own)
-    };
-    let found: Option<Vec<RotatingLine>> = (1..=LONGEST_REPETITION).map(foreign).collect();
-    let second = found.and_then(|lines| Some(lines.first()?.frequency_hz));
-    Some((first.frequency_hz, second))
+    let lines = rotating_lines(series, rate, WEAKEST_LINE * size.sqrt()).into_iter();
+    let lines: Vec<(usize, RotatingLine)> =
+        lines.filter(|line| line.frequency_hz > 0.0).map(|line| (0, line)).collect();
+    let (first, second) = strongest_two(&lines, 0, rate / series.len() as f64)?;
+    Some((first.frequency_hz, second.map(|line| line.frequency_hz)))
 }
 
 /// Displacements of the contact nodes along the counterface, m, sample by sample, and the samples of a second.
@@ -72,13 +52,11 @@ fn sampled(map: &mut PeriodMap<'_>, start: &PeriodicState) -> (Vec<Vec<f64>>, f6
         interruption::check();
         (0..steps).for_each(|_| map.run.advance());
     }
-    let nodes = map.interface().len();
     let sample = |step: usize| {
         if step.is_multiple_of(SAMPLES) {
             interruption::check();
         }
-        let (law, displacement) = (map.run.contact(), &map.run.fields().displacement);
-        let sample: Vec<f64> = (0..nodes).map(|i| law.slip(i, displacement)).collect();
+        let sample = slips(&map.run);
         (0..every).for_each(|_| map.run.advance());
         sample
     };

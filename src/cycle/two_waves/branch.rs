@@ -1,12 +1,13 @@
 //! Motions of two frequencies along a parameter.
 
-use super::super::cycle_branch::BranchEnd;
+use super::super::continuation::{BranchEnd, Values, Way, both_halves, joined};
 use super::super::parameter::Parameter;
 use super::super::state::{STATE_COLUMNS, WaveState};
 use super::super::system::Closure;
 use super::{TwoWaveMotion, TwoWaves};
 use crate::cea::SweepWatch;
 use crate::linalg::interruption;
+use std::convert::Infallible;
 
 /// Share of the amplitude at the start by which the weaker wave falls from one motion to the next, where it shrinks.
 const SHRINKS: f64 = 0.7;
@@ -40,37 +41,24 @@ impl TwoWaves {
         values: &[f64],
         watch: &dyn SweepWatch,
     ) -> TwoWaveBranch {
-        let start = parameter.of(&motion.state.point);
-        let mut values = values.to_vec();
-        values.sort_by(f64::total_cmp);
-        let half = |name: &str, is_up: bool| {
-            let ahead = values.iter().copied();
-            let mut ahead: Vec<f64> =
-                ahead.filter(|&value| if is_up { value > start } else { value < start }).collect();
-            if !is_up {
-                ahead.reverse();
-            }
-            let mut half = Half {
+        let (start, values) = (parameter.of(&motion.state.point), Values::new(values));
+        let half = |direction: f64| {
+            Ok(Half {
                 waves: self,
                 parameter,
+                ahead: values.ahead(start, direction > 0.0, 0.0),
                 here: motion.clone(),
                 found: Vec::new(),
                 shrinking: None,
                 birth: None,
-            };
-            let known = watch.recall(name);
-            let end = known.and_then(|columns| half.recall(&columns));
-            let end = end.unwrap_or_else(|| half.run(&ahead, &|columns| watch.keep(name, columns)));
-            (half, end)
+            })
         };
-        let (mut down, up) = rayon::join(|| half("down", false), || half("up", true));
-        down.0.found.reverse();
-        let births = down.0.birth.into_iter().chain(up.0.birth);
+        let Ok([(down, low_end), (up, high_end)]) = both_halves(&values, start, watch, half);
         TwoWaveBranch {
             parameter,
-            births: births.collect(),
-            ends: [down.1, up.1],
-            motions: [down.0.found, vec![motion.clone()], up.0.found].concat(),
+            births: down.birth.into_iter().chain(up.birth).collect(),
+            ends: [low_end, high_end],
+            motions: joined(down.found, Some(motion.clone()), up.found),
         }
     }
 }
@@ -79,6 +67,8 @@ impl TwoWaves {
 struct Half<'a> {
     waves: &'a TwoWaves,
     parameter: Parameter,
+    /// Values asked for, in the order on the way.
+    ahead: Vec<f64>,
     here: TwoWaveMotion,
     found: Vec<TwoWaveMotion>,
     /// The weaker wave and its amplitude where it began to lead the way, m.
@@ -86,41 +76,32 @@ struct Half<'a> {
     birth: Option<f64>,
 }
 
-/// Ends of a half by their codes.
-const ENDS: [BranchEnd; 3] = [BranchEnd::Range, BranchEnd::Birth, BranchEnd::Lost];
+impl Way for Half<'_> {
+    type Error = Infallible;
+    const BLOCK: usize = 1;
 
-impl Half<'_> {
-    /// Goes on to the end; `keep` is given what is done after every motion.
-    fn run(&mut self, values: &[f64], keep: &dyn Fn(&[Vec<f64>])) -> BranchEnd {
-        while let (None, Some(&next)) = (self.shrinking, values.get(self.found.len())) {
-            match self.reach(next) {
-                true => self.found.push(self.here.clone()),
-                false => {
-                    let weaker = self.weaker();
-                    self.shrinking = Some((weaker, self.here.amplitudes[weaker]));
-                }
-            }
-            keep(&self.columns(None));
-        }
-        let mut end = self.shrinking.is_none().then_some(BranchEnd::Range);
-        while end.is_none() {
-            end = self.shrink(values[values.len() - 1]);
-            keep(&self.columns(end));
-        }
-        let end = end.unwrap_or(BranchEnd::Lost);
-        keep(&self.columns(Some(end)));
-        end
+    fn count(&self) -> usize {
+        self.found.len()
     }
 
-    /// Everything that the way on depends on: where it is, and the motions that are done.
-    fn columns(&self, end: Option<BranchEnd>) -> Vec<Vec<f64>> {
-        let code = end.and_then(|end| ENDS.iter().position(|own| *own == end));
-        let mut course = vec![code.map_or(-1.0, |code| code as f64)];
-        let birth = self.birth.unwrap_or(f64::NAN);
-        let shrinking = self.shrinking;
-        course.extend(shrinking.map_or([-1.0, 0.0], |(wave, from)| [wave as f64, from]));
-        course.push(birth);
-        let mut columns = vec![course];
+    /// Along the parameter from value to value, as long as that leads on, then along the amplitude of the weaker wave.
+    fn advance(&mut self) -> Result<Option<BranchEnd>, Infallible> {
+        let next = self.ahead.get(self.found.len()).copied();
+        match (self.shrinking, next) {
+            (Some(wave), _) => return Ok(self.shrink(wave)),
+            (None, None) => return Ok(Some(BranchEnd::Range)),
+            (None, Some(next)) if self.reach(next) => self.found.push(self.here.clone()),
+            (None, Some(_)) => {
+                let weaker = self.weaker();
+                self.shrinking = Some((weaker, self.here.amplitudes[weaker]));
+            }
+        }
+        Ok(None)
+    }
+
+    fn columns(&self) -> Vec<Vec<f64>> {
+        let shrinking = self.shrinking.map_or(vec![], |(wave, from)| vec![wave as f64, from]);
+        let mut columns = vec![shrinking, self.birth.into_iter().collect()];
         for motion in [&self.here].into_iter().chain(&self.found) {
             columns.push(vec![self.parameter.of(&motion.state.point)]);
             columns.extend(motion.state.columns());
@@ -128,12 +109,8 @@ impl Half<'_> {
         columns
     }
 
-    /// Takes up what was kept; its end, if it has come to one.
-    fn recall(&mut self, columns: &[Vec<f64>]) -> Option<BranchEnd> {
-        let (course, motions) = columns.split_first()?;
-        let &[end, wave, from, birth] = &course[..] else {
-            return None;
-        };
+    fn recall(&mut self, columns: &[Vec<f64>]) -> Option<()> {
+        let ([shrinking, birth], motions) = columns.split_first_chunk()?;
         let motion = |columns: &[Vec<f64>]| {
             let (value, state) = columns.split_first()?;
             let mut point = self.here.state.point;
@@ -142,13 +119,17 @@ impl Half<'_> {
             Some(self.waves.motion(state))
         };
         let mut all = motions.chunks_exact(1 + STATE_COLUMNS).map(motion);
-        let (here, found) = (all.next()??, all.collect::<Option<_>>()?);
-        (self.here, self.found) = (here, found);
-        self.shrinking = (wave >= 0.0).then_some((wave as usize, from));
-        self.birth = (!birth.is_nan()).then_some(birth);
-        (end >= 0.0).then(|| ENDS.get(end as usize).copied()).flatten()
+        (self.here, self.found) = (all.next()??, all.collect::<Option<_>>()?);
+        self.birth = birth.first().copied();
+        let &[wave, from] = &shrinking[..] else {
+            return Some(());
+        };
+        self.shrinking = Some((wave as usize, from));
+        Some(())
     }
+}
 
+impl Half<'_> {
     fn value(&self) -> f64 {
         self.parameter.of(&self.here.state.point)
     }
@@ -186,9 +167,10 @@ impl Half<'_> {
         true
     }
 
-    /// One motion on towards where the weaker wave vanishes, whose amplitude leads the way; the end, if this is it.
-    fn shrink(&mut self, last: f64) -> Option<BranchEnd> {
-        let (weaker, first) = self.shrinking?;
+    /// One motion on towards where the weaker wave vanishes, whose amplitude leads the way from its `first` one on; the end, if
+    /// this is it.
+    fn shrink(&mut self, (weaker, first): (usize, f64)) -> Option<BranchEnd> {
+        let last = *self.ahead.last()?;
         if self.here.amplitudes[weaker] <= VANISHED * first {
             return Some(BranchEnd::Birth);
         }

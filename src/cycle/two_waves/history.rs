@@ -1,5 +1,6 @@
 //! What a transient of the mesh says of two waves: frequencies, phases, and the contact forces over both phases.
 
+use super::super::field::{amplitude, slips};
 use super::super::parameter::OperatingPoint;
 use super::super::state::{PointState, SecondPhase, WaveState};
 use super::TwoWaves;
@@ -37,9 +38,7 @@ impl Measured {
 
     /// The waves of [`Self::numbers`]; none where these are no waves.
     pub(super) fn from_numbers(numbers: &[f64]) -> Option<Self> {
-        let &[a, b, c, d, e, f] = numbers else {
-            return None;
-        };
+        let [a, b, c, d, e, f] = numbers.try_into().ok()?;
         Some(Self { frequencies: [a, b], amplitudes: [c, d], origins: [e, f] })
     }
 }
@@ -84,8 +83,7 @@ impl History {
                     pairs.for_each(|(sum, force)| *sum += force / every as f64);
                 }
                 if step == every / 2 {
-                    let displacement = &run.fields().displacement;
-                    let edge: Vec<f64> = (0..count).map(|i| law.slip(i, displacement)).collect();
+                    let edge = slips(run);
                     for (wave, &harmonic) in history.waves.iter_mut().zip(&harmonics) {
                         wave.push(amplitude(&edge, harmonic));
                     }
@@ -176,14 +174,12 @@ impl History {
             }
         }
         let mean = |sum: &[f64]| -> Vec<f64> {
-            let pairs = sum.iter().zip(&counts);
-            pairs.map(|(sum, count)| sum / f64::max(*count, 1.0)).collect()
+            sum.iter().zip(&counts).map(|(sum, count)| sum / f64::max(*count, 1.0)).collect()
         };
         let [normal, tangential] = [mean(&sums[0]), mean(&sums[1])];
         // Contact states as the mean forces have them.
         let scale = normal.iter().sum::<f64>() / points as f64;
-        let pairs = normal.iter().zip(&tangential);
-        let contact = pairs.map(|(normal, shear)| {
+        let contact = normal.iter().zip(&tangential).map(|(normal, shear)| {
             let limit = DRAGGED * point.contact.friction_coefficient * normal;
             match () {
                 () if *normal < OPEN * scale => PointState::Open,
@@ -207,14 +203,4 @@ impl History {
             point: *point,
         }
     }
-}
-
-/// Amplitude of harmonic `n` of values on equal nodes, `u = Re(a e^{i n theta})`.
-fn amplitude(edge: &[f64], harmonic: isize) -> c64 {
-    let count = edge.len() as isize;
-    let terms = edge.iter().enumerate().map(|(j, &value)| {
-        let angle = TAU * (harmonic * j as isize).rem_euclid(count) as f64 / count as f64;
-        value * c64::from_polar(2.0 / count as f64, -angle)
-    });
-    terms.sum()
 }

@@ -1,6 +1,6 @@
 //! A motion of two frequencies: powers, statuses, amplitudes, fields.
 
-use super::super::field::{HarmonicField, summed};
+use super::super::field::field;
 use super::super::limit_cycle::{CyclePowers, EdgeMotion, powers};
 use super::super::state::WaveState;
 use super::TwoWaves;
@@ -42,22 +42,8 @@ impl TwoWaves {
         }
     }
 
-    /// Displacement (m) and velocity (m/s) over all dofs of the mesh, `shape` its nodes on a ray and its sectors, in nodal frames,
-    /// at a time (s).
-    pub fn field(&self, motion: &TwoWaveMotion, time: f64, shape: [usize; 2]) -> [Vec<f64>; 2] {
-        let (wave, state) = (self.wave(), &motion.state);
-        let edge = EdgeMotion::of(&wave, state);
-        let harmonics = edge.displacement.iter().zip(&edge.rates).enumerate();
-        let harmonics = harmonics.map(|(k, (u, &rate))| {
-            let share = if k == 0 { 1.0 } else { 2.0 } / wave.points() as f64;
-            let amplitude = u.map(|value| value * share);
-            HarmonicField {
-                around: wave.circumferential(k, self.harmonics),
-                phase: wave.phase(k, state.frequencies()) * time,
-                rate,
-                profile: wave.profile(k, rate, &state.point.damping, amplitude),
-            }
-        });
-        summed(harmonics, shape)
+    /// Displacement (m) and velocity (m/s) over all dofs of the mesh, in nodal frames, at a time (s).
+    pub fn field(&self, motion: &TwoWaveMotion, time: f64) -> [Vec<f64>; 2] {
+        field(&self.wave(), &motion.state, self.harmonics, time)
     }
 }

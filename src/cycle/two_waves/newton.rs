@@ -1,6 +1,7 @@
 //! Newton's method on the grid of two phases.
 
 use super::super::body::WaveBody;
+use super::super::grid::{RESOLVED, landing_share};
 use super::super::parameter::Parameter;
 use super::super::state::{PointState, WaveState};
 use super::super::system::{Closure, System};
@@ -9,8 +10,6 @@ use super::super::{CycleError, DiscModel};
 
 /// Points along either phase, where the mesh allows for them.
 const SIDE: usize = 53;
-/// Landing time, in points, that is resolved.
-const RESOLVED: f64 = 0.5;
 /// Circumferential harmonics kept between the highest of the grid and a multiple of the mesh's sectors: differences in time take
 /// the highest harmonics for slow ones, which would resonate with the long wave that the mesh takes them for.
 const CLEARANCE: usize = 10;
@@ -59,7 +58,7 @@ impl TwoWaves {
         let all = all.map(|[k_1, k_2]| k_1 * harmonics[0] + k_2 * harmonics[1]);
         let (specification, material) = (&model.specification, &model.material);
         let body = WaveBody::new(specification, material, all, harmonics[0])?;
-        let landing = 0.5 / body.node_frequency * frequencies[0] / std::f64::consts::TAU;
+        let landing = landing_share(frequencies[0], body.node_frequency);
         Ok(Self {
             landing_share: landing.max(RESOLVED / sides[0] as f64),
             ratio: frequencies[1] / frequencies[0],

@@ -62,8 +62,7 @@ impl TwoWaveSearch {
     pub fn agrees(&self) -> bool {
         let own = self.motion.state.frequencies();
         self.confirmation.is_some_and(|found| {
-            let pairs = found.frequencies.iter().zip(own);
-            pairs.into_iter().all(|(a, b)| (a / b - 1.0).abs() < AGREES)
+            found.frequencies.iter().zip(own).all(|(a, b)| (a / b - 1.0).abs() < AGREES)
         })
     }
 }
@@ -87,7 +86,7 @@ impl MeshStepping<'_> {
     ) -> Result<TwoWaveSearch, NoTwoWaves> {
         let harmonics = [self.solver.body().harmonic(), second];
         let grid = |settled: &Measured| {
-            TwoWaves::new(&self.solver.model(), harmonics, settled.frequencies, side)
+            TwoWaves::new(&self.solver.model, harmonics, settled.frequencies, side)
         };
         if let Some([settled, confirmation, state @ ..]) = watch.recall("found").as_deref()
             && let Some(settled) = Measured::from_numbers(settled)
@@ -112,15 +111,7 @@ impl MeshStepping<'_> {
         let [a, b] = settled.frequencies.map(|omega| omega / std::f64::consts::TAU);
         let state = waves.solved(&start, parameter, value);
         let motion = waves.motion(state.ok_or(NoTwoWaves::NotConverged(a, b))?);
-        let shape = [
-            self.solver.specification.radial_elements + 1,
-            self.solver.specification.circumferential_elements,
-        ];
-        let (mut run, steps) = self.start_from(cycle, None, |time_step| {
-            let [displacement, _] = waves.field(&motion, 0.0, shape);
-            let [_, velocity] = waves.field(&motion, -0.5 * time_step, shape);
-            [displacement, velocity]
-        })?;
+        let (mut run, steps) = self.start_from(cycle, None, |time| waves.field(&motion, time))?;
         let confirmation = History::of(&mut run, harmonics, steps, WINDOWS[1]).measured();
         let numbers = [Some(settled), confirmation].map(|own| own.as_ref().map(Measured::numbers));
         let mut columns = numbers.map(Option::unwrap_or_default).to_vec();

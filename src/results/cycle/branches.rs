@@ -149,10 +149,6 @@ impl BranchRecord {
         let share = |of: fn(&MeanPowers) -> Option<f64>| {
             power(of).iter().zip(&external).map(|(own, all)| own / all).collect()
         };
-        let is_stable = |row: &BranchRow| match row.verdict? {
-            Verdict::Undecided => None,
-            verdict => Some(verdict == Verdict::Stable),
-        };
         Self {
             key: key.to_owned(),
             values: column(&|row| row.value),
@@ -166,7 +162,7 @@ impl BranchRecord {
                 share(|powers| powers.material_damping),
                 share(|powers| powers.normal_contact),
             ],
-            stable: rows.iter().map(is_stable).collect(),
+            stable: rows.iter().map(|row| row.verdict?.is_stable()).collect(),
             growth_rate: rows.iter().map(|row| row.growth_rate).collect(),
             external,
             extent,

@@ -3,18 +3,18 @@
 use super::branches::{BranchRecord, BranchRow, FamilyRecord, SteppedRow};
 use super::record::{HistoryRow, MotionRecord};
 use super::summary::{
-    BranchSummary, ConfirmationRun, ConfirmationSummary, CycleMotion, CycleName, ExternalPower,
-    KnownStability, ModeOfCycle, ModeSummary, MotionBranch, Perturbation, SoughtCycle,
-    SoundSummary, StabilityChangeSummary, StabilitySummary, SteppedMotion,
+    BranchSummary, ConfirmationSummary, CycleMotion, CycleName, KnownStability, ModeOfCycle,
+    ModeSummary, MotionBranch, Perturbation, SoughtCycle, SoundSummary, StabilityChangeSummary,
+    StabilitySummary, SteppedMotion,
 };
 use super::{CycleReport, MotionSearch, Told};
 use crate::chart::extremes;
 use crate::contact::{ContactInterface, ContactStatus};
 use crate::cycle::periodic::{
-    BranchMotion, ContactInstant, FloquetMultiplier, FloquetMultipliers, MotionConfirmation,
-    PeriodicBranch, PeriodicMotion, REMAINDER, Sound,
+    BranchMotion, ContactInstant, FloquetMultiplier, FloquetMultipliers, PeriodicBranch,
+    PeriodicMotion, REMAINDER, Sound,
 };
-use crate::cycle::{CyclePowers, Verdict};
+use crate::cycle::{Confirmation, CyclePowers, Verdict};
 use crate::results::npz::NpzArchive;
 use crate::results::summary::{MeanPowers, StatusFractions, present};
 use std::f64::consts::TAU;
@@ -61,7 +61,7 @@ pub struct FoundCycle {
     /// Its multipliers, where they were asked for, or why there are none.
     pub stability: Option<Result<FloquetMultipliers, String>>,
     /// A transient that started beside it, where one was asked for.
-    pub confirmation: Option<MotionConfirmation>,
+    pub confirmation: Option<Confirmation>,
     /// The branch through it over the parameter of the case, where one was asked for.
     pub branch: Option<PeriodicBranch>,
 }
@@ -168,16 +168,10 @@ impl FoundCycle {
         }
     }
 
-    fn confirmed(&self, run: &MotionConfirmation, thickness: f64) -> ConfirmationSummary {
-        ConfirmationSummary::Ran(ConfirmationRun {
-            periods: run.periods,
-            agrees: run.agrees(&self.motion),
-            main_frequency_hz: present(run.main_frequency_hz),
-            main_harmonic: None,
-            status: StatusFractions::of(run.status),
-            power_w: ExternalPower { external: present(run.external_power * thickness) },
-            e_folds: run.e_folds,
-        })
+    /// What a transient that started beside it says.
+    fn confirmed(&self, thickness: f64) -> Option<ConfirmationSummary> {
+        let run = self.confirmation.as_ref()?;
+        Some(ConfirmationSummary::ran(run, run.agrees_with(&self.motion), thickness))
     }
 }
 
@@ -246,9 +240,7 @@ impl PeriodicResult {
             cycle: found.map(|found| found.summary(report, search)),
             absent: None,
             error: self.outcome.as_ref().err().cloned(),
-            confirmation: found.and_then(|found| {
-                Some(found.confirmed(found.confirmation.as_ref()?, report.thickness))
-            }),
+            confirmation: found.and_then(|found| found.confirmed(report.thickness)),
             stability: found.and_then(|found| Some(stability(found.stability.as_ref()?))),
             branch: found.and_then(|found| found.branch.as_ref().map(branch_summary)),
         }

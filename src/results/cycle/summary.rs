@@ -2,11 +2,11 @@
 
 use super::branches::FamilyRecord;
 use super::two_waves::TwoWaveSummary;
-use crate::cycle::{Family, Onset};
+use crate::cycle::{Confirmation, Family, Onset};
 use crate::output::{Described, Key};
 use crate::results::extent::Extent;
 use crate::results::manifest::Manifest;
-use crate::results::summary::{CriticalSummary, MeanPowers, StatusFractions};
+use crate::results::summary::{CriticalSummary, MeanPowers, StatusFractions, present};
 use serde::Serialize;
 use std::f64::consts::TAU;
 use std::fmt;
@@ -309,6 +309,21 @@ pub struct ConfirmationRun {
     pub power_w: ExternalPower,
     /// E-folds of the leading perturbation over the run; negative where it decays, 0 where it is not known.
     pub e_folds: f64,
+}
+
+impl ConfirmationSummary {
+    /// Of a run, and whether that still is on the cycle.
+    pub(super) fn ran(run: &Confirmation, agrees: bool, thickness: f64) -> Self {
+        Self::Ran(ConfirmationRun {
+            periods: run.periods,
+            agrees,
+            main_frequency_hz: run.main_frequency_hz.and_then(present),
+            main_harmonic: run.main_harmonic,
+            status: StatusFractions::of(run.status),
+            power_w: ExternalPower { external: present(run.external_power * thickness) },
+            e_folds: run.e_folds,
+        })
+    }
 }
 
 impl Described for ConfirmationSummary {

@@ -4,9 +4,9 @@ use super::branches::{BranchRecord, BranchRow, FamilyRecord};
 use super::motions::mean_powers;
 use super::record::{HistoryRow, MotionRecord};
 use super::summary::{
-    BranchSummary, ConfirmationRun, ConfirmationSummary, CycleMotion, CycleName, ExternalPower,
-    KnownStability, ModeOfChange, OnsetSummary, Perturbation, SoughtCycle, StabilityChangeSummary,
-    StabilitySummary, WaveBranch, WaveOfCycle,
+    BranchSummary, ConfirmationSummary, CycleMotion, CycleName, KnownStability, ModeOfChange,
+    OnsetSummary, Perturbation, SoughtCycle, StabilityChangeSummary, StabilitySummary, WaveBranch,
+    WaveOfCycle,
 };
 use super::{CycleFrame, CycleReport, Told, WaveSearch};
 use crate::chart::extremes;
@@ -167,15 +167,7 @@ impl CycleResult {
             }
             (Err(_), Ok(_)) => return None,
         };
-        Some(ConfirmationSummary::Ran(ConfirmationRun {
-            periods: found.periods,
-            agrees: found.agrees(cycle),
-            main_frequency_hz: found.main_frequency_hz,
-            main_harmonic: found.main_harmonic,
-            status: StatusFractions::of(found.status),
-            power_w: ExternalPower { external: present(found.external_power * thickness) },
-            e_folds: found.e_folds,
-        }))
+        Some(ConfirmationSummary::ran(found, found.agrees(cycle), thickness))
     }
 
     fn branch(&self, branch: &CycleBranch, inner_radius: f64) -> BranchSummary {
@@ -330,7 +322,7 @@ impl KnownStability {
     pub(super) fn new(verdict: Verdict, leading: Option<Perturbation>) -> Self {
         Self {
             verdict: verdict.word().to_owned(),
-            is_stable: (verdict != Verdict::Undecided).then_some(verdict == Verdict::Stable),
+            is_stable: verdict.is_stable(),
             growing_harmonics: None,
             leading,
             shift: None,

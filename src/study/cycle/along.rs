@@ -1,6 +1,6 @@
 //! Stability along a branch of limit cycles.
 
-use crate::cycle::{LimitCycle, MeshStepping, Parameter, StabilityChange, SteppedCycle, Verdict};
+use crate::cycle::{LimitCycle, MeshStepping, Parameter, StabilityChange, SteppedCycle, differing};
 use rayon::prelude::*;
 
 /// Cycles whose exponents are found one after the other, each from its neighbour's; the groups run in parallel.
@@ -48,13 +48,9 @@ pub fn changes(
     parameter: Parameter,
     settled: &[Result<SteppedCycle, String>],
 ) -> Vec<StabilityChange> {
-    let is_sure = |found: &&SteppedCycle| found.stability.verdict() != Verdict::Undecided;
-    let known: Vec<&SteppedCycle> = settled.iter().flatten().filter(is_sure).collect();
-    let differ =
-        |pair: &&[&SteppedCycle]| pair[0].stability.is_stable() != pair[1].stability.is_stable();
-    let pairs: Vec<&[&SteppedCycle]> = known.windows(2).filter(differ).collect();
-    let found = pairs.par_iter().map(|pair| {
-        let [first, second] = [pair[0], pair[1]];
+    let known = settled.iter().flatten();
+    let pairs = differing(known.map(|own| (own.stability.verdict().is_stable(), own)));
+    let found = pairs.par_iter().map(|&[first, second]| {
         let (stable, unstable) =
             if first.stability.is_stable() { (first, second) } else { (second, first) };
         stepping.stability_change(parameter, stable, unstable).ok()

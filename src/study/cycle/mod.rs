@@ -117,11 +117,11 @@ impl<'a> CycleStudy<'a> {
         let masses = lumped_masses(mesh, self.case.materials());
         let mut moves = vec![true; field.len()];
         mesh.held_dofs().for_each(|dof| moves[dof] = false);
-        let dofs = (0..field.len()).filter(|&dof| moves[dof]);
-        let sums = dofs.fold([0.0; 2], |[energy, mass], dof| {
-            let own = masses[dof / 2];
-            [energy + own * field[dof].powi(2), mass + 0.5 * own]
-        });
+        let sums =
+            (0..field.len()).filter(|&dof| moves[dof]).fold([0.0; 2], |[energy, mass], dof| {
+                let own = masses[dof / 2];
+                [energy + own * field[dof].powi(2), mass + 0.5 * own]
+            });
         (sums[0] / sums[1]).sqrt()
     }
 
@@ -152,8 +152,7 @@ impl<'a> CycleStudy<'a> {
     }
 
     fn onsets_of(&self, harmonic: usize) -> Vec<Onset> {
-        let own = self.onsets.iter().filter(|o| o.harmonic == harmonic);
-        own.copied().collect()
+        self.onsets.iter().filter(|o| o.harmonic == harmonic).copied().collect()
     }
 
     /// Why a family whose onset is known has no cycle.

@@ -12,11 +12,10 @@ use super::operating_point;
 use crate::case::{Case, Cycle, OnsetChoice, StabilityChoice, TimeStep};
 use crate::cea::{ComplexMode, PartWatch, SweepWatch};
 use crate::cycle::periodic::{
-    BranchRequest, FloquetMultipliers, Found, GrowingMode, KeptMotion, MotionConfirmation,
-    MotionRequest, PeriodMap, PeriodicBranch, PeriodicError, PeriodicMotion, REMAINDER, Sound,
-    find_from,
+    BranchRequest, FloquetMultipliers, Found, KeptMotion, MotionRequest, PeriodMap, PeriodicBranch,
+    PeriodicError, PeriodicMotion, REMAINDER, Sound, find_from,
 };
-use crate::cycle::{CriticalValue, Parameter};
+use crate::cycle::{Confirmation, CriticalValue, Parameter};
 use crate::fem::operator::{SimdLevel, StiffnessOperator};
 use crate::results::cycle::{
     CycleReport, FoundCycle, MotionSearch, PeriodicResult, Search, SoughtMode,
@@ -77,8 +76,7 @@ impl<'a> PeriodicStudy<'a> {
                 }
             }
             (true, None) => {
-                let found = Steady::critical_friction(case, &stepped);
-                critical = found.map(|value| CriticalValue {
+                critical = Steady::critical_friction(case, &stepped).map(|value| CriticalValue {
                     parameter: Parameter::FrictionCoefficient,
                     value,
                 });
@@ -126,12 +124,7 @@ impl<'a> PeriodicStudy<'a> {
         operator: &'b dyn StiffnessOperator,
         mode: &ComplexMode,
     ) -> Result<PeriodMap<'b>, TransientError> {
-        let step = self.case.transient.as_ref().map(|run| run.time_step);
-        let longest = match step {
-            Some(TimeStep::Seconds(step)) => Some(step),
-            Some(TimeStep::Auto) | None => None,
-        };
-        PeriodMap::new(body, operator, mode.eigenvalue.im, longest)
+        PeriodMap::new(body, operator, mode.eigenvalue.im, longest_step(self.case))
     }
 
     /// Where the search starts.
@@ -240,22 +233,14 @@ impl<'a> PeriodicStudy<'a> {
     ) -> Result<FoundCycle, PeriodicError> {
         let mode = &self.steady.modes[place];
         let mut map = self.map(self.body_at_start(), operator, mode)?;
-        let growing = GrowingMode {
-            eigenvalue: mode.eigenvalue,
-            shape: mode.shape.as_deref().unwrap_or_default(),
-            base: &self.steady.base,
-        };
         // From the growing mode to the motion that repeats itself, and along the parameter.
         let watch =
             PartWatch { whole: watch, prefix: format!("mode{}-", place + 1), is_heard: false };
-        let mut found = match watch.recall("cycle") {
-            Some(columns) => Found::recalled(&mut map, &columns),
-            None => None,
+        let known = watch.recall("cycle").and_then(|columns| Found::recalled(&mut map, &columns));
+        let mut found = match known {
+            Some(found) => found,
+            None => find_from(&mut map, &self.steady.mode(place))?,
         };
-        if found.is_none() {
-            found = Some(find_from(&mut map, &growing)?);
-        }
-        let mut found = found.ok_or(PeriodicError::Died { periods: 0 })?;
         watch.keep("cycle", &found.columns(map.steps()));
         let steps = map.steps();
         let branch = self.branch(operator, mode, (&found, steps), &watch);
@@ -270,14 +255,13 @@ impl<'a> PeriodicStudy<'a> {
         let motion = PeriodicMotion::of(&mut map, &found, request);
         // What small perturbations do, by multipliers and by a transient.
         let stability = (self.choices.stability != StabilityChoice::None).then(|| {
-            let multipliers = FloquetMultipliers::of(&mut map, &found.state);
-            multipliers.map_err(|error| error.to_string())
+            FloquetMultipliers::of(&mut map, &found.state).map_err(|error| error.to_string())
         });
         let known = stability.as_ref().and_then(|found| found.as_ref().ok());
         let leading = known.and_then(FloquetMultipliers::leading).copied();
         let periods = self.choices.confirmation_periods;
         let confirmation = (periods > 0)
-            .then(|| MotionConfirmation::run(&mut map, &found.state, leading.as_ref(), periods));
+            .then(|| Confirmation::beside(&mut map, &found.state, leading.as_ref(), periods));
         let faces = faces_in_air(self.case, &self.stepped);
         let sound = (!faces.is_empty()).then(|| Sound::of(&mut map, &found.state, &faces));
         let count = self.choices.harmonic_count;
@@ -339,6 +323,14 @@ impl<'a> PeriodicStudy<'a> {
             }),
             wall_s,
         }
+    }
+}
+
+/// The step that the case gives its transient, s.
+fn longest_step(case: &Case) -> Option<f64> {
+    match case.transient.as_ref()?.time_step {
+        TimeStep::Seconds(step) => Some(step),
+        TimeStep::Auto => None,
     }
 }
 

@@ -56,13 +56,8 @@ impl CycleStudy<'_> {
             let branch =
                 branch.map(|(parameter, values)| waves.follow(motion, *parameter, values, watch));
             // Over one period of the first wave; the second has moved on by then.
-            let specification = &self.annulus.specification;
-            let shape = [specification.radial_elements + 1, specification.circumferential_elements];
-            let frames = frames(
-                |time| waves.field(motion, time, shape),
-                1.0 / motion.frequencies_hz()[0],
-                self.choices.frames,
-            );
+            let period = 1.0 / motion.frequencies_hz()[0];
+            let frames = frames(|time| waves.field(motion, time), period, self.choices.frames);
             Ok(FoundTwoWaves {
                 is_confirmed: found.agrees(),
                 confirmation: found.confirmation,

@@ -1,7 +1,8 @@
 //! Which of two motions wins on a body without symmetry.
 
+use super::longest_step;
 use super::steady::Steady;
-use crate::case::{Case, TimeStep, refusal};
+use crate::case::{Case, refusal};
 use crate::cycle::periodic::{GrowingMode, ModeContest, PeriodMap};
 use crate::cycle::{BasinBoundary, BasinRequest};
 use crate::fem::operator::SimdLevel;
@@ -22,28 +23,14 @@ pub fn boundary_of_modes(
     let stepped = SteppedMesh::of(case)?;
     let steady = Steady::of(case, &stepped)?;
     let places = rivals(case, request, &steady)?;
-    let modes: Vec<(usize, GrowingMode<'_>)> = places
-        .into_iter()
-        .map(|place| {
-            let mode = &steady.modes[place];
-            let growing = GrowingMode {
-                eigenvalue: mode.eigenvalue,
-                shape: mode.shape.as_deref().unwrap_or_default(),
-                base: &steady.base,
-            };
-            (place + 1, growing)
-        })
-        .collect();
+    let modes: Vec<(usize, GrowingMode<'_>)> =
+        places.into_iter().map(|place| (place + 1, steady.mode(place))).collect();
     let body = stepped.body(case);
     let operator = body.operator(OperatorChoice::Auto, simd);
     let operator = operator.map_err(StudyError::Transient)?;
-    let step = case.transient.as_ref().map(|run| run.time_step);
-    let longest = match step {
-        Some(TimeStep::Seconds(step)) => Some(step),
-        Some(TimeStep::Auto) | None => None,
-    };
     let fastest = modes.iter().map(|(_, mode)| mode.eigenvalue.im);
-    let map = PeriodMap::new(body, operator.as_ref(), fastest.fold(0.0, f64::max), longest);
+    let map =
+        PeriodMap::new(body, operator.as_ref(), fastest.fold(0.0, f64::max), longest_step(case));
     let mut contest = ModeContest::new(map.map_err(StudyError::Transient)?, &modes, request);
     let rivals = contest.rivals();
     let found = request.boundary(rivals, |ratio| Ok::<_, StudyError>(contest.run(ratio)))?;

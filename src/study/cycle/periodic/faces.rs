@@ -25,8 +25,7 @@ pub fn faces_in_air(case: &Case, stepped: &SteppedMesh<'_>) -> Vec<FlatFace> {
             let mut covered = covered(&stepped.mesh, contacts.chain(ties));
             let on_rigid = body.contacts.iter().filter(|own| own.counter.rigid().is_some());
             covered.extend(on_rigid.flat_map(|own| {
-                let faces = stepped.mesh.boundaries[own.surface].faces.iter();
-                faces.map(|face| sorted(&face.nodes))
+                stepped.mesh.boundaries[own.surface].faces.iter().map(|face| sorted(&face.nodes))
             }));
             let mut faces = stepped.mesh.outer_faces();
             faces.retain(|face| !covered.contains(&sorted(&face.nodes)));

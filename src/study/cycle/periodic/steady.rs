@@ -4,6 +4,7 @@ use super::super::operating_point;
 use crate::case::{Body, Case};
 use crate::cea::{CeaError, ComplexMode, FrictionSweep, SweepRequest, Unwatched, sparse};
 use crate::cycle::Parameter;
+use crate::cycle::periodic::GrowingMode;
 use crate::fem::MassKind;
 use crate::prestress::{Assembly, TangentOptions};
 use crate::study::eigenvalues::{Model, Solver, asked_modes};
@@ -44,10 +45,7 @@ impl Steady {
         let modes = point.map_or_else(Vec::new, |point| point.modes);
         let base = match &model {
             Model::Whole(whole) => whole.base().displacement(own[0]),
-            _ => {
-                let body = stepped.body(case);
-                body.sliding_displacement().map_err(StudyError::Transient)?
-            }
+            _ => stepped.body(case).sliding_displacement().map_err(StudyError::Transient)?,
         };
         Ok(Self { base, modes })
     }
@@ -133,10 +131,16 @@ impl Steady {
         (0..self.modes.len()).max_by(|&a, &b| growth(a).total_cmp(&growth(b)))
     }
 
+    /// The mode of a place, from which a motion may grow.
+    pub fn mode(&self, place: usize) -> GrowingMode<'_> {
+        let mode = &self.modes[place];
+        let shape = mode.shape.as_deref().unwrap_or_default();
+        GrowingMode { eigenvalue: mode.eigenvalue, shape, base: &self.base }
+    }
+
     /// Its growth rate, 1/s.
     pub fn growth_rate(&self) -> f64 {
-        let least = self.least_stable();
-        least.map_or(f64::NEG_INFINITY, |place| self.modes[place].growth_rate())
+        self.least_stable().map_or(f64::NEG_INFINITY, |place| self.modes[place].growth_rate())
     }
 }
 
