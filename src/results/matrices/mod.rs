@@ -10,7 +10,7 @@ use super::npz::NpzArchive;
 use super::summary::object;
 use super::table::write_rows;
 use crate::linalg::MarketMatrix;
-use crate::output::{Described, columns};
+use crate::output::{Described, columns, significant};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::io;
@@ -398,6 +398,7 @@ pub fn print(summary: &MatricesSummary) -> String {
     let _ = writeln!(text, "\n{}", summary.equation);
     let [from, to] = summary.friction_range;
     if from < to {
+        let [from, to] = [from, to].map(|friction| significant(friction, 5));
         let _ = writeln!(text, "They hold for friction coefficients from {from} to {to}.");
     }
     text
