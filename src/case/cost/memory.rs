@@ -41,9 +41,8 @@ impl Case {
         let value = self.raw.find(key).map(|item| item.value.shortened());
         let given = value.map_or_else(String::new, |value| format!(" = {value}"));
         let remedy = match key {
-            "output.sample_interval" | "output.contact_interval" => {
-                "raise it, or lower transient.duration"
-            }
+            "output.sample_interval" => "raise it, or lower transient.duration",
+            "output.contact_interval" => "raise it, or lower transient.duration",
             "transient.duration" => "lower it, or raise output.sample_interval",
             "output.snapshots" | "cycle.phases" => "lower it",
             "convergence.factors" => "lower the factors, or start from a coarser mesh",

@@ -45,7 +45,6 @@ pub fn swept_text(swept: &Map<String, Value>) -> String {
             keys.push(key);
         }
     }
-    let parts = heads(&keys).into_iter();
-    let parts = parts.map(|(key, head)| format!("{head} = {}", printed(&swept[key])));
-    parts.collect::<Vec<_>>().join(", ")
+    let part = |(key, head): (&String, &str)| format!("{head} = {}", printed(&swept[key]));
+    heads(&keys).into_iter().map(part).collect::<Vec<_>>().join(", ")
 }

@@ -86,14 +86,14 @@ fn the_cost_of_studies_counts_every_run() {
     let all = all.run.operations;
     assert!(all > 0.95 * transients, "{all} {transients}");
 
-    // A solid mesh twice as fine has eight times the elements, and a factor of it 64 times the operations.
+    // A solid mesh twice as fine has eight times the elements: beside the first, 8 and 64 times what grows least.
     let solid = shipped("tread-block.toml");
     let text = std::fs::read_to_string(&solid).unwrap();
-    let set = "convergence={factors=[1,2],analyses=[\"cea\"]}".to_owned();
+    let set = "convergence={factors=[1,2,4],analyses=[\"cea\"]}".to_owned();
     let solid = Case::parse(&solid, text.as_bytes(), &[set]).unwrap();
     let (one, all) = (solid.cost().cea.unwrap().run, solid.convergence_cost().unwrap().run);
-    assert!(all.operations > 9.0 * one.operations, "{one:?} {all:?}");
-    assert!(all.memory_bytes > 10.0 * one.memory_bytes, "{one:?} {all:?}");
+    assert!(all.operations > 73.0 * one.operations, "{one:?} {all:?}");
+    assert!(all.memory_bytes > 73.0 * one.memory_bytes, "{one:?} {all:?}");
 }
 
 /// Against the run of a block of 20-node bricks: its unknowns, its peak of memory, and its time in words.
