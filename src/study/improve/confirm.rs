@@ -54,13 +54,11 @@ pub(super) fn keys_of(search: &Search<'_>, trial: &Trial) -> Vec<String> {
             // A hair more, so that elements at just that distance are in it.
             let moved = (Vector3::from(middle) - Vector3::from(center)).norm();
             let radius = rounded((budget.patch_radius + moved) * (1.0 + 1e-6), 7);
-            let mut keys =
-                vec![key("center", list(&center[..d])), key("radius", format!("{radius:?}"))];
-            keys.push(match trial.kind {
+            let own = match trial.kind {
                 ModificationKind::Removal => key("remove", "true".to_owned()),
                 _ => key("stiffness_coefficient", format!("{:?}", budget.patch_damping)),
-            });
-            keys
+            };
+            vec![key("center", list(&center[..d])), key("radius", format!("{radius:?}")), own]
         }
     }
 }
