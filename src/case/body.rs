@@ -252,7 +252,7 @@ impl Body {
             |grid: &AnnulusSpecification| Ok(Arc::new(AnnulusMesh::generate(grid)?.mesh));
         match self {
             Self::Annulus(annulus) => generate(&annulus.specification),
-            Self::Revolution(revolution) => generate(&revolution.specification.annulus),
+            Self::Revolution(revolution) => generate(&revolution.specification.plane()),
             Self::Imported(imported) => Ok(Arc::clone(&imported.mesh)),
             Self::Assembly(assembly) => Ok(Arc::clone(&assembly.mesh)),
         }

@@ -118,6 +118,8 @@ fn every_column_and_key_that_cea_writes_is_declared() {
 #[test]
 fn every_key_that_mesh_writes_is_declared() {
     check("mesh", "polycarbonate-disc.toml", &COARSE);
+    // Held at its bore alone.
+    check("mesh", "ring-on-disc.toml", &COARSE);
 }
 
 #[test]
