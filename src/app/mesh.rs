@@ -33,13 +33,12 @@ impl Run for Arguments {
         if let Some(assembly) = case.body.assembly() {
             return run_solid(&session, folder, assembly);
         }
-        let generate = |grid| AnnulusMesh::generate(grid).map_err(Failure::usage);
-        let annulus = case.body.grid().map(generate).transpose()?;
         let mesh = case.mesh().map_err(Failure::usage)?;
-        let generate =
-            |solid: &SolidSpecification| SolidSector::generate(solid).map_err(Failure::usage);
-        let revolution = case.body.revolution();
-        let solid = revolution.map(|body| generate(&body.specification));
+        let revolution = case.body.revolution().map(|body| &body.specification);
+        let grid = revolution.map(SolidSpecification::plane).or(case.body.grid().copied());
+        let annulus = grid.map(|grid| AnnulusMesh::generate(&grid).map_err(Failure::usage));
+        let annulus = annulus.transpose()?;
+        let solid = revolution.map(|solid| SolidSector::generate(solid).map_err(Failure::usage));
         let solid = solid.transpose()?;
         match &solid {
             Some(sector) => write_revolution(&folder, sector)?,

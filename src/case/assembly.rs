@@ -286,16 +286,6 @@ impl AssemblyBody {
         })
     }
 
-    /// Half the largest extent of the bodies, m.
-    pub fn size(&self) -> f64 {
-        let extent = |axis: usize| {
-            let coordinates = || self.mesh.nodes.iter().map(|point| point[axis]);
-            coordinates().fold(f64::NEG_INFINITY, f64::max)
-                - coordinates().fold(f64::INFINITY, f64::min)
-        };
-        0.5 * (0..3).map(extent).fold(0.0, f64::max)
-    }
-
     /// Nodes of the contact surfaces.
     pub fn contact_node_count(&self) -> usize {
         let surfaces = self.contacts.iter().map(|contact| contact.surface);

@@ -201,7 +201,7 @@ impl Body {
             Self::Annulus(annulus) => ring(&annulus.specification),
             Self::Revolution(revolution) => ring(&revolution.specification.annulus),
             Self::Imported(imported) => imported.mesh.area(),
-            Self::Assembly(assembly) => (2.0 * assembly.size()).powi(2),
+            Self::Assembly(assembly) => (2.0 * assembly.mesh.size()).powi(2),
         }
     }
 
@@ -210,8 +210,8 @@ impl Body {
         match self {
             Self::Annulus(annulus) => annulus.specification.outer_radius,
             Self::Revolution(revolution) => revolution.specification.annulus.outer_radius,
-            Self::Imported(imported) => imported.size(),
-            Self::Assembly(assembly) => assembly.size(),
+            Self::Imported(imported) => imported.mesh.size(),
+            Self::Assembly(assembly) => assembly.mesh.size(),
         }
     }
 
@@ -237,9 +237,9 @@ impl Body {
             Self::Revolution(revolution) => revolution.specification.annulus.inner_radius,
             Self::Imported(imported) => match imported.mesh.counterface {
                 Counterface::Cylinder { radius, is_inside: true, .. } => radius,
-                _ => imported.size(),
+                _ => imported.mesh.size(),
             },
-            Self::Assembly(assembly) => assembly.size(),
+            Self::Assembly(assembly) => assembly.mesh.size(),
         }
     }
 
@@ -252,7 +252,7 @@ impl Body {
             |grid: &AnnulusSpecification| Ok(Arc::new(AnnulusMesh::generate(grid)?.mesh));
         match self {
             Self::Annulus(annulus) => generate(&annulus.specification),
-            Self::Revolution(revolution) => generate(&revolution.specification.annulus),
+            Self::Revolution(revolution) => generate(&revolution.specification.plane()),
             Self::Imported(imported) => Ok(Arc::clone(&imported.mesh)),
             Self::Assembly(assembly) => Ok(Arc::clone(&assembly.mesh)),
         }

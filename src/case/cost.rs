@@ -173,7 +173,9 @@ impl Case {
     fn refined_cost(&self, factor: f64) -> Cost {
         match &self.body {
             // Its elements are split for a run, not for an estimate.
-            Body::Imported(_) | Body::Assembly(_) => self.cost_of(&Size::of(self).refined(factor)),
+            Body::Imported(_) | Body::Assembly(_) => {
+                self.cost_of(&Size::of(self).refined(factor, self.body.dimension()))
+            }
             Body::Annulus(_) | Body::Revolution(_) => {
                 let refined = self.refined(factor);
                 refined.map_or_else(|_| self.cost(), |case| case.cost())

@@ -338,14 +338,4 @@ impl ImportedBody {
             source: Arc::new((Arc::new(fine), specification.clone())),
         })
     }
-
-    /// Half the largest extent of the body, m.
-    pub fn size(&self) -> f64 {
-        let extent = |axis: usize| {
-            let coordinates = || self.mesh.nodes.iter().map(|point| point[axis]);
-            coordinates().fold(f64::NEG_INFINITY, f64::max)
-                - coordinates().fold(f64::INFINITY, f64::min)
-        };
-        0.5 * extent(0).max(extent(1))
-    }
 }

@@ -1,5 +1,7 @@
 //! Lists of values, given one by one or as a range.
 
+use crate::output::rounded;
+
 /// How the values of a range are spaced.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Spacing {
@@ -28,16 +30,13 @@ pub fn range_values(from: f64, to: f64, count: usize, spacing: Spacing) -> Vec<f
                 return to;
             }
             let (step, steps) = (i as f64, last as f64);
-            round_to_15_digits(match spacing {
+            let value = match spacing {
                 Spacing::Linear => from + (to - from) * step / steps,
                 Spacing::Logarithmic => from * (to / from).powf(step / steps),
-            })
+            };
+            rounded(value, 15)
         })
         .collect()
-}
-
-fn round_to_15_digits(value: f64) -> f64 {
-    format!("{value:.14e}").parse().unwrap_or(value)
 }
 
 #[cfg(test)]

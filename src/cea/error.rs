@@ -197,6 +197,8 @@ impl CeaError {
                         | PrestressError::Pair { .. }
                         | PrestressError::Overconstrained { .. }
                         | PrestressError::MixedContacts
+                        | PrestressError::FrameOfNone { .. }
+                        | PrestressError::NotOfRevolution { .. }
                 )
         )
     }

@@ -2,6 +2,7 @@
 
 use crate::contact::SlidingContact;
 use crate::fem::RayleighDamping;
+use crate::output::rounded;
 use std::f64::consts::TAU;
 
 /// Contact and damping of one limit cycle.
@@ -99,8 +100,7 @@ impl Parameter {
 
     /// Its value in units of the case key, rounded to 14 digits so that 6000 rpm and back is 6000 rpm.
     pub fn in_key_units(self, value: f64) -> f64 {
-        let value = value / self.unit();
-        format!("{value:.13e}").parse().unwrap_or(value)
+        rounded(value / self.unit(), 14)
     }
 
     /// Sets its SI value.

@@ -159,8 +159,18 @@ fn no_curve(file: &FileMesh, name: &str, part: BodyPart) -> BodyError {
             "physical curve \"{name}\" is not on the rim of the body: its edges are not edges of one element each"
         ));
     }
-    let known = || file.curves.keys();
-    let nearest = known()
+    let instead = known_instead(file.curves.keys(), name, ["curve", "Curve"]);
+    refuse(format!("no physical curve is called \"{name}\"; {instead}"))
+}
+
+/// The names that a file has in place of an unknown one, with the nearest, or how a body's part gets one.
+pub(super) fn known_instead<'a>(
+    known: impl ExactSizeIterator<Item = &'a String> + Clone,
+    name: &str,
+    [part, in_gmsh]: [&str; 2],
+) -> String {
+    let nearest = known
+        .clone()
         .filter(|known| known.len().abs_diff(name.len()) <= 1 + name.len() / 3)
         .map(|known| (strsim::damerau_levenshtein(known, name), known))
         .min();
@@ -170,17 +180,15 @@ fn no_curve(file: &FileMesh, name: &str, part: BodyPart) -> BodyError {
         }
         _ => String::new(),
     };
-    let mut names: Vec<String> = known().take(NAMED).map(|name| format!("\"{name}\"")).collect();
-    match known().count().saturating_sub(NAMED) {
-        0 => {}
-        more => names.push(format!("{more} more")),
+    let more = known.len().saturating_sub(NAMED);
+    let names = known.take(NAMED).map(|name| format!("\"{name}\""));
+    let names: Vec<String> = names.chain((more > 0).then(|| format!("{more} more"))).collect();
+    if names.is_empty() {
+        return format!(
+            "the file has none: put the {part} in a physical group (Physical {in_gmsh} in Gmsh)"
+        );
     }
-    let list = if names.is_empty() {
-        "the file has none: put the curve in a physical group (Physical Curve in Gmsh)".to_owned()
-    } else {
-        format!("the file has {}", names.join(", "))
-    };
-    refuse(format!("no physical curve is called \"{name}\"; {list}{hint}"))
+    format!("the file has {}{hint}", names.join(", "))
 }
 
 /// Refuses a plane whose way does not lie along the contact curve: it would slide into the body or away from it.

@@ -62,6 +62,16 @@ impl Mesh {
         points.map(|(place, weight)| weight * self.jacobian(element, place)).sum()
     }
 
+    /// Half the largest extent, m.
+    pub fn size(&self) -> f64 {
+        let extent = |axis: usize| {
+            let coordinates = || self.nodes.iter().map(|point| point[axis]);
+            coordinates().fold(f64::NEG_INFINITY, f64::max)
+                - coordinates().fold(f64::INFINITY, f64::min)
+        };
+        0.5 * (0..3).map(extent).fold(0.0, f64::max)
+    }
+
     /// Volume of each region of a solid body, m3; area in the plane, m2.
     pub fn region_measures(&self) -> Vec<f64> {
         let mut measures = vec![0.0; self.regions.len()];

@@ -81,11 +81,8 @@ impl SolidSector {
     /// # Errors
     /// [`MeshError`] as in [`Self::generate`].
     pub fn section(&self) -> Result<Mesh, MeshError> {
-        let annulus = AnnulusSpecification {
-            outer: BoundaryCondition::Clamped,
-            element: ElementKind::Quad4,
-            ..self.specification.annulus
-        };
+        let plane = self.specification.plane();
+        let annulus = AnnulusSpecification { element: ElementKind::Quad4, ..plane };
         let mut mesh = AnnulusMesh::generate(&annulus)?.mesh;
         for (node, angle) in mesh.frame_angles().to_vec().into_iter().enumerate() {
             let radius = self.radii[node % self.radii.len()];
@@ -251,12 +248,17 @@ impl SolidSector {
 }
 
 impl SolidSpecification {
+    /// The grid of its section across the axis, clamped outside, wherever the body itself is held.
+    pub fn plane(&self) -> AnnulusSpecification {
+        AnnulusSpecification { outer: BoundaryCondition::Clamped, ..self.annulus }
+    }
+
     /// Radii of the corner nodes, m.
     ///
     /// # Errors
     /// [`MeshError`] as in [`SolidSector::generate`].
     pub fn corner_radii(&self) -> Result<Vec<f64>, MeshError> {
-        let annulus = AnnulusSpecification { outer: BoundaryCondition::Clamped, ..self.annulus };
+        let annulus = self.plane();
         validate(&annulus)?;
         if self.axial_elements == 0 {
             return Err(MeshError::TooFewElements { key: "axial_elements", count: 0, minimum: 1 });

@@ -1,5 +1,6 @@
 //! Solid bodies of a mesh file: regions, named surfaces, and what holds them.
 
+use super::body::known_instead;
 use super::coincidence::refuse_doubled_elements;
 use super::error::{BodyError, refuse_far};
 use super::faces::{FaceKey, face_key};
@@ -256,20 +257,6 @@ fn no_surface(surfaces: &BTreeMap<String, Vec<SurfaceFace>>, name: &str) -> Body
              or of none"
         ));
     }
-    let nearest =
-        surfaces.keys().map(|known| (strsim::damerau_levenshtein(known, name), known)).min();
-    let hint = match nearest {
-        Some((distance, known)) if distance <= 1 + name.len() / 3 => {
-            format!("; did you mean \"{known}\"?")
-        }
-        _ => String::new(),
-    };
-    let names: Vec<String> = surfaces.keys().map(|name| format!("\"{name}\"")).collect();
-    let list = if names.is_empty() {
-        "the file has none: put the surface in a physical group (Physical Surface in Gmsh)"
-            .to_owned()
-    } else {
-        format!("the file has {}", names.join(", "))
-    };
-    BodyError::Body(format!("no physical surface is called \"{name}\"; {list}{hint}"))
+    let instead = known_instead(surfaces.keys(), name, ["surface", "Surface"]);
+    BodyError::Body(format!("no physical surface is called \"{name}\"; {instead}"))
 }

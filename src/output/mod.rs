@@ -15,6 +15,6 @@ pub use frictionsim_described::Described;
 
 pub use described::{Described, Key, describe_field, keys_of};
 pub use document::{Document, Section};
-pub use number::{Format, fixed, significant, unit_of};
+pub use number::{Format, fixed, rounded, significant, unit_of};
 pub(crate) use table::columns;
 pub use table::{Cell, Column, Entry, Head, Look, Shown, Table, entries};

@@ -1,6 +1,7 @@
 //! Names of case keys on the axes of figures.
 
 use crate::chart::{Axis, literal, prefixed};
+use crate::output::rounded;
 
 /// The mark-up that names a case key in legends and labels: its quantity with the symbol, or the key itself.
 pub fn parameter_name(key: &str) -> String {
@@ -18,8 +19,7 @@ pub fn parameter_axis(key: &str) -> Axis {
 
 /// A value of a case key among others, as text in the unit that [`shared_unit`] gives them: at most four significant digits.
 pub fn in_unit(value: f64, factor: f64) -> String {
-    let rounded: f64 = format!("{:.3e}", value * factor).parse().unwrap_or(value * factor);
-    literal(&rounded.to_string())
+    literal(&rounded(value * factor, 4).to_string())
 }
 
 /// The factor and the unit, with a prefix where that is usual, in which values of a case key up to `reach` are shown.

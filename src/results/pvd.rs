@@ -1,6 +1,7 @@
 //! ParaView collections: files of one run by time.
 
-use super::vtu::{escape, rounded};
+use super::vtu::escape;
+use crate::output::rounded;
 use std::io::{self, Write};
 
 /// One file of a collection.
@@ -25,7 +26,7 @@ pub fn write_pvd(out: &mut dyn Write, entries: &[PvdEntry]) -> io::Result<()> {
         writeln!(
             out,
             "<DataSet timestep=\"{:?}\" group=\"{}\" part=\"0\" file=\"{}\"/>",
-            rounded(entry.time),
+            rounded(entry.time, 12),
             escape(&entry.group),
             escape(&entry.file)
         )?;

@@ -7,7 +7,7 @@ use super::cycle::{FamilyRecord, NamedFamily, draw_branches};
 use super::drawing::{Declaration, declared};
 use super::parameter::{parameter_axis, parameter_name};
 use super::sweep::{
-    PointRecord, TWO_FREQUENCY, UNSETTLED, critical_friction, operating_matrix, swept_text,
+    PointRecord, TWO_FREQUENCY, UNSETTLED, critical_friction, operating_matrix, printed,
 };
 use crate::chart::{
     Axis, ChartError, Figure, Fill, INK, Line, Marker, Panel, Points, Rule, Scale, Stroke, literal,
@@ -321,10 +321,7 @@ fn swept_label(swept: &Map<String, Value>) -> String {
         (1, Some(friction)) => format!("*μ* = {friction}"),
         _ => {
             let parts = swept.iter().map(|(key, value)| {
-                let one = Map::from_iter([(key.clone(), value.clone())]);
-                let text = swept_text(&one);
-                let value = text.rsplit(" = ").next().unwrap_or_default();
-                format!("{} = {}", parameter_name(key), literal(value))
+                format!("{} = {}", parameter_name(key), literal(&printed(value)))
             });
             parts.collect::<Vec<_>>().join(", ")
         }

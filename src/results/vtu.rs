@@ -4,6 +4,7 @@ use super::whole_mesh::WholeMesh;
 use crate::contact::ContactStatus;
 use crate::fem::{NodalStress, SolidStress};
 use crate::mesh::{Mesh, SolidSector};
+use crate::output::rounded;
 use flate2::{Compression, write::ZlibEncoder};
 use nalgebra::Vector3;
 use std::io::{self, Write};
@@ -84,7 +85,7 @@ impl Field {
 
     /// One number of the whole file.
     pub fn number(name: &str, value: f64) -> Self {
-        Self::scalars(name, vec![rounded(value)])
+        Self::scalars(name, vec![rounded(value, 12)])
     }
 
     /// The stresses at the nodes: `von_mises_pa`, `hydrostatic_pressure_pa`, and the components in nodal frames.
@@ -272,11 +273,6 @@ fn compress(bytes: &[u8]) -> io::Result<Vec<u8>> {
     }
     blocks.iter().for_each(|block| out.extend(block));
     Ok(out)
-}
-
-/// A number to twelve digits: 0.0125, not 0.012499999999999999.
-pub(super) fn rounded(value: f64) -> f64 {
-    format!("{value:.11e}").parse().unwrap_or(value)
 }
 
 /// Writes a VTU file, lossless: `whole` are numbers of the whole file (FieldData: time, frequency, friction).

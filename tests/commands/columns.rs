@@ -40,10 +40,25 @@ fn keys(path: &str, value: &Value, found: &mut Vec<String>) {
     }
 }
 
+/// Columns of whole numbers, and of yes and no.
+const COUNTS: [&str; 9] =
+    ["branch", "harmonic", "mode", "node", "onset", "periods", "phases", "point", "sample"];
+const FLAGS: [&str; 4] = ["fold", "stable", "unstable", "unstable_from_start"];
+
+/// Whether a text has a number of more than nine digits.
+fn has_long_number(text: &str) -> bool {
+    let numbers = text.split(|c: char| !(c.is_ascii_digit() || c == '.'));
+    numbers.into_iter().any(|number| {
+        let digits: String = number.chars().filter(char::is_ascii_digit).collect();
+        digits.trim_matches('0').len() > 9
+    })
+}
+
 fn check(command: &str, case: &str, set: &[&str]) {
     let folder = folder();
     let out = folder.path().join("out");
-    Run::of(command, shipped(case)).args(&["--quiet"]).out(&out).set(set).done();
+    let answer = Run::of(command, shipped(case)).out(&out).set(set).done();
+    assert!(!has_long_number(&answer.stdout), "{}", answer.stdout);
     let all = reference();
     let mut read = 0;
     for entry in fs::read_dir(&out).unwrap() {
@@ -53,6 +68,15 @@ fn check(command: &str, case: &str, set: &[&str]) {
         if name.ends_with(".csv") {
             let mut table = csv::Reader::from_path(&path).unwrap();
             names.extend(table.headers().unwrap().iter().map(str::to_owned));
+            for row in crate::program::rows(&path) {
+                for (column, cell) in row.0.iter().filter(|own| !own.1.is_empty()) {
+                    let (is_count, is_flag) =
+                        (COUNTS.contains(&&**column), FLAGS.contains(&&**column));
+                    let is_right = !is_count || cell.parse::<i64>().is_ok();
+                    let is_right = is_right && (!is_flag || cell.parse::<bool>().is_ok());
+                    assert!(is_right, "{command}: {column} of {name} is {cell}");
+                }
+            }
             // Branches are counted from 1, as their column says.
             if let Some(place) = names.iter().position(|name| name == "branch") {
                 // Empty where a row has none.
@@ -94,6 +118,13 @@ fn every_column_and_key_that_cea_writes_is_declared() {
 #[test]
 fn every_key_that_mesh_writes_is_declared() {
     check("mesh", "polycarbonate-disc.toml", &COARSE);
+    // Held at its bore alone.
+    check("mesh", "ring-on-disc.toml", &COARSE);
+}
+
+#[test]
+fn every_column_that_matrices_write_is_declared() {
+    check("matrices", "tread-block.toml", &[]);
 }
 
 #[test]

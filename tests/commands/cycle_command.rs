@@ -1,7 +1,10 @@
 //! `frictionsim cycle` as a user runs it: the shipped case, at full size in the long tier, and what it says where there is no cycle.
 
-use crate::program::{Run, folder, has, shipped};
+use crate::bodies::grid::{Grid, Shape, msh};
+use crate::program::{Answer, Run, folder, has, shipped};
 use crate::tier::sized;
+use frictionsim::results::cycle::{CycleSummary, Origin, TwoWaveSummary, WavesSought};
+use frictionsim::results::{Extent, Manifest};
 use serde_json::Value;
 use std::path::Path;
 use std::process::Command;
@@ -217,4 +220,119 @@ fn a_body_without_symmetry_says_what_it_does_not_use_and_where_nothing_grows() {
     assert!(summary["least_stable"]["growth_rate_per_s"].as_f64().unwrap() < 0.0);
     block(&folder.path().join("rest"), &["contact.speed=0"])
         .refused(&["contact.speed", "sticks at rest"]);
+}
+
+/// A square of one element on a moving plane, whose friction falls with speed: from 1.28 to 2.15 m/s it squeals beside stable sliding.
+fn square(command: &str, folder: &Path, set: &[&str]) -> Run {
+    let square = Grid {
+        shape: Shape::Block { width: 0.01, height: 0.01 },
+        along: 1,
+        across: 1,
+        region_of_layer: &|_| "body",
+        names: ["face", "back"],
+        triangles: false,
+    };
+    std::fs::write(folder.join("square.msh"), msh(&[square])).unwrap();
+    let text = "[mesh]\nfile = \"square.msh\"\n[boundaries.back]\ncondition = \"clamped\"
+[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0
+[damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 2e-7
+[contact]\nboundary = \"face\"\ncounterface = \"plane\"\ndirection = [1.0, 0.0]\nspeed = 1.5
+friction_coefficient = 0.3\nstatic_friction_ratio = 1.1\ndecay_speed = 0.5\ninterference = 1e-5
+[cea]\nmodes = 2\n[transient]\nduration = 1e-2
+[cycle]\nconfirmation_periods = 0\nstability = \"none\"
+continuation = { key = \"contact.speed\", from = 0.25, to = 3.0, count = 10 }\n";
+    std::fs::write(folder.join("case.toml"), text).unwrap();
+    let run = Run::new(&[command, "case.toml", "--format", "svg"]).within(folder);
+    run.set(set).out(command)
+}
+
+/// The kick, the branch and the frequency have one wording and one rounding each; counts are whole numbers.
+#[test]
+fn a_cycle_beside_stable_sliding_is_told_alike_by_every_output() {
+    let folder = folder();
+    let answer: Answer = square("cycle", folder.path(), &[]).done();
+    let (page, said) = (answer.page(), &answer.stdout);
+    let own = answer.summary()["cycles"][0].clone();
+    let kick = own["kick_velocity"].as_f64().unwrap();
+    let row = &answer.rows("cycle.csv")[0];
+    assert_eq!(row.number("kick_velocity"), kick);
+    let kick = format!("a kick of more than {kick:.3e} m/s tips sliding into it");
+    let about = ["a fold at", "loses its stability at", "coexist from", &kick];
+    let branch = said.lines().find(|line| line.contains(" cycles over contact.speed")).unwrap();
+    has(branch, &about);
+    for text in [&page, said] {
+        has(text, &[branch, "kick that tips sliding (m/s)"]);
+        assert_eq!(text.matches("cycles over").count(), 1, "{text}");
+        // Every time the frequency is told, it has the same digits.
+        let frequency = own["main_frequency_hz"].as_f64().unwrap();
+        let times = text.matches(&format!("{frequency:.0}")[..4]).count();
+        let whole = text.matches(&format!("{frequency:.2}")).count();
+        assert!(whole >= 2 && times == whole, "{frequency}: {text}");
+    }
+    for row in answer.rows("branch-mode1.csv") {
+        assert!(row["periods"].parse::<usize>().is_ok(), "{row:?}");
+        assert!(row["fold"].parse::<bool>().is_ok(), "{row:?}");
+    }
+    assert!(row["mode"].parse::<usize>().is_ok(), "{row:?}");
+    // A study of such cycles keeps their branches.
+    let study = ["sweep={\"contact.friction_coefficient\"=[0.28,0.3],analyses=[\"cycle\"]}"];
+    let sweep = square("sweep", folder.path(), &study).done();
+    for friction in ["0.28", "0.3"] {
+        let rows = sweep.rows("branches.csv").into_iter();
+        let own = rows.filter(|row| row["contact.friction_coefficient"] == friction);
+        assert!(own.count() > 20, "{friction}");
+    }
+}
+
+/// Theory: central differences vibrate too fast, the more the longer their step.
+#[test]
+fn the_note_on_a_long_time_step_says_that_it_makes_the_period_shorter() {
+    let folder = folder();
+    let frequency = |step: &str| {
+        let step = format!("transient.time_step={step}");
+        let set = ["contact.speed=0.3", &step];
+        let run = square("transient", folder.path(), &set).args(&["--force"]).done();
+        let shorter = "the time step makes the period shorter by up to";
+        run.says(&[shorter]).summary()["main_frequency_hz"].as_f64().unwrap()
+    };
+    let [long, short] = ["1.6e-6", "4e-7"].map(frequency);
+    assert!(long > short * (1.0 + 1e-4), "{long} {short}");
+}
+
+/// A made-up motion: those of a disc take minutes.
+#[test]
+fn motions_of_two_frequencies_are_told_with_their_numbers() {
+    let pair = TwoWaveSummary {
+        harmonics: [1, 2],
+        frequencies_hz: Some([7432.126, 9433.124]),
+        amplitudes_m: Some([1.25e-6, 3.5e-7]),
+        status: Some([0.125, 0.75, 0.125]),
+        points: Some([41, 41]),
+        external_w: Some(12.5),
+        balance_residual: Some(1e-15),
+        transient_frequencies_hz: Some([7432.2, 9433.2]),
+        is_confirmed: Some(true),
+        births: vec![620.7],
+        ends: Some(["one wave vanishes", "the range ends"].map(str::to_owned)),
+        error: None,
+    };
+    let summary = CycleSummary {
+        command: "cycle".to_owned(),
+        title: "Two waves".to_owned(),
+        wall_s: 1.0,
+        steady_sliding_stable: false,
+        origin: Origin::Waves(WavesSought { lowest_onset: None }),
+        critical_value: None,
+        extent: Extent::WholeBody,
+        cycles: Vec::new(),
+        two_waves: vec![pair],
+        notes: Vec::new(),
+        manifest: Manifest::new("cycle"),
+        curves: None,
+    };
+    // The page and the terminal show one document.
+    let text = summary.document().to_text();
+    let numbers = ["7432.13", "9433.12", "1.250e-6", "12.5", "12.50", "620.7", "7432.20"];
+    has(&text, &numbers);
+    has(&text, &["n = 1 and 2 together", "the branch ends at one end where one wave vanishes"]);
 }

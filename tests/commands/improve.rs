@@ -1,7 +1,7 @@
 //! `frictionsim improve` from end to end, and the modifications that it runs again.
 
 use crate::coarse_disc::coarse_disc;
-use crate::program::{Run, folder};
+use crate::program::{Run, folder, has};
 use std::path::Path;
 
 /// The paper's disc on a coarse mesh, without the effects of prestress that a change of the mesh would move.
@@ -46,6 +46,17 @@ fn predicted_candidates_are_those_that_run_again() {
     assert_eq!(answer.text("candidates.csv").lines().count(), 1 + candidates.len());
     for file in ["improve.vtu", "improved.toml", "report.html"] {
         assert!(answer.path(file).exists(), "{file}");
+    }
+    let rows = answer.rows("candidates.csv");
+    let run_again = rows.iter().map(|row| &row["confirmed_unstable_beside"]);
+    let run_again: Vec<&String> = run_again.filter(|own| !own.is_empty()).collect();
+    assert!(!run_again.is_empty() && run_again.iter().all(|own| own.parse::<usize>().is_ok()));
+    // Heads have units, and the digits of a case are those that somebody would write.
+    has(said, &["mass (kg)", "growth, first order (1/s)", "predicted critical friction"]);
+    let marks: &[char] = &['[', ']', ',', ' ', '=', ';'];
+    for word in rows.iter().flat_map(|row| row["keys"].split(marks)) {
+        let digits: String = word.chars().filter(char::is_ascii_digit).collect();
+        assert!(digits.trim_matches('0').len() <= 8, "{word}");
     }
     // The block is a case key for each line.
     let best = answer.text("improved.toml");

@@ -173,7 +173,9 @@ fn points_off_the_body_are_counted_and_wrong_units_recognised() {
 
     shapes[0][3].0 = [0.5, 0.5];
     let said = "1 of 51 points lie off the body";
-    run(folder.path(), &table(&shapes, 1.0), &[]).done().says(&[said]);
+    // Decay has one unit everywhere.
+    let units = [said, "growth rate (1/s)", "!real Hz", "!real part"];
+    run(folder.path(), &table(&shapes, 1.0), &[]).done().says(&units);
 }
 
 #[test]

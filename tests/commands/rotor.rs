@@ -1,5 +1,6 @@
 //! Bodies that turn as a user meets them: input files of CalculiX with a centrifugal load, both frames, refusals.
 
+use crate::bricks::{Block, file_of};
 use crate::program::{Run, folder, folder_with};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -258,4 +259,28 @@ fn a_frame_that_turns_turns_with_every_region_and_needs_the_inertia() {
     let case = "[mesh]\nfile = \"ring.inp\"\nunits = \"mm-t-s\"\n[motion.Eall]\naxis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = 100.0\nframe = \"turning\"\n[cea]\nmodes = 2\n";
     Run::of_text("check", folder.path(), case)
         .refused(&["motion.Eall.frame", "rotation_terms = true"]);
+}
+
+/// Consistency check: what a case is to blame for is refused before it runs.
+#[test]
+fn a_block_that_turns_is_no_body_of_revolution_and_is_refused_by_check_too() {
+    let block = |name, bottom| Block {
+        name,
+        origin: [0.0, 0.0, bottom],
+        size: [0.02, 0.02, 0.01],
+        counts: [2, 2, 1],
+    };
+    let mesh = file_of(&[block("low", 0.0), block("high", 0.01)], |at| at);
+    let folder = folder_with(&[("blocks.msh", &mesh)]);
+    let text =
+        "[mesh]\nfile = \"blocks.msh\"\n[material]\nyoung_modulus = 2e10\npoisson_ratio = 0.3
+density = 2500.0\n[boundaries.low_z0]\ncondition = \"clamped\"\n[boundaries.high_z1]
+condition = \"pressure\"\npressure = 1e6\n[boundaries.high_x1]\ncondition = \"support\"
+normal_stiffness = 2e9\ntangential_stiffness = 1e10\n[motion.low]\naxis = [0.0, 0.0, 1.0]
+center = [0.0, -0.2, 0.0]\nrotation_speed_rpm = 100.0\nrotation_terms = true\n[contacts.face]
+surface = \"high_z0\"\ncounter = \"low_z1\"\nfriction_coefficient = 0.4\n[cea]\nmodes = 4\n";
+    for command in ["check", "cea"] {
+        let said = ["\"low\" is no body of revolution about that axis", "frame = \"turning\""];
+        Run::of_text(command, folder.path(), text).refused(&said);
+    }
 }

@@ -102,5 +102,9 @@ fn a_signal_without_time_needs_a_rate_and_says_so() {
     let folder = folder_with(&[("bare.txt", rows.as_bytes())]);
     let run = || Run::new(&["signal", "bare.txt"]).within(&folder);
     run().refused(&["--rate HZ"]);
-    run().args(&["--rate", "1000"]).done();
+    // One channel is told once, by one table.
+    let said = run().args(&["--rate", "1000"]).done().says(&["peak  frequency (Hz)"]).stdout;
+    for once in ["samples at", "peaks between", "peak  frequency"] {
+        assert_eq!(said.matches(once).count(), 1, "{once}: {said}");
+    }
 }

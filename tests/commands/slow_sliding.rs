@@ -1,7 +1,11 @@
 //! Brakes that creep: friction across the sliding, a dashpot of `mu p / V`, overdamps the modes that slide across.
 
+use crate::bricks::{Block, file_of};
 use crate::program::{Run, folder, shipped};
+use frictionsim::cea::quadratic_modes;
+use frictionsim::linalg::{MarketMatrix, Mat};
 use std::f64::consts::TAU;
+use std::path::Path;
 
 /// Frequencies and growth rates at friction 0.32, and what the command printed, of the brake of the operating matrix at 3 rpm.
 fn spectrum(frictions: &str) -> (Vec<[f64; 2]>, String) {
@@ -37,5 +41,72 @@ fn modes_that_slow_sliding_overdamps_end_their_branches_and_are_said() {
     for (a, b) in coarse.iter().zip(&fine) {
         let error = (a[0] - b[0]).hypot((a[1] - b[1]) / TAU) / a[0];
         assert!(error < 1e-8, "{a:?} {b:?}");
+    }
+}
+
+/// A cup on a ball and a shoe on a shaft, by the unit cube.
+fn bent(counterface: &str, [u, v, w]: [f64; 3]) -> [f64; 3] {
+    let (along, radius) = (1.2 * (u - 0.5), 0.016 + 0.004 * w);
+    if counterface == "cylinder" {
+        return [radius * along.cos(), radius * along.sin(), 0.02 * v];
+    }
+    let arm = [along, 1.2 * (v - 0.5), 1.0];
+    arm.map(|x| x / arm.iter().map(|x| x * x).sum::<f64>().sqrt() * radius)
+}
+
+/// The spectrum of what `frictionsim matrices` writes, by a dense decomposition: frequency (Hz) and growth rate.
+fn dense(out: &Path) -> Vec<[f64; 2]> {
+    let [mass, damping, stiffness] = ["M", "C", "K"].map(|name| {
+        let text = std::fs::read_to_string(out.join(format!("{name}.mtx"))).unwrap();
+        let matrix = MarketMatrix::read(&text, usize::MAX).unwrap();
+        let mut dense = Mat::<f64>::zeros(matrix.rows, matrix.columns);
+        matrix.entries.iter().for_each(|&(i, j, value)| dense[(i, j)] += value);
+        dense
+    });
+    let found = quadratic_modes(mass.as_ref(), damping.as_ref(), stiffness.as_ref()).unwrap();
+    found.iter().map(|own| [own.eigenvalue.im / TAU, own.eigenvalue.re]).collect()
+}
+
+/// Independent: a dense decomposition of the exported matrices. Friction overdamps what slides across; nothing else is lost.
+#[test]
+fn bodies_that_creep_on_cylinders_and_balls_have_every_mode_of_a_dense_decomposition() {
+    // At 5000 rpm motions come near critical damping, where iterations do not converge.
+    for (counterface, rpm) in
+        [("sphere", "5000.0"), ("sphere", "10.0"), ("sphere", "0.1"), ("cylinder", "1.0")]
+    {
+        let folder = folder();
+        let block = Block { name: "part", origin: [0.0; 3], size: [1.0; 3], counts: [3, 3, 1] };
+        let mesh = file_of(&[block], |at| bent(counterface, at));
+        std::fs::write(folder.path().join("part.msh"), mesh).unwrap();
+        let text = format!(
+            "[mesh]\nfile = \"part.msh\"\n[boundaries.part_z1]\ncondition = \"clamped\"
+[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0
+[damping]\nstiffness_coefficient = 1e-7\n[contact]\nboundary = \"part_z0\"
+counterface = \"{counterface}\"\naxis = [0.0, 0.0, 1.0]\nfriction_coefficient = 0.3
+interference = 2e-5\nrotation_speed_rpm = {rpm}\n[cea]\nfriction_coefficients = [0.0, 0.3]\nmodes = 6\n"
+        );
+        let run = |command| Run::of_text(command, folder.path(), &text).out(command);
+        let answer = run("cea").done().says(&["mu p / V", "!not converged"]);
+        let rows = answer.rows("eigenvalues.csv").into_iter();
+        let own = rows.filter(|row| row["friction_coefficient"] == "0.3");
+        let own = own.map(|row| row.numbers(["frequency_hz", "growth_rate_per_s"]));
+        let own: Vec<[f64; 2]> = own.collect();
+        assert_eq!(own.len(), 6, "{}", answer.said());
+        let matrices = run("matrices").args(&["--friction", "0.3"]).done().out;
+        let all = dense(&matrices);
+        let distance = |a: &[f64; 2], b: &[f64; 2]| (a[0] - b[0]).hypot((a[1] - b[1]) / TAU);
+        let error = |of: &[f64; 2], among: &[[f64; 2]]| {
+            let distances = among.iter().map(|other| distance(of, other));
+            distances.fold(f64::INFINITY, f64::min) / of[0]
+        };
+        for mode in &own {
+            assert!(error(mode, &all) < 1e-8, "{counterface} {rpm}: {mode:?}");
+        }
+        let is_due = |mode: &&[f64; 2]| {
+            mode[0] > 0.0 && mode[0] < own[5][0] && -mode[1] < 0.5 * (TAU * mode[0]).hypot(mode[1])
+        };
+        for mode in all.iter().filter(is_due) {
+            assert!(error(mode, &own) < 1e-8, "{counterface} {rpm} lacks {mode:?}");
+        }
     }
 }

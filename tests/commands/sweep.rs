@@ -319,3 +319,30 @@ fn keys_that_go_together_take_the_same_values_at_every_point() {
     );
     assert_eq!(plan.keys().len(), 3);
 }
+
+/// Two springs that go together: their keys end in the same word.
+#[test]
+fn keys_of_one_short_name_have_heads_of_their_own() {
+    let sections = "[boundaries.outer]\ncondition = \"support\"\nnormal_stiffness = 1e12\n\
+        tangential_stiffness = 1e12\n[cea]\nmodes = 8\nfriction_coefficients = [0.3]\n\
+        [sweep]\nanalyses = [\"cea\"]\n\
+        \"contact.normal_stiffness\" = { values = [1e12, 1e13], also = \"boundaries.outer.normal_stiffness\" }\n";
+    let folder = folder();
+    std::fs::write(folder.path().join("case.toml"), coarse_disc(sections)).unwrap();
+    let run = Run::new(&["sweep", "case.toml", "--format", "svg"]).within(&folder).out("out");
+    let keys = ["contact.normal_stiffness", "boundaries.outer.normal_stiffness"];
+    let answer = run.done().says(&keys);
+    let html = answer.text("report.html");
+    let tables: Vec<&str> = html.split("<thead>").skip(1).collect();
+    let heads = |table: &&str| -> Vec<String> {
+        let row = table.split("</tr>").next().unwrap().split("</th>");
+        row.map(|cell| cell.rsplit('>').next().unwrap().to_owned()).collect()
+    };
+    let tables: Vec<Vec<String>> = tables.iter().map(heads).collect();
+    let of_keys = tables.iter().filter(|own| keys.iter().all(|key| own.contains(&key.to_string())));
+    assert_eq!(of_keys.count(), 2, "modes and points: {tables:?}");
+    for heads in &tables {
+        let distinct: std::collections::BTreeSet<&String> = heads.iter().collect();
+        assert_eq!(distinct.len(), heads.len(), "{heads:?}");
+    }
+}

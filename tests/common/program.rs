@@ -184,6 +184,22 @@ impl Answer {
         self.json("summary.json")
     }
 
+    /// The words of the page, without mark-up, scripts and figures.
+    pub fn page(&self) -> String {
+        let mut html = self.text("report.html");
+        for part in ["script", "style", "svg"] {
+            while let Some(start) = html.find(&format!("<{part}")) {
+                let end = html[start..].find(&format!("</{part}>")).unwrap();
+                html.replace_range(start..start + end + part.len() + 3, "");
+            }
+        }
+        let texts = html.split('<').map(|part| part.split_once('>').map_or("", |own| own.1));
+        let text = texts.collect::<Vec<_>>().join("\n");
+        let marks =
+            [("&lt;", "<"), ("&gt;", ">"), ("&quot;", "\""), ("&#39;", "'"), ("&amp;", "&")];
+        marks.iter().fold(text, |text, (mark, own)| text.replace(mark, own))
+    }
+
     /// The first line of a table.
     pub fn header(&self, name: &str) -> String {
         self.text(name).lines().next().unwrap().to_owned()

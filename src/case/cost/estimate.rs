@@ -25,9 +25,10 @@ const SOLID_BYTES: f64 = 600.0;
 /// Memory of a whole plane mesh, bytes: at all, and for each unknown and vector of its basis.
 const SPARSE_BYTES: [f64; 2] = [1e8, 100.0];
 
-/// Memory of the factors of `n` unknowns of solid bodies, bytes for each of `n^(4/3)`, and for each unknown and mode; measured on
-/// blocks of 20-node bricks of 2e3 to 3e4 unknowns and on a brake of 8-node ones.
-const FACTOR_BYTES: [f64; 2] = [1.4e3, 240.0];
+/// Memory of the factors of `n` unknowns of solid bodies, bytes for each of `n^(4/3)`, and for each unknown and mode, and operations for
+/// each of `n^2` and each friction value; measured on blocks of 8- and 20-node bricks and on a rotor, 1e3 to 2e4 unknowns.
+const FACTOR_BYTES: [f64; 2] = [3.6e3, 240.0];
+const FACTORS: f64 = 120.0;
 
 /// Phases of a limit cycle where the mesh decides.
 const LIKELY_PHASES: usize = 169;
@@ -105,14 +106,18 @@ impl Case {
                 (bytes + pairs * (16.0 * sector + 600.0), pairs * HARMONIC_PAIR)
             }
             _ => {
-                let vectors = unknowns * modes as f64;
-                let bytes = match self.body {
+                let (vectors, values) = (unknowns * modes as f64, friction_values as f64);
+                let (bytes, factors) = match self.body {
                     Body::Assembly(_) => {
-                        FACTOR_BYTES[0] * unknowns.powf(4.0 / 3.0) + FACTOR_BYTES[1] * vectors
+                        let bytes = FACTOR_BYTES[0] * unknowns.powf(4.0 / 3.0);
+                        (bytes + FACTOR_BYTES[1] * vectors, FACTORS * values * unknowns.powi(2))
                     }
-                    _ => SPARSE_BYTES[0] + SPARSE_BYTES[1] * (2.0 * vectors + 40.0 * unknowns),
+                    _ => {
+                        let bytes = SPARSE_BYTES[1] * (2.0 * vectors + 40.0 * unknowns);
+                        (SPARSE_BYTES[0] + bytes, 0.0)
+                    }
                 };
-                (bytes, vectors * (WHOLE_MESH[0] + WHOLE_MESH[1] * friction_values as f64))
+                (bytes, factors + vectors * (WHOLE_MESH[0] + WHOLE_MESH[1] * values))
             }
         };
         let run = RunCost { memory_bytes: PROGRAM_BYTES + memory_bytes, operations };

@@ -1,7 +1,7 @@
 //! Size of a mesh, as the cost estimates need it.
 
 use crate::case::{Body, Case, Revolution};
-use crate::fem::ElasticMaterial;
+use crate::fem::{ElasticMaterial, TabledMaterial};
 use crate::mesh::{AnnulusSpecification, Mesh};
 use std::f64::consts::TAU;
 
@@ -9,15 +9,13 @@ use std::f64::consts::TAU;
 /// and its lumped mass is uneven.
 const QUADRATIC: f64 = 2.5;
 
-/// Size of a mesh and of its contact.
+/// Size of a mesh.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Size {
     /// Nodes.
     pub nodes: u128,
     /// Elements.
     pub elements: u128,
-    /// Contact nodes.
-    pub contact_nodes: f64,
     /// Highest frequency that the mesh can hold, rad/s.
     pub highest_frequency: f64,
 }
@@ -37,40 +35,18 @@ impl Size {
                 let through = specification.axial_elements as f64 / specification.thickness;
                 grid_frequency(&specification.annulus, material, through)
             }
-            Body::Imported(imported) => {
-                let mesh = &imported.mesh;
-                let speed = |element: usize| {
-                    pressure_wave_speed(&imported.materials[mesh.region(element)].own.elastic)
-                };
-                let elements = 0..mesh.element_count();
-                let each = elements.map(|element| element_frequency(mesh, element, speed(element)));
-                each.fold(0.0, f64::max)
-            }
-            Body::Assembly(assembly) => {
-                let mesh = &assembly.mesh;
-                let speed = |element: usize| {
-                    pressure_wave_speed(&assembly.materials[mesh.region(element)].own.elastic)
-                };
-                let elements = 0..mesh.element_count();
-                let each = elements.map(|element| solid_frequency(mesh, element, speed(element)));
-                each.fold(0.0, f64::max)
-            }
+            Body::Imported(own) => highest(&own.mesh, &own.materials, element_frequency),
+            Body::Assembly(own) => highest(&own.mesh, &own.materials, solid_frequency),
         };
-        Self {
-            nodes: body.node_count(),
-            elements: body.element_count(),
-            contact_nodes: body.contact_node_count() as f64,
-            highest_frequency,
-        }
+        Self { nodes: body.node_count(), elements: body.element_count(), highest_frequency }
     }
 
-    /// The size of a plane mesh whose elements are split to be `factor` times as fine.
-    pub fn refined(&self, factor: f64) -> Self {
-        let times = |count: u128, factor: f64| (count as f64 * factor) as u128;
+    /// The size of a mesh of some dimension whose elements are split to be `factor` times as fine.
+    pub fn refined(&self, factor: f64, dimension: usize) -> Self {
+        let times = |count: u128| (count as f64 * factor.powi(dimension as i32)) as u128;
         Self {
-            nodes: times(self.nodes, factor * factor),
-            elements: times(self.elements, factor * factor),
-            contact_nodes: factor * self.contact_nodes,
+            nodes: times(self.nodes),
+            elements: times(self.elements),
             highest_frequency: factor * self.highest_frequency,
         }
     }
@@ -106,6 +82,13 @@ fn shaft_frequency(grid: &AnnulusSpecification, material: Option<&ElasticMateria
         let around = grid.circumferential_elements as f64 / (TAU * radius);
         2.0 * pressure_wave_speed(material) * radial.hypot(around)
     })
+}
+
+/// The highest of all elements of a mesh.
+fn highest(mesh: &Mesh, materials: &[TabledMaterial], of: fn(&Mesh, usize, f64) -> f64) -> f64 {
+    let speed = |element| pressure_wave_speed(&materials[mesh.region(element)].own.elastic);
+    let each = (0..mesh.element_count()).map(|element| of(mesh, element, speed(element)));
+    each.fold(0.0, f64::max)
 }
 
 /// The same of one element, whose sides are its longest one and its area over that.

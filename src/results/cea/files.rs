@@ -4,11 +4,12 @@ use super::base::write_base;
 use super::summary::summary;
 use super::tables::{eigenvalues, stability};
 use super::{CeaReport, ComplexMode};
+use crate::output::rounded;
 use crate::results::finding::write_table;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::pvd::{PvdEntry, write_pvd};
 use crate::results::summary::write_summary;
-use crate::results::vtu::{EncodedMesh, Field, rounded, write_vtu};
+use crate::results::vtu::{EncodedMesh, Field, write_vtu};
 use crate::results::whole_mesh::WholeMesh;
 use rayon::prelude::*;
 use serde_json::Value;
@@ -108,7 +109,7 @@ pub fn write_universal(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<
 /// parts of one body: of equal frequencies the later one stands a hair higher.
 fn time_of(mode: &ComplexMode, before: &[PvdEntry]) -> f64 {
     let mut time = mode.frequency_hz();
-    while before.iter().any(|entry| rounded(entry.time) == rounded(time)) {
+    while before.iter().any(|entry| rounded(entry.time, 12) == rounded(time, 12)) {
         time += 1e-9 * time.max(1.0);
     }
     time

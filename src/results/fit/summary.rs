@@ -1,6 +1,6 @@
 //! `summary.json` of a fit.
 
-use crate::output::Described;
+use crate::output::{Described, rounded};
 use crate::results::Manifest;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -153,11 +153,8 @@ impl FitSummary {
                 let (section, name) = key.rsplit_once('.').unwrap_or(("", key));
                 let lines = sections.entry(section).or_default();
                 // Digits beyond these are round-off of the search.
-                let _ = writeln!(
-                    lines,
-                    "{name} = {:?}  # {interval}",
-                    crate::results::vtu::rounded(fitted.value)
-                );
+                let value = rounded(fitted.value, 8);
+                let _ = writeln!(lines, "{name} = {value:?}  # {interval}");
             }
         }
         let head = format!("# fitted to {}\n", self.measurement);

@@ -1,6 +1,6 @@
 //! Summary of `identify`, as it is written, printed and reported.
 
-use crate::output::Described;
+use crate::output::{Described, rounded};
 use crate::results::Manifest;
 use crate::signal::reader::NamedResponse;
 use crate::signal::{
@@ -171,7 +171,7 @@ impl IdentificationSummary {
     /// A `[damping]` section ready to paste into a case.
     pub fn damping_block(&self) -> String {
         let line = |key: &str, e: Estimate, unit: &str| {
-            let [value, low, high] = rounded(e);
+            let [value, low, high] = justified(e);
             format!("{key} = {value} # {unit}, 95 % between {low} and {high}\n")
         };
         format!(
@@ -221,7 +221,7 @@ fn flag(mode: &IdentifiedMode) -> Option<String> {
 }
 
 /// Value and interval to the digits that the interval justifies, as TOML floats.
-fn rounded(e: Estimate) -> [String; 3] {
+fn justified(e: Estimate) -> [String; 3] {
     let width = (e.high - e.low).abs().max(1e-6 * e.value.abs());
     let digits = |x: f64| {
         if x == 0.0 || !x.is_finite() || width == 0.0 {
@@ -230,9 +230,7 @@ fn rounded(e: Estimate) -> [String; 3] {
         // Two digits of the interval's width.
         let decimals =
             (x.abs().log10().floor() - width.log10().floor()).clamp(0.0, 8.0) as usize + 1;
-        let text = format!("{x:.decimals$e}");
-        let value: f64 = text.parse().unwrap_or(x);
-        format!("{value:?}")
+        format!("{:?}", rounded(x, decimals + 1))
     };
     [digits(e.value), digits(e.low), digits(e.high)]
 }

@@ -46,7 +46,7 @@ columns! {
 columns! {
     /// What a run says of the other frequencies.
     pub(in crate::results) BESIDE: state as State;
-    unstable_beside: "unstable modes at other frequencies" = state.unstable_beside as f64;
+    unstable_beside: "unstable modes at other frequencies" = state.unstable_beside;
 }
 
 columns! {

@@ -10,7 +10,7 @@ use super::npz::NpzArchive;
 use super::summary::object;
 use super::table::write_rows;
 use crate::linalg::MarketMatrix;
-use crate::output::{Described, columns};
+use crate::output::{Described, Key, columns, significant};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::io;
@@ -47,7 +47,7 @@ impl ExportedMatrix {
 }
 
 /// What a matrix is in the problem.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Described, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum MatrixRole {
     /// Coefficient of `(mu - mu_0)^power`, `mu_0` the friction coefficient of the export, in the mass `M`, kg/m; of solid bodies kg.
@@ -74,6 +74,13 @@ pub enum MatrixRole {
     ContactNormal,
     /// Motion of each contact point along the sliding.
     ContactSlip,
+}
+
+impl Described for MatrixRole {
+    fn describe(path: &str, keys: &mut Vec<Key>) {
+        let meaning = "its `friction_power`: power of the distance from `friction_coefficient`";
+        keys.push(Key { path: format!("{path}.KEY"), meaning });
+    }
 }
 
 /// One unknown.
@@ -398,6 +405,7 @@ pub fn print(summary: &MatricesSummary) -> String {
     let _ = writeln!(text, "\n{}", summary.equation);
     let [from, to] = summary.friction_range;
     if from < to {
+        let [from, to] = [from, to].map(|friction| significant(friction, 5));
         let _ = writeln!(text, "They hold for friction coefficients from {from} to {to}.");
     }
     text

@@ -2,8 +2,8 @@
 
 use super::PointRecord;
 use super::long::UNSTABLE;
-use super::swept::{printed, short, swept_text};
-use crate::output::{Format, Table, fixed};
+use super::swept::{of_points, swept_text};
+use crate::output::{Table, fixed};
 use crate::results::cea::{UnstableCount, UnstableMode};
 use serde::Deserialize;
 use serde_json::{Map, Value};
@@ -105,13 +105,8 @@ impl<'a> OperatingMatrix<'a> {
             }
         };
         let shown: Vec<_> = self.modes().take(MOST_ROWS).collect();
-        let points = shown.iter().map(|own| own.0.point);
-        let mut table = Table::new("", caption).column("", Some(("point", Format::Count)), points);
-        for key in keys {
-            let values = shown.iter().map(|own| own.0.swept.get(key).map(printed));
-            table = table.column("", Some((short(key), Format::Plain)), values);
-        }
-        table.columns(UNSTABLE, shown.iter().map(|own| own.1))
+        let points = shown.iter().map(|own| (own.0.point, own.0.swept));
+        of_points(caption, keys, points).columns(UNSTABLE, shown.iter().map(|own| own.1))
     }
 }
 

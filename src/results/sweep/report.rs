@@ -3,7 +3,7 @@
 use super::super::Manifest;
 use super::PointRecord;
 use super::matrix::OperatingMatrix;
-use super::swept::{printed, short};
+use super::swept::{heads, of_points};
 use crate::chart::extremes;
 use crate::output::{Cell, Described, Document, Format, Section, Table, columns, significant};
 use serde::Serialize;
@@ -278,12 +278,6 @@ pub fn document(report: &SweepReport<'_>, is_page: bool) -> Document {
         .notes(&report.notes())
 }
 
-/// The heads of the swept keys: keys of one short name are told by their whole names.
-fn heads(keys: &[String]) -> impl Iterator<Item = (&String, &str)> {
-    let is_alone = |key: &str| keys.iter().filter(|other| short(other) == short(key)).count() == 1;
-    keys.iter().map(move |key| (key, if is_alone(key) { short(key) } else { key }))
-}
-
 /// How far the study is, and the range of every quantity that a person wants first.
 fn ranges(report: &SweepReport<'_>) -> Vec<(String, String)> {
     let finished = format!("{} of {}", report.records.len(), report.count);
@@ -295,7 +289,7 @@ fn ranges(report: &SweepReport<'_>) -> Vec<(String, String)> {
             out.push((head, if low == high { low } else { format!("{low} to {high}") }));
         }
     };
-    for (key, head) in heads(report.keys) {
+    for (key, head) in heads(&report.keys.iter().collect::<Vec<_>>()) {
         let values = report.records.iter().filter_map(|record| record.swept.get(key)?.as_f64());
         add(head.to_owned(), values.collect());
     }
@@ -309,16 +303,8 @@ fn ranges(report: &SweepReport<'_>) -> Vec<(String, String)> {
 /// What a person wants first of every point; `points.csv` has all.
 fn points_table(report: &SweepReport<'_>) -> Table {
     let records = report.records;
-    let points = records.iter().map(|record| record.point);
-    let mut table = Table::new("", "Finished points (every quantity: points.csv)").column(
-        "",
-        Some(("point", Format::Count)),
-        points,
-    );
-    for (key, head) in heads(report.keys) {
-        let values = records.iter().map(|record| record.swept.get(key).map(printed));
-        table = table.column("", Some((head, Format::Plain)), values);
-    }
+    let points = records.iter().map(|record| (record.point, &record.swept));
+    let table = of_points("Finished points (every quantity: points.csv)", report.keys, points);
     table.columns(FIRST, records).columns(ENDS, records).shown_column(
         "outcome",
         records.iter().map(|record| record.error.as_ref().map(|_| "failed")),

@@ -236,7 +236,7 @@ fn mesh_level(case: &Case) -> (f64, String) {
         }
         Body::Assembly(assembly) => {
             let count = assembly.mesh.element_count();
-            let size = 2.0 * assembly.size() / (count as f64).cbrt();
+            let size = 2.0 * assembly.mesh.size() / (count as f64).cbrt();
             (size, format!("{count} elements"))
         }
         Body::Imported(imported) => {

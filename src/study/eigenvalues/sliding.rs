@@ -48,7 +48,7 @@ impl SlidingModel {
         let (mesh, state) = match &model {
             Model::SolidSectors(revolution) => {
                 let solid = SolidBody::new(case, &revolution.specification)?;
-                let mesh = Arc::new(AnnulusMesh::generate(&solid.plane)?.mesh);
+                let mesh = Arc::new(AnnulusMesh::generate(&revolution.specification.plane())?.mesh);
                 (mesh, SteadyState::Solid(Box::new(solid)))
             }
             Model::Assembly(assembly) => {

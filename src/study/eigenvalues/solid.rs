@@ -4,9 +4,7 @@ use super::StudyError;
 use crate::case::Case;
 use crate::contact::SteadyFriction;
 use crate::fem::{revolved_stress, solid};
-use crate::mesh::{
-    AnnulusSpecification, BoundaryCondition, ContactRing, SolidSector, SolidSpecification,
-};
+use crate::mesh::{ContactRing, SolidSector, SolidSpecification};
 use crate::prestress::SolidSliding;
 use crate::results::cea::{BaseState, SolidReport};
 use crate::study::extent_of;
@@ -15,8 +13,6 @@ use crate::study::extent_of;
 pub struct SolidBody {
     /// What the report shows of it.
     pub report: SolidReport,
-    /// Its plane section across the axis, clamped outside.
-    pub plane: AnnulusSpecification,
 }
 
 impl SolidBody {
@@ -29,12 +25,10 @@ impl SolidBody {
         let elastic = solid::stiffness(&sector, &case.material);
         let law = case.contact.stiffness.base_law();
         let base = SolidSliding::solve(&sector, &elastic, &case.contact.sliding, law)?;
-        let plane =
-            AnnulusSpecification { outer: BoundaryCondition::Clamped, ..specification.annulus };
         let friction_coefficient = case.contact.sliding.friction_coefficient;
         let displacement = base.displacement(friction_coefficient);
         let stress = revolved_stress(&sector, &case.material, &displacement);
-        Ok(Self { report: SolidReport { sector, stress, base, friction_coefficient }, plane })
+        Ok(Self { report: SolidReport { sector, stress, base, friction_coefficient } })
     }
 
     /// What the report says of the base state.

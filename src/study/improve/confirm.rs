@@ -3,6 +3,7 @@
 use super::base::{Base, lowest_onset, spectrum_of, state};
 use super::trial::{Search, Target, Trial};
 use crate::case::{Case, ModificationKind};
+use crate::output::rounded;
 use crate::prestress::SlidingTangent;
 use crate::results::improve::State;
 use crate::study::StudyError;
@@ -29,7 +30,7 @@ pub(super) fn keys_of(search: &Search<'_>, trial: &Trial) -> Vec<String> {
     let d = base.mesh.dimension;
     let key = |name: &str, value: String| format!("modifications.{NAME}.{name}={value}");
     let list = |values: &[f64]| {
-        let texts = values.iter().map(|value| format!("{value:?}"));
+        let texts = values.iter().map(|value| format!("{:?}", rounded(*value, 7)));
         format!("[{}]", texts.collect::<Vec<String>>().join(", "))
     };
     match &trial.target {
@@ -49,15 +50,15 @@ pub(super) fn keys_of(search: &Search<'_>, trial: &Trial) -> Vec<String> {
         }
         Target::Patch(element, _) => {
             let middle = base.mesh.element_middle(*element);
+            let center = middle.map(|x| rounded(x, 7));
             // A hair more, so that elements at just that distance are in it.
-            let radius = budget.patch_radius * (1.0 + 1e-9);
-            let mut keys =
-                vec![key("center", list(&middle[..d])), key("radius", format!("{radius:?}"))];
-            keys.push(match trial.kind {
+            let moved = (Vector3::from(middle) - Vector3::from(center)).norm();
+            let radius = rounded((budget.patch_radius + moved) * (1.0 + 1e-6), 7);
+            let own = match trial.kind {
                 ModificationKind::Removal => key("remove", "true".to_owned()),
                 _ => key("stiffness_coefficient", format!("{:?}", budget.patch_damping)),
-            });
-            keys
+            };
+            vec![key("center", list(&center[..d])), key("radius", format!("{radius:?}")), own]
         }
     }
 }

@@ -27,6 +27,7 @@ use crate::case::{Case, ModificationKind};
 use crate::cea::CeaError;
 use crate::fem::lumped_masses;
 use crate::mesh::Mesh;
+use crate::output::rounded;
 use crate::results::improve::{Candidate, Sizes, State, TargetFields, TargetMode};
 pub(super) use base::refuse_bodies;
 use base::{Base, Outlook, state, target_modes};
@@ -140,7 +141,7 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
     })
 }
 
-/// Sizes of the modifications that the case gives, or that follow from its bodies and the fastest of its targets.
+/// Sizes of the modifications that the case gives, or that follow, to four digits, from its bodies and the fastest of its targets.
 fn budget(base: &Base<'_>) -> Budget {
     let asked = &base.case.improve;
     let thickness = match base.mesh.dimension {
@@ -149,16 +150,16 @@ fn budget(base: &Base<'_>) -> Budget {
     };
     let worst = base.outlook.worst.map_or(1.0, |mode| mode.im);
     let masses = lumped_masses(&base.mesh, base.case.materials());
-    let mass = asked.mass;
-    let mass = mass.unwrap_or_else(|| 0.01 * thickness * masses.iter().sum::<f64>());
+    let own = |asked: Option<f64>, usual: f64| asked.unwrap_or(rounded(usual, 4));
+    let mass = own(asked.mass, 0.01 * thickness * masses.iter().sum::<f64>());
     let size = base.case.body.size();
     Budget {
         mass,
-        stiffness: asked.stiffness.unwrap_or(worst * worst * mass),
-        damping: asked.damping.unwrap_or(0.1 * worst * mass),
-        patch_radius: asked.patch_radius.unwrap_or(0.05 * size),
-        patch_damping: asked.patch_damping.unwrap_or(0.1 / worst),
-        offset: asked.offset.unwrap_or(0.1 * size),
+        stiffness: own(asked.stiffness, worst * worst * mass),
+        damping: own(asked.damping, 0.1 * worst * mass),
+        patch_radius: own(asked.patch_radius, 0.05 * size),
+        patch_damping: own(asked.patch_damping, 0.1 / worst),
+        offset: own(asked.offset, 0.1 * size),
         thickness,
     }
 }

@@ -1,6 +1,10 @@
 //! Consistency checks of sizes: what a case asks for is weighed before anything of it is made.
 
 use super::{RUN, STUDY, assert_reports, parse, valid};
+use crate::bricks::{Block, file_of_order};
+use crate::program::{Run, folder, shipped};
+use frictionsim::case::Case;
+use std::process::Stdio;
 use std::time::{Duration, Instant};
 
 /// Reads a case under an override, well or not, and says how long that took.
@@ -81,4 +85,47 @@ fn the_cost_of_studies_counts_every_run() {
         one.transient.unwrap().run.operations * (1.0 + 1.5f64.powi(3) + 8.0 + 1.0 + 2.0 + 4.0);
     let all = all.run.operations;
     assert!(all > 0.95 * transients, "{all} {transients}");
+
+    // A solid mesh twice as fine has eight times the elements: beside the first, 8 and 64 times what grows least.
+    let solid = shipped("tread-block.toml");
+    let text = std::fs::read_to_string(&solid).unwrap();
+    let set = "convergence={factors=[1,2,4],analyses=[\"cea\"]}".to_owned();
+    let solid = Case::parse(&solid, text.as_bytes(), &[set]).unwrap();
+    let (one, all) = (solid.cost().cea.unwrap().run, solid.convergence_cost().unwrap().run);
+    assert!(all.operations > 73.0 * one.operations, "{one:?} {all:?}");
+    assert!(all.memory_bytes > 73.0 * one.memory_bytes, "{one:?} {all:?}");
+}
+
+/// Against the run of a block of 20-node bricks: its unknowns, its peak of memory, and its time in words.
+#[cfg(target_os = "linux")]
+#[test]
+fn the_cost_of_a_solid_case_is_that_of_its_run() {
+    let block = Block { name: "block", origin: [0.0; 3], size: [1.0; 3], counts: [4, 4, 3] };
+    let place = |[x, y, z]: [f64; 3]| [0.08 * x, 0.07 * y, 0.06 * z];
+    let folder = folder();
+    std::fs::write(folder.path().join("block.msh"), file_of_order(&[block], 2, place)).unwrap();
+    let text = "[mesh]\nfile = \"block.msh\"\n[boundaries.block_z1]\ncondition = \"clamped\"
+[material]\nyoung_modulus = 5e9\npoisson_ratio = 0.4\ndensity = 1100.0
+[contact]\nboundary = \"block_z0\"\ncounterface = \"plane\"\ndirection = [1.0, 0.0, 0.0]
+speed = 0.5\nfriction_coefficient = 0.3\ninterference = 2e-5
+[cea]\nfriction_coefficients = [0.0, 0.3]\nmodes = 8\n";
+    let run = |command| Run::of_text(command, folder.path(), text);
+    let told = run("check").args(&["--json"]).done().value()["cases"][0].clone();
+    let unknowns = run("mesh").out("mesh").done().summary()["mesh"]["dofs"].clone();
+    assert_eq!(told["dofs"], unknowns);
+    let mut child = run("cea").out("cea").args(&["--threads", "1"]).program();
+    let mut child = child.stdout(Stdio::null()).spawn().unwrap();
+    let (status, mut peak) = (format!("/proc/{}/status", child.id()), 0.0_f64);
+    while child.try_wait().unwrap().is_none() {
+        let text = std::fs::read_to_string(&status).unwrap_or_default();
+        let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+        let kibibytes =
+            line.map_or(0.0, |line| line.trim_end_matches("kB").trim().parse().unwrap());
+        peak = peak.max(1024.0 * kibibytes);
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    let announced = told["memory_bytes"].as_f64().unwrap();
+    println!("{announced:e} bytes announced, {peak:e} used");
+    assert!((0.5..2.0).contains(&(announced / peak)), "{announced:e} {peak:e}");
+    assert_eq!(told["cea"]["time"], "seconds");
 }

@@ -105,6 +105,9 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
         "Eigenvalues at friction coefficient 0.3",
         "circumferential_elements = 180",
         "Figure 1.",
+        // Pictures are as dark as their page.
+        "@media screen and (prefers-color-scheme:dark){.picture",
+        "<div class=\"scroll picture\"",
     ] {
         assert!(text.contains(wanted), "{wanted}");
     }

@@ -17,7 +17,8 @@ const MOST_SHIFTS: usize = 6;
 const BESIDE: f64 = 1e-3;
 /// Refinements of lossy modes whose corrections are kept beside the modes: with none of them convergence is slow and uneven.
 const HISTORY: usize = 3;
-/// Unknowns up to which lossy modes come from one decomposition, of twice that size: one or two seconds for each friction value.
+/// Unknowns up to which a problem is decomposed, of twice that size, where its modes are lossy or do not converge: one or two seconds for
+/// each friction value.
 const MOST_DENSE: usize = 300;
 /// Samples between two friction values, at places where branches were lost, after which more of them are no help.
 const MOST_BETWEEN: usize = 8;
@@ -104,10 +105,24 @@ impl BasisBuilder<'_> {
         self.tangent.is_lossy()
     }
 
-    /// Whether all modes of a lossy problem may come from one decomposition of its matrices: it is small.
+    /// Whether the full problem may be decomposed.
+    pub fn is_small(&self) -> bool {
+        self.tangent.stiffness.dimension() <= MOST_DENSE
+    }
+
+    /// Whether all modes of a lossy problem may come from one decomposition of its matrices.
     fn may_decompose(&self) -> bool {
-        let is_small = self.tangent.stiffness.dimension() <= MOST_DENSE;
-        is_small && self.tangent.structural.is_some() && self.tangent.tabled.is_empty()
+        self.is_small() && self.tangent.structural.is_some() && self.tangent.tabled.is_empty()
+    }
+
+    /// Lets all motions of the body stand for the sample at `mu`.
+    pub fn hold_all(&mut self, mu: f64) -> Result<(), LinalgError> {
+        let unknowns = self.tangent.stiffness.dimension();
+        let all = self.step(mu, |_| Ok::<_, LinalgError>(Mat::identity(unknowns, unknowns)))?;
+        self.model.extend(all.clone(), SAME_SPACE);
+        self.begin_sample(mu);
+        self.model.hold_sample(mu, &all);
+        Ok(())
     }
 
     /// Takes up the modes at `mu` from a dense decomposition of the full matrices; whether the basis grew.

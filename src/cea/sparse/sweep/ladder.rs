@@ -25,6 +25,8 @@ enum Rung {
     Shifted,
     /// The same without the strongly damped motions that did not converge: combinations of what the basis does not hold take no places.
     Without,
+    /// All motions of a small body: its full problem, decomposed.
+    Whole,
     /// Nothing more: what is open is said.
     Spent,
 }
@@ -40,8 +42,8 @@ struct Ladder {
 
 impl Ladder {
     /// The remedy for what is left, the `error`: another one where the last did little. What is converged is only corrected, as long as
-    /// that helps: round-off does not become less.
-    fn climb(&mut self, error: f64, is_converged: bool) -> Rung {
+    /// that helps: round-off does not become less. The whole problem is one of a body that `is_small`.
+    fn climb(&mut self, error: f64, is_converged: bool, is_small: bool) -> Rung {
         let does_little = error > LITTLE * self.error || self.rounds == MOST_ROUNDS;
         (self.error, self.rounds) = (error, self.rounds + 1);
         if does_little {
@@ -49,7 +51,8 @@ impl Ladder {
                 _ if is_converged => Rung::Spent,
                 Rung::AtRest => Rung::Shifted,
                 Rung::Shifted => Rung::Without,
-                Rung::Without | Rung::Spent => Rung::Spent,
+                Rung::Without if is_small => Rung::Whole,
+                Rung::Without | Rung::Whole | Rung::Spent => Rung::Spent,
             };
             // A rung begins with a round of its own.
             (self.error, self.rounds) = (f64::INFINITY, 0);
@@ -62,7 +65,7 @@ impl SparseSweep<'_> {
     /// Grows the basis until the modes at all points converge, or nothing helps.
     pub(super) fn climb_all(&mut self) -> Result<(), CeaError> {
         let first = Ladder { rung: Rung::AtRest, rounds: 0, error: f64::INFINITY };
-        let mut ladders = vec![first; self.grid.len()];
+        let (mut ladders, is_small) = (vec![first; self.grid.len()], self.builder.is_small());
         loop {
             let mut missing = self.missing_points();
             missing.retain(|&k| ladders[k].rung != Rung::Spent);
@@ -76,7 +79,7 @@ impl SparseSweep<'_> {
                 if !treated.contains(&gaps[k]) {
                     treated.push(gaps[k]);
                     let (residual, error) = self.points[k].worst();
-                    let rung = ladders[k].climb(error, residual <= RESIDUAL_BOUND);
+                    let rung = ladders[k].climb(error, residual <= RESIDUAL_BOUND, is_small);
                     let is_alone =
                         missing.iter().filter(|&&other| gaps[other] == gaps[k]).count() == 1;
                     self.treat(k, rung, is_alone)?;
@@ -109,6 +112,7 @@ impl SparseSweep<'_> {
                     self.builder.shift(mu, &open)?;
                 }
             }
+            Rung::Whole => self.builder.hold_all(mu)?,
             Rung::Spent => {}
         }
         Ok(())
