@@ -134,9 +134,9 @@ pub(super) fn contact(
     };
     if is_solid && rotation_speed == 0.0 && section.has("rotation_speed_rpm") {
         refuse!(section, "rotation_speed_rpm",
-            "contact.rotation_speed_rpm = 0: at rest friction holds a three-dimensional body \
-             across the sliding too, as by an infinite dashpot (mu p / V): there is no steady \
-             sliding";
+            "contact.rotation_speed_rpm = 0: a counterface at rest has no steady sliding. Friction \
+             then holds a three-dimensional body across the sliding as an infinite dashpot (mu p / \
+             V) does";
             "must not be zero in three dimensions"; "give a small positive speed instead");
     }
     let is_compliant = section.choice::<BaseContact>("base_state") == BaseContact::Compliant;

@@ -138,8 +138,8 @@ impl Case {
         let key = "cycle.harmonics";
         Some(Diagnostic::error(
             format!(
-                "{key} is not used: the limit cycles of this body are motions of the whole mesh, one for each mode that grows, \
-                 and no rotating waves"
+                "{key} is not used: the limit cycles of this body are no rotating waves. They are \
+                 motions of the whole mesh, one for each mode that grows"
             ),
             "not used",
             self.raw.place(key),

@@ -129,9 +129,9 @@ fn element_shape(case: &Case) -> Option<Diagnostic> {
     let sum = |axis: usize| nodes.iter().map(|&n| mesh.nodes[n as usize][axis]).sum::<f64>();
     let labels = nodes.iter().map(|&node| mesh.node_label(node as usize));
     Some(diagnosis!(case, "mesh.file",
-        "the Jacobian of an element varies by a factor {:.3} (smallest over largest; below \
-         {SMALLEST_JACOBIAN} the element is badly shaped): that of nodes {} at ({:.6}, {:.6}) \
-         m", quality.worst_jacobian, first_of(labels, 9), sum(0) / count, sum(1) / count;
+        "the Jacobian of an element varies by a factor {:.3} (smallest over largest): that of \
+         nodes {} at ({:.6}, {:.6}) m. Below {SMALLEST_JACOBIAN} an element is badly \
+         shaped", quality.worst_jacobian, first_of(labels, 9), sum(0) / count, sum(1) / count;
         "a badly shaped element";
         "mesh the surface again, finer where it curves, or with Mesh.Optimize = 1; stresses near \
          it are not reliable"))
@@ -306,7 +306,7 @@ fn unresolved_springs(case: &Case) -> Option<Diagnostic> {
     (stiffness > most).then(|| {
         diagnosis!(case, &springs.key(),
             "{name} = {stiffness:e} Pa/m is more than the time step of the transient, {step:.2e} \
-             s, resolves on this mesh, about {most:.1e} Pa/m: the status of contact nodes would \
+             s, resolves on this mesh, about {most:.1e} Pa/m. The status of contact nodes would \
              flicker";
             "nearly rigid"; "{}, or a smaller transient.time_step", case.rigid_remedy(&springs))
     })
@@ -321,9 +321,9 @@ fn steep_friction(case: &Case) -> Option<Diagnostic> {
     let most = mass / (lame_pressure(case)? * fall);
     (step > most).then(|| {
         diagnosis!(case, "contact.decay_speed",
-            "contact.decay_speed = {} m/s lets friction fall faster than the inertia of a contact \
-             node allows within the time step of the transient, {step:.2e} s: nodes may jump \
-             between sticking and slipping", decay.decay_speed;
+            "contact.decay_speed = {} m/s lets friction fall faster than the contact nodes can \
+             follow within a time step of the transient, {step:.2e} s. Nodes may jump between \
+             sticking and slipping", decay.decay_speed;
             "a steep law";
             "use a transient.time_step below about {most:.1e}, or a larger contact.decay_speed")
     })
