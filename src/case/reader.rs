@@ -400,22 +400,28 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// Text; none where it is not given.
+    /// Text: as given, else its default, else none.
     pub fn optional_text(&self, key: &str) -> Option<String> {
-        let item = self.item(key)?;
-        if let RawValue::String(text) = &item.value {
-            return Some(text.clone());
+        match self.item(key) {
+            Some(RawItem { value: RawValue::String(text), .. }) => Some(text.clone()),
+            Some(item) => {
+                self.reject_at(item, key, "must be a string");
+                None
+            }
+            None => match self.declared(key).default_value()? {
+                RawValue::String(text) => Some(text),
+                _ => None,
+            },
         }
-        self.reject_at(item, key, "must be a string");
-        None
     }
 
-    /// Text that must be there.
+    /// Text that is given or has a default.
     pub fn text(&self, key: &str) -> String {
-        if !self.has(key) {
+        let text = self.optional_text(key);
+        if text.is_none() && !self.has(key) {
             self.missing(key);
         }
-        self.optional_text(key).unwrap_or_default()
+        text.unwrap_or_default()
     }
 }
 
