@@ -106,12 +106,8 @@ pub(super) fn contact(
         let own = if is_solid { "" } else { "boundary" };
         let others = "counter_boundary counterface center axis radius direction speed";
         for key in section.refused(own).into_iter().chain(section.refused(others)) {
-            // A default written out changes nothing.
-            let is_default = section.is_text(key, "inner") || section.is_text(key, "cylinder");
-            if !is_default {
-                refuse!(section, key, "contact.{key} is for a body from a mesh file (mesh.file)";
-                    "not used by the built-in annulus"; "leave it out");
-            }
+            refuse!(section, key, "contact.{key} is for a body from a mesh file (mesh.file)";
+                "not used by the built-in annulus"; "leave it out");
         }
         place.plane_speed = None;
     }
