@@ -32,8 +32,8 @@ const KEPT_PAIRS: &str =
     "motions of two frequencies that are done are kept: the same command with --resume goes on";
 
 /// What an interrupted search for motions of the whole mesh leaves.
-const KEPT: &str = "cycles and points of branches that are done are kept (done-modeK.json tells of a mode that is done): the same \
-                    command with --resume goes on";
+const KEPT: &str = "cycles and points of branches that are done are kept (done-modeK.json: a mode \
+    that is done). The same command with --resume goes on";
 
 impl Run for Arguments {
     const PROFILE: Profile = Profile {

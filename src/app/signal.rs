@@ -59,8 +59,8 @@ pub struct Arguments {
     /// End of the interval for the peaks, s after the first sample
     #[arg(long, value_name = "S")]
     to: Option<f64>,
-    /// Smallest spacing between two peaks: the spectrum is averaged over blocks of 4/HZ seconds [default: 2 Hz,
-    /// or what a shorter interval gives]
+    /// Smallest spacing between two peaks: the spectrum is averaged over blocks of 4/HZ seconds [default: 2 Hz, or more where
+    /// the interval is short]
     #[arg(long, value_name = "HZ")]
     resolution: Option<f64>,
     /// Window of the spectrogram, s [default: 0.0005, or 1/400 of a record longer than 0.2 s]

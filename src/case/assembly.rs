@@ -9,7 +9,7 @@ use super::modifications::{Modification, reshaped};
 use super::raw::MeshBytes;
 use super::reader::Section;
 use super::refuse;
-use super::rigid_counterface::{triple, unit};
+use super::rigid_counterface::unit;
 use super::suggestion;
 use super::tables::TableFiles;
 use super::value::quote;
@@ -151,11 +151,10 @@ fn motion(section: &Section<'_>) -> Motion {
     if !section.has("axis") {
         section.missing("axis");
     }
-    let axis = triple(section, "axis").unwrap_or([0.0, 0.0, 1.0]);
     Motion {
         regions: Vec::new(),
-        axis: unit(section, "axis", axis),
-        center: triple(section, "center").unwrap_or([0.0; 3]),
+        axis: unit(section, "axis"),
+        center: section.vector("center"),
         rotation_speed: section.number("rotation_speed_rpm") * TAU / 60.0,
         inertia: inertia(section),
     }

@@ -7,8 +7,10 @@ use crate::cycle::BasinRequest;
 
 pub(super) fn basin(root: &Section<'_>, body: Option<&Body>) -> Option<BasinRequest> {
     let section = root.section("basin", false);
-    let given = section.is_given();
-    let pair = section.harmonics(body.and_then(Body::sector_count)).unwrap_or_else(|| vec![1, 2]);
+    if !section.is_given() {
+        return None;
+    }
+    let pair = section.harmonics(body.and_then(Body::sector_count)).unwrap_or_default();
     let modes = section.counts("modes");
     let modes: Option<Vec<usize>> =
         modes.map(|values| values.into_iter().map(|(mode, _)| mode).collect());
@@ -37,5 +39,5 @@ pub(super) fn basin(root: &Section<'_>, body: Option<&Body>) -> Option<BasinRequ
             "below {to:?}");
     }
     section.close();
-    given.then_some(request)
+    Some(request)
 }

@@ -106,12 +106,8 @@ pub(super) fn contact(
         let own = if is_solid { "" } else { "boundary" };
         let others = "counter_boundary counterface center axis radius direction speed";
         for key in section.refused(own).into_iter().chain(section.refused(others)) {
-            // A default written out changes nothing.
-            let is_default = section.is_text(key, "inner") || section.is_text(key, "cylinder");
-            if !is_default {
-                refuse!(section, key, "contact.{key} is for a body from a mesh file (mesh.file)";
-                    "not used by the built-in annulus"; "leave it out");
-            }
+            refuse!(section, key, "contact.{key} is for a body from a mesh file (mesh.file)";
+                "not used by the built-in annulus"; "leave it out");
         }
         place.plane_speed = None;
     }
@@ -134,9 +130,9 @@ pub(super) fn contact(
     };
     if is_solid && rotation_speed == 0.0 && section.has("rotation_speed_rpm") {
         refuse!(section, "rotation_speed_rpm",
-            "contact.rotation_speed_rpm = 0: at rest friction holds a three-dimensional body \
-             across the sliding too, as by an infinite dashpot (mu p / V): there is no steady \
-             sliding";
+            "contact.rotation_speed_rpm = 0: a counterface at rest has no steady sliding. Friction \
+             then holds a three-dimensional body across the sliding as an infinite dashpot (mu p / \
+             V) does";
             "must not be zero in three dimensions"; "give a small positive speed instead");
     }
     let is_compliant = section.choice::<BaseContact>("base_state") == BaseContact::Compliant;

@@ -34,12 +34,10 @@ pub(super) fn short_form(section: &Section<'_>) -> NamedContact {
              base state";
             "not of a body from a mesh of solid elements"; "leave it out");
     }
-    let boundary = section.optional_text("boundary");
-    let boundary = boundary.unwrap_or_else(|| "inner".to_owned());
     let counterpart = Counterpart::Rigid(rigid_counterface(section));
     NamedContact {
         name: SlidingSurfaces::SHORT_FORM.to_owned(),
-        sides: [Some(boundary), None],
+        sides: [Some(section.text("boundary")), None],
         keys: ["contact.boundary".to_owned(), String::new()],
         friction_coefficient: section.number("friction_coefficient"),
         surfaces: sliding_surfaces(section, counterpart, None),

@@ -1,7 +1,6 @@
 //! `[cycle]`: limit cycles found directly.
 
 use super::body::Body;
-use super::diagnostic::Diagnostic;
 use super::keys;
 use super::range::{Spacing, range_values};
 use super::reader::Section;
@@ -129,22 +128,6 @@ impl Case {
             ("limit cycles are rotating waves, which", "rotating waves are sought in");
         self.require_annulus(waves, search)?;
         self.require_constant_friction()
-    }
-
-    /// That a search for periodic motions of a whole body knows no circumferential harmonics.
-    pub(super) fn ignored_harmonics(&self, command: &str) -> Option<Diagnostic> {
-        let is_heard = command == "cycle" && !self.has_rotating_waves();
-        self.cycle.as_ref()?.harmonics.as_ref().filter(|_| is_heard)?;
-        let key = "cycle.harmonics";
-        Some(Diagnostic::error(
-            format!(
-                "{key} is not used: the limit cycles of this body are motions of the whole mesh, one for each mode that grows, \
-                 and no rotating waves"
-            ),
-            "not used",
-            self.raw.place(key),
-            None,
-        ))
     }
 }
 

@@ -241,8 +241,9 @@ pub(super) fn place_axes(
                 .to_owned(),
             "not the same at every angle",
             &format!(
-                "use axes = \"cylindrical\", constants that are the same across z (E_1 = E_2, nu_13 = nu_23, G_13 = G_23, \
-                 G_12 = E_1 / (2 (1 + nu_12)) = {:?}), or describe the body by mesh.file",
+                "use axes = \"cylindrical\", or describe the body by mesh.file, or give constants \
+                 that are the same across z. Such constants are E_1 = E_2, nu_13 = nu_23, G_13 = \
+                 G_23 and G_12 = E_1 / (2 (1 + nu_12)) = {:?}",
                 e / (2.0 * (1.0 + nu))
             ),
         );

@@ -1,8 +1,8 @@
 //! `[fit]`: which parameters are fitted to measured modes, and where they are sought.
 
+use super::checks::material_key;
 use super::diagnostic::CaseErrors;
 use super::parameters::{ModelParameter, entries, number, only, refuse_twice};
-use super::plausibility::material_key;
 use super::range::Spacing;
 use super::reader::Section;
 use super::refuse;

@@ -49,17 +49,9 @@ pub(super) struct ContactPlace {
 
 /// Reads the keys of `[contact]` that only an imported body has.
 pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
-    let pair = |key: &str, default: [f64; 2]| match section.numbers(key).as_deref() {
-        None => default,
-        Some(&[x, y]) => [x, y],
-        Some(_) => {
-            refuse!(section, key => "needs two numbers"; "must be [x, y]");
-            default
-        }
-    };
-    let boundary = section.optional_text("boundary").unwrap_or_else(|| "inner".to_owned());
-    let (center, radius) = (pair("center", [0.0; 2]), section.optional_number("radius"));
-    let direction = pair("direction", [1.0, 0.0]);
+    let boundary = section.text("boundary");
+    let (center, radius) = (section.vector("center"), section.optional_number("radius"));
+    let direction = section.vector("direction");
     let speed = section.optional_number("speed");
     let word: CounterfaceWord = section.choice("counterface");
     let opposite = opposite_curve(section, word);

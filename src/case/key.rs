@@ -209,6 +209,13 @@ impl CaseKey {
         }
     }
 
+    /// Whether a value is what holds where the key is left out.
+    pub(super) fn is_default(&self, value: &RawValue) -> bool {
+        let default = self.default_value().map(|value| value.to_string());
+        let default = default.unwrap_or_else(|| self.default_text().to_owned());
+        value.to_string().trim_matches('"') == default.trim_matches('"')
+    }
+
     /// The default's value, where it has one.
     pub(super) fn default_value(&self) -> Option<RawValue> {
         match self.default {

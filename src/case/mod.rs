@@ -10,6 +10,7 @@ mod basin;
 mod body;
 mod boundaries;
 mod cea;
+mod checks;
 mod contact;
 mod contacts;
 mod convergence;
@@ -35,7 +36,6 @@ mod normal_law;
 mod opposite;
 mod overrides;
 mod parameters;
-mod plausibility;
 mod range;
 mod raw;
 mod reader;
@@ -43,7 +43,6 @@ pub mod reference;
 mod relaxed;
 mod requirements;
 mod rigid_counterface;
-mod rules;
 mod shaft;
 mod shown;
 mod solid;
@@ -249,11 +248,11 @@ impl Case {
             raw,
         };
         case.relaxed = relaxed::relaxed(&case);
-        let errors = rules::infeasible(&case);
+        let errors = checks::infeasible(&case);
         if errors.is_empty() {
             normal_force::press(&mut case)?;
         }
-        let implausible = plausibility::implausible(&case);
+        let implausible = checks::implausible(&case);
         if !errors.is_empty() {
             // A slip of units comes first: what cannot run is mostly its consequence.
             return Err(case.raw.errors([implausible, errors].concat()));

@@ -2,7 +2,7 @@
 
 use super::reader::Section;
 use super::refuse;
-use super::words::NormalLawWord;
+use super::words::{NormalLawWord, word_of};
 use crate::contact::{ContactStiffness, NormalLaw};
 
 /// The keys of a contact's law of pressure, and which of them each law has.
@@ -21,12 +21,7 @@ pub(super) fn normal_law(
     let word: NormalLawWord = section.choice("normal_law");
     for (key, laws) in LAW_KEYS {
         if !laws.contains(&word) && section.has(key) {
-            let of_word = match word {
-                NormalLawWord::Linear => "linear",
-                NormalLawWord::Cubic => "cubic",
-                NormalLawWord::Exponential => "exponential",
-            };
-            refuse!(section, key => "has no effect with normal_law = \"{of_word}\"";
+            refuse!(section, key => "has no effect with normal_law = \"{}\"", word_of(word);
                 "not a number of this law"; "leave it out, or give the law that it belongs to");
         }
         if laws.contains(&word) && word != NormalLawWord::Linear && !section.has(key) {

@@ -52,8 +52,9 @@ pub(super) fn check_meeting(
     // A thousandth of an element is what faceted curves differ by.
     if depth > interference + 1e-3 * size {
         return Err(format!(
-            "the bodies overlap: node {} of \"{name}\" lies {depth:.3e} m inside the other body, more than \
-             contact.interference = {interference:e} m; mesh them just touching, and let contact.interference press them together",
+            "the bodies overlap: node {} of \"{name}\" lies {depth:.3e} m inside the other body, \
+             more than contact.interference = {interference:e} m. Mesh them just touching, and let \
+             contact.interference press them together",
             mesh.node_label(interface.nodes[i] as usize)
         ));
     }

@@ -122,12 +122,17 @@ impl<'a> Section<'a> {
         self.table.is_some_and(|table| table.contains_key(key))
     }
 
-    /// Takes note of keys, apart by blanks, that the case cannot have, whatever their value: those that it gives all the same.
+    /// Takes note of keys, apart by blanks, that the case cannot have: those that it gives all the same. A default that is
+    /// written out changes nothing.
     pub fn refused<'k>(&self, keys: &'k str) -> Vec<&'k str> {
         let keys = keys.split_whitespace();
         self.asked.borrow_mut().extend(keys.clone().map(str::to_owned));
         self.findings.scope.refused.borrow_mut().extend(keys.clone().map(|key| self.name(key)));
-        keys.filter(|key| self.has(key)).collect()
+        let is_given = |key: &&str| {
+            let value = self.given(key);
+            value.is_some_and(|value| !self.declared(key).is_default(value))
+        };
+        keys.filter(is_given).collect()
     }
 
     /// Reports an error at a key, with the key's meaning as remedy unless another is given.
@@ -400,22 +405,28 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// Text; none where it is not given.
+    /// Text: as given, else its default, else none.
     pub fn optional_text(&self, key: &str) -> Option<String> {
-        let item = self.item(key)?;
-        if let RawValue::String(text) = &item.value {
-            return Some(text.clone());
+        match self.item(key) {
+            Some(RawItem { value: RawValue::String(text), .. }) => Some(text.clone()),
+            Some(item) => {
+                self.reject_at(item, key, "must be a string");
+                None
+            }
+            None => match self.declared(key).default_value()? {
+                RawValue::String(text) => Some(text),
+                _ => None,
+            },
         }
-        self.reject_at(item, key, "must be a string");
-        None
     }
 
-    /// Text that must be there.
+    /// Text that is given or has a default.
     pub fn text(&self, key: &str) -> String {
-        if !self.has(key) {
+        let text = self.optional_text(key);
+        if text.is_none() && !self.has(key) {
             self.missing(key);
         }
-        self.optional_text(key).unwrap_or_default()
+        text.unwrap_or_default()
     }
 }
 

@@ -106,7 +106,7 @@ pub fn object(key: &CaseKey) -> Value {
 /// The JSON schema of a case file, for editors.
 pub fn schema() -> Value {
     let mut root = object_schema();
-    for key in KEYS {
+    for key in KEYS.iter() {
         let mut place = &mut root;
         for part in key.section().split('.').filter(|part| !part.is_empty()) {
             place = child(place, part, object_schema);

@@ -78,8 +78,8 @@ impl Case {
                 .refuse_losses_in_time("of a body of revolution in three dimensions, a transient");
         }
         Err(self.loss_error(
-            "a transient has a Maxwell chain in place of a loss factor, fitted from a hundredth of cea.max_frequency_hz up to that, \
-             and the case has none"
+            "a transient has a Maxwell chain in place of a loss factor. It is fitted from a \
+             hundredth of cea.max_frequency_hz up to that, and the case has none"
                 .to_owned(),
             "needs a band of frequencies",
             "give [cea] with max_frequency_hz, or damping.stiffness_coefficient in place of loss_factor",

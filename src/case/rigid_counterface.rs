@@ -27,11 +27,10 @@ pub(super) fn rigid_counterface(section: &Section<'_>) -> RigidCounterface {
     if shape == RigidShape::Plane && radius.is_some() {
         caution!(section, "radius" => "is not used: the counterface is a plane"; "no effect");
     }
-    let axis = triple(section, "axis").unwrap_or([0.0, 0.0, 1.0]);
     RigidCounterface {
         shape,
-        center: triple(section, "center").unwrap_or([0.0; 3]),
-        axis: unit(section, "axis", axis),
+        center: section.vector("center"),
+        axis: unit(section, "axis"),
         motion: motion(section),
         interference: interference(section),
     }
@@ -51,32 +50,14 @@ fn motion(section: &Section<'_>) -> RigidMotion {
     }
     let speed = speed.unwrap_or_else(|| section.number("speed"));
     if !section.has("direction") {
-        no_triple(section, "direction", "is missing beside `speed`");
+        section.no_vector::<3>("direction", "is missing beside `speed`");
     }
-    let direction = triple(section, "direction").unwrap_or([1.0, 0.0, 0.0]);
-    RigidMotion::Sliding(unit(section, "direction", direction).map(|x| x * speed))
+    RigidMotion::Sliding(unit(section, "direction").map(|x| x * speed))
 }
 
-/// Three numbers, where they are given.
-pub(super) fn triple(section: &Section<'_>, key: &str) -> Option<[f64; 3]> {
-    match section.numbers(key).as_deref() {
-        Some(&[x, y, z]) => Some([x, y, z]),
-        Some(_) => {
-            no_triple(section, key, "needs three numbers");
-            None
-        }
-        None => None,
-    }
-}
-
-/// Says what three numbers look like.
-fn no_triple(section: &Section<'_>, key: &str, what: &str) {
-    refuse!(section, key => "{what}"; "must be [x, y, z]"; "for example `{key} = [1.0, 0.0, 0.0]`");
-}
-
-/// The vector of length one along `direction`.
-pub(super) fn unit(section: &Section<'_>, key: &str, direction: [f64; 3]) -> [f64; 3] {
-    let direction = Vector3::from(direction);
+/// The vector of length one along that of a key.
+pub(super) fn unit(section: &Section<'_>, key: &str) -> [f64; 3] {
+    let direction = Vector3::from(section.vector(key));
     if direction.norm() == 0.0 {
         refuse!(section, key => "= [0, 0, 0] points nowhere"; "must not be zero");
         return [0.0, 0.0, 1.0];

@@ -158,10 +158,8 @@ pub(super) fn transient(
 /// `initial`, with the harmonic that a limit cycle needs.
 fn initial(section: &Section<'_>, body: Option<&Body>) -> InitialState {
     let initial = section.choice("initial");
-    let keys = ["limit_cycle_harmonic", "limit_cycle_onset"];
-    let [given, onset] = keys.map(|key| section.optional_count(key));
     let InitialState::LimitCycle { .. } = initial else {
-        for (key, _) in keys.iter().zip([given, onset]).filter(|pair| pair.1.is_some()) {
+        for key in section.refused("limit_cycle_harmonic limit_cycle_onset") {
             refuse!(section, key,
                 "transient.{key} is given, but the run does not start on a limit cycle";
                 "only with initial = \"limit-cycle\"");
@@ -176,7 +174,7 @@ fn initial(section: &Section<'_>, body: Option<&Body>) -> InitialState {
             "transient.limit_cycle_harmonic = {harmonic} is above the mesh's highest, {highest}";
             "at most half of {sectors} elements");
     }
-    InitialState::LimitCycle { harmonic, onset: onset.unwrap_or(1) }
+    InitialState::LimitCycle { harmonic, onset: section.count("limit_cycle_onset") }
 }
 
 /// `[transient.perturbation]`: the velocity that is added to the body's.

@@ -154,8 +154,8 @@ fn uncertain(
     if word == "log_normal" && b > LARGEST_LOG_DEVIATION {
         reject(
             format!(
-                "log_normal = [{a}, {b}] of {key}: the second number is the standard deviation of the natural logarithm, and \
-                 {b} spans {:.0} powers of ten within one deviation",
+                "log_normal = [{a}, {b}] of {key}: the second number is the standard deviation of \
+                 the natural logarithm. One of {b} spans {:.0} powers of ten",
                 b / std::f64::consts::LN_10
             ),
             "at most 3",

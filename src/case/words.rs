@@ -24,11 +24,15 @@ pub(super) fn words_of<T: Choice>() -> impl Iterator<Item = (&'static str, T)> {
     T::WORDS.iter().copied()
 }
 
+/// The word of a choice.
+pub(super) fn word_of<T: Choice + PartialEq>(choice: T) -> &'static str {
+    T::WORDS.iter().find(|pair| pair.1 == choice).map_or("", |pair| pair.0)
+}
+
 impl ModificationKind {
     /// Its word.
     pub fn word(self) -> &'static str {
-        let own = Self::WORDS.iter().find(|pair| pair.1 == self);
-        own.map_or("", |pair| pair.0)
+        word_of(self)
     }
 
     /// All of them.

@@ -92,8 +92,9 @@ pub enum CeaError {
     },
     /// A mode whose frequency a table of modulus over frequency does not hold.
     #[error(
-        "{key} = \"{file}\" holds {low} to {high} Hz, and at friction coefficient {friction_coefficient} a mode lies at \
-         {frequency_hz:.1} Hz: a modulus beyond a table is not guessed",
+        "{key} = \"{file}\" holds {low} to {high} Hz, and at friction coefficient \
+         {friction_coefficient} a mode lies at {frequency_hz:.1} Hz. A modulus beyond a table is \
+         not guessed",
         low = range_hz[0],
         high = range_hz[1]
     )]
@@ -111,9 +112,9 @@ pub enum CeaError {
     },
     /// A mode that finds no frequency of its own.
     #[error(
-        "at friction coefficient {friction_coefficient} the mode at about {frequency_hz:.1} Hz does not settle at a frequency of \
-         its own (relative residual {residual:.1e}): the modulus of {key} changes too fast there; give its table more rows or \
-         smooth it"
+        "at friction coefficient {friction_coefficient} the mode at about {frequency_hz:.1} Hz \
+         does not settle at a frequency of its own (relative residual {residual:.1e}). The modulus \
+         of {key} changes too fast there: give its table more rows or smooth it"
     )]
     Unsettled {
         /// Case key of the first table.
@@ -128,7 +129,7 @@ pub enum CeaError {
     /// A harmonic of which a branch could not be followed.
     #[error(
         "a branch of harmonic {harmonic} could not be followed up to friction {friction}: two \
-         branches meet there or a mode stops oscillating; use cea.method = \"sparse\""
+         branches meet there or a mode stops oscillating. Use cea.method = \"sparse\""
     )]
     LostHarmonic {
         /// Circumferential harmonic.
@@ -138,8 +139,8 @@ pub enum CeaError {
     },
     /// Matrices that leave a motion undetermined.
     #[error(
-        "the mass, damping and stiffness matrices of {dimension} unknowns are singular together: some motion has neither mass nor \
-         stiffness; remove unknowns that depend on each other"
+        "the mass, damping and stiffness matrices of {dimension} unknowns are singular together: \
+         some motion has neither mass nor stiffness. Remove unknowns that depend on each other"
     )]
     SingularTogether {
         /// Number of unknowns.
@@ -147,8 +148,8 @@ pub enum CeaError {
     },
     /// An eigenvalue of a body of revolution whose vectors do not settle.
     #[error(
-        "the eigenvalue at {frequency_hz:.1} Hz of harmonic {harmonic} has no vectors of its own at friction {friction}: two \
-         branches meet there; change that friction coefficient a little"
+        "the eigenvalue at {frequency_hz:.1} Hz of harmonic {harmonic} has no vectors of its own \
+         at friction {friction}: two branches meet there. Change that friction coefficient a little"
     )]
     Unrefined {
         /// Circumferential harmonic.
@@ -160,8 +161,9 @@ pub enum CeaError {
     },
     /// A count of modes that an eigenvalue on its edge forbids.
     #[error(
-        "not counted: an eigenvalue lies at or near {frequency_hz:.1} Hz with a growth rate of about {growth_rate:.1} 1/s, on the edge \
-         of where modes are counted; move cea.max_frequency_hz or cea.modes"
+        "not counted: an eigenvalue lies at or near {frequency_hz:.1} Hz with a growth rate of \
+         about {growth_rate:.1} 1/s, on the edge of the count. Move cea.max_frequency_hz or \
+         cea.modes"
     )]
     Uncounted {
         /// Its frequency, Hz.

@@ -8,8 +8,9 @@ pub enum PairError {
     NoFaces(String),
     /// They are too far from each other.
     #[error(
-        "surfaces \"{surface}\" and \"{counter}\" face each other but stand {distance:.3e} m apart, more than half an element \
-         ({reach:.3e} m): move the bodies together in the mesh, or name other surfaces"
+        "surfaces \"{surface}\" and \"{counter}\" face each other but stand {distance:.3e} m \
+         apart, more than half an element ({reach:.3e} m). Move the bodies together in the mesh, \
+         or name other surfaces"
     )]
     Apart {
         /// Own surface.
@@ -34,8 +35,8 @@ pub enum PairError {
     },
     /// Nothing lies over anything.
     #[error(
-        "surfaces \"{surface}\" and \"{counter}\" never meet: along its normals no face of the one lies over a face of the other; \
-         name the surfaces that touch"
+        "surfaces \"{surface}\" and \"{counter}\" never meet: along its normals no face of the one \
+         lies over a face of the other. Name the surfaces that touch"
     )]
     NeverMeets {
         /// Own surface.
@@ -45,8 +46,9 @@ pub enum PairError {
     },
     /// A measured surface has no point near one of the contact's.
     #[error(
-        "no measured point of {file} lies within {reach:.3e} m of ({:.6}, {:.6}, {:.6}) m on surface \"{surface}\"; the nearest is \
-         {distance:.3e} m away: x, y, z are metres in the coordinates of the mesh, and the points cover the whole surface",
+        "no measured point of {file} lies within {reach:.3e} m of ({:.6}, {:.6}, {:.6}) m on \
+         surface \"{surface}\". The nearest is {distance:.3e} m away. Give x, y, z in metres, in \
+         the coordinates of the mesh, and points over the whole surface",
         position[0], position[1], position[2]
     )]
     NotMeasured {
@@ -63,8 +65,8 @@ pub enum PairError {
     },
     /// The counter surface does not move relative to the surface.
     #[error(
-        "nothing slides between surfaces \"{surface}\" and \"{counter}\": the motion given leaves them at rest to each other; \
-         check the axis, the centre and the regions of [motion]"
+        "nothing slides between surfaces \"{surface}\" and \"{counter}\": the motion given leaves \
+         them at rest to each other. Check the axis, the centre and the regions of [motion]"
     )]
     NoSliding {
         /// Own surface.
@@ -85,8 +87,9 @@ pub enum PairError {
     AllHeld(String),
     /// A surface that is no part of a cylinder or sphere, about which nothing else says how large that is.
     #[error(
-        "surface \"{surface}\" is not round about the axis or the centre of its rigid counterface: node {node} lies {distance:.6e} \
-         m from it, the mean is {mean:.6e} m; correct `center` and `axis`, or give its `radius`"
+        "surface \"{surface}\" is not round about the axis or centre of its counterface: node \
+         {node} lies {distance:.6e} m away, the mean is {mean:.6e} m. Correct `center` and `axis`, \
+         or give its `radius`"
     )]
     NotRound {
         /// Own surface.

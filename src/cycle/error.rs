@@ -44,9 +44,9 @@ pub enum CycleError {
     },
     /// Steady sliding never loses stability to this wave.
     #[error(
-        "{family}: steady sliding has no such loss of stability up to a friction coefficient of {limit} among the \
-         modes looked at (cea.modes or cea.max_frequency_hz, else the lowest ones), so no limit cycle is born; name \
-         another harmonic or onset"
+        "{family}: steady sliding has no such loss of stability up to a friction coefficient of \
+         {limit}, so no limit cycle is born. Only the modes of cea.modes or cea.max_frequency_hz \
+         are looked at, else the lowest ones. Name another harmonic or onset"
     )]
     NoOnset {
         /// Which limit cycle.
@@ -56,8 +56,8 @@ pub enum CycleError {
     },
     /// The wave grows at any friction.
     #[error(
-        "{family}: this wave grows without friction already, so it has no critical friction at which a cycle could be \
-         born; give the body some damping (damping.stiffness_coefficient)"
+        "{family}: this wave grows without friction already, so it has no critical friction at \
+         which a cycle could be born. Give the body some damping (damping.stiffness_coefficient)"
     )]
     Undamped {
         /// Which limit cycle.
@@ -85,8 +85,8 @@ pub enum CycleError {
     },
     /// What was found is no motion of the disc.
     #[error(
-        "{family}: the wave found on {sectors} elements around the circumference opens inside the cylinder \
-         or draws energy from the normal contact; it is no motion of the disc: refine the mesh \
+        "{family}: the wave on {sectors} elements around is no motion of the disc: it opens inside \
+         the cylinder or draws energy from normal contact. Refine the mesh \
          (mesh.circumferential_elements and radial_elements), or try another cycle.phases"
     )]
     Unphysical {
@@ -106,8 +106,9 @@ pub enum CycleError {
     },
     /// Neither of two waves grows.
     #[error(
-        "steady sliding is stable against waves of {} and {} nodal diameters at contact.friction_coefficient = \
-         {friction}: neither can win; raise it, or name others in basin.harmonics",
+        "steady sliding is stable against waves of {} and {} nodal diameters at \
+         contact.friction_coefficient = {friction}: neither can win. Raise it, or name others in \
+         basin.harmonics",
         harmonics[0],
         harmonics[1]
     )]

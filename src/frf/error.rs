@@ -53,8 +53,8 @@ pub enum FrfError {
     },
     /// A force on a node of a surface that follows another one.
     #[error(
-        "frf.{key} = {node} lies on a surface that is tied to or slides on another, and follows it: apply the force to a node \
-         beside the surface"
+        "frf.{key} = {node} lies on a surface that is tied to or slides on another, and follows \
+         it. Apply the force to a node beside the surface"
     )]
     Follows {
         /// Case key.

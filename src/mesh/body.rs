@@ -62,8 +62,9 @@ impl Mesh {
     ) -> Result<Self, BodyError> {
         if file.dimension == 3 {
             return Err(BodyError::Body(
-                "the mesh is of solid elements; a body on a rigid counterface must be plane: mesh its surface alone (gmsh -2), \
-                 or name the contacts of solid bodies under [contacts.NAME]"
+                "the mesh is of solid elements, and a body on a rigid counterface must be plane. \
+                 Mesh its surface alone (gmsh -2), or name the contacts of solid bodies under \
+                 [contacts.NAME]"
                     .to_owned(),
             ));
         }
@@ -208,8 +209,8 @@ fn check_along(
     Err(BodyError::Request {
         part: BodyPart::Direction,
         message: format!(
-            "contact.direction = [{x}, {y}] makes {:.0} degrees with the contact curve \"{}\": the plane would slide into \
-             the body; the direction must lie along the face, here [{}, {}]",
+            "contact.direction = [{x}, {y}] makes {:.0} degrees with the contact curve \"{}\": the \
+             plane would slide into the body. The direction must lie along the face, here [{}, {}]",
             off.clamp(0.0, 1.0).asin().to_degrees(),
             specification.contact,
             along_x,
@@ -253,8 +254,9 @@ fn counterface(
                 && (d - mean).abs() > ROUND * mean
             {
                 let message = format!(
-                    "the contact curve \"{}\" is not a circle about contact.center = [{}, {}]: node {} lies {d:.6e} m from \
-                     it, the mean is {mean:.6e} m; correct contact.center, or give the cylinder's contact.radius",
+                    "the contact curve \"{}\" is not a circle about contact.center = [{}, {}]: \
+                     node {} lies {d:.6e} m from it, the mean is {mean:.6e} m. Correct \
+                     contact.center, or give the cylinder's contact.radius",
                     specification.contact, center[0], center[1], mesh.labels[node as usize]
                 );
                 let part = BodyPart::Center;
@@ -294,8 +296,9 @@ fn contact_boundary(mesh: &Mesh, curve: &Curve, name: &str) -> Result<Boundary, 
                 Counterface::Cylinder { .. } => BodyPart::Contact,
             };
             let message = format!(
-                "the contact curve \"{name}\" does not face the counterface at node {} ({x:.6e}, {y:.6e}) m: leave that \
-                 part out of the physical curve, or correct contact.counterface, center or direction",
+                "the contact curve \"{name}\" does not face the counterface at node {} ({x:.6e}, \
+                 {y:.6e}) m. Leave that part out of the physical curve, or correct \
+                 contact.counterface, center or direction",
                 mesh.labels[node as usize]
             );
             return Err(BodyError::Request { part, message });

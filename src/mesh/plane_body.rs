@@ -18,8 +18,8 @@ pub(super) fn used_nodes(file: &FileMesh) -> Result<Vec<Option<u32>>, BodyError>
     }
     if let Some(node) = (0..is_plane.len()).find(|&node| !file.is_used[node]) {
         return Err(BodyError::Body(format!(
-            "node {} belongs to no element: the mesh has dangling nodes; remove them (Coherence Mesh; in Gmsh), or save \
-             the physical groups alone (Mesh.SaveAll = 0)",
+            "node {} belongs to no element: the mesh has dangling nodes. Remove them (Coherence \
+             Mesh; in Gmsh), or save the physical groups alone (Mesh.SaveAll = 0)",
             file.labels[node]
         )));
     }
@@ -102,8 +102,9 @@ fn check_size(file: &FileMesh, size: f64, scale: f64) -> Result<(), BodyError> {
     Err(BodyError::Request {
         part: BodyPart::Scale,
         message: format!(
-            "node {label} lies at {length:e} m, and no other one farther from the origin: a body of {SMALLEST:e} to \
-             {LARGEST:e} m is expected; is the file damaged, or mesh.scale = {scale:e} wrong?"
+            "node {label} lies at {length:e} m, and no other one farther from the origin: a body \
+             of {SMALLEST:e} to {LARGEST:e} m is expected. Is the file damaged, or mesh.scale = \
+             {scale:e} wrong?"
         ),
     })
 }
@@ -130,8 +131,8 @@ fn reversed_surfaces(file: &FileMesh) -> Result<BTreeSet<i64>, BodyError> {
         let is_minority = if area(element) < 0.0 { counter > 0 } else { clockwise > counter };
         if is_minority {
             return Err(BodyError::Body(format!(
-                "element {} is inverted: its nodes run the other way round than those of the {} other elements of \
-                 surface {}; mesh the surface again",
+                "element {} is inverted: its nodes run the other way round than those of the {} \
+                 other elements of surface {}. Mesh the surface again",
                 element.label,
                 clockwise.max(counter),
                 element.entity

@@ -230,9 +230,10 @@ impl Mesh {
                     _ => String::new(),
                 };
                 return Err(BodyError::Body(format!(
-                    "nothing holds {} (with node {} at {x:.4e}, {y:.4e} m): it can move as a rigid body (sliding \
-                     friction holds nothing); give one of its boundaries ({}) condition = \"clamped\" under \
-                     [boundaries.NAME], or springs under [modifications.NAME]{unmerged}",
+                    "nothing holds {} (with node {} at {x:.4e}, {y:.4e} m): it can move as a rigid \
+                     body, for sliding friction holds nothing. Give one of its boundaries ({}) \
+                     condition = \"clamped\" under [boundaries.NAME], or springs under \
+                     [modifications.NAME]{unmerged}",
                     if parts > 1 { "a part of the body that touches no other" } else { "the body" },
                     self.labels.get(node).copied().unwrap_or(node + 1),
                     names.join(", ")

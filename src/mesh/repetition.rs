@@ -226,8 +226,9 @@ impl Cut {
                 let labels = face.nodes.iter().take(NAMED);
                 let labels = labels.map(|&node| sector.node_label(node as usize).to_string());
                 Err(misfit(format!(
-                    "{} of the sector {} its copy turned by {degrees:.6} degrees with other nodes (the first has the nodes {}): \
-                     mesh both cut faces alike (Periodic Curve or Periodic Surface in Gmsh)",
+                    "{} of the sector {} its copy turned by {degrees:.6} degrees with other nodes \
+                     (the first has the nodes {}). Mesh both cut faces alike (Periodic Curve or \
+                     Periodic Surface in Gmsh)",
                     match others.len() {
                         1 => "1 face".to_owned(),
                         count => format!("{count} faces"),

@@ -63,8 +63,8 @@ impl Mesh {
             );
             if needs_faces && !boundary.is_covered() {
                 return Err(BodyError::Body(format!(
-                    "boundaries.{name} is a set of nodes that are not all nodes of some faces: it can be \"clamped\" or \"fixed\"; \
-                     name a surface of faces for anything else"
+                    "boundaries.{name} is a set of nodes that are not all nodes of some faces: it \
+                     can be \"clamped\" or \"fixed\". Name a surface of faces for anything else"
                 )));
             }
             boundary.condition = *condition;

@@ -60,8 +60,8 @@ pub enum MeshError {
     },
     /// A ring that no element of its face lies under.
     #[error(
-        "{count} elements in mesh.radial_elements: none of them lies under the ring alone, and the contact would have no \
-         area; with these radii of the ring at least {minimum} are needed"
+        "{count} elements in mesh.radial_elements: none of them lies under the ring alone, and the \
+         contact would have no area. With these radii of the ring at least {minimum} are needed"
     )]
     NothingUnderRing {
         /// Given count.

@@ -5,14 +5,14 @@
 pub enum PrestressError {
     /// Loads on bodies that nothing holds.
     #[error(
-        "nothing holds the bodies against the pressure on them: give a boundary that is clamped, fixed or supported, or leave the \
-         pressure out for the free modes of a part"
+        "nothing holds the bodies against the pressure on them. Give a boundary that is clamped, \
+         fixed or supported, or leave the pressure out for the free modes of a part"
     )]
     NothingHolds,
     /// A contact node is pulled, not pressed.
     #[error(
         "contact opens in the base state: {count} of {total} contact nodes are not pressed, first \
-         node {node} at {angle_degrees:.3} degrees with {pressure:.6e} Pa; full sliding needs \
+         node {node} at {angle_degrees:.3} degrees with {pressure:.6e} Pa. Full sliding needs \
          pressure everywhere: raise contact.interference"
     )]
     Separation {
@@ -29,9 +29,9 @@ pub enum PrestressError {
     },
     /// No contact node touches.
     #[error(
-        "there is a gap everywhere: the nearest of {total} contact nodes is {distance:.3e} m away from the counterface \
-         pushed in by contact.interference = {interference:e} m; raise contact.interference by more than that, or \
-         press the body with a boundary pressure"
+        "there is a gap everywhere: the nearest of {total} contact nodes is {distance:.3e} m away. \
+         The counterface is pushed in by contact.interference = {interference:e} m. Raise \
+         contact.interference by more than the gap, or press the body with a boundary pressure"
     )]
     GapEverywhere {
         /// Contact nodes.
@@ -44,7 +44,7 @@ pub enum PrestressError {
     /// The forces on a contact are in balance by themselves.
     #[error(
         "nothing presses the two sides of {name} together: one of them is held by the contact \
-         alone; press it with a boundary pressure or an interference, or hold it by springs"
+         alone. Press it with a boundary pressure or an interference, or hold it by springs"
     )]
     Unpressed {
         /// Section and name of the contact.
@@ -53,8 +53,8 @@ pub enum PrestressError {
     /// The complementarity problem has no solution that could be found.
     #[error(
         "there is no state of steady sliding at friction {friction_coefficient}: every choice of \
-         pressed and open contact nodes pulls one or lets one penetrate (friction this large has no such state, or \
-         several); lower the friction coefficient"
+         pressed and open contact nodes pulls one or lets one penetrate. Friction this large has \
+         no such state, or several. Lower the friction coefficient"
     )]
     NoState {
         /// Friction coefficient.
@@ -83,8 +83,9 @@ pub enum PrestressError {
     MixedContacts,
     /// A frame that turns with one region, but not with another.
     #[error(
-        "motion.{turning}.frame = \"turning\", but \"{other}\" does not turn so: in that frame it would move; give both the same \
-         axis, speed and frame, or describe bodies of revolution with frame = \"rest\""
+        "motion.{turning}.frame = \"turning\", but \"{other}\" does not turn so: in that frame it \
+         would move. Give both the same axis, speed and frame, or describe bodies of revolution \
+         with frame = \"rest\""
     )]
     FrameOfNone {
         /// The region of the frame.
@@ -94,9 +95,10 @@ pub enum PrestressError {
     },
     /// A region that turns with the inertia of its rotation, but is no body of revolution.
     #[error(
-        "motion.{region}.rotation_terms = true, but \"{region}\" is no body of revolution about that axis: {:.0} % of the \
-         velocity on its sides stands across them, which move in the frame at rest; where everything turns with it give \
-         frame = \"turning\", else leave rotation_terms out",
+        "motion.{region}.rotation_terms = true, but \"{region}\" is no body of revolution about \
+         that axis: {:.0} % of the velocity on its sides stands across them. Such sides move in \
+         the frame at rest. Where everything turns with it give frame = \"turning\", else leave \
+         rotation_terms out",
         100.0 * share
     )]
     NotOfRevolution {
@@ -107,8 +109,9 @@ pub enum PrestressError {
     },
     /// A rotor at rest under Coulomb's law as a vector.
     #[error(
-        "contact.rotation_speed_rpm = 0: without sliding, friction holds a three-dimensional body across the sliding as by an \
-         infinite dashpot (mu p / V): there is no steady sliding to study; give a speed"
+        "contact.rotation_speed_rpm = 0: without sliding there is no steady sliding to study. \
+         Friction then holds a three-dimensional body across the sliding as an infinite dashpot \
+         (mu p / V) does. Give a speed"
     )]
     AtRest,
     /// The stiffness matrix is not positive definite.

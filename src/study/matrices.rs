@@ -30,7 +30,7 @@ pub fn matrices(case: &Case, friction: Option<f64>) -> Result<ExportedSystem, St
     if case.body.revolution().is_some() {
         return Err(StudyError::Case(refusal!(case, "material.formulation",
             "the matrices of a body of revolution in three dimensions are complex, one set for \
-             each harmonic: there is no one real problem to write";
+             each harmonic. There is no one real problem to write";
             "a body of revolution"; "take its whole mesh: cea.method = \"sparse\"")));
     }
     let mut regions = 0..case.body.region_count();

@@ -39,7 +39,8 @@ pub enum TransientError {
     /// The step is unstable.
     #[error(
         "time_step = {step:e} s is above the stability limit of {limit:.4e} s on this mesh \
-         (largest frequency {largest_frequency:.4e} rad/s, damping included): lower it, or use \"auto\""
+         (largest frequency {largest_frequency:.4e} rad/s, damping included). Lower it, or use \
+         \"auto\""
     )]
     StepAboveLimit {
         /// Given step, s.
@@ -91,8 +92,9 @@ pub enum TransientError {
     },
     /// The numbers stopped making sense.
     #[error(
-        "the run became numerically unstable at t = {time:.6e} s (step {step}): {symptom}; the fastest node \
-         is {node}, at {angle_degrees:.2} degrees and radius {radius:.4e} m, moving at {speed:.3e} m/s; {cause}"
+        "the run became numerically unstable at t = {time:.6e} s (step {step}): {symptom}. The \
+         fastest node is {node}, at {angle_degrees:.2} degrees and radius {radius:.4e} m, moving \
+         at {speed:.3e} m/s; {cause}"
     )]
     Unstable {
         /// Time, s.

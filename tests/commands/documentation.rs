@@ -176,24 +176,74 @@ fn the_readme_is_short_and_pages_keep_within_100_columns() {
     }
 }
 
-/// What modules and crates say of themselves at their heads.
-fn heads_of_modules() -> Vec<(String, String)> {
+/// The modules of the program and its crates: path and code.
+fn modules() -> Vec<(String, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut folders = vec![root.join("src"), root.join("crates")];
-    let mut heads = Vec::new();
+    let mut modules = Vec::new();
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
             if path.is_dir() {
                 folders.push(path);
             } else if path.extension().is_some_and(|end| end == "rs") {
-                let text = fs::read_to_string(&path).unwrap();
-                let head = text.lines().map_while(|line| line.strip_prefix("//!"));
-                heads.push((path.display().to_string(), head.collect::<Vec<_>>().join("\n")));
+                modules.push((path.display().to_string(), fs::read_to_string(&path).unwrap()));
             }
         }
     }
-    heads
+    modules
+}
+
+/// What modules and crates say of themselves at their heads.
+fn heads_of_modules() -> impl Iterator<Item = (String, String)> {
+    modules().into_iter().map(|(path, code)| {
+        let head = code.lines().map_while(|line| line.strip_prefix("//!"));
+        (path, head.collect::<Vec<_>>().join("\n"))
+    })
+}
+
+/// The texts between quotes in code, each in one line but for its own line breaks.
+fn literals(code: &str) -> Vec<String> {
+    let chars: Vec<char> = code.chars().collect();
+    let at = |place: usize| chars.get(place).copied().unwrap_or('\n');
+    let (mut found, mut place) = (Vec::new(), 0);
+    while place < chars.len() {
+        match (at(place), at(place + 1), at(place + 2)) {
+            ('/', '/', _) => {
+                while at(place) != '\n' {
+                    place += 1;
+                }
+            }
+            ('\'', '\\', _) => place += 2 + usize::from(at(place + 3) == '\''),
+            ('\'', _, '\'') => place += 2,
+            ('"', ..) => {
+                let is_raw = place > 0 && ['#', 'r'].contains(&at(place - 1));
+                let hashes = (0..place).rev().take_while(|&before| at(before) == '#').count();
+                let closes = |end: usize| (1..=hashes).all(|hash| at(end + hash) == '#');
+                let mut text = String::new();
+                place += 1;
+                while place < chars.len() && !(at(place) == '"' && closes(place)) {
+                    match (at(place), at(place + 1)) {
+                        ('\\', '\n') if !is_raw => {
+                            while at(place + 1).is_whitespace() && place + 1 < chars.len() {
+                                place += 1;
+                            }
+                        }
+                        ('\\', escaped) if !is_raw => {
+                            text.push(if escaped == 'n' { '\n' } else { escaped });
+                            place += 1;
+                        }
+                        (own, _) => text.push(own),
+                    }
+                    place += 1;
+                }
+                found.push(text);
+            }
+            _ => {}
+        }
+        place += 1;
+    }
+    found
 }
 
 /// A sentence ends at a full stop, a colon or a question mark before a space; what stands as code is one word.
@@ -211,6 +261,53 @@ fn sentences_of_readme_guide_and_modules_have_25_words_at_most() {
             }
         }
     }
+}
+
+/// Sentences of messages, notes, captions, and of the pages of keys and columns: one ends at a full stop or a question mark. A value put in is one word.
+#[test]
+fn sentences_of_messages_have_under_25_words() {
+    let (mut long, mut count) = (String::new(), 0);
+    let of_module = |(path, code): (String, String)| {
+        let shipped = code.split("#[cfg(test)]\nmod ").next().unwrap_or_default().to_owned();
+        (path, literals(&shipped))
+    };
+    let is_test = |path: &str| path.ends_with("tests.rs") || path.ends_with("fixtures.rs");
+    let modules = modules().into_iter().filter(|module| !is_test(&module.0)).map(of_module);
+    let pages = [
+        ("keys.md", include_str!("../../src/guide/keys.md")),
+        ("columns.md", include_str!("../../src/guide/columns.md")),
+    ];
+    let pages = pages.into_iter().map(|(name, page)| {
+        (name.to_owned(), page.split('|').map(str::to_owned).collect::<Vec<_>>())
+    });
+    for (path, texts) in modules.chain(pages) {
+        for text in texts {
+            count += 1;
+            let ends = |text: &str| text.replace(". ", ".\n").replace("? ", "?\n");
+            let mut parts = text.split('{');
+            let mut plain = parts.next().unwrap_or_default().to_owned();
+            for part in parts {
+                plain += &format!("X{}", part.split_once('}').map_or(part, |pair| pair.1));
+            }
+            for sentence in ends(&plain).lines() {
+                let words = sentence.split_whitespace();
+                let words = words.filter(|word| word.contains(char::is_alphanumeric)).count();
+                if words >= 25 {
+                    long += &format!("{path}: {words} words: {sentence}\n");
+                }
+            }
+        }
+    }
+    assert!(count > 5_000, "{count} texts");
+    assert!(long.is_empty(), "{long}");
+}
+
+#[test]
+fn texts_between_quotes_are_found() {
+    let code = r###"f('"', "a \
+        b", '\'', x: &'a str); // "none"
+        g(r#"raw "own" text"#, "\"said\"\n", "");"###;
+    assert_eq!(literals(code), ["a b", "raw \"own\" text", "\"said\"\n", ""]);
 }
 
 /// Pages that the README and the instructions link to are there.

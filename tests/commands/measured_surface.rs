@@ -82,7 +82,7 @@ fn measured_surfaces_that_cannot_be_meant_are_refused_with_the_remedy() {
     write(millimetres);
     refused(
         &[GAP],
-        &["no measured point of wear.csv", "are metres in the coordinates of the mesh"],
+        &["no measured point of wear.csv", "in metres, in the coordinates of the mesh"],
     );
     write(table("x,y,z,gap", |_, _| 1e-6));
     let closed = [

@@ -65,7 +65,7 @@ pub enum SignalError {
     /// Resonances exist, but none can be resolved.
     #[error(
         "the frequency resolution of {resolution_hz} Hz is too coarse: the half-power band of the \
-         resonance at {frequency_hz} Hz holds fewer than {needed} lines; measure longer, or zoom"
+         resonance at {frequency_hz} Hz holds fewer than {needed} lines. Measure longer, or zoom"
     )]
     Unresolved {
         /// Spacing of the frequency lines, Hz.
@@ -77,8 +77,8 @@ pub enum SignalError {
     },
     /// Too few damping factors for the two Rayleigh coefficients.
     #[error(
-        "{count} usable damping factor(s): two unknowns (alpha_R, beta_R) with an uncertainty need \
-         at least 2 modes of known uncertainty, or 3 without; widen the frequency range"
+        "{count} usable damping factor(s): alpha_R and beta_R with an uncertainty need at least 2 \
+         modes of known uncertainty, or 3 without. Widen the frequency range"
     )]
     TooFewModes {
         /// Number of modes.

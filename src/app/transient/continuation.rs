@@ -46,8 +46,8 @@ fn refuse_other_case(session: &Session, path: &Path) -> Result<(), Failure> {
     let here = session.case.raw.without(&FREE);
     if let Some(difference) = here.difference(&theirs.without(&FREE)) {
         return Err(Failure::usage(format!(
-            "{} holds the results of another case: {difference} there; go on with the case that it holds, or start \
-             a run of its own with --out",
+            "{} holds the results of another case: {difference} there. Go on with the case that it \
+             holds, or start a run of its own with --out",
             path.display()
         )));
     }

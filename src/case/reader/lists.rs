@@ -26,9 +26,14 @@ impl<'a> Section<'a> {
         found
     }
 
-    /// A list of whole numbers without repetition, each with its place.
+    /// A list of whole numbers without repetition, each with its place, or the default.
     pub fn counts(&self, key: &str) -> Option<Vec<(usize, Location)>> {
-        let (item, least) = (self.item(key)?, self.least(key));
+        let least = self.least(key);
+        let Some(item) = self.item(key) else {
+            let items = self.default_items(key)?.into_iter();
+            let count = |item| Some((self.read_count(key, &item, least)?, self.place(key)));
+            return Some(items.filter_map(count).collect());
+        };
         let mut values: Vec<(usize, Location)> = Vec::new();
         let mut seen = std::collections::BTreeSet::new();
         for item in item.listed() {
@@ -77,17 +82,13 @@ impl<'a> Section<'a> {
 
     /// A list of numbers: one by one, a single number, a range, or the default.
     pub fn numbers(&self, key: &str) -> Option<Vec<f64>> {
-        let declared = self.declared(key);
-        let bound = match declared.kind {
+        let bound = match self.declared(key).kind {
             Kind::Numbers(bound) => bound,
             _ => Bound::Finite,
         };
         let Some(item) = self.item(key) else {
-            let RawValue::Array(items) = declared.default_value()? else {
-                return None;
-            };
-            let values = items.iter();
-            return Some(values.filter_map(|item| self.read_number(key, item, bound)).collect());
+            let items = self.default_items(key)?.into_iter();
+            return Some(items.filter_map(|item| self.read_number(key, &item, bound)).collect());
         };
         if let RawValue::Table(table) = &item.value {
             return Some(self.range(key, table, item, bound));
@@ -99,6 +100,34 @@ impl<'a> Section<'a> {
         }
         let values = item.listed().iter();
         Some(values.filter_map(|item| self.read_number(key, item, bound)).collect())
+    }
+
+    /// The list that stands for a key that is left out.
+    fn default_items(&self, key: &str) -> Option<Vec<RawItem>> {
+        match self.declared(key).default_value()? {
+            RawValue::Array(items) => Some(items),
+            _ => None,
+        }
+    }
+
+    /// So many numbers: as given, else the default, with 0 where that is shorter.
+    pub fn vector<const N: usize>(&self, key: &str) -> [f64; N] {
+        let mut values = self.numbers(key).unwrap_or_default();
+        if self.has(key) && values.len() != N {
+            self.no_vector::<N>(key, &format!("needs {} numbers", ["two", "three"][N - 2]));
+            values.clear();
+        }
+        // A direction is harmless where there is nothing to read.
+        std::array::from_fn(|place| match values.as_slice() {
+            [] => f64::from(u8::from(place == 0)),
+            values => values.get(place).copied().unwrap_or(0.0),
+        })
+    }
+
+    /// Says what so many numbers look like.
+    pub fn no_vector<const N: usize>(&self, key: &str, what: &str) {
+        let (names, example) = (["x", "y", "z"][..N].join(", "), &[1.0, 0.0, 0.0][..N]);
+        refuse!(self, key => "{what}"; "must be [{names}]"; "for example `{key} = {example:?}`");
     }
 
     /// A list of lists of numbers; `None` where the key is left out or a word.

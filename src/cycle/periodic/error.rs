@@ -7,8 +7,9 @@ use crate::transient::TransientError;
 pub enum PeriodicError {
     /// The vibration dies.
     #[error(
-        "the vibration dies out: what is left after {periods} periods is steady sliding (the mode grows too slowly, or has no \
-         limit cycle of its own; a transient with a seed of this mode tells)"
+        "the vibration dies out: what is left after {periods} periods is steady sliding. The mode \
+         grows too slowly, or has no limit cycle of its own: a transient with a seed of this mode \
+         tells"
     )]
     Died {
         /// Periods spent.
@@ -16,15 +17,15 @@ pub enum PeriodicError {
     },
     /// No node touches any more.
     #[error(
-        "the body leaves its counterface: no contact node touches it over a whole period; press it (contact.interference, a \
-         boundary with a pressure) or lower the friction coefficient"
+        "the body leaves its counterface: no contact node touches it over a whole period. Press it \
+         (contact.interference, a boundary with a pressure) or lower the friction coefficient"
     )]
     Separated,
     /// The motion does not come back.
     #[error(
-        "the motion does not repeat itself: after {periods} periods it still misses its start by {residual:.1e} of its \
-         amplitude, at {frequency_hz:.2} Hz; it may be a motion of two frequencies or none that is periodic: let a transient \
-         tell, or come from a friction coefficient nearer to the onset"
+        "the motion does not repeat itself: after {periods} periods it still misses its start by \
+         {residual:.1e} of its amplitude, at {frequency_hz:.2} Hz. It may have two frequencies or \
+         no period. Let a transient tell, or come from a friction coefficient nearer to the onset"
     )]
     NotConverged {
         /// Periods spent.
@@ -36,9 +37,10 @@ pub enum PeriodicError {
     },
     /// The motion has two frequencies.
     #[error(
-        "the motion does not repeat itself: a transient from this mode vibrates at two frequencies, {:.2} and {:.2} Hz, without \
-         a common period; `transient` follows it (end_state two-frequency), and cycle.continuation from another operating point tells \
-         where a cycle gives way to it",
+        "the motion does not repeat itself: a transient from this mode vibrates at two \
+         frequencies, {:.2} and {:.2} Hz, without a common period. `transient` follows it \
+         (end_state two-frequency). From another operating point cycle.continuation tells where a \
+         cycle gives way to it",
         frequencies_hz[0], frequencies_hz[1]
     )]
     TwoFrequencies {
@@ -55,8 +57,8 @@ pub enum PeriodicError {
     },
     /// The branch that was followed does not reach the operating point.
     #[error(
-        "steady sliding is stable at {key} = {value} and has no limit cycle beside it: those of this mode live from {:.4} to {:.4} \
-         within the range of cycle.continuation",
+        "steady sliding is stable at {key} = {value} and has no limit cycle beside it. Those of \
+         this mode live from {:.4} to {:.4} within the range of cycle.continuation",
         range[0], range[1]
     )]
     NotHere {

@@ -144,8 +144,9 @@ impl BasinSummary {
                      node stick"
                 ),
                 (None, Some(low), Some(high)) if low > high => format!(
-                    "steady sliding comes back from a kick along {name} of {low:.3} and not from one of {high:.3} of the one that makes a \
-                     contact node stick: no single boundary lies between (narrow basin.seed_ratio_from and basin.seed_ratio_to)"
+                    "steady sliding comes back from a kick along {name} of {low:.3} but not of \
+                     {high:.3} of the one that makes a contact node stick. No single boundary lies \
+                     between: narrow basin.seed_ratio_from and basin.seed_ratio_to"
                 ),
                 (None, Some(low), Some(high)) => format!(
                     "a kick along {name} tips steady sliding into a limit cycle from {low:.3} to {high:.3} of the one that makes a \

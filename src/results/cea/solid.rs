@@ -145,8 +145,9 @@ impl SolidReport {
         let state = Picture::new(&self.sector).panel(&shape, axis).height(190.0);
         Figure::new(
             "prestress",
-            "Steady sliding: the body from above and its section through the axis, deformed and coloured by displacement (a), contact \
-             pressure (b) and friction traction (c) along the contact.",
+            "Steady sliding: the body from above and its section through the axis, deformed and \
+             coloured by displacement (a). Contact pressure (b) and friction traction (c) along \
+             the contact.",
         )
         .weighted(&[1.0, 1.15])
         .panel(state.beside(2).colour_bar(Side::Right))

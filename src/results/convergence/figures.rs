@@ -9,8 +9,8 @@ pub(super) fn convergence(series: &[Series]) -> Figure {
     let panels = series.iter().flat_map(|series| [changes(series), orders(series)]);
     Figure::new(
         "convergence",
-        "Relative change of every quantity from each level to the next (left), and observed orders of convergence from the three \
-         finest levels (right), for each study.",
+        "Relative change of every quantity from each level to the next (left). Observed orders of \
+         convergence from the three finest levels (right), for each study.",
     )
     .columns(2)
     .panels(panels.collect::<Vec<_>>())

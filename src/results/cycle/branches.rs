@@ -326,8 +326,8 @@ fn frequencies(curves: &[Curve<'_>], two_waves: &[TwoWaveRecord]) -> Result<Figu
         })
         .collect();
     let caption = format!(
-        "Main frequency (a), amplitude (b) and power of the counterface (c) of the limit cycles along their branches; dotted: where \
-         linear theory has them begin; diamonds: folds.{both}"
+        "Main frequency (a), amplitude (b) and power of the counterface (c) of the limit cycles \
+         along their branches. Dotted: where linear theory has them begin. Diamonds: folds.{both}"
     );
     let figure =
         Figure::new("branch-frequencies", caption).shared_x().panels(panels.collect::<Vec<_>>());

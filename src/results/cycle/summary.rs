@@ -227,12 +227,12 @@ pub struct CycleMotion {
     pub power_w: MeanPowers,
     /// Residual of the energy balance, relative to the external power.
     pub balance_residual: f64,
-    /// Amplitude along the counterface, m: of the wave's own harmonic of the contact edge, of other bodies half the range of
-    /// the contact node that moves most.
+    /// Amplitude along the counterface, m: of the wave's own harmonic. On other bodies half the range of the contact node
+    /// that moves most.
     pub amplitude_m: Option<f64>,
     /// Level of the velocity, root mean square over time and mass, over 5e-8 m/s, dB.
     pub velocity_level_db: Option<f64>,
-    /// Amplitudes along the counterface, m: of a wave of the harmonics 0 to 8 around the contact edge, of other bodies of the
+    /// Amplitudes along the counterface, m: of a wave the harmonics 0 to 8 around the contact edge. On other bodies the
     /// harmonics 1, 2, ... in time, root mean square over the contact nodes.
     pub harmonics: Vec<f64>,
     /// What else there is to a motion that was stepped in time.

@@ -59,8 +59,8 @@ impl CycleReport<'_> {
             None => format!("raise contact.friction_coefficient above {critical:.4}"),
         };
         format!(
-            "{friction} < {critical:.4}: steady sliding is stable, so no limit cycle is sought; the first wave to grow has {} nodal \
-             diameters and {:.2} Hz ({advice})",
+            "{friction} < {critical:.4}: steady sliding is stable, so no limit cycle is sought. \
+             The first wave to grow has {} nodal diameters and {:.2} Hz ({advice})",
             onset.harmonic,
             onset.frequency / TAU,
         )
@@ -91,8 +91,8 @@ impl CycleReport<'_> {
             |critical| format!("it loses its stability at {critical}"),
         );
         format!(
-            "steady sliding is stable at friction {} as far as {} modes up to {:.0} Hz tell, so no limit cycle \
-             is sought: none of them grows{slowest} ({advice})",
+            "steady sliding is stable at friction {} as far as {} modes up to {:.0} Hz tell, so no \
+             limit cycle is sought. None of them grows{slowest} ({advice})",
             self.friction_coefficient, search.modes, search.highest_hz,
         )
     }
@@ -138,8 +138,8 @@ impl SoughtCycle {
         let cycle = self.cycle.as_ref()?;
         let own = cycle.stepped.as_ref()?;
         Some(format!(
-            "{}: repeats itself to {:.1e} after {} periods of {} steps, energy balance {:.1e}; {} harmonics leave {:.1e} of the motion \
-             of the contact, whose amplitude is {:.3e} m",
+            "{}: repeats itself to {:.1e} after {} periods of {} steps, energy balance {:.1e}. {} \
+             harmonics leave {:.1e} of the motion of the contact, whose amplitude is {:.3e} m",
             self.name,
             own.residual,
             own.periods,
@@ -168,8 +168,9 @@ impl SoughtCycle {
     fn sound_sentence(&self) -> Option<String> {
         let sound = self.cycle.as_ref()?.stepped.as_ref()?.sound.as_ref()?;
         Some(format!(
-            "{}: sound power {:.1} dB over 1e-12 W, an estimate: Rayleigh integral over {:.4} m2 of flat faces, each in an infinite \
-             rigid baffle, harmonics up to 20 kHz",
+            "{}: sound power {:.1} dB over 1e-12 W, an estimate by the Rayleigh integral over \
+             {:.4} m2 of flat faces. Each is in an infinite rigid baffle, and harmonics count up \
+             to 20 kHz",
             self.name, sound.level_db, sound.area_m2,
         ))
     }
@@ -246,8 +247,8 @@ impl SoughtCycle {
         let kick = self.cycle.as_ref().and_then(|cycle| cycle.stepped.as_ref()?.kick_velocity);
         let kick = kick.map(|velocity| {
             format!(
-                "; at the case's own {key} a kick of more than {velocity:.3e} m/s tips sliding into it: 2 pi f times the amplitude of \
-                 the unstable cycle between both"
+                ". At the case's own {key} a kick of more than {velocity:.3e} m/s tips sliding \
+                 into it. That is 2 pi f times the amplitude of the unstable cycle between both"
             )
         });
         Some(format!(

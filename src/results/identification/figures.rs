@@ -148,8 +148,8 @@ pub fn identification(record: &IdentificationRecord) -> Figure {
     .layer(Points::new(factors(1.0)).marker(Marker::Disc, 1.8, INK).name("fitted factor"));
     Figure::new(
         "identification",
-        "Measured and fitted response with half-power points (a), damping factors of the fitted modes with 95 % intervals and the \
-         curve of the identified coefficients (b).",
+        "Measured and fitted response with half-power points (a). Damping factors of the fitted \
+         modes with 95 % intervals, and the curve of the identified coefficients (b).",
     )
     .columns(2)
     .panel(response)

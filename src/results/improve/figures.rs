@@ -90,8 +90,8 @@ fn target_figure(
         }
     });
     let caption = format!(
-        "Change of the growth rate of mode {} ({:.1} Hz) at friction {} by a modification at each place, to first order: blue damps the \
-         mode, red feeds it; circles are the candidates.",
+        "Change of the growth rate of mode {} ({:.1} Hz) at friction {} by a modification at each \
+         place, to first order. Blue damps the mode, red feeds it; circles are the candidates.",
         own.mode, own.frequency_hz, summary.friction_coefficient
     );
     let name = format!("improve-mode-{}", own.mode);

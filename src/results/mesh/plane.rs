@@ -30,8 +30,8 @@ pub struct MeshStatistics {
     /// Counts.
     #[serde(flatten)]
     pub size: MeshSize,
-    /// Layers of bricks over the thickness of a body in three dimensions; edges, quality and areas are then of its plane
-    /// section across the axis.
+    /// Layers of bricks over the thickness of a body in three dimensions. Edges, quality and areas are of its plane section
+    /// then.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub axial_elements: Option<usize>,
     /// On the annulus, nodes of one ray of corner nodes: node `1 + j (nodes_per_sector) + i`.

@@ -20,8 +20,8 @@ pub enum FolderError {
     },
     /// It holds files of unknown origin.
     #[error(
-        "{} holds files that this program did not write (for example {found}): \
-         choose another folder with --out, or write there all the same with --force",
+        "{} holds files that this program did not write (for example {found}). Choose another \
+         folder with --out, or write there all the same with --force",
         path.display()
     )]
     Foreign {
@@ -82,7 +82,8 @@ pub enum FolderError {
     /// No space left.
     #[error(
         "no room left: {} was not written, because the disk is full or a quota or file size limit \
-         is reached (files finished before are whole): make room, or choose another folder with --out",
+         is reached. Files finished before are whole. Make room, or choose another folder with \
+         --out",
         path.display()
     )]
     DiskFull {

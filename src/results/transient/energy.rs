@@ -122,18 +122,27 @@ pub(super) fn energy(run: &RunFigures<'_>) -> Figure {
     );
     Figure::new(
         "energy",
-        "Energy flows: acceleration, contact status, external power and its parts, power balance of the body, external power as \
-         the sum of what is dissipated, stored energy, residual of the balance.",
+        "Energy flows: acceleration, contact status, external power and its parts, and the power \
+         balance of the body. External power is the sum of what is dissipated, stored energy and \
+         the residual of the balance.",
     )
     .shared_x()
     .panels(acceleration)
     .panel(status(rows, &times))
-    .panel(powers((&times, run.extent), "external power and its parts", 88.0, &[&contact, &slide, &stick, &external]))
+    .panel(powers(
+        (&times, run.extent),
+        "external power and its parts",
+        88.0,
+        &[&contact, &slide, &stick, &external],
+    ))
     .panel(balance)
     .panel(sum)
     .panel(stored)
     .panel(residual(rows, &times))
-    .note(format!("powers and energies: lines are means over {} ms, bands the range of the samples", significant(window as f64 * step * 1e3, 2)))
+    .note(format!(
+        "powers and energies: lines are means over {} ms, bands the range of the samples",
+        significant(window as f64 * step * 1e3, 2)
+    ))
 }
 
 /// Fractions of contact nodes as stacked areas, stick below, then slip, then open.

@@ -73,8 +73,8 @@ impl RunFigures<'_> {
             spectrogram_panels(&axis, &map, start, top, &self.references)
         });
         let caption = format!(
-            "Course of the run at node {node}: acceleration, spectrograms with the frequencies of the eigenvalue \
-             analysis, contact status; at the right the end of the run."
+            "Course of the run at node {node}: acceleration, spectrograms with the frequencies of \
+             the eigenvalue analysis, contact status. At the right the end of the run."
         );
         let mut figure = Figure::new(format!("overview-{node}"), caption)
             .weighted(&[3.0, 1.0])

@@ -153,16 +153,17 @@ fn course(summary: &TransientSummary) -> String {
 fn warnings(summary: &TransientSummary) -> Vec<String> {
     let steep = summary.ambiguous_friction.map(|share| {
         format!(
-            "In {} % of the contact-node steps the friction law is too steep for the time step, and nodes jump between stick and \
-             slip: reduce transient.time_step or raise contact.decay_speed.",
+            "In {} % of the contact-node steps the friction law is too steep for the time step, \
+             and nodes jump between stick and slip. Reduce transient.time_step or raise \
+             contact.decay_speed.",
             fixed(100.0 * share, 3)
         )
     });
     let open = summary.unconverged_steps.map(|steps| {
         format!(
-            "Forces between the bodies had not converged in {steps} of {} steps: there they are approximate, though the energy \
-             closes; many contact nodes meet one node of the other body: exchange the two sides of the contact, or refine the \
-             other body.",
+            "Forces between the bodies had not converged in {steps} of {} steps: there they are \
+             approximate, though the energy closes. Many contact nodes meet one node of the other \
+             body. Exchange the two sides of the contact, or refine the other body.",
             summary.steps
         )
     });

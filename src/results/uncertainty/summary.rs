@@ -24,8 +24,8 @@ pub struct UncertaintySummary {
     pub friction_coefficient: Option<f64>,
     /// Friction coefficients up to which onsets are sought.
     pub largest_friction: f64,
-    /// Probability that some mode is unstable at the friction coefficient of the case (or at its own, where that is
-    /// uncertain), with Wilson's 95 % interval.
+    /// Probability that some mode is unstable, with Wilson's 95 % interval: at the case's friction coefficient, or at a
+    /// sample's own.
     pub probability_unstable: Interval,
     /// Distribution of the lowest critical friction.
     pub critical_friction: CriticalFriction,

@@ -78,8 +78,8 @@ impl Solver {
 pub fn no_cyclic_losses(case: &Case, what: &str) -> CaseErrors {
     case.loss_error(
         format!(
-            "{what} of a body of sectors takes the waves +n and -n from one real problem, whose roots come in conjugate pairs: \
-             with structural damping K (1 + i eta) they do not"
+            "{what} of a body of sectors takes the waves +n and -n from one real problem, whose \
+             roots come in conjugate pairs. With structural damping K (1 + i eta) they do not"
         ),
         "not harmonic by harmonic",
         "use method = \"sparse\" or \"auto\" (frf: \"direct\") on a plane body, a mesh file, or [damping]",

@@ -54,8 +54,9 @@ pub(super) fn table_notes(case: &Case) -> Vec<String> {
     let notes = tables.map(|table| {
         let [low, high] = table.range_hz();
         format!(
-            "{} = \"{}\": each mode is solved at its own frequency (Im / 2 pi), {low} to {high} Hz; the base state, and what \
-             damping.stiffness_coefficient multiplies, have the modulus of the lowest one, {:e} Pa",
+            "{} = \"{}\": each mode is solved at its own frequency (Im / 2 pi), {low} to {high} \
+             Hz. The base state, and what damping.stiffness_coefficient multiplies, have the \
+             modulus of the lowest one, {:e} Pa",
             table.key(),
             table.file(),
             table.static_modulus()
@@ -101,8 +102,9 @@ pub(super) fn uncertainty_note(case: &Case, sweep: &FrictionSweep) -> Option<Str
         )
     });
     Some(format!(
-        "rounding of the matrices alone leaves eigenvalues uncertain by up to {worst:.0e} (relative): {penalty}\
-         material.poisson_ratio is {}, contact.friction_coefficient {}, and where branches meet no digit is safe",
+        "rounding of the matrices alone leaves eigenvalues uncertain by up to {worst:.0e} \
+         (relative): {penalty}material.poisson_ratio is {}, contact.friction_coefficient {}. Where \
+         branches meet no digit is safe",
         case.material.poisson_ratio, case.contact.sliding.friction_coefficient,
     ))
 }
@@ -111,8 +113,8 @@ pub(super) fn uncertainty_note(case: &Case, sweep: &FrictionSweep) -> Option<Str
 pub(super) fn damping_note(case: &Case, sweep: &FrictionSweep) -> Option<String> {
     let modes = || sweep.points.iter().flat_map(|point| &point.modes);
     if modes().next().is_none() {
-        let all = "no mode oscillates: every motion is damped beyond the critical; is a damping \
-                   coefficient, a loss factor or a dashpot too large, or the sliding too slow?";
+        let all = "no mode oscillates: every motion is damped beyond the critical. Is a damping \
+            coefficient, a loss factor or a dashpot too large, or the sliding too slow?";
         return sweep.unconverged.is_empty().then(|| all.to_owned());
     }
     let largest = modes().map(|mode| mode.damping_factor()).fold(0.0, f64::max);
@@ -171,16 +173,17 @@ pub(super) fn ended_notes(sweep: &FrictionSweep) -> Vec<String> {
             "modes near critical damping are",
         );
         format!(
-            "{which} not followed beyond it ({}): friction across the sliding is a dashpot of mu p / V, which grows as the sliding \
-             slows down, and holds that motion in the limit",
+            "{which} not followed beyond it ({}). Friction across the sliding is a dashpot of mu p \
+             / V there. It grows as the sliding slows down, and holds that motion in the limit",
             listed(damped),
         )
     });
     let lost = (!lost.is_empty()).then(|| {
         format!(
-            "{} too fast to be followed ({}): branches beyond have new numbers, and of those that are unstable there the critical \
-             friction lies in between; ask for friction coefficients closer together there, or for a faster sliding; \
-             cea.count_modes says whether a mode is missing",
+            "{} too fast to be followed ({}): branches beyond have new numbers. If one is unstable \
+             there, its critical friction lies in between. Ask for friction coefficients closer \
+             together there, or for a faster sliding. cea.count_modes says whether a mode is \
+             missing",
             number(lost.len(), "branch changes", "branches change"),
             listed(lost),
         )
@@ -222,9 +225,11 @@ pub(super) fn overdamped_note(
     let [slowest, fastest] = most.decay;
     let friction = most.friction_coefficient;
     Some(format!(
-        "at friction {friction} {} motions (each wave of a pair counted) decay without oscillating, at {slowest:.3e} to \
-         {fastest:.3e} 1/s, and are not listed: the dashpot of friction across the sliding, mu p / V = {:.3e} Pa s/m at the mean \
-         pressure and radius, overdamps them; it grows as contact.rotation_speed_rpm = {} falls, and holds that motion in the limit",
+        "at friction {friction} {} motions (each wave of a pair counted) decay without \
+         oscillating, at {slowest:.3e} to {fastest:.3e} 1/s, and are not listed. Friction across \
+         the sliding overdamps them: it is a dashpot of mu p / V = {:.3e} Pa s/m at the mean \
+         pressure and radius. It grows as contact.rotation_speed_rpm = {} falls, and holds that \
+         motion in the limit",
         most.count,
         solid.dashpot_across(friction),
         case.number("contact.rotation_speed_rpm")
@@ -247,9 +252,10 @@ pub(super) fn friction_note(case: &Case, model: &SlidingModel) -> Option<String>
         }
     };
     Some(format!(
-        "friction falls with speed: friction coefficients are those of high speed; in steady sliding friction is {:.4} \
-         times as large, and at contact.friction_coefficient = {friction} its fall is a dashpot of {:.3e} Pa s/m on the \
-         tangential motion of the edge (mean pressure {pressure:.3e} Pa)",
+        "friction falls with speed: friction coefficients are those of high speed. In steady \
+         sliding friction is {:.4} times as large. At contact.friction_coefficient = {friction} \
+         its fall is a dashpot of {:.3e} Pa s/m on the tangential motion of the edge (mean \
+         pressure {pressure:.3e} Pa)",
         law.drag.abs(),
         friction * pressure * law.slope,
     ))

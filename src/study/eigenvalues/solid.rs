@@ -97,8 +97,9 @@ impl SolidBody {
         match pressed.as_slice() {
             _ if open == 0 => None,
             [only] => Some(format!(
-                "the contact has shrunk to the ring of nodes at {word} {:.6} m, a line: its pressure is spread over the width of \
-                 the mesh, {:.2e} m2 in all, and contact.normal_stiffness acts on that alone; with contact.base_state = \
+                "the contact has shrunk to the ring of nodes at {word} {:.6} m, a line. Its \
+                 pressure is spread over the width of the mesh, {:.2e} m2 in all, and \
+                 contact.normal_stiffness acts on that alone. With contact.base_state = \
                  \"compliant\" the stiffness of the interface gives the contact a width of its own",
                 place(only),
                 only.area * sector.sector_count() as f64,

@@ -302,16 +302,16 @@ fn contact_notes<S>(range: &PressedRange<S>, parts: &[Part]) -> Vec<String> {
     let unknown = (!undecided.is_empty()).then(|| {
         format!(
             "a mode changes its stability between friction {}, where contact points open or close \
-             and the states between could not be solved: its critical friction is only known \
-             to lie there",
+             and the states between could not be solved. Its critical friction is only known to \
+             lie there",
             undecided.join(", between ")
         )
     });
     let coarse = (range.left_out > COARSE).then(|| {
         format!(
             "contact forces between the friction values are known to a share of {:.0e} of the \
-             largest only, as they grow steeply with friction: eigenvalues may be wrong by about as \
-             much; ask for values closer together, or for one alone",
+             largest only, as they grow steeply with friction. Eigenvalues may be wrong by about \
+             as much. Ask for values closer together, or for one alone",
             range.left_out
         )
     });

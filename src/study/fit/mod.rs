@@ -148,8 +148,8 @@ impl FitProblem<'_> {
 pub enum FitError {
     /// More parameters than data.
     #[error(
-        "{parameters} parameters cannot be fitted to {data} measured numbers: fit fewer, or measure more (a real part or a \
-         damping factor counts as much as a frequency)"
+        "{parameters} parameters cannot be fitted to {data} measured numbers. Fit fewer, or \
+         measure more (a real part or a damping factor counts as much as a frequency)"
     )]
     TooFewData {
         /// Parameters.
@@ -205,8 +205,8 @@ pub enum FitError {
     },
     /// A line that the best fit leaves alone.
     #[error(
-        "line {line} of the table ({frequency_hz} Hz{wanted}) is matched by no mode within the bounds: {nearest}; widen \
-         the bounds of fit.parameters, or take the line out"
+        "line {line} of the table ({frequency_hz} Hz{wanted}) is matched by no mode within the \
+         bounds: {nearest}. Widen the bounds of fit.parameters, or take the line out"
     )]
     Unmatched {
         /// Its line.

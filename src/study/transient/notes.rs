@@ -44,9 +44,9 @@ impl TransientStudy<'_> {
             };
             let [low, high] = chain.band_hz;
             format!(
-                "{name}: a Maxwell chain of {} elements stands for its modulus and loss factor from {low:.4} to {high:.4} Hz, \
-                 within {:.2} % of the complex modulus there; at rest it has {:.4} times the modulus that the case gives, at once \
-                 {:.4} times",
+                "{name}: a Maxwell chain of {} elements has its modulus and loss factor from \
+                 {low:.4} to {high:.4} Hz, within {:.2} % of the complex modulus. At rest it has \
+                 {:.4} times the modulus that the case gives, at once {:.4} times",
                 chain.elements.len(),
                 100.0 * chain.largest_error,
                 chain.at_rest,
@@ -111,8 +111,8 @@ impl TransientStudy<'_> {
             return None;
         }
         Some(format!(
-            "the motion leaves the theory of small displacements: the contact moves by up to {:.3} mm, {:.1} % of the \
-             size of the body, with a mean strain of up to {:.2} %",
+            "the motion leaves the theory of small displacements: the contact moves by up to {:.3} \
+             mm, {:.1} % of the size of the body. The mean strain reaches {:.2} %",
             1e3 * displacement,
             100.0 * displacement / size,
             100.0 * strain,
@@ -147,8 +147,8 @@ fn coarse_step(record: &Recorder, analysis: &TransientAnalysis, time_step: f64) 
     let error = (high - low) * frequency * time_step;
     (error > STEP_ERROR).then(|| {
         format!(
-            "the contact nodes stick and slip together, and the time step makes the period shorter by up to {:.2} %: a \
-             smaller transient.time_step is more accurate",
+            "the contact nodes stick and slip together, and the time step makes the period shorter \
+             by up to {:.2} %. A smaller transient.time_step is more accurate",
             100.0 * error
         )
     })

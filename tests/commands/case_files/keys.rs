@@ -46,7 +46,7 @@ fn the_guide_documents_every_key_as_it_is_declared() {
 #[test]
 fn a_default_written_out_changes_nothing() {
     let plain = valid(&whole(), &[]);
-    for key in KEYS {
+    for key in KEYS.iter() {
         let Default::Value(value) = key.default else {
             continue;
         };
@@ -77,7 +77,7 @@ fn a_default_written_out_changes_nothing() {
 #[test]
 fn every_key_stands_in_the_schema_once_with_its_meaning() {
     let schema = reference::schema();
-    for key in KEYS {
+    for key in KEYS.iter() {
         let path = format!("/{}", key.name.replace('.', "/"));
         let pointer = path
             .split('/')
@@ -110,7 +110,7 @@ fn a_template_with_every_key_holds_no_key_that_is_unknown() {
             assert!(!message.contains(" must be "), "{message}");
         }
     }
-    for key in KEYS {
+    for key in KEYS.iter() {
         assert!(all.contains(&format!("{} = ", key.short())), "{}", key.name);
     }
 }

@@ -68,7 +68,7 @@ fn the_disc_case_holds_the_model_of_the_paper() {
 
 #[test]
 fn every_key_is_known_where_the_table_of_keys_puts_it() {
-    for key in KEYS {
+    for key in KEYS.iter() {
         let text = format!("{}={}", key.name, key.example);
         let Err(errors) = parse("", &[&text]) else {
             panic!("an empty case is valid");

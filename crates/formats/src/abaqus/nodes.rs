@@ -109,8 +109,9 @@ impl Reader<'_, '_> {
                     && ["C3D", "CPE", "CPS"].iter().any(|solid| name.starts_with(solid))
                 {
                     let message = format!(
-                        "elements of type {name} are not supported: {} (C3D4, C3D10, C3D8, C3D20, C3D6, C3D15, C3D5, \
-                         C3D13), and of plane bodies CPE and CPS with 3, 4, 6 or 8 nodes are",
+                        "elements of type {name} are not supported. Known are {} (C3D4, C3D10, \
+                         C3D8, C3D20, C3D6, C3D15, C3D5, C3D13), and CPE and CPS with 3, 4, 6 or 8 \
+                         nodes",
                         ElementKind::SOLID_SHAPES
                     );
                     return Err(self.deck.error(block.place, message));

@@ -294,8 +294,9 @@ fn shape_of(
              Mesh.SecondOrderIncomplete = 1 for eight"
         ))),
         Some((3, _, None)) => Err(cursor.error(format!(
-            "element {label} has nodes inside its faces (type {number}), which is not supported: set \
-             Mesh.SecondOrderIncomplete = 1 for bricks of 20, wedges of 15 and pyramids of 13 nodes"
+            "element {label} has nodes inside its faces (type {number}), which is not supported. \
+             Set Mesh.SecondOrderIncomplete = 1 for bricks of 20, wedges of 15 and pyramids of 13 \
+             nodes"
         ))),
         Some(known) => Ok(known),
         None => Err(cursor.error(format!(

@@ -46,8 +46,8 @@ impl ReadError {
 }
 
 /// Formats that are read, for messages.
-pub(super) const FORMATS: &str = "text tables (csv, tsv, txt; ANSYS POST26 listings), universal files \
-     (UFF/UNV, dataset 58 and 58b), WAV, and MATLAB files up to version 7 (save with -v7)";
+pub(super) const FORMATS: &str = "text tables (csv, tsv, txt; ANSYS POST26 listings), universal \
+    files (UFF/UNV, dataset 58 and 58b), WAV, MATLAB files up to version 7 (-v7)";
 
 /// What is wrong with a table.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -100,7 +100,7 @@ pub enum ReadProblem {
     /// Commas may separate columns or decimals.
     #[error(
         "{found} fields separated by commas where the header names {expected}: the comma seems to \
-         be both separator and decimal sign; export with decimal points or separate by semicolons"
+         be both separator and decimal sign. Export with decimal points or separate by semicolons"
     )]
     AmbiguousComma {
         /// Fields in the row.
@@ -222,7 +222,7 @@ pub enum ReadProblem {
     },
     /// Samples are missing or not equidistant.
     #[error(
-        "time {value} s is not on the grid of {step} s that the other rows have; resample to equal \
+        "time {value} s is not on the grid of {step} s that the other rows have. Resample to equal \
          steps, or cut the record at the gap"
     )]
     TimeGap {

@@ -83,8 +83,9 @@ impl Columns {
             let problem = ReadProblem::MissingColumn {
                 wanted: "points and displacements",
                 columns: first_of(names),
-                remedy: "the first line names the columns: x, y, z in metres, and of ux, uy, uz those measured, complex \
-                         (0.1+0.2j) or as ux_re, ux_im; mode and frequency_hz where there are several shapes",
+                remedy: "the first line names the columns: x, y, z in metres, and of ux, uy, uz \
+                    those measured. Complex ones are 0.1+0.2j, or two columns ux_re, ux_im. \
+                    Several shapes have mode and frequency_hz",
             };
             return Err(ReadError::whole(source, problem));
         }
