@@ -8,6 +8,8 @@ mod bricks;
 mod disc;
 #[path = "../common/msh.rs"]
 mod msh;
+#[path = "../common/program.rs"]
+mod program;
 #[path = "../common/table_1.rs"]
 mod table_1;
 #[path = "../common/tier.rs"]
