@@ -1,9 +1,8 @@
 //! Consistency check of the source tree: a module names only lower floors, siblings do not name each other, no files
 //! name each other in a circle, and no room has more lines than its budget.
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
-use std::path::{Path, PathBuf};
+use crate::prelude::*;
+use std::collections::BTreeSet;
 
 /// Modules by floor, lowest first.
 const FLOORS: [&[&str]; 10] = [

@@ -1,6 +1,6 @@
 //! `frictionsim basin` and its map: consistency of the search.
 
-use crate::program::{Run, folder};
+use crate::prelude::*;
 
 const CASE: &str = r#"
 [geometry]

@@ -8,10 +8,10 @@ mod checks;
 pub mod grid;
 mod kinds;
 
+use crate::prelude::*;
 use kinds::{Kind, kinds};
 use std::cell::RefCell;
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// What a run gave.

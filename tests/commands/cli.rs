@@ -1,10 +1,6 @@
 //! Behaviour of the commands as a user meets it: exit codes, streams, files, messages.
 
-use crate::program::{Run, folder, has, shipped};
-use serde_json::Value;
-use std::fs;
-use std::path::PathBuf;
-use tempfile::TempDir;
+use crate::prelude::*;
 
 /// A coarse mesh, so that each run takes milliseconds.
 const COARSE: [&str; 2] = ["mesh.circumferential_elements=16", "mesh.radial_elements=3"];

@@ -1,9 +1,7 @@
 //! `frictionsim convergence`: observed orders against the theory of the elements, the table of a transient, and what
 //! it refuses.
 
-use crate::program::{Run, folder};
-use serde_json::Value;
-use std::path::Path;
+use crate::prelude::*;
 
 /// A coarse disc; every test adds its analyses.
 const DISC: &str = r#"

@@ -1,9 +1,6 @@
 //! `frictionsim cycle` as a user runs it: the shipped case, at full size in the long tier, and what it says where there is no cycle.
 
-use crate::program::{Run, folder, has, shipped};
-use crate::tier::sized;
-use serde_json::Value;
-use std::path::Path;
+use crate::prelude::*;
 use std::process::Command;
 
 /// A command on the shipped case.

@@ -1,12 +1,10 @@
 //! Commands inside another program: side by side, interrupted, panicking.
 
-use crate::program::shipped;
+use crate::prelude::*;
 use frictionsim::app::Failure;
 use frictionsim::app::embedded::{EmbeddedFailure, EmbeddedRun};
 use std::ffi::OsString;
-use std::fs;
-use std::time::{Duration, Instant};
-use tempfile::{TempDir, tempdir};
+use tempfile::tempdir;
 
 /// A command on a shipped case with a coarse mesh, without figures, into `name` of a folder.
 fn words(command: &str, case: &str, folder: &TempDir, name: &str, set: &[&str]) -> Vec<OsString> {

@@ -3,12 +3,9 @@
 //! Independent checks: the eigenvalues of Table 1 of the paper, and spectra of known parameters with noise.
 
 use crate::msh;
-use crate::program::{Answer, Run, folder, folder_with, shipped};
+use crate::prelude::*;
 use crate::table_1;
-use crate::tier::sized;
-use frictionsim::case::Case;
 use frictionsim::linalg::GaussianNoise;
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::signal::reader::MeasuredMode;
 use frictionsim::study::eigenvalues::modes_below;
 use frictionsim::study::fit::fit_case;

@@ -3,19 +3,15 @@
 //! Independent checks: the responses come from the finite-element model or from modal sums written
 //! here, never from the library's own modal model.
 
-use crate::program::{Run, folder, folder_with};
-use crate::tier::sized;
-use faer::c64;
-use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping};
+use crate::prelude::*;
+use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation};
 use frictionsim::frf::{Direction, FrfSystem, ReductionSettings, Terminal, reduced_response};
 use frictionsim::linalg::GaussianNoise;
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::signal::{
     Estimate, FrequencyResponse, Identification, IdentificationOptions, ResonanceNote,
     ResponseQuantity, SignalError, identify,
 };
 use rayon::prelude::*;
-use std::f64::consts::TAU;
 
 const ALPHA: f64 = 40.0;
 const BETA: f64 = 4.5e-7;

@@ -1,8 +1,6 @@
 //! `frictionsim improve` from end to end, and the modifications that it runs again.
 
-use crate::coarse_disc::coarse_disc;
-use crate::program::{Run, folder};
-use std::path::Path;
+use crate::prelude::*;
 
 /// The paper's disc on a coarse mesh, without the effects of prestress that a change of the mesh would move.
 const CEA: &str = "[cea]\nmodes = 10\ngeometric_stiffness = false";

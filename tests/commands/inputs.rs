@@ -1,9 +1,7 @@
 //! What is said of bad meshes, bad names and dangerous files, and that nothing of the user's is replaced.
 
-use crate::program::{Answer, Run, folder, folder_with, has};
+use crate::prelude::*;
 use std::fmt::Write as _;
-use std::fs;
-use tempfile::TempDir;
 
 /// A block of 4 x 4 mm on a plane, its mesh cut along the middle from `crack` on, clamped at the top.
 struct Block {

@@ -40,6 +40,7 @@ mod mode_counts;
 mod normal_force;
 mod normal_law;
 mod plot;
+mod prelude;
 mod reading;
 mod refusals;
 mod results;

@@ -1,10 +1,7 @@
 //! `contacts.*.gap`: a measured surface beside a case.
 
-use crate::program::{Answer, Run, folder, shipped};
+use crate::prelude::*;
 use std::fmt::Write;
-use std::fs;
-use std::path::Path;
-use tempfile::TempDir;
 
 /// The shipped brake in a folder of its own.
 fn brake(folder: &TempDir) {

@@ -1,7 +1,6 @@
 //! Mesh files of other programs on the command line.
 
-use crate::program::{Run, folder, folder_with, has, shipped};
-use std::fs;
+use crate::prelude::*;
 
 /// Closed form: a ring of 36 straight-sided sectors, and pads of 7 and 8 of them.
 #[test]

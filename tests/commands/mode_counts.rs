@@ -1,6 +1,6 @@
 //! `cea.count_modes` as a user meets it.
 
-use crate::program::{Answer, Run, folder, shipped};
+use crate::prelude::*;
 
 /// A run with counts of modes, which must end so, and what it gives.
 fn counted(case: &str, sets: &[&str], code: i32) -> (Answer, tempfile::TempDir) {

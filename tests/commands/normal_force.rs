@@ -1,10 +1,7 @@
 //! `normal_force`: force and interference are two ways to say one thing.
 
 use crate::bodies::grid::{Grid, Shape, msh};
-use crate::bricks::{Block, file_of};
-use frictionsim::case::Case;
-use std::fs;
-use std::path::Path;
+use crate::prelude::*;
 
 const MATERIAL: &str = "young_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n";
 const CONTACT: &str = "friction_coefficient = 0.3\n";

@@ -1,8 +1,7 @@
 //! `contact.normal_law` as a user meets it: cases, refusals, tables, the shipped case.
 
-use crate::program::{Answer, Run, folder, rows, shipped};
-use frictionsim::case::Case;
-use std::path::Path;
+use crate::prelude::*;
+use crate::program::rows;
 
 const DISC: &str = include_str!("refused/stiffening.toml");
 

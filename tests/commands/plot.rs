@@ -2,11 +2,7 @@
 //!
 //! Consistency checks: what the figures show is checked where they are drawn.
 
-use crate::program::{Run, folder, has, shipped};
-use std::collections::BTreeMap;
-use std::fs;
-use std::path::Path;
-use tempfile::TempDir;
+use crate::prelude::*;
 
 /// A command on a shipped case into `folder/out`, with overrides.
 fn run(folder: &TempDir, command: &str, case: &str, set: &[&str]) -> Run {

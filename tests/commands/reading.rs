@@ -1,11 +1,8 @@
 //! `contributions.csv` and `coupling.csv` of `cea`: where growth comes from, which modes couple.
 
-use crate::bricks::{Block, file_of};
-use crate::coarse_disc::coarse_disc;
-use crate::program::{Answer, Row, Run, folder, folder_with, shipped};
-use std::collections::{BTreeMap, BTreeSet};
-use std::f64::consts::TAU;
-use std::path::Path;
+use crate::prelude::*;
+use crate::program::Row;
+use std::collections::BTreeSet;
 
 /// Two pads on a slab that turns, the slab and one pad with damping of their own.
 const CASE: &str = "title = \"Two pads\"

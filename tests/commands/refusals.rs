@@ -1,8 +1,7 @@
 //! What is refused or warned of: `refusals.txt` has the changes to shipped cases and the words that are said of them.
 
-use crate::program::{Run, folder, shipped};
-use frictionsim::case::{Case, unset};
-use std::fs;
+use crate::prelude::*;
+use frictionsim::case::unset;
 
 /// The path of a shipped case, or of one that is here to be refused.
 fn place_of(name: &str) -> String {

@@ -1,21 +1,14 @@
 //! Consistency checks of result files on a made-up spectrum, and of the output folder.
 
-use faer::c64;
+use crate::prelude::*;
 use flate2::read::ZlibDecoder;
-use frictionsim::cea::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval};
+use frictionsim::cea::{ComplexMode, FrictionPoint};
 use frictionsim::contact::ContactInterface;
-use frictionsim::fem::NodalStress;
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
-use frictionsim::results::cea::{BaseField, BaseState, CeaReport, View, document, write};
+use frictionsim::mesh::{AnnulusSpecification, BoundaryCondition};
+use frictionsim::results::cea::{View, document, write};
 use frictionsim::results::mesh::MeshStatistics;
-use frictionsim::results::{
-    EncodedMesh, Extent, Field, FolderError, Manifest, OutputFolder, Replace, cartesian_vectors,
-    write_vtu,
-};
-use std::f64::consts::TAU;
-use std::fs;
+use frictionsim::results::{EncodedMesh, Field, FolderError, cartesian_vectors, write_vtu};
 use std::io::Read;
-use std::path::Path;
 
 fn annulus(element: ElementKind) -> AnnulusMesh {
     AnnulusMesh::generate(&AnnulusSpecification {

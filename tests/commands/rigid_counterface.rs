@@ -1,10 +1,7 @@
 //! Three-dimensional bodies on a rigid counterface: from a mesh file, and generated ones on their whole mesh.
 
-use crate::bricks::{Block, file_of};
-use crate::program::{Answer, Run, folder, rows, shipped};
-use std::f64::consts::TAU;
-use std::fs;
-use std::path::Path;
+use crate::prelude::*;
+use crate::program::rows;
 
 /// The built-in disc, coarse, as the harmonics solve it.
 const DISC: &str = "[geometry]

@@ -1,10 +1,7 @@
 //! Bodies that turn as a user meets them: input files of CalculiX with a centrifugal load, both frames, refusals.
 
-use crate::program::{Run, folder, folder_with};
-use std::collections::BTreeMap;
-use std::f64::consts::TAU;
+use crate::prelude::*;
 use std::fmt::Write as _;
-use std::path::Path;
 
 /// A grid of cells between radii and heights, revolved into bricks of 20 nodes with reduced integration.
 struct Revolved {

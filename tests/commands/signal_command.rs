@@ -1,7 +1,6 @@
 //! `frictionsim signal` on a synthetic squeal, beside the modes of a case.
 
-use crate::program::{Run, folder_with};
-use std::f64::consts::TAU;
+use crate::prelude::*;
 
 const CASE: &str = r#"
 [geometry]

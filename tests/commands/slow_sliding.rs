@@ -1,7 +1,6 @@
 //! Brakes that creep: friction across the sliding, a dashpot of `mu p / V`, overdamps the modes that slide across.
 
-use crate::program::{Run, folder, shipped};
-use std::f64::consts::TAU;
+use crate::prelude::*;
 
 /// Frequencies and growth rates at friction 0.32, and what the command printed, of the brake of the operating matrix at 3 rpm.
 fn spectrum(frictions: &str) -> (Vec<[f64; 2]>, String) {

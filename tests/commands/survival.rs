@@ -2,14 +2,8 @@
 //! must leave whole files, and end in the very table of a run that nothing happened to.
 #![cfg(unix)]
 
-use crate::coarse_disc::coarse_disc;
-use crate::program::{Run, folder_with, has, shipped};
-use crate::tier::sized;
-use serde_json::Value;
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use crate::prelude::*;
 use std::process::{Child, Command, Stdio};
-use std::time::Instant;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_frictionsim");
 

@@ -1,12 +1,7 @@
 //! `frictionsim transient` as a user meets it: files, checkpoints, exit codes, and the shipped cases on coarse meshes.
 
-use crate::bricks::{Block, file_of};
-use crate::program::{Answer, Run, folder, has, shipped};
-use serde_json::Value;
-use std::fs;
-use std::path::Path;
+use crate::prelude::*;
 use std::process::{Child, Stdio};
-use std::time::{Duration, Instant};
 
 const BRICK: Block = Block { name: "brick", origin: [0.0; 3], size: [0.01; 3], counts: [2, 1, 1] };
 

@@ -3,12 +3,9 @@
 //! Independent checks: the closed form of a disc whose modulus alone is uncertain, and the same numbers whatever the
 //! threads, the shards and the interruptions.
 
-use crate::program::{Run, folder, shipped};
-use frictionsim::case::Case;
+use crate::prelude::*;
 use frictionsim::study::eigenvalues::modes_and_onsets;
 use frictionsim::study::uncertainty::Sampler;
-use serde_json::Value;
-use std::path::Path;
 
 const COARSE: [&str; 5] = [
     "mesh.circumferential_elements=24",

@@ -1,28 +1,17 @@
 //! Transients of solid bodies that are tied together and slide on each other.
 
-use crate::bricks::{Block, file_of};
-use crate::disc::{RIGID, TANGENT, elastic, sliding_at, sweep_request, transient_settings};
-use crate::tier::sized;
+use crate::prelude::*;
+use frictionsim::cea::ComplexMode;
 use frictionsim::cea::sparse::sweep;
-use frictionsim::cea::{ComplexMode, ModeLimit};
 use frictionsim::contact::{
-    ContactStiffness, Counterpart, FrictionDecay, Motion, NormalLaw, PairFriction,
-    RigidCounterface, RigidMotion, RigidShape,
+    Counterpart, Motion, PairFriction, RigidCounterface, RigidMotion, RigidShape,
 };
-use frictionsim::fem::operator::SimdLevel;
 use frictionsim::fem::{
-    ElasticMaterial, MassKind, MaterialField, MaxwellChain, ModulusTable, PlaneFormulation,
-    RayleighDamping, RegionMaterial, RelaxedMaterials, TabledMaterial,
+    MaterialField, MaxwellChain, ModulusTable, RegionMaterial, RelaxedMaterials, TabledMaterial,
 };
 use frictionsim::linalg::c64;
-use frictionsim::mesh::{BoundaryCondition, ElasticSupport, FileMesh, Mesh};
-use frictionsim::prestress::{
-    Assembly, BaseChoice, DampingModel, SlidingSurfaces, TangentOptions, TiedSurfaces,
-};
-use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    SteppedBody, TransientAnalysis, TransientModel, TransientSettings,
-};
+use frictionsim::mesh::{FileMesh, Mesh};
+use frictionsim::prestress::{Assembly, BaseChoice, DampingModel, SlidingSurfaces, TiedSurfaces};
 
 const STEEL: ElasticMaterial = elastic(2e11, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
 

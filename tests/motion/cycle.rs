@@ -4,20 +4,8 @@
 //! The comparison with the transient is independent: time stepping from the cycle's fields shares with the search only
 //! the element matrices. The others are theory.
 
-use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
-use crate::tier::sized;
-use frictionsim::case::Case;
-use frictionsim::contact::ContactStatus;
-use frictionsim::cycle::{
-    BranchEnd, CycleError, CycleSolver, Family, LimitCycle, OperatingPoint, Parameter, Verdict,
-};
-use frictionsim::fem::RayleighDamping;
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::mesh::{
-    AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElasticSupport, ElementKind,
-};
-use frictionsim::study::cycle::CycleStudy;
-use std::f64::consts::TAU;
+use crate::prelude::*;
+use frictionsim::cycle::CycleError;
 
 fn disc() -> AnnulusSpecification {
     annulus(ElementKind::Quad4, 90, 18)

@@ -5,14 +5,10 @@
 
 use crate::cycle_branch::over_speed;
 use crate::cycle_periodic::shipped;
-use frictionsim::case::Case;
-use frictionsim::cea::Unwatched;
+use crate::prelude::*;
 use frictionsim::cycle::{BasinBoundary, BasinRequest};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::results::cycle::FoundCycle;
 use frictionsim::study::basin::boundary;
-use frictionsim::study::cycle::{PeriodicStudy, boundary_of_modes};
-use std::f64::consts::TAU;
+use frictionsim::study::cycle::boundary_of_modes;
 
 fn cycle(case: &Case) -> FoundCycle {
     let study = PeriodicStudy::new(case, SimdLevel::detect()).unwrap();

@@ -4,16 +4,8 @@
 //! identities.
 
 use crate::oscillator::{EventDriven, oscillator};
-use frictionsim::case::Case;
-use frictionsim::cea::{SweepProgress, SweepWatch, Unwatched};
+use crate::prelude::*;
 use frictionsim::cycle::periodic::PeriodicBranch;
-use frictionsim::cycle::{BranchEnd, Parameter};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::results::cycle::FoundCycle;
-use frictionsim::study::cycle::PeriodicStudy;
-use std::collections::BTreeMap;
-use std::path::Path;
-use std::sync::Mutex;
 
 /// The oscillator's cycles over the speed of its plane: friction falls too slowly at high speed to feed a vibration, and the
 /// cycle that sticks lives on beyond the speed at which sliding becomes stable.

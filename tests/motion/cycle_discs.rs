@@ -3,15 +3,8 @@
 //! Onsets are held to the eigenvalue analysis, results to scaling, stability and power to transients that start beside the
 //! cycle. The transients are independent of the grid of phases: they share with it the element matrices alone.
 
-use crate::disc::{elastic, sliding_at};
-use crate::tier::sized;
-use frictionsim::cea::ModeLimit;
-use frictionsim::contact::SlidingContact;
-use frictionsim::cycle::{CycleSolver, DiscModel, Family, OperatingPoint, Verdict};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
-use frictionsim::mesh::{AnnulusSpecification, ElementKind};
-use std::f64::consts::TAU;
+use crate::prelude::*;
+use frictionsim::cycle::DiscModel;
 
 fn ring(radii: [f64; 2], elements: [usize; 2]) -> AnnulusSpecification {
     AnnulusSpecification {

@@ -3,12 +3,9 @@
 //! Independent: a transient that grows into its cycle from noise with a step of its own; rotating waves, found along their phase;
 //! an oscillator integrated from event to event. The others are identities.
 
-use frictionsim::case::Case;
-use frictionsim::cea::Unwatched;
-use frictionsim::cycle::{Parameter, Verdict};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::results::cycle::{FoundCycle, PeriodicResult, Search};
-use frictionsim::study::cycle::{CycleStudy, PeriodicStudy, refuse_nothing};
+use crate::prelude::*;
+use frictionsim::results::cycle::Search;
+use frictionsim::study::cycle::refuse_nothing;
 use frictionsim::study::transient::TransientStudy;
 
 use crate::oscillator::{EventDriven, oscillator};

@@ -2,17 +2,8 @@
 //!
 //! Independent: a transient that grows into its cycle from noise, with a step of its own. The others are identities.
 
-use crate::bricks::{Block, file_of};
 use crate::cycle_periodic::{found, hold_to_transient, shipped};
-use frictionsim::case::Case;
-use frictionsim::cea::{SweepProgress, SweepWatch};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::results::cycle::PeriodicResult;
-use frictionsim::study::cycle::PeriodicStudy;
-use std::collections::BTreeMap;
-use std::f64::consts::TAU;
-use std::path::Path;
-use std::sync::Mutex;
+use crate::prelude::*;
 
 /// A pad on a disc that turns, the seam of the disc glued.
 const PAD: &str = r#"

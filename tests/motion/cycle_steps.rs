@@ -2,12 +2,7 @@
 //!
 //! Independent: the frequency of a transient. The others hold the search to itself.
 
-use crate::bricks::{Block, file_of};
-use frictionsim::case::Case;
-use frictionsim::cea::Unwatched;
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::results::cycle::PeriodicResult;
-use frictionsim::study::cycle::PeriodicStudy;
+use crate::prelude::*;
 use std::fmt::Write;
 
 /// What all cases share.

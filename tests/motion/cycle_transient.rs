@@ -3,15 +3,7 @@
 //!
 //! Full size, 180 x 35 elements; the two methods share the element matrices and nothing else.
 
-use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact, transient_settings};
-use crate::tier::sized;
-use frictionsim::cycle::{CycleSolver, LimitCycle, OperatingPoint, Verdict};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
-use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    TransientAnalysis, TransientError, TransientModel,
-};
+use crate::prelude::*;
 
 fn operating(rpm: f64) -> OperatingPoint {
     OperatingPoint { contact: contact(rpm), damping: DAMPING }

@@ -18,4 +18,5 @@ mod cycle_steps;
 mod cycle_transient;
 mod cycle_two_waves;
 mod oscillator;
+mod prelude;
 mod transient;

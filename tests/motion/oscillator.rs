@@ -1,8 +1,7 @@
 //! An oscillator of two contact nodes, and its motion integrated from event to event.
 
-use frictionsim::case::Case;
+use crate::prelude::*;
 use frictionsim::contact::ContactInterface;
-use frictionsim::fem::{assemble_stiffness, lumped_masses};
 
 /// A square of one element on a moving plane, its far side held: two contact nodes that stick and slip under friction that
 /// falls with speed.

@@ -1,28 +1,9 @@
 //! Bodies of any plane shape: mesh files, supports, partial contact, transients (independent checks, unless a test
 //! says otherwise).
 
-use crate::disc::{
-    DAMPING, POLYCARBONATE, TANGENT, annulus, contact, sliding_at, sweep_request,
-    transient_settings,
-};
-use crate::msh::{FORMS, Form, write_msh};
-use frictionsim::cea::cyclic;
-use frictionsim::cea::sparse::sweep;
-use frictionsim::cea::{ComplexMode, ModeLimit};
-use frictionsim::contact::SlidingContact;
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::fem::{
-    ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
-};
-use frictionsim::mesh::{
-    AnnulusMesh, BodySpecification, BoundaryCondition, CounterfaceSpecification, ElasticSupport,
-    ElementKind, FileMesh, Mesh,
-};
-use frictionsim::prestress::{SlidingRange, SlidingTangent, SteadySliding, TangentOptions};
-use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    SteppedBody, TransientAnalysis, TransientModel,
-};
+use crate::msh::Form;
+use crate::prelude::*;
+use frictionsim::prestress::SlidingRange;
 
 const CYLINDER: CounterfaceSpecification =
     CounterfaceSpecification::Cylinder { center: [0.0; 2], radius: None };

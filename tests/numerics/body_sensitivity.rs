@@ -1,17 +1,10 @@
 //! Sensitivities of bodies solved on their whole mesh against central differences of whole analyses run again (independent
 //! checks): the difference of two spectra knows nothing of vectors.
 
-use crate::bricks::{Block, file_of};
-use crate::disc::annulus;
-use crate::msh::{FORMS, write_msh};
-use frictionsim::case::Case;
-use frictionsim::cea::FrictionSweep;
+use crate::prelude::*;
 use frictionsim::linalg::c64;
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::results::cea::SensitivityReport;
-use frictionsim::study::eigenvalues::{body_sensitivities, modes_and_onsets};
-use std::path::Path;
-use tempfile::TempDir;
+use frictionsim::study::eigenvalues::body_sensitivities;
 
 /// What differences leave, relative: the square of their step where modes are about to meet, and the round-off of spectra over it.
 const TOLERANCE: f64 = 1e-3;

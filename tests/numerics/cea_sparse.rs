@@ -3,26 +3,13 @@
 
 mod counts;
 
-use crate::disc::{POLYCARBONATE, RIGID, TANGENT, annulus, contact, sweep_request};
-use crate::table_1::TABLE_1;
-use faer::{Mat, c64};
+use crate::prelude::*;
 use frictionsim::cea::sparse::{
     Centre, FrictionlessModes, Linearization, ShiftInverted, StiffnessFactors, StructureMatrices,
-    sweep,
 };
-use frictionsim::cea::{
-    CeaError, ComplexMode, FrictionSweep, ModeLimit, SweepProgress, SweepRequest, SweepWatch,
-};
-use frictionsim::contact::ContactStiffness;
-use frictionsim::fem::{DofMap, RayleighDamping, assemble_stiffness};
-use frictionsim::linalg::dense::random_columns;
+use frictionsim::cea::{CeaError, SweepProgress, SweepWatch};
 use frictionsim::linalg::dense_eigen::real_eigen;
-use frictionsim::linalg::{
-    BlockOperator, DenseLu, KrylovSchurSettings, LuAnalysis, MatrixPolynomial, krylov_schur,
-};
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
-use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
-use std::f64::consts::TAU;
+use frictionsim::linalg::{BlockOperator, DenseLu, KrylovSchurSettings, LuAnalysis, krylov_schur};
 use std::sync::Mutex;
 
 type Entries = Vec<(usize, usize, f64)>;

@@ -1,17 +1,7 @@
 //! Quadratic elements with straight edges on round counterfaces (independent: curved edges, linear elements, exact distances).
 
-use crate::block::block;
-use crate::bricks::{Block, file_of};
-use crate::disc::{POLYCARBONATE, RIGID, annulus, contact};
-use crate::triangles::body;
-use frictionsim::case::Case;
-use frictionsim::contact::{
-    ContactInterface, ContactStiffness, Counterpart, PairFriction, RigidCounterface, RigidMotion,
-    RigidShape, SurfacePair,
-};
-use frictionsim::fem::{ElasticMaterial, PlaneFormulation, assemble_stiffness};
-use frictionsim::mesh::{AnnulusMesh, BoundaryCondition, ElementKind, FileMesh, Mesh};
-use frictionsim::prestress::{Assembly, BaseChoice, SlidingSurfaces, SteadySliding};
+use crate::prelude::*;
+use frictionsim::contact::{RigidCounterface, RigidMotion, RigidShape, SurfacePair};
 
 const RUBBER: ElasticMaterial =
     ElasticMaterial { formulation: PlaneFormulation::ThreeDimensional, ..POLYCARBONATE };

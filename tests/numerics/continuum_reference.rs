@@ -5,9 +5,7 @@
 use crate::continuum;
 use crate::continuum::bessel::{determinant, of_complex_argument, of_real_argument, root_near};
 use crate::continuum::{Annulus, Contact, Eigenvalue, Rayleigh};
-use crate::table_1::TABLE_1;
-use faer::c64;
-use std::f64::consts::TAU;
+use crate::prelude::*;
 
 /// The disc of the paper with rounded material data.
 const DISC: Annulus = Annulus {

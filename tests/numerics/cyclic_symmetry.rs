@@ -1,17 +1,14 @@
 //! Bodies from a mesh of one of their sectors, solved by waves around them, against their whole mesh.
 
-use crate::bricks::{Block, file_of};
-use frictionsim::case::{Case, CaseErrors};
-use frictionsim::cea::{ComplexMode, Unwatched};
+use crate::prelude::*;
+use frictionsim::case::CaseErrors;
+use frictionsim::cea::Unwatched;
 use frictionsim::results::Manifest;
 use frictionsim::results::cea::{self, Reading, View};
 use frictionsim::results::report::Report;
 use frictionsim::study::eigenvalues::{self, SlidingModel, Solution, solve};
 use frictionsim::study::uncertainty::Sampler;
-use std::f64::consts::TAU;
 use std::fmt::Write;
-use std::fs;
-use std::path::PathBuf;
 
 /// One of `count` sectors of a disc as a file in MSH 2.2: bent cut faces, uneven elements, and a hole, the boundary "screw", off the
 /// middle. Nodes within the second cut face lie `shift` elements farther out than those of the first.

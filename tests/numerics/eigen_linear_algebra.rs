@@ -1,16 +1,17 @@
 //! Sparse factorizations and the Krylov-Schur iteration against dense decompositions and against
 //! faer's own iteration (independent checks).
 
+use crate::prelude::*;
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::matrix_free::LinOp;
 use faer::matrix_free::eigen::{PartialEigenParams, partial_eigen, partial_eigen_scratch};
-use faer::{Mat, MatMut, MatRef, Par, c64};
+use faer::{MatMut, MatRef, Par};
 use frictionsim::linalg::banded::{BandedMatrix, CompactRows};
-use frictionsim::linalg::dense::{GrowingColumns, column, product, random_columns};
+use frictionsim::linalg::dense::{GrowingColumns, column, product};
 use frictionsim::linalg::dense_eigen::real_eigen;
 use frictionsim::linalg::{
     BlockOperator, ComplexSparseLu, KrylovSchurSettings, LdlAnalysis, LinalgError, LuAnalysis,
-    MatrixPolynomial, RealPairs, SparseCholesky, SparseLdl, SparseLu, krylov_schur,
+    RealPairs, SparseCholesky, SparseLdl, SparseLu, krylov_schur,
 };
 
 /// Five-point Laplacian on a `side x side` grid, plus `skew` times an unsymmetric convection.

@@ -1,17 +1,9 @@
 //! Parts by themselves: free modes, and the constants of a material from them.
 
-use crate::bricks::{Block, file_of};
-use crate::tier::sized;
-use frictionsim::case::Case;
-use frictionsim::fem::{MassKind, Triplets, assemble_mass, assemble_stiffness};
+use crate::prelude::*;
 use frictionsim::linalg::{GaussianNoise, c64};
 use frictionsim::study::StudyError;
-use frictionsim::study::eigenvalues::modes_and_onsets;
 use frictionsim::study::fit::{FitError, MeasuredMode, fit_case};
-use nalgebra::DMatrix;
-use std::f64::consts::TAU;
-use std::fs;
-use std::path::PathBuf;
 
 /// The nine constants of a lining, by key.
 const CONSTANTS: [(&str, f64); 9] = [

@@ -1,21 +1,8 @@
 //! Frequency responses in sliding contact against eigenvalues and eigenvectors: of a dense
 //! decomposition, and of the eigenvalue analysis (other equations, other solvers: independent checks).
 
-use crate::disc::{POLYCARBONATE, RIGID, TANGENT, annulus, contact, sweep_request};
-use faer::{Mat, c64};
-use frictionsim::cea::ModeLimit;
-use frictionsim::cea::sparse::sweep;
-use frictionsim::contact::ContactStiffness;
-use frictionsim::fem::assemble_stiffness;
-use frictionsim::frf::{
-    CyclicSystem, Direction, FrfSystem, Terminal, cyclic_response, direct_response,
-};
-use frictionsim::linalg::{DenseLu, MatrixPolynomial};
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, SectorMesh};
-use frictionsim::prestress::{
-    DampingModel, SlidingTangent, SteadySliding, TangentOptions, WaveTangent,
-};
-use std::f64::consts::TAU;
+use crate::prelude::*;
+use frictionsim::linalg::DenseLu;
 
 const RADIAL: usize = 5;
 /// Scale between displacement and velocity in the state, rad/s: balances the companion matrix.

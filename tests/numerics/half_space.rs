@@ -4,13 +4,9 @@
 //! with frictional boundary conditions, J. Vib. Acoust. 117 (1995) 445. Short waves on the inner edge of an annulus tend to
 //! them as their number grows.
 
-use crate::disc::{TANGENT, elastic, sliding_at};
+use crate::prelude::*;
 use faer::linalg::solvers::Solve;
-use faer::{Mat, c64};
-use frictionsim::fem::{PlaneFormulation, RayleighDamping};
 use frictionsim::linalg::banded::BandedMatrix;
-use frictionsim::mesh::{AnnulusSpecification, ElementKind, SectorMesh};
-use frictionsim::prestress::{TangentOptions, WaveTangent};
 
 const POISSON_RATIO: f64 = 0.3;
 const FRICTION: f64 = 2.0;

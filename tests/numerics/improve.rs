@@ -1,17 +1,10 @@
 //! Derivatives of growth rates by modifications of a body against differences of whole analyses run again with that
 //! modification, small (independent check: the difference of two spectra knows nothing of vectors).
 
-use crate::bricks::{Block, file_of};
-use crate::disc::annulus;
-use crate::msh::{FORMS, write_msh};
-use frictionsim::case::Case;
+use crate::prelude::*;
 use frictionsim::linalg::c64;
-use frictionsim::mesh::{AnnulusMesh, ElementKind, Mesh};
 use frictionsim::results::improve::TargetFields;
-use frictionsim::study::eigenvalues::modes_and_onsets;
 use frictionsim::study::improve::{Improvement, improve};
-use std::f64::consts::TAU;
-use tempfile::TempDir;
 
 /// What differences of second order leave, relative to the largest derivative of a kind over the body.
 const TOLERANCE: f64 = 0.01;

@@ -43,6 +43,7 @@ mod opening;
 mod orthotropy;
 mod plane_body;
 mod plane_spectrum;
+mod prelude;
 mod pyramids;
 mod relaxation;
 mod shaft;

@@ -3,17 +3,13 @@
 //! Independent check: `disk_brake100` of the NLEVP collection (licence beside the data) with eigenvalues computed to 40 digits elsewhere.
 //! Consistency check: the exported matrices of a body without symmetry, solved densely, have the eigenvalues of `cea`.
 
-use crate::bricks::{Block, file_of};
-use crate::program::{Answer, Run, folder, has, rows, shipped};
+use crate::prelude::*;
+use crate::program::rows;
 use faer::linalg::solvers::Solve;
 use frictionsim::cea::quadratic_modes;
 use frictionsim::linalg::{MarketMatrix, Mat, c64};
 use serde_json::Value;
-use std::f64::consts::TAU;
-use std::fs;
 use std::io::Read;
-use std::path::{Path, PathBuf};
-use tempfile::TempDir;
 
 pub fn dense(matrix: &MarketMatrix) -> Mat<f64> {
     let mut dense = Mat::zeros(matrix.rows, matrix.columns);

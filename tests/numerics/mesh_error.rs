@@ -1,12 +1,8 @@
 //! What the mesh makes of frequencies and of critical friction, against finer meshes.
 
-use crate::bricks::{Block, file_of};
-use crate::tier::sized;
-use frictionsim::case::Case;
+use crate::prelude::*;
 use frictionsim::cea::Unwatched;
 use frictionsim::study::eigenvalues::{SlidingModel, Solution, solve};
-use std::fs;
-use std::path::PathBuf;
 
 /// Shipped cases, with the sweep of their own made short.
 fn shipped(name: &str, modes: usize, frictions: &str) -> Case {

@@ -2,12 +2,7 @@
 //! checks): these know one contact state each, and follow no branch.
 
 use crate::body::rectangle;
-use crate::tier::sized;
-use frictionsim::case::Case;
-use frictionsim::cea::{FrictionSweep, UnstableInterval};
-use frictionsim::study::eigenvalues::modes_and_onsets;
-use std::fs;
-use tempfile::TempDir;
+use crate::prelude::*;
 
 /// A block on an elastic mounting, which the drag tilts: between friction 0.2 and 0.66 six of its nine contact nodes lift.
 const CASE: &str = r#"

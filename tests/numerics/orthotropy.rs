@@ -1,12 +1,10 @@
 //! Orthotropic materials against closed forms, a Rayleigh-Ritz series and the isotropic material.
 
-use crate::block::{SOLIDS, block};
+use crate::prelude::*;
 use crate::solid_elements::Pencil;
 use frictionsim::fem::element::ElementGeometry;
-use frictionsim::fem::{ElasticMaterial, MaterialAxes, Orthotropy, PlaneFormulation};
-use frictionsim::mesh::{BoundaryCondition, ElementKind, Mesh};
-use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
-use std::f64::consts::PI;
+use frictionsim::fem::{MaterialAxes, Orthotropy};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 
 /// A lining: soft across its plane.
 fn lining(axes: MaterialAxes) -> Orthotropy {

@@ -1,16 +1,9 @@
 //! Eigenvalues on unstructured meshes against Table 1 and the exact continuum (independent checks).
 
 use crate::continuum::{Annulus, Contact};
-use crate::disc::{DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, contact, sweep_request};
-use crate::msh::{FORMS, write_msh};
-use crate::table_1::TABLE_1;
-use crate::triangles::{body, triangles};
-use frictionsim::cea::sparse::sweep;
-use frictionsim::cea::{ComplexMode, ModeLimit};
-use frictionsim::contact::ContactStiffness;
-use frictionsim::fem::assemble_stiffness;
-use frictionsim::mesh::{AnnulusMesh, ElementKind, FileMesh, Mesh, refined_file};
-use frictionsim::prestress::{SlidingTangent, SteadySliding, TangentOptions};
+use crate::prelude::*;
+use crate::triangles::triangles;
+use frictionsim::mesh::refined_file;
 
 const NORMAL_STIFFNESS: f64 = 7.4e12;
 

@@ -1,9 +1,8 @@
 //! Pyramids between bricks and tetrahedra (theory: the patch test), and as Gmsh and Nastran number them (independent: their manuals).
 
-use crate::disc::elastic;
-use frictionsim::fem::{ElasticMaterial, PlaneFormulation, assemble_stiffness, solid_stress};
-use frictionsim::mesh::{ElementKind, FileElement, FileMesh, Mesh};
-use std::collections::BTreeMap;
+use crate::prelude::*;
+use frictionsim::fem::solid_stress;
+use frictionsim::mesh::FileElement;
 use std::fmt::Write;
 
 const STEEL: ElasticMaterial = elastic(2e11, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);

@@ -1,22 +1,8 @@
 //! Maxwell chains in time: growth against the eigenvalue, energy to round-off, restart to the bit.
 
-use crate::disc::{POLYCARBONATE, TANGENT, annulus, contact, sweep_request, transient_settings};
-use frictionsim::cea::ModeLimit;
-use frictionsim::cea::sparse::sweep;
-use frictionsim::contact::SlidingContact;
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::fem::{
-    ElasticMaterial, MassKind, MaxwellChain, ModulusTable, RayleighDamping, RegionMaterial,
-    RelaxedMaterials, TabledMaterial, assemble_stiffness,
-};
+use crate::prelude::*;
+use frictionsim::fem::{MaxwellChain, ModulusTable, RelaxedMaterials, TabledMaterial};
 use frictionsim::linalg::c64;
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
-use frictionsim::prestress::{SlidingTangent, SteadySliding, TangentOptions};
-use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    TransientAnalysis, TransientModel, TransientSettings,
-};
-use std::sync::Arc;
 
 const BAND: [f64; 2] = [300.0, 30_000.0];
 const HARMONIC: usize = 2;

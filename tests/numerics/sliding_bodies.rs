@@ -5,20 +5,15 @@
 //! Independent check: a dense decomposition of the exported matrices at each friction coefficient. Every mode damped by less than
 //! half of critical that lies below the highest one listed is listed, and what is listed is an eigenvalue.
 
-use crate::bricks::{Block, file_of};
 use crate::matrices::{dense, lossy_eigenvalues};
-use crate::tier::sized;
+use crate::prelude::*;
 use faer::linalg::solvers::Solve;
-use frictionsim::case::Case;
 use frictionsim::linalg::{Mat, c64};
 use frictionsim::results::matrices::{ExportedSystem, MatrixRole};
-use frictionsim::study::eigenvalues::modes_and_onsets;
 use frictionsim::study::matrices::matrices;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
-use std::f64::consts::TAU;
 use std::fmt::Write as _;
-use std::fs;
 
 #[derive(Clone, Debug)]
 struct Slider {

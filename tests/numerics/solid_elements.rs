@@ -1,18 +1,14 @@
 //! Solid elements of every kind against theory and against each other.
 
-use crate::block::{SOLIDS, block};
-use crate::disc::elastic;
-use faer::Mat;
+use crate::prelude::*;
 use faer::linalg::solvers::Solve;
 use faer::sparse::{SparseColMat, Triplet};
 use frictionsim::fem::{
-    DofMap, ElasticMaterial, MassKind, PlaneFormulation, Triplets, assemble_geometric_stiffness,
-    assemble_mass, assemble_pressures, assemble_stiffness, assemble_supports, lumped_masses,
+    assemble_geometric_stiffness, assemble_pressures, assemble_supports, lumped_masses,
     solid_stress,
 };
-use frictionsim::mesh::{BoundaryCondition, ElasticSupport, ElementKind, FileMesh, Mesh};
-use nalgebra::{DMatrix, Matrix3, Rotation3, SymmetricEigen, Vector3};
-use std::f64::consts::{FRAC_PI_2, PI};
+use nalgebra::{Matrix3, Rotation3, SymmetricEigen, Vector3};
+use std::f64::consts::FRAC_PI_2;
 
 const STEEL: ElasticMaterial = elastic(2e11, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
 

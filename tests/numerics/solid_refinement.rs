@@ -1,9 +1,7 @@
 //! Uniform refinement of solid bodies (independent: volumes, surfaces, exact eigenvalues of the meshed block).
 
-use crate::block::{SOLIDS, block};
-use crate::disc::elastic;
-use frictionsim::fem::{ElasticMaterial, PlaneFormulation, lumped_masses};
-use frictionsim::mesh::{BoundaryCondition, ElementKind, FileMesh, Mesh};
+use crate::prelude::*;
+use frictionsim::fem::lumped_masses;
 
 const STEEL: ElasticMaterial = elastic(2e11, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
 

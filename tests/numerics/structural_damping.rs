@@ -1,23 +1,9 @@
 //! Structural damping `K (1 + i eta)`: closed form where one loss factor holds for the whole body, dense complex matrices where
 //! disc and shaft have their own.
 
-use crate::disc::{POLYCARBONATE, RIGID, TANGENT, annulus, contact, sweep_request};
-use faer::{Mat, c64};
-use frictionsim::cea::sparse::{mode_pairs, sweep};
-use frictionsim::cea::{FrictionSweep, ModeLimit};
-use frictionsim::contact::ContactStiffness;
-use frictionsim::fem::{
-    AnnulusMaterials, ElasticMaterial, RayleighDamping, RegionMaterial, assemble_stiffness,
-};
-use frictionsim::frf::{Direction, FrfSystem, Terminal, direct_response};
+use crate::prelude::*;
+use frictionsim::cea::sparse::mode_pairs;
 use frictionsim::linalg::dense_eigen::complex_eigenvalues;
-use frictionsim::linalg::{ComplexDenseLu, MatrixPolynomial};
-use frictionsim::mesh::{
-    AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElasticSupport, ElementKind,
-    ShaftSpecification,
-};
-use frictionsim::prestress::{SlidingTangent, SteadySliding, TangentOptions};
-use std::f64::consts::TAU;
 
 /// The disc on a deformable shaft of steel, with a loss factor each.
 fn tangent(losses: [f64; 2], damping: RayleighDamping) -> SlidingTangent {

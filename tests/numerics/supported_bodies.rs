@@ -3,19 +3,12 @@
 //! Independent check: a dense decomposition of the exported matrices. What both leave is round-off of the stiffest waves of the mesh:
 //! that much a frequency may differ.
 
-use crate::bricks::{Block, file_of};
-use crate::tier::sized;
-use frictionsim::case::Case;
+use crate::prelude::*;
 use frictionsim::results::matrices::{ExportedSystem, MatrixRole};
-use frictionsim::study::eigenvalues::modes_and_onsets;
 use frictionsim::study::matrices::matrices;
-use nalgebra::DMatrix;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
-use std::f64::consts::TAU;
 use std::fmt::Write as _;
-use std::fs;
-use std::path::PathBuf;
 
 /// How a block is held.
 #[derive(Clone, Debug)]

@@ -1,30 +1,12 @@
 //! Modulus and loss factor over frequency: every mode at its own frequency, against dense matrices frozen there.
 
-use crate::block::block;
-use crate::bricks::{Block, file_of};
-use crate::disc::{POLYCARBONATE, RIGID, TANGENT, annulus, contact, sweep_request};
+use crate::prelude::*;
 use crate::structural_damping::{dense_eigenvalues, eigenvalues, largest_error, solved};
-use faer::c64;
-use frictionsim::case::Case;
-use frictionsim::cea::sparse::{mode_pairs, sweep};
-use frictionsim::cea::{CeaError, ModeLimit};
-use frictionsim::contact::ContactStiffness;
-use frictionsim::fem::{
-    ElasticMaterial, ModulusTable, PlaneFormulation, RayleighDamping, RegionMaterial,
-    TabledMaterial, assemble_stiffness,
-};
-use frictionsim::frf::{Direction, FrfSystem, Terminal, direct_response};
-use frictionsim::mesh::{
-    AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElasticSupport, ElementKind, Mesh,
-    ShaftSpecification,
-};
-use frictionsim::prestress::{Assembly, BaseChoice, SlidingTangent, SteadySliding, TangentOptions};
-use frictionsim::study::eigenvalues::{modes_and_onsets, preflight};
+use frictionsim::cea::CeaError;
+use frictionsim::cea::sparse::mode_pairs;
+use frictionsim::fem::{ModulusTable, TabledMaterial};
+use frictionsim::study::eigenvalues::preflight;
 use frictionsim::study::response::FrequencyStudy;
-use std::f64::consts::TAU;
-use std::fs;
-use std::path::PathBuf;
-use std::sync::Arc;
 
 /// A modulus that rises fivefold over the modes of the disc, with much damping.
 fn rubber(scale: f64) -> Vec<[f64; 3]> {

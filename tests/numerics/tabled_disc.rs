@@ -1,9 +1,6 @@
 //! The built-in disc and its shaft with moduli over frequency, by case.
 
-use faer::c64;
-use frictionsim::case::Case;
-use frictionsim::study::eigenvalues::modes_and_onsets;
-use std::fs;
+use crate::prelude::*;
 
 /// A lining whose modulus and losses rise over the modes of a disc.
 const LINING: &str = "\

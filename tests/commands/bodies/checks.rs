@@ -1,8 +1,7 @@
 //! What each analysis is held to.
 
 use super::{Answer, Bench, Cell};
-use serde_json::{Value, json};
-use std::path::Path;
+use crate::prelude::*;
 
 /// A cell of the table: the body's bench, and that of the same body described otherwise.
 type Check = fn(&Bench, Option<&Bench>) -> Cell;

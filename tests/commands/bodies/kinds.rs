@@ -1,7 +1,7 @@
 //! The kinds of bodies, coarse.
 
 use super::grid::{Grid, Shape, msh};
-use crate::bricks::{Block, file_of};
+use crate::prelude::*;
 
 /// A kind of body.
 pub struct Kind {

@@ -1,9 +1,8 @@
 //! Consistency check: what `check` says of a case is what its runs say.
 
 use super::RUN;
-use crate::bricks::{Block, file_of};
-use frictionsim::case::{Analysis, Case};
-use frictionsim::results::Manifest;
+use crate::prelude::*;
+use frictionsim::case::Analysis;
 use frictionsim::study::{StudyError, preflight, summarize};
 
 /// Values for keys, good and bad ones.

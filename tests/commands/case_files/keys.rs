@@ -2,8 +2,8 @@
 //! of them is one and the same.
 
 use super::{DISC, RUN, assert_reports, parse, report, valid};
-use frictionsim::case::{Case, Default, KEYS, reference, unset};
-use serde_json::Value;
+use crate::prelude::*;
+use frictionsim::case::{Default, reference, unset};
 
 /// A case with every section.
 fn whole() -> String {

@@ -7,12 +7,11 @@ mod plausibility;
 mod sizes;
 mod suggestions;
 
+use crate::prelude::*;
 use frictionsim::case::{
-    Case, CaseErrors, CeaMethod, KEYS, ModeSelection, RawCase, Spacing, TimeStep, range_values,
+    CaseErrors, CeaMethod, ModeSelection, RawCase, Spacing, TimeStep, range_values,
 };
-use frictionsim::mesh::ElementKind;
 use proptest::prelude::*;
-use std::f64::consts::TAU;
 
 const DISC: &str = include_str!("../../../cases/polycarbonate-disc.toml");
 const RUN: &str = include_str!("../../../cases/polycarbonate-610rpm.toml");

@@ -1,7 +1,7 @@
 //! Consistency checks of sizes: what a case asks for is weighed before anything of it is made.
 
 use super::{RUN, STUDY, assert_reports, parse, valid};
-use std::time::{Duration, Instant};
+use crate::prelude::*;
 
 /// Reads a case under an override, well or not, and says how long that took.
 fn seconds_to_read(text: &str, overrides: &[&str]) -> Duration {

@@ -1,7 +1,6 @@
 //! Consistency check of remedies: sections that commands ask for are those of the body at hand.
 
-use crate::program::shipped;
-use frictionsim::case::Case;
+use crate::prelude::*;
 
 fn parse(name: &str, further: &str) -> Case {
     let text = std::fs::read_to_string(shipped(name)).unwrap() + further;

@@ -1,10 +1,9 @@
 //! The report of an analysis, written to a folder.
 
 use crate::figures::{check_texts, synthetic};
-use frictionsim::fem::{NodalStress, RayleighDamping};
-use frictionsim::results::cea::{BaseField, BaseState, CeaReport, draw};
-use frictionsim::results::{DrawingOptions, Extent, Format, Manifest, OutputFolder, Replace};
-use std::time::Instant;
+use crate::prelude::*;
+use frictionsim::results::cea::draw;
+use frictionsim::results::{DrawingOptions, Format};
 
 #[test]
 fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {

@@ -1,15 +1,8 @@
 //! The contact law, the steady start, and an exact impact.
 
-use crate::disc::sliding_at;
+use crate::prelude::*;
 use crate::transient::model::{Watch, disc, largest, model, settings};
-use frictionsim::contact::ContactStatus;
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::fem::{RayleighDamping, assemble_stiffness, lumped_masses};
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ShaftSpecification};
-use frictionsim::prestress::SteadySliding;
-use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, Sample, TimeStep,
-};
+use frictionsim::mesh::ShaftSpecification;
 
 /// Theory: the laws of Signorini and Coulomb at every node of every step.
 #[test]

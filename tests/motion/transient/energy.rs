@@ -1,11 +1,7 @@
 //! The energy balance.
 
+use crate::prelude::*;
 use crate::transient::model::{Watch, disc, model, settings};
-use frictionsim::fem::RayleighDamping;
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::transient::{
-    CentralDifference, OperatorChoice, Perturbation, Recorder, RecorderSettings, Sample, TimeStep,
-};
 
 /// Theory: the discrete energy identity is exact, whatever contact and damping do.
 #[test]

@@ -1,19 +1,11 @@
 //! The linear stage against the complex eigenvalues of the same model.
 
-use crate::disc::TANGENT;
+use crate::prelude::*;
 use crate::transient::model::{disc, model, settings};
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::fem::{MassKind, assemble_stiffness};
 use frictionsim::linalg::MatrixPolynomial;
-use frictionsim::mesh::AnnulusMesh;
-use frictionsim::prestress::{SlidingTangent, SteadySliding, TangentOptions};
-use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    SteppedBody, TransientAnalysis, TransientModel,
-};
-use std::f64::consts::TAU;
+use frictionsim::prestress::SlidingTangent;
 
 /// The matrix that acts on `U exp(i n theta_j)`, from the rows of one sector.
 fn harmonic(

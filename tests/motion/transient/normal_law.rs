@@ -1,18 +1,8 @@
 //! Contact that stiffens with pressure, step by step.
 
-use crate::disc::{DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, contact, sweep_request};
+use crate::prelude::*;
 use crate::transient::model::{Watch, settings};
-use frictionsim::cea::ModeLimit;
 use frictionsim::cea::cyclic::sweep;
-use frictionsim::contact::{ContactStiffness, NormalLaw};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::fem::{MassKind, assemble_stiffness};
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
-use frictionsim::prestress::{SteadySliding, TangentOptions};
-use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    Sample, TransientAnalysis, TransientModel,
-};
 
 const LAWS: [NormalLaw; 2] = [
     NormalLaw::Exponential { reference_pressure: 2e5, height: 2e-6 },

@@ -1,14 +1,7 @@
 //! Saved and restored states.
 
-use crate::disc::RIGID;
+use crate::prelude::*;
 use crate::transient::model::{Watch, disc, model, settings};
-use frictionsim::contact::{ContactStiffness, FrictionDecay};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::transient::{
-    CentralDifference, Observer, OperatorChoice, Perturbation, Recorder, RecorderSettings, RunEnd,
-    Sample, TransientError, TransientState,
-};
-use std::ops::ControlFlow;
 
 /// Records, and stops at a sample with the state there.
 struct StopAt {

@@ -1,11 +1,8 @@
 //! When a run has settled, and what is kept of it.
 
+use crate::prelude::*;
 use crate::transient::model::{disc, model, settings};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::transient::{
-    CentralDifference, EndState, OperatorChoice, Perturbation, Recorder, RecorderSettings, RunEnd,
-    TransientAnalysis, TransientSettings, Unsettled,
-};
+use frictionsim::transient::{EndState, Unsettled};
 
 /// A run of the coarse disc at some speed, with its record and how it ended.
 fn run(rpm: f64, settings: &TransientSettings, wanted: &RecorderSettings) -> (Recorder, RunEnd) {

@@ -7,19 +7,11 @@ mod rotation;
 mod slow_sliding;
 mod topography;
 
-use crate::bricks::{Block, file_of, file_of_order};
-use crate::disc::{RIGID, TANGENT, elastic, sweep_request};
+use crate::bricks::file_of_order;
+use crate::prelude::*;
 use crate::structural_damping::dense;
-use frictionsim::cea::ModeLimit;
-use frictionsim::cea::sparse::sweep;
-use frictionsim::contact::{ContactStiffness, Counterpart, Motion, PairError, PairFriction};
-use frictionsim::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
+use frictionsim::contact::PairError;
 use frictionsim::linalg::c64;
-use frictionsim::mesh::{BoundaryCondition, FileMesh, Mesh};
-use frictionsim::prestress::{
-    Assembly, BaseChoice, PrestressError, SlidingSurfaces, SlidingTangent, TangentOptions,
-    TiedSurfaces,
-};
 
 const STEEL: ElasticMaterial = elastic(2e11, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
 

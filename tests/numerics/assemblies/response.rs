@@ -2,17 +2,11 @@
 
 use super::rotation::{ring, turning as spinning};
 use super::{OPTIONS, PRESSED, STEEL, boundary, mesh_of, sliding, stacked, turning};
-use crate::bricks::{Block, file_of};
-use crate::disc::sweep_request;
-use frictionsim::cea::ModeLimit;
-use frictionsim::cea::sparse::sweep;
-use frictionsim::fem::{RayleighDamping, RotationFrame};
-use frictionsim::frf::{Axis, Direction, FrfError, FrfSystem, Terminal, direct_response};
-use frictionsim::linalg::{MatrixPolynomial, c64};
-use frictionsim::mesh::{BoundaryCondition, Mesh};
-use frictionsim::prestress::{Assembly, BaseChoice, SlidingTangent, TangentOptions, TiedSurfaces};
-use nalgebra::{DMatrix, DVector};
-use std::f64::consts::TAU;
+use crate::prelude::*;
+use frictionsim::fem::RotationFrame;
+use frictionsim::frf::Axis;
+use frictionsim::linalg::c64;
+use nalgebra::DVector;
 
 const DAMPED: TangentOptions = TangentOptions {
     damping: RayleighDamping { mass_coefficient: 30.0, stiffness_coefficient: 2e-8 },

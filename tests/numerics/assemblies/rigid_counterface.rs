@@ -1,14 +1,8 @@
 //! Solid bodies on a rigid counterface: a block that is held at every node is one, and the program has another route for it.
 
 use super::{STEEL, boundary, eigenvalues, largest_difference, mesh_of, sliding, stacked, turning};
-use crate::bricks::{Block, file_of};
-use frictionsim::contact::{
-    ContactStiffness, Counterpart, Motion, PairError, PairFriction, RigidCounterface, RigidMotion,
-    RigidShape, Topography,
-};
-use frictionsim::mesh::{BoundaryCondition, Mesh};
-use frictionsim::prestress::{Assembly, BaseChoice, PrestressError, SlidingSurfaces};
-use std::sync::Arc;
+use crate::prelude::*;
+use frictionsim::contact::{PairError, RigidCounterface, RigidMotion, RigidShape, Topography};
 
 /// How far the counterface is pushed in, m.
 const INTERFERENCE: f64 = 2e-6;

@@ -1,15 +1,8 @@
 //! Rings that turn, in both frames.
 
 use super::{OPTIONS, STEEL, boundary, eigenvalues, mesh_of};
-use crate::bricks::{Block, file_of};
-use crate::disc::sweep_request;
-use frictionsim::cea::ModeLimit;
-use frictionsim::cea::sparse::sweep;
-use frictionsim::contact::Motion;
-use frictionsim::fem::{MassKind, RotationFrame, assemble_mass, assemble_supports};
-use frictionsim::mesh::{BoundaryCondition, ElasticSupport, Mesh};
-use frictionsim::prestress::{Assembly, BaseChoice, PrestressError, TiedSurfaces};
-use std::f64::consts::TAU;
+use crate::prelude::*;
+use frictionsim::fem::{RotationFrame, assemble_supports};
 
 /// Springs softer than the ring.
 const SOFT: ElasticSupport = ElasticSupport {

@@ -2,9 +2,8 @@
 //! imaginary part, too.
 
 use super::*;
-use crate::disc::sweep_request;
+use crate::prelude::*;
 use crate::structural_damping::dense_eigenvalues;
-use frictionsim::fem::RayleighDamping;
 
 /// Damping factor below which no mode may be missing.
 const LIGHT: f64 = 0.5;

@@ -1,19 +1,9 @@
 //! Independent checks: dense solutions of harmonics folded from the matrices of the full mesh.
 
 use crate::cea_cyclic::model::{paper_options, run};
-use crate::disc::{POLYCARBONATE, RIGID, annulus, contact, sweep_request};
+use crate::prelude::*;
 use faer::linalg::solvers::Solve;
-use faer::{Mat, c64};
-use frictionsim::cea::ModeLimit;
 use frictionsim::cea::cyclic::sweep;
-use frictionsim::contact::{ContactStiffness, SlidingContact};
-use frictionsim::fem::{
-    ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
-};
-use frictionsim::linalg::MatrixPolynomial;
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind};
-use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
-use std::f64::consts::TAU;
 
 /// Harmonic `n` of a matrix of the full mesh: couplings of the first sector's unknowns with everything,
 /// weighted with the wave's phase.

@@ -1,15 +1,9 @@
 //! Independent check: sensitivities against finite differences of the whole analysis.
 
 use crate::cea_cyclic::model::paper_options;
-use crate::disc::{POLYCARBONATE, RIGID, annulus, contact, sweep_request};
+use crate::prelude::*;
 use crate::waves::{STEP, difference, is_of, pairs, rates};
-use faer::c64;
-use frictionsim::cea::ModeLimit;
-use frictionsim::cea::cyclic::{WavePair, WaveSweep, sweep};
-use frictionsim::contact::{ContactStiffness, NormalLaw, SlidingContact};
-use frictionsim::fem::{AnnulusMaterials, ElasticMaterial, PlaneFormulation};
-use frictionsim::mesh::{AnnulusSpecification, ElementKind, SectorMesh};
-use frictionsim::prestress::{DampingModel, TangentOptions, WaveTangent};
+use frictionsim::cea::cyclic::{WavePair, sweep};
 
 const FRICTION: f64 = 0.35;
 

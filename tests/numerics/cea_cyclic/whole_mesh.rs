@@ -1,15 +1,8 @@
 //! Cross-method checks: the sparse solver and the matrices of the whole mesh.
 
 use crate::cea_cyclic::model::{paper_options, run};
-use crate::disc::{POLYCARBONATE, annulus, contact, sweep_request};
-use faer::c64;
+use crate::prelude::*;
 use frictionsim::cea::cyclic::sweep;
-use frictionsim::cea::sparse;
-use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest};
-use frictionsim::fem::{MassKind, assemble_stiffness};
-use frictionsim::linalg::MatrixPolynomial;
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
-use frictionsim::prestress::{SlidingTangent, SteadySliding};
 
 /// Cross-method check: the sparse solver on the whole mesh, which knows nothing of the symmetry.
 #[test]

@@ -2,7 +2,7 @@
 //! shares no discretisation with the spectral element.
 
 use super::{Annulus, Contact};
-use faer::{Mat, c64};
+use crate::prelude::*;
 
 /// Bessel functions of integer order: `[J_n(z), Y_n(z)]`.
 pub type BesselPair = fn(usize, c64) -> [c64; 2];

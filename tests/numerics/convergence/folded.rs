@@ -1,16 +1,7 @@
 //! The program's discrete problem, solved densely one circumferential harmonic at a time.
 
 use crate::continuum::{Annulus, Contact, Eigenvalue, Rayleigh, damped_pair, smallest_first};
-use crate::disc::{RIGID, TANGENT, sliding_at};
-use faer::{Mat, c64};
-use frictionsim::contact::ContactStiffness;
-use frictionsim::fem::{
-    ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
-};
-use frictionsim::linalg::MatrixPolynomial;
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification};
-use frictionsim::prestress::{SlidingTangent, SteadySliding, TangentOptions};
-use std::f64::consts::TAU;
+use crate::prelude::*;
 
 /// Radial expansion of the cylinder, m.
 pub const INTERFERENCE: f64 = 25e-6;

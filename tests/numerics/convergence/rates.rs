@@ -1,7 +1,7 @@
 //! Families of meshes and the rate at which errors fall over them.
 
 use crate::continuum::Annulus;
-use frictionsim::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind};
+use crate::prelude::*;
 
 /// The disc of every study.
 pub const DISC: Annulus = Annulus {

@@ -2,20 +2,8 @@
 //!
 //! `M u'' + (c + N mu'(V)) u' + k u = 0` about steady sliding: unstable below `V = v_c ln(N mu (q - 1) / (v_c c))`.
 
-use crate::disc::{TANGENT, elastic, sweep_request, transient_settings};
-use frictionsim::cea::ModeLimit;
-use frictionsim::cea::sparse::sweep;
-use frictionsim::contact::{FrictionDecay, SlidingContact};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping, assemble_stiffness};
-use frictionsim::mesh::{
-    BodySpecification, BoundaryCondition, CounterfaceSpecification, ElasticSupport, FileMesh, Mesh,
-};
-use frictionsim::prestress::{SlidingTangent, SteadySliding, TangentOptions};
-use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    SampleRow, SteppedBody, TransientModel,
-};
+use crate::prelude::*;
+use frictionsim::transient::SampleRow;
 
 /// So stiff that the block moves as one: its own modes lie above 30 kHz.
 pub const STEEL: ElasticMaterial = elastic(2.1e11, 0.3, 7850.0, PlaneFormulation::PlaneStrain);

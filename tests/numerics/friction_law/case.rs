@@ -1,6 +1,6 @@
 //! The shipped case, on a coarse mesh.
 
-use crate::program::{Run, folder, shipped};
+use crate::prelude::*;
 
 /// Consistency: where friction falls with speed, less of it is enough at low speed, and the sensitivities name the law.
 #[test]

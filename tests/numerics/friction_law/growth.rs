@@ -1,20 +1,9 @@
 //! Growth of a seeded wave in the transient against the eigenvalue.
 
-use crate::disc::{
-    DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, contact, sweep_request, transient_settings,
-};
 use crate::friction_law::falling;
-use frictionsim::cea::ModeLimit;
+use crate::prelude::*;
 use frictionsim::cea::cyclic::sweep;
-use frictionsim::contact::{ContactStiffness, SlidingContact};
-use frictionsim::fem::MassKind;
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
-use frictionsim::prestress::TangentOptions;
-use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    SampleRow, TransientAnalysis, TransientModel, TransientSettings,
-};
+use frictionsim::transient::SampleRow;
 
 /// Largest growth rate of a harmonic (1/s) as the time loop has it: lumped mass, no geometric stiffness.
 fn eigenvalue(contact: &SlidingContact, stiffness: ContactStiffness, harmonic: usize) -> f64 {

@@ -1,8 +1,7 @@
 //! The implicit law at one node.
 
-use frictionsim::contact::{
-    ContactStatus, CoulombFriction, FrictionDecay, NodeFriction, SlippingNode,
-};
+use crate::prelude::*;
+use frictionsim::contact::{CoulombFriction, NodeFriction, SlippingNode};
 
 const DECAY: FrictionDecay = FrictionDecay { static_ratio: 1.4, decay_speed: 0.2 };
 

@@ -1,12 +1,6 @@
 //! The commands on imported bodies.
 
-use crate::disc::annulus;
-use crate::msh::{FORMS, write_msh};
-use crate::program::Run;
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
-use std::collections::BTreeMap;
-use std::fs;
-use tempfile::TempDir;
+use crate::prelude::*;
 
 const MATERIAL: &str = "[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0\n\
     [damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7\n\

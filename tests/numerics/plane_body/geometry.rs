@@ -1,9 +1,8 @@
 //! Splitting of elements: arcs and nodes (independent checks).
 
-use crate::disc::annulus;
-use crate::msh::{FORMS, write_msh};
-use crate::triangles::{body, triangles};
-use frictionsim::mesh::{AnnulusMesh, ElementKind, FileMesh, Mesh, refined_file};
+use crate::prelude::*;
+use crate::triangles::triangles;
+use frictionsim::mesh::refined_file;
 
 const KINDS: [ElementKind; 4] =
     [ElementKind::Quad4, ElementKind::Quad8, ElementKind::Tri3, ElementKind::Tri6];

@@ -3,17 +3,12 @@
 //! A consistency check against the generated disc of the same mesh, and against the eigenvalue analysis of a body without
 //! symmetry: its hub is round, its outer edge an oval about another centre.
 
-use crate::disc::annulus;
-use crate::msh::{FORMS, write_msh};
-use frictionsim::case::Case;
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
+use crate::prelude::*;
 use frictionsim::results::uncertainty::document;
-use frictionsim::study::eigenvalues::{modes_and_onsets, modes_at_own_friction};
+use frictionsim::study::eigenvalues::modes_at_own_friction;
 use frictionsim::study::fit::{MeasuredMode, fit_case, refuse_too_few};
 use frictionsim::study::tangent_options;
 use frictionsim::study::uncertainty::{Sampler, summarize};
-use std::fs;
-use tempfile::TempDir;
 
 const MODEL: &str = "[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0\n\
     [damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7\n\

@@ -1,17 +1,8 @@
 //! Small motions of disc and shaft.
 
-use crate::disc::{POLYCARBONATE, RIGID, annulus, contact, sweep_request};
+use crate::prelude::*;
 use crate::shaft::model::{STEEL, on, rigid_contact, spectrum, stiffer, with_shaft};
 use crate::waves::{STEP, is_of, pairs, rates};
-use frictionsim::cea::{ComplexMode, ModeLimit, sparse};
-use frictionsim::contact::ContactStiffness;
-use frictionsim::fem::{
-    AnnulusMaterials, MassKind, RayleighDamping, RegionMaterial, assemble_stiffness,
-};
-use frictionsim::mesh::{AnnulusMesh, BoundaryCondition, ElasticSupport, ElementKind, SectorMesh};
-use frictionsim::prestress::{
-    DampingModel, SlidingTangent, SteadySliding, TangentOptions, WaveTangent,
-};
 
 fn nearest(mode: &ComplexMode, others: &[ComplexMode]) -> f64 {
     let same = others.iter().filter(|m| {

@@ -1,11 +1,7 @@
 //! The paper's disc on a deformable shaft.
 
-use crate::disc::{POLYCARBONATE, TANGENT, annulus, contact, elastic, sweep_request};
-use frictionsim::cea::ModeLimit;
-use frictionsim::cea::cyclic::{WaveSweep, sweep};
-use frictionsim::fem::{AnnulusMaterials, ElasticMaterial, PlaneFormulation, RegionMaterial};
-use frictionsim::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind, ShaftSpecification};
-use frictionsim::prestress::TangentOptions;
+use crate::prelude::*;
+use frictionsim::cea::cyclic::sweep;
 
 pub const STEEL: ElasticMaterial = elastic(2.1e11, 0.3, 7850.0, PlaneFormulation::PlaneStrain);
 

@@ -1,8 +1,6 @@
 //! `frictionsim frf` of a body of revolution as a user meets it.
 
-use crate::program::{Run, folder, has, shipped};
-use std::fs;
-use tempfile::TempDir;
+use crate::prelude::*;
 
 /// The hammer test in three dimensions, coarse, struck along the axis at the rim of the top.
 const SOLID: [&str; 9] = [

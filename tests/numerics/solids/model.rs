@@ -1,12 +1,7 @@
 //! The polycarbonate disc in three dimensions.
 
-use crate::disc::{TANGENT, elastic, sliding_at, sweep_request};
-use frictionsim::cea::cyclic::SolidModel;
-use frictionsim::cea::{ComplexMode, ModeLimit, cyclic::solid_sweep};
-use frictionsim::fem::{PlaneFormulation, RayleighDamping};
-use frictionsim::mesh::{BoundaryCondition, ElementKind, SolidContact, SolidSpecification};
-use frictionsim::prestress::TangentOptions;
-use std::f64::consts::TAU;
+use crate::prelude::*;
+use frictionsim::mesh::SolidSpecification;
 
 /// Clamped outside, pressed inside by 25 um, 610 rpm, friction 0.3, without geometric stiffness.
 pub fn disc(element: ElementKind, [around, radial, axial]: [usize; 3]) -> SolidModel {

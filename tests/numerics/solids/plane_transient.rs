@@ -1,14 +1,8 @@
 //! The transient of a guided body, `u_z = 0` at every node, beside that of plane strain.
 
+use crate::prelude::*;
 use crate::solids::model::disc;
-use frictionsim::contact::ContactStatus;
-use frictionsim::fem::PlaneFormulation;
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::mesh::{AnnulusMesh, BoundaryCondition, ElementKind, SolidSector};
-use frictionsim::transient::{
-    CentralDifference, InitialState, Observer, OperatorChoice, Perturbation, Sample, SteppedBody,
-    TimeStep, TransientModel, TransientSettings,
-};
+use frictionsim::transient::{Observer, Sample, TimeStep};
 use std::ops::ControlFlow;
 
 /// Statuses, tangential displacements and normal forces of the contact nodes at every sample.

@@ -1,17 +1,8 @@
 //! Frequency responses of bodies of revolution.
 
-use crate::disc::RIGID;
+use crate::prelude::*;
 use crate::solids::model::disc;
 use crate::solids::whole_ring::WholeRing;
-use faer::c64;
-use frictionsim::cea::cyclic::SolidModel;
-use frictionsim::contact::ContactStiffness;
-use frictionsim::fem::{MassKind, PlaneFormulation};
-use frictionsim::frf::{CyclicSystem, Direction, FrfError, Terminal, cyclic_response};
-use frictionsim::mesh::{
-    BoundaryCondition, ElasticSupport, ElementKind, SectorMesh, SolidContact, SolidSector,
-};
-use frictionsim::prestress::{DampingModel, WaveTangent};
 
 use Direction::{Axial, Radial, Tangential};
 

@@ -1,18 +1,8 @@
 //! Independent check: sensitivities of bodies of revolution against central differences of the whole analysis, base state included.
 
-use crate::disc::{RIGID, sweep_request};
+use crate::prelude::*;
 use crate::solids::model::disc;
-use crate::tier::sized;
 use crate::waves::{STEP, pairs, rates};
-use faer::c64;
-use frictionsim::cea::cyclic::{SolidModel, solid_sweep};
-use frictionsim::cea::{ModeLimit, SweepRequest};
-use frictionsim::contact::{ContactStiffness, FrictionDecay, NormalLaw};
-use frictionsim::mesh::{
-    BoundaryCondition, ElasticSupport, ElementKind, SolidContact, SolidSector,
-};
-use frictionsim::prestress::{DampingModel, WaveTangent};
-use std::collections::BTreeMap;
 
 const FRICTION: f64 = 0.35;
 

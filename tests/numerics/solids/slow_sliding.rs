@@ -3,15 +3,9 @@
 //! Independent check: all eigenvalues of a coarse whole harmonic by a dense decomposition, at finite speed and with the motion across the
 //! sliding held.
 
-use crate::disc::sweep_request;
-use crate::program::{Run, folder, shipped};
+use crate::prelude::*;
 use crate::solids::model::disc;
-use frictionsim::cea::ModeLimit;
-use frictionsim::cea::cyclic::{SolidModel, WaveSweep, solid_sweep};
-use frictionsim::linalg::{ComplexDenseLu, Mat, c64};
-use frictionsim::mesh::{BoundaryCondition, ElementKind, SolidContact, SolidSector};
-use frictionsim::prestress::WaveTangent;
-use std::f64::consts::TAU;
+use frictionsim::linalg::{Mat, c64};
 
 const FRICTION: f64 = 0.3;
 const LIMIT: f64 = 9000.0;

@@ -1,13 +1,9 @@
 //! Studies and files of bodies of revolution.
 
-use crate::program::{Answer, Run, folder, shipped};
+use crate::prelude::*;
 use crate::waves::pairs;
-use frictionsim::case::Case;
-use frictionsim::study::eigenvalues::{
-    modes_and_onsets, modes_below, modes_with_waves_below, unstable_intervals,
-};
+use frictionsim::study::eigenvalues::{modes_below, modes_with_waves_below, unstable_intervals};
 use std::fs::File;
-use std::path::Path;
 
 const COARSE: [&str; 4] = [
     "mesh.circumferential_elements=24",

@@ -1,22 +1,9 @@
 //! The transient of a body of revolution against its eigenvalue analysis and against itself.
 
-use crate::disc::transient_settings;
+use crate::prelude::*;
 use crate::solids::model::{disc, modes};
-use crate::tier::sized;
-use frictionsim::cea::cyclic::SolidModel;
-use frictionsim::contact::{ContactStatus, NormalLaw};
-use frictionsim::fem::operator::{OperatorError, SimdLevel, StiffnessOperator};
-use frictionsim::fem::{MassKind, RayleighDamping, solid};
-use frictionsim::mesh::{
-    BoundaryCondition, ElasticSupport, ElementKind, SolidContact, SolidSector,
-};
-use frictionsim::prestress::{DampingModel, PrestressError, SolidSliding};
-use frictionsim::transient::{
-    CentralDifference, InitialState, Observer, OperatorChoice, Perturbation, Recorder,
-    RecorderSettings, Sample, SteppedBody, TimeStep, TransientAnalysis, TransientError,
-    TransientModel, TransientSettings,
-};
-use std::f64::consts::TAU;
+use frictionsim::fem::operator::{OperatorError, StiffnessOperator};
+use frictionsim::transient::{Observer, Sample, TimeStep, TransientError};
 use std::ops::ControlFlow;
 
 fn body<'a>(model: &'a SolidModel, sector: &'a SolidSector) -> TransientModel<'a> {

@@ -1,14 +1,7 @@
 //! Dense matrices of a whole ring of bricks, put together without harmonics.
 
-use faer::{Mat, c64};
-use frictionsim::cea::cyclic::SolidModel;
-use frictionsim::fem::MassKind;
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::linalg::ComplexDenseLu;
-use frictionsim::mesh::{BoundaryCondition, ElementKind, SolidSector, face_quadrature};
-use frictionsim::prestress::SolidSliding;
-use frictionsim::transient::{OperatorChoice, SteppedBody, TransientModel};
-use std::f64::consts::TAU;
+use crate::prelude::*;
+use frictionsim::mesh::face_quadrature;
 
 /// `M`, `C`, `K` over the dofs `3 (s n + k) + c` in nodal frames, and the dofs that move.
 pub struct WholeRing {

@@ -2,19 +2,10 @@
 //!
 //! Glue is what the contact says of sticking pairs, `u_n = sum P u` and `u_t = sum P u`, for good and in both directions.
 
-use crate::disc::POLYCARBONATE;
+use crate::prelude::*;
 use crate::two_bodies::model::{Part, file_of, one_material, rectangle, ring, rings, rings_of};
-use frictionsim::cea::ModeLimit;
 use frictionsim::cea::sparse::FrictionlessModes;
-use frictionsim::contact::ContactInterface;
-use frictionsim::fem::{DofMap, MassKind, Triplets, assemble_mass, assemble_stiffness};
-use frictionsim::linalg::{MatrixPolynomial, SparsityPattern};
-use frictionsim::mesh::{
-    BodySpecification, BoundaryCondition, CounterfaceSpecification, ElementKind, FileMesh, Mesh,
-};
-use frictionsim::prestress::SlidingTangent;
-use std::collections::BTreeMap;
-use std::sync::Arc;
+use frictionsim::linalg::SparsityPattern;
 
 /// `u = T y`: for each glued dof the dofs that it follows, with their weights.
 type Glue = BTreeMap<usize, Vec<(usize, f64)>>;

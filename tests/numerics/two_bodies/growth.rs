@@ -1,19 +1,8 @@
 //! The linear stage of the transient between meshes that do not match, against the eigenvalues of the same bodies.
 
-use crate::disc::{DAMPING, POLYCARBONATE, transient_settings};
+use crate::prelude::*;
 use crate::two_bodies::model::{contact, modes_of, options, rings};
-use frictionsim::cea::ModeLimit;
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::fem::{
-    ElasticMaterial, MassKind, PlaneFormulation, RegionMaterial, assemble_stiffness,
-};
 use frictionsim::linalg::c64;
-use frictionsim::prestress::SteadySliding;
-use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    SteppedBody, TransientAnalysis, TransientModel,
-};
-use std::f64::consts::TAU;
 
 /// Size of the seeded mode, m: a slip speed a thousandth of the sliding, and far above the short waves, which grow faster, out
 /// of round-off.

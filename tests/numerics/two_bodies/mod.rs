@@ -6,26 +6,9 @@ mod model;
 mod refusals;
 mod sweeps;
 
-use crate::disc::{
-    DAMPING, POLYCARBONATE, RIGID, annulus, sliding_at, sweep_request, transient_settings,
-};
-use faer::c64;
-use frictionsim::cea::cyclic;
-use frictionsim::cea::{ComplexMode, ModeLimit};
-use frictionsim::contact::{ContactInterface, ContactStiffness};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::fem::{ElasticMaterial, MassKind, assemble_stiffness};
-use frictionsim::mesh::{
-    AnnulusSpecification, BodyError, BodySpecification, BoundaryCondition,
-    CounterfaceSpecification, ElasticSupport, ElementKind, FileMesh, Mesh, ShaftSpecification,
-};
-use frictionsim::prestress::SteadySliding;
-use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    SteppedBody, TransientModel,
-};
+use crate::prelude::*;
+use frictionsim::mesh::BodyError;
 use model::{Part, contact, file_of, modes, one_material, options, rectangle, rings};
-use std::collections::BTreeMap;
 
 /// Disc and shaft as built in, by sectors.
 fn built_in(

@@ -1,15 +1,9 @@
 //! Two bodies of a mesh file, four-node elements, their meshes matching or not.
 
-use crate::disc::{self, POLYCARBONATE, TANGENT, annulus, sweep_request};
-use frictionsim::cea::sparse::sweep;
-use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest};
-use frictionsim::contact::SlidingContact;
-use frictionsim::fem::{MassKind, MaterialField, assemble_stiffness};
-use frictionsim::mesh::{
-    AnnulusMesh, AnnulusSpecification, BodySpecification, Boundary, BoundaryCondition,
-    CounterfaceSpecification, ElementKind, FileMesh, Mesh,
-};
-use frictionsim::prestress::{SlidingTangent, SteadySliding, TangentOptions};
+use crate::disc;
+use crate::prelude::*;
+use frictionsim::fem::MaterialField;
+use frictionsim::mesh::Boundary;
 
 /// A body with the names that its boundaries have in the file.
 pub struct Part<'a> {

@@ -1,8 +1,7 @@
 //! Steps whose sweeps over the contact between two bodies end before the forces have converged: consistency of what is said.
 
-use crate::program::{Answer, Run, folder, has};
+use crate::prelude::*;
 use crate::two_bodies::model::{Part, file_of, rectangle};
-use std::path::Path;
 
 /// A block on another one, so many elements along the contact.
 fn write_case(folder: &Path, along: [usize; 2], upper_density: f64) {

@@ -11,9 +11,7 @@
 //! the shape; 600 rpm.
 
 use super::{folder, integral, order, ritz, table};
-use crate::bricks::{Block, file_of};
-use nalgebra::DMatrix;
-use std::f64::consts::TAU;
+use crate::prelude::*;
 
 const RADII: [f64; 2] = [0.08, 0.12];
 const YOUNG: f64 = 2.1e11;

@@ -12,8 +12,7 @@
 //! force from either plane. What is left is its elasticity: errors fall with one over Young's modulus.
 
 use super::{folder, order, table};
-use crate::bricks::{Block, file_of};
-use std::f64::consts::TAU;
+use crate::prelude::*;
 
 /// Frequencies on the two springs, Hz.
 const OWN: [f64; 2] = [1000.0, 750.0];

@@ -13,11 +13,9 @@ mod nafems_fv52;
 mod oberst;
 mod sector_pads;
 
-use nalgebra::{DMatrix, DVector};
-use std::collections::BTreeMap;
+use crate::prelude::*;
+use nalgebra::DVector;
 use std::fmt::Write;
-use std::fs;
-use std::path::{Path, PathBuf};
 
 /// A row of a table of results by the names of its columns; what is no number is not a number.
 type Row = BTreeMap<String, f64>;

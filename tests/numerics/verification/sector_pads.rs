@@ -13,9 +13,7 @@
 //! bricks of 20 nodes, 4 x 48 x 1. Errors fall with the square of the thickness, as shear and rotation do.
 
 use super::{folder, integral, msh, order, ritz, table};
-use nalgebra::DMatrix;
-use std::collections::BTreeMap;
-use std::f64::consts::{PI, TAU};
+use crate::prelude::*;
 
 const RADII: [f64; 2] = [0.05, 0.1];
 const PAD: f64 = 0.075;
