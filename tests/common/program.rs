@@ -79,10 +79,10 @@ impl Run {
         self
     }
 
-    /// Changes values, each as `KEY=VALUE`.
-    pub fn set<S: AsRef<OsStr>>(mut self, changes: &[S]) -> Self {
-        for change in changes {
-            self.program.arg("--set").arg(change);
+    /// Changes values, each as `KEY=VALUE`; several stand in one text with ` ; ` between.
+    pub fn set<S: AsRef<str>>(mut self, changes: &[S]) -> Self {
+        for change in changes.iter().flat_map(|text| text.as_ref().split(" ; ")) {
+            self.program.args(["--set", change]);
         }
         self
     }
@@ -219,10 +219,10 @@ pub fn rows(path: &Path) -> Vec<Row> {
     reader.deserialize().map(|row| Row(row.unwrap())).collect()
 }
 
-/// Holds a text to all of these parts; a part behind `!` must not be there.
+/// Holds a text to all of these parts, several of which stand in one with ` ; ` between; a part behind `!` must not be there.
 #[track_caller]
 pub fn has(text: &str, parts: &[&str]) {
-    for part in parts {
+    for part in parts.iter().flat_map(|parts| parts.split(" ; ")) {
         match part.strip_prefix('!') {
             Some(never) => assert!(!text.contains(never), "{never:?} is in\n{text}"),
             None => assert!(text.contains(part), "{part:?} is not in\n{text}"),
