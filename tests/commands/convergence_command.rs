@@ -108,11 +108,9 @@ fn a_transient_is_tabled_over_mesh_and_time_step_with_figures_and_report() {
         "{DISC}{CEA}{TRANSIENT}[convergence]\nfactors = [0.5, 0.75, 1]\n\
          time_step_factors = [1, 0.5, 0.25]\n"
     );
-    let answer = study(folder.path(), &text).done().says(&[
-        "cea over the mesh",
-        "transient over the mesh",
-        "transient over the time step",
-    ]);
+    let answer = study(folder.path(), &text)
+        .done()
+        .says(&["cea over the mesh ; transient over the mesh ; transient over the time step"]);
     let printed = &answer.stdout;
     // What decides is printed, the other modes are in the table.
     let left = printed.lines().find(|line| line.contains("--verbose"));

@@ -89,13 +89,9 @@ fn below_every_onset_steady_sliding_is_said_to_be_stable_once_and_that_is_no_fai
 fn a_wave_that_the_transient_does_not_confirm_is_said_to_be_none() {
     // On so few elements a wave is found whose only nonlinearity is one open phase; the disc has no such motion.
     let folder = folder();
-    let coarse = [
-        "mesh.circumferential_elements=36",
-        "mesh.radial_elements=8",
-        "cycle.harmonics=[2]",
-        "cycle.stability=none",
-        "cycle.continuation.count=2",
-    ];
+    let coarse =
+        ["mesh.circumferential_elements=36 ; mesh.radial_elements=8 ; cycle.harmonics=[2] ; \
+         cycle.stability=none ; cycle.continuation.count=2"];
     let run = waves("cycle", &folder.path().join("cycle"), &coarse).args(&["--json"]);
     let summary = run.end().warns(&["NOT CONFIRMED", "refine the mesh"]).value();
     assert_eq!(summary["cycles"][0]["confirmation"]["agrees"], false);

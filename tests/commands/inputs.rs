@@ -94,19 +94,17 @@ fn nodes_that_coincide_without_being_joined_are_counted_and_located() {
     assert_eq!(whole, MESH);
     on_block(&whole, CASE).code(0).says(&["!another one lies"]);
     // Columns 1 to 4 are doubled; 4 edges on either side of the crack are free, and 4 + 4 of the two vertical sides.
-    on_block(&Block::new(1).text("block"), CASE).code(0).says(&[
-        "4 nodes lie where another one lies",
-        "12 and 26 at (0.001000, 0.002000) m",
-        "16 free edges are in no physical curve",
-    ]);
+    on_block(&Block::new(1).text("block"), CASE)
+        .code(0)
+        .says(&["4 nodes lie where another one lies ; 12 and 26 at (0.001000, 0.002000) m ; \
+         16 free edges are in no physical curve"]);
 }
 
 #[test]
 fn bodies_that_part_are_told_from_those_that_were_not_merged() {
     on_block(&Block::new(0).text("block"), CASE).code(2).warns(&[
-        "a part of the body that touches no other",
-        "5 nodes lie where another one lies",
-        "merge the parts",
+        "a part of the body that touches no other ; 5 nodes lie where another one lies ; \
+         merge the parts",
     ]);
 }
 

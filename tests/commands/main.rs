@@ -2,6 +2,8 @@
 
 #[path = "../common/bricks.rs"]
 mod bricks;
+#[path = "../common/cases.rs"]
+mod cases;
 #[path = "../common/coarse_disc.rs"]
 mod coarse_disc;
 #[path = "../common/disc.rs"]

@@ -23,8 +23,7 @@ fn pads(contacts: &str) -> String {
 }
 
 fn read(folder: &Path, text: &str) -> Result<Case, String> {
-    let path = folder.join("case.toml");
-    Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]).map_err(|errors| errors.to_string())
+    read_case(folder.join("case.toml"), text, AS_IT_IS)
 }
 
 /// The folder with the meshes of the cases.

@@ -136,9 +136,7 @@ fn a_generated_body_of_revolution_takes_what_breaks_its_symmetry() {
     assert!(loaded[0][1] < plain[0][1] * (1.0 - 1e-4), "{loaded:?} {plain:?}");
     // Without damping of its own, losses of 1 % damp a mode that contact does not by half as much.
     let lossy = [
-        "material.loss_factor=0.01",
-        "damping.mass_coefficient=0",
-        "damping.stiffness_coefficient=0",
+        "material.loss_factor=0.01 ; damping.mass_coefficient=0 ; damping.stiffness_coefficient=0",
     ];
     run(folder.path(), "cea", DISC, "lossy", &lossy).code(0);
     for mode in modes(folder.path(), "lossy").iter().filter(|mode| mode[0] == 0.0) {

@@ -39,7 +39,6 @@ fn external_power_leaves_as_heat_of_body_and_contact() {
 
 #[test]
 fn cycles_along_a_branch_have_the_powers_of_each_alone() {
-    let bytes = include_bytes!("../../cases/limit-cycle.toml");
     let overrides = [
         "mesh.circumferential_elements=90",
         "mesh.radial_elements=18",
@@ -49,7 +48,7 @@ fn cycles_along_a_branch_have_the_powers_of_each_alone() {
         "cycle.continuation.count=3",
         "cycle.confirmation_periods=0",
     ];
-    let case = Case::parse("branch", bytes, &overrides.map(str::to_owned)).unwrap();
+    let case = shipped_case("limit-cycle.toml", &overrides);
     let study = CycleStudy::new(&case, SimdLevel::detect()).unwrap();
     let results = study.run(0, &|| {});
     let branch = results[0].branch.as_ref().unwrap();

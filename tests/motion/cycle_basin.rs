@@ -4,7 +4,6 @@
 //! read by their harmonics.
 
 use crate::cycle_branch::over_speed;
-use crate::cycle_periodic::shipped;
 use crate::prelude::*;
 use frictionsim::cycle::{BasinBoundary, BasinRequest};
 use frictionsim::study::basin::boundary;
@@ -45,7 +44,7 @@ fn a_kick_tips_sliding_into_its_cycle_at_the_amplitude_of_the_unstable_cycle() {
 /// first node sticks decides in both.
 #[test]
 fn modes_of_an_annulus_compete_as_its_waves_do() {
-    let case = shipped(
+    let case = shipped_case(
         "basin.toml",
         &[
             "mesh.circumferential_elements=48",

@@ -147,14 +147,12 @@ fn a_branch_that_goes_on_after_an_interruption_is_the_same_bit_by_bit() {
 #[test]
 fn a_branch_without_a_fold_says_so() {
     // A block under constant friction, above its onset.
-    let path = format!("{}/cases/sliding-block.toml", env!("CARGO_MANIFEST_DIR"));
     let overrides = [
         "contact.friction_coefficient=0.66",
         "cycle={ confirmation_periods = 0, stability = \"none\", continuation = { key = \"contact.friction_coefficient\", from = \
          0.6, to = 0.66, count = 3 } }",
     ];
-    let overrides: Vec<String> = overrides.iter().map(|text| text.to_string()).collect();
-    let case = Case::parse(&path, &std::fs::read(&path).unwrap(), &overrides).unwrap();
+    let case = shipped_case("sliding-block.toml", &overrides);
     let branch = branch(&case);
     assert!(branch.folds().is_empty() && branch.coexistence().is_empty());
     assert_eq!(branch.ends, [BranchEnd::Range; 2]);

@@ -10,17 +10,10 @@ use frictionsim::study::transient::TransientStudy;
 
 use crate::oscillator::{EventDriven, oscillator};
 
-/// A shipped case under overrides.
-pub fn shipped(name: &str, overrides: &[&str]) -> Case {
-    let path = format!("{}/cases/{name}", env!("CARGO_MANIFEST_DIR"));
-    let overrides: Vec<String> = overrides.iter().map(|text| text.to_string()).collect();
-    Case::parse(&path, &std::fs::read(&path).unwrap(), &overrides).unwrap()
-}
-
 /// The block at a friction coefficient at which one mode grows.
 fn block(overrides: &[&str]) -> Case {
     let own = ["contact.friction_coefficient=0.7", "cycle={ confirmation_periods = 20 }"];
-    shipped("sliding-block.toml", &[&own, overrides].concat())
+    shipped_case("sliding-block.toml", &[&own, overrides].concat())
 }
 
 fn cycles(case: &Case) -> Vec<PeriodicResult> {
@@ -91,7 +84,7 @@ fn springs_and_dashpots_of_the_contact_are_those_of_the_transient() {
 
 #[test]
 fn the_cycle_of_a_disc_on_a_deformable_shaft_is_that_of_its_transient() {
-    let result = hold_to_transient(&shipped(
+    let result = hold_to_transient(&shipped_case(
         "deformable-shaft.toml",
         &[
             "mesh.circumferential_elements=48",
@@ -192,7 +185,7 @@ fn below_the_onset_steady_sliding_is_said_to_be_stable() {
 #[test]
 fn the_critical_damping_of_stable_sliding_is_where_the_onset_is_the_friction() {
     let at = |damping: f64| {
-        let case = shipped(
+        let case = shipped_case(
             "limit-cycle.toml",
             &[
                 "mesh.circumferential_elements=45",
@@ -220,7 +213,7 @@ fn the_critical_damping_of_stable_sliding_is_where_the_onset_is_the_friction() {
 /// of a transient of 0.1 s (15368.5 Hz, stick 0.375).
 #[test]
 fn the_cycle_of_a_pad_in_slow_sliding_is_that_of_its_transient() {
-    let case = shipped(
+    let case = shipped_case(
         "pad-on-disc.toml",
         &[
             "contact.rotation_speed_rpm=5.0",
@@ -237,7 +230,7 @@ fn the_cycle_of_a_pad_in_slow_sliding_is_that_of_its_transient() {
 /// The same cycle by two methods: a wave along its phase, and a motion of the whole mesh.
 #[test]
 fn rotating_waves_are_periodic_motions_of_the_whole_mesh() {
-    let case = shipped(
+    let case = shipped_case(
         "limit-cycle.toml",
         &[
             "mesh.circumferential_elements=90",
@@ -249,7 +242,7 @@ fn rotating_waves_are_periodic_motions_of_the_whole_mesh() {
     let waves = CycleStudy::new(&case, SimdLevel::detect()).unwrap();
     let waves = waves.run(0, &|| {});
     let wave = waves[0].cycle.as_ref().unwrap();
-    let all = cycles(&shipped(
+    let all = cycles(&shipped_case(
         "limit-cycle.toml",
         &[
             "mesh.circumferential_elements=90",

@@ -2,7 +2,7 @@
 //!
 //! Independent: a transient that grows into its cycle from noise, with a step of its own. The others are identities.
 
-use crate::cycle_periodic::{found, hold_to_transient, shipped};
+use crate::cycle_periodic::{found, hold_to_transient};
 use crate::prelude::*;
 
 /// A pad on a disc that turns, the seam of the disc glued.
@@ -76,9 +76,7 @@ fn pad(folder: &Path, overrides: &[&str]) -> Case {
     ];
     let polar = |[r, angle, z]: [f64; 3]| [r * angle.cos(), r * angle.sin(), z];
     std::fs::write(folder.join("body.msh"), file_of(&blocks, polar)).unwrap();
-    let overrides: Vec<String> = overrides.iter().map(|text| text.to_string()).collect();
-    let path = folder.join("pad.toml");
-    Case::parse(path.to_str().unwrap(), PAD.as_bytes(), &overrides).unwrap()
+    case_of(folder.join("pad.toml"), PAD, overrides)
 }
 
 #[test]
@@ -101,7 +99,7 @@ fn the_cycle_of_a_pad_on_a_disc_is_that_of_its_transient() {
 /// A body of revolution in three dimensions, whose friction is a vector on a ring: its transient grows into a rotating wave.
 #[test]
 fn the_cycle_of_a_ring_on_a_layer_is_that_of_its_transient() {
-    let result = hold_to_transient(&shipped(
+    let result = hold_to_transient(&shipped_case(
         "ring-on-layer.toml",
         &[
             "mesh.circumferential_elements=24",

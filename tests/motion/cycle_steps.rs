@@ -70,9 +70,7 @@ impl PlaneBlock {
 fn cycles(mesh: &[u8], text: &str, overrides: &[&str]) -> Vec<PeriodicResult> {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("body.msh"), mesh).unwrap();
-    let overrides: Vec<String> = overrides.iter().map(|text| text.to_string()).collect();
-    let path = folder.path().join("case.toml");
-    let case = Case::parse(path.to_str().unwrap(), text.as_bytes(), &overrides).unwrap();
+    let case = case_of(folder.path().join("case.toml"), text, overrides);
     let study = PeriodicStudy::new(&case, SimdLevel::detect()).unwrap();
     study.run(0, &Unwatched, &|_| {}).unwrap()
 }

@@ -2,6 +2,8 @@
 
 #[path = "../common/bricks.rs"]
 mod bricks;
+#[path = "../common/cases.rs"]
+mod cases;
 #[path = "../common/disc.rs"]
 mod disc;
 #[path = "../common/tier.rs"]

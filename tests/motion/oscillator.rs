@@ -19,8 +19,7 @@ friction_coefficient = 0.3\nstatic_friction_ratio = 1.1\ndecay_speed = 0.5\ninte
     std::fs::write(folder.join("square.msh"), mesh).unwrap();
     let path = folder.join("case.toml");
     std::fs::write(&path, text).unwrap();
-    let overrides: Vec<String> = overrides.iter().map(|text| text.to_string()).collect();
-    Case::parse(path.to_str().unwrap(), text.as_bytes(), &overrides).unwrap()
+    case_of(path, text, overrides)
 }
 
 /// The two contact nodes of the oscillator by its matrices: `m v' = T - K u - load - D v`, pressed by `N = preload + B u + b v`.

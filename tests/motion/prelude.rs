@@ -1,6 +1,7 @@
 //! What most of these tests name.
 
 pub use crate::bricks::{Block, file_of};
+pub use crate::cases::{case_of, shipped_case};
 pub use crate::disc::{
     DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, contact, elastic, sliding_at, sweep_request,
     transient_settings,

@@ -17,15 +17,15 @@ fn step_of(key: &str) -> f64 {
     }
 }
 
-struct Body {
-    folder: TempDir,
-    text: String,
+/// A case beside its files.
+pub struct Body {
+    pub folder: TempDir,
+    pub text: String,
 }
 
 impl Body {
-    fn case(&self, set: &[String]) -> Case {
-        let name = self.folder.path().join("case.toml").display().to_string();
-        Case::parse(&name, self.text.as_bytes(), set).unwrap_or_else(|e| panic!("{e}"))
+    pub fn case<S: AsRef<str>>(&self, set: &[S]) -> Case {
+        case_of(self.folder.path().join("case.toml"), &self.text, set)
     }
 
     /// The case's own friction coefficient and its spectrum.
@@ -36,7 +36,7 @@ impl Body {
     }
 
     fn sensitivities(&self) -> (SensitivityReport, Vec<String>) {
-        let (case, (_, sweep)) = (self.case(&[]), self.solve(&[]));
+        let (case, (_, sweep)) = (self.case(AS_IT_IS), self.solve(&[]));
         let found = body_sensitivities(&case, case.require_cea().unwrap(), &sweep, None).unwrap();
         (found.report, found.missing)
     }

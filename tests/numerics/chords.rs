@@ -155,9 +155,7 @@ fn an_overlap_beyond_the_interference_is_told_with_its_depth() {
                  young_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n[contact]\n{contact}\
                  friction_coefficient = 0.3\ninterference = 2e-5\nrotation_speed_rpm = 100.0\n"
             );
-            let name = folder.path().join("case.toml").display().to_string();
-            let case = Case::parse(&name, text.as_bytes(), &[]);
-            let case = case.unwrap_or_else(|errors| panic!("{errors}"));
+            let case = case_of(folder.path().join("case.toml"), &text, AS_IT_IS);
             case.warnings.iter().map(ToString::to_string).collect()
         };
         let told = warnings(contact);

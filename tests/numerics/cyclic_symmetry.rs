@@ -70,8 +70,7 @@ fn disc_sector(count: usize, [around, radial]: [usize; 2], shift: f64) -> String
 
 /// A case beside its mesh, solved by one of the methods.
 fn read(name: &str, mesh: &[u8], text: &str, method: &str) -> Result<Case, CaseErrors> {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("sectors-{name}"));
-    fs::create_dir_all(&folder).unwrap();
+    let folder = kept(&format!("sectors-{name}"));
     fs::write(folder.join("sector.msh"), mesh).unwrap();
     let path = folder.join("case.toml");
     let method = format!("cea.method={method}");

@@ -20,8 +20,7 @@ const CONSTANTS: [(&str, f64); 9] = [
 
 /// A block of lining of 50 x 40 x 20 mm that nothing holds.
 fn lining(name: &str, sections: &str, overrides: &[String]) -> Case {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("free-part-{name}"));
-    fs::create_dir_all(&folder).unwrap();
+    let folder = kept(&format!("free-part-{name}"));
     let block =
         Block { name: "part", origin: [0.0; 3], size: [0.05, 0.04, 0.02], counts: [4, 3, 2] };
     fs::write(folder.join("part.msh"), file_of(&[block], |point| point)).unwrap();
@@ -36,9 +35,7 @@ shear_moduli = [3e9, 1.2e9, 1e9]
 density = 2500.0
 {sections}"#
     );
-    let path = folder.join("part.toml");
-    let parsed = Case::parse(path.to_str().unwrap(), text.as_bytes(), overrides);
-    parsed.unwrap_or_else(|errors| panic!("{errors}"))
+    case_of(folder.join("part.toml"), &text, overrides)
 }
 
 /// Frequencies of the dense pencil of the elements, rigid motions left out, rad/s.

@@ -1,6 +1,7 @@
 //! Derivatives of growth rates by modifications of a body against differences of whole analyses run again with that
 //! modification, small (independent check: the difference of two spectra knows nothing of vectors).
 
+use crate::body_sensitivity::Body;
 use crate::prelude::*;
 use frictionsim::linalg::c64;
 use frictionsim::results::improve::TargetFields;
@@ -9,20 +10,10 @@ use frictionsim::study::improve::{Improvement, improve};
 /// What differences of second order leave, relative to the largest derivative of a kind over the body.
 const TOLERANCE: f64 = 0.01;
 
-struct Body {
-    folder: TempDir,
-    text: String,
-}
-
 impl Body {
-    fn case(&self, set: &[String]) -> Case {
-        let name = self.folder.path().join("case.toml").display().to_string();
-        Case::parse(&name, self.text.as_bytes(), set).unwrap_or_else(|e| panic!("{e}"))
-    }
-
     fn improved(&self) -> Improvement {
-        let set = ["improve.confirm=0", "improve.candidates=1"].map(str::to_owned);
-        improve(&self.case(&set)).unwrap_or_else(|e| panic!("{e}"))
+        let case = self.case(&["improve.confirm=0", "improve.candidates=1"]);
+        improve(&case).unwrap_or_else(|e| panic!("{e}"))
     }
 
     /// The eigenvalue nearest to one after some changes.
@@ -45,7 +36,7 @@ impl Body {
 
     /// Holds the fields of the fastest mode to differences at some nodes, and in the region `patch`; steps are of mass, kg,
     /// stiffness, N/m, and damping, N s/m.
-    fn check(&self, nodes: &[usize], [mass, spring, dashpot]: [f64; 3]) {
+    fn check_fields(&self, nodes: &[usize], [mass, spring, dashpot]: [f64; 3]) {
         let found = self.improved();
         let fastest = found.modes.iter().enumerate();
         let fastest =
@@ -110,7 +101,7 @@ impl Body {
             _ => brick_volume(mesh, e),
         };
         let sum = |field: &[f64]| own().map(|e| field[e] * size(e)).sum::<f64>();
-        let case = self.case(&[]);
+        let case = self.case(AS_IT_IS);
         let elastic = *case.materials().of(region);
         let weaker = |p: f64| {
             vec![
@@ -188,7 +179,7 @@ fn fields_of_the_disc_are_differences_of_its_spectra() {
          [contact]\nfriction_coefficient = 0.3\ninterference = 25e-6\nrotation_speed_rpm = 610.0\n\
          [cea]\nmodes = 12\ngeometric_stiffness = false\n",
     );
-    body.check(&[7, 23], [1e-5, 1e3, 1e-2]);
+    body.check_fields(&[7, 23], [1e-5, 1e3, 1e-2]);
 }
 
 /// An oval on springs and dashpots under a compliant contact: nothing is proportional.
@@ -204,7 +195,7 @@ fn fields_of_an_oval_on_supports_are_differences_of_its_spectra() {
          [contact]\nfriction_coefficient = 0.3\ninterference = 25e-6\nrotation_speed_rpm = 610.0\n\
          normal_stiffness = 1e14\n[cea]\nmodes = 12\ngeometric_stiffness = false\n",
     );
-    body.check(&[7], [1e-5, 1e3, 1e-2]);
+    body.check_fields(&[7], [1e-5, 1e3, 1e-2]);
 }
 
 /// A pad on a slab of bricks, free of stress.
@@ -228,11 +219,11 @@ fn fields_of_an_assembly_are_differences_of_its_spectra() {
         normal_stiffness = 1e13\nstate = \"closed\"\n[cea]\nmodes = 10\n"
         .to_owned();
     let body = Body { folder, text };
-    let mesh = body.case(&[]).mesh().unwrap();
+    let mesh = body.case(AS_IT_IS).mesh().unwrap();
     let node = mesh.nearest_node([0.005, 0.005]).unwrap().0;
     let free = (0..mesh.node_count()).find(|&n| {
         let [x, y, z] = mesh.nodes[n];
         x > 0.02 && y < 0.006 && (z - 0.02).abs() < 1e-9
     });
-    body.check(&[free.unwrap_or(node)], [1e-6, 1e2, 1e-3]);
+    body.check_fields(&[free.unwrap_or(node)], [1e-6, 1e2, 1e-3]);
 }

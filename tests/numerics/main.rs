@@ -4,6 +4,8 @@
 mod block;
 #[path = "../common/bricks.rs"]
 mod bricks;
+#[path = "../common/cases.rs"]
+mod cases;
 #[path = "../common/disc.rs"]
 mod disc;
 #[path = "../common/msh.rs"]

@@ -371,12 +371,8 @@ fn modes_do_not_depend_on_the_other_friction_values_asked_for() {
 /// a step of friction. Branches end, which a note says, and the modes listed are those of the exported matrices.
 #[test]
 fn modes_of_slow_sliding_are_those_of_the_exported_matrices() {
-    let slow = [
-        "motion.low.rotation_speed_rpm=1.0",
-        "boundaries.high_x1.normal_stiffness=1e11",
-        "boundaries.high_x1.tangential_stiffness=1e11",
-        "contacts.face.friction_coefficient=0.3",
-    ];
+    let slow = ["motion.low.rotation_speed_rpm=1.0 ; boundaries.high_x1.normal_stiffness=1e11 ; \
+         boundaries.high_x1.tangential_stiffness=1e11 ; contacts.face.friction_coefficient=0.3"];
     let folder = folder();
     let springs = "normal_stiffness = 4e12";
     tall_block(&folder, springs, "[0.05, 0.15, 0.3, 0.5]");

@@ -48,7 +48,7 @@ fn sweep(folder: &TempDir, frictions: &[f64]) -> FrictionSweep {
         format!("cea.friction_coefficients={frictions:?}"),
         format!("contact.friction_coefficient={own:?}"),
     ];
-    let case = Case::parse(&name, CASE.as_bytes(), &set).unwrap_or_else(|e| panic!("{e}"));
+    let case = case_of(name, CASE, &set);
     modes_and_onsets(&case).unwrap()
 }
 

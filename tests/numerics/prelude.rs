@@ -2,6 +2,7 @@
 
 pub use crate::block::{SOLIDS, block};
 pub use crate::bricks::{Block, file_of};
+pub use crate::cases::{AS_IT_IS, case_of, kept, read_case, shipped_case};
 pub use crate::disc::{
     DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, contact, elastic, sliding_at, sweep_request,
     transient_settings,

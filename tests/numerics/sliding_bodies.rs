@@ -91,7 +91,7 @@ fn quadrilaterals([along, across, _]: [usize; 3], [width, height, _]: [f64; 3]) 
     text + "$EndElements\n"
 }
 
-fn case_of(slider: &Slider) -> Case {
+fn part(slider: &Slider) -> Case {
     // Tests run side by side, so each case has a folder of its own.
     let folder = tempfile::tempdir().unwrap();
     let (mesh, direction, formulation) = if slider.is_plane {
@@ -124,9 +124,7 @@ fn case_of(slider: &Slider) -> Case {
     if let Some(stiffness) = slider.contact_stiffness {
         writeln!(text, "normal_stiffness = {stiffness:e}").unwrap();
     }
-    let path = folder.path().join("part.toml");
-    let parsed = Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]);
-    parsed.unwrap_or_else(|errors| panic!("{errors}"))
+    case_of(folder.path().join("part.toml"), &text, AS_IT_IS)
 }
 
 /// Mass, damping, stiffness and structural damping of an export at one friction coefficient.
@@ -174,7 +172,7 @@ const PROMISED: f64 = 0.5;
 
 /// Holds the modes to a dense decomposition, and each to Newton's method where that is not sharp enough, or `is_polished`.
 fn check(slider: &Slider, is_polished: bool) -> Result<(), TestCaseError> {
-    let case = case_of(slider);
+    let case = part(slider);
     let found = match modes_and_onsets(&case) {
         Ok(found) => found,
         // A block that friction tips over, or lifts off altogether, has no steady sliding.
@@ -262,8 +260,7 @@ fn equal_eigenvalues_that_friction_does_not_move_are_all_listed() {
                 direction = [1.0, 0.0, 0.0]\nspeed = 5.134476e-3\nfriction_coefficient = 0.2\n\
                 interference = 6.291808e-9\nnormal_stiffness = 2.698371e11\n\
                 [cea]\nfriction_coefficients = [0.0, 0.2]\ngeometric_stiffness = false\nmodes = 27\n";
-    let path = folder.path().join("part.toml");
-    let case = Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]).unwrap();
+    let case = case_of(folder.path().join("part.toml"), text, AS_IT_IS);
     for point in modes_and_onsets(&case).unwrap().points {
         let frequencies: Vec<f64> = point.modes.iter().map(|mode| mode.frequency_hz()).collect();
         let equal = frequencies.iter().filter(|hz| (*hz / 3397.2346 - 1.0).abs() < 1e-6);

@@ -51,9 +51,8 @@ fn bodies() -> impl Strategy<Value = Body> {
     )
 }
 
-fn case_of(body: &Body, folder: &str) -> Case {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(folder);
-    fs::create_dir_all(&folder).unwrap();
+fn part(body: &Body, folder: &str) -> Case {
+    let folder = kept(folder);
     let block = Block { name: "part", origin: [0.0; 3], size: body.size, counts: body.counts };
     fs::write(folder.join("part.msh"), file_of(&[block], |point| point)).unwrap();
     let mut text = format!(
@@ -73,9 +72,7 @@ fn case_of(body: &Body, folder: &str) -> Case {
         Hold::Nothing => Ok(()),
     }
     .unwrap();
-    let path = folder.join("part.toml");
-    let parsed = Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]);
-    parsed.unwrap_or_else(|errors| panic!("{errors}"))
+    case_of(folder.join("part.toml"), &text, AS_IT_IS)
 }
 
 /// Squares of all angular frequencies by a dense decomposition, ascending.
@@ -101,7 +98,7 @@ fn dense(system: &ExportedSystem) -> Vec<f64> {
 
 /// Whether the modes of a body are those of the dense decomposition.
 fn check(body: &Body, folder: &str) -> Result<(), TestCaseError> {
-    check_case(&case_of(body, folder), body.modes)
+    check_case(&part(body, folder), body.modes)
 }
 
 fn check_case(case: &Case, count: usize) -> Result<(), TestCaseError> {
@@ -192,8 +189,7 @@ fn ring(sectors: usize) -> String {
 /// Pairs of equal frequencies, and the rigid motions of any stiffness between soft and stiff.
 #[test]
 fn a_ring_on_springs_at_its_rim_has_its_modes_at_every_stiffness() {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("supported-ring");
-    fs::create_dir_all(&folder).unwrap();
+    let folder = kept("supported-ring");
     fs::write(folder.join("ring.msh"), ring(16)).unwrap();
     let path = folder.join("ring.toml");
     for exponent in 2..14 {
@@ -202,8 +198,7 @@ fn a_ring_on_springs_at_its_rim_has_its_modes_at_every_stiffness() {
              [boundaries.rim]\ncondition = \"support\"\nnormal_stiffness = 1e{exponent}\n\
              [cea]\nfriction_coefficients = [0.0]\nmodes = 24\n"
         );
-        let parsed = Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]);
-        let case = parsed.unwrap_or_else(|errors| panic!("{errors}"));
+        let case = case_of(&path, &text, AS_IT_IS);
         check_case(&case, 24).unwrap_or_else(|error| panic!("1e{exponent} Pa/m: {error}"));
     }
 }

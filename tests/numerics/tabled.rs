@@ -298,8 +298,7 @@ const RUBBER: &str = "frequency_hz,young_modulus,loss_factor
 
 /// A block of steel on one of rubber that stands on the ground; both move along z alone.
 fn mount(name: &str, table: &str, sections: &str) -> Result<Case, String> {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("mount-{name}"));
-    fs::create_dir_all(&folder).unwrap();
+    let folder = kept(&format!("mount-{name}"));
     let block = |name, z: f64, height: f64| Block {
         name,
         origin: [0.0, 0.0, z],
@@ -332,9 +331,7 @@ counter = "mass_z0"
 {}{sections}"#,
         guides.concat()
     );
-    let path = folder.join("mount.toml");
-    let parsed = Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]);
-    parsed.map_err(|errors| errors.to_string())
+    read_case(folder.join("mount.toml"), &text, AS_IT_IS)
 }
 
 /// Closed form: `lambda^2 m + k(f) (1 + i eta(f)) = 0` with `k = E A / h` and a third of the rubber's mass, from a file; its hash

@@ -37,8 +37,7 @@ friction_coefficients = {{ from = 0.0, to = 0.6, count = 7 }}
 geometric_stiffness = false
 "#
     );
-    let path = folder.path().join("disc.toml");
-    Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]).unwrap()
+    case_of(folder.path().join("disc.toml"), &text, AS_IT_IS)
 }
 
 const GRID: &str = "[mesh]\ncircumferential_elements = 24\nradial_elements = 4\n";

@@ -7,12 +7,9 @@ use crate::prelude::*;
 fn the_critical_friction_of_the_shipped_case_rises_with_speed() {
     let folder = folder();
     let run = |name: &str, further: &[&str]| {
-        let coarse = [
-            "mesh.circumferential_elements=45",
-            "mesh.radial_elements=9",
-            "output.probes=[]",
-            "cea.friction_coefficients=[0.0, 0.3]",
-        ];
+        let coarse =
+            ["mesh.circumferential_elements=45 ; mesh.radial_elements=9 ; output.probes=[] ; \
+             cea.friction_coefficients=[0.0, 0.3]"];
         let run = Run::of(name, shipped("falling-friction.toml")).out(folder.path().join(name));
         run.set(&coarse).set(further).done()
     };

@@ -44,8 +44,7 @@ fn read(folder: &TempDir, mesh: &str, set: &[&str]) -> Result<Case, String> {
             "[mesh]\nfile = \"{file}\"\n[boundaries.outer]\ncondition = \"clamped\"\n{MODEL}{STUDIES}"
         ),
     };
-    let set: Vec<String> = set.iter().map(|text| (*text).to_owned()).collect();
-    Case::parse(&name, text.as_bytes(), &set).map_err(|errors| errors.to_string())
+    read_case(name, &text, set)
 }
 
 fn case(folder: &TempDir, mesh: &str, set: &[&str]) -> Case {

@@ -1,6 +1,6 @@
 //! Cases with a deformable shaft, good and bad.
 
-use frictionsim::case::Case;
+use crate::prelude::*;
 
 const CASE: &str = "
 [geometry]
@@ -35,7 +35,7 @@ frequencies_hz = [1000.0]
 fn parse(from: &str, to: &str) -> Result<Case, String> {
     assert!(CASE.contains(from), "{from}");
     let text = CASE.replacen(from, to, 1);
-    Case::parse("case.toml", text.as_bytes(), &[]).map_err(|error| error.to_string())
+    read_case("case.toml", &text, AS_IT_IS)
 }
 
 #[test]

@@ -3,17 +3,11 @@
 use crate::prelude::*;
 
 /// The hammer test in three dimensions, coarse, struck along the axis at the rim of the top.
-const SOLID: [&str; 9] = [
-    "material.formulation=three-dimensional",
-    "mesh.axial_elements=2",
-    "mesh.circumferential_elements=24",
-    "mesh.radial_elements=6",
-    "frf.force_node={ radius = 0.0905, angle_deg = 30 }",
-    "frf.response_node={ radius = 0.0905, angle_deg = 30 }",
-    "frf.force_direction=axial",
-    "frf.response_direction=axial",
-    "frf.frequencies_hz={ from = 20, to = 6000, count = 5981 }",
-];
+const SOLID: [&str; 1] = ["material.formulation=three-dimensional ; mesh.axial_elements=2 ; \
+     mesh.circumferential_elements=24 ; mesh.radial_elements=6 ; \
+     frf.force_node={ radius = 0.0905, angle_deg = 30 } ; \
+     frf.response_node={ radius = 0.0905, angle_deg = 30 } ; frf.force_direction=axial ; \
+     frf.response_direction=axial ; frf.frequencies_hz={ from = 20, to = 6000, count = 5981 }"];
 
 fn run(folder: &TempDir, command: &str, overrides: &[&str]) -> Run {
     let words = [command, &shipped("hammer-test.toml")];
@@ -50,12 +44,9 @@ fn damping_is_identified_from_the_response_of_a_disc_with_thickness() {
 #[test]
 fn the_response_in_sliding_contact_is_that_of_the_case_and_its_cost_is_known_before() {
     let folder = folder();
-    let sliding = [
-        "frf.boundary=sliding",
-        "frf.force_node={ radius = 0.0205, angle_deg = 0 }",
-        "frf.response_node={ radius = 0.0205, angle_deg = 90 }",
-        "frf.frequencies_hz={ from = 500, to = 5000, count = 10 }",
-    ];
+    let sliding = ["frf.boundary=sliding ; frf.force_node={ radius = 0.0205, angle_deg = 0 } ; \
+         frf.response_node={ radius = 0.0205, angle_deg = 90 } ; \
+         frf.frequencies_hz={ from = 500, to = 5000, count = 10 }"];
     let checked = run(&folder, "check", &sliding).args(&["--json"]).done().value();
     assert_eq!(checked["cases"][0]["frf"]["lines"], 10);
     let summary = run(&folder, "frf", &sliding).out("frf").done().summary();

@@ -21,9 +21,7 @@ fn run(command: &str, out: &Path, set: &[&str]) -> Answer {
 /// Cross-method: what `fit` and `uncertainty` ask for is what `cea` finds of the same body, not of its plane section.
 #[test]
 fn modes_for_a_fit_and_onsets_of_a_sample_are_those_of_the_body_with_its_thickness() {
-    let bytes = std::fs::read(shipped(DISC)).unwrap();
-    let overrides = COARSE.map(str::to_owned);
-    let case = Case::parse("disc", &bytes, &overrides).unwrap();
+    let case = shipped_case(DISC, &COARSE);
     let known = modes_and_onsets(&case).unwrap();
     let intervals = unstable_intervals(&case, &[0.3, 0.6], None).unwrap().intervals;
     assert_eq!(intervals.len(), known.intervals.len());
