@@ -180,19 +180,13 @@ fn tables_hold_one_row_for_each_mode_of_a_tabulated_friction_value() {
 fn the_printed_table_tells_stable_ranges_from_unstable_modes() {
     let mesh = annulus(ElementKind::Quad4);
     let text = document(&report(&mesh, &sweep(&mesh), &field(&mesh)), View::Whole).to_text();
-    for part in [
-        "friction 0: stable up to 0.1",
-        "9900.00",
-        "0.138200",
-        "0.900000",
-        "9950.00",
-        "2 modes (below 10000 Hz) at 3 friction values",
-        "12 contact nodes slipping, 0 sticking, 0 open",
-        "pressure 2.8000 to 2.8300 MPa; torque 20.1500 N m",
-        "harmonics above 6",
-    ] {
-        assert!(text.contains(part), "{part:?} is not in\n{text}");
-    }
+    has(
+        &text,
+        &["friction 0: stable up to 0.1 ; 9900.00 ; 0.138200 ; 0.900000 ; 9950.00 ; \
+         2 modes (below 10000 Hz) at 3 friction values ; \
+         12 contact nodes slipping, 0 sticking, 0 open ; \
+         pressure 2.8000 to 2.8300 MPa; torque 20.1500 N m ; harmonics above 6"],
+    );
     let short = document(&report(&mesh, &sweep(&mesh), &field(&mesh)), View::Short).to_text();
     assert!(
         short.contains("friction 0.3: 2 modes, 1 unstable") && !short.contains("stable up to"),

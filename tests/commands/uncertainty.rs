@@ -122,12 +122,9 @@ fn a_distribution_whose_tail_is_forbidden_is_drawn_without_it() {
 /// lowest friction of an analysis is unstable already, a sweep says that it is no critical one.
 #[test]
 fn samples_of_solid_bodies_beyond_their_onset_have_the_onset_of_an_analysis() {
-    let uncertain = [
-        "cea.friction_coefficients=[0.0, 0.4, 0.5, 0.6]",
-        "cea.modes=3",
-        "uncertainty={ samples = 2, seed = 1, index_samples = 0 }",
-        "uncertainty.distributions={ \"material.density\" = { uniform = [1149.9999999, 1150.0000001] } }",
-    ];
+    let uncertain = ["cea.friction_coefficients=[0.0, 0.4, 0.5, 0.6] ; cea.modes=3 ; \
+         uncertainty={ samples = 2, seed = 1, index_samples = 0 } ; \
+         uncertainty.distributions={ \"material.density\" = { uniform = [1149.9999999, 1150.0000001] } }"];
     let case = shipped_case("tread-block.toml", &uncertain);
     let known = modes_and_onsets(&case).unwrap().intervals;
     let known = known.iter().map(|own| own.critical_friction).fold(f64::INFINITY, f64::min);

@@ -39,15 +39,10 @@ fn external_power_leaves_as_heat_of_body_and_contact() {
 
 #[test]
 fn cycles_along_a_branch_have_the_powers_of_each_alone() {
-    let overrides = [
-        "mesh.circumferential_elements=90",
-        "mesh.radial_elements=18",
-        "cycle.harmonics=[1]",
-        "cycle.continuation.from=70.0",
-        "cycle.continuation.to=250.0",
-        "cycle.continuation.count=3",
-        "cycle.confirmation_periods=0",
-    ];
+    let overrides =
+        ["mesh.circumferential_elements=90 ; mesh.radial_elements=18 ; cycle.harmonics=[1] ; \
+         cycle.continuation.from=70.0 ; cycle.continuation.to=250.0 ; \
+         cycle.continuation.count=3 ; cycle.confirmation_periods=0"];
     let case = shipped_case("limit-cycle.toml", &overrides);
     let study = CycleStudy::new(&case, SimdLevel::detect()).unwrap();
     let results = study.run(0, &|| {});

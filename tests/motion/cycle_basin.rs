@@ -46,11 +46,8 @@ fn a_kick_tips_sliding_into_its_cycle_at_the_amplitude_of_the_unstable_cycle() {
 fn modes_of_an_annulus_compete_as_its_waves_do() {
     let case = shipped_case(
         "basin.toml",
-        &[
-            "mesh.circumferential_elements=48",
-            "mesh.radial_elements=10",
-            "cea={ modes = 8, geometric_stiffness = false }",
-        ],
+        &["mesh.circumferential_elements=48 ; mesh.radial_elements=10 ; \
+             cea={ modes = 8, geometric_stiffness = false }"],
     );
     let simd = SimdLevel::detect();
     let waves = bounds(&boundary(&case, simd).unwrap());

@@ -53,11 +53,9 @@ pub fn hold_to_transient(case: &Case) -> PeriodicResult {
 }
 
 /// A transient that grows from noise.
-const FROM_NOISE: [&str; 3] = [
-    "transient.duration=0.012",
-    "transient.initial=\"steady-sliding\"",
-    "transient.perturbation.noise=1e-2",
-];
+const FROM_NOISE: [&str; 1] =
+    ["transient.duration=0.012 ; transient.initial=\"steady-sliding\" ; \
+     transient.perturbation.noise=1e-2"];
 
 #[test]
 fn the_cycle_of_a_block_is_that_of_its_transient() {
@@ -86,15 +84,11 @@ fn springs_and_dashpots_of_the_contact_are_those_of_the_transient() {
 fn the_cycle_of_a_disc_on_a_deformable_shaft_is_that_of_its_transient() {
     let result = hold_to_transient(&shipped_case(
         "deformable-shaft.toml",
-        &[
-            "mesh.circumferential_elements=48",
-            "mesh.radial_elements=10",
-            "mesh.shaft_radial_elements=2",
-            "cea.max_frequency_hz=12000.0",
-            "cycle={ onsets = \"lowest\", confirmation_periods = 0, stability = \"none\" }",
-            "transient.duration=0.012",
-            "transient.perturbation={ harmonics = [1], velocity = 0.05 }",
-        ],
+        &["mesh.circumferential_elements=48 ; mesh.radial_elements=10 ; \
+             mesh.shaft_radial_elements=2 ; cea.max_frequency_hz=12000.0 ; \
+             cycle={ onsets = \"lowest\", confirmation_periods = 0, stability = \"none\" } ; \
+             transient.duration=0.012 ; \
+             transient.perturbation={ harmonics = [1], velocity = 0.05 }"],
     ));
     assert!(found(&result).motion.powers.balance_residual() < 1e-6);
 }
@@ -143,10 +137,8 @@ fn a_branch_of_cycles_goes_from_neighbour_to_neighbour() {
     let near = |wanted: f64| values.iter().any(|value| (value - wanted).abs() < 1e-12);
     assert!([0.66, 0.68].into_iter().all(near), "{values:?} {:?}", branch.ends);
     // The first one is the cycle that is found from its own mode.
-    let own = cycles(&block(&[
-        "contact.friction_coefficient=0.64",
-        "cycle={ confirmation_periods = 0, stability = \"none\" }",
-    ]));
+    let own = cycles(&block(&["contact.friction_coefficient=0.64 ; \
+         cycle={ confirmation_periods = 0, stability = \"none\" }"]));
     let (a, b) = (&branch.motions[0].motion, &found(&own[0]).motion);
     assert!(
         (a.frequency_hz / b.frequency_hz - 1.0).abs() < 1e-4,
@@ -188,9 +180,8 @@ fn the_critical_damping_of_stable_sliding_is_where_the_onset_is_the_friction() {
         let case = shipped_case(
             "limit-cycle.toml",
             &[
-                "mesh.circumferential_elements=45",
-                "mesh.radial_elements=9",
-                "contact.friction_coefficient=0.05",
+                "mesh.circumferential_elements=45 ; mesh.radial_elements=9 ; \
+                 contact.friction_coefficient=0.05",
                 &format!("damping.stiffness_coefficient={damping:e}"),
                 "cycle={ continuation = { key = \"damping.stiffness_coefficient\", from = 0.0, to = 4.5e-7, count = 5 } }",
             ],
@@ -215,10 +206,8 @@ fn the_critical_damping_of_stable_sliding_is_where_the_onset_is_the_friction() {
 fn the_cycle_of_a_pad_in_slow_sliding_is_that_of_its_transient() {
     let case = shipped_case(
         "pad-on-disc.toml",
-        &[
-            "contact.rotation_speed_rpm=5.0",
-            "cycle={ onsets = \"lowest\", confirmation_periods = 0, stability = \"none\" }",
-        ],
+        &["contact.rotation_speed_rpm=5.0 ; \
+             cycle={ onsets = \"lowest\", confirmation_periods = 0, stability = \"none\" }"],
     );
     let results = cycles(&case);
     let motion = &found(&results[0]).motion;
@@ -232,24 +221,18 @@ fn the_cycle_of_a_pad_in_slow_sliding_is_that_of_its_transient() {
 fn rotating_waves_are_periodic_motions_of_the_whole_mesh() {
     let case = shipped_case(
         "limit-cycle.toml",
-        &[
-            "mesh.circumferential_elements=90",
-            "mesh.radial_elements=18",
-            "cycle={ harmonics = [2], onsets = \"lowest\", confirmation_periods = 0 }",
-            "cea={ modes = 8, friction_coefficients = [0.3], geometric_stiffness = false }",
-        ],
+        &["mesh.circumferential_elements=90 ; mesh.radial_elements=18 ; \
+             cycle={ harmonics = [2], onsets = \"lowest\", confirmation_periods = 0 } ; \
+             cea={ modes = 8, friction_coefficients = [0.3], geometric_stiffness = false }"],
     );
     let waves = CycleStudy::new(&case, SimdLevel::detect()).unwrap();
     let waves = waves.run(0, &|| {});
     let wave = waves[0].cycle.as_ref().unwrap();
     let all = cycles(&shipped_case(
         "limit-cycle.toml",
-        &[
-            "mesh.circumferential_elements=90",
-            "mesh.radial_elements=18",
-            "cycle={ confirmation_periods = 0 }",
-            "cea={ modes = 8, friction_coefficients = [0.3], geometric_stiffness = false }",
-        ],
+        &["mesh.circumferential_elements=90 ; mesh.radial_elements=18 ; \
+             cycle={ confirmation_periods = 0 } ; \
+             cea={ modes = 8, friction_coefficients = [0.3], geometric_stiffness = false }"],
     ));
     let distance = |result: &PeriodicResult| {
         let motion = result.outcome.as_ref().ok().map(|found| found.motion.frequency_hz);

@@ -101,17 +101,10 @@ fn the_cycle_of_a_pad_on_a_disc_is_that_of_its_transient() {
 fn the_cycle_of_a_ring_on_a_layer_is_that_of_its_transient() {
     let result = hold_to_transient(&shipped_case(
         "ring-on-layer.toml",
-        &[
-            "mesh.circumferential_elements=24",
-            "mesh.radial_elements=7",
-            "mesh.axial_elements=1",
-            "contact.friction_coefficient=0.4",
-            "cycle={ onsets = \"lowest\" }",
-            "transient.duration=0.03",
-            "transient.time_step=1e-6",
-            "transient.perturbation={ harmonics = [1, 2], velocity = 0.01 }",
-            "output.snapshots=[]",
-        ],
+        &["mesh.circumferential_elements=24 ; mesh.radial_elements=7 ; mesh.axial_elements=1 ; \
+             contact.friction_coefficient=0.4 ; cycle={ onsets = \"lowest\" } ; \
+             transient.duration=0.03 ; transient.time_step=1e-6 ; \
+             transient.perturbation={ harmonics = [1, 2], velocity = 0.01 } ; output.snapshots=[]"],
     ));
     let cycle = found(&result);
     assert!(cycle.motion.powers.balance_residual() < 1e-6);

@@ -36,14 +36,9 @@ const POOL: &[(&str, &[&str])] = &[
 
 /// A small case with a few keys changed.
 fn overrides(seed: u64) -> Vec<String> {
-    let small = [
-        "mesh.circumferential_elements=24",
-        "mesh.radial_elements=4",
-        "transient.duration=4e-5",
-        "transient.expansion_time=1e-5",
-        "output.probes=[1]",
-        "output.snapshots=[]",
-    ];
+    let small =
+        ["mesh.circumferential_elements=24 ; mesh.radial_elements=4 ; transient.duration=4e-5 ; \
+         transient.expansion_time=1e-5 ; output.probes=[1] ; output.snapshots=[]"];
     // Marsaglia's xorshift.
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     let mut random = |count: usize| {
@@ -52,7 +47,8 @@ fn overrides(seed: u64) -> Vec<String> {
         state ^= state << 17;
         (state >> 11) as usize % count
     };
-    let mut all: Vec<String> = small.iter().map(|text| text.to_string()).collect();
+    let mut all: Vec<String> =
+        small.iter().flat_map(|text| text.split(" ; ")).map(str::to_owned).collect();
     for _ in 0..1 + random(3) {
         let (key, values) = POOL[random(POOL.len())];
         all.push(format!("{key}={}", values[random(values.len())]));

@@ -18,7 +18,8 @@ const RUN: &str = include_str!("../../../cases/polycarbonate-610rpm.toml");
 const STUDY: &str = include_str!("../../../cases/speed-friction-study.toml");
 
 fn parse(text: &str, overrides: &[&str]) -> Result<Case, CaseErrors> {
-    let overrides: Vec<String> = overrides.iter().map(|text| text.to_string()).collect();
+    let overrides = overrides.iter().flat_map(|text| text.split(" ; ")).map(str::to_owned);
+    let overrides: Vec<String> = overrides.collect();
     Case::parse("case.toml", text.as_bytes(), &overrides)
 }
 
@@ -41,12 +42,6 @@ fn disc_with(key: &str, line: &str) -> String {
     let lines: Vec<&str> =
         DISC.lines().map(|text| if is_key(text) { line } else { text }).collect();
     lines.join("\n")
-}
-
-fn assert_reports(report: &str, parts: &[&str]) {
-    for part in parts {
-        assert!(report.contains(part), "{part:?} is not in\n{report}");
-    }
 }
 
 #[test]
@@ -132,12 +127,8 @@ fn swept_keys_may_be_written_with_or_without_quotes() {
 fn overrides_change_exactly_their_key() {
     let case = valid(
         DISC,
-        &[
-            "contact.friction_coefficient=0.45",
-            "mesh.element=quad4",
-            "mesh.radial_elements=12",
-            "cea.friction_coefficients={ from = 0, to = 0.6, count = 3 }",
-        ],
+        &["contact.friction_coefficient=0.45 ; mesh.element=quad4 ; mesh.radial_elements=12 ; \
+             cea.friction_coefficients={ from = 0, to = 0.6, count = 3 }"],
     );
     assert_eq!(case.contact.sliding.friction_coefficient, 0.45);
     assert_eq!(case.body.grid().unwrap().element, ElementKind::Quad4);
@@ -197,7 +188,7 @@ fn all_errors_of_a_case_are_reported_at_once() {
         .replace("[damping]", "[dampng]");
     let errors = parse(&text, &["contact.interference=0"]).unwrap_err();
     assert_eq!(errors.diagnostics.len(), 5, "{errors}");
-    assert_reports(
+    has(
         &errors.to_string(),
         &["did you mean `damping`?", "material.colour", "must be above", "--set:1:"],
     );
@@ -211,7 +202,7 @@ fn a_key_in_the_wrong_section_is_sent_home() {
         1,
     );
     let report = report(&text, &[]);
-    assert_reports(
+    has(
         &report,
         &[
             "did you mean `friction_coefficient` of [contact]?",
@@ -224,7 +215,7 @@ fn a_key_in_the_wrong_section_is_sent_home() {
 fn bytes_that_are_no_text_have_a_place() {
     let bytes = [b"title = \"".as_slice(), &[0xff, 0xfe], b"\""].concat();
     let errors = Case::parse("case.toml", &bytes, &[]).unwrap_err().to_string();
-    assert_reports(&errors, &["UTF-8", "case.toml:1:"]);
+    has(&errors, &["UTF-8", "case.toml:1:"]);
 }
 
 #[test]
@@ -237,7 +228,7 @@ fn windows_line_ends_and_a_byte_order_mark_are_read() {
 fn a_quadratic_mesh_runs_no_transient() {
     let case = valid(RUN, &["mesh.element=quad8"]);
     let report = case.require_transient().unwrap_err().to_string();
-    assert_reports(&report, &["mesh.element", "--set:1:", "quad4"]);
+    has(&report, &["mesh.element", "--set:1:", "quad4"]);
     assert!(case.require_cea().is_ok());
 }
 
@@ -245,9 +236,9 @@ fn a_quadratic_mesh_runs_no_transient() {
 fn a_missing_analysis_says_what_to_add() {
     // What its section would not help against is said first.
     let quadratic = valid(DISC, &[]).require_transient().unwrap_err();
-    assert_reports(&quadratic.to_string(), &["mesh.element", "quad4"]);
+    has(&quadratic.to_string(), &["mesh.element", "quad4"]);
     let case = valid(DISC, &["mesh.element=quad4"]);
-    assert_reports(
+    has(
         &case.require_transient().unwrap_err().to_string(),
         &["no [transient] section", "duration"],
     );

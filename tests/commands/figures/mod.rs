@@ -100,7 +100,7 @@ fn check(name: &str, svg: &str, expected: &[&str]) {
     std::fs::create_dir_all(&folder).unwrap();
     std::fs::write(folder.join(format!("{name}.svg")), svg).unwrap();
     let text = texts(svg);
-    for wanted in expected {
+    for wanted in expected.iter().flat_map(|words| words.split(" ; ")) {
         let is_there = text.iter().any(|line| line.contains(wanted));
         assert!(is_there, "{name} lacks '{wanted}': {text:?}");
     }

@@ -98,15 +98,9 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
         }
     }
     let text = std::fs::read_to_string(path.join("report.html")).unwrap();
-    for wanted in [
-        "<h1>Polycarbonate disc</h1>",
-        "Critical friction of each branch",
-        "Eigenvalues at friction coefficient 0.3",
-        "circumferential_elements = 180",
-        "Figure 1.",
-    ] {
-        assert!(text.contains(wanted), "{wanted}");
-    }
+    let wanted = "<h1>Polycarbonate disc</h1> ; Critical friction of each branch ; \
+         Eigenvalues at friction coefficient 0.3 ; circumferential_elements = 180 ; Figure 1.";
+    has(&text, &[wanted]);
     for name in ["locus", "pairs", "prestress", "modes-mu-0.3", "branch-n1-0-against"] {
         assert!(text.contains(&format!("<figure id=\"{name}\">")), "{name}");
         for extension in ["svg", "png"] {

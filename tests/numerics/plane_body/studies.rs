@@ -161,11 +161,8 @@ fn no_study_solves_an_imported_body_by_sectors() {
 #[test]
 fn rotating_waves_are_sought_in_no_imported_body() {
     let folder = folder();
-    let set = [
-        "basin={ harmonics = [1, 2] }",
-        "cycle={ confirmation_periods = 0 }",
-        "transient={ duration = 1e-4, initial = \"limit-cycle\", limit_cycle_harmonic = 1 }",
-    ];
+    let set = ["basin={ harmonics = [1, 2] } ; cycle={ confirmation_periods = 0 } ; \
+         transient={ duration = 1e-4, initial = \"limit-cycle\", limit_cycle_harmonic = 1 }"];
     let body = case(&folder, "disc.msh", &set);
     let errors =
         [body.require_rotating_waves().unwrap_err(), body.require_transient().unwrap_err()];
@@ -200,9 +197,8 @@ fn warnings_name_no_radius_that_an_imported_body_does_not_have() {
 fn relative_seeds_of_an_imported_body_are_shares_of_its_own_slip_speed() {
     let folder = folder();
     let set = [
-        "transient={ duration = 1e-4, expansion_time = 1e-5, perturbation = { harmonics = [1], velocity = 0.5, relative = true } }",
-        "contact.boundary=outer",
-        "boundaries={ inner = { condition = \"clamped\" } }",
+        "transient={ duration = 1e-4, expansion_time = 1e-5, perturbation = { harmonics = [1], velocity = 0.5, relative = true } } ; \
+         contact.boundary=outer ; boundaries={ inner = { condition = \"clamped\" } }",
     ];
     let body = case(&folder, "disc.msh", &set);
     let perturbation = &body.transient.as_ref().unwrap().perturbation;

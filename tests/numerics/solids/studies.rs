@@ -5,12 +5,9 @@ use crate::waves::pairs;
 use frictionsim::study::eigenvalues::{modes_below, modes_with_waves_below, unstable_intervals};
 use std::fs::File;
 
-const COARSE: [&str; 4] = [
-    "mesh.circumferential_elements=24",
-    "mesh.radial_elements=5",
-    "mesh.axial_elements=1",
-    "cea.friction_coefficients=[0.0, 0.6]",
-];
+const COARSE: [&str; 1] =
+    ["mesh.circumferential_elements=24 ; mesh.radial_elements=5 ; mesh.axial_elements=1 ; \
+     cea.friction_coefficients=[0.0, 0.6]"];
 
 const DISC: &str = "disc-three-dimensions.toml";
 
