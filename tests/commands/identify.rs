@@ -4,7 +4,7 @@
 //! here, never from the library's own modal model.
 
 use crate::prelude::*;
-use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation};
+use frictionsim::fem::MassKind;
 use frictionsim::frf::{Direction, FrfSystem, ReductionSettings, Terminal, reduced_response};
 use frictionsim::linalg::GaussianNoise;
 use frictionsim::signal::{
@@ -25,13 +25,7 @@ fn noisy(values: &[c64], relative: f64, seed: u64) -> Vec<c64> {
 /// Driving-point accelerance of the free polycarbonate disc at its rim, up to 10 kHz.
 fn free_disc(step_hz: f64) -> (Vec<f64>, Vec<c64>) {
     let specification = crate::disc::annulus(ElementKind::Quad4, 90, 18);
-    let material = ElasticMaterial {
-        young_modulus: 2.5e9,
-        poisson_ratio: 0.3805,
-        density: 1228.0,
-        formulation: PlaneFormulation::PlaneStrain,
-        ..ElasticMaterial::PLAIN
-    };
+    let material = crate::disc::POLYCARBONATE;
     let damping = RayleighDamping { mass_coefficient: ALPHA, stiffness_coefficient: BETA };
     let annulus = AnnulusMesh::generate(&specification).unwrap();
     let mass = MassKind::Consistent;

@@ -38,12 +38,7 @@ fn folder() -> tempfile::TempDir {
         triangles: false,
     };
     fs::write(folder.path().join("block.msh"), msh(&[block])).unwrap();
-    let pad = |name, left: f64| Block {
-        name,
-        origin: [left, 0.0, 0.0],
-        size: [0.02, 0.02, 0.01],
-        counts: [2, 2, 1],
-    };
+    let pad = |name, left: f64| brick(name, [left, 0.0, 0.0], [0.02, 0.02, 0.01], [2, 2, 1]);
     let pads = [pad("left", 0.0), pad("right", 0.02)];
     fs::write(folder.path().join("pads.msh"), file_of(&pads, |point| point)).unwrap();
     folder

@@ -1,6 +1,6 @@
 //! What most of these tests name.
 
-pub use crate::bricks::{Block, file_of};
+pub use crate::bricks::{Block, brick, file_of};
 pub use crate::cases::{AS_IT_IS, case_of, read_case, shipped_case};
 pub use crate::coarse_disc::coarse_disc;
 pub use crate::program::{Answer, Run, folder, folder_with, has, shipped};

@@ -20,7 +20,7 @@ const CASE: &str = "title = \"Two pads\"
 [cea]\nfriction_coefficients = [0.0, 0.3, 0.6]\nmodes = 12\n";
 
 fn pads() -> Vec<u8> {
-    let block = |name, origin, size, counts| Block { name, origin, size, counts };
+    let block = |name, origin, size, counts| brick(name, origin, size, counts);
     let blocks = [
         block("slab", [0.0; 3], [0.06, 0.03, 0.01], [6, 3, 1]),
         block("left", [0.005, 0.005, 0.01], [0.015, 0.02, 0.012], [3, 3, 2]),
@@ -333,7 +333,7 @@ const ROTOR: &str = "title = \"Two pads on a rotor\"
 /// that decay; without friction they feed nothing, and with friction all rows add up to the growth rate.
 #[test]
 fn gyroscopic_forces_have_their_own_row_in_the_budget() {
-    let block = |name, origin, size, counts| Block { name, origin, size, counts };
+    let block = |name, origin, size, counts| brick(name, origin, size, counts);
     let blocks = [
         block("ring", [0.06, 0.0, 0.0], [0.06, TAU, 0.01], [2, 24, 1]),
         block("first", [0.08, 0.3, 0.01], [0.03, 0.8, 0.01], [2, 3, 1]),

@@ -4,24 +4,15 @@ use crate::prelude::*;
 use flate2::read::ZlibDecoder;
 use frictionsim::cea::{ComplexMode, FrictionPoint};
 use frictionsim::contact::ContactInterface;
-use frictionsim::mesh::{AnnulusSpecification, BoundaryCondition};
+use frictionsim::mesh::AnnulusSpecification;
 use frictionsim::results::cea::{View, document, write};
 use frictionsim::results::mesh::MeshStatistics;
 use frictionsim::results::{EncodedMesh, Field, FolderError, cartesian_vectors, write_vtu};
 use std::io::Read;
 
 fn annulus(element: ElementKind) -> AnnulusMesh {
-    AnnulusMesh::generate(&AnnulusSpecification {
-        inner_radius: 0.02,
-        outer_radius: 0.09,
-        circumferential_elements: 12,
-        radial_elements: 3,
-        radial_grading: 1.2,
-        element,
-        outer: BoundaryCondition::Clamped,
-        shaft: None,
-    })
-    .unwrap()
+    let even = crate::disc::ring([0.02, 0.09], element, 12, 3);
+    AnnulusMesh::generate(&AnnulusSpecification { radial_grading: 1.2, ..even }).unwrap()
 }
 
 /// A mode whose numbers are easily told apart.

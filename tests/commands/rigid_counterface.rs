@@ -65,8 +65,7 @@ modes = 8
 ";
 
 fn block() -> Vec<u8> {
-    let block =
-        Block { name: "block", origin: [0.0; 3], size: [0.04, 0.03, 0.02], counts: [4, 3, 2] };
+    let block = brick("block", [0.0; 3], [0.04, 0.03, 0.02], [4, 3, 2]);
     file_of(&[block], |point| point)
 }
 

@@ -3,7 +3,7 @@
 use crate::prelude::*;
 use std::process::{Child, Stdio};
 
-const BRICK: Block = Block { name: "brick", origin: [0.0; 3], size: [0.01; 3], counts: [2, 1, 1] };
+const BRICK: Block = brick("brick", [0.0; 3], [0.01; 3], [2, 1, 1]);
 
 /// A command on a shipped case of the disc, on a mesh that steps in a microsecond.
 fn coarse(command: &str, name: &str, out: &Path, overrides: &[&str]) -> Run {

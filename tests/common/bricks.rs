@@ -11,6 +11,15 @@ pub struct Block {
     pub counts: [usize; 3],
 }
 
+pub const fn brick(
+    name: &'static str,
+    origin: [f64; 3],
+    size: [f64; 3],
+    counts: [usize; 3],
+) -> Block {
+    Block { name, origin, size, counts }
+}
+
 /// The blocks as a file in MSH 2.2, every point moved by `place`. Nodes of different blocks are different nodes.
 pub fn file_of(blocks: &[Block], place: impl Fn([f64; 3]) -> [f64; 3]) -> Vec<u8> {
     file_of_order(blocks, 1, place)

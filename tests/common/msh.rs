@@ -1,6 +1,23 @@
 //! Meshes written as Gmsh files: what the reader is held to.
 
-use frictionsim::mesh::Mesh;
+#![allow(dead_code, reason = "each binary uses a part")]
+
+use frictionsim::mesh::{BodySpecification, BoundaryCondition, CounterfaceSpecification, Mesh};
+
+/// A plane body of a mesh file in metres.
+pub fn plane_body(
+    contact: &str,
+    counterface: CounterfaceSpecification,
+    opposite: Option<&str>,
+    conditions: &[(&str, BoundaryCondition)],
+) -> BodySpecification {
+    let conditions = conditions.iter().map(|&(name, own)| (name.to_owned(), own)).collect();
+    let (contact, opposite) = (contact.to_owned(), opposite.map(str::to_owned));
+    BodySpecification { scale: 1.0, contact, counterface, opposite, conditions }
+}
+
+pub const CYLINDER: CounterfaceSpecification =
+    CounterfaceSpecification::Cylinder { center: [0.0; 2], radius: None };
 
 /// How a file is written.
 #[derive(Clone, Copy, Debug)]

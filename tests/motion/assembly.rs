@@ -32,11 +32,8 @@ fn mesh(plate: [usize; 3]) -> Mesh {
 
 /// The same, or without that other block.
 fn mesh_of(plate: [usize; 3], with_lower: bool) -> Mesh {
-    let block = |name, height: f64, thickness: f64, counts| Block {
-        name,
-        origin: [0.0, 0.0, height],
-        size: [0.05, 0.04, thickness],
-        counts,
+    let block = |name, height: f64, thickness: f64, counts| {
+        brick(name, [0.0, 0.0, height], [0.05, 0.04, thickness], counts)
     };
     let lower = block("lower", 0.0, 0.02, [4, 3, 2]);
     let upper = [block("upper", 0.02, 0.015, [5, 4, 2]), block("plate", 0.035, 0.005, plate)];
@@ -233,13 +230,8 @@ fn heavy_dashpots_of_a_support_bound_the_step() {
     let mut mesh = mesh([4, 3, 1]);
     let held = boundary(&mesh, "plate_x0");
     let dashpot = 1e9;
-    mesh.boundaries[held].condition = BoundaryCondition::Support(ElasticSupport {
-        normal_stiffness: 1e10,
-        tangential_stiffness: 1e10,
-        normal_damping: dashpot,
-        tangential_damping: dashpot,
-        ..ElasticSupport::default()
-    });
+    mesh.boundaries[held].condition =
+        BoundaryCondition::Support(springs([1e10, 1e10, 0.0], [dashpot, dashpot]));
     let assembly = assembly(&mesh, &STEEL, SPRINGS[0], None, 0.05);
     let operator = model(&assembly).operator(OperatorChoice::Auto, SimdLevel::Scalar).unwrap();
     let settings = settings(InitialState::Rest, 1e-4, 0.05);

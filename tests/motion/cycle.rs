@@ -306,11 +306,7 @@ fn number_of_phases_does_not_decide_what_is_found() {
 #[test]
 fn field_of_a_disc_with_a_supported_rim_has_the_nodes_of_its_mesh() {
     let mut specification = disc();
-    specification.outer = BoundaryCondition::Support(ElasticSupport {
-        normal_stiffness: 2e12,
-        tangential_stiffness: 2e12,
-        ..ElasticSupport::default()
-    });
+    specification.outer = BoundaryCondition::Support(springs([2e12, 2e12, 0.0], [0.0, 0.0]));
     let solver = CycleSolver::new(&specification, &POLYCARBONATE, &DAMPING, 1, None).unwrap();
     let cycle = solver.find(&operating(610.0)).unwrap();
     let [field, _] = solver.field(&cycle, 0.0);

@@ -7,16 +7,7 @@ use crate::prelude::*;
 use frictionsim::cycle::DiscModel;
 
 fn ring(radii: [f64; 2], elements: [usize; 2]) -> AnnulusSpecification {
-    AnnulusSpecification {
-        inner_radius: radii[0],
-        outer_radius: radii[1],
-        circumferential_elements: elements[0],
-        radial_elements: elements[1],
-        radial_grading: 1.0,
-        element: ElementKind::Quad4,
-        outer: frictionsim::mesh::BoundaryCondition::Clamped,
-        shaft: None,
-    }
+    crate::disc::ring(radii, ElementKind::Quad4, elements[0], elements[1])
 }
 
 fn metal(young_modulus: f64, poisson_ratio: f64, density: f64) -> ElasticMaterial {

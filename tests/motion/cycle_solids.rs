@@ -61,18 +61,8 @@ snapshots = []
 /// The pad in a folder of its own, under overrides.
 fn pad(folder: &Path, overrides: &[&str]) -> Case {
     let blocks = [
-        Block {
-            name: "disc",
-            origin: [0.03, 0.0, 0.0],
-            size: [0.04, TAU, 0.006],
-            counts: [2, 16, 1],
-        },
-        Block {
-            name: "pad",
-            origin: [0.045, -0.3, 0.006],
-            size: [0.022, 0.6, 0.01],
-            counts: [2, 3, 1],
-        },
+        brick("disc", [0.03, 0.0, 0.0], [0.04, TAU, 0.006], [2, 16, 1]),
+        brick("pad", [0.045, -0.3, 0.006], [0.022, 0.6, 0.01], [2, 3, 1]),
     ];
     let polar = |[r, angle, z]: [f64; 3]| [r * angle.cos(), r * angle.sin(), z];
     std::fs::write(folder.join("body.msh"), file_of(&blocks, polar)).unwrap();

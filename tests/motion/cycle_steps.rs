@@ -139,8 +139,7 @@ fn the_cycle_of_a_mode_does_not_depend_on_the_time_step() {
 /// The transient of 0.1 s in steps of 1e-6 s from noise settles at 7037.17 Hz.
 #[test]
 fn a_cycle_under_falling_friction_is_found_at_the_automatic_step_where_the_transient_has_it() {
-    let block =
-        Block { name: "block", origin: [0.0; 3], size: [0.06, 0.04, 0.02], counts: [6, 2, 2] };
+    let block = brick("block", [0.0; 3], [0.06, 0.04, 0.02], [6, 2, 2]);
     let text = format!(
         "[mesh]\nfile = \"body.msh\"\n[boundaries.block_z1]\ncondition = \"support\"\nnormal_stiffness = 1e11\n\
          tangential_stiffness = 1e11\n[material]\n{MATERIAL}[damping]\nmass_coefficient = 40.0\n\

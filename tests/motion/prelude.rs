@@ -1,10 +1,10 @@
 //! What most of these tests name.
 
-pub use crate::bricks::{Block, file_of};
+pub use crate::bricks::{Block, brick, file_of};
 pub use crate::cases::{case_of, shipped_case};
 pub use crate::disc::{
-    DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, contact, elastic, sliding_at, sweep_request,
-    transient_settings,
+    DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, contact, elastic, recorded, sliding_at,
+    springs, stiffening, sweep_request, transient_settings,
 };
 pub use crate::tier::sized;
 pub use frictionsim::case::Case;
@@ -19,9 +19,7 @@ pub use frictionsim::fem::operator::SimdLevel;
 pub use frictionsim::fem::{
     ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness, lumped_masses,
 };
-pub use frictionsim::mesh::{
-    AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElasticSupport, ElementKind,
-};
+pub use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
 pub use frictionsim::prestress::{SteadySliding, TangentOptions};
 pub use frictionsim::results::cycle::{FoundCycle, PeriodicResult};
 pub use frictionsim::study::cycle::{CycleStudy, PeriodicStudy};

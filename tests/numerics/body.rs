@@ -5,9 +5,6 @@ use crate::msh::Form;
 use crate::prelude::*;
 use frictionsim::prestress::SlidingRange;
 
-const CYLINDER: CounterfaceSpecification =
-    CounterfaceSpecification::Cylinder { center: [0.0; 2], radius: None };
-
 fn options(mass: MassKind, geometric_stiffness: bool) -> TangentOptions {
     TangentOptions { mass, geometric_stiffness, ..TANGENT }
 }
@@ -82,11 +79,7 @@ fn turned_renumbered_and_scaled_meshes_have_one_spectrum() {
 }
 
 fn supported(stiffness: f64) -> BoundaryCondition {
-    BoundaryCondition::Support(ElasticSupport {
-        normal_stiffness: stiffness,
-        tangential_stiffness: stiffness,
-        ..ElasticSupport::default()
-    })
+    BoundaryCondition::Support(springs([stiffness, stiffness, 0.0], [0.0, 0.0]))
 }
 
 /// Unstable modes of the disc on an elastic rim, from a prototype with quadratic elements in the radius and exact
@@ -142,14 +135,7 @@ fn a_supported_rim_gives_the_sounds_of_the_prototype() {
 #[test]
 fn a_supported_rim_has_one_spectrum_by_sectors_and_as_a_whole() {
     let mut specification = annulus(ElementKind::Quad4, 36, 8);
-    specification.outer = BoundaryCondition::Support(ElasticSupport {
-        loss_factor: 0.0,
-        normal_stiffness: 3e11,
-        tangential_stiffness: 1e11,
-        axial_stiffness: 0.0,
-        normal_damping: 2e5,
-        tangential_damping: 1e5,
-    });
+    specification.outer = BoundaryCondition::Support(springs([3e11, 1e11, 0.0], [2e5, 1e5]));
     let options = options(MassKind::Lumped, true);
     let whole = AnnulusMesh::generate(&specification).unwrap();
     let sparse = modes(&whole.mesh, &options, &contact(610.0));
@@ -197,16 +183,12 @@ pub fn rectangle(width: f64, height: f64, nx: usize, ny: usize) -> Vec<u8> {
 }
 
 fn block_specification() -> BodySpecification {
-    BodySpecification {
-        scale: 1.0,
-        contact: "bottom".to_owned(),
-        counterface: CounterfaceSpecification::Plane { direction: Some([1.0, 0.0]) },
-        opposite: None,
-        conditions: vec![
-            ("right".to_owned(), BoundaryCondition::Guide),
-            ("top".to_owned(), BoundaryCondition::Pressure(1e6)),
-        ],
-    }
+    plane_body(
+        "bottom",
+        CounterfaceSpecification::Plane { direction: Some([1.0, 0.0]) },
+        None,
+        &[("right", BoundaryCondition::Guide), ("top", BoundaryCondition::Pressure(1e6))],
+    )
 }
 
 fn plane(friction_coefficient: f64) -> SlidingContact {
@@ -244,11 +226,7 @@ fn a_pressed_block_is_in_balance() {
 fn a_block_on_an_elastic_mounting_lifts_a_corner_as_friction_rises() {
     let file = FileMesh::read(&rectangle(0.04, 0.06, 20, 30)).unwrap();
     let mut specification = block_specification();
-    let mounting = ElasticSupport {
-        normal_stiffness: 1e12,
-        tangential_stiffness: 1e12,
-        ..ElasticSupport::default()
-    };
+    let mounting = springs([1e12, 1e12, 0.0], [0.0, 0.0]);
     specification.conditions = vec![("top".to_owned(), BoundaryCondition::Support(mounting))];
     let mesh = Mesh::from_gmsh(&file, &specification).unwrap();
     let stiffness = assemble_stiffness(&mesh, &POLYCARBONATE);
@@ -294,7 +272,6 @@ fn a_body_without_symmetry_grows_in_time_as_its_eigenvalue_says() {
         DAMPING,
         contact,
     );
-    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let settings = transient_settings(
         0.03,
         4e-6,
@@ -302,10 +279,8 @@ fn a_body_without_symmetry_grows_in_time_as_its_eigenvalue_says() {
         InitialState::SteadySliding,
         Perturbation::of(&[1, 2], 1e-12),
     );
-    let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
-    let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
-    run.run(&mut record).unwrap();
-    assert!(run.largest_residual() < 1e-10);
+    let (mut record, residual) = recorded(model, OperatorChoice::Auto, &settings);
+    assert!(residual < 1e-10);
     // The second half of the linear stage, where the fastest mode is alone.
     record.rows.drain(..record.rows.len() / 2);
     let analysis = TransientAnalysis::of(&record, &[2]);
@@ -321,14 +296,8 @@ fn a_body_without_symmetry_grows_in_time_as_its_eigenvalue_says() {
 fn energy_closes_with_supports_pressure_and_partial_contact() {
     let file = FileMesh::read(&rectangle(0.04, 0.06, 8, 12)).unwrap();
     let mut specification = block_specification();
-    specification.conditions[0].1 = BoundaryCondition::Support(ElasticSupport {
-        loss_factor: 0.0,
-        normal_stiffness: 1e11,
-        tangential_stiffness: 1e10,
-        axial_stiffness: 0.0,
-        normal_damping: 3e4,
-        tangential_damping: 1e4,
-    });
+    specification.conditions[0].1 =
+        BoundaryCondition::Support(springs([1e11, 1e10, 0.0], [3e4, 1e4]));
     let mesh = Mesh::from_gmsh(&file, &specification).unwrap();
     let model = TransientModel::new(
         SteppedBody::Plane { mesh: &mesh, annulus: None },
@@ -336,13 +305,10 @@ fn energy_closes_with_supports_pressure_and_partial_contact() {
         RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 1e-7 },
         plane(0.5),
     );
-    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let settings =
         transient_settings(2e-3, 5e-6, 1e-4, InitialState::Rest, Perturbation::default());
-    let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
-    let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
-    run.run(&mut record).unwrap();
-    assert!(run.largest_residual() < 1e-10, "{}", run.largest_residual());
+    let (record, residual) = recorded(model, OperatorChoice::Auto, &settings);
+    assert!(residual < 1e-10, "{}", residual);
     assert!(record.rows.iter().any(|row| row.counts.open > 0));
 }
 
@@ -405,13 +371,8 @@ fn mutated_files_are_read_or_refused() {
     let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
     let seeds: Vec<Vec<u8>> =
         FORMS.map(|form: Form| write_msh(&mesh, form, &numbers, |p| p)).into();
-    let specification = BodySpecification {
-        scale: 1.0,
-        contact: "inner".to_owned(),
-        counterface: CYLINDER,
-        opposite: None,
-        conditions: vec![("outer".to_owned(), BoundaryCondition::Clamped)],
-    };
+    let specification =
+        plane_body("inner", CYLINDER, None, &[("outer", BoundaryCondition::Clamped)]);
     let mut state = 1_u64;
     let mut draw = |below: usize| {
         state =

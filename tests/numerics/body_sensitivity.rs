@@ -169,13 +169,8 @@ fn sensitivities_of_a_block_whose_corner_lifts_are_differences_of_its_spectra() 
 fn sensitivities_of_an_assembly_are_differences_of_its_spectra() {
     let folder = tempfile::tempdir().unwrap();
     let blocks = [
-        Block { name: "lower", origin: [0.0; 3], size: [0.05, 0.04, 0.02], counts: [3, 2, 1] },
-        Block {
-            name: "upper",
-            origin: [0.005, 0.004, 0.02],
-            size: [0.04, 0.03, 0.015],
-            counts: [2, 2, 1],
-        },
+        brick("lower", [0.0; 3], [0.05, 0.04, 0.02], [3, 2, 1]),
+        brick("upper", [0.005, 0.004, 0.02], [0.04, 0.03, 0.015], [2, 2, 1]),
     ];
     std::fs::write(folder.path().join("blocks.msh"), file_of(&blocks, |point| point)).unwrap();
     let text = "[mesh]\nfile = \"blocks.msh\"\n[boundaries.lower_z0]\ncondition = \"clamped\"\n\

@@ -35,6 +35,16 @@ fn problem(
         ),
         None => on(&damping),
     };
+    let unknowns = DofMap::excluding(size, []);
+    bare([mass, damping, stiffness], proportional, unknowns)
+}
+
+/// Matrices without a contact.
+pub fn bare(
+    [mass, damping, stiffness]: [MatrixPolynomial; 3],
+    proportional: Option<RayleighDamping>,
+    unknowns: DofMap,
+) -> SlidingTangent {
     SlidingTangent {
         mass,
         damping,
@@ -42,7 +52,7 @@ fn problem(
         structural: None,
         tabled: Vec::new(),
         proportional,
-        unknowns: DofMap::excluding(size, []),
+        unknowns,
         contact_tangential: Vec::new(),
         contact_normal: Vec::new(),
         contact_opposite: Vec::new(),

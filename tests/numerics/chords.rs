@@ -138,7 +138,7 @@ fn an_overlap_beyond_the_interference_is_told_with_its_depth() {
     let ring = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 36, 3)).unwrap().mesh;
     let numbers: Vec<usize> = (1..=ring.node_count()).collect();
     let ring = crate::msh::write_msh(&ring, crate::msh::FORMS[2], &numbers, |p| p);
-    let block = Block { name: "cup", origin: [0.0; 3], size: [1.0; 3], counts: [3, 3, 1] };
+    let block = brick("cup", [0.0; 3], [1.0; 3], [3, 3, 1]);
     for (mesh, held, contact, said) in [
         (ring, "outer", "radius = 0.0206\n", "by 1.00e-4 m, 5.0 times contact.interference"),
         (

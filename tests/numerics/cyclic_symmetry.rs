@@ -142,11 +142,8 @@ fn waves_around_a_plane_body_have_the_spectrum_of_its_whole_mesh() {
 /// The same of solid bodies: a ring between two rings of lining, cut along bent faces, pressed by a load that the base state solves.
 #[test]
 fn waves_around_solid_bodies_have_the_spectrum_of_their_whole_mesh() {
-    let block = |name, z: [f64; 2], layers| Block {
-        name,
-        origin: [0.07, 0.0, z[0]],
-        size: [0.05, TAU / 6.0, z[1] - z[0]],
-        counts: [3, 4, layers],
+    let block = |name, z: [f64; 2], layers| {
+        brick(name, [0.07, 0.0, z[0]], [0.05, TAU / 6.0, z[1] - z[0]], [3, 4, layers])
     };
     let blocks = [
         block("below", [-0.02, -0.008], 1),
@@ -186,12 +183,7 @@ fn waves_around_solid_bodies_have_the_spectrum_of_their_whole_mesh() {
 /// `n Omega` beside those of the turning frame, but for what linear elements of 9 degrees make of the transport.
 #[test]
 fn waves_around_a_turning_ring_have_the_spectrum_of_its_whole_mesh() {
-    let ring = Block {
-        name: "ring",
-        origin: [0.05, 0.0, -0.005],
-        size: [0.1, TAU / 20.0, 0.01],
-        counts: [3, 2, 1],
-    };
+    let ring = brick("ring", [0.05, 0.0, -0.005], [0.1, TAU / 20.0, 0.01], [3, 2, 1]);
     let mesh = file_of(&[ring], |[r, t, z]| [r * t.cos(), r * t.sin(), z]);
     let text = |frame: &str| {
         format!(
@@ -258,12 +250,7 @@ fn sectors_that_do_not_meet_are_refused() {
 /// A wrong number of sectors of solid bodies is reported at its key.
 #[test]
 fn a_wrong_number_of_solid_sectors_is_reported_where_it_is_given() {
-    let block = Block {
-        name: "ring",
-        origin: [0.07, 0.0, 0.0],
-        size: [0.05, TAU / 6.0, 0.01],
-        counts: [2, 4, 1],
-    };
+    let block = brick("ring", [0.07, 0.0, 0.0], [0.05, TAU / 6.0, 0.01], [2, 4, 1]);
     let mesh = file_of(&[block], |[r, t, z]| [r * t.cos(), r * t.sin(), z]);
     let text = "[mesh]\nfile = \"sector.msh\"\nsectors = 5\n\
                 [material]\nyoung_modulus = 1.1e11\npoisson_ratio = 0.28\ndensity = 7200.0\n\
@@ -329,8 +316,7 @@ fn a_contact_without_pressure_is_refused() {
         "{refused}"
     );
     // Solid bodies may be pressed by what overlaps in their mesh: there the base state tells.
-    let block =
-        Block { name: "block", origin: [0.0; 3], size: [0.02, 0.02, 0.01], counts: [2, 2, 1] };
+    let block = brick("block", [0.0; 3], [0.02, 0.02, 0.01], [2, 2, 1]);
     let text = "[mesh]\nfile = \"sector.msh\"\n[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n\
         [boundaries.block_z1]\ncondition = \"clamped\"\n[contact]\nboundary = \"block_z0\"\ncounterface = \"plane\"\n\
         direction = [1.0, 0.0, 0.0]\nspeed = 1.0\nfriction_coefficient = 0.3\ninterference = 0.0\n[cea]\nmodes = 2\n";

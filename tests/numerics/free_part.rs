@@ -21,8 +21,7 @@ const CONSTANTS: [(&str, f64); 9] = [
 /// A block of lining of 50 x 40 x 20 mm that nothing holds.
 fn lining(name: &str, sections: &str, overrides: &[String]) -> Case {
     let folder = kept(&format!("free-part-{name}"));
-    let block =
-        Block { name: "part", origin: [0.0; 3], size: [0.05, 0.04, 0.02], counts: [4, 3, 2] };
+    let block = brick("part", [0.0; 3], [0.05, 0.04, 0.02], [4, 3, 2]);
     fs::write(folder.join("part.msh"), file_of(&[block], |point| point)).unwrap();
     let text = format!(
         r#"

@@ -118,12 +118,7 @@ impl ModalForm {
 #[test]
 fn responses_in_sliding_contact_are_the_sums_over_right_and_left_eigenvectors() {
     let rigid = ContactStiffness::default();
-    let penalty = ContactStiffness {
-        normal_stiffness: Some(7.4e12),
-        normal_damping: 3e5,
-        tangential_damping: 2e5,
-        ..RIGID
-    };
+    let penalty = compliant(7.4e12, [3e5, 2e5]);
     // Unstable modes included: the response is that of the equations, not of a steady state.
     let frequencies: Vec<f64> = (1..=40).map(|k| 431.7 * f64::from(k)).collect();
     for (damping_model, contact) in [

@@ -39,16 +39,7 @@ const START: f64 = -1.4;
 
 /// Speed of the fastest growing wave of `n` lengths on the inner edge of the annulus from 1 to 1.5.
 fn annulus_speed(n: usize) -> c64 {
-    let specification = AnnulusSpecification {
-        inner_radius: 1.0,
-        outer_radius: 1.5,
-        circumferential_elements: 200,
-        radial_elements: 40,
-        radial_grading: 1.0,
-        element: ElementKind::Quad8,
-        outer: frictionsim::mesh::BoundaryCondition::Clamped,
-        shaft: None,
-    };
+    let specification = ring([1.0, 1.5], ElementKind::Quad8, 200, 40);
     // Shear modulus and density one: speeds come in units of that of shear waves.
     let material =
         elastic(2.0 * (1.0 + POISSON_RATIO), POISSON_RATIO, 1.0, PlaneFormulation::PlaneStrain);

@@ -202,7 +202,7 @@ fn fields_of_an_oval_on_supports_are_differences_of_its_spectra() {
 #[test]
 fn fields_of_an_assembly_are_differences_of_its_spectra() {
     let folder = tempfile::tempdir().unwrap();
-    let block = |name, origin, size, counts| Block { name, origin, size, counts };
+    let block = |name, origin, size, counts| brick(name, origin, size, counts);
     let blocks = [
         block("slab", [0.0; 3], [0.06, 0.03, 0.01], [6, 3, 1]),
         block("patch", [0.005, 0.005, 0.01], [0.02, 0.02, 0.02], [3, 3, 2]),

@@ -207,12 +207,7 @@ fn lifted(out: &Path, unknown: usize) -> f64 {
 /// Two blocks that slide on each other, on springs and rigidly, and the rows of their contact.
 #[test]
 fn exported_matrices_of_solid_bodies_have_the_eigenvalues_of_the_analysis() {
-    let block = |name, z: f64, counts| Block {
-        name,
-        origin: [0.0, 0.0, z],
-        size: [0.02, 0.02, 0.01],
-        counts,
-    };
+    let block = |name, z: f64, counts| brick(name, [0.0, 0.0, z], [0.02, 0.02, 0.01], counts);
     let blocks = [block("low", 0.0, [2, 2, 1]), block("high", 0.01, [3, 2, 1])];
     let text = "[mesh]\nfile = \"block.msh\"\n[material]\nyoung_modulus = 2e10\npoisson_ratio = 0.3\ndensity = 2500.0\n\
         [damping]\nmass_coefficient = 10.0\nstiffness_coefficient = 1e-7\n\
@@ -247,12 +242,8 @@ fn exported_matrices_of_solid_bodies_have_the_eigenvalues_of_the_analysis() {
 
 /// Two blocks of which the upper one, taller than wide, is held loosely at its side, and slides on the lower.
 fn tall_block(folder: &TempDir, contact: &str, frictions: &str) {
-    let block = |name, z: f64, height, counts| Block {
-        name,
-        origin: [0.0, 0.0, z],
-        size: [0.02, 0.02, height],
-        counts,
-    };
+    let block =
+        |name, z: f64, height, counts| brick(name, [0.0, 0.0, z], [0.02, 0.02, height], counts);
     let blocks = [block("low", 0.0, 0.01, [2, 2, 1]), block("high", 0.01, 0.03, [3, 2, 2])];
     let text = format!(
         "[mesh]\nfile = \"block.msh\"\n[material]\nyoung_modulus = 2e10\npoisson_ratio = 0.3\ndensity = 2500.0\n\

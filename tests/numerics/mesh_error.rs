@@ -41,12 +41,12 @@ fn effectivities(coarse: &[[f64; 2]], fine: &[[f64; 2]]) -> Vec<f64> {
 fn estimates_of_frequencies_are_within_a_factor_of_two_of_the_error_by_refinement() {
     let lining = |fineness: usize| {
         let folder = kept(&format!("mesh-error-{fineness}"));
-        let block = Block {
-            name: "part",
-            origin: [0.0; 3],
-            size: [0.05, 0.04, 0.02],
-            counts: sized([7, 6, 4], [10, 8, 6]).map(|count| count * fineness),
-        };
+        let block = brick(
+            "part",
+            [0.0; 3],
+            [0.05, 0.04, 0.02],
+            sized([7, 6, 4], [10, 8, 6]).map(|count| count * fineness),
+        );
         fs::write(folder.join("part.msh"), file_of(&[block], |point| point)).unwrap();
         let text = "[mesh]\nfile = \"part.msh\"\n[material]\nyoung_modulus = 8e9\npoisson_ratio = 0.25\n\
                     density = 2500.0\n[cea]\nmodes = 8\n";
@@ -76,7 +76,7 @@ fn estimates_of_one_layer_of_bricks_in_bending_are_of_the_size_of_the_error() {
     let plate = |fineness: usize| {
         let folder = kept(&format!("plate-{fineness}"));
         let counts = [16 * fineness, 8 * fineness, fineness];
-        let block = Block { name: "part", origin: [0.0; 3], size: [0.16, 0.08, 0.006], counts };
+        let block = brick("part", [0.0; 3], [0.16, 0.08, 0.006], counts);
         fs::write(folder.join("part.msh"), file_of(&[block], |point| point)).unwrap();
         let text = "[mesh]\nfile = \"part.msh\"\n[material]\nyoung_modulus = 2e11\npoisson_ratio = 0.3\n\
                     density = 7800.0\n[boundaries.part_x0]\ncondition = \"clamped\"\n[cea]\nmodes = 5\n";

@@ -1,13 +1,13 @@
 //! What most of these tests name.
 
 pub use crate::block::{SOLIDS, block};
-pub use crate::bricks::{Block, file_of};
+pub use crate::bricks::{Block, brick, file_of};
 pub use crate::cases::{AS_IT_IS, case_of, kept, read_case, shipped_case};
 pub use crate::disc::{
-    DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, contact, elastic, sliding_at, sweep_request,
-    transient_settings,
+    DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, compliant, contact, elastic, on_shaft,
+    recorded, ring, sliding_at, springs, stiffening, sweep_request, transient_settings,
 };
-pub use crate::msh::{FORMS, write_msh};
+pub use crate::msh::{CYLINDER, FORMS, plane_body, write_msh};
 pub use crate::program::{Answer, Run, folder, has, shipped};
 pub use crate::table_1::TABLE_1;
 pub use crate::tier::sized;
@@ -36,7 +36,7 @@ pub use frictionsim::linalg::{ComplexDenseLu, MatrixPolynomial};
 pub use frictionsim::mesh::{
     AnnulusMesh, AnnulusSpecification, BodySpecification, BoundaryCondition,
     CounterfaceSpecification, ElasticSupport, ElementKind, FileMesh, Mesh, SectorMesh,
-    ShaftSpecification, SolidContact, SolidSector,
+    SolidContact, SolidSector,
 };
 pub use frictionsim::prestress::{
     Assembly, BaseChoice, DampingModel, PrestressError, SlidingSurfaces, SlidingTangent,

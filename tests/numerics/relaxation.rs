@@ -71,13 +71,10 @@ fn a_wave_grows_as_its_eigenvalue_says_with_a_chain_in_place_of_a_loss_factor() 
     let (disc, materials) = (disc(), relaxed());
     let undamped = RayleighDamping::default();
     let model = TransientModel::of_annulus(&disc, &materials, undamped, sliding());
-    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let settings = settings(0.020, 0.0);
-    let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
-    let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
-    run.run(&mut record).unwrap();
-    println!("balance {:e}", run.largest_residual());
-    assert!(run.largest_residual() < 1e-10);
+    let (record, residual) = recorded(model, OperatorChoice::Auto, &settings);
+    println!("balance {:e}", residual);
+    assert!(residual < 1e-10);
     let analysis = TransientAnalysis::of(&record, &[HARMONIC]);
     let found = analysis.growth[0].stage.as_ref().unwrap().rate_per_s.value;
     let exact = eigenvalue();

@@ -98,8 +98,7 @@ fn part(slider: &Slider) -> Case {
         let mesh = quadrilaterals(slider.counts, slider.size).into_bytes();
         (mesh, "[1.0, 0.0]", "formulation = \"plane-strain\"\n")
     } else {
-        let block =
-            Block { name: "part", origin: [0.0; 3], size: slider.size, counts: slider.counts };
+        let block = brick("part", [0.0; 3], slider.size, slider.counts);
         (file_of(&[block], |point| point), "[1.0, 0.0, 0.0]", "")
     };
     fs::write(folder.path().join("part.msh"), mesh).unwrap();
@@ -252,7 +251,7 @@ fn slow_motions_close_together_keep_their_digits_beside_fast_modes() {
 fn equal_eigenvalues_that_friction_does_not_move_are_all_listed() {
     let folder = tempfile::tempdir().unwrap();
     let size = [0.07207033928546175, 0.005263329653561904, 0.0062918081827297535];
-    let block = Block { name: "part", origin: [0.0; 3], size, counts: [3, 2, 5] };
+    let block = brick("part", [0.0; 3], size, [3, 2, 5]);
     fs::write(folder.path().join("part.msh"), file_of(&[block], |point| point)).unwrap();
     let text = "[mesh]\nfile = \"part.msh\"\n[material]\nyoung_modulus = 1.720164e8\npoisson_ratio = 0.0\n\
                 density = 7850.0\n[boundaries.part_z1]\ncondition = \"support\"\nnormal_stiffness = 8757.597\n\

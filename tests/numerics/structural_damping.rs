@@ -18,24 +18,12 @@ fn tangent_with(
     contact_stiffness: ContactStiffness,
     outer: BoundaryCondition,
 ) -> SlidingTangent {
-    let specification = AnnulusSpecification {
-        shaft: Some(ShaftSpecification {
-            inner_radius: 0.006,
-            radial_elements: 1,
-            bore: BoundaryCondition::Clamped,
-        }),
-        outer,
-        ..annulus(ElementKind::Quad4, 16, 3)
-    };
+    let specification =
+        AnnulusSpecification { outer, ..on_shaft(annulus(ElementKind::Quad4, 16, 3), 1) };
     let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
     let lossy =
         |loss_factor: f64, elastic: ElasticMaterial| ElasticMaterial { loss_factor, ..elastic };
-    let steel = ElasticMaterial {
-        young_modulus: 2.1e11,
-        poisson_ratio: 0.3,
-        density: 7850.0,
-        ..POLYCARBONATE
-    };
+    let steel = elastic(2.1e11, 0.3, 7850.0, PlaneFormulation::PlaneStrain);
     let materials = AnnulusMaterials {
         annulus: lossy(disc, POLYCARBONATE),
         shaft: Some(RegionMaterial { elastic: lossy(shaft, steel), damping: None }),

@@ -53,7 +53,7 @@ fn bodies() -> impl Strategy<Value = Body> {
 
 fn part(body: &Body, folder: &str) -> Case {
     let folder = kept(folder);
-    let block = Block { name: "part", origin: [0.0; 3], size: body.size, counts: body.counts };
+    let block = brick("part", [0.0; 3], body.size, body.counts);
     fs::write(folder.join("part.msh"), file_of(&[block], |point| point)).unwrap();
     let mut text = format!(
         "[mesh]\nfile = \"part.msh\"\n[material]\nyoung_modulus = {:e}\npoisson_ratio = 0.3\ndensity = 7850.0\n\

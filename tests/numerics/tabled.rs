@@ -22,22 +22,10 @@ fn rubber(scale: f64) -> Vec<[f64; 3]> {
 
 /// The disc, whose modulus depends on frequency, on a deformable shaft of steel.
 fn tangent(rows: Vec<[f64; 3]>, contact_stiffness: ContactStiffness) -> SlidingTangent {
-    let specification = AnnulusSpecification {
-        shaft: Some(ShaftSpecification {
-            inner_radius: 0.006,
-            radial_elements: 1,
-            bore: BoundaryCondition::Clamped,
-        }),
-        ..annulus(ElementKind::Quad4, 16, 3)
-    };
+    let specification = on_shaft(annulus(ElementKind::Quad4, 16, 3), 1);
     let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
-    let steel = ElasticMaterial {
-        young_modulus: 2.1e11,
-        poisson_ratio: 0.3,
-        density: 7850.0,
-        loss_factor: 0.002,
-        ..POLYCARBONATE
-    };
+    let steel = elastic(2.1e11, 0.3, 7850.0, PlaneFormulation::PlaneStrain);
+    let steel = ElasticMaterial { loss_factor: 0.002, ..steel };
     let table = ModulusTable::new("materials.disc.table", "rubber.csv", rows);
     let disc = ElasticMaterial { young_modulus: table.static_modulus(), ..POLYCARBONATE };
     let own = |elastic| RegionMaterial { elastic, damping: None };
@@ -227,18 +215,11 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
         (side.to_owned(), held)
     });
     // Nothing else holds the beam along itself: at 70 Hz it moves as a whole.
-    let soft = BoundaryCondition::Support(ElasticSupport {
-        tangential_stiffness: 2e6,
-        ..ElasticSupport::default()
-    });
+    let soft = BoundaryCondition::Support(springs([0.0, 2e6, 0.0], [0.0, 0.0]));
     let held = [&sides[..], &[("z1".to_owned(), soft)]].concat();
     let mesh = Mesh::from_solids(&file, 1.0, &held).unwrap();
-    let solid = |young_modulus: f64, poisson_ratio: f64, density: f64| ElasticMaterial {
-        young_modulus,
-        poisson_ratio,
-        density,
-        formulation: PlaneFormulation::ThreeDimensional,
-        ..ElasticMaterial::PLAIN
+    let solid = |young_modulus: f64, poisson_ratio: f64, density: f64| {
+        elastic(young_modulus, poisson_ratio, density, PlaneFormulation::ThreeDimensional)
     };
     let own = |elastic| RegionMaterial { elastic, damping: None };
     let poisson_ratio = 0.3;
@@ -299,12 +280,8 @@ const RUBBER: &str = "frequency_hz,young_modulus,loss_factor
 /// A block of steel on one of rubber that stands on the ground; both move along z alone.
 fn mount(name: &str, table: &str, sections: &str) -> Result<Case, String> {
     let folder = kept(&format!("mount-{name}"));
-    let block = |name, z: f64, height: f64| Block {
-        name,
-        origin: [0.0, 0.0, z],
-        size: [0.02, 0.02, height],
-        counts: [2, 2, 2],
-    };
+    let block =
+        |name, z: f64, height: f64| brick(name, [0.0, 0.0, z], [0.02, 0.02, height], [2, 2, 2]);
     let blocks = [block("rubber", 0.0, 0.01), block("mass", 0.01, 0.02)];
     fs::write(folder.join("mount.msh"), file_of(&blocks, |point| point)).unwrap();
     fs::write(folder.join("rubber.csv"), table).unwrap();

@@ -76,11 +76,8 @@ fn two_bodies(around: usize) -> String {
 /// A slab that turns about a far axis, a lining pressed on it, and a backplate glued to the lining, whose meshes do not match: on
 /// springs against the slab as `contact` says, held at a side of the plate by springs of `support` Pa/m.
 fn solids(contact: &str, support: &str, counts: [[usize; 3]; 3]) -> (String, String) {
-    let block = |name, bottom, height, counts| Block {
-        name,
-        origin: [0.0, 0.0, bottom],
-        size: [0.04, 0.035, height],
-        counts,
+    let block = |name, bottom, height, counts| {
+        brick(name, [0.0, 0.0, bottom], [0.04, 0.035, height], counts)
     };
     let blocks = [
         block("slab", -0.035, 0.02, counts[0]),
@@ -102,12 +99,8 @@ fn solids(contact: &str, support: &str, counts: [[usize; 3]; 3]) -> (String, Str
 
 /// One sector of a ring around a cylinder, whose body is its six copies; its own friction lies above the onset at 0.12.
 fn sectors() -> (String, String) {
-    let sector = Block {
-        name: "ring",
-        origin: [0.0205, 0.0, 0.0],
-        size: [0.07, std::f64::consts::TAU / 6.0, 0.009],
-        counts: [3, 2, 1],
-    };
+    let sector =
+        brick("ring", [0.0205, 0.0, 0.0], [0.07, std::f64::consts::TAU / 6.0, 0.009], [3, 2, 1]);
     let mesh = file_of(&[sector], |[r, t, z]| [r * t.cos(), r * t.sin(), z]);
     let case = format!(
         "title = \"A kind of body\"\n[mesh]\nfile = \"body.msh\"\nsectors = 6\n[material]\n{POLYCARBONATE}

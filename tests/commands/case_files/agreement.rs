@@ -87,8 +87,7 @@ fn check_refuses_what_a_run_refuses_and_nothing_else() {
 #[test]
 fn check_knows_what_runs_of_rings_blocks_and_pads_refuse() {
     let folder = tempfile::tempdir().unwrap();
-    let block =
-        Block { name: "pad", origin: [0.0; 3], size: [0.03, 0.02, 0.01], counts: [2, 2, 1] };
+    let block = brick("pad", [0.0; 3], [0.03, 0.02, 0.01], [2, 2, 1]);
     std::fs::write(folder.path().join("pad.msh"), file_of(&[block], |point| point)).unwrap();
     let path = folder.path().join("case.toml");
     let steel = "young_modulus = 2.1e11\npoisson_ratio = 0.3\ndensity = 7850.0\n";
@@ -109,12 +108,8 @@ fn check_knows_what_runs_of_rings_blocks_and_pads_refuse() {
                response_direction = \"z\"\n";
     // Nothing but the contact holds the upper block up.
     let upper = |z| [0.0, 0.0, z];
-    let pair = [("lower", 0.0, 3), ("upper", 0.01, 2)].map(|(name, z, count)| Block {
-        name,
-        origin: upper(z),
-        size: [0.03, 0.02, 0.01],
-        counts: [count, count, 1],
-    });
+    let pair = [("lower", 0.0, 3), ("upper", 0.01, 2)]
+        .map(|(name, z, count)| brick(name, upper(z), [0.03, 0.02, 0.01], [count, count, 1]));
     std::fs::write(folder.path().join("pair.msh"), file_of(&pair, |point| point)).unwrap();
     let floating = format!(
         "[mesh]\nfile = \"pair.msh\"\n[material]\n{steel}[boundaries.lower_z0]\ncondition = \"clamped\"\n\

@@ -76,15 +76,12 @@ fn seeded_harmonics_grow_as_the_complex_eigenvalues_predict() {
 
 fn compare(annulus: &AnnulusMesh, duration: f64) {
     let model = model(annulus, 610.0);
-    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     for n in [1, 2, 3] {
         let mut settings = settings(duration, &[n]);
         settings.initial = InitialState::SteadySliding;
         // Small enough to stay linear over the whole run.
         settings.perturbation = Perturbation::of(&[n], 1e-8);
-        let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
-        let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
-        run.run(&mut record).unwrap();
+        let (record, _) = recorded(model, OperatorChoice::Auto, &settings);
         let analysis = TransientAnalysis::of(&record, &[n]);
         assert_eq!(analysis.first_nonlinearity, None);
         let growth = &analysis.growth[0];

@@ -29,12 +29,7 @@ fn restarted_run_equals_uninterrupted_run_bitwise() {
     // Friction that remembers nothing and springs that are where their nodes are.
     let mut compliant = rigid;
     compliant.contact.decay = Some(FrictionDecay { static_ratio: 1.4, decay_speed: 0.5 });
-    compliant.stiffness = ContactStiffness {
-        normal_stiffness: Some(2e12),
-        normal_damping: 1e5,
-        tangential_damping: 1e4,
-        ..RIGID
-    };
+    compliant.stiffness = crate::disc::compliant(2e12, [1e5, 1e4]);
     for (model, choice) in [
         (rigid, OperatorChoice::Cyclic),
         (rigid, OperatorChoice::Sparse),

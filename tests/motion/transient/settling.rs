@@ -22,10 +22,7 @@ fn torus() -> Recorder {
     model.contact.friction_coefficient = 0.2;
     let mut settings = settings(0.05, &[1, 2]);
     settings.perturbation = Perturbation::of(&[1, 2], 0.3);
-    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
-    let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
-    let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
-    run.run(&mut record).unwrap();
+    let (record, _) = recorded(model, OperatorChoice::Auto, &settings);
     record
 }
 

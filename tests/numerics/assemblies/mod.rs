@@ -44,6 +44,11 @@ fn sliding(mesh: &Mesh, normal_stiffness: Option<f64>) -> SlidingSurfaces {
     }
 }
 
+fn tie(mesh: &Mesh, surface: &str, counter: &str) -> TiedSurfaces {
+    let [surface, counter] = [surface, counter].map(|name| boundary(mesh, name));
+    TiedSurfaces { name: "glue".to_owned(), surface, counter }
+}
+
 /// The lower block turns about an axis far away.
 fn turning(mesh: &Mesh, axis: [f64; 3], center: [f64; 3]) -> Motion {
     let region = mesh.regions.iter().position(|name| name == "lower");
@@ -52,13 +57,8 @@ fn turning(mesh: &Mesh, axis: [f64; 3], center: [f64; 3]) -> Motion {
 
 fn stacked(gap: f64) -> [Block; 2] {
     [
-        Block { name: "lower", origin: [0.0; 3], size: [0.05, 0.04, 0.02], counts: [5, 3, 2] },
-        Block {
-            name: "upper",
-            origin: [0.0, 0.0, 0.02 + gap],
-            size: [0.05, 0.04, 0.015],
-            counts: [4, 4, 2],
-        },
+        brick("lower", [0.0; 3], [0.05, 0.04, 0.02], [5, 3, 2]),
+        brick("upper", [0.0, 0.0, 0.02 + gap], [0.05, 0.04, 0.015], [4, 4, 2]),
     ]
 }
 
@@ -120,12 +120,8 @@ fn constant_pressure_passes_a_contact_between_meshes_that_do_not_match() {
 #[test]
 fn constant_pressure_passes_a_tie_between_meshes_that_do_not_match() {
     let mesh = mesh_of(&file_of(&stacked(0.0), |point| point), &PRESSED);
-    let tie = TiedSurfaces {
-        name: "glue".to_owned(),
-        surface: boundary(&mesh, "upper_z0"),
-        counter: boundary(&mesh, "lower_z1"),
-    };
-    let assembly = Assembly::new(&mesh, &STEEL, &[tie], &[], &[], BaseChoice::Solved).unwrap();
+    let glue = tie(&mesh, "upper_z0", "lower_z1");
+    let assembly = Assembly::new(&mesh, &STEEL, &[glue], &[], &[], BaseChoice::Solved).unwrap();
     let range = assembly.range(&[0.0]).unwrap();
     let error = patch_error(&mesh, &range.states[0].displacements[0], 0.0);
     let size = 1e8 / STEEL.young_modulus * 0.035;
@@ -194,24 +190,16 @@ fn largest_difference(a: &[c64], b: &[c64]) -> f64 {
 #[test]
 fn a_tie_of_two_halves_has_the_spectrum_of_the_whole() {
     let clamped = [("whole_z0", BoundaryCondition::Clamped)];
-    let whole =
-        [Block { name: "whole", origin: [0.0; 3], size: [0.05, 0.04, 0.04], counts: [4, 3, 4] }];
+    let whole = [brick("whole", [0.0; 3], [0.05, 0.04, 0.04], [4, 3, 4])];
     let whole = mesh_of(&file_of(&whole, |point| point), &clamped);
     let expected = Assembly::new(&whole, &STEEL, &[], &[], &[], BaseChoice::Closed).unwrap();
-    let half = |name: &'static str, height: f64| Block {
-        name,
-        origin: [0.0, 0.0, height],
-        size: [0.05, 0.04, 0.02],
-        counts: [4, 3, 2],
+    let half = |name: &'static str, height: f64| {
+        brick(name, [0.0, 0.0, height], [0.05, 0.04, 0.02], [4, 3, 2])
     };
     let halves = file_of(&[half("lower", 0.0), half("upper", 0.02)], |point| point);
     let halves = mesh_of(&halves, &[("lower_z0", BoundaryCondition::Clamped)]);
-    let tie = TiedSurfaces {
-        name: "glue".to_owned(),
-        surface: boundary(&halves, "upper_z0"),
-        counter: boundary(&halves, "lower_z1"),
-    };
-    let tied = Assembly::new(&halves, &STEEL, &[tie], &[], &[], BaseChoice::Closed).unwrap();
+    let glue = tie(&halves, "upper_z0", "lower_z1");
+    let tied = Assembly::new(&halves, &STEEL, &[glue], &[], &[], BaseChoice::Closed).unwrap();
     let error = largest_difference(&eigenvalues(&expected, 0.0, 8), &eigenvalues(&tied, 0.0, 8));
     println!("{error:e}");
     assert!(error < 1e-9, "{error:e}");

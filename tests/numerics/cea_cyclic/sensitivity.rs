@@ -121,11 +121,7 @@ fn sensitivities_of_stiffening_contact_equal_finite_differences() {
             cubic_stiffness: cubic_stiffness * (1.0 + second),
         },
     };
-    let of = |law: NormalLaw| ContactStiffness {
-        normal_stiffness: Some(law.stiffness(0.0)),
-        law: Some(law),
-        ..RIGID
-    };
+    let of = |law: NormalLaw| stiffening(law);
     for (law, element) in laws.into_iter().zip([ElementKind::Quad8, ElementKind::Quad4]) {
         let mut contact = contact(610.0);
         contact.interference = 3e-4;

@@ -8,17 +8,11 @@ pub const INTERFERENCE: f64 = 25e-6;
 
 /// The reference's material as the program takes it.
 pub fn material(annulus: &Annulus) -> ElasticMaterial {
-    ElasticMaterial {
-        young_modulus: annulus.young_modulus,
-        poisson_ratio: annulus.poisson_ratio,
-        density: annulus.density,
-        formulation: if annulus.plane_strain {
-            PlaneFormulation::PlaneStrain
-        } else {
-            PlaneFormulation::PlaneStress
-        },
-        ..ElasticMaterial::PLAIN
-    }
+    let formulation = match annulus.plane_strain {
+        true => PlaneFormulation::PlaneStrain,
+        false => PlaneFormulation::PlaneStress,
+    };
+    elastic(annulus.young_modulus, annulus.poisson_ratio, annulus.density, formulation)
 }
 
 /// Counter-clockwise rotation, rad/s; linear sliding knows its sign only.

@@ -28,16 +28,8 @@ pub fn refinements(element: ElementKind) -> [AnnulusSpecification; 3] {
     SIZES.map(|size| {
         let finer = |count: usize| (count as f64 / size).round() as usize;
         let radial_elements = finer(layers);
-        AnnulusSpecification {
-            inner_radius: DISC.inner_radius,
-            outer_radius: DISC.outer_radius,
-            circumferential_elements: finer(sectors),
-            radial_elements,
-            radial_grading: 4.0_f64.powf(1.0 / radial_elements as f64),
-            element,
-            outer: BoundaryCondition::Clamped,
-            shaft: None,
-        }
+        let radial_grading = 4.0_f64.powf(1.0 / radial_elements as f64);
+        AnnulusSpecification { radial_grading, ..annulus(element, finer(sectors), radial_elements) }
     })
 }
 

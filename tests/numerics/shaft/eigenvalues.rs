@@ -15,12 +15,7 @@ fn nearest(mode: &ComplexMode, others: &[ComplexMode]) -> f64 {
 /// Cross-method check: the sparse solver on the whole mesh knows nothing of the symmetry.
 #[test]
 fn cyclic_and_sparse_spectra_of_two_bodies_are_the_same() {
-    let penalty = ContactStiffness {
-        normal_stiffness: Some(7.4e12),
-        normal_damping: 1e3,
-        tangential_damping: 2e3,
-        ..RIGID
-    };
+    let penalty = compliant(7.4e12, [1e3, 2e3]);
     let damped = |mut materials: AnnulusMaterials| {
         if let Some(shaft) = &mut materials.shaft {
             shaft.damping =
@@ -46,14 +41,7 @@ fn cyclic_and_sparse_spectra_of_two_bodies_are_the_same() {
     for (k, (element, around, options, materials)) in cases.into_iter().enumerate() {
         let mut specification = with_shaft(element, around, [2, 4]);
         if k == 2 {
-            let spring = ElasticSupport {
-                loss_factor: 0.0,
-                normal_stiffness: 1e13,
-                tangential_stiffness: 2e13,
-                axial_stiffness: 0.0,
-                normal_damping: 10.0,
-                tangential_damping: 0.0,
-            };
+            let spring = springs([1e13, 2e13, 0.0], [10.0, 0.0]);
             let shaft = specification.shaft.as_mut().unwrap();
             shaft.bore = BoundaryCondition::Support(spring);
         }

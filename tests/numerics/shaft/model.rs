@@ -7,14 +7,7 @@ pub const STEEL: ElasticMaterial = elastic(2.1e11, 0.3, 7850.0, PlaneFormulation
 
 /// The disc with a bore of 6 mm in its shaft.
 pub fn with_shaft(element: ElementKind, around: usize, radial: [usize; 2]) -> AnnulusSpecification {
-    AnnulusSpecification {
-        shaft: Some(ShaftSpecification {
-            inner_radius: 0.006,
-            radial_elements: radial[0],
-            bore: BoundaryCondition::Clamped,
-        }),
-        ..annulus(element, around, radial[1])
-    }
+    on_shaft(annulus(element, around, radial[1]), radial[0])
 }
 
 pub fn on(shaft: ElasticMaterial) -> AnnulusMaterials {

@@ -14,10 +14,7 @@ fn run(
     settings: &TransientSettings,
 ) -> Recorder {
     let model = TransientModel::of_annulus(annulus, materials, DAMPING, contact(610.0));
-    let operator = model.operator(choice, SimdLevel::detect()).unwrap();
-    let mut run = CentralDifference::start(model, operator.as_ref(), settings).unwrap();
-    let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
-    run.run(&mut record).unwrap();
+    let (record, _) = recorded(model, choice, settings);
     record
 }
 

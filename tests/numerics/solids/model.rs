@@ -34,3 +34,16 @@ pub fn modes(model: &SolidModel, friction: f64, limit_hz: f64) -> Vec<ComplexMod
     let found = solid_sweep(model, &request).unwrap();
     found.sweep.points.into_iter().next().unwrap().modes
 }
+
+/// The body in time.
+pub fn body<'a>(model: &'a SolidModel, sector: &'a SolidSector) -> TransientModel<'a> {
+    TransientModel {
+        stiffness: model.options.contact,
+        ..TransientModel::new(
+            SteppedBody::Revolution(sector),
+            &model.material,
+            model.options.damping,
+            model.contact,
+        )
+    }
+}

@@ -94,11 +94,7 @@ fn on_a_contact_that_stiffens_the_response_has_the_poles_of_the_eigenvalue_analy
         let mut model = disc(element, divisions);
         model.options.geometric_stiffness = true;
         let law = NormalLaw::Exponential { reference_pressure: 2e5, height: 2e-6 };
-        model.options.contact = ContactStiffness {
-            normal_stiffness: Some(law.stiffness(0.0)),
-            law: Some(law),
-            ..RIGID
-        };
+        model.options.contact = stiffening(law);
         has_poles_at_onsets(&model);
     }
 }

@@ -146,12 +146,7 @@ fn compare(model: &SolidModel, what: &str) {
     assert!(errors.iter().all(|error| *error < 1e-7), "{what}: {errors:?}");
 }
 
-const SPRINGS: ContactStiffness = ContactStiffness {
-    normal_stiffness: Some(2e12),
-    normal_damping: 3e4,
-    tangential_damping: 2e4,
-    ..RIGID
-};
+const SPRINGS: ContactStiffness = compliant(2e12, [3e4, 2e4]);
 
 const COMPLIANT: ContactStiffness = ContactStiffness {
     normal_stiffness: Some(4e11),
@@ -205,14 +200,8 @@ fn sensitivities_on_springs_equal_finite_differences() {
         let mut model = strained(element, SPRINGS);
         model.contact.decay = None;
         // The base state of a body on springs changes with its stiffness even where it is pressed by a distance.
-        model.specification.conditions[1] = BoundaryCondition::Support(ElasticSupport {
-            loss_factor: 0.0,
-            normal_stiffness: 2e11,
-            tangential_stiffness: 1e11,
-            axial_stiffness: 1e11,
-            normal_damping: 1e4,
-            tangential_damping: 1e4,
-        });
+        model.specification.conditions[1] =
+            BoundaryCondition::Support(springs([2e11, 1e11, 1e11], [1e4, 1e4]));
         model.options.damping_model = DampingModel::BodyOnly;
         compare(&model, &format!("springs, {element:?}"));
     }

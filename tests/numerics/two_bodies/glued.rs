@@ -2,6 +2,7 @@
 //!
 //! Glue is what the contact says of sticking pairs, `u_n = sum P u` and `u_t = sum P u`, for good and in both directions.
 
+use crate::cea_sparse::bare;
 use crate::prelude::*;
 use crate::two_bodies::model::{Part, file_of, one_material, rectangle, ring, rings, rings_of};
 use frictionsim::cea::sparse::FrictionlessModes;
@@ -55,23 +56,8 @@ fn frequencies(mesh: &Mesh, glue: &Glue, held: Vec<usize>, count: usize) -> Vec<
     let pattern = Arc::new(SparsityPattern::from_positions(unknowns.len(), positions));
     let on_pattern = |terms| MatrixPolynomial::on_pattern(&pattern, &[terms]);
     let (stiffness, mass) = (on_pattern(stiffness), on_pattern(mass));
-    let structure = SlidingTangent {
-        damping: MatrixPolynomial::combination(0.0, &mass, 0.0, &stiffness),
-        mass,
-        stiffness,
-        structural: None,
-        tabled: Vec::new(),
-        proportional: None,
-        unknowns,
-        contact_tangential: Vec::new(),
-        contact_normal: Vec::new(),
-        contact_opposite: Vec::new(),
-        is_gyroscopic: false,
-        distances: Vec::new(),
-        contact_angles: Vec::new(),
-        sliding_direction: 1.0,
-        friction: Vec::new(),
-    };
+    let damping = MatrixPolynomial::combination(0.0, &mass, 0.0, &stiffness);
+    let structure = bare([mass, damping, stiffness], None, unknowns);
     let modes = FrictionlessModes::compute(&structure, ModeLimit::Lowest(count)).unwrap();
     modes.frequencies[..count].to_vec()
 }

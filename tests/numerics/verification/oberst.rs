@@ -14,11 +14,8 @@ use crate::prelude::*;
 
 /// Frequency (Hz) and loss factor of the first mode on so many elements along the beam.
 fn beam(elements: usize) -> [f64; 2] {
-    let layer = |name, z, thickness, count| Block {
-        name,
-        origin: [0.0, 0.0, z],
-        size: [0.2, 0.005, thickness],
-        counts: [elements, 1, count],
+    let layer = |name, z, thickness, count| {
+        brick(name, [0.0, 0.0, z], [0.2, 0.005, thickness], [elements, 1, count])
     };
     let mesh = file_of(&[layer("metal", 0.0, 1e-3, 1), layer("layer", 1e-3, 2e-3, 2)], |p| p);
     let case = "[mesh]\nfile = \"body.msh\"\n[material]\nyoung_modulus = 2.1e11\npoisson_ratio = 0.0\n\

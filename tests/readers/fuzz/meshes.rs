@@ -2,10 +2,9 @@
 
 use crate::fuzz::hold;
 use crate::fuzz::mutation::{Random, binary, text};
-use crate::msh::{FORMS, write_msh};
+use crate::msh::{CYLINDER, FORMS, plane_body, write_msh};
 use frictionsim::mesh::{
-    AnnulusMesh, AnnulusSpecification, BodySpecification, BoundaryCondition,
-    CounterfaceSpecification, ElementKind, FileMesh, Mesh,
+    AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind, FileMesh, Mesh,
 };
 
 fn ring(element: ElementKind) -> Mesh {
@@ -32,13 +31,8 @@ fn no_mesh_file_makes_its_reader_panic() {
     let (binaries, texts): (Vec<_>, Vec<_>) = files.partition(|(form, _)| form.is_binary);
     let [binaries, texts] =
         [binaries, texts].map(|files| files.into_iter().map(|file| file.1).collect::<Vec<_>>());
-    let specification = BodySpecification {
-        scale: 1.0,
-        contact: "inner".to_owned(),
-        counterface: CounterfaceSpecification::Cylinder { center: [0.0; 2], radius: None },
-        opposite: None,
-        conditions: vec![("outer".to_owned(), BoundaryCondition::Clamped)],
-    };
+    let specification =
+        plane_body("inner", CYLINDER, None, &[("outer", BoundaryCondition::Clamped)]);
     hold(
         "mesh",
         |random: &mut Random| match random.below(2) {
