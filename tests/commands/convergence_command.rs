@@ -4,26 +4,11 @@
 use crate::prelude::*;
 
 /// A coarse disc; every test adds its analyses.
-const DISC: &str = r#"
-[geometry]
-inner_radius = 0.0205
-outer_radius = 0.0905
-[mesh]
-circumferential_elements = 36
-radial_elements = 8
-element = "quad4"
-[material]
-young_modulus = 2.5e9
-poisson_ratio = 0.3805
-density = 1228.0
-[damping]
-mass_coefficient = 40.0
-stiffness_coefficient = 4.5e-7
-[contact]
-friction_coefficient = 0.3
-interference = 25e-6
-rotation_speed_rpm = 610.0
-"#;
+const DISC: &str = "[geometry]\ninner_radius = 0.0205\nouter_radius = 0.0905
+[mesh]\ncircumferential_elements = 36\nradial_elements = 8\nelement = \"quad4\"
+[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0
+[damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7
+[contact]\nfriction_coefficient = 0.3\ninterference = 25e-6\nrotation_speed_rpm = 610.0\n";
 
 const CEA: &str = "[cea]\nmax_frequency_hz = 9000.0\nfriction_coefficients = [0.0, 0.5]\n";
 

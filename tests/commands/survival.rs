@@ -8,18 +8,11 @@ use std::process::{Child, Command, Stdio};
 const PROGRAM: &str = env!("CARGO_BIN_EXE_frictionsim");
 
 /// A coarse disc: thirty transients of some ten milliseconds each.
-const STUDY: &str = r#"
-[transient]
-duration = 0.02
-[transient.perturbation]
-harmonics = [1, 2]
-velocity = 1e-3
-[output]
-sample_interval = 4e-6
-[sweep]
-"contact.friction_coefficient" = [0.2, 0.3, 0.4]
-"contact.rotation_speed_rpm" = { from = 10, to = 6000, count = 10, spacing = "log" }
-"#;
+const STUDY: &str = "[transient]\nduration = 0.02
+[transient.perturbation]\nharmonics = [1, 2]\nvelocity = 1e-3
+[output]\nsample_interval = 4e-6
+[sweep]\n\"contact.friction_coefficient\" = [0.2, 0.3, 0.4]\n\
+     \"contact.rotation_speed_rpm\" = { from = 10, to = 6000, count = 10, spacing = \"log\" }\n";
 
 struct Study {
     root: tempfile::TempDir,

@@ -62,7 +62,7 @@ impl Out {
     }
 }
 
-/// `mesh` with its boundaries and its regions as physical groups; node `i` gets the number `numbers[i]` and the place
+/// `mesh` with its boundaries and its regions as physical groups; node `i` gets the number `numbers[i]`, or `i + 1`, and the place
 /// `place(x, y)`.
 pub fn write_msh(
     mesh: &Mesh,
@@ -107,6 +107,8 @@ pub fn write_msh(
         out.end();
         out.line("$EndEntities");
     }
+    let plain: Vec<usize> = (1..=mesh.node_count()).collect();
+    let numbers = if numbers.is_empty() { &plain } else { numbers };
     write_nodes(&mut out, mesh, form, numbers, place);
     write_elements(&mut out, mesh, form, numbers);
     out.0

@@ -6,57 +6,25 @@ use crate::cycle_periodic::{found, hold_to_transient};
 use crate::prelude::*;
 
 /// A pad on a disc that turns, the seam of the disc glued.
-const PAD: &str = r#"
-title = "Pad on a disc"
-[mesh]
-file = "body.msh"
-[material]
-young_modulus = 2.5e9
-poisson_ratio = 0.38
-density = 1228.0
-[materials.pad]
-young_modulus = 5e8
-poisson_ratio = 0.3
-density = 2500.0
-[damping]
-mass_coefficient = 40.0
-stiffness_coefficient = 3e-7
-[boundaries.disc_x0]
-condition = "clamped"
-[boundaries.pad_z1]
-condition = "pressure"
-pressure = 2e5
-[boundaries.pad_y0]
-condition = "support"
-normal_stiffness = 1e10
-tangential_stiffness = 1e10
-[boundaries.pad_y1]
-condition = "support"
-normal_stiffness = 1e10
-tangential_stiffness = 1e10
-[motion.disc]
-axis = [0.0, 0.0, 1.0]
-rotation_speed_rpm = 200.0
-[contacts.pad]
-surface = "pad_z0"
-counter = "disc_z1"
-friction_coefficient = 0.5
-[ties.seam]
-surface = "disc_y0"
-counter = "disc_y1"
-[cea]
-modes = 20
+const PAD: &str = "title = \"Pad on a disc\"
+[mesh]\nfile = \"body.msh\"
+[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0
+[materials.pad]\nyoung_modulus = 5e8\npoisson_ratio = 0.3\ndensity = 2500.0
+[damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 3e-7
+[boundaries.disc_x0]\ncondition = \"clamped\"
+[boundaries.pad_z1]\ncondition = \"pressure\"\npressure = 2e5
+[boundaries.pad_y0]\ncondition = \"support\"\nnormal_stiffness = 1e10\n\
+     tangential_stiffness = 1e10
+[boundaries.pad_y1]\ncondition = \"support\"\nnormal_stiffness = 1e10\n\
+     tangential_stiffness = 1e10
+[motion.disc]\naxis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = 200.0
+[contacts.pad]\nsurface = \"pad_z0\"\ncounter = \"disc_z1\"\nfriction_coefficient = 0.5
+[ties.seam]\nsurface = \"disc_y0\"\ncounter = \"disc_y1\"
+[cea]\nmodes = 20
 [cycle]
-[transient]
-duration = 0.05
-time_step = 1e-6
-initial = "steady-sliding"
-perturbation = { noise = 1e-2 }
-[output]
-probes = [100]
-sample_interval = 1e-5
-snapshots = []
-"#;
+[transient]\nduration = 0.05\ntime_step = 1e-6\ninitial = \"steady-sliding\"\n\
+     perturbation = { noise = 1e-2 }
+[output]\nprobes = [100]\nsample_interval = 1e-5\nsnapshots = []\n";
 
 /// The pad in a folder of its own, under overrides.
 fn pad(folder: &Path, overrides: &[&str]) -> Case {

@@ -24,15 +24,9 @@ fn lining(name: &str, sections: &str, overrides: &[String]) -> Case {
     let block = brick("part", [0.0; 3], [0.05, 0.04, 0.02], [4, 3, 2]);
     fs::write(folder.join("part.msh"), file_of(&[block], |point| point)).unwrap();
     let text = format!(
-        r#"
-[mesh]
-file = "part.msh"
-[material]
-young_moduli = [8e9, 7e9, 1.5e9]
-poisson_ratios = [0.25, 0.15, 0.2]
-shear_moduli = [3e9, 1.2e9, 1e9]
-density = 2500.0
-{sections}"#
+        "[mesh]\nfile = \"part.msh\"
+[material]\nyoung_moduli = [8e9, 7e9, 1.5e9]\npoisson_ratios = [0.25, 0.15, 0.2]\n\
+     shear_moduli = [3e9, 1.2e9, 1e9]\ndensity = 2500.0\n{sections}"
     );
     case_of(folder.join("part.toml"), &text, overrides)
 }

@@ -5,32 +5,14 @@ use crate::body::rectangle;
 use crate::prelude::*;
 
 /// A block on an elastic mounting, which the drag tilts: between friction 0.2 and 0.66 six of its nine contact nodes lift.
-const CASE: &str = r#"
-[mesh]
-file = "block.msh"
-[boundaries.top]
-condition = "support"
-normal_stiffness = 1e12
-tangential_stiffness = 1e12
-[material]
-young_modulus = 2.5e9
-poisson_ratio = 0.38
-density = 1228.0
-formulation = "plane-strain"
-[damping]
-mass_coefficient = 10.0
-stiffness_coefficient = 1e-8
-[contact]
-boundary = "bottom"
-counterface = "plane"
-direction = [1.0, 0.0]
-speed = 1.5
-friction_coefficient = 0.5
-interference = 1e-5
-[cea]
-friction_coefficients = [0.1, 0.8]
-modes = 10
-"#;
+const CASE: &str = "[mesh]\nfile = \"block.msh\"
+[boundaries.top]\ncondition = \"support\"\nnormal_stiffness = 1e12\ntangential_stiffness = 1e12
+[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n\
+     formulation = \"plane-strain\"
+[damping]\nmass_coefficient = 10.0\nstiffness_coefficient = 1e-8
+[contact]\nboundary = \"bottom\"\ncounterface = \"plane\"\ndirection = [1.0, 0.0]\n\
+     speed = 1.5\nfriction_coefficient = 0.5\ninterference = 1e-5
+[cea]\nfriction_coefficients = [0.1, 0.8]\nmodes = 10\n";
 
 /// The block in a folder of its own.
 fn block() -> TempDir {

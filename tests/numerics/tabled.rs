@@ -289,23 +289,11 @@ fn mount(name: &str, table: &str, sections: &str) -> Result<Case, String> {
         format!("[boundaries.{side}]\ncondition = \"fixed\"\ndirections = [\"x\", \"y\"]\n")
     });
     let text = format!(
-        r#"
-[mesh]
-file = "mount.msh"
-[material]
-young_modulus = 2e11
-poisson_ratio = 0.3
-density = 7850.0
-[materials.rubber]
-table = "rubber.csv"
-poisson_ratio = 0.0
-density = 25.0
-[boundaries.rubber_z0]
-condition = "clamped"
-[ties.glue]
-surface = "rubber_z1"
-counter = "mass_z0"
-{}{sections}"#,
+        "[mesh]\nfile = \"mount.msh\"
+[material]\nyoung_modulus = 2e11\npoisson_ratio = 0.3\ndensity = 7850.0
+[materials.rubber]\ntable = \"rubber.csv\"\npoisson_ratio = 0.0\ndensity = 25.0
+[boundaries.rubber_z0]\ncondition = \"clamped\"
+[ties.glue]\nsurface = \"rubber_z1\"\ncounter = \"mass_z0\"\n{}{sections}",
         guides.concat()
     );
     read_case(folder.join("mount.toml"), &text, AS_IT_IS)

@@ -18,24 +18,11 @@ fn disc_of(material: &str, sections: &str) -> Case {
     let flat = "frequency_hz,young_modulus,loss_factor\n0,3e9,0.1\n50000,3e9,0.1\n";
     fs::write(folder.path().join("flat.csv"), flat).unwrap();
     let text = format!(
-        r#"
-[geometry]
-inner_radius = 0.0205
-outer_radius = 0.0905
-{sections}
-[material]
-{material}
-poisson_ratio = 0.3805
-density = 1228.0
-[contact]
-friction_coefficient = 0.3
-interference = 25e-6
-rotation_speed_rpm = 610.0
-[cea]
-max_frequency_hz = 12000.0
-friction_coefficients = {{ from = 0.0, to = 0.6, count = 7 }}
-geometric_stiffness = false
-"#
+        "[geometry]\ninner_radius = 0.0205\nouter_radius = 0.0905\n{sections}
+[material]\n{material}\npoisson_ratio = 0.3805\ndensity = 1228.0
+[contact]\nfriction_coefficient = 0.3\ninterference = 25e-6\nrotation_speed_rpm = 610.0
+[cea]\nmax_frequency_hz = 12000.0\n\
+     friction_coefficients = {{ from = 0.0, to = 0.6, count = 7 }}\ngeometric_stiffness = false\n"
     );
     case_of(folder.path().join("disc.toml"), &text, AS_IT_IS)
 }

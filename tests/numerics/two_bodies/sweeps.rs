@@ -22,37 +22,15 @@ fn write_case(folder: &Path, along: [usize; 2], upper_density: f64) {
     std::fs::create_dir_all(folder).unwrap();
     std::fs::write(folder.join("blocks.msh"), file_of(&parts)).unwrap();
     let text = format!(
-        r#"
-[mesh]
-file = "blocks.msh"
-[material]
-young_modulus = 2.5e9
-poisson_ratio = 0.3
-density = 1228.0
-[materials.upper]
-young_modulus = 2.5e9
-poisson_ratio = 0.3
-density = {upper_density:?}
-[damping]
-mass_coefficient = 40.0
-stiffness_coefficient = 4.5e-7
-[boundaries.floor]
-condition = "clamped"
-[boundaries.top]
-condition = "support"
-normal_stiffness = 1e11
-tangential_stiffness = 1e11
-[contact]
-boundary = "sole"
-counterface = "body"
-counter_boundary = "track"
-friction_coefficient = 0.3
-interference = 1e-5
-speed = 1.0
-[transient]
-duration = 2e-4
-expansion_time = 5e-5
-"#
+        "[mesh]\nfile = \"blocks.msh\"
+[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3\ndensity = 1228.0
+[materials.upper]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3\ndensity = {upper_density:?}
+[damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7
+[boundaries.floor]\ncondition = \"clamped\"
+[boundaries.top]\ncondition = \"support\"\nnormal_stiffness = 1e11\ntangential_stiffness = 1e11
+[contact]\nboundary = \"sole\"\ncounterface = \"body\"\ncounter_boundary = \"track\"\n\
+     friction_coefficient = 0.3\ninterference = 1e-5\nspeed = 1.0
+[transient]\nduration = 2e-4\nexpansion_time = 5e-5\n"
     );
     std::fs::write(folder.join("case.toml"), text).unwrap();
 }
