@@ -35,9 +35,12 @@ fn error(name: &str, text: &str) -> String {
     read(name, text).expect_err("the file is wrong").to_string()
 }
 
-/// Each pair of a change and what must be said: `from` exchanged by `to` in a right file.
-fn check_errors(name: &str, text: &str, changes: &[(&str, &str, &str)]) {
-    for (from, to, said) in changes {
+/// Lines `FROM => TO => SAID` of a change to a right file, and what must be said of it.
+fn check_errors(name: &str, text: &str, changes: &str) {
+    for change in changes.trim_matches('\n').split('\n') {
+        let parts: Vec<String> =
+            change.split(" => ").map(|part| part.replace("\\n", "\n")).collect();
+        let [from, to, said] = &parts[..] else { panic!("{change}") };
         assert!(text.contains(from), "{from}");
         let found = error(name, &text.replacen(from, to, 1));
         assert!(found.contains(said), "{from} -> {to}: {found}, not {said}");
