@@ -23,7 +23,6 @@ pub fn report_of(command: &str, name: &str, set: &[&str]) -> (TempDir, PathBuf) 
     (folder, report)
 }
 
-/// A small eigenvalue analysis.
 pub const EIGENVALUE_SET: &str = "mesh.circumferential_elements=36 ; mesh.radial_elements=5 ; \
      cea.friction_coefficients={from=0.0,to=0.6,count=13} ; cea.max_frequency_hz=13000.0";
 
@@ -90,7 +89,6 @@ pub fn keep_screenshot(browser: &Browser, name: &str) {
     std::fs::write(folder.join(name), browser.screenshot()).unwrap();
 }
 
-/// Rows of a table without its header.
 pub fn rows_of(path: &Path) -> Vec<Vec<String>> {
     let mut reader = csv::Reader::from_path(path).unwrap();
     reader.records().map(|row| row.unwrap().iter().map(str::to_owned).collect()).collect()

@@ -14,7 +14,6 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 use std::process::Command;
 
-/// What a run gave.
 #[derive(Clone)]
 pub enum Answer {
     /// The summary, and the folder of the results.

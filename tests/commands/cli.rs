@@ -9,12 +9,10 @@ fn disc() -> String {
     shipped("polycarbonate-disc.toml")
 }
 
-/// The program in a folder of its own.
 fn run(folder: &TempDir, words: &[&str]) -> Run {
     Run::new(words).within(folder)
 }
 
-/// A command on the coarse disc, with figures.
 fn on_disc(folder: &TempDir, command: &str, more: &[&str]) -> Run {
     run(folder, &[command, &disc()]).set(&COARSE).args(more)
 }

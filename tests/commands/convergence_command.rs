@@ -20,7 +20,6 @@ fn study(folder: &Path, text: &str) -> Run {
     Run::new(&["convergence", "disc.toml", "--quiet", "--force"]).within(folder).out("out")
 }
 
-/// The summary of a run that works.
 fn summary(folder: &Path, text: &str, set: &[&str]) -> Value {
     study(folder, text).args(&["--json", "--no-figures"]).set(set).done().value()
 }
@@ -29,7 +28,6 @@ fn quantities(series: &Value) -> &Vec<Value> {
     series["quantities"].as_array().unwrap()
 }
 
-/// Observed orders of all frequencies.
 fn frequency_orders(summary: &Value) -> Vec<f64> {
     quantities(&summary["series"][0])
         .iter()

@@ -3,12 +3,10 @@
 use crate::prelude::*;
 use std::process::Command;
 
-/// A command on the shipped case.
 fn waves(command: &str, out: &Path, set: &[&str]) -> Run {
     Run::of(command, shipped("limit-cycle.toml")).out(out).set(set)
 }
 
-/// The summary of its cycles.
 fn cycles(out: &Path, set: &[&str]) -> Value {
     waves("cycle", out, set).args(&["--json"]).done().value()
 }

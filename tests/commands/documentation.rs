@@ -22,7 +22,6 @@ fn pages() -> Vec<(String, String)> {
     paths.iter().map(page).collect()
 }
 
-/// A block between fences: its language and its lines.
 struct Block {
     language: String,
     lines: Vec<String>,
@@ -175,7 +174,6 @@ fn the_readme_is_short_and_pages_keep_within_100_columns() {
     }
 }
 
-/// What modules and crates say of themselves at their heads.
 fn heads_of_modules() -> Vec<(String, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut folders = vec![root.join("src"), root.join("crates")];

@@ -6,7 +6,6 @@ use frictionsim::app::embedded::{EmbeddedFailure, EmbeddedRun};
 use std::ffi::OsString;
 use tempfile::tempdir;
 
-/// A command on a shipped case with a coarse mesh, without figures, into `name` of a folder.
 fn words(command: &str, case: &str, folder: &TempDir, name: &str, set: &[&str]) -> Vec<OsString> {
     let out = folder.path().join(name);
     let mut words: Vec<OsString> =

@@ -10,7 +10,6 @@ use frictionsim::signal::reader::MeasuredMode;
 use frictionsim::study::eigenvalues::modes_below;
 use frictionsim::study::fit::fit_case;
 
-/// Runs `frictionsim fit` on a table.
 fn fitted(name: &str, table: &str, set: &[&str]) -> Answer {
     let folder = folder_with(&[("modes.csv", table.as_bytes())]);
     let run = Run::of("fit", shipped(name)).args(&["modes.csv", "--json"]).within(&folder);

@@ -68,7 +68,6 @@ fn free_disc_with_one_percent_noise_gives_back_its_coefficients_at_1_hz() {
     assert!(found.modes.len() >= 6);
 }
 
-/// Mean and standard deviation.
 fn moments(values: &[f64]) -> (f64, f64) {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;

@@ -10,7 +10,6 @@ struct Block {
     edges: Vec<(usize, [usize; 2])>,
 }
 
-/// Elements along a side.
 const SIDE: usize = 4;
 
 impl Block {
@@ -74,7 +73,6 @@ impl Block {
 const CASE: &str = include_str!("refused/block.toml");
 const MESH: &str = include_str!("refused/block.msh");
 
-/// The program in a folder with `block.msh` and `block.toml`.
 fn block_in(mesh: &str, case: &str) -> TempDir {
     folder_with(&[("block.msh", mesh.as_bytes()), ("block.toml", case.as_bytes())])
 }
@@ -83,7 +81,6 @@ fn run(folder: &TempDir, words: &[&str]) -> Run {
     Run::new(words).within(folder)
 }
 
-/// What `check` says of the block.
 fn on_block(mesh: &str, case: &str) -> Answer {
     run(&block_in(mesh, case), &["check", "block.toml"]).end()
 }

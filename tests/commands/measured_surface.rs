@@ -3,7 +3,6 @@
 use crate::prelude::*;
 use std::fmt::Write;
 
-/// The shipped brake in a folder of its own.
 fn brake(folder: &TempDir) {
     fs::create_dir(folder.path().join("meshes")).unwrap();
     for name in ["brake.toml", "meshes/brake.inp"] {
@@ -25,7 +24,6 @@ fn table(header: &str, gap: impl Fn(f64, f64) -> f64) -> String {
     text
 }
 
-/// An analysis with one mode.
 fn cea(folder: &Path, set: &[&str]) -> Answer {
     let run = Run::of("cea", "brake.toml").within(folder).out("run").args(&["--force"]);
     let run = run.args(&["--unset", "cea.max_frequency_hz"]);

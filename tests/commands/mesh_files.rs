@@ -80,7 +80,6 @@ fn the_picture_of_solid_bodies_names_regions_and_boundaries() {
     assert_eq!(answer.text("figures/mesh.svg"), drawn);
 }
 
-/// Stress of solid bodies stands in the files for ParaView, of base states and of snapshots.
 #[test]
 fn fields_of_bodies_of_revolution_have_their_stress() {
     let folder = folder();

@@ -26,7 +26,6 @@ fn read(folder: &Path, text: &str) -> Result<Case, String> {
     read_case(folder.join("case.toml"), text, AS_IT_IS)
 }
 
-/// The folder with the meshes of the cases.
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let block = Grid {

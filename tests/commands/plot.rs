@@ -4,7 +4,6 @@
 
 use crate::prelude::*;
 
-/// A command on a shipped case into `folder/out`, with overrides.
 fn run(folder: &TempDir, command: &str, case: &str, set: &[&str]) -> Run {
     Run::new(&[command, &shipped(case), "--quiet"]).within(folder).out("out").set(set)
 }

@@ -38,7 +38,6 @@ fn read(name: &str, changes: &str) -> (Result<Case, String>, Option<usize>) {
     (case.map_err(|errors| errors.to_string()), place)
 }
 
-/// What is said of a row, or why it is not as it must be.
 fn said(head: &[&str], changes: &str) -> Result<String, String> {
     let name = head[1];
     match head[0] {

@@ -188,7 +188,6 @@ fn the_printed_table_tells_stable_ranges_from_unstable_modes() {
     assert!(!text.contains("0.25 "), "a value solved for its shapes alone\n{text}");
 }
 
-/// Value of an attribute in an XML tag.
 fn attribute<'a>(tag: &'a str, name: &str) -> &'a str {
     let start = tag.find(&format!("{name}=\"")).unwrap() + name.len() + 2;
     &tag[start..start + tag[start..].find('"').unwrap()]

@@ -26,14 +26,12 @@ fn block() -> Vec<u8> {
     file_of(&[block], |point| point)
 }
 
-/// A command on a case beside the block.
 fn run(folder: &Path, command: &str, case: &str, out: &str, sets: &[&str]) -> Answer {
     fs::write(folder.join("block.msh"), block()).unwrap();
     let run = Run::of_text(command, folder, case).set(sets);
     if command == "check" { run.end() } else { run.args(&["--force"]).out(out).end() }
 }
 
-/// Friction, frequency and growth rate of every mode.
 fn modes(folder: &Path, out: &str) -> Vec<[f64; 3]> {
     let rows = rows(&folder.join(out).join("eigenvalues.csv")).into_iter();
     let columns = ["friction_coefficient", "frequency_hz", "growth_rate_per_s"];
@@ -104,7 +102,6 @@ fn a_generated_body_of_revolution_takes_what_breaks_its_symmetry() {
     run(folder.path(), "matrices", DISC, "written", &["cea.method=\"sparse\""]).code(0);
 }
 
-/// Every analysis takes a solid block on a rigid plane.
 #[test]
 fn a_block_of_solid_elements_slides_on_a_rigid_plane() {
     let folder = folder();
@@ -139,7 +136,6 @@ fn a_block_of_solid_elements_slides_on_a_rigid_plane() {
     assert!(read("cea/summary.json").contains("drag_n"));
 }
 
-/// Errors name the key.
 #[test]
 fn rigid_counterfaces_of_solid_bodies_that_cannot_be_are_refused_at_their_keys() {
     let folder = folder();

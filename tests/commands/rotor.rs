@@ -109,7 +109,6 @@ fn hold_ends(text: &mut String, nodes: &BTreeMap<Place, usize>) {
     *text += "*BOUNDARY\nNfix, 1, 3\n";
 }
 
-/// The load of a body that turns at so many rad/s.
 fn turning(speed_squared: &str) -> String {
     format!(
         "*STEP, NLGEOM\n*STATIC\n*DLOAD\nEall, centrif, {speed_squared}, 0., 0., 0., 0., 0., 1.\n*END STEP\n"

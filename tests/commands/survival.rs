@@ -217,7 +217,6 @@ fn cea(folder: &Path, options: &[&str]) -> Run {
     Run::of("cea", shipped("sliding-block.toml")).args(&["--quiet"]).out(folder).args(options)
 }
 
-/// Steps that an interrupted eigenvalue sweep has left.
 fn steps(folder: &Path) -> usize {
     let entries = std::fs::read_dir(folder.join("progress"));
     let names = entries.into_iter().flatten().flatten();

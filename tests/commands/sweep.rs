@@ -41,7 +41,6 @@ fn formula(case: &Case) -> Result<Map<String, Value>, Failure> {
     Ok(Map::from_iter([("transient".to_owned(), summary)]))
 }
 
-/// Runs a sweep as the command does, and returns the number of points run.
 fn sweep(
     case: &Case,
     folder: &Path,

@@ -13,7 +13,6 @@ fn coarse(command: &str, name: &str, out: &Path, overrides: &[&str]) -> Run {
     Run::new(&[command, &shipped(name)]).out(out).set(&coarse).set(overrides)
 }
 
-/// A transient of the 610 rpm case, without figures.
 fn transient(out: &Path, overrides: &[&str]) -> Run {
     coarse("transient", "polycarbonate-610rpm.toml", out, overrides).args(&["--no-figures"])
 }
@@ -29,7 +28,6 @@ fn results(answer: &Answer) -> Vec<(&'static str, Vec<u8>)> {
     names.split(' ').map(|name| (name, answer.bytes(name))).collect()
 }
 
-/// Holds all results of two runs to the same bytes.
 fn assert_same(found: &Answer, expected: &Answer) {
     for (found, expected) in results(found).into_iter().zip(results(expected)) {
         assert!(found == expected, "{}", expected.0);
@@ -310,7 +308,6 @@ fn a_damaged_checkpoint_is_refused_with_the_reason_and_left_alone() {
     assert_eq!(fs::read(&path).unwrap(), bytes);
 }
 
-/// The shipped cases keep their character on a coarse mesh.
 #[test]
 fn shipped_cases_end_in_the_limit_cycles_that_their_titles_say() {
     let folder = folder();

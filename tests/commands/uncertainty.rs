@@ -145,7 +145,6 @@ fn samples_of_solid_bodies_beyond_their_onset_have_the_onset_of_an_analysis() {
         .says(&["<=0.600000"]);
 }
 
-/// Where friction itself is uncertain each sample has its own, and the answer names none.
 #[test]
 fn uncertain_friction_is_no_single_value() {
     let folder = folder();

@@ -19,7 +19,6 @@ pub fn plane_body(
 pub const CYLINDER: CounterfaceSpecification =
     CounterfaceSpecification::Cylinder { center: [0.0; 2], radius: None };
 
-/// How a file is written.
 #[derive(Clone, Copy, Debug)]
 pub struct Form {
     pub is_new: bool,

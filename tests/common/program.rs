@@ -30,7 +30,6 @@ pub struct Answer {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row(pub BTreeMap<String, String>);
 
-/// The path of a shipped case.
 pub fn shipped(name: &str) -> String {
     format!("{}/cases/{name}", env!("CARGO_MANIFEST_DIR"))
 }
@@ -39,7 +38,6 @@ pub fn folder() -> tempfile::TempDir {
     tempfile::tempdir().unwrap()
 }
 
-/// A folder with files.
 pub fn folder_with(files: &[(&str, &[u8])]) -> tempfile::TempDir {
     let folder = folder();
     for (name, bytes) in files {
@@ -213,7 +211,6 @@ impl Index<&str> for Row {
     }
 }
 
-/// The rows of a table.
 pub fn rows(path: &Path) -> Vec<Row> {
     let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(path).unwrap();
     reader.deserialize().map(|row| Row(row.unwrap())).collect()

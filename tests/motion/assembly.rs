@@ -30,7 +30,6 @@ fn mesh(plate: [usize; 3]) -> Mesh {
     mesh_of(plate, true)
 }
 
-/// The same, or without that other block.
 fn mesh_of(plate: [usize; 3], with_lower: bool) -> Mesh {
     let block = |name, height: f64, thickness: f64, counts| {
         brick(name, [0.0, 0.0, height], [0.05, 0.04, thickness], counts)
@@ -129,7 +128,6 @@ fn settings(initial: InitialState, duration: f64, noise: f64) -> TransientSettin
     )
 }
 
-/// The record of a run, and the largest speed at its end, m/s.
 fn run(assembly: &Assembly<'_>, settings: &TransientSettings) -> (Recorder, f64) {
     let body = model(assembly);
     let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar).unwrap();

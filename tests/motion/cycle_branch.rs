@@ -31,7 +31,6 @@ fn branch(case: &Case) -> PeriodicBranch {
     searched(case, &Unwatched).branch.unwrap()
 }
 
-/// The case at another speed.
 fn at_speed(folder: &Path, speed: f64) -> EventDriven {
     EventDriven::new(&oscillator(folder, &[&format!("contact.speed={speed}")]))
 }

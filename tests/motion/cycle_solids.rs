@@ -26,7 +26,6 @@ const PAD: &str = "title = \"Pad on a disc\"
      perturbation = { noise = 1e-2 }
 [output]\nprobes = [100]\nsample_interval = 1e-5\nsnapshots = []\n";
 
-/// The pad in a folder of its own, under overrides.
 fn pad(folder: &Path, overrides: &[&str]) -> Case {
     let blocks = [
         brick("disc", [0.03, 0.0, 0.0], [0.04, TAU, 0.006], [2, 16, 1]),

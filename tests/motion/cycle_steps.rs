@@ -5,7 +5,6 @@
 use crate::prelude::*;
 use std::fmt::Write;
 
-/// What all cases share.
 const MATERIAL: &str = "young_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n";
 const CYCLE: &str = "[cycle]\nonsets = \"all\"\nconfirmation_periods = 0\nstability = \"none\"\n";
 
@@ -75,7 +74,6 @@ fn cycles(mesh: &[u8], text: &str, overrides: &[&str]) -> Vec<PeriodicResult> {
     study.run(0, &Unwatched, &|_| {}).unwrap()
 }
 
-/// Frequency of the cycle that a mode has led to, Hz.
 fn frequency(results: &[PeriodicResult], mode: usize) -> f64 {
     let own = results.iter().find(|result| result.mode.number == mode).unwrap();
     own.outcome.as_ref().unwrap().motion.frequency_hz

@@ -47,7 +47,6 @@ fn amplitudes(record: &Recorder, harmonic: usize, from: f64, to: f64) -> Vec<(f6
     rows.map(|row| (row.time, amplitude(row.harmonics[harmonic]))).collect()
 }
 
-/// Slope of the logarithm, 1/s.
 fn rate(values: &[(f64, f64)]) -> f64 {
     let count = values.len() as f64;
     let mean = |of: &dyn Fn(&(f64, f64)) -> f64| values.iter().map(of).sum::<f64>() / count;

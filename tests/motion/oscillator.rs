@@ -34,7 +34,6 @@ pub struct EventDriven {
     friction: [f64; 3],
 }
 
-/// Displacement and velocity of both nodes.
 pub type Motion = [f64; 4];
 
 impl EventDriven {

@@ -9,7 +9,6 @@ fn options(mass: MassKind, geometric_stiffness: bool) -> TangentOptions {
     TangentOptions { mass, geometric_stiffness, ..TANGENT }
 }
 
-/// The disc as the body of a file: hole `inner`, rim `outer` clamped.
 fn disc_body(bytes: &[u8], scale: f64) -> Mesh {
     let specification = BodySpecification {
         scale,
@@ -309,7 +308,6 @@ fn energy_closes_with_supports_pressure_and_partial_contact() {
     assert!(record.rows.iter().any(|row| row.counts.open > 0));
 }
 
-/// Each message names what is wrong and what to do.
 #[test]
 fn bad_files_and_names_are_refused_with_a_remedy() {
     let good = String::from_utf8(rectangle(0.04, 0.03, 4, 3)).unwrap();

@@ -302,7 +302,6 @@ fn sweep_with_general_damping_agrees_with_krylov_schur_at_every_friction() {
     }
 }
 
-/// Consistency check.
 #[test]
 fn sweep_is_bitwise_equal_on_one_and_two_threads() {
     let tangent = Disc::coarse().tangent();
@@ -321,7 +320,6 @@ fn sweep_is_bitwise_equal_on_one_and_two_threads() {
     assert!(one.points[2].modes.iter().all(|m| m.shape.is_none()));
 }
 
-/// Keeps the steps of a sweep in their order.
 #[derive(Default)]
 struct Kept {
     known: Vec<(String, Vec<Vec<f64>>)>,

@@ -6,7 +6,6 @@ use frictionsim::contact::{RigidCounterface, RigidMotion, RigidShape, SurfacePai
 const RUBBER: ElasticMaterial =
     ElasticMaterial { formulation: PlaneFormulation::ThreeDimensional, ..POLYCARBONATE };
 
-/// Radius of a ball, m.
 const BALL: f64 = 0.016;
 
 fn ball(interference: f64) -> RigidCounterface {

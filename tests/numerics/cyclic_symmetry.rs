@@ -68,7 +68,6 @@ fn disc_sector(count: usize, [around, radial]: [usize; 2], shift: f64) -> String
     )
 }
 
-/// A case beside its mesh, solved by one of the methods.
 fn read(name: &str, mesh: &[u8], text: &str, method: &str) -> Result<Case, CaseErrors> {
     let folder = kept(&format!("sectors-{name}"));
     fs::write(folder.join("sector.msh"), mesh).unwrap();
@@ -216,7 +215,6 @@ fn waves_around_a_turning_ring_have_the_spectrum_of_its_whole_mesh() {
     }
 }
 
-/// A body that differs in one place has the spectrum of its whole mesh, and says why.
 #[test]
 fn a_body_with_one_mass_is_solved_whole() {
     let more = "[cea]\nmodes = 6\nfriction_coefficients = [0.0, 0.4]\n[modifications.lump]\nat = { x = 0.0905, y = 0.0 }\nmass = 0.5\n";
@@ -230,7 +228,6 @@ fn a_body_with_one_mass_is_solved_whole() {
     assert!(note.unwrap().contains("mass of sector"), "{note:?}");
 }
 
-/// Sectors that do not meet their copies are refused with what does not fit.
 #[test]
 fn sectors_that_do_not_meet_are_refused() {
     let refused = |name: &str, sectors: usize, shift: f64| {
@@ -247,7 +244,6 @@ fn sectors_that_do_not_meet_are_refused() {
     assert!(shifted.contains("Periodic Curve"), "{shifted}");
 }
 
-/// A wrong number of sectors of solid bodies is reported at its key.
 #[test]
 fn a_wrong_number_of_solid_sectors_is_reported_where_it_is_given() {
     let block = brick("ring", [0.07, 0.0, 0.0], [0.05, TAU / 6.0, 0.01], [2, 4, 1]);
@@ -304,7 +300,6 @@ fn every_table_of_a_body_of_sectors_has_its_nodal_diameters_and_samples_have_its
     }
 }
 
-/// A contact that nothing presses has no critical friction: refused, at its key.
 #[test]
 fn a_contact_without_pressure_is_refused() {
     let text =

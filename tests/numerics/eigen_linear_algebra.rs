@@ -81,7 +81,6 @@ fn settings(wanted: usize) -> KrylovSchurSettings {
     KrylovSchurSettings { wanted, tolerance: 1e-12, max_applications: 2000, dense_up_to: 0 }
 }
 
-/// Largest eigenvalues of the inverse.
 fn largest(p: &MatrixPolynomial, wanted: usize) -> RealPairs {
     let start = random_columns(p.dimension(), 4, 0x5eed);
     let pairs = krylov_schur(&inverse_of(p), start, &|_| true, &settings(wanted)).unwrap();

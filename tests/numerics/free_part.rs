@@ -31,7 +31,6 @@ fn lining(name: &str, sections: &str, overrides: &[String]) -> Case {
     case_of(folder.join("part.toml"), &text, overrides)
 }
 
-/// Frequencies of the dense pencil of the elements, rigid motions left out, rad/s.
 fn dense(case: &Case) -> Vec<f64> {
     let body = case.body.assembly().unwrap();
     let count = body.mesh.dof_count();

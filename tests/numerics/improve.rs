@@ -139,7 +139,6 @@ fn near(what: &str, derivative: f64, difference: f64, field: &[f64]) {
     );
 }
 
-/// Volume of a brick with parallel sides.
 fn brick_volume(mesh: &Mesh, element: usize) -> f64 {
     let nodes = mesh.element_nodes(element);
     let at = |k: usize| mesh.nodes[nodes[k] as usize];

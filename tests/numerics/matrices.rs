@@ -83,7 +83,6 @@ fn run(folder: &TempDir, command: &str, set: &[&str]) -> Run {
     run.args(&["--quiet", "--force"]).set(set)
 }
 
-/// Analyses the block and exports its matrices.
 fn solved(folder: &TempDir, set: &[&str]) -> Answer {
     run(folder, "cea", set).done();
     run(folder, "matrices", set).done()
@@ -93,7 +92,6 @@ fn read(path: &Path) -> MarketMatrix {
     MarketMatrix::read(&fs::read_to_string(path).unwrap(), usize::MAX).unwrap()
 }
 
-/// The data of the public problem.
 fn public(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/numerics/nlevp");
     folder.join(format!("disk_brake100_{name}"))
@@ -174,7 +172,6 @@ fn listed_modes_found(folder: &TempDir, friction: f64) -> usize {
     modes_among(folder, friction, &assembled(&folder.path().join("matrices"), friction))
 }
 
-/// The same for matrices at that friction coefficient.
 fn modes_among(folder: &TempDir, friction: f64, matrices: &[Mat<f64>; 4]) -> usize {
     let [mass, damping, stiffness, losses] = matrices;
     let found: Vec<c64> = if losses.norm_max() > 0.0 {
@@ -415,7 +412,6 @@ fn matrices_of_a_body_of_revolution_are_refused_with_the_reason() {
     run(&folder, "matrices", &[]).refused(&["one set for each harmonic"]);
 }
 
-/// A case of the public problem in a folder of its own.
 fn brake(folder: &TempDir, stiffness: &str) {
     for name in ["M.mtx", "C.mtx", "K.mtx"] {
         fs::copy(public(name), folder.path().join(name)).unwrap();

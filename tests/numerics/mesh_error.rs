@@ -4,7 +4,6 @@ use crate::prelude::*;
 use frictionsim::cea::Unwatched;
 use frictionsim::study::eigenvalues::{SlidingModel, Solution, solve};
 
-/// Shipped cases, with the sweep of their own made short.
 fn shipped(name: &str, modes: usize, frictions: &str) -> Case {
     let own = format!("cea.modes={modes} ; cea.friction_coefficients={frictions}");
     shipped_case(&format!("{name}.toml"), &[own.as_str(), "cea.sensitivities=false"])

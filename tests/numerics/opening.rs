@@ -14,7 +14,6 @@ const CASE: &str = "[mesh]\nfile = \"block.msh\"
      speed = 1.5\nfriction_coefficient = 0.5\ninterference = 1e-5
 [cea]\nfriction_coefficients = [0.1, 0.8]\nmodes = 10\n";
 
-/// The block in a folder of its own.
 fn block() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let mesh = rectangle(0.04, 0.06, 8, 12);
@@ -72,7 +71,6 @@ fn critical_friction_is_that_of_the_contact_state_there() {
     assert!(after < 0.0, "{end} {after}");
 }
 
-/// Consistency check: critical friction does not depend on the friction values asked for.
 #[test]
 fn critical_friction_does_not_depend_on_the_friction_values_asked_for() {
     let folder = block();

@@ -197,7 +197,6 @@ fn a_thin_orthotropic_plate_has_the_frequencies_of_kirchhoffs_theory() {
     }
 }
 
-/// Isotropic constants, written as nine.
 fn as_nine(material: &ElasticMaterial, axes: MaterialAxes) -> ElasticMaterial {
     let (e, nu) = (material.young_modulus, material.poisson_ratio);
     ElasticMaterial {

@@ -26,7 +26,6 @@ fn modes(mesh: &Mesh, count: usize) -> Vec<ComplexMode> {
     found.points.into_iter().next().unwrap().modes
 }
 
-/// Eigenvalues of the continuum, rad/s.
 fn exact(names: &[(usize, usize, i8)]) -> Vec<faer::c64> {
     let disc = Annulus {
         inner_radius: 0.0205,

@@ -98,7 +98,6 @@ fn bricks_pyramids_and_tetrahedra_in_one_body_pass_the_patch_test() {
     }
 }
 
-/// A body of all three shapes is refined into one without cracks, of the same volume.
 #[test]
 fn bodies_of_mixed_shapes_are_refined_without_cracks() {
     for is_quadratic in [false, true] {

@@ -12,7 +12,6 @@ use std::f64::consts::FRAC_PI_2;
 
 const STEEL: ElasticMaterial = elastic(2e11, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
 
-/// A parallelepiped without right angles.
 fn skewed([x, y, z]: [f64; 3]) -> [f64; 3] {
     [0.10 * x + 0.02 * y - 0.01 * z, 0.01 * x + 0.08 * y + 0.02 * z, 0.06 * z - 0.01 * y]
 }
@@ -406,7 +405,6 @@ fn geometric_stiffness_of_rigid_rotations_is_the_work_of_the_stress() {
     }
 }
 
-/// A body turned in space by any angle has the same frequencies.
 #[test]
 fn a_turned_block_has_the_same_frequencies() {
     let turn = Rotation3::from_euler_angles(1.1, 0.4, -0.7);
@@ -426,7 +424,6 @@ fn a_turned_block_has_the_same_frequencies() {
     }
 }
 
-/// Volumes of the regions and areas of the surfaces of a mesh file.
 fn measures(bytes: &[u8]) -> Vec<(String, f64)> {
     let mesh = Mesh::from_solids(&FileMesh::read(bytes).unwrap(), 1.0, &[]).unwrap();
     let regions = mesh.regions.iter().cloned().zip(mesh.region_measures());

@@ -5,13 +5,11 @@ use crate::prelude::*;
 use frictionsim::cea::sparse::mode_pairs;
 use frictionsim::linalg::dense_eigen::complex_eigenvalues;
 
-/// The disc on a deformable shaft of steel, with a loss factor each.
 fn tangent(losses: [f64; 2], damping: RayleighDamping) -> SlidingTangent {
     let (rigid, held) = (ContactStiffness::default(), BoundaryCondition::Clamped);
     tangent_with(losses, damping, rigid, held)
 }
 
-/// The same with a contact and what holds the outer edge.
 fn tangent_with(
     [disc, shaft]: [f64; 2],
     damping: RayleighDamping,

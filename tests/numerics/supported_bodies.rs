@@ -10,7 +10,6 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use std::fmt::Write as _;
 
-/// How a block is held.
 #[derive(Clone, Debug)]
 enum Hold {
     Springs { normal: f64, tangential: f64 },
@@ -96,7 +95,6 @@ fn dense(system: &ExportedSystem) -> Vec<f64> {
     squares
 }
 
-/// Whether the modes of a body are those of the dense decomposition.
 fn check(body: &Body, folder: &str) -> Result<(), TestCaseError> {
     check_case(&part(body, folder), body.modes)
 }

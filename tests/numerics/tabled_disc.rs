@@ -11,7 +11,6 @@ frequency_hz,young_modulus,loss_factor
 20000,2.9e9,0.0010
 ";
 
-/// The disc of the paper, of a material and with sections of its own.
 fn disc_of(material: &str, sections: &str) -> Case {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("lining.csv"), LINING).unwrap();

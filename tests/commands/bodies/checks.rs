@@ -6,7 +6,6 @@ use crate::prelude::*;
 /// A cell of the table: the body's bench, and that of the same body described otherwise.
 type Check = fn(&Bench, Option<&Bench>) -> Cell;
 
-/// Every analysis with its check.
 pub const ALL: &[(&str, Check)] = &[
     ("`check`", check),
     ("`mesh`", mesh),
@@ -63,14 +62,12 @@ fn is_close(a: f64, b: f64, tolerance: f64) -> bool {
     (a - b).abs() <= tolerance * a.abs().max(b.abs())
 }
 
-/// Names of the columns of a CSV file.
 fn headers(folder: &Path, file: &str) -> Vec<String> {
     let mut reader = csv::Reader::from_path(folder.join(file)).unwrap();
     let headers = reader.headers().unwrap().iter();
     headers.map(str::to_owned).collect()
 }
 
-/// Columns of a CSV file by name.
 fn column(folder: &Path, file: &str, name: &str) -> Vec<f64> {
     let mut reader =
         csv::Reader::from_path(folder.join(file)).unwrap_or_else(|error| panic!("{file}: {error}"));
@@ -109,7 +106,6 @@ fn agree(a: &[[f64; 2]], b: &[[f64; 2]], tolerance: f64) -> Cell {
     verdict(worst <= tolerance, || format!("spectra differ by {worst:e}"))
 }
 
-/// The lowest onset of a summary of `cea`.
 fn lowest_onset(summary: &Value) -> Option<f64> {
     let onsets = summary["critical_frictions"].as_array()?.iter();
     let onsets = onsets.filter_map(|onset| onset["critical_friction"].as_f64());
@@ -448,7 +444,6 @@ fn convergence(bench: &Bench, _: Option<&Bench>) -> Cell {
     verdict(found, || format!("{lowest} is not among {values:?}"))
 }
 
-/// What is drawn again is there.
 fn plot(bench: &Bench, _: Option<&Bench>) -> Cell {
     let (_, folder) = needed!(bench.run_drawn("cea", &["cea.friction_coefficients=[0.0,0.3]"]));
     match bench.redraw(&folder) {
@@ -461,7 +456,6 @@ fn plot(bench: &Bench, _: Option<&Bench>) -> Cell {
     }
 }
 
-/// A run differs from itself by nothing.
 fn compare(bench: &Bench, _: Option<&Bench>) -> Cell {
     let runs = [bench.run("cea", &[]), bench.run_with("cea", &[], &[])];
     let [Answer::Done(_, a), Answer::Done(_, b)] = runs else {

@@ -24,7 +24,6 @@ pub enum Shape {
     Block { width: f64, height: f64 },
 }
 
-/// All grids in one MSH 2.2 file.
 pub fn msh(grids: &[Grid<'_>]) -> String {
     let mut nodes: Vec<[f64; 2]> = Vec::new();
     let mut elements: Vec<Element> = Vec::new();

@@ -3,7 +3,6 @@
 use super::grid::{Grid, Shape, msh};
 use crate::prelude::*;
 
-/// A kind of body.
 pub struct Kind {
     pub name: &'static str,
     pub case: String,
@@ -32,7 +31,6 @@ fn case(geometry: &str, contact: &str, further: &str) -> String {
     )
 }
 
-/// The built-in annulus.
 fn annulus(geometry: &str, contact: &str, further: &str) -> String {
     let geometry = format!(
         "inner_radius = 0.0205\nouter_radius = 0.0905\n{geometry}\n\
@@ -42,7 +40,6 @@ fn annulus(geometry: &str, contact: &str, further: &str) -> String {
     case(&geometry, &contact, further)
 }
 
-/// A ring from a file.
 fn imported(contact: &str, further: &str) -> String {
     let contact = format!("interference = 25e-6\nrotation_speed_rpm = 610.0\n{contact}");
     let further = format!("[boundaries.outer]\ncondition = \"clamped\"\n{further}");
@@ -111,7 +108,6 @@ rotation_speed_rpm = 610.0\nfriction_coefficient = 0.3\n{ANALYSES}"
     (case, String::from_utf8(mesh).expect("a file of text"))
 }
 
-/// All kinds, in the order of the table.
 pub fn kinds() -> Vec<Kind> {
     let kind = |name, case| Kind { name, case, mesh: None, twin: None };
     let of_file = |name, case, mesh| Kind { name, case, mesh: Some(mesh), twin: None };

@@ -34,7 +34,6 @@ const POOL: &[(&str, &[&str])] = &[
     ("output.snapshots", &["[0]", "[1e-5, 2e-5]", "[1]"]),
 ];
 
-/// A small case with a few keys changed.
 fn overrides(seed: u64) -> Vec<String> {
     let small =
         ["mesh.circumferential_elements=24 ; mesh.radial_elements=4 ; transient.duration=4e-5 ; \

@@ -5,7 +5,6 @@ use super::{DISC, RUN, parse, report, valid};
 use crate::prelude::*;
 use frictionsim::case::{Default, reference, unset};
 
-/// A case with every section.
 fn whole() -> String {
     let further = "
         [cycle]

@@ -27,7 +27,6 @@ fn valid(text: &str, overrides: &[&str]) -> Case {
     parse(text, overrides).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
-/// The report of a case that must not be valid.
 fn report(text: &str, overrides: &[&str]) -> String {
     match parse(text, overrides) {
         Ok(_) => panic!("valid under {overrides:?}"),
@@ -35,7 +34,6 @@ fn report(text: &str, overrides: &[&str]) -> String {
     }
 }
 
-/// `DISC` with one line replaced.
 fn disc_with(key: &str, line: &str) -> String {
     let is_key = |text: &str| text.split('=').next().map(str::trim) == Some(key);
     assert_eq!(DISC.lines().filter(|text| is_key(text)).count(), 1, "{key}");

@@ -3,7 +3,6 @@
 use super::{RUN, STUDY, parse, valid};
 use crate::prelude::*;
 
-/// Reads a case under an override, well or not, and says how long that took.
 fn seconds_to_read(text: &str, overrides: &[&str]) -> Duration {
     let start = Instant::now();
     let _ = parse(text, overrides).map_err(|errors| errors.to_string());

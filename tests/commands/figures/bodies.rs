@@ -97,7 +97,6 @@ fn report<'a>(
     }
 }
 
-/// Draws the figures of a report and gives its folder.
 fn drawn(report: &CeaReport<'_>, width_mm: Option<f64>) -> TempDir {
     let out = tempfile::tempdir().unwrap();
     let path = out.path().join("out");

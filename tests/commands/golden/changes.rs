@@ -70,7 +70,6 @@ const MEAN_ACCELERATION: &str =
 
 const GROWTH: &str = "a rate needs 20 periods above round-off and an exponential envelope";
 
-/// Whether a listed change explains a difference.
 pub fn explains(case: &str, file: &str, key: &str) -> bool {
     let fits = |pattern: &str, name: &str| match pattern.strip_suffix('*') {
         Some(start) => name.starts_with(start),
@@ -79,7 +78,6 @@ pub fn explains(case: &str, file: &str, key: &str) -> bool {
     CHANGES.iter().any(|(c, f, k, _)| fits(c, case) && fits(f, file) && fits(k, key))
 }
 
-/// Wall times and speeds.
 pub fn depends_on_the_clock(key: &str) -> bool {
     ["wall_s", "core_s", "points_per_core_hour", "element_steps_per_s"]
         .iter()

@@ -56,7 +56,6 @@ fn repository() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Runs the case in its own folder and reads what it wrote.
 fn run(binary: &Path, [name, command, input, changes]: &Case, folder: &Path) -> Result {
     let out = folder.join(name);
     let mut program = Command::new(binary);
@@ -143,7 +142,6 @@ fn read_value(path: &str, value: &Value, keys: &mut BTreeMap<String, Numbers>) {
     }
 }
 
-/// Differences of a case that no listed change explains.
 fn compare(case: &str, frozen: &Result, now: &Result) -> Vec<String> {
     let mut differences = Vec::new();
     let mut note = |file: &str, key: &str, text: String| {

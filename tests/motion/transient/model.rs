@@ -15,7 +15,6 @@ pub fn settings(duration: f64, harmonics: &[usize]) -> TransientSettings {
     transient_settings(duration, 4e-6, 1e-4, InitialState::Rest, Perturbation::of(harmonics, 1e-3))
 }
 
-/// Hands every sample to a closure.
 pub struct Watch<F>(pub F);
 
 impl<F: FnMut(&Sample<'_>)> Observer for Watch<F> {

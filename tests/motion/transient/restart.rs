@@ -3,7 +3,6 @@
 use crate::prelude::*;
 use crate::transient::model::{Watch, disc, model, settings};
 
-/// Records, and stops at a sample with the state there.
 struct StopAt {
     record: Recorder,
     index: u64,

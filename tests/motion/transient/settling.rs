@@ -4,7 +4,6 @@ use crate::prelude::*;
 use crate::transient::model::{disc, model, settings};
 use frictionsim::transient::{EndState, Unsettled};
 
-/// A run of the coarse disc at some speed, with its record and how it ended.
 fn run(rpm: f64, settings: &TransientSettings, wanted: &RecorderSettings) -> (Recorder, RunEnd) {
     let annulus = disc(45, 9);
     let model = model(&annulus, rpm);

@@ -49,7 +49,6 @@ fn tie(mesh: &Mesh, surface: &str, counter: &str) -> TiedSurfaces {
     TiedSurfaces { name: "glue".to_owned(), surface, counter }
 }
 
-/// The lower block turns about an axis far away.
 fn turning(mesh: &Mesh, axis: [f64; 3], center: [f64; 3]) -> Motion {
     let region = mesh.regions.iter().position(|name| name == "lower");
     Motion { regions: vec![region.unwrap()], axis, center, rotation_speed: 10.0, inertia: None }

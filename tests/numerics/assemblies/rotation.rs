@@ -4,7 +4,6 @@ use super::{OPTIONS, STEEL, eigenvalues, mesh_of, tie};
 use crate::prelude::*;
 use frictionsim::fem::{RotationFrame, assemble_supports};
 
-/// Springs softer than the ring.
 const SOFT: ElasticSupport = springs([2e6, 3e6, 0.0], [0.0, 0.0]);
 
 /// A ring of bricks along radius, angle and axis, r 50 to 150 mm, 10 mm thick, its two ends glued.

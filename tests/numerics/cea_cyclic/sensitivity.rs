@@ -7,7 +7,6 @@ use frictionsim::cea::cyclic::{WavePair, sweep};
 
 const FRICTION: f64 = 0.35;
 
-/// Everything that an analysis is made from.
 #[derive(Clone, Copy)]
 struct CyclicModel {
     specification: AnnulusSpecification,

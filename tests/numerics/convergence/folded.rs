@@ -6,7 +6,6 @@ use crate::prelude::*;
 /// Radial expansion of the cylinder, m.
 pub const INTERFERENCE: f64 = 25e-6;
 
-/// The reference's material as the program takes it.
 pub fn material(annulus: &Annulus) -> ElasticMaterial {
     let formulation = match annulus.plane_strain {
         true => PlaneFormulation::PlaneStrain,

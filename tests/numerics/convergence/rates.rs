@@ -3,7 +3,6 @@
 use crate::continuum::Annulus;
 use crate::prelude::*;
 
-/// The disc of every study.
 pub const DISC: Annulus = Annulus {
     inner_radius: 0.0205,
     outer_radius: 0.0905,
@@ -13,12 +12,10 @@ pub const DISC: Annulus = Annulus {
     plane_strain: true,
 };
 
-/// Sectors and layers of the coarsest mesh of an element.
 pub fn coarsest(element: ElementKind) -> (usize, usize) {
     if element.is_quadratic() { (64, 16) } else { (120, 30) }
 }
 
-/// Mesh sizes relative to the coarsest.
 pub const SIZES: [f64; 3] = [1.0, 2.0 / 3.0, 1.0 / 2.0];
 
 /// Three meshes that are images of three uniform ones under one smooth map: the outermost element of
@@ -51,7 +48,6 @@ pub fn rate(errors: [f64; 3]) -> f64 {
     product(y, y_mean) / product(x, x_mean)
 }
 
-/// Asserts the theoretical rate, within 0.1, of a quantity named `what`.
 pub fn assert_rate(element: ElementKind, what: &str, errors: [f64; 3]) {
     let expected = expected_rate(element);
     let slope = rate(errors);

@@ -10,7 +10,6 @@ pub const STEEL: ElasticMaterial = elastic(2.1e11, 0.3, 7850.0, PlaneFormulation
 pub const WIDTH: f64 = 0.04;
 const HEIGHT: f64 = 0.03;
 pub const MASS: f64 = 7850.0 * WIDTH * HEIGHT;
-/// Normal force, N/m.
 const NORMAL: f64 = 1e6 * WIDTH;
 const SPRING: f64 = 3e10 * HEIGHT;
 const DASHPOT: f64 = 6e5 * HEIGHT;

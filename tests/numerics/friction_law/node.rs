@@ -62,7 +62,6 @@ fn a_law_too_steep_for_the_inertia_is_reported_and_keeps_stick_and_slip_apart() 
     }
 }
 
-/// Finite differences of the law's share.
 #[test]
 fn the_slope_of_the_law_equals_finite_differences() {
     let step = 1e-5;

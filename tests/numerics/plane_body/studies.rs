@@ -20,7 +20,6 @@ const STUDIES: &str = "[cea]\nmodes = 6\nfriction_coefficients = [0.0, 0.5]\ngeo
 const GENERATED: &str = "[geometry]\ninner_radius = 0.0205\nouter_radius = 0.0905\n\
     [mesh]\ncircumferential_elements = 18\nradial_elements = 3\n";
 
-/// A folder with the meshes of the disc and of the oval.
 fn folder() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 18, 3)).unwrap().mesh;

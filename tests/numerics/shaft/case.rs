@@ -29,7 +29,6 @@ fn a_case_describes_disc_and_shaft() {
     assert!(case.require_cea().is_ok());
 }
 
-/// Each message names its key and what to do.
 #[test]
 fn bad_shafts_are_refused_with_a_remedy() {
     for (from, to, key, remedy) in [
@@ -66,7 +65,6 @@ fn bad_shafts_are_refused_with_a_remedy() {
     }
 }
 
-/// What takes the cylinder as rigid says so.
 #[test]
 fn rotating_waves_refuse_a_deformable_shaft() {
     let error = parse("", "").unwrap().require_rotating_waves().unwrap_err();

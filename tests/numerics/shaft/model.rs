@@ -17,7 +17,6 @@ pub fn on(shaft: ElasticMaterial) -> AnnulusMaterials {
     }
 }
 
-/// A shaft of the disc's material, `factor` times as stiff.
 pub fn stiffer(factor: f64) -> AnnulusMaterials {
     on(ElasticMaterial { young_modulus: factor * POLYCARBONATE.young_modulus, ..POLYCARBONATE })
 }

@@ -27,7 +27,6 @@ pub fn disc(element: ElementKind, [around, radial, axial]: [usize; 3]) -> SolidM
     }
 }
 
-/// Modes below a frequency at one friction coefficient.
 pub fn modes(model: &SolidModel, friction: f64, limit_hz: f64) -> Vec<ComplexMode> {
     let at = [friction];
     let request = sweep_request(&at, ModeLimit::MaxFrequency(limit_hz));
@@ -35,7 +34,6 @@ pub fn modes(model: &SolidModel, friction: f64, limit_hz: f64) -> Vec<ComplexMod
     found.sweep.points.into_iter().next().unwrap().modes
 }
 
-/// The body in time.
 pub fn body<'a>(model: &'a SolidModel, sector: &'a SolidSector) -> TransientModel<'a> {
     TransientModel {
         stiffness: model.options.contact,

@@ -3,7 +3,6 @@
 use crate::prelude::*;
 use crate::two_bodies::model::{Part, file_of, rectangle};
 
-/// Each message names what is wrong and what to do.
 #[test]
 fn bodies_that_do_not_meet_are_refused_with_a_remedy() {
     let folder = kept("two_bodies");

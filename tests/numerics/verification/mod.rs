@@ -20,7 +20,6 @@ use std::fmt::Write;
 /// A row of a table of results by the names of its columns; what is no number is not a number.
 type Row = BTreeMap<String, f64>;
 
-/// The folder of one verification, with the mesh of its case.
 fn folder(name: &str, mesh: &[u8]) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("verification").join(name);
     fs::create_dir_all(&folder).unwrap();

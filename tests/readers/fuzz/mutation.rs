@@ -87,7 +87,6 @@ fn lines(bytes: &[u8]) -> Vec<&[u8]> {
     bytes.split(|&byte| byte == b'\n').collect()
 }
 
-/// Exchanges a number or a word for another.
 fn replace_token(random: &mut Random, bytes: &mut Vec<u8>) {
     let is_part = |byte: u8| byte.is_ascii_alphanumeric() || b"+-._".contains(&byte);
     let starts: Vec<usize> = (0..bytes.len())

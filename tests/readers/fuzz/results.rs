@@ -59,14 +59,12 @@ fn record_of(random: &mut Random, original: &[u8]) -> Vec<u8> {
     }
 }
 
-/// Draws a folder as `plot` does.
 fn plot(folder: &Path) -> bool {
     let manifest = frictionsim::results::read_manifest(folder);
     let coarse = DrawingOptions { dots_per_inch: 20.0, width_mm: None, formats: vec![Format::Svg] };
     manifest.is_ok_and(|manifest| redraw(folder, &manifest, &coarse).is_ok())
 }
 
-/// Holds `plot` to changed figures of a command.
 fn hold_figures(command: &str) {
     let scratch = tempfile::tempdir().unwrap();
     let folder = finished(scratch.path(), command);

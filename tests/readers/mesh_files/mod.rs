@@ -12,12 +12,10 @@ pub use universal::BRICK as UNIVERSAL;
 
 use frictionsim::mesh::{FileMesh, Mesh, MeshFileError};
 
-/// A file of the given name and text.
 fn read(name: &str, text: &str) -> Result<FileMesh, MeshFileError> {
     FileMesh::read_as(name, text.as_bytes())
 }
 
-/// Its solid bodies.
 fn body(name: &str, text: &str) -> Mesh {
     let file = read(name, text).unwrap_or_else(|error| panic!("{error}"));
     Mesh::from_solids(&file, 1.0, &[]).unwrap_or_else(|error| panic!("{error}"))
@@ -30,7 +28,6 @@ fn area(mesh: &Mesh, name: &str) -> f64 {
     mesh.face_area(&boundary.faces)
 }
 
-/// The error of a file that must not be read.
 fn error(name: &str, text: &str) -> String {
     read(name, text).expect_err("the file is wrong").to_string()
 }
