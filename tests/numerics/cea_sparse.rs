@@ -4,12 +4,12 @@
 mod counts;
 
 use crate::prelude::*;
+use crate::structural_damping::dense_eigenvalues;
 use frictionsim::cea::sparse::{
     Centre, FrictionlessModes, Linearization, ShiftInverted, StiffnessFactors, StructureMatrices,
 };
 use frictionsim::cea::{CeaError, SweepProgress, SweepWatch};
-use frictionsim::linalg::dense_eigen::real_eigen;
-use frictionsim::linalg::{BlockOperator, DenseLu, KrylovSchurSettings, LuAnalysis, krylov_schur};
+use frictionsim::linalg::{BlockOperator, KrylovSchurSettings, LuAnalysis, krylov_schur};
 use std::sync::Mutex;
 
 type Entries = Vec<(usize, usize, f64)>;
@@ -193,28 +193,6 @@ fn sweep_of_a_general_quadratic_problem_equals_a_dense_decomposition() {
             );
         }
     }
-}
-
-/// Eigenvalues with `Im > 0` by rising frequency from the dense companion matrix.
-fn dense_eigenvalues(tangent: &SlidingTangent, mu: f64) -> Vec<c64> {
-    let size = tangent.mass.dimension();
-    let dense = |p: &MatrixPolynomial| {
-        p.pattern().multiply(&p.evaluate(mu), Mat::<f64>::identity(size, size).as_ref())
-    };
-    let lu = DenseLu::factorize(dense(&tangent.mass));
-    let (mut stiff, mut damped) = (dense(&tangent.stiffness), dense(&tangent.damping));
-    lu.solve_in_place(stiff.as_mut());
-    lu.solve_in_place(damped.as_mut());
-    let companion = Mat::from_fn(2 * size, 2 * size, |i, j| match (i < size, j < size) {
-        (true, true) => 0.0,
-        (true, false) => f64::from(i == j - size),
-        (false, true) => -stiff[(i - size, j)],
-        (false, false) => -damped[(i - size, j - size)],
-    });
-    let mut values: Vec<c64> = real_eigen(companion.as_ref(), false, 0).unwrap().values;
-    values.retain(|v| v.im > 0.0);
-    values.sort_by(|a, b| a.im.total_cmp(&b.im));
-    values
 }
 
 #[test]

@@ -43,12 +43,7 @@ fn dense(case: &Case) -> Vec<f64> {
     };
     let mass = full(&assemble_mass(&body.mesh, &body.materials, MassKind::Consistent));
     let stiffness = full(&assemble_stiffness(&body.mesh, &body.materials));
-    let factor = mass.cholesky().unwrap().l();
-    let half = factor.solve_lower_triangular(&stiffness).unwrap();
-    let scaled = factor.solve_lower_triangular(&half.transpose()).unwrap();
-    let symmetric = (&scaled + scaled.transpose()) * 0.5;
-    let mut squares: Vec<f64> = symmetric.symmetric_eigenvalues().iter().copied().collect();
-    squares.sort_by(f64::total_cmp);
+    let squares = crate::supported_bodies::squares(mass, &stiffness);
     // Six rigid motions of round-off.
     assert!(squares[5].abs() < 1e-6 * squares[6]);
     squares[6..].iter().map(|square| square.sqrt()).collect()

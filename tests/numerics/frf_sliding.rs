@@ -2,6 +2,7 @@
 //! decomposition, and of the eigenvalue analysis (other equations, other solvers: independent checks).
 
 use crate::prelude::*;
+use crate::structural_damping::dense;
 use frictionsim::linalg::DenseLu;
 
 const RADIAL: usize = 5;
@@ -52,11 +53,7 @@ struct ModalForm {
 impl ModalForm {
     fn of(tangent: &SlidingTangent, friction_coefficient: f64) -> Self {
         let size = tangent.mass.dimension();
-        let dense = |p: &MatrixPolynomial| {
-            let unit = Mat::<f64>::identity(size, size);
-            let values = p.evaluate(friction_coefficient);
-            p.pattern().multiply(&values, unit.as_ref())
-        };
+        let dense = |p: &MatrixPolynomial| dense(p, friction_coefficient);
         let mass = DenseLu::factorize(dense(&tangent.mass));
         let (mut stiffness, mut damping) = (dense(&tangent.stiffness), dense(&tangent.damping));
         mass.solve_in_place(stiffness.as_mut());

@@ -1,9 +1,9 @@
 //! Structural damping `K (1 + i eta)`: closed form where one loss factor holds for the whole body, dense complex matrices where
 //! disc and shaft have their own.
 
+use crate::matrices::lossy_eigenvalues;
 use crate::prelude::*;
 use frictionsim::cea::sparse::mode_pairs;
-use frictionsim::linalg::dense_eigen::complex_eigenvalues;
 
 fn tangent(losses: [f64; 2], damping: RayleighDamping) -> SlidingTangent {
     let (rigid, held) = (ContactStiffness::default(), BoundaryCondition::Clamped);
@@ -61,27 +61,12 @@ pub fn dense(polynomial: &MatrixPolynomial, mu: f64) -> Mat<f64> {
 pub fn dense_eigenvalues(tangent: &SlidingTangent, mu: f64) -> Vec<c64> {
     let [mass, damping, stiffness] =
         [&tangent.mass, &tangent.damping, &tangent.stiffness].map(|p| dense(p, mu));
-    let lost = dense(tangent.structural.as_ref().unwrap(), mu);
-    let n = mass.nrows();
-    // lambda = 1e4 nu: both halves of a vector alike in size.
-    let scale = 1e4;
-    let lu = ComplexDenseLu::factorize(Mat::from_fn(n, n, |i, j| {
-        c64::new(mass[(i, j)] * scale * scale, 0.0)
-    }));
-    let mut stiff = Mat::from_fn(n, n, |i, j| c64::new(stiffness[(i, j)], lost[(i, j)]));
-    let mut damped = Mat::from_fn(n, n, |i, j| c64::new(damping[(i, j)] * scale, 0.0));
-    lu.solve_in_place(stiff.as_mut());
-    lu.solve_in_place(damped.as_mut());
-    let companion = Mat::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
-        (true, true) => c64::new(0.0, 0.0),
-        (true, false) => c64::new(f64::from(u8::from(i == j - n)), 0.0),
-        (false, true) => -stiff[(i - n, j)],
-        (false, false) => -damped[(i - n, j - n)],
-    });
-    let mut values = complex_eigenvalues(companion.as_ref()).unwrap();
+    let none = || Mat::zeros(mass.nrows(), mass.nrows());
+    let losses = tangent.structural.as_ref().map_or_else(none, |p| dense(p, mu));
+    let mut values = lossy_eigenvalues([&mass, &damping, &stiffness, &losses]);
     values.retain(|value| value.im > 0.0);
     values.sort_by(|a, b| a.im.total_cmp(&b.im));
-    values.into_iter().map(|value| value * scale).collect()
+    values
 }
 
 /// Theory: with one loss factor for all, `lambda = lambda_0 sqrt(1 + i eta)` of the undamped eigenvalues `lambda_0`, with and

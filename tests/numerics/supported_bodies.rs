@@ -86,8 +86,13 @@ fn dense(system: &ExportedSystem) -> Vec<f64> {
     };
     let mass = full(MatrixRole::Mass { friction_power: 0 });
     let stiffness = full(MatrixRole::Stiffness { friction_power: 0 });
+    squares(mass, &stiffness)
+}
+
+/// Eigenvalues of a symmetric pencil, ascending.
+pub fn squares(mass: DMatrix<f64>, stiffness: &DMatrix<f64>) -> Vec<f64> {
     let factor = mass.cholesky().unwrap().l();
-    let half = factor.solve_lower_triangular(&stiffness).unwrap();
+    let half = factor.solve_lower_triangular(stiffness).unwrap();
     let scaled = factor.solve_lower_triangular(&half.transpose()).unwrap();
     let symmetric = (&scaled + scaled.transpose()) * 0.5;
     let mut squares: Vec<f64> = symmetric.symmetric_eigenvalues().iter().copied().collect();
