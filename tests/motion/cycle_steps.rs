@@ -3,7 +3,6 @@
 //! Independent: the frequency of a transient. The others hold the search to itself.
 
 use crate::prelude::*;
-use std::fmt::Write;
 
 const MATERIAL: &str = "young_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n";
 const CYCLE: &str = "[cycle]\nonsets = \"all\"\nconfirmation_periods = 0\nstability = \"none\"\n";
@@ -19,34 +18,9 @@ struct PlaneBlock {
 }
 
 impl PlaneBlock {
-    fn mesh(&self) -> String {
-        let [nx, ny] = self.counts;
-        let node = |i: usize, j: usize| 1 + i + (nx + 1) * j;
-        let (mut nodes, mut elements, mut count) = (String::new(), String::new(), 0);
-        for j in 0..=ny {
-            for i in 0..=nx {
-                let x = self.size[0] * i as f64 / nx as f64;
-                let y = self.size[1] * j as f64 / ny as f64;
-                writeln!(nodes, "{} {x:?} {y:?} 0", node(i, j)).unwrap();
-            }
-        }
-        let mut element = |text: String| {
-            count += 1;
-            writeln!(elements, "{count} {text}").unwrap();
-        };
-        for i in 0..nx {
-            element(format!("1 2 1 1 {} {}", node(i, 0), node(i + 1, 0)));
-            element(format!("1 2 2 2 {} {}", node(i, ny), node(i + 1, ny)));
-            for j in 0..ny {
-                let [a, b, c, d] = [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
-                element(format!("3 2 3 3 {a} {b} {c} {d}"));
-            }
-        }
-        format!(
-            "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"face\"\n1 2 \"back\"\n2 3 \"block\"\n\
-             $EndPhysicalNames\n$Nodes\n{}\n{nodes}$EndNodes\n$Elements\n{count}\n{elements}$EndElements\n",
-            (nx + 1) * (ny + 1)
-        )
+    fn mesh(&self) -> Vec<u8> {
+        let [xs, ys] = [0, 1].map(|axis| even(self.size[axis], self.counts[axis]));
+        quadrilaterals(&xs, &ys, ["face", "back", "block"], |x, y| [x, y])
     }
 
     fn text(&self) -> String {
@@ -62,7 +36,7 @@ impl PlaneBlock {
     }
 
     fn cycles(&self, overrides: &[&str]) -> Vec<PeriodicResult> {
-        cycles(self.mesh().as_bytes(), &self.text(), overrides)
+        cycles(&self.mesh(), &self.text(), overrides)
     }
 }
 

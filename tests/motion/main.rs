@@ -6,6 +6,8 @@ mod bricks;
 mod cases;
 #[path = "../common/disc.rs"]
 mod disc;
+#[path = "../common/mesh_text.rs"]
+mod mesh_text;
 #[path = "../common/tier.rs"]
 mod tier;
 

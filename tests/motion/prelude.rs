@@ -6,6 +6,7 @@ pub use crate::disc::{
     DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, contact, elastic, recorded, sliding_at,
     springs, stiffening, sweep_request, transient_settings,
 };
+pub use crate::mesh_text::{even, quadrilaterals};
 pub use crate::tier::sized;
 pub use frictionsim::case::Case;
 pub use frictionsim::cea::{ModeLimit, SweepProgress, SweepWatch, Unwatched};

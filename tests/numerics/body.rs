@@ -144,39 +144,24 @@ fn a_supported_rim_has_one_spectrum_by_sectors_and_as_a_whole() {
 
 /// A rectangle of `nx` by `ny` four-node elements, its corner at the origin, with boundaries bottom, right, top, left.
 pub fn rectangle(width: f64, height: f64, nx: usize, ny: usize) -> Vec<u8> {
-    let node = |i: usize, j: usize| 1 + i + j * (nx + 1);
-    let mut text = String::from("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n5\n");
-    for (tag, name) in ["bottom", "right", "top", "left"].iter().enumerate() {
-        text += &format!("1 {} \"{name}\"\n", tag + 1);
-    }
-    text += "2 5 \"block\"\n$EndPhysicalNames\n$Nodes\n";
-    text += &format!("{}\n", (nx + 1) * (ny + 1));
-    for j in 0..=ny {
-        for i in 0..=nx {
-            let (x, y) = (width * i as f64 / nx as f64, height * j as f64 / ny as f64);
-            text += &format!("{} {x:?} {y:?} 0\n", node(i, j));
-        }
-    }
+    let node = |i: usize, j: usize| i + j * (nx + 1);
+    let (xs, ys) = (even(width, nx), even(height, ny));
+    let points: Vec<_> = ys.iter().flat_map(|&y| xs.iter().map(move |&x| [x, y, 0.0])).collect();
     let mut elements = Vec::new();
     for i in 0..nx {
-        elements.push(format!("1 2 1 1 {} {}", node(i, 0), node(i + 1, 0)));
-        elements.push(format!("1 2 3 3 {} {}", node(i, ny), node(i + 1, ny)));
+        elements.push((1, 0, vec![node(i, 0), node(i + 1, 0)]));
+        elements.push((1, 2, vec![node(i, ny), node(i + 1, ny)]));
     }
     for j in 0..ny {
-        elements.push(format!("1 2 4 4 {} {}", node(0, j), node(0, j + 1)));
-        elements.push(format!("1 2 2 2 {} {}", node(nx, j), node(nx, j + 1)));
+        elements.push((1, 3, vec![node(0, j), node(0, j + 1)]));
+        elements.push((1, 1, vec![node(nx, j), node(nx, j + 1)]));
         for i in 0..nx {
             let corners = [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
-            let corners = corners.map(|n| n.to_string()).join(" ");
-            elements.push(format!("3 2 5 5 {corners}"));
+            elements.push((3, 4, corners.to_vec()));
         }
     }
-    text += &format!("$EndNodes\n$Elements\n{}\n", elements.len());
-    for (i, element) in elements.iter().enumerate() {
-        text += &format!("{} {element}\n", i + 1);
-    }
-    text += "$EndElements\n";
-    text.into_bytes()
+    let groups = [(1, "bottom"), (1, "right"), (1, "top"), (1, "left"), (2, "block")];
+    mesh_text(&points, &groups, &elements)
 }
 
 fn block_specification() -> BodySpecification {

@@ -8,14 +8,13 @@ use frictionsim::results::cea::{self, Reading, View};
 use frictionsim::results::report::Report;
 use frictionsim::study::eigenvalues::{self, SlidingModel, Solution, solve};
 use frictionsim::study::uncertainty::Sampler;
-use std::fmt::Write;
 
 /// One of `count` sectors of a disc as a file in MSH 2.2: bent cut faces, uneven elements, and a hole, the boundary "screw", off the
 /// middle. Nodes within the second cut face lie `shift` elements farther out than those of the first.
-fn disc_sector(count: usize, [around, radial]: [usize; 2], shift: f64) -> String {
+fn disc_sector(count: usize, [around, radial]: [usize; 2], shift: f64) -> Vec<u8> {
     let [inner, outer] = [0.0205, 0.0905];
-    let node = |i: usize, j: usize| 1 + i * (radial + 1) + j;
-    let (mut nodes, mut elements) = (String::new(), String::new());
+    let node = |i: usize, j: usize| i * (radial + 1) + j;
+    let (mut points, mut elements) = (Vec::new(), Vec::new());
     let is_hole = |i: usize, j: usize| {
         let [t, r] = [(i as f64 + 0.5) / around as f64, (j as f64 + 0.5) / radial as f64];
         (0.3..0.55).contains(&t) && (0.6..0.8).contains(&r)
@@ -34,21 +33,16 @@ fn disc_sector(count: usize, [around, radial]: [usize; 2], shift: f64) -> String
             let share = r / radial as f64;
             let angle = TAU / count as f64 * (t / around as f64 + 0.15 * share * share);
             let radius = inner + (outer - inner) * share;
-            let [x, y] = [radius * angle.cos(), radius * angle.sin()];
-            writeln!(nodes, "{} {x:?} {y:?} 0", node(i, j)).unwrap();
+            points.push([radius * angle.cos(), radius * angle.sin(), 0.0]);
         }
     }
-    let mut total = 0;
-    let mut add = |kind: usize, group: usize, list: &[usize]| {
-        total += 1;
-        let list: Vec<String> = list.iter().map(usize::to_string).collect();
-        writeln!(elements, "{total} {kind} 2 {group} {group} {}", list.join(" ")).unwrap();
-    };
+    let mut add =
+        |kind: u32, group: usize, list: &[usize]| elements.push((kind, group, list.to_vec()));
     for i in 0..around {
-        add(1, 1, &[node(i, 0), node(i + 1, 0)]);
+        add(1, 0, &[node(i, 0), node(i + 1, 0)]);
         for j in (0..radial).filter(|&j| !is_hole(i, j)) {
             let [a, b] = [i, i + 1];
-            add(3, 2, &[node(a, j), node(a, j + 1), node(b, j + 1), node(b, j)]);
+            add(3, 1, &[node(a, j), node(a, j + 1), node(b, j + 1), node(b, j)]);
             // Edges towards the hole.
             let sides = [
                 (i > 0 && is_hole(i - 1, j), [node(a, j), node(a, j + 1)]),
@@ -57,15 +51,11 @@ fn disc_sector(count: usize, [around, radial]: [usize; 2], shift: f64) -> String
                 (is_hole(i, j + 1), [node(a, j + 1), node(b, j + 1)]),
             ];
             for (_, edge) in sides.into_iter().filter(|side| side.0) {
-                add(1, 3, &edge);
+                add(1, 2, &edge);
             }
         }
     }
-    let node_count = (around + 1) * (radial + 1);
-    format!(
-        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"inner\"\n2 2 \"disc\"\n1 3 \"screw\"\n$EndPhysicalNames\n\
-         $Nodes\n{node_count}\n{nodes}$EndNodes\n$Elements\n{total}\n{elements}$EndElements\n"
-    )
+    mesh_text(&points, &[(1, "inner"), (2, "disc"), (1, "screw")], &elements)
 }
 
 fn read(name: &str, mesh: &[u8], text: &str, method: &str) -> Result<Case, CaseErrors> {
@@ -134,7 +124,7 @@ fn waves_around_a_plane_body_have_the_spectrum_of_its_whole_mesh() {
     for (count, contact, size) in cases {
         let mesh = disc_sector(count, size, 0.0);
         let text = screwed_disc(count, &format!("{contact}{analysis}"));
-        assert_same(&format!("disc-{count}"), mesh.as_bytes(), &text);
+        assert_same(&format!("disc-{count}"), &mesh, &text);
     }
 }
 
@@ -220,8 +210,7 @@ fn a_body_with_one_mass_is_solved_whole() {
     let more = "[cea]\nmodes = 6\nfriction_coefficients = [0.0, 0.4]\n[modifications.lump]\nat = { x = 0.0905, y = 0.0 }\nmass = 0.5\n";
     let mesh = disc_sector(3, [14, 6], 0.0);
     let text = screwed_disc(3, more);
-    let [auto, whole] =
-        ["auto", "sparse"].map(|method| solved("mass", mesh.as_bytes(), &text, method));
+    let [auto, whole] = ["auto", "sparse"].map(|method| solved("mass", &mesh, &text, method));
     assert_eq!(auto.sweep, whole.sweep);
     assert_eq!(auto.method, "sparse");
     let note = auto.notes.iter().find(|note| note.contains("whole mesh"));
@@ -233,7 +222,7 @@ fn sectors_that_do_not_meet_are_refused() {
     let refused = |name: &str, sectors: usize, shift: f64| {
         let mesh = disc_sector(3, [14, 6], shift);
         let text = screwed_disc(sectors, "[cea]\nmodes = 6\n");
-        let case = read(name, mesh.as_bytes(), &text, "auto");
+        let case = read(name, &mesh, &text, "auto");
         case.unwrap_err().to_string()
     };
     let wrong = refused("wrong-count", 5, 0.0);
@@ -265,7 +254,7 @@ fn every_table_of_a_body_of_sectors_has_its_nodal_diameters_and_samples_have_its
     let more = "[cea]\nmodes = 8\nfriction_coefficients = [0.0, 0.2, 0.4]\n[uncertainty]\nsamples = 2\nindex_samples = 0\n\
         [uncertainty.distributions]\n\"material.density\" = { uniform = [1227.999999, 1228.000001] }\n";
     let mesh = disc_sector(4, [8, 5], 0.0);
-    let case = read("tables", mesh.as_bytes(), &screwed_disc(4, more), "auto");
+    let case = read("tables", &mesh, &screwed_disc(4, more), "auto");
     let case = case.unwrap_or_else(|e| panic!("{e}"));
     let cea = case.cea.clone().unwrap();
     let model = SlidingModel::new(&case, &cea).unwrap();
@@ -305,7 +294,7 @@ fn a_contact_without_pressure_is_refused() {
     let text =
         screwed_disc(4, "[cea]\nmodes = 4\n").replace("interference = 25e-6", "interference = 0.0");
     let mesh = disc_sector(4, [8, 5], 0.0);
-    let refused = read("no-pressure", mesh.as_bytes(), &text, "auto").unwrap_err().to_string();
+    let refused = read("no-pressure", &mesh, &text, "auto").unwrap_err().to_string();
     assert!(
         refused.contains("contact.interference = 0.0") && refused.contains("nothing presses"),
         "{refused}"

@@ -8,6 +8,8 @@ mod bricks;
 mod cases;
 #[path = "../common/disc.rs"]
 mod disc;
+#[path = "../common/mesh_text.rs"]
+mod mesh_text;
 #[path = "../common/msh.rs"]
 mod msh;
 #[path = "../common/program.rs"]

@@ -44,31 +44,9 @@ fn the_public_disk_brake_problem_has_its_eigenvalues_of_every_size() {
 /// A sheared block of 5 x 3 quadrilaterals, thicker on one side, on a plane that slides under it; its back on springs and dashpots of
 /// their own, so that damping is not proportional.
 fn block(folder: &TempDir) {
-    let mut mesh = String::from("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n");
-    mesh += "1 1 \"face\"\n1 2 \"back\"\n2 3 \"block\"\n$EndPhysicalNames\n$Nodes\n24\n";
-    for j in 0..4 {
-        for i in 0..6 {
-            let (x, y) = (0.01 * f64::from(i), 0.01 * f64::from(j));
-            mesh += &format!("{} {} {} 0\n", 1 + i + 6 * j, x + 0.2 * y, y * (1.0 + 4.0 * x));
-        }
-    }
-    mesh += "$EndNodes\n$Elements\n25\n";
-    let mut number = 0;
-    for (tag, row) in [(1, 0), (2, 3)] {
-        for i in 1..6 {
-            number += 1;
-            mesh += &format!("{number} 1 2 {tag} {tag} {} {}\n", i + 6 * row, i + 1 + 6 * row);
-        }
-    }
-    for j in 0..3 {
-        for i in 1..6 {
-            number += 1;
-            let first = i + 6 * j;
-            let [a, b, c, d] = [first, first + 1, first + 7, first + 6];
-            mesh += &format!("{number} 3 2 3 3 {a} {b} {c} {d}\n");
-        }
-    }
-    mesh += "$EndElements\n";
+    let names = ["face", "back", "block"];
+    let sheared = |x: f64, y: f64| [x + 0.2 * y, y * (1.0 + 4.0 * x)];
+    let mesh = quadrilaterals(&even(0.05, 5), &even(0.03, 3), names, sheared);
     fs::write(folder.path().join("block.msh"), mesh).unwrap();
     let case = "[mesh]\nfile = \"block.msh\"\n[boundaries.back]\ncondition = \"support\"\nnormal_stiffness = 1e12\n\
         tangential_stiffness = 1e12\nnormal_damping = 2e5\n[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\n\

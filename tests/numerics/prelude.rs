@@ -7,6 +7,7 @@ pub use crate::disc::{
     DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, compliant, contact, elastic, on_shaft,
     recorded, ring, sliding_at, springs, stiffening, sweep_request, transient_settings,
 };
+pub use crate::mesh_text::{even, mesh_text, quadrilaterals};
 pub use crate::msh::{CYLINDER, FORMS, plane_body, write_msh};
 pub use crate::program::{Answer, Run, folder, has, shipped};
 pub use crate::table_1::TABLE_1;

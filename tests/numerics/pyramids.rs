@@ -3,7 +3,6 @@
 use crate::prelude::*;
 use frictionsim::fem::solid_stress;
 use frictionsim::mesh::FileElement;
-use std::fmt::Write;
 
 const STEEL: ElasticMaterial = elastic(2e11, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
 
@@ -123,18 +122,8 @@ fn pyramids_of_gmsh_are_read_in_the_order_of_its_manual() {
     for (number, count) in [(7, 5), (19, 13)] {
         let points: Vec<[f64; 3]> =
             corners.into_iter().chain(edges.map(middle)).take(count).collect();
-        let mut text = format!("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{count}\n");
-        for (node, [x, y, z]) in points.iter().enumerate() {
-            writeln!(text, "{} {x} {y} {z}", node + 1).unwrap();
-        }
-        let labels: Vec<String> = (1..=count).map(|node| node.to_string()).collect();
-        write!(
-            text,
-            "$EndNodes\n$Elements\n1\n1 {number} 2 1 1 {}\n$EndElements\n",
-            labels.join(" ")
-        )
-        .unwrap();
-        let mesh = Mesh::from_solids(&FileMesh::read(text.as_bytes()).unwrap(), 1.0, &[]).unwrap();
+        let bytes = mesh_text(&points, &[(3, "body")], &[(number, 0, (0..count).collect())]);
+        let mesh = Mesh::from_solids(&FileMesh::read(&bytes).unwrap(), 1.0, &[]).unwrap();
         let kind = mesh.element_kind(0);
         assert_eq!(kind.node_count(), count);
         let nodes = mesh.element_nodes(0);

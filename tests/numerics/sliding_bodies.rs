@@ -61,41 +61,12 @@ fn sliders() -> impl Strategy<Value = Slider> {
     )
 }
 
-/// A mesh of one layer of quadrilaterals in the plane of the first two directions, named as a block of bricks is.
-fn quadrilaterals([along, across, _]: [usize; 3], [width, height, _]: [f64; 3]) -> String {
-    let (mut text, around) = (String::new(), along + 1);
-    let nodes = around * (across + 1);
-    text += "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"part_z0\"\n1 2 \"part_z1\"\n";
-    write!(text, "2 3 \"part\"\n$EndPhysicalNames\n$Nodes\n{nodes}\n").unwrap();
-    for node in 0..nodes {
-        let (i, j) = (node % around, node / around);
-        let (x, y) = (i as f64 / along as f64, j as f64 / across as f64);
-        writeln!(text, "{} {:?} {:?} 0", node + 1, width * x, height * y).unwrap();
-    }
-    write!(text, "$EndNodes\n$Elements\n{}\n", along * (across + 2)).unwrap();
-    for k in 0..along * (across + 2) {
-        let (i, row) = (k % along, k / along);
-        let first = 1 + i + around * row.saturating_sub(2);
-        let corner = 1 + i + around * across * row;
-        match row {
-            0 | 1 => {
-                writeln!(text, "{} 1 2 {tag} {tag} {corner} {}", k + 1, corner + 1, tag = row + 1)
-            }
-            _ => {
-                let above = first + around;
-                writeln!(text, "{} 3 2 3 3 {first} {} {} {above}", k + 1, first + 1, above + 1)
-            }
-        }
-        .unwrap();
-    }
-    text + "$EndElements\n"
-}
-
 fn part(slider: &Slider) -> Case {
     // Tests run side by side, so each case has a folder of its own.
     let folder = tempfile::tempdir().unwrap();
     let (mesh, direction, formulation) = if slider.is_plane {
-        let mesh = quadrilaterals(slider.counts, slider.size).into_bytes();
+        let [xs, ys] = [0, 1].map(|axis| even(slider.size[axis], slider.counts[axis]));
+        let mesh = quadrilaterals(&xs, &ys, ["part_z0", "part_z1", "part"], |x, y| [x, y]);
         (mesh, "[1.0, 0.0]", "formulation = \"plane-strain\"\n")
     } else {
         let block = brick("part", [0.0; 3], slider.size, slider.counts);

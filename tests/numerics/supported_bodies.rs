@@ -148,45 +148,26 @@ fn rigid_motions_take_no_places_of_modes_however_many_are_asked_for() {
 }
 
 /// A ring of 80 to 120 mm and 20 mm thickness, of bricks in one layer; its outer face is `rim`.
-fn ring(sectors: usize) -> String {
+fn ring(sectors: usize) -> Vec<u8> {
     let radii = [0.08, 0.1, 0.12];
     let node = |sector: usize, radius: usize, side: usize| {
-        1 + (sector % sectors * radii.len() + radius) * 2 + side
+        (sector % sectors * radii.len() + radius) * 2 + side
     };
-    let (mut nodes, mut elements) = (String::new(), String::new());
+    let (mut points, mut elements) = (Vec::new(), Vec::new());
     for sector in 0..sectors {
         let (sine, cosine) = (TAU * sector as f64 / sectors as f64).sin_cos();
-        for (i, radius) in radii.iter().enumerate() {
-            for (side, z) in [0.0, 0.02].into_iter().enumerate() {
-                let [x, y] = [radius * cosine, radius * sine];
-                writeln!(nodes, "{} {x:?} {y:?} {z}", node(sector, i, side)).unwrap();
-            }
+        for radius in radii {
+            points.extend([0.0, 0.02].map(|z| [radius * cosine, radius * sine, z]));
         }
         let face = |i, side| [node(sector, i, side), node(sector + 1, i, side)];
-        let mut element = |number: usize, kind: usize, pairs: &[[usize; 2]]| {
-            let corners = pairs.iter().flatten().map(usize::to_string).collect::<Vec<_>>();
-            let number = 3 * sector + number;
-            writeln!(
-                elements,
-                "{number} {kind} 2 {0} {0} {1}",
-                usize::from(kind == 3) + 1,
-                corners.join(" ")
-            )
-            .unwrap();
-        };
         let back = |[a, b]: [usize; 2]| [b, a];
         for i in 0..2 {
-            let side = |side| [back(face(i, side)), face(i + 1, side)];
-            element(1 + i, 5, [side(0), side(1)].as_flattened());
+            let side = |side| [back(face(i, side)), face(i + 1, side)].concat();
+            elements.push((5, 0, [side(0), side(1)].concat()));
         }
-        element(3, 3, &[face(2, 0), back(face(2, 1))]);
+        elements.push((3, 1, [face(2, 0), back(face(2, 1))].concat()));
     }
-    format!(
-        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"ring\"\n2 2 \"rim\"\n$EndPhysicalNames\n\
-         $Nodes\n{}\n{nodes}$EndNodes\n$Elements\n{}\n{elements}$EndElements\n",
-        6 * sectors,
-        3 * sectors
-    )
+    mesh_text(&points, &[(3, "ring"), (2, "rim")], &elements)
 }
 
 /// Pairs of equal frequencies, and the rigid motions of any stiffness between soft and stiff.

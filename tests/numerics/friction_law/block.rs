@@ -2,6 +2,7 @@
 //!
 //! `M u'' + (c + N mu'(V)) u' + k u = 0` about steady sliding: unstable below `V = v_c ln(N mu (q - 1) / (v_c c))`.
 
+use crate::body::rectangle;
 use crate::prelude::*;
 use frictionsim::transient::SampleRow;
 
@@ -31,32 +32,6 @@ fn contact(speed: f64) -> SlidingContact {
 
 /// 4 by 3 square elements; the plane below, the spring on the right, the pressure above.
 pub fn block(pressure: f64) -> Mesh {
-    let node = |i: usize, j: usize| 1 + i + 5 * j;
-    let mut lines = Vec::new();
-    for i in 0..4 {
-        lines.push(format!("1 2 1 1 {} {}", node(i, 0), node(i + 1, 0)));
-        lines.push(format!("1 2 3 3 {} {}", node(i, 3), node(i + 1, 3)));
-    }
-    for j in 0..3 {
-        lines.push(format!("1 2 2 2 {} {}", node(4, j), node(4, j + 1)));
-        for i in 0..4 {
-            let corners = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(a, b)| node(i + a, j + b));
-            lines.push(format!("3 2 4 4 {}", corners.map(|n| n.to_string()).join(" ")));
-        }
-    }
-    let numbered = |lines: &[String]| {
-        let all = lines.iter().enumerate().map(|(k, line)| format!("{} {line}\n", k + 1));
-        format!("{}\n{}", lines.len(), all.collect::<String>())
-    };
-    let nodes: Vec<String> = (0..20)
-        .map(|k| format!("{:?} {:?} 0", 0.01 * (k % 5) as f64, 0.01 * (k / 5) as f64))
-        .collect();
-    let text = format!(
-        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n1 1 \"bottom\"\n1 2 \"right\"\n1 3 \"top\"\n2 4 \
-         \"block\"\n$EndPhysicalNames\n$Nodes\n{}$EndNodes\n$Elements\n{}$EndElements\n",
-        numbered(&nodes),
-        numbered(&lines)
-    );
     let mounting = springs([SPRING / HEIGHT, 0.0, 0.0], [DASHPOT / HEIGHT, 0.0]);
     let specification = plane_body(
         "bottom",
@@ -67,7 +42,7 @@ pub fn block(pressure: f64) -> Mesh {
             ("top", BoundaryCondition::Pressure(pressure)),
         ],
     );
-    Mesh::from_gmsh(&FileMesh::read(text.as_bytes()).unwrap(), &specification).unwrap()
+    Mesh::from_gmsh(&FileMesh::read(&rectangle(0.04, 0.03, 4, 3)).unwrap(), &specification).unwrap()
 }
 
 /// Growth rate of the block on its spring by the eigenvalue analysis, 1/s.

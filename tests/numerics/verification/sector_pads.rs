@@ -12,7 +12,7 @@
 //! whatever `k`, the material and the number of faces are. r 50 to 100 mm, bore clamped, pads from 75 mm on, +-37.5 degrees, steel:
 //! bricks of 20 nodes, 4 x 48 x 1. Errors fall with the square of the thickness, as shear and rotation do.
 
-use super::{folder, integral, msh, order, ritz, table};
+use super::{folder, integral, order, ritz, table};
 use crate::prelude::*;
 
 const RADII: [f64; 2] = [0.05, 0.1];
@@ -105,7 +105,7 @@ fn plate(thickness: f64) -> Vec<u8> {
             }
         }
     }
-    msh(&points, &[(2, "bore"), (2, "below"), (2, "above"), (3, "disc")], &elements)
+    mesh_text(&points, &[(2, "bore"), (2, "below"), (2, "above"), (3, "disc")], &elements)
 }
 
 /// Critical frictions of the waves of five and six nodal diameters.
