@@ -2,14 +2,16 @@
 
 #![allow(dead_code, reason = "each binary uses a part")]
 
-use frictionsim::cea::{ModeLimit, SweepRequest};
+use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest, sparse};
 use frictionsim::contact::{ContactStiffness, NormalLaw, SlidingContact};
 use frictionsim::fem::operator::SimdLevel;
-use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping};
-use frictionsim::mesh::{
-    AnnulusSpecification, BoundaryCondition, ElasticSupport, ElementKind, ShaftSpecification,
+use frictionsim::fem::{
+    ElasticMaterial, MassKind, MaterialField, PlaneFormulation, RayleighDamping, assemble_stiffness,
 };
-use frictionsim::prestress::{DampingModel, TangentOptions};
+use frictionsim::mesh::{
+    AnnulusSpecification, BoundaryCondition, ElasticSupport, ElementKind, Mesh, ShaftSpecification,
+};
+use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
     TimeStep, TransientModel, TransientSettings,
@@ -136,6 +138,26 @@ pub const fn sliding_at(friction: f64, interference: f64, rotation_speed: f64) -
 /// Eigenvalues without shapes.
 pub fn sweep_request(friction_coefficients: &[f64], limit: ModeLimit) -> SweepRequest<'_> {
     SweepRequest { friction_coefficients, limit, shapes_at: &[], lefts_at: &[], count_modes: false }
+}
+
+/// Small motions around steady sliding.
+pub fn linearized(
+    mesh: &Mesh,
+    material: &dyn MaterialField,
+    contact: &SlidingContact,
+    options: &TangentOptions,
+) -> SlidingTangent {
+    let elastic = assemble_stiffness(mesh, material);
+    let base = SteadySliding::solve(mesh, &elastic, contact).unwrap();
+    SlidingTangent::linearize(mesh, material, &elastic, &base, options)
+}
+
+/// Modes at one friction coefficient.
+pub fn modes_at(tangent: &SlidingTangent, friction: f64, limit: ModeLimit) -> Vec<ComplexMode> {
+    let at = [friction];
+    let request = sweep_request(&at, limit);
+    let found = sparse::sweep(tangent, &request, &|_| {}).unwrap();
+    found.points.into_iter().next().unwrap().modes
 }
 
 /// A run from its start to its end: its record, and the largest residual of its energy.

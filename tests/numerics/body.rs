@@ -21,13 +21,8 @@ fn disc_body(bytes: &[u8], scale: f64) -> Mesh {
 }
 
 fn modes(mesh: &Mesh, options: &TangentOptions, contact: &SlidingContact) -> Vec<ComplexMode> {
-    let stiffness = assemble_stiffness(mesh, &POLYCARBONATE);
-    let base = SteadySliding::solve(mesh, &stiffness, contact).unwrap();
-    let tangent = SlidingTangent::linearize(mesh, &POLYCARBONATE, &stiffness, &base, options);
-    let at = [contact.friction_coefficient];
-    let request = sweep_request(&at, ModeLimit::Lowest(8));
-    let found = sweep(&tangent, &request, &|_| {}).unwrap();
-    found.points.into_iter().next().unwrap().modes
+    let tangent = linearized(mesh, &POLYCARBONATE, contact, options);
+    modes_at(&tangent, contact.friction_coefficient, ModeLimit::Lowest(8))
 }
 
 fn assert_one_spectrum(found: &[ComplexMode], expected: &[ComplexMode], tolerance: f64) {

@@ -19,9 +19,7 @@ fn options(damping_model: DampingModel, contact: ContactStiffness) -> TangentOpt
 
 fn tangent(options: &TangentOptions) -> SlidingTangent {
     let mesh = AnnulusMesh::generate(&specification()).unwrap().mesh;
-    let stiffness = assemble_stiffness(&mesh, &POLYCARBONATE);
-    let base = SteadySliding::solve(&mesh, &stiffness, &contact(610.0)).unwrap();
-    SlidingTangent::linearize(&mesh, &POLYCARBONATE, &stiffness, &base, options)
+    linearized(&mesh, &POLYCARBONATE, &contact(610.0), options)
 }
 
 fn cyclic(options: &TangentOptions, friction_coefficient: f64) -> CyclicSystem {

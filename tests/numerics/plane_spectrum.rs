@@ -17,13 +17,8 @@ fn modes(mesh: &Mesh, count: usize) -> Vec<ComplexMode> {
         ..TANGENT
     };
     let contact = contact(610.0);
-    let stiffness = assemble_stiffness(mesh, &POLYCARBONATE);
-    let base = SteadySliding::solve(mesh, &stiffness, &contact).unwrap();
-    let tangent = SlidingTangent::linearize(mesh, &POLYCARBONATE, &stiffness, &base, &options);
-    let at = [contact.friction_coefficient];
-    let request = sweep_request(&at, ModeLimit::Lowest(count));
-    let found = sweep(&tangent, &request, &|_| {}).unwrap();
-    found.points.into_iter().next().unwrap().modes
+    let tangent = linearized(mesh, &POLYCARBONATE, &contact, &options);
+    modes_at(&tangent, contact.friction_coefficient, ModeLimit::Lowest(count))
 }
 
 fn exact(names: &[(usize, usize, i8)]) -> Vec<faer::c64> {

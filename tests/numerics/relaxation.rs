@@ -51,15 +51,11 @@ fn eigenvalue() -> f64 {
     let table = Some(Arc::new(table));
     let materials = vec![TabledMaterial { own, table }];
     let mesh = disc().mesh;
-    let elastic = assemble_stiffness(&mesh, &materials);
-    let base = SteadySliding::solve(&mesh, &elastic, &sliding()).unwrap();
     let options =
         TangentOptions { mass: MassKind::Lumped, damping: RayleighDamping::default(), ..TANGENT };
-    let tangent = SlidingTangent::linearize(&mesh, &materials, &elastic, &base, &options);
-    let at = [sliding().friction_coefficient];
-    let request = sweep_request(&at, ModeLimit::Lowest(8));
-    let found = sweep(&tangent, &request, &|_| {}).unwrap();
-    let modes = found.points[0].modes.iter();
+    let tangent = linearized(&mesh, &materials, &sliding(), &options);
+    let modes =
+        modes_at(&tangent, sliding().friction_coefficient, ModeLimit::Lowest(8)).into_iter();
     let own = modes.filter(|mode| mode.harmonic == HARMONIC);
     own.map(|mode| mode.growth_rate()).fold(f64::NEG_INFINITY, f64::max)
 }

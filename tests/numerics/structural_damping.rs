@@ -26,10 +26,8 @@ fn tangent_with(
         annulus: lossy(disc, POLYCARBONATE),
         shaft: Some(RegionMaterial { elastic: lossy(shaft, steel), damping: None }),
     };
-    let elastic = assemble_stiffness(&mesh, &materials);
-    let base = SteadySliding::solve(&mesh, &elastic, &contact(610.0)).unwrap();
     let options = TangentOptions { damping, contact: contact_stiffness, ..TANGENT };
-    SlidingTangent::linearize(&mesh, &materials, &elastic, &base, &options)
+    linearized(&mesh, &materials, &contact(610.0), &options)
 }
 
 pub fn solved(tangent: &SlidingTangent, frictions: &[f64]) -> FrictionSweep {

@@ -51,10 +51,8 @@ fn least_stable(model: &TransientModel<'_>, n: usize) -> c64 {
     let SteppedBody::Plane { mesh, annulus: Some(annulus) } = model.body else {
         panic!("an annulus");
     };
-    let stiffness = assemble_stiffness(mesh, model.material);
-    let base = SteadySliding::solve(mesh, &stiffness, &model.contact).unwrap();
     let options = TangentOptions { mass: MassKind::Lumped, damping: model.damping, ..TANGENT };
-    let tangent = SlidingTangent::linearize(mesh, model.material, &stiffness, &base, &options);
+    let tangent = linearized(mesh, model.material, &model.contact, &options);
     let mass = harmonic(&tangent.mass, &tangent, annulus, n);
     let stiffness = harmonic(&tangent.stiffness, &tangent, annulus, n);
     let reduced = mass.partial_piv_lu().solve(&stiffness);

@@ -131,11 +131,8 @@ fn constant_pressure_passes_a_tie_between_meshes_that_do_not_match() {
 fn eigenvalues(assembly: &Assembly<'_>, friction: f64, count: usize) -> Vec<c64> {
     let range = assembly.range(&[friction]).unwrap();
     let tangent = assembly.tangent(&range.states[0], &OPTIONS).unwrap();
-    let at = [friction];
-    let request = sweep_request(&at, ModeLimit::Lowest(count));
-    let found = sweep(&tangent, &request, &|_| {}).unwrap();
-    let modes = found.points.into_iter().flat_map(|point| point.modes);
-    modes.map(|mode| mode.eigenvalue).collect()
+    let modes = modes_at(&tangent, friction, ModeLimit::Lowest(count));
+    modes.into_iter().map(|mode| mode.eigenvalue).collect()
 }
 
 /// Coefficients of the powers of `x - origin` from those of the powers of `x`, by repeated division.

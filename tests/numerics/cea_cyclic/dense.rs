@@ -82,9 +82,7 @@ fn worst_difference(
     let request = sweep_request(frictions, ModeLimit::MaxFrequency(limit_hz));
     let cyclic = sweep(specification, material, options, contact, &request).unwrap();
     let mesh = AnnulusMesh::generate(specification).unwrap();
-    let elastic = assemble_stiffness(&mesh.mesh, material);
-    let base = SteadySliding::solve(&mesh.mesh, &elastic, contact).unwrap();
-    let tangent = SlidingTangent::linearize(&mesh.mesh, material, &elastic, &base, options);
+    let tangent = linearized(&mesh.mesh, material, contact, options);
     let sectors = mesh.sector_count() as i32;
     let against: i8 = if contact.rotation_speed < 0.0 { 1 } else { -1 };
     let mut worst = 0.0_f64;

@@ -47,10 +47,8 @@ pub fn block(pressure: f64) -> Mesh {
 
 /// Growth rate of the block on its spring by the eigenvalue analysis, 1/s.
 fn growth_rate(mesh: &Mesh, speed: f64) -> f64 {
-    let stiffness = assemble_stiffness(mesh, &STEEL);
-    let base = SteadySliding::solve(mesh, &stiffness, &contact(speed)).unwrap();
     let options = TangentOptions { damping: RayleighDamping::default(), ..TANGENT };
-    let tangent = SlidingTangent::linearize(mesh, &STEEL, &stiffness, &base, &options);
+    let tangent = linearized(mesh, &STEEL, &contact(speed), &options);
     let request = sweep_request(&[0.3], ModeLimit::Lowest(1));
     let found = sweep(&tangent, &request, &|_| {}).unwrap();
     let mode = &found.points[0].modes[0];

@@ -29,9 +29,7 @@ fn whole(
     contact: &SlidingContact,
 ) -> SlidingTangent {
     let mesh = AnnulusMesh::generate(specification).unwrap().mesh;
-    let elastic = assemble_stiffness(&mesh, &POLYCARBONATE);
-    let base = SteadySliding::solve(&mesh, &elastic, contact).unwrap();
-    SlidingTangent::linearize(&mesh, &POLYCARBONATE, &elastic, &base, options)
+    linearized(&mesh, &POLYCARBONATE, contact, options)
 }
 
 fn assert_same(ours: &FrictionSweep, theirs: &FrictionSweep) {

@@ -49,9 +49,7 @@ fn cyclic_and_sparse_spectra_of_two_bodies_are_the_same() {
         let limit = ModeLimit::Lowest(12);
         let cyclic = spectrum(&specification, &materials, &options, &frictions, limit).sweep;
         let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
-        let elastic = assemble_stiffness(&mesh, &materials);
-        let base = SteadySliding::solve(&mesh, &elastic, &contact(610.0)).unwrap();
-        let tangent = SlidingTangent::linearize(&mesh, &materials, &elastic, &base, &options);
+        let tangent = linearized(&mesh, &materials, &contact(610.0), &options);
         let request = sweep_request(&frictions, limit);
         let sparse = sparse::sweep(&tangent, &request, &|_| {}).unwrap();
         for (ours, theirs) in cyclic.points.iter().zip(&sparse.points) {

@@ -98,9 +98,7 @@ pub fn modes_of(
     limit: ModeLimit,
     shapes_at: &[f64],
 ) -> Vec<ComplexMode> {
-    let stiffness = assemble_stiffness(mesh, material);
-    let base = SteadySliding::solve(mesh, &stiffness, &contact()).unwrap();
-    let tangent = SlidingTangent::linearize(mesh, material, &stiffness, &base, options);
+    let tangent = linearized(mesh, material, &contact(), options);
     let request = SweepRequest { shapes_at, ..sweep_request(&[0.3], limit) };
     let found = sweep(&tangent, &request, &|_| {}).unwrap();
     found.points.into_iter().next().unwrap().modes
