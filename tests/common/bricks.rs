@@ -28,7 +28,7 @@ pub fn file_of(blocks: &[Block], place: impl Fn([f64; 3]) -> [f64; 3]) -> Vec<u8
 /// Corners of a brick in halves of its edges, and the edges in the order of Gmsh.
 const CORNERS: [[usize; 3]; 8] =
     [[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [0, 0, 2], [2, 0, 2], [2, 2, 2], [0, 2, 2]];
-const EDGES: [[usize; 2]; 12] = [
+pub const EDGES: [[usize; 2]; 12] = [
     [0, 1],
     [0, 3],
     [0, 4],

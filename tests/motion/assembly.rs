@@ -243,25 +243,30 @@ fn heavy_dashpots_of_a_support_bound_the_step() {
     assert!(speed < 1.0, "{speed}");
 }
 
+/// Runs an assembly in one and in two parts; the state between these.
+fn goes_on_to_the_same_bits(assembly: &Assembly<'_>, initial: InitialState) -> TransientState {
+    let body = model(assembly);
+    let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar).unwrap();
+    let [first, whole] = [2e-4, 4e-4].map(|end| settings(initial, end, 0.05));
+    let ran = |mut run: CentralDifference<'_>| {
+        let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
+        run.run(&mut record).unwrap();
+        run.state()
+    };
+    let start = |settings| CentralDifference::start(body, operator.as_ref(), settings);
+    let half = ran(start(&first).unwrap());
+    let resumed = CentralDifference::resume(body, operator.as_ref(), &whole, &half);
+    assert_eq!(ran(resumed.unwrap()), ran(start(&whole).unwrap()));
+    half
+}
+
 /// Consistency: a run that goes on from a saved state is the same, bit by bit, as one that never stopped.
 #[test]
 fn an_assembly_goes_on_from_a_saved_state_bit_by_bit() {
     let mesh = mesh([4, 3, 1]);
     for springs in SPRINGS {
         let assembly = assembly(&mesh, &STEEL, springs, None, 0.05);
-        let body = model(&assembly);
-        let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar);
-        let operator = operator.unwrap();
-        let [first, whole] = [2e-4, 4e-4].map(|end| settings(InitialState::Rest, end, 0.05));
-        let ran = |mut run: CentralDifference<'_>| {
-            let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
-            run.run(&mut record).unwrap();
-            run.state()
-        };
-        let start = |settings| CentralDifference::start(body, operator.as_ref(), settings);
-        let half = ran(start(&first).unwrap());
-        let resumed = CentralDifference::resume(body, operator.as_ref(), &whole, &half);
-        assert_eq!(ran(resumed.unwrap()), ran(start(&whole).unwrap()));
+        goes_on_to_the_same_bits(&assembly, InitialState::Rest);
     }
 }
 
@@ -344,18 +349,6 @@ fn losses_of_an_assembly_slow_its_growth_as_the_eigenvalue_says() {
     println!("{rate} 1/s, {without} 1/s without losses");
     assert!(without > 1.02 * rate, "{rate} {without}");
 
-    let body = model(&stepped);
-    let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar);
-    let operator = operator.unwrap();
-    let [first, whole] = [2e-4, 4e-4].map(|end| settings(InitialState::SteadySliding, end, 0.05));
-    let ran = |mut run: CentralDifference<'_>| {
-        let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
-        run.run(&mut record).unwrap();
-        run.state()
-    };
-    let start = |settings| CentralDifference::start(body, operator.as_ref(), settings);
-    let half = ran(start(&first).unwrap());
+    let half = goes_on_to_the_same_bits(&stepped, InitialState::SteadySliding);
     assert!(half.relaxation.iter().flatten().any(|z| *z != 0.0));
-    let resumed = CentralDifference::resume(body, operator.as_ref(), &whole, &half);
-    assert_eq!(ran(resumed.unwrap()), ran(start(&whole).unwrap()));
 }

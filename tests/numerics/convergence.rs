@@ -6,7 +6,7 @@
 //! the assembled sparse matrices, not from the program's own eigenvalue solvers.
 
 mod folded;
-mod rates;
+pub mod rates;
 
 use crate::continuum::prestress::SteadyState;
 use crate::continuum::{Annulus, Contact, Eigenvalue, Rayleigh};

@@ -1,6 +1,7 @@
 //! Eigenvalues on unstructured meshes against Table 1 and the exact continuum (independent checks).
 
-use crate::continuum::{Annulus, Contact};
+use crate::continuum::Contact;
+use crate::convergence::rates::DISC;
 use crate::prelude::*;
 use crate::triangles::triangles;
 use frictionsim::mesh::refined_file;
@@ -22,18 +23,10 @@ fn modes(mesh: &Mesh, count: usize) -> Vec<ComplexMode> {
 }
 
 fn exact(names: &[(usize, usize, i8)]) -> Vec<faer::c64> {
-    let disc = Annulus {
-        inner_radius: 0.0205,
-        outer_radius: 0.0905,
-        young_modulus: 2.5e9,
-        poisson_ratio: 0.3805,
-        density: 1228.0,
-        plane_strain: true,
-    };
     let contact = Contact::penalty(0.3, NORMAL_STIFFNESS);
     let rayleigh = (DAMPING.mass_coefficient, DAMPING.stiffness_coefficient);
     let all = names.iter();
-    all.map(|&(n, branch, direction)| disc.branch(n, branch, direction, &contact, rayleigh).lambda)
+    all.map(|&(n, branch, direction)| DISC.branch(n, branch, direction, &contact, rayleigh).lambda)
         .collect()
 }
 

@@ -56,7 +56,7 @@ fn onsets(case: &Case) -> Vec<[f64; 2]> {
     onsets.map(|i| [i.critical_friction, i.frequency_hz]).collect()
 }
 
-fn line(number: usize, frequency_hz: f64) -> MeasuredMode {
+pub fn line(number: usize, frequency_hz: f64) -> MeasuredMode {
     MeasuredMode {
         line: number,
         frequency_hz,
