@@ -420,7 +420,9 @@ fn paper_disc_reproduces_table_1_and_the_critical_friction_coefficients() {
         let is_unstable = [3, 5, 7].contains(&(i + 1));
         // Mode 26 sits on the stability boundary.
         assert!(i + 1 == 26 || mode.is_unstable() == is_unstable, "mode {}", i + 1);
-        let expected = match (mode.harmonic, mode.real_hz() > rayleigh(mode)) {
+        // Without friction, `-(alpha + beta omega^2) / 2`.
+        let damped = -(40.0 + 4.5e-7 * mode.eigenvalue.norm_sqr()) / 2.0 / TAU;
+        let expected = match (mode.harmonic, mode.real_hz() > damped) {
             (0, _) => 0,
             (_, true) => -1,
             (_, false) => 1,
@@ -435,9 +437,4 @@ fn paper_disc_reproduces_table_1_and_the_critical_friction_coefficients() {
         assert!((interval.critical_friction - critical).abs() < 3e-3);
         assert_eq!(interval.direction, -1);
     }
-}
-
-/// Real part of a mode of this frequency without friction, Hz: `-(alpha + beta omega^2) / 2`.
-fn rayleigh(mode: &ComplexMode) -> f64 {
-    -(40.0 + 4.5e-7 * mode.eigenvalue.norm_sqr()) / 2.0 / TAU
 }

@@ -10,13 +10,13 @@ pub const ALL: &[(&str, Check)] = &[
     ("`check`", check),
     ("`mesh`", mesh),
     ("`cea`", cea),
-    ("`cea`, cyclic", cea_cyclic),
-    ("`cea`, sparse", cea_sparse),
+    ("`cea`, cyclic", |bench, _| by_method(bench, "cyclic")),
+    ("`cea`, sparse", |bench, _| by_method(bench, "sparse")),
     ("sensitivities", sensitivities),
-    ("`transient`, cyclic", transient_cyclic),
-    ("`transient`, sparse", transient_sparse),
-    ("`frf`, free", frf_free),
-    ("`frf`, clamped", frf_clamped),
+    ("`transient`, cyclic", |bench, _| transient(bench, "cyclic")),
+    ("`transient`, sparse", |bench, _| transient(bench, "sparse")),
+    ("`frf`, free", |bench, _| reciprocal(bench, "free")),
+    ("`frf`, clamped", |bench, _| reciprocal(bench, "clamped")),
     ("`frf`, sliding", frf_sliding),
     ("`cycle`", cycle),
     ("`basin`", basin),
@@ -149,14 +149,6 @@ fn by_method(bench: &Bench, method: &str) -> Cell {
     agree(&spectrum(&own), &spectrum(&other), 1e-8)
 }
 
-fn cea_cyclic(bench: &Bench, _: Option<&Bench>) -> Cell {
-    by_method(bench, "cyclic")
-}
-
-fn cea_sparse(bench: &Bench, _: Option<&Bench>) -> Cell {
-    by_method(bench, "sparse")
-}
-
 /// Relative change of a parameter for a difference: small, since eigenvalues bend where two of them are about to meet.
 const SMALL_CHANGE: f64 = 1e-6;
 
@@ -235,14 +227,6 @@ fn transient(bench: &Bench, operator: &str) -> Cell {
     verdict(is_close(own, other, 1e-8), || format!("strain energy {own} and {other}"))
 }
 
-fn transient_cyclic(bench: &Bench, _: Option<&Bench>) -> Cell {
-    transient(bench, "cyclic")
-}
-
-fn transient_sparse(bench: &Bench, _: Option<&Bench>) -> Cell {
-    transient(bench, "sparse")
-}
-
 /// The response from one place to another, at three frequencies.
 fn response(bench: &Bench, boundary: &str, terminals: [[f64; 2]; 2], method: &str) -> Answer {
     let place = |[x, y]: [f64; 2]| format!("{{x={x:?},y={y:?}}}");
@@ -272,14 +256,6 @@ fn reciprocal(bench: &Bench, boundary: &str) -> Cell {
     let (there, back) = (magnitudes(&there), magnitudes(&back));
     let same = there.iter().zip(&back).all(|(a, b)| is_close(*a, *b, 1e-7));
     verdict(same, || format!("{there:?} there, {back:?} back"))
-}
-
-fn frf_free(bench: &Bench, _: Option<&Bench>) -> Cell {
-    reciprocal(bench, "free")
-}
-
-fn frf_clamped(bench: &Bench, _: Option<&Bench>) -> Cell {
-    reciprocal(bench, "clamped")
 }
 
 /// In sliding contact friction breaks the symmetry: the twin or the direct solution is the other route.
