@@ -67,8 +67,7 @@ fn check_reports_the_cost_as_numbers() {
 
 #[test]
 fn the_shipped_disc_turns_unstable_where_the_continuum_does() {
-    let folder = folder();
-    let summary = run(&folder, &["cea", &disc(), "--json", "--no-figures"]).done().value();
+    let summary = run(&folder(), &["cea", &disc(), "--json", "--no-figures"]).done().value();
     // Onset of the exact continuum model; the mesh and the prestress move it by less than 0.003.
     for (harmonic, branch, onset) in [(1, 2, 0.1224), (2, 1, 0.1382), (1, 1, 0.2121)] {
         let critical = summary["critical_frictions"].as_array().unwrap();

@@ -38,9 +38,8 @@ fn frequency_orders(summary: &Value) -> Vec<f64> {
 
 #[test]
 fn eigenvalues_of_bilinear_elements_converge_with_order_two() {
-    let folder = folder();
     let text = format!("{DISC}{CEA}[convergence]\nfactors = [1, 2, 4]\n");
-    let summary = summary(folder.path(), &text, &[]);
+    let summary = summary(folder().path(), &text, &[]);
     let orders = frequency_orders(&summary);
     // n = 0 once and n = 1 in both directions.
     assert_eq!(orders.len(), 3);

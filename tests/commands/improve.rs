@@ -111,10 +111,9 @@ fn what_cannot_be_improved_is_refused_with_the_remedy() {
 /// friction.
 #[test]
 fn what_is_attached_to_a_node_is_predicted_however_large() {
-    let folder = folder();
     let set = ["improve.modifications=[\"mass\", \"spring\"] ; improve.mass=0.003 ; \
          improve.stiffness=3e7 ; improve.candidates=1 ; improve.confirm=2"];
-    let summary = run(folder.path(), "improve", &set).done().summary();
+    let summary = run(folder().path(), "improve", &set).done().summary();
     let base = summary["base"]["growth_rate_per_s"].as_f64().unwrap();
     let candidates = summary["candidates"].as_array().unwrap();
     assert_eq!(candidates.len(), 2);

@@ -5,8 +5,7 @@ use crate::prelude::*;
 /// Closed form: a ring of 36 straight-sided sectors, and pads of 7 and 8 of them.
 #[test]
 fn the_statistics_of_a_brake_of_an_input_file_are_those_of_its_geometry() {
-    let folder = folder();
-    let summary = Run::of("mesh", shipped("brake.toml")).out(folder.path()).done().summary();
+    let summary = Run::of("mesh", shipped("brake.toml")).out(folder().path()).done().summary();
     let mesh = &summary["mesh"];
     assert_eq!(mesh["nodes"], 1140);
     assert_eq!(mesh["elements_by_kind"]["hex8"], 592);

@@ -81,7 +81,6 @@ fn the_force_of_an_interference_gives_that_interference_back() {
 /// Two contacts of one body lean on each other through it, and each gets its own force.
 #[test]
 fn every_contact_gets_its_own_force() {
-    let folder = folder();
     let contact = |name: &str, force: f64| {
         format!(
             "[contacts.{name}]\nsurface = \"{name}_z0\"\ncounterface = \"plane\"\nspeed = 1.5\n\
@@ -89,7 +88,7 @@ fn every_contact_gets_its_own_force() {
         )
     };
     let both = contact("left", 200.0) + &contact("right", 300.0);
-    let case = read(folder.path(), &pads(&both)).unwrap();
+    let case = read(folder().path(), &pads(&both)).unwrap();
     let forces = case.normal_forces().unwrap();
     for (found, asked) in forces.iter().zip([200.0, 300.0]) {
         assert!((found / asked - 1.0).abs() < 1e-9, "{forces:?}");
@@ -99,7 +98,6 @@ fn every_contact_gets_its_own_force() {
 /// Closed form: a block without Poisson's ratio under a rigid plane is a spring `E A / h`.
 #[test]
 fn a_block_is_pushed_in_by_its_force_over_its_stiffness() {
-    let folder = folder();
     let text = format!(
         "[contact]\nboundary = \"left_z0\"\ncounterface = \"plane\"\nspeed = 1.5\ndirection = [1.0, 0.0, 0.0]\n\
          normal_force = 1000.0\n{CONTACT}"
@@ -107,7 +105,7 @@ fn a_block_is_pushed_in_by_its_force_over_its_stiffness() {
     let text = pads(&text).replace("0.38", "0.0");
     let (text, rest) = text.split_once("[ties.seam]").unwrap();
     let (_, rest) = rest.split_once("[contact]").unwrap();
-    let case = read(folder.path(), &format!("{text}[contact]{rest}")).unwrap();
+    let case = read(folder().path(), &format!("{text}[contact]{rest}")).unwrap();
     let exact = 1000.0 * 0.01 / (2.5e9 * 0.02 * 0.02);
     let found = case.contact.sliding.interference;
     assert!((found / exact - 1.0).abs() < 1e-9, "{found:e} {exact:e}");

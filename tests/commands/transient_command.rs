@@ -71,9 +71,8 @@ const TWO_FREQUENCIES: [&str; 1] =
 
 #[test]
 fn a_vibration_of_two_frequencies_is_named_with_both_and_its_envelope() {
-    let folder = folder();
     let said = ["two frequencies, which is no limit cycle", "is above cea.max_frequency_hz = 9000"];
-    let summary = transient(folder.path(), &TWO_FREQUENCIES).done().says(&said).summary();
+    let summary = transient(folder().path(), &TWO_FREQUENCIES).done().says(&said).summary();
     assert_eq!(summary["end_state"], "two-frequency");
     let [first, second] = [0, 1].map(|k| summary["frequencies_hz"][k].as_f64().unwrap());
     assert!(first > second + 500.0, "{first} {second}");
@@ -122,7 +121,6 @@ fn a_vibration_that_decays_ends_in_steady_sliding() {
 
 #[test]
 fn a_run_from_a_limit_cycle_has_no_linear_stage() {
-    let folder = folder();
     let start = [
         "transient.initial=\"limit-cycle\"",
         "transient.limit_cycle_harmonic=2",
@@ -130,7 +128,7 @@ fn a_run_from_a_limit_cycle_has_no_linear_stage() {
         "mesh.circumferential_elements=90",
         "mesh.radial_elements=18",
     ];
-    let summary = transient(folder.path(), &start).done().says(&["!linear stage"]).summary();
+    let summary = transient(folder().path(), &start).done().says(&["!linear stage"]).summary();
     assert!(summary["growth"].as_array().unwrap().is_empty());
     assert!(summary["no_growth"].as_object().unwrap().is_empty());
 }

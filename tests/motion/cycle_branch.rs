@@ -130,8 +130,7 @@ impl SweepWatch for Memory {
 
 #[test]
 fn a_branch_that_goes_on_after_an_interruption_is_the_same_bit_by_bit() {
-    let folder = tempfile::tempdir().unwrap();
-    let case = over_speed(folder.path(), "branch", 0.8, &[]);
+    let case = over_speed(tempfile::tempdir().unwrap().path(), "branch", 0.8, &[]);
     let whole = searched(&case, &Unwatched);
     // As an interruption leaves it after two and four steps.
     for most in [2, 4] {

@@ -271,8 +271,7 @@ fn rotating_waves_are_periodic_motions_of_the_whole_mesh() {
 
 #[test]
 fn an_oscillator_that_sticks_and_slips_agrees_with_integration_from_event_to_event() {
-    let folder = tempfile::tempdir().unwrap();
-    let case = oscillator(folder.path(), &[]);
+    let case = oscillator(tempfile::tempdir().unwrap().path(), &[]);
     let results = cycles(&case);
     assert_eq!(results.len(), 1);
     let motion = &found(&results[0]).motion;

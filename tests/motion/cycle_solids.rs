@@ -38,8 +38,7 @@ fn pad(folder: &Path, overrides: &[&str]) -> Case {
 
 #[test]
 fn the_cycle_of_a_pad_on_a_disc_is_that_of_its_transient() {
-    let folder = tempfile::tempdir().unwrap();
-    let result = hold_to_transient(&pad(folder.path(), &[]));
+    let result = hold_to_transient(&pad(tempfile::tempdir().unwrap().path(), &[]));
     let cycle = found(&result);
     let motion = &cycle.motion;
     // The balance of the time loop closes; what the motion misses its start by is left.
@@ -101,11 +100,10 @@ impl SweepWatch for Kept {
 /// Consistency: what was kept when it stopped, and the rest anew, is the same, bit by bit.
 #[test]
 fn a_branch_of_solid_bodies_goes_on_after_an_interruption_bit_by_bit() {
-    let folder = tempfile::tempdir().unwrap();
     // More values than the twenty points between which what is done is kept.
     let range = "cycle={ confirmation_periods = 0, stability = \"none\", continuation = { key = \
                  \"contact.friction_coefficient\", from = 0.46, to = 0.5, count = 24 } }";
-    let case = pad(folder.path(), &[range]);
+    let case = pad(tempfile::tempdir().unwrap().path(), &[range]);
     let run = |kept: &Kept| -> Vec<PeriodicResult> {
         let study = PeriodicStudy::new(&case, SimdLevel::detect()).unwrap();
         study.run(1, kept, &|_| {}).unwrap()
@@ -129,9 +127,8 @@ fn a_branch_of_solid_bodies_goes_on_after_an_interruption_bit_by_bit() {
 
 #[test]
 fn parameters_that_solid_bodies_do_not_have_are_refused_with_those_they_have() {
-    let folder = tempfile::tempdir().unwrap();
     let range = "cycle.continuation={ key = \"contact.interference\", from = 0.0, to = 1e-5 }";
-    let case = pad(folder.path(), &[range]);
+    let case = pad(tempfile::tempdir().unwrap().path(), &[range]);
     let error = PeriodicStudy::new(&case, SimdLevel::detect()).err();
     let text = error.unwrap().to_string();
     assert!(text.contains("cannot be followed over contact.interference"), "{text}");

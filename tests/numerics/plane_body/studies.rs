@@ -145,8 +145,7 @@ fn a_fit_of_an_imported_body_is_of_that_body() {
 
 #[test]
 fn no_study_solves_an_imported_body_by_sectors() {
-    let folder = folder();
-    let body = case(&folder, "oval.msh", &["cea.method=cyclic"]);
+    let body = case(&folder(), "oval.msh", &["cea.method=cyclic"]);
     let refusal = |text: String| {
         assert!(text.contains("needs a body of equal sectors"), "{text}");
     };
@@ -158,10 +157,9 @@ fn no_study_solves_an_imported_body_by_sectors() {
 
 #[test]
 fn rotating_waves_are_sought_in_no_imported_body() {
-    let folder = folder();
     let set = ["basin={ harmonics = [1, 2] } ; cycle={ confirmation_periods = 0 } ; \
          transient={ duration = 1e-4, initial = \"limit-cycle\", limit_cycle_harmonic = 1 }"];
-    let body = case(&folder, "disc.msh", &set);
+    let body = case(&folder(), "disc.msh", &set);
     let errors =
         [body.require_rotating_waves().unwrap_err(), body.require_transient().unwrap_err()];
     for error in errors {
@@ -193,12 +191,11 @@ fn warnings_name_no_radius_that_an_imported_body_does_not_have() {
 /// On a cylinder outside the body, and on a plane, the slip speed is not that of a cylinder within.
 #[test]
 fn relative_seeds_of_an_imported_body_are_shares_of_its_own_slip_speed() {
-    let folder = folder();
     let set = [
         "transient={ duration = 1e-4, expansion_time = 1e-5, perturbation = { harmonics = [1], velocity = 0.5, relative = true } } ; \
          contact.boundary=outer ; boundaries={ inner = { condition = \"clamped\" } }",
     ];
-    let body = case(&folder, "disc.msh", &set);
+    let body = case(&folder(), "disc.msh", &set);
     let perturbation = &body.transient.as_ref().unwrap().perturbation;
     let expected = 0.5 * body.contact.sliding.rotation_speed * 0.0905;
     let found = perturbation.waves[0].velocity;
@@ -207,9 +204,8 @@ fn relative_seeds_of_an_imported_body_are_shares_of_its_own_slip_speed() {
 
 #[test]
 fn keys_that_have_no_effect_beside_a_mesh_file_are_said() {
-    let folder = folder();
     let set = ["mesh.circumferential_elements=10", "geometry.inner_radius=0.02"];
-    let body = case(&folder, "disc.msh", &set);
+    let body = case(&folder(), "disc.msh", &set);
     let said: Vec<String> = body.warnings.iter().map(ToString::to_string).collect();
     for key in ["mesh.circumferential_elements", "geometry.inner_radius"] {
         let expected = format!("{key} is not used: mesh.file describes the body");
@@ -264,8 +260,7 @@ fn a_check_of_an_imported_body_estimates_its_own_size() {
 
 #[test]
 fn a_table_of_more_modes_than_anybody_measures_is_refused_at_once() {
-    let folder = folder();
-    let body = case(&folder, "disc.msh", &[]);
+    let body = case(&folder(), "disc.msh", &[]);
     let many: Vec<MeasuredMode> = (0..20_000).map(|k| line(k + 2, 1e3 + k as f64)).collect();
     let text = refuse_too_few(&body, &many).unwrap_err().to_string();
     assert!(text.contains("20000 lines, at most 1000"), "{text}");
