@@ -13,28 +13,8 @@ struct Revolved {
 }
 
 /// Places of the nodes of a brick in halves of its edges, in the order of C3D20R.
-const PLACES: [[usize; 3]; 20] = [
-    [0, 0, 0],
-    [2, 0, 0],
-    [2, 2, 0],
-    [0, 2, 0],
-    [0, 0, 2],
-    [2, 0, 2],
-    [2, 2, 2],
-    [0, 2, 2],
-    [1, 0, 0],
-    [2, 1, 0],
-    [1, 2, 0],
-    [0, 1, 0],
-    [1, 0, 2],
-    [2, 1, 2],
-    [1, 2, 2],
-    [0, 1, 2],
-    [0, 0, 1],
-    [2, 0, 1],
-    [2, 2, 1],
-    [0, 2, 1],
-];
+const PLACES: &str =
+    "000 200 220 020 002 202 222 022 100 210 120 010 102 212 122 012 001 201 221 021";
 
 /// Radius and height in thousandths, angle in halves of an element.
 type Place = (i64, usize, i64);
@@ -55,7 +35,9 @@ impl Revolved {
                     let next = nodes.len() + 1;
                     *nodes.entry(place).or_insert(next)
                 };
-                elements.push(PLACES.map(number).to_vec());
+                let half = |place: &str, axis: usize| usize::from(place.as_bytes()[axis] - b'0');
+                let places = PLACES.split(' ').map(|place| [0, 1, 2].map(|axis| half(place, axis)));
+                elements.push(places.map(number).collect());
             }
         }
         (nodes, elements)

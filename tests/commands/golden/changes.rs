@@ -19,30 +19,10 @@ const CHANGES: &[(&str, &str, &str, &str)] = &[
     // Its transient is two milliseconds long: two quantities fewer, whose rows shift the others.
     ("convergence", "convergence.csv", "*", GROWTH),
     ("convergence", "summary.json", "series[].quantities[]*", GROWTH),
-    (
-        "*",
-        "*",
-        "cycles[].confirmation*",
-        "the transient is seeded, its frequency is that of the wave's own harmonic",
-    ),
-    (
-        "*",
-        "*",
-        "cycles[].onsets*",
-        "onsets are those below the case's friction, from the eigenvalue analysis",
-    ),
-    (
-        "*",
-        "*",
-        "summaries.cycle.cycles[].confirmation*",
-        "the transient is seeded, its frequency is that of the wave's own harmonic",
-    ),
-    (
-        "*",
-        "*",
-        "summaries.cycle.cycles[].onsets*",
-        "onsets are those below the case's friction, from the eigenvalue analysis",
-    ),
+    ("*", "*", "cycles[].confirmation*", SEEDED),
+    ("*", "*", "cycles[].onsets*", ONSETS),
+    ("*", "*", "summaries.cycle.cycles[].confirmation*", SEEDED),
+    ("*", "*", "summaries.cycle.cycles[].onsets*", ONSETS),
     ("*", "*", "cycles[].branch.folds*", FOLDS),
     ("*", "*", "branch", BRANCH),
     ("*", "*", "critical_frictions[].branch", BRANCH),
@@ -52,6 +32,10 @@ const CHANGES: &[(&str, &str, &str, &str)] = &[
     ("identify", "modes.csv", "used", "a flag is true or false in every table"),
     ("*", "*", "summaries.cycle.cycles[].branch.folds*", FOLDS),
 ];
+
+const SEEDED: &str = "the transient is seeded, its frequency is that of the wave's own harmonic";
+
+const ONSETS: &str = "onsets are those below the case's friction, from the eigenvalue analysis";
 
 const BRANCH: &str = "branches are counted from 1, as modes are";
 

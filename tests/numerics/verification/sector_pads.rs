@@ -79,7 +79,7 @@ fn plate(thickness: f64) -> Vec<u8> {
                     let list = all.map(|[a, b, c]| node([2 * i + a, 2 * j + b, c])).collect();
                     elements.push((kind, group, list));
                 };
-            add(17, 3, &[low, high].concat(), &EDGES);
+            add(17, 3, &[low, high].concat(), EDGES.as_chunks().0);
             if i == 0 {
                 add(16, 0, &[low[0], high[0], high[3], low[3]], &ring);
             }
