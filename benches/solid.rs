@@ -6,6 +6,7 @@
 //! step of a body from a mesh file on one thread and on two, with the bandwidth that its bytes take of the memory's.
 //! Without `--bench` (as `cargo test --benches` calls it) everything is done once, on a small mesh.
 
+#[allow(dead_code)]
 #[path = "../tests/common/bricks.rs"]
 mod bricks;
 #[path = "../tests/common/disc.rs"]

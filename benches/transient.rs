@@ -10,6 +10,10 @@
 mod disc;
 #[path = "../tests/common/fma_peak.rs"]
 mod fma_peak;
+#[path = "../tests/common/mesh_text.rs"]
+mod mesh_text;
+#[path = "../tests/common/msh.rs"]
+mod msh;
 #[allow(dead_code)]
 #[path = "../tests/numerics/two_bodies/model.rs"]
 mod two_bodies;

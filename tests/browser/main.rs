@@ -4,12 +4,14 @@
 
 mod driver;
 mod page;
+#[path = "../common/program.rs"]
+mod program;
 
 use driver::Browser;
 use libtest_mimic::{Arguments, Trial};
 use page::*;
+use program::{Run, shipped};
 use serde_json::{Value, json};
-use tempfile::TempDir;
 
 /// Tests by their names. Whether there is a browser is known only when they run, so `#[ignore]` cannot say it.
 macro_rules! tests {
@@ -98,7 +100,7 @@ fn solid_bodies_are_turned_and_their_modes_move() {
     };
 
     // A mesh: its regions and boundaries from every side.
-    let mesh_file = format!("mesh.file={:?}", case("meshes/brake.inp"));
+    let mesh_file = format!("mesh.file={:?}", shipped("meshes/brake.inp"));
     let (_folder, report) = report_of("mesh", "brake.toml", &[&mesh_file]);
     browser.visit_ready(&report);
     press(&browser, "mesh", "Look around");
@@ -123,13 +125,9 @@ fn solid_bodies_are_turned_and_their_modes_move() {
         "cea.shapes_at=[0.4]",
         "cea.max_frequency_hz=3000.0",
     ];
-    let revolution = [
-        "mesh.circumferential_elements=24",
-        "mesh.radial_elements=3",
-        "mesh.axial_elements=2",
-        "cea.friction_coefficients=[0.4]",
-        "cea.shapes_at=[0.4]",
-    ];
+    let revolution =
+        ["mesh.circumferential_elements=24 ; mesh.radial_elements=3 ; mesh.axial_elements=2 ; \
+         cea.friction_coefficients=[0.4] ; cea.shapes_at=[0.4]"];
     let cases = [("brake.toml", &assembly[..]), ("disc-three-dimensions.toml", &revolution[..])];
     for (name, set) in cases {
         let (_folder, report) = report_of("cea", name, set);
@@ -292,16 +290,10 @@ fn a_run_is_zoomed_read_heard_and_taken_along() {
 }
 
 fn a_click_on_a_point_of_a_study_shows_the_numbers_of_its_run() {
-    let set = [
-        "mesh.circumferential_elements=36",
-        "mesh.radial_elements=4",
-        "output.probes=[1]",
-        "output.sample_interval=1e-5",
-        "transient.duration=0.008",
-        "transient.perturbation.velocity=0.1",
-        "sweep.\"contact.friction_coefficient\"=[0.3,0.4]",
-        "sweep.\"contact.rotation_speed_rpm\"=[610.0,2000.0]",
-    ];
+    let set = ["mesh.circumferential_elements=36 ; mesh.radial_elements=4 ; output.probes=[1] ; \
+         output.sample_interval=1e-5 ; transient.duration=0.008 ; \
+         transient.perturbation.velocity=0.1 ; sweep.\"contact.friction_coefficient\"=[0.3,0.4] ; \
+         sweep.\"contact.rotation_speed_rpm\"=[610.0,2000.0]"];
     let (_folder, report) = report_of("sweep", "speed-friction-study.toml", &set);
     let browser = Browser::open(WIDE);
     browser.visit_ready(&report);
@@ -343,20 +335,16 @@ fn without_scripts_numbers_and_pictures_are_there() {
 fn two_runs_are_compared_number_by_number_and_curve_over_curve() {
     let (folder, _) = eigenvalue_report();
     let (other, _) = eigenvalue_report();
-    let set = ["--set", "material.poisson_ratio=0.36", "--force", "--out", "out"];
-    let again: Vec<&str> = EIGENVALUE_SET.iter().flat_map(|set| ["--set", *set]).collect();
-    let arguments: Vec<&str> = ["cea", "case.toml"].into_iter().chain(again).chain(set).collect();
-    frictionsim(other.path(), &arguments);
+    let again = Run::new(&["cea", "case.toml", "-qq", "--force"]).within(&other).out("out");
+    again.set(&[EIGENVALUE_SET, "material.poisson_ratio=0.36"]).done();
     let paths = [&folder, &other].map(|f| f.path().join("out").display().to_string());
-    frictionsim(folder.path(), &["compare", &paths[0], &paths[1], "--out", "both"]);
-    let rows = rows_of(&folder.path().join("both/compare.csv"));
-    let summary = |folder: &TempDir| -> Value {
+    let compare = Run::new(&["compare", &paths[0], &paths[1], "-qq"]).within(&folder).out("both");
+    let rows = rows_of(&compare.done().path("compare.csv"));
+    let [one, two] = [&folder, &other].map(|folder| {
         let text = std::fs::read_to_string(folder.path().join("out/summary.json")).unwrap();
-        serde_json::from_str(&text).unwrap()
-    };
-    let critical =
-        |summary: &Value| summary["critical_frictions"][0]["critical_friction"].as_f64().unwrap();
-    let (one, two) = (critical(&summary(&folder)), critical(&summary(&other)));
+        let summary: Value = serde_json::from_str(&text).unwrap();
+        summary["critical_frictions"][0]["critical_friction"].as_f64().unwrap()
+    });
     let row = rows.iter().find(|row| row[0].ends_with(".critical_friction")).unwrap();
     let number = |at: usize| row[at].parse::<f64>().unwrap();
     assert_eq!((number(2), number(3)), (one, two), "{row:?}");

@@ -1,9 +1,9 @@
 //! Reports to look at, and what is checked on every page.
 
 use super::driver::Browser;
+use crate::program::{Run, folder_with, shipped};
 use serde_json::json;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use tempfile::TempDir;
 
 /// Text that would become an element if it were not escaped.
@@ -12,57 +12,28 @@ pub const MARKUP: &str = "</script><img src=x onerror=document.title='broken'>&a
 pub const WIDE: [usize; 2] = [1280, 900];
 pub const PHONE: [usize; 2] = [400, 800];
 
-pub fn case(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name)
-}
-
-/// Runs the program in a folder.
-pub fn frictionsim(folder: &Path, arguments: &[&str]) {
-    let run = Command::new(env!("CARGO_BIN_EXE_frictionsim"))
-        .args(arguments)
-        .args(["-q", "-q"])
-        .current_dir(folder)
-        .output()
-        .unwrap();
-    assert!(run.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&run.stderr));
-}
-
 /// A case of the collection in `folder`, with a title that has markup in it, and its report.
 pub fn report_of(command: &str, name: &str, set: &[&str]) -> (TempDir, PathBuf) {
-    let folder = tempfile::tempdir().unwrap();
-    let text = std::fs::read_to_string(case(name)).unwrap();
+    let text = std::fs::read_to_string(shipped(name)).unwrap();
     let title = text.lines().find(|line| line.starts_with("title")).unwrap();
     let text = text.replace(title, &format!("title = \"{MARKUP}\""));
-    std::fs::write(folder.path().join("case.toml"), text).unwrap();
-    let mut arguments = vec![command, "case.toml", "--out", "out"];
-    set.iter().for_each(|set| arguments.extend(["--set", set]));
-    frictionsim(folder.path(), &arguments);
-    let report = folder.path().join("out/report.html");
+    let folder = folder_with(&[("case.toml", text.as_bytes())]);
+    let run = Run::new(&[command, "case.toml", "-qq"]).within(&folder).out("out").set(set);
+    let report = run.done().path("report.html");
     (folder, report)
 }
 
-/// A small eigenvalue analysis.
-pub const EIGENVALUE_SET: [&str; 4] = [
-    "mesh.circumferential_elements=36",
-    "mesh.radial_elements=5",
-    "cea.friction_coefficients={from=0.0,to=0.6,count=13}",
-    "cea.max_frequency_hz=13000.0",
-];
+pub const EIGENVALUE_SET: &str = "mesh.circumferential_elements=36 ; mesh.radial_elements=5 ; \
+     cea.friction_coefficients={from=0.0,to=0.6,count=13} ; cea.max_frequency_hz=13000.0";
 
 pub fn eigenvalue_report() -> (TempDir, PathBuf) {
-    report_of("cea", "polycarbonate-disc.toml", &EIGENVALUE_SET)
+    report_of("cea", "polycarbonate-disc.toml", &[EIGENVALUE_SET])
 }
 
 pub fn transient_report(duration: &str) -> (TempDir, PathBuf) {
-    let set = [
-        "mesh.circumferential_elements=48",
-        "mesh.radial_elements=7",
-        "output.probes=[1,5]",
-        "output.snapshots=[0.005]",
-        "transient.perturbation.velocity=3e-2",
-        duration,
-    ];
-    report_of("transient", "polycarbonate-610rpm.toml", &set)
+    let set = "mesh.circumferential_elements=48 ; mesh.radial_elements=7 ; output.probes=[1,5] ; \
+         output.snapshots=[0.005] ; transient.perturbation.velocity=3e-2";
+    report_of("transient", "polycarbonate-610rpm.toml", &[set, duration])
 }
 
 /// Presses the button of a figure whose text begins so.
@@ -118,7 +89,6 @@ pub fn keep_screenshot(browser: &Browser, name: &str) {
     std::fs::write(folder.join(name), browser.screenshot()).unwrap();
 }
 
-/// Rows of a table without its header.
 pub fn rows_of(path: &Path) -> Vec<Vec<String>> {
     let mut reader = csv::Reader::from_path(path).unwrap();
     reader.records().map(|row| row.unwrap().iter().map(str::to_owned).collect()).collect()

@@ -1,9 +1,8 @@
 //! Consistency check of the source tree: a module names only lower floors, siblings do not name each other, no files
 //! name each other in a circle, and no room has more lines than its budget.
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
-use std::path::{Path, PathBuf};
+use crate::prelude::*;
+use std::collections::BTreeSet;
 
 /// Modules by floor, lowest first.
 const FLOORS: [&[&str]; 10] = [
@@ -40,25 +39,25 @@ const BUDGETS: &[(&str, usize)] = &[
     ("crates/bounds", 196),
     ("crates/chart", 4_988),
     ("crates/described", 81),
-    ("crates/formats", 6_851),
+    ("crates/formats", 6_853),
     ("crates/linalg", 4_075),
-    ("crates/signal", 6_630),
-    ("src/app", 5_434),
-    ("src/case", 12_005),
-    ("src/cea", 10_588),
-    ("src/contact", 2_665),
-    ("src/cycle", 8_344),
+    ("crates/signal", 6_631),
+    ("src/app", 5_433),
+    ("src/case", 12_000),
+    ("src/cea", 10_590),
+    ("src/contact", 2_668),
+    ("src/cycle", 8_347),
     ("src/fem", 5_004),
     ("src/frf", 1_707),
     ("src/guide", 70),
     ("src/lib.rs", 103),
     ("src/main.rs", 5),
-    ("src/mesh", 4_607),
+    ("src/mesh", 4_615),
     ("src/output", 815),
-    ("src/prestress", 5_315),
-    ("src/results", 20_705),
-    ("src/study", 12_484),
-    ("src/transient", 5_020),
+    ("src/prestress", 5_318),
+    ("src/results", 20_722),
+    ("src/study", 12_491),
+    ("src/transient", 5_022),
 ];
 
 /// Lines of a file before its unit tests.

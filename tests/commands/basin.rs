@@ -1,32 +1,14 @@
 //! `frictionsim basin` and its map: consistency of the search.
 
-use crate::program::{Run, folder};
+use crate::prelude::*;
 
-const CASE: &str = r#"
-[geometry]
-inner_radius = 0.0205
-outer_radius = 0.0905
-thickness = 0.009
-[mesh]
-circumferential_elements = 48
-radial_elements = 9
-[material]
-young_modulus = 2.5e9
-poisson_ratio = 0.3805
-density = 1228.0
-[damping]
-mass_coefficient = 40.0
-stiffness_coefficient = 4.5e-7
-[contact]
-friction_coefficient = 0.4
-interference = 25e-6
-rotation_speed_rpm = 300.0
-[basin]
-tolerance = 3.0
-[sweep]
-"contact.rotation_speed_rpm" = [300.0, 6000.0]
-analyses = ["basin"]
-"#;
+const CASE: &str = "[geometry]\ninner_radius = 0.0205\nouter_radius = 0.0905\nthickness = 0.009
+[mesh]\ncircumferential_elements = 48\nradial_elements = 9
+[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0
+[damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7
+[contact]\nfriction_coefficient = 0.4\ninterference = 25e-6\nrotation_speed_rpm = 300.0
+[basin]\ntolerance = 3.0
+[sweep]\n\"contact.rotation_speed_rpm\" = [300.0, 6000.0]\nanalyses = [\"basin\"]\n";
 
 #[test]
 fn the_boundary_separates_all_transients_of_its_search() {

@@ -8,13 +8,12 @@ mod checks;
 pub mod grid;
 mod kinds;
 
+use crate::prelude::*;
 use kinds::{Kind, kinds};
 use std::cell::RefCell;
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// What a run gave.
 #[derive(Clone)]
 pub enum Answer {
     /// The summary, and the folder of the results.

@@ -1,9 +1,7 @@
 //! The reference of columns is what the program writes, and the guide's page is the reference.
 
-use crate::program::{Run, folder, shipped};
+use crate::prelude::*;
 use frictionsim::results::reference::{markdown, reference};
-use serde_json::Value;
-use std::fs;
 
 /// The guide's page of columns is what the declarations say; `FRICTIONSIM_WRITE_TABLE=1` writes it.
 #[test]

@@ -1,9 +1,8 @@
 //! README and guide: every command that they show runs, every printed result that they show is printed, and sentences and
 //! lines have the length of the house.
 
+use crate::prelude::*;
 use assert_cmd::Command;
-use std::fs;
-use std::path::{Path, PathBuf};
 
 /// README, instructions and guide; the pages of keys and columns are made from the declarations.
 fn pages() -> Vec<(String, String)> {
@@ -23,7 +22,6 @@ fn pages() -> Vec<(String, String)> {
     paths.iter().map(page).collect()
 }
 
-/// A block between fences: its language and its lines.
 struct Block {
     language: String,
     lines: Vec<String>,

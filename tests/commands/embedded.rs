@@ -1,14 +1,11 @@
 //! Commands inside another program: side by side, interrupted, panicking.
 
-use crate::program::shipped;
+use crate::prelude::*;
 use frictionsim::app::Failure;
 use frictionsim::app::embedded::{EmbeddedFailure, EmbeddedRun};
 use std::ffi::OsString;
-use std::fs;
-use std::time::{Duration, Instant};
-use tempfile::{TempDir, tempdir};
+use tempfile::tempdir;
 
-/// A command on a shipped case with a coarse mesh, without figures, into `name` of a folder.
 fn words(command: &str, case: &str, folder: &TempDir, name: &str, set: &[&str]) -> Vec<OsString> {
     let out = folder.path().join(name);
     let mut words: Vec<OsString> =
@@ -23,6 +20,20 @@ fn words(command: &str, case: &str, folder: &TempDir, name: &str, set: &[&str]) 
 
 fn run(words: Vec<OsString>) -> Result<(), EmbeddedFailure> {
     EmbeddedRun::default().run(words, 1)
+}
+
+/// Stops a command after a while, which must end soon and say how it goes on.
+fn stopped_after(milliseconds: u64, words: Vec<OsString>, said: &str) {
+    let run = EmbeddedRun::default();
+    let own = run.clone();
+    let thread = std::thread::spawn(move || own.run(words, 2));
+    std::thread::sleep(Duration::from_millis(milliseconds));
+    let asked = Instant::now();
+    run.stop();
+    let failure = thread.join().unwrap().unwrap_err();
+    // The whole analysis takes over a minute: it ended early, not at its end, on a loaded machine too.
+    assert!(asked.elapsed() < Duration::from_secs(30));
+    assert!(interruption(&failure).contains(said), "{failure:?}");
 }
 
 /// Runs a command on a thread, stops it once it counts something, and gives its failure and how long it took to stop.
@@ -78,25 +89,10 @@ fn a_transient_that_is_stopped_keeps_what_it_has_and_resumes_to_the_same_bytes()
 #[test]
 fn a_sweep_that_is_stopped_keeps_its_finished_points() {
     let folder = tempdir().unwrap();
-    let set = [
-        &RUN[..],
-        &[
-            "transient.duration=0.5",
-            "sweep={\"contact.rotation_speed_rpm\"=[600.0, 605.0, 610.0, 620.0]}",
-        ],
-    ]
-    .concat();
+    let swept = "sweep={\"contact.rotation_speed_rpm\"=[600.0, 605.0, 610.0, 620.0]}";
+    let set = [&RUN[..], &["transient.duration=0.5", swept]].concat();
     let study = words("sweep", "polycarbonate-610rpm.toml", &folder, "study", &set);
-    let run = EmbeddedRun::default();
-    let own = run.clone();
-    let thread = std::thread::spawn(move || own.run(study, 2));
-    std::thread::sleep(Duration::from_millis(300));
-    let asked = Instant::now();
-    run.stop();
-    let failure = thread.join().unwrap().unwrap_err();
-    // The whole analysis takes over a minute: it ended early, not at its end, on a loaded machine too.
-    assert!(asked.elapsed() < Duration::from_secs(30));
-    assert!(interruption(&failure).contains("--resume"), "{failure:?}");
+    stopped_after(300, study, "--resume");
     // An interrupted point is no failed point.
     let points = fs::read_dir(folder.path().join("study/points")).unwrap();
     for point in points.flatten() {
@@ -110,16 +106,7 @@ fn an_eigenvalue_analysis_is_stopped_between_factorizations() {
     let folder = tempdir().unwrap();
     let set = ["cea.method=sparse", "mesh.radial_elements=35", "mesh.circumferential_elements=180"];
     let case = words("cea", "polycarbonate-disc.toml", &folder, "cea", &set);
-    let run = EmbeddedRun::default();
-    let own = run.clone();
-    let thread = std::thread::spawn(move || own.run(case, 2));
-    std::thread::sleep(Duration::from_millis(500));
-    let asked = Instant::now();
-    run.stop();
-    let failure = thread.join().unwrap().unwrap_err();
-    // The whole analysis takes over a minute: it ended early, not at its end, on a loaded machine too.
-    assert!(asked.elapsed() < Duration::from_secs(30));
-    assert!(interruption(&failure).contains("--resume goes on"));
+    stopped_after(500, case, "--resume goes on");
 }
 
 #[test]

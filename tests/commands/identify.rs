@@ -3,19 +3,15 @@
 //! Independent checks: the responses come from the finite-element model or from modal sums written
 //! here, never from the library's own modal model.
 
-use crate::program::{Run, folder, folder_with};
-use crate::tier::sized;
-use faer::c64;
-use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping};
+use crate::prelude::*;
+use frictionsim::fem::MassKind;
 use frictionsim::frf::{Direction, FrfSystem, ReductionSettings, Terminal, reduced_response};
 use frictionsim::linalg::GaussianNoise;
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::signal::{
     Estimate, FrequencyResponse, Identification, IdentificationOptions, ResonanceNote,
     ResponseQuantity, SignalError, identify,
 };
 use rayon::prelude::*;
-use std::f64::consts::TAU;
 
 const ALPHA: f64 = 40.0;
 const BETA: f64 = 4.5e-7;
@@ -29,13 +25,7 @@ fn noisy(values: &[c64], relative: f64, seed: u64) -> Vec<c64> {
 /// Driving-point accelerance of the free polycarbonate disc at its rim, up to 10 kHz.
 fn free_disc(step_hz: f64) -> (Vec<f64>, Vec<c64>) {
     let specification = crate::disc::annulus(ElementKind::Quad4, 90, 18);
-    let material = ElasticMaterial {
-        young_modulus: 2.5e9,
-        poisson_ratio: 0.3805,
-        density: 1228.0,
-        formulation: PlaneFormulation::PlaneStrain,
-        ..ElasticMaterial::PLAIN
-    };
+    let material = crate::disc::POLYCARBONATE;
     let damping = RayleighDamping { mass_coefficient: ALPHA, stiffness_coefficient: BETA };
     let annulus = AnnulusMesh::generate(&specification).unwrap();
     let mass = MassKind::Consistent;
@@ -78,7 +68,6 @@ fn free_disc_with_one_percent_noise_gives_back_its_coefficients_at_1_hz() {
     assert!(found.modes.len() >= 6);
 }
 
-/// Mean and standard deviation.
 fn moments(values: &[f64]) -> (f64, f64) {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;

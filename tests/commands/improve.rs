@@ -1,8 +1,6 @@
 //! `frictionsim improve` from end to end, and the modifications that it runs again.
 
-use crate::coarse_disc::coarse_disc;
-use crate::program::{Run, folder, has};
-use std::path::Path;
+use crate::prelude::*;
 
 /// The paper's disc on a coarse mesh, without the effects of prestress that a change of the mesh would move.
 const CEA: &str = "[cea]\nmodes = 10\ngeometric_stiffness = false";
@@ -16,14 +14,10 @@ fn run(folder: &Path, command: &str, set: &[&str]) -> Run {
 #[test]
 fn predicted_candidates_are_those_that_run_again() {
     let folder = folder();
-    let set = [
-        "improve.modifications=[\"mass\", \"dashpot\", \"damping\", \"removal\", \"offset\"]",
-        "improve.min_frequency_hz=10000",
-        "improve.max_frequency_hz=11500",
-        "improve.candidates=1",
-        "improve.confirm=5",
-        "improve.forbidden=[\"outer\"]",
-    ];
+    let set =
+        ["improve.modifications=[\"mass\", \"dashpot\", \"damping\", \"removal\", \"offset\"] ; \
+         improve.min_frequency_hz=10000 ; improve.max_frequency_hz=11500 ; improve.candidates=1 ; \
+         improve.confirm=5 ; improve.forbidden=[\"outer\"]"];
     let answer = run(folder.path(), "improve", &set).done();
     let (summary, said) = (answer.summary(), &answer.stdout);
     let candidates = summary["candidates"].as_array().unwrap();
@@ -71,21 +65,14 @@ fn predicted_candidates_are_those_that_run_again() {
 #[test]
 fn contributions_of_a_modified_disc_are_its_growth_rates() {
     let folder = folder();
-    let set = [
-        "modifications.a.at={ radius = 0.06, angle_deg = 30 }",
-        "modifications.a.mass=0.01",
-        "modifications.b.at={ radius = 0.05, angle_deg = 200 }",
-        "modifications.b.stiffness=1e7",
-        "modifications.b.damping=50",
-        "modifications.b.direction=[1.0, 0.5]",
-        "modifications.c.center=[0.0, 0.06]",
-        "modifications.c.radius=0.012",
-        "modifications.c.stiffness_coefficient=1e-6",
-        "modifications.d.center=[0.0, -0.06]",
-        "modifications.d.radius=0.009",
-        "modifications.d.remove=true",
-        "cea.friction_coefficients=[0.0, 0.3]",
-    ];
+    let set =
+        ["modifications.a.at={ radius = 0.06, angle_deg = 30 } ; modifications.a.mass=0.01 ; \
+         modifications.b.at={ radius = 0.05, angle_deg = 200 } ; modifications.b.stiffness=1e7 ; \
+         modifications.b.damping=50 ; modifications.b.direction=[1.0, 0.5] ; \
+         modifications.c.center=[0.0, 0.06] ; modifications.c.radius=0.012 ; \
+         modifications.c.stiffness_coefficient=1e-6 ; modifications.d.center=[0.0, -0.06] ; \
+         modifications.d.radius=0.009 ; modifications.d.remove=true ; \
+         cea.friction_coefficients=[0.0, 0.3]"];
     let answer = run(folder.path(), "cea", &set).done();
     let rows = answer.rows("contributions.csv");
     for mode in answer.rows("eigenvalues.csv") {
@@ -135,15 +122,9 @@ fn what_cannot_be_improved_is_refused_with_the_remedy() {
 /// friction.
 #[test]
 fn what_is_attached_to_a_node_is_predicted_however_large() {
-    let folder = folder();
-    let set = [
-        "improve.modifications=[\"mass\", \"spring\"]",
-        "improve.mass=0.003",
-        "improve.stiffness=3e7",
-        "improve.candidates=1",
-        "improve.confirm=2",
-    ];
-    let summary = run(folder.path(), "improve", &set).done().summary();
+    let set = ["improve.modifications=[\"mass\", \"spring\"] ; improve.mass=0.003 ; \
+         improve.stiffness=3e7 ; improve.candidates=1 ; improve.confirm=2"];
+    let summary = run(folder().path(), "improve", &set).done().summary();
     let base = summary["base"]["growth_rate_per_s"].as_f64().unwrap();
     let candidates = summary["candidates"].as_array().unwrap();
     assert_eq!(candidates.len(), 2);

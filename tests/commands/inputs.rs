@@ -1,9 +1,7 @@
 //! What is said of bad meshes, bad names and dangerous files, and that nothing of the user's is replaced.
 
-use crate::program::{Answer, Run, folder, folder_with, has};
+use crate::prelude::*;
 use std::fmt::Write as _;
-use std::fs;
-use tempfile::TempDir;
 
 /// A block of 4 x 4 mm on a plane, its mesh cut along the middle from `crack` on, clamped at the top.
 struct Block {
@@ -12,7 +10,6 @@ struct Block {
     edges: Vec<(usize, [usize; 2])>,
 }
 
-/// Elements along a side.
 const SIDE: usize = 4;
 
 impl Block {
@@ -76,7 +73,6 @@ impl Block {
 const CASE: &str = include_str!("refused/block.toml");
 const MESH: &str = include_str!("refused/block.msh");
 
-/// The program in a folder with `block.msh` and `block.toml`.
 fn block_in(mesh: &str, case: &str) -> TempDir {
     folder_with(&[("block.msh", mesh.as_bytes()), ("block.toml", case.as_bytes())])
 }
@@ -85,7 +81,6 @@ fn run(folder: &TempDir, words: &[&str]) -> Run {
     Run::new(words).within(folder)
 }
 
-/// What `check` says of the block.
 fn on_block(mesh: &str, case: &str) -> Answer {
     run(&block_in(mesh, case), &["check", "block.toml"]).end()
 }
@@ -96,19 +91,17 @@ fn nodes_that_coincide_without_being_joined_are_counted_and_located() {
     assert_eq!(whole, MESH);
     on_block(&whole, CASE).code(0).says(&["!another one lies"]);
     // Columns 1 to 4 are doubled; 4 edges on either side of the crack are free, and 4 + 4 of the two vertical sides.
-    on_block(&Block::new(1).text("block"), CASE).code(0).says(&[
-        "4 nodes lie where another one lies",
-        "12 and 26 at (0.001000, 0.002000) m",
-        "16 free edges are in no physical curve",
-    ]);
+    on_block(&Block::new(1).text("block"), CASE)
+        .code(0)
+        .says(&["4 nodes lie where another one lies ; 12 and 26 at (0.001000, 0.002000) m ; \
+         16 free edges are in no physical curve"]);
 }
 
 #[test]
 fn bodies_that_part_are_told_from_those_that_were_not_merged() {
     on_block(&Block::new(0).text("block"), CASE).code(2).warns(&[
-        "a part of the body that touches no other",
-        "5 nodes lie where another one lies",
-        "merge the parts",
+        "a part of the body that touches no other ; 5 nodes lie where another one lies ; \
+         merge the parts",
     ]);
 }
 

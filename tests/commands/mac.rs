@@ -1,15 +1,12 @@
 //! `frictionsim mac`: shapes that the program itself computed, turned in phase, scaled and noisy, find their modes again.
 
-use crate::coarse_disc::coarse_disc;
-use crate::program::{Run, folder, folder_with};
-use frictionsim::case::Case;
+use crate::prelude::*;
 use frictionsim::linalg::c64;
 use frictionsim::mesh::FileMesh;
 use frictionsim::results::WholeMesh;
 use frictionsim::signal::reader::{ResponseOptions, read_response, read_shapes};
 use frictionsim::study::eigenvalues::{SlidingModel, solve_modes};
 use std::fmt::Write;
-use std::path::Path;
 
 const CEA: &str = "[cea]\nmodes = 8";
 

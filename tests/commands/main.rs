@@ -2,10 +2,14 @@
 
 #[path = "../common/bricks.rs"]
 mod bricks;
+#[path = "../common/cases.rs"]
+mod cases;
 #[path = "../common/coarse_disc.rs"]
 mod coarse_disc;
 #[path = "../common/disc.rs"]
 mod disc;
+#[path = "../common/mesh_text.rs"]
+mod mesh_text;
 #[path = "../common/msh.rs"]
 mod msh;
 #[path = "../common/program.rs"]
@@ -40,6 +44,7 @@ mod mode_counts;
 mod normal_force;
 mod normal_law;
 mod plot;
+mod prelude;
 mod reading;
 mod refusals;
 mod results;

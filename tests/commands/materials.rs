@@ -8,32 +8,16 @@ use frictionsim::mesh::SectorMesh;
 use frictionsim::prestress::SectorSliding;
 use frictionsim::study::eigenvalues::Solver;
 
-const DISC: &str = r#"
-[geometry]
-inner_radius = 0.0205
-outer_radius = 0.0905
-[mesh]
-circumferential_elements = 60
-radial_elements = 60
-element = "quad8"
-[material]
-young_moduli = [2e9, 5e9, 1.5e9]
-poisson_ratios = [0.2, 0.3, 0.25]
-shear_moduli = [1.2e9, 0.8e9, 0.9e9]
-axes = "cylindrical"
-density = 1700.0
-formulation = "plane-stress"
-[contact]
-friction_coefficient = 0.0
-interference = 25e-6
-rotation_speed_rpm = 610.0
-[cea]
-modes = 4
-"#;
+const DISC: &str = "[geometry]\ninner_radius = 0.0205\nouter_radius = 0.0905
+[mesh]\ncircumferential_elements = 60\nradial_elements = 60\nelement = \"quad8\"
+[material]\nyoung_moduli = [2e9, 5e9, 1.5e9]\npoisson_ratios = [0.2, 0.3, 0.25]\n\
+     shear_moduli = [1.2e9, 0.8e9, 0.9e9]\naxes = \"cylindrical\"\ndensity = 1700.0\n\
+     formulation = \"plane-stress\"
+[contact]\nfriction_coefficient = 0.0\ninterference = 25e-6\nrotation_speed_rpm = 610.0
+[cea]\nmodes = 4\n";
 
 fn read(overrides: &[&str]) -> Result<Case, String> {
-    let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
-    Case::parse("disc.toml", DISC.as_bytes(), &overrides).map_err(|errors| errors.to_string())
+    crate::cases::read_case("disc.toml", DISC, overrides)
 }
 
 /// Theory (Lekhnitskii): a disc of cylindrical orthotropy in plane stress, clamped outside and widened inside:
@@ -126,24 +110,11 @@ fn structural_damping_has_its_meaning_or_is_refused() {
 }
 
 /// A ring whose layers are two regions, each with a section of its own.
-const TWO_REGIONS: &str = r#"
-[mesh]
-file = "ring.msh"
-[materials.disc]
-young_modulus = 2.5e9
-poisson_ratio = 0.3805
-density = 1228.0
-[materials.rim]
-young_modulus = 2.1e11
-poisson_ratio = 0.3
-density = 7850.0
-[boundaries.outer]
-condition = "clamped"
-[contact]
-friction_coefficient = 0.3
-interference = 25e-6
-rotation_speed_rpm = 610.0
-"#;
+const TWO_REGIONS: &str = "[mesh]\nfile = \"ring.msh\"
+[materials.disc]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0
+[materials.rim]\nyoung_modulus = 2.1e11\npoisson_ratio = 0.3\ndensity = 7850.0
+[boundaries.outer]\ncondition = \"clamped\"
+[contact]\nfriction_coefficient = 0.3\ninterference = 25e-6\nrotation_speed_rpm = 610.0\n";
 
 #[test]
 fn a_common_material_is_asked_for_only_where_a_region_has_none() {

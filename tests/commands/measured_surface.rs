@@ -1,12 +1,8 @@
 //! `contacts.*.gap`: a measured surface beside a case.
 
-use crate::program::{Answer, Run, folder, shipped};
+use crate::prelude::*;
 use std::fmt::Write;
-use std::fs;
-use std::path::Path;
-use tempfile::TempDir;
 
-/// The shipped brake in a folder of its own.
 fn brake(folder: &TempDir) {
     fs::create_dir(folder.path().join("meshes")).unwrap();
     for name in ["brake.toml", "meshes/brake.inp"] {
@@ -28,7 +24,6 @@ fn table(header: &str, gap: impl Fn(f64, f64) -> f64) -> String {
     text
 }
 
-/// An analysis with one mode.
 fn cea(folder: &Path, set: &[&str]) -> Answer {
     let run = Run::of("cea", "brake.toml").within(folder).out("run").args(&["--force"]);
     let run = run.args(&["--unset", "cea.max_frequency_hz"]);

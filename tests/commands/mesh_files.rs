@@ -1,13 +1,11 @@
 //! Mesh files of other programs on the command line.
 
-use crate::program::{Run, folder, folder_with, has, shipped};
-use std::fs;
+use crate::prelude::*;
 
 /// Closed form: a ring of 36 straight-sided sectors, and pads of 7 and 8 of them.
 #[test]
 fn the_statistics_of_a_brake_of_an_input_file_are_those_of_its_geometry() {
-    let folder = folder();
-    let summary = Run::of("mesh", shipped("brake.toml")).out(folder.path()).done().summary();
+    let summary = Run::of("mesh", shipped("brake.toml")).out(folder().path()).done().summary();
     let mesh = &summary["mesh"];
     assert_eq!(mesh["nodes"], 1140);
     assert_eq!(mesh["elements_by_kind"]["hex8"], 592);
@@ -71,19 +69,9 @@ fn the_picture_of_solid_bodies_names_regions_and_boundaries() {
     let answer = Run::new(&["mesh", &shipped("brake.toml")]).within(&folder).out("out").done();
     let drawn = answer.text("figures/mesh.svg");
     // Nothing of the case is a support.
-    let words = [
-        "Disc_Disc_iron",
-        "Outer_Lining",
-        "Inner_Backplate",
-        "contact",
-        "counterface",
-        "clamped",
-        "pressure",
-        "tie",
-        "free",
-        "regions, turned over",
-        "!>support<",
-    ];
+    let words =
+        ["Disc_Disc_iron ; Outer_Lining ; Inner_Backplate ; contact ; counterface ; clamped ; \
+         pressure ; tie ; free ; regions, turned over ; !>support<"];
     has(&drawn, &words);
     has(&answer.text("report.html"), &["Outer_Piston", "mass (kg)"]);
     fs::remove_file(answer.path("figures/mesh.svg")).unwrap();
@@ -91,7 +79,6 @@ fn the_picture_of_solid_bodies_names_regions_and_boundaries() {
     assert_eq!(answer.text("figures/mesh.svg"), drawn);
 }
 
-/// Stress of solid bodies stands in the files for ParaView, of base states and of snapshots.
 #[test]
 fn fields_of_bodies_of_revolution_have_their_stress() {
     let folder = folder();

@@ -1,8 +1,7 @@
 //! `cea.count_modes` as a user meets it.
 
-use crate::program::{Answer, Run, folder, shipped};
+use crate::prelude::*;
 
-/// A run with counts of modes, which must end so, and what it gives.
 fn counted(case: &str, sets: &[&str], code: i32) -> (Answer, tempfile::TempDir) {
     let folder = folder();
     let run = Run::of("cea", shipped(case)).out(folder.path().join("run"));
@@ -28,7 +27,6 @@ fn counts_are_printed_and_summed_up() {
     }
 }
 
-/// What cannot be counted is refused at its key, with the reason; what always is counted says so.
 #[test]
 fn what_cannot_be_counted_is_refused() {
     let refused = counted("disc-three-dimensions.toml", &[], 2).0;

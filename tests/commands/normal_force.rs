@@ -1,10 +1,7 @@
 //! `normal_force`: force and interference are two ways to say one thing.
 
 use crate::bodies::grid::{Grid, Shape, msh};
-use crate::bricks::{Block, file_of};
-use frictionsim::case::Case;
-use std::fs;
-use std::path::Path;
+use crate::prelude::*;
 
 const MATERIAL: &str = "young_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n";
 const CONTACT: &str = "friction_coefficient = 0.3\n";
@@ -26,11 +23,9 @@ fn pads(contacts: &str) -> String {
 }
 
 fn read(folder: &Path, text: &str) -> Result<Case, String> {
-    let path = folder.join("case.toml");
-    Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]).map_err(|errors| errors.to_string())
+    read_case(folder.join("case.toml"), text, AS_IT_IS)
 }
 
-/// The folder with the meshes of the cases.
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let block = Grid {
@@ -42,12 +37,7 @@ fn folder() -> tempfile::TempDir {
         triangles: false,
     };
     fs::write(folder.path().join("block.msh"), msh(&[block])).unwrap();
-    let pad = |name, left: f64| Block {
-        name,
-        origin: [left, 0.0, 0.0],
-        size: [0.02, 0.02, 0.01],
-        counts: [2, 2, 1],
-    };
+    let pad = |name, left: f64| brick(name, [left, 0.0, 0.0], [0.02, 0.02, 0.01], [2, 2, 1]);
     let pads = [pad("left", 0.0), pad("right", 0.02)];
     fs::write(folder.path().join("pads.msh"), file_of(&pads, |point| point)).unwrap();
     folder
@@ -91,7 +81,6 @@ fn the_force_of_an_interference_gives_that_interference_back() {
 /// Two contacts of one body lean on each other through it, and each gets its own force.
 #[test]
 fn every_contact_gets_its_own_force() {
-    let folder = folder();
     let contact = |name: &str, force: f64| {
         format!(
             "[contacts.{name}]\nsurface = \"{name}_z0\"\ncounterface = \"plane\"\nspeed = 1.5\n\
@@ -99,7 +88,7 @@ fn every_contact_gets_its_own_force() {
         )
     };
     let both = contact("left", 200.0) + &contact("right", 300.0);
-    let case = read(folder.path(), &pads(&both)).unwrap();
+    let case = read(folder().path(), &pads(&both)).unwrap();
     let forces = case.normal_forces().unwrap();
     for (found, asked) in forces.iter().zip([200.0, 300.0]) {
         assert!((found / asked - 1.0).abs() < 1e-9, "{forces:?}");
@@ -109,7 +98,6 @@ fn every_contact_gets_its_own_force() {
 /// Closed form: a block without Poisson's ratio under a rigid plane is a spring `E A / h`.
 #[test]
 fn a_block_is_pushed_in_by_its_force_over_its_stiffness() {
-    let folder = folder();
     let text = format!(
         "[contact]\nboundary = \"left_z0\"\ncounterface = \"plane\"\nspeed = 1.5\ndirection = [1.0, 0.0, 0.0]\n\
          normal_force = 1000.0\n{CONTACT}"
@@ -117,7 +105,7 @@ fn a_block_is_pushed_in_by_its_force_over_its_stiffness() {
     let text = pads(&text).replace("0.38", "0.0");
     let (text, rest) = text.split_once("[ties.seam]").unwrap();
     let (_, rest) = rest.split_once("[contact]").unwrap();
-    let case = read(folder.path(), &format!("{text}[contact]{rest}")).unwrap();
+    let case = read(folder().path(), &format!("{text}[contact]{rest}")).unwrap();
     let exact = 1000.0 * 0.01 / (2.5e9 * 0.02 * 0.02);
     let found = case.contact.sliding.interference;
     assert!((found / exact - 1.0).abs() < 1e-9, "{found:e} {exact:e}");

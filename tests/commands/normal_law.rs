@@ -1,8 +1,7 @@
 //! `contact.normal_law` as a user meets it: cases, refusals, tables, the shipped case.
 
-use crate::program::{Answer, Run, folder, rows, shipped};
-use frictionsim::case::Case;
-use std::path::Path;
+use crate::prelude::*;
+use crate::program::rows;
 
 const DISC: &str = include_str!("refused/stiffening.toml");
 
@@ -104,11 +103,8 @@ fn critical_friction_of_the_shipped_case_depends_on_the_brake_pressure() {
     let folder = folder();
     let pressures = [2.5e5, 5e5];
     let lowest = |case: &Path| -> [f64; 2] {
-        let coarse = [
-            "cea.max_frequency_hz=10500.0",
-            "cea.friction_coefficients=[0.0, 0.5]",
-            "sweep.\"boundaries.back.pressure\"=[2.5e5, 5e5]",
-        ];
+        let coarse = ["cea.max_frequency_hz=10500.0 ; cea.friction_coefficients=[0.0, 0.5] ; \
+             sweep.\"boundaries.back.pressure\"=[2.5e5, 5e5]"];
         let out = folder.path().join("out");
         run("sweep", case, &out, &coarse);
         let rows = rows(&out.join("stability.csv"));

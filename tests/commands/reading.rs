@@ -1,11 +1,8 @@
 //! `contributions.csv` and `coupling.csv` of `cea`: where growth comes from, which modes couple.
 
-use crate::bricks::{Block, file_of};
-use crate::coarse_disc::coarse_disc;
-use crate::program::{Answer, Row, Run, folder, folder_with, shipped};
-use std::collections::{BTreeMap, BTreeSet};
-use std::f64::consts::TAU;
-use std::path::Path;
+use crate::prelude::*;
+use crate::program::Row;
+use std::collections::BTreeSet;
 
 /// Two pads on a slab that turns, the slab and one pad with damping of their own.
 const CASE: &str = "title = \"Two pads\"
@@ -23,7 +20,7 @@ const CASE: &str = "title = \"Two pads\"
 [cea]\nfriction_coefficients = [0.0, 0.3, 0.6]\nmodes = 12\n";
 
 fn pads() -> Vec<u8> {
-    let block = |name, origin, size, counts| Block { name, origin, size, counts };
+    let block = |name, origin, size, counts| brick(name, origin, size, counts);
     let blocks = [
         block("slab", [0.0; 3], [0.06, 0.03, 0.01], [6, 3, 1]),
         block("left", [0.005, 0.005, 0.01], [0.015, 0.02, 0.012], [3, 3, 2]),
@@ -129,11 +126,8 @@ fn loss_factors_of_supports_and_contacts_are_told_where_they_act() {
 fn an_unstable_mode_consists_of_the_modes_without_friction() {
     let folder = folder();
     let case = shipped("polycarbonate-disc.toml");
-    let set = [
-        "mesh.circumferential_elements=48",
-        "mesh.radial_elements=8",
-        "cea.friction_coefficients=[0.0, 0.15, 0.3]",
-    ];
+    let set = ["mesh.circumferential_elements=48 ; mesh.radial_elements=8 ; \
+         cea.friction_coefficients=[0.0, 0.15, 0.3]"];
     for method in ["cyclic", "sparse"] {
         let method = format!("cea.method={method}");
         let answer = cea(folder.path(), &case, &[&set[..], &[method.as_str()]].concat());
@@ -157,12 +151,8 @@ fn the_feed_over_the_contact_points_adds_up_to_that_of_the_contacts() {
     let text = coarse_disc("[cea]\nmodes = 10\n");
     let folder = folder_with(&[("disc.toml", text.as_bytes())]);
     let brake = &shipped("operating-matrix.toml");
-    let soft = [
-        "cea.max_frequency_hz=2800",
-        "cea.friction_coefficients=[0.4]",
-        "materials.Outer_Lining.young_modulus=3e9",
-        "materials.Inner_Lining.young_modulus=3e9",
-    ];
+    let soft = ["cea.max_frequency_hz=2800 ; cea.friction_coefficients=[0.4] ; \
+         materials.Outer_Lining.young_modulus=3e9 ; materials.Inner_Lining.young_modulus=3e9"];
     let compliant = ["contact.normal_stiffness=7.4e12", "cea.method=\"sparse\""];
     let falling = ["contact.static_friction_ratio=1.3", "contact.decay_speed=1.0"];
     let disc = "disc.toml";
@@ -206,33 +196,18 @@ fn rows_by(rows: Vec<Row>, names: &[&str]) -> BTreeMap<Vec<String>, Row> {
 fn sectors_tell_the_same_budget_as_the_whole_mesh() {
     let text = coarse_disc("[cea]\nmodes = 8\nfriction_coefficients = [0.0, 0.2, 0.3]\n");
     let folder = folder_with(&[("disc.toml", text.as_bytes())]);
-    let rim = [
-        "boundaries.outer.condition=\"support\"",
-        "boundaries.outer.normal_stiffness=2e12",
-        "boundaries.outer.tangential_stiffness=1e12",
-        "boundaries.outer.normal_damping=3e5",
-        "boundaries.outer.tangential_damping=1e5",
-    ];
-    let springs = [
-        "contact.normal_stiffness=7.4e12",
-        "contact.tangential_damping=2e4",
-        "contact.normal_damping=1e4",
-        "mesh.element=\"quad8\"",
-    ];
-    let falling = [
-        "contact.static_friction_ratio=1.3",
-        "contact.decay_speed=1.0",
-        "damping.include_contact=false",
-    ];
-    let shaft = [
-        "geometry.shaft_inner_radius=0.005",
-        "mesh.shaft_radial_elements=3",
-        "materials.shaft.young_modulus=7e10",
-        "materials.shaft.poisson_ratio=0.3",
-        "materials.shaft.density=2700.0",
-        "materials.shaft.mass_coefficient=5.0",
-        "materials.shaft.stiffness_coefficient=1e-8",
-    ];
+    let rim =
+        ["boundaries.outer.condition=\"support\" ; boundaries.outer.normal_stiffness=2e12 ; \
+         boundaries.outer.tangential_stiffness=1e12 ; boundaries.outer.normal_damping=3e5 ; \
+         boundaries.outer.tangential_damping=1e5"];
+    let springs = ["contact.normal_stiffness=7.4e12 ; contact.tangential_damping=2e4 ; \
+         contact.normal_damping=1e4 ; mesh.element=\"quad8\""];
+    let falling = ["contact.static_friction_ratio=1.3 ; contact.decay_speed=1.0 ; \
+         damping.include_contact=false"];
+    let shaft = ["geometry.shaft_inner_radius=0.005 ; mesh.shaft_radial_elements=3 ; \
+         materials.shaft.young_modulus=7e10 ; materials.shaft.poisson_ratio=0.3 ; \
+         materials.shaft.density=2700.0 ; materials.shaft.mass_coefficient=5.0 ; \
+         materials.shaft.stiffness_coefficient=1e-8"];
     let kinds: [Vec<&str>; 4] =
         [rim.to_vec(), [&rim[..], &springs].concat(), falling.to_vec(), shaft.to_vec()];
     for set in kinds {
@@ -291,14 +266,9 @@ fn a_guided_body_of_revolution_has_the_budget_of_the_plane_disc() {
     let text = coarse_disc("[cea]\nmodes = 12\nfriction_coefficients = [0.0, 0.15, 0.3]\n");
     let folder = folder_with(&[("disc.toml", text.as_bytes())]);
     let plane = ["mesh.element=\"quad8\"", "cea.method=\"cyclic\""];
-    let solid = [
-        "mesh.element=\"quad8\"",
-        "mesh.axial_elements=1",
-        "material.formulation=\"three-dimensional\"",
-        "boundaries.top.condition=\"guide\"",
-        "boundaries.bottom.condition=\"guide\"",
-        "cea.modes=40",
-    ];
+    let solid = ["mesh.element=\"quad8\" ; mesh.axial_elements=1 ; \
+         material.formulation=\"three-dimensional\" ; boundaries.top.condition=\"guide\" ; \
+         boundaries.bottom.condition=\"guide\" ; cea.modes=40"];
     let answer = cea(folder.path(), "disc.toml", &plane);
     let (budget, feed) = (answer.rows("contributions.csv"), answer.rows("feed.csv"));
     let answer = cea(folder.path(), "disc.toml", &solid);
@@ -363,7 +333,7 @@ const ROTOR: &str = "title = \"Two pads on a rotor\"
 /// that decay; without friction they feed nothing, and with friction all rows add up to the growth rate.
 #[test]
 fn gyroscopic_forces_have_their_own_row_in_the_budget() {
-    let block = |name, origin, size, counts| Block { name, origin, size, counts };
+    let block = |name, origin, size, counts| brick(name, origin, size, counts);
     let blocks = [
         block("ring", [0.06, 0.0, 0.0], [0.06, TAU, 0.01], [2, 24, 1]),
         block("first", [0.08, 0.3, 0.01], [0.03, 0.8, 0.01], [2, 3, 1]),

@@ -1,8 +1,7 @@
 //! What is refused or warned of: `refusals.txt` has the changes to shipped cases and the words that are said of them.
 
-use crate::program::{Run, folder, shipped};
-use frictionsim::case::{Case, unset};
-use std::fs;
+use crate::prelude::*;
+use frictionsim::case::unset;
 
 /// The path of a shipped case, or of one that is here to be refused.
 fn place_of(name: &str) -> String {
@@ -39,7 +38,6 @@ fn read(name: &str, changes: &str) -> (Result<Case, String>, Option<usize>) {
     (case.map_err(|errors| errors.to_string()), place)
 }
 
-/// What is said of a row, or why it is not as it must be.
 fn said(head: &[&str], changes: &str) -> Result<String, String> {
     let name = head[1];
     match head[0] {

@@ -1,86 +1,37 @@
 //! Three-dimensional bodies on a rigid counterface: from a mesh file, and generated ones on their whole mesh.
 
-use crate::bricks::{Block, file_of};
-use crate::program::{Answer, Run, folder, rows, shipped};
-use std::f64::consts::TAU;
-use std::fs;
-use std::path::Path;
+use crate::prelude::*;
+use crate::program::rows;
 
 /// The built-in disc, coarse, as the harmonics solve it.
-const DISC: &str = "[geometry]
-inner_radius = 0.0205
-outer_radius = 0.0905
-thickness = 0.009
-
-[mesh]
-circumferential_elements = 16
-radial_elements = 3
-axial_elements = 1
-
-[material]
-young_modulus = 2.5e9
-poisson_ratio = 0.3805
-density = 1228.0
-formulation = \"three-dimensional\"
-
-[damping]
-mass_coefficient = 40.0
-stiffness_coefficient = 4.5e-7
-
-[contact]
-friction_coefficient = 0.3
-interference = 25e-6
-rotation_speed_rpm = 1e9
-
-[cea]
-friction_coefficients = [0.0, 0.3]
-modes = 12
-geometric_stiffness = false
-";
+const DISC: &str = "[geometry]\ninner_radius = 0.0205\nouter_radius = 0.0905\nthickness = 0.009
+[mesh]\ncircumferential_elements = 16\nradial_elements = 3\naxial_elements = 1
+[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0\n\
+     formulation = \"three-dimensional\"
+[damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7
+[contact]\nfriction_coefficient = 0.3\ninterference = 25e-6\nrotation_speed_rpm = 1e9
+[cea]\nfriction_coefficients = [0.0, 0.3]\nmodes = 12\ngeometric_stiffness = false\n";
 
 /// A block of rubber on a plane that slides under it.
-const BLOCK: &str = "[mesh]
-file = \"block.msh\"
-
-[boundaries.block_z1]
-condition = \"clamped\"
-
-[material]
-young_modulus = 5e6
-poisson_ratio = 0.4
-density = 1100.0
-
-[damping]
-mass_coefficient = 5.0
-stiffness_coefficient = 1e-6
-
-[contact]
-boundary = \"block_z0\"
-counterface = \"plane\"
-direction = [1.0, 0.0, 0.0]
-speed = 0.5
-friction_coefficient = 0.3
-interference = 2e-4
-
-[cea]
-friction_coefficients = [0.0, 0.3]
-modes = 8
-";
+const BLOCK: &str = "[mesh]\nfile = \"block.msh\"
+[boundaries.block_z1]\ncondition = \"clamped\"
+[material]\nyoung_modulus = 5e6\npoisson_ratio = 0.4\ndensity = 1100.0
+[damping]\nmass_coefficient = 5.0\nstiffness_coefficient = 1e-6
+[contact]\nboundary = \"block_z0\"\ncounterface = \"plane\"\ndirection = [1.0, 0.0, 0.0]\n\
+     speed = 0.5\nfriction_coefficient = 0.3\ninterference = 2e-4
+[cea]\nfriction_coefficients = [0.0, 0.3]\nmodes = 8\n";
 
 fn block() -> Vec<u8> {
-    let block =
-        Block { name: "block", origin: [0.0; 3], size: [0.04, 0.03, 0.02], counts: [4, 3, 2] };
+    let block = brick("block", [0.0; 3], [0.04, 0.03, 0.02], [4, 3, 2]);
     file_of(&[block], |point| point)
 }
 
-/// A command on a case beside the block.
 fn run(folder: &Path, command: &str, case: &str, out: &str, sets: &[&str]) -> Answer {
     fs::write(folder.join("block.msh"), block()).unwrap();
     let run = Run::of_text(command, folder, case).set(sets);
     if command == "check" { run.end() } else { run.args(&["--force"]).out(out).end() }
 }
 
-/// Friction, frequency and growth rate of every mode.
 fn modes(folder: &Path, out: &str) -> Vec<[f64; 3]> {
     let rows = rows(&folder.join(out).join("eigenvalues.csv")).into_iter();
     let columns = ["friction_coefficient", "frequency_hz", "growth_rate_per_s"];
@@ -139,9 +90,7 @@ fn a_generated_body_of_revolution_takes_what_breaks_its_symmetry() {
     assert!(loaded[0][1] < plain[0][1] * (1.0 - 1e-4), "{loaded:?} {plain:?}");
     // Without damping of its own, losses of 1 % damp a mode that contact does not by half as much.
     let lossy = [
-        "material.loss_factor=0.01",
-        "damping.mass_coefficient=0",
-        "damping.stiffness_coefficient=0",
+        "material.loss_factor=0.01 ; damping.mass_coefficient=0 ; damping.stiffness_coefficient=0",
     ];
     run(folder.path(), "cea", DISC, "lossy", &lossy).code(0);
     for mode in modes(folder.path(), "lossy").iter().filter(|mode| mode[0] == 0.0) {
@@ -153,7 +102,6 @@ fn a_generated_body_of_revolution_takes_what_breaks_its_symmetry() {
     run(folder.path(), "matrices", DISC, "written", &["cea.method=\"sparse\""]).code(0);
 }
 
-/// Every analysis takes a solid block on a rigid plane.
 #[test]
 fn a_block_of_solid_elements_slides_on_a_rigid_plane() {
     let folder = folder();
@@ -188,7 +136,6 @@ fn a_block_of_solid_elements_slides_on_a_rigid_plane() {
     assert!(read("cea/summary.json").contains("drag_n"));
 }
 
-/// Errors name the key.
 #[test]
 fn rigid_counterfaces_of_solid_bodies_that_cannot_be_are_refused_at_their_keys() {
     let folder = folder();

@@ -1,11 +1,7 @@
 //! Bodies that turn as a user meets them: input files of CalculiX with a centrifugal load, both frames, refusals.
 
-use crate::bricks::{Block, file_of};
-use crate::program::{Run, folder, folder_with};
-use std::collections::BTreeMap;
-use std::f64::consts::TAU;
+use crate::prelude::*;
 use std::fmt::Write as _;
-use std::path::Path;
 
 /// A grid of cells between radii and heights, revolved into bricks of 20 nodes with reduced integration.
 struct Revolved {
@@ -17,28 +13,8 @@ struct Revolved {
 }
 
 /// Places of the nodes of a brick in halves of its edges, in the order of C3D20R.
-const PLACES: [[usize; 3]; 20] = [
-    [0, 0, 0],
-    [2, 0, 0],
-    [2, 2, 0],
-    [0, 2, 0],
-    [0, 0, 2],
-    [2, 0, 2],
-    [2, 2, 2],
-    [0, 2, 2],
-    [1, 0, 0],
-    [2, 1, 0],
-    [1, 2, 0],
-    [0, 1, 0],
-    [1, 0, 2],
-    [2, 1, 2],
-    [1, 2, 2],
-    [0, 1, 2],
-    [0, 0, 1],
-    [2, 0, 1],
-    [2, 2, 1],
-    [0, 2, 1],
-];
+const PLACES: &str =
+    "000 200 220 020 002 202 222 022 100 210 120 010 102 212 122 012 001 201 221 021";
 
 /// Radius and height in thousandths, angle in halves of an element.
 type Place = (i64, usize, i64);
@@ -59,7 +35,9 @@ impl Revolved {
                     let next = nodes.len() + 1;
                     *nodes.entry(place).or_insert(next)
                 };
-                elements.push(PLACES.map(number).to_vec());
+                let half = |place: &str, axis: usize| usize::from(place.as_bytes()[axis] - b'0');
+                let places = PLACES.split(' ').map(|place| [0, 1, 2].map(|axis| half(place, axis)));
+                elements.push(places.map(number).collect());
             }
         }
         (nodes, elements)
@@ -113,7 +91,6 @@ fn hold_ends(text: &mut String, nodes: &BTreeMap<Place, usize>) {
     *text += "*BOUNDARY\nNfix, 1, 3\n";
 }
 
-/// The load of a body that turns at so many rad/s.
 fn turning(speed_squared: &str) -> String {
     format!(
         "*STEP, NLGEOM\n*STATIC\n*DLOAD\nEall, centrif, {speed_squared}, 0., 0., 0., 0., 0., 1.\n*END STEP\n"

@@ -1,27 +1,12 @@
 //! `frictionsim signal` on a synthetic squeal, beside the modes of a case.
 
-use crate::program::{Run, folder_with};
-use std::f64::consts::TAU;
+use crate::prelude::*;
 
-const CASE: &str = r#"
-[geometry]
-inner_radius = 0.0205
-outer_radius = 0.0905
-[mesh]
-circumferential_elements = 90
-radial_elements = 18
-[material]
-young_modulus = 2.5e9
-poisson_ratio = 0.3805
-density = 1228.0
-[damping]
-mass_coefficient = 40.0
-stiffness_coefficient = 4.5e-7
-[contact]
-friction_coefficient = 0.3
-interference = 25e-6
-rotation_speed_rpm = 610.0
-"#;
+const CASE: &str = "[geometry]\ninner_radius = 0.0205\nouter_radius = 0.0905
+[mesh]\ncircumferential_elements = 90\nradial_elements = 18
+[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0
+[damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7
+[contact]\nfriction_coefficient = 0.3\ninterference = 25e-6\nrotation_speed_rpm = 610.0\n";
 
 /// Grows at 600 1/s and 9.87 kHz into a limit cycle at 9.44 kHz with superharmonics; sampled each 2 us.
 fn squeal() -> String {

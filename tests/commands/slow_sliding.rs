@@ -1,20 +1,15 @@
 //! Brakes that creep: friction across the sliding, a dashpot of `mu p / V`, overdamps the modes that slide across.
 
-use crate::bricks::{Block, file_of};
-use crate::program::{Run, folder, shipped};
+use crate::prelude::*;
 use frictionsim::cea::quadratic_modes;
 use frictionsim::linalg::{MarketMatrix, Mat};
-use std::f64::consts::TAU;
-use std::path::Path;
 
 /// Frequencies and growth rates at friction 0.32, and what the command printed, of the brake of the operating matrix at 3 rpm.
 fn spectrum(frictions: &str) -> (Vec<[f64; 2]>, String) {
     let folder = folder();
     let set = [
-        "boundaries.Outer_Piston.pressure=1.5e6",
-        "boundaries.Inner_Piston.pressure=1.5e6",
-        "motion.Disc_Disc_iron.rotation_speed_rpm=3",
-        "cea.max_frequency_hz=3100",
+        "boundaries.Outer_Piston.pressure=1.5e6 ; boundaries.Inner_Piston.pressure=1.5e6 ; \
+         motion.Disc_Disc_iron.rotation_speed_rpm=3 ; cea.max_frequency_hz=3100",
         &format!("cea.friction_coefficients={frictions}"),
     ];
     let run = Run::of("cea", shipped("operating-matrix.toml")).args(&["--unset", "sweep"]);

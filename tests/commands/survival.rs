@@ -2,30 +2,17 @@
 //! must leave whole files, and end in the very table of a run that nothing happened to.
 #![cfg(unix)]
 
-use crate::coarse_disc::coarse_disc;
-use crate::program::{Run, folder_with, has, shipped};
-use crate::tier::sized;
-use serde_json::Value;
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use crate::prelude::*;
 use std::process::{Child, Command, Stdio};
-use std::time::Instant;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_frictionsim");
 
 /// A coarse disc: thirty transients of some ten milliseconds each.
-const STUDY: &str = r#"
-[transient]
-duration = 0.02
-[transient.perturbation]
-harmonics = [1, 2]
-velocity = 1e-3
-[output]
-sample_interval = 4e-6
-[sweep]
-"contact.friction_coefficient" = [0.2, 0.3, 0.4]
-"contact.rotation_speed_rpm" = { from = 10, to = 6000, count = 10, spacing = "log" }
-"#;
+const STUDY: &str = "[transient]\nduration = 0.02
+[transient.perturbation]\nharmonics = [1, 2]\nvelocity = 1e-3
+[output]\nsample_interval = 4e-6
+[sweep]\n\"contact.friction_coefficient\" = [0.2, 0.3, 0.4]\n\
+     \"contact.rotation_speed_rpm\" = { from = 10, to = 6000, count = 10, spacing = \"log\" }\n";
 
 struct Study {
     root: tempfile::TempDir,
@@ -230,7 +217,6 @@ fn cea(folder: &Path, options: &[&str]) -> Run {
     Run::of("cea", shipped("sliding-block.toml")).args(&["--quiet"]).out(folder).args(options)
 }
 
-/// Steps that an interrupted eigenvalue sweep has left.
 fn steps(folder: &Path) -> usize {
     let entries = std::fs::read_dir(folder.join("progress"));
     let names = entries.into_iter().flatten().flatten();

@@ -1,17 +1,15 @@
 //! Consistency checks of parameter studies: the bookkeeping of points, with a made-up analysis in
 //! place of a solver, so that the checks are about who runs what and what is kept of it.
 
-use crate::coarse_disc::coarse_disc;
-use crate::program::{Row, Run, folder};
+use crate::prelude::*;
+use crate::program::Row;
 use frictionsim::app::Failure;
 use frictionsim::app::sweep::{
     Finished, PointRunner, Shard, SweepPlan, SweepProgress, SweepRun, gather,
 };
-use frictionsim::case::Case;
+use frictionsim::results::FolderError;
 use frictionsim::results::sweep::{Start, SweepFolder};
-use frictionsim::results::{FolderError, Manifest, OutputFolder, Replace};
-use serde_json::{Map, Value, json};
-use std::path::Path;
+use serde_json::Map;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 const GRID: &str = "\n[sweep]\n\"contact.friction_coefficient\" = [0.2, 0.3, 0.4]\n\
@@ -43,7 +41,6 @@ fn formula(case: &Case) -> Result<Map<String, Value>, Failure> {
     Ok(Map::from_iter([("transient".to_owned(), summary)]))
 }
 
-/// Runs a sweep as the command does, and returns the number of points run.
 fn sweep(
     case: &Case,
     folder: &Path,

@@ -1,28 +1,18 @@
 //! `frictionsim transient` as a user meets it: files, checkpoints, exit codes, and the shipped cases on coarse meshes.
 
-use crate::bricks::{Block, file_of};
-use crate::program::{Answer, Run, folder, has, shipped};
-use serde_json::Value;
-use std::fs;
-use std::path::Path;
+use crate::prelude::*;
 use std::process::{Child, Stdio};
-use std::time::{Duration, Instant};
 
-const BRICK: Block = Block { name: "brick", origin: [0.0; 3], size: [0.01; 3], counts: [2, 1, 1] };
+const BRICK: Block = brick("brick", [0.0; 3], [0.01; 3], [2, 1, 1]);
 
 /// A command on a shipped case of the disc, on a mesh that steps in a microsecond.
 fn coarse(command: &str, name: &str, out: &Path, overrides: &[&str]) -> Run {
-    let coarse = [
-        "mesh.circumferential_elements=60",
-        "mesh.radial_elements=12",
-        "output.probes=[1, 200]",
-        "output.snapshots=[0.002]",
-        "transient.duration=0.004",
-    ];
+    let coarse =
+        ["mesh.circumferential_elements=60 ; mesh.radial_elements=12 ; output.probes=[1, 200] ; \
+         output.snapshots=[0.002] ; transient.duration=0.004"];
     Run::new(&[command, &shipped(name)]).out(out).set(&coarse).set(overrides)
 }
 
-/// A transient of the 610 rpm case, without figures.
 fn transient(out: &Path, overrides: &[&str]) -> Run {
     coarse("transient", "polycarbonate-610rpm.toml", out, overrides).args(&["--no-figures"])
 }
@@ -33,20 +23,11 @@ fn resumed(out: &Path, overrides: &[&str]) -> Run {
 
 /// Every result file but those that hold wall-clock times.
 fn results(answer: &Answer) -> Vec<(&'static str, Vec<u8>)> {
-    let names = [
-        "probe-1.csv",
-        "probe-200.csv",
-        "energy.csv",
-        "contact.csv",
-        "contact.npz",
-        "harmonics.csv",
-        "snapshots.pvd",
-        "snapshots/snapshot-001.vtu",
-    ];
-    names.map(|name| (name, answer.bytes(name))).to_vec()
+    let names = "probe-1.csv probe-200.csv energy.csv contact.csv contact.npz harmonics.csv \
+        snapshots.pvd snapshots/snapshot-001.vtu";
+    names.split(' ').map(|name| (name, answer.bytes(name))).collect()
 }
 
-/// Holds all results of two runs to the same bytes.
 fn assert_same(found: &Answer, expected: &Answer) {
     for (found, expected) in results(found).into_iter().zip(results(expected)) {
         assert!(found == expected, "{}", expected.0);
@@ -68,57 +49,30 @@ fn every_promised_file_column_and_summary_key_is_there() {
     );
     assert_eq!(answer.header("contact.csv"), "time_s,stick,slip,open");
     let summary = answer.summary();
-    for key in [
-        "/steps",
-        "/time_step_s",
-        "/wall_s",
-        "/element_steps_per_s",
-        "/max_balance_residual",
-        "/main_frequency_hz",
-        "/status/stick",
-        "/status/slip",
-        "/status/open",
-        "/power_w/external",
-        "/power_w/stick",
-        "/power_w/slide",
-        "/power_w/contact_dissipated",
-        "/power_w/material_damping",
-        "/harmonics/8",
-        "/growth",
-        "/first_nonlinearity_s",
-        "/manifest/case_hash",
-        "/manifest/simd",
-        "/settled",
-        "/settled_from_s",
-        "/end_state",
-        "/drift",
-        "/main_amplitude_m",
-        "/significant_harmonics_m",
-        "/no_growth",
-        "/probes/200/radial/acceleration_rms_m_per_s2",
-        "/perturbation/velocity",
-        "/contact_interval_s",
-    ] {
+    let keys = "/steps /time_step_s /wall_s /element_steps_per_s /max_balance_residual \
+        /main_frequency_hz /status/stick /status/slip /status/open /power_w/external \
+        /power_w/stick /power_w/slide /power_w/contact_dissipated \
+        /power_w/material_damping /harmonics/8 /growth /first_nonlinearity_s \
+        /manifest/case_hash /manifest/simd /settled /settled_from_s /end_state /drift \
+        /main_amplitude_m /significant_harmonics_m /no_growth \
+        /probes/200/radial/acceleration_rms_m_per_s2 /perturbation/velocity \
+        /contact_interval_s";
+    for key in keys.split(' ') {
         assert!(summary.pointer(key).is_some(), "{key}");
     }
     assert!(summary["max_balance_residual"].as_f64().unwrap() < 1e-10);
 }
 
 /// At friction 0.2 and 1000 rpm the wave of two nodal diameters lives on beside that of one.
-const TWO_FREQUENCIES: [&str; 6] = [
-    "transient.duration=0.05",
-    "contact.friction_coefficient=0.2",
-    "contact.rotation_speed_rpm=1000.0",
-    "transient.perturbation.harmonics=[1, 2]",
-    "transient.perturbation.velocity=0.3",
-    "cea.max_frequency_hz=9000.0",
-];
+const TWO_FREQUENCIES: [&str; 1] =
+    ["transient.duration=0.05 ; contact.friction_coefficient=0.2 ; \
+     contact.rotation_speed_rpm=1000.0 ; transient.perturbation.harmonics=[1, 2] ; \
+     transient.perturbation.velocity=0.3 ; cea.max_frequency_hz=9000.0"];
 
 #[test]
 fn a_vibration_of_two_frequencies_is_named_with_both_and_its_envelope() {
-    let folder = folder();
     let said = ["two frequencies, which is no limit cycle", "is above cea.max_frequency_hz = 9000"];
-    let summary = transient(folder.path(), &TWO_FREQUENCIES).done().says(&said).summary();
+    let summary = transient(folder().path(), &TWO_FREQUENCIES).done().says(&said).summary();
     assert_eq!(summary["end_state"], "two-frequency");
     let [first, second] = [0, 1].map(|k| summary["frequencies_hz"][k].as_f64().unwrap());
     assert!(first > second + 500.0, "{first} {second}");
@@ -144,12 +98,8 @@ fn a_jammed_block_is_said_to_jam_and_to_leave_small_displacements() {
     let jams = ["contact.friction_coefficient=0.9", "transient.duration=0.002"];
     let run = Run::of("transient", shipped("sliding-block.toml")).out(folder.path()).set(&jams);
     // A body without symmetry has no harmonic anywhere.
-    let answer = run.done().says(&[
-        "the body jams: there is no state of steady sliding",
-        "leaves the theory of small displacements",
-        "!harmonic",
-        "!nodal",
-    ]);
+    let answer = run.done().says(&["the body jams: there is no state of steady sliding ; \
+         leaves the theory of small displacements ; !harmonic ; !nodal"]);
     let summary = answer.summary();
     assert_eq!(summary["notes"].as_array().unwrap().len(), 2);
     assert!(summary["main_harmonic"].is_null());
@@ -171,7 +121,6 @@ fn a_vibration_that_decays_ends_in_steady_sliding() {
 
 #[test]
 fn a_run_from_a_limit_cycle_has_no_linear_stage() {
-    let folder = folder();
     let start = [
         "transient.initial=\"limit-cycle\"",
         "transient.limit_cycle_harmonic=2",
@@ -179,7 +128,7 @@ fn a_run_from_a_limit_cycle_has_no_linear_stage() {
         "mesh.circumferential_elements=90",
         "mesh.radial_elements=18",
     ];
-    let summary = transient(folder.path(), &start).done().says(&["!linear stage"]).summary();
+    let summary = transient(folder().path(), &start).done().says(&["!linear stage"]).summary();
     assert!(summary["growth"].as_array().unwrap().is_empty());
     assert!(summary["no_growth"].as_object().unwrap().is_empty());
 }
@@ -357,7 +306,6 @@ fn a_damaged_checkpoint_is_refused_with_the_reason_and_left_alone() {
     assert_eq!(fs::read(&path).unwrap(), bytes);
 }
 
-/// The shipped cases keep their character on a coarse mesh.
 #[test]
 fn shipped_cases_end_in_the_limit_cycles_that_their_titles_say() {
     let folder = folder();

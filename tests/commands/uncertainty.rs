@@ -3,12 +3,9 @@
 //! Independent checks: the closed form of a disc whose modulus alone is uncertain, and the same numbers whatever the
 //! threads, the shards and the interruptions.
 
-use crate::program::{Run, folder, shipped};
-use frictionsim::case::Case;
+use crate::prelude::*;
 use frictionsim::study::eigenvalues::modes_and_onsets;
 use frictionsim::study::uncertainty::Sampler;
-use serde_json::Value;
-use std::path::Path;
 
 const COARSE: [&str; 5] = [
     "mesh.circumferential_elements=24",
@@ -113,11 +110,9 @@ fn a_design_is_named_that_brings_the_probability_below_a_bound() {
 #[test]
 fn a_distribution_whose_tail_is_forbidden_is_drawn_without_it() {
     let folder = folder();
-    let tail = [
-        "uncertainty.distributions.\"material.poisson_ratio\"={ normal = [0.44, 0.02] }",
-        "uncertainty.samples=2",
-        "uncertainty.index_samples=0",
-    ];
+    let tail =
+        ["uncertainty.distributions.\"material.poisson_ratio\"={ normal = [0.44, 0.02] } ; \
+         uncertainty.samples=2 ; uncertainty.index_samples=0"];
     // One in a thousand is left out, and said.
     let run = uncertainty(folder.path(), &tail).args(&["--dry-run"]);
     run.done().warns(&["drawn from the rest"]);
@@ -127,15 +122,10 @@ fn a_distribution_whose_tail_is_forbidden_is_drawn_without_it() {
 /// lowest friction of an analysis is unstable already, a sweep says that it is no critical one.
 #[test]
 fn samples_of_solid_bodies_beyond_their_onset_have_the_onset_of_an_analysis() {
-    let path = shipped("tread-block.toml");
-    let text = std::fs::read(&path).unwrap();
-    let uncertain = [
-        "cea.friction_coefficients=[0.0, 0.4, 0.5, 0.6]",
-        "cea.modes=3",
-        "uncertainty={ samples = 2, seed = 1, index_samples = 0 }",
-        "uncertainty.distributions={ \"material.density\" = { uniform = [1149.9999999, 1150.0000001] } }",
-    ];
-    let case = Case::parse(&path, &text, &uncertain.map(str::to_owned)).unwrap();
+    let uncertain = ["cea.friction_coefficients=[0.0, 0.4, 0.5, 0.6] ; cea.modes=3 ; \
+         uncertainty={ samples = 2, seed = 1, index_samples = 0 } ; \
+         uncertainty.distributions={ \"material.density\" = { uniform = [1149.9999999, 1150.0000001] } }"];
+    let case = shipped_case("tread-block.toml", &uncertain);
     let known = modes_and_onsets(&case).unwrap().intervals;
     let known = known.iter().map(|own| own.critical_friction).fold(f64::INFINITY, f64::min);
     assert!((known - 0.4511).abs() < 1e-4, "{known}");
@@ -145,15 +135,16 @@ fn samples_of_solid_bodies_beyond_their_onset_have_the_onset_of_an_analysis() {
     assert!(!onset.unstable_from_start && samples[0].is_unstable(0.6));
 
     let out = folder();
-    let set = [
-        "cea.friction_coefficients=[0.6]",
-        "cea.modes=1",
-        "sweep={ \"material.density\" = [1150.0], analyses = [\"cea\"] }",
-    ];
-    Run::of("sweep", path).args(&["-q"]).out(out.path()).set(&set).done().says(&["<=0.600000"]);
+    let set = ["cea.friction_coefficients=[0.6] ; cea.modes=1 ; \
+         sweep={ \"material.density\" = [1150.0], analyses = [\"cea\"] }"];
+    Run::of("sweep", shipped("tread-block.toml"))
+        .args(&["-q"])
+        .out(out.path())
+        .set(&set)
+        .done()
+        .says(&["<=0.600000"]);
 }
 
-/// Where friction itself is uncertain each sample has its own, and the answer names none.
 #[test]
 fn uncertain_friction_is_no_single_value() {
     let folder = folder();

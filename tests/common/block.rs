@@ -3,7 +3,6 @@
 use frictionsim::mesh::{ElementKind, FileElement, FileMesh};
 use std::collections::BTreeMap;
 
-/// Solid kinds.
 pub const SOLIDS: [ElementKind; 8] = [
     ElementKind::Tet4,
     ElementKind::Tet10,

@@ -11,6 +11,15 @@ pub struct Block {
     pub counts: [usize; 3],
 }
 
+pub const fn brick(
+    name: &'static str,
+    origin: [f64; 3],
+    size: [f64; 3],
+    counts: [usize; 3],
+) -> Block {
+    Block { name, origin, size, counts }
+}
+
 /// The blocks as a file in MSH 2.2, every point moved by `place`. Nodes of different blocks are different nodes.
 pub fn file_of(blocks: &[Block], place: impl Fn([f64; 3]) -> [f64; 3]) -> Vec<u8> {
     file_of_order(blocks, 1, place)
@@ -19,20 +28,8 @@ pub fn file_of(blocks: &[Block], place: impl Fn([f64; 3]) -> [f64; 3]) -> Vec<u8
 /// Corners of a brick in halves of its edges, and the edges in the order of Gmsh.
 const CORNERS: [[usize; 3]; 8] =
     [[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [0, 0, 2], [2, 0, 2], [2, 2, 2], [0, 2, 2]];
-const EDGES: [[usize; 2]; 12] = [
-    [0, 1],
-    [0, 3],
-    [0, 4],
-    [1, 2],
-    [1, 5],
-    [2, 3],
-    [2, 6],
-    [3, 7],
-    [4, 5],
-    [4, 7],
-    [5, 6],
-    [6, 7],
-];
+pub const EDGES: [usize; 24] =
+    [0, 1, 0, 3, 0, 4, 1, 2, 1, 5, 2, 3, 2, 6, 3, 7, 4, 5, 4, 7, 5, 6, 6, 7];
 
 /// The same of bricks with 8 nodes (`order` 1) or 20 nodes (`order` 2).
 pub fn file_of_order(
@@ -84,7 +81,11 @@ pub fn file_of_order(
             for j in 0..counts[1] {
                 for i in 0..counts[0] {
                     let at = |[a, b, c]: [usize; 3]| [2 * i + a, 2 * j + b, 2 * k + c];
-                    element([5, 17][order - 1], group, &with_middles(&CORNERS.map(at), &EDGES));
+                    element(
+                        [5, 17][order - 1],
+                        group,
+                        &with_middles(&CORNERS.map(at), EDGES.as_chunks().0),
+                    );
                 }
             }
         }

@@ -2,12 +2,20 @@
 
 #![allow(dead_code, reason = "each binary uses a part")]
 
-use frictionsim::cea::{ModeLimit, SweepRequest};
-use frictionsim::contact::{ContactStiffness, SlidingContact};
-use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping};
-use frictionsim::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind};
-use frictionsim::prestress::{DampingModel, TangentOptions};
-use frictionsim::transient::{InitialState, Perturbation, TimeStep, TransientSettings};
+use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest, sparse};
+use frictionsim::contact::{ContactStiffness, NormalLaw, SlidingContact};
+use frictionsim::fem::operator::SimdLevel;
+use frictionsim::fem::{
+    ElasticMaterial, MassKind, MaterialField, PlaneFormulation, RayleighDamping, assemble_stiffness,
+};
+use frictionsim::mesh::{
+    AnnulusSpecification, BoundaryCondition, ElasticSupport, ElementKind, Mesh, ShaftSpecification,
+};
+use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
+use frictionsim::transient::{
+    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
+    TimeStep, TransientModel, TransientSettings,
+};
 use std::f64::consts::PI;
 
 pub const POLYCARBONATE: ElasticMaterial = ElasticMaterial {
@@ -27,9 +35,18 @@ pub fn annulus(
     circumferential: usize,
     radial: usize,
 ) -> AnnulusSpecification {
+    ring([0.0205, 0.0905], element, circumferential, radial)
+}
+
+pub fn ring(
+    [inner_radius, outer_radius]: [f64; 2],
+    element: ElementKind,
+    circumferential: usize,
+    radial: usize,
+) -> AnnulusSpecification {
     AnnulusSpecification {
-        inner_radius: 0.0205,
-        outer_radius: 0.0905,
+        inner_radius,
+        outer_radius,
         circumferential_elements: circumferential,
         radial_elements: radial,
         radial_grading: 1.0,
@@ -69,6 +86,40 @@ pub const TANGENT: TangentOptions = TangentOptions {
     contact: RIGID,
 };
 
+/// The same with springs, N/m for each square metre, and dashpots along the normal and the sliding.
+pub const fn compliant(normal_stiffness: f64, [normal, tangential]: [f64; 2]) -> ContactStiffness {
+    ContactStiffness {
+        normal_stiffness: Some(normal_stiffness),
+        normal_damping: normal,
+        tangential_damping: tangential,
+        ..RIGID
+    }
+}
+
+/// Contact that stiffens with pressure.
+pub fn stiffening(law: NormalLaw) -> ContactStiffness {
+    ContactStiffness { normal_stiffness: Some(law.stiffness(0.0)), law: Some(law), ..RIGID }
+}
+
+/// Springs along the normal, the edge and the axis; dashpots along the normal and the edge.
+pub const fn springs(stiffness: [f64; 3], dashpots: [f64; 2]) -> ElasticSupport {
+    ElasticSupport {
+        normal_stiffness: stiffness[0],
+        tangential_stiffness: stiffness[1],
+        axial_stiffness: stiffness[2],
+        normal_damping: dashpots[0],
+        tangential_damping: dashpots[1],
+        loss_factor: 0.0,
+    }
+}
+
+/// The disc on a deformable shaft with a clamped bore of 6 mm.
+pub fn on_shaft(disc: AnnulusSpecification, radial_elements: usize) -> AnnulusSpecification {
+    let bore = BoundaryCondition::Clamped;
+    let shaft = ShaftSpecification { inner_radius: 0.006, radial_elements, bore };
+    AnnulusSpecification { shaft: Some(shaft), ..disc }
+}
+
 /// Young's modulus, Poisson's ratio and density.
 pub const fn elastic(
     young_modulus: f64,
@@ -87,6 +138,39 @@ pub const fn sliding_at(friction: f64, interference: f64, rotation_speed: f64) -
 /// Eigenvalues without shapes.
 pub fn sweep_request(friction_coefficients: &[f64], limit: ModeLimit) -> SweepRequest<'_> {
     SweepRequest::new(friction_coefficients, limit)
+}
+
+/// Small motions around steady sliding.
+pub fn linearized(
+    mesh: &Mesh,
+    material: &dyn MaterialField,
+    contact: &SlidingContact,
+    options: &TangentOptions,
+) -> SlidingTangent {
+    let elastic = assemble_stiffness(mesh, material);
+    let base = SteadySliding::solve(mesh, &elastic, contact).unwrap();
+    SlidingTangent::linearize(mesh, material, &elastic, &base, options)
+}
+
+/// Modes at one friction coefficient.
+pub fn modes_at(tangent: &SlidingTangent, friction: f64, limit: ModeLimit) -> Vec<ComplexMode> {
+    let at = [friction];
+    let request = sweep_request(&at, limit);
+    let found = sparse::sweep(tangent, &request, &|_| {}).unwrap();
+    found.points.into_iter().next().unwrap().modes
+}
+
+/// A run from its start to its end: its record, and the largest residual of its energy.
+pub fn recorded(
+    model: TransientModel<'_>,
+    choice: OperatorChoice,
+    settings: &TransientSettings,
+) -> (Recorder, f64) {
+    let operator = model.operator(choice, SimdLevel::detect()).unwrap();
+    let mut run = CentralDifference::start(model, operator.as_ref(), settings).unwrap();
+    let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
+    run.run(&mut record).unwrap();
+    (record, run.largest_residual())
 }
 
 /// A transient with the step that its model has.

@@ -1,8 +1,24 @@
 //! Meshes written as Gmsh files: what the reader is held to.
 
-use frictionsim::mesh::Mesh;
+#![allow(dead_code, reason = "each binary uses a part")]
 
-/// How a file is written.
+use frictionsim::mesh::{BodySpecification, BoundaryCondition, CounterfaceSpecification, Mesh};
+
+/// A plane body of a mesh file in metres.
+pub fn plane_body(
+    contact: &str,
+    counterface: CounterfaceSpecification,
+    opposite: Option<&str>,
+    conditions: &[(&str, BoundaryCondition)],
+) -> BodySpecification {
+    let conditions = conditions.iter().map(|&(name, own)| (name.to_owned(), own)).collect();
+    let (contact, opposite) = (contact.to_owned(), opposite.map(str::to_owned));
+    BodySpecification { scale: 1.0, contact, counterface, opposite, conditions }
+}
+
+pub const CYLINDER: CounterfaceSpecification =
+    CounterfaceSpecification::Cylinder { center: [0.0; 2], radius: None };
+
 #[derive(Clone, Copy, Debug)]
 pub struct Form {
     pub is_new: bool,
@@ -45,7 +61,7 @@ impl Out {
     }
 }
 
-/// `mesh` with its boundaries and its regions as physical groups; node `i` gets the number `numbers[i]` and the place
+/// `mesh` with its boundaries and its regions as physical groups; node `i` gets the number `numbers[i]`, or `i + 1`, and the place
 /// `place(x, y)`.
 pub fn write_msh(
     mesh: &Mesh,
@@ -90,6 +106,8 @@ pub fn write_msh(
         out.end();
         out.line("$EndEntities");
     }
+    let plain: Vec<usize> = (1..=mesh.node_count()).collect();
+    let numbers = if numbers.is_empty() { &plain } else { numbers };
     write_nodes(&mut out, mesh, form, numbers, place);
     write_elements(&mut out, mesh, form, numbers);
     out.0

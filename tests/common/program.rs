@@ -30,7 +30,6 @@ pub struct Answer {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row(pub BTreeMap<String, String>);
 
-/// The path of a shipped case.
 pub fn shipped(name: &str) -> String {
     format!("{}/cases/{name}", env!("CARGO_MANIFEST_DIR"))
 }
@@ -39,7 +38,6 @@ pub fn folder() -> tempfile::TempDir {
     tempfile::tempdir().unwrap()
 }
 
-/// A folder with files.
 pub fn folder_with(files: &[(&str, &[u8])]) -> tempfile::TempDir {
     let folder = folder();
     for (name, bytes) in files {
@@ -79,10 +77,10 @@ impl Run {
         self
     }
 
-    /// Changes values, each as `KEY=VALUE`.
-    pub fn set<S: AsRef<OsStr>>(mut self, changes: &[S]) -> Self {
-        for change in changes {
-            self.program.arg("--set").arg(change);
+    /// Changes values, each as `KEY=VALUE`; several stand in one text with ` ; ` between.
+    pub fn set<S: AsRef<str>>(mut self, changes: &[S]) -> Self {
+        for change in changes.iter().flat_map(|text| text.as_ref().split(" ; ")) {
+            self.program.args(["--set", change]);
         }
         self
     }
@@ -229,16 +227,15 @@ impl Index<&str> for Row {
     }
 }
 
-/// The rows of a table.
 pub fn rows(path: &Path) -> Vec<Row> {
     let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(path).unwrap();
     reader.deserialize().map(|row| Row(row.unwrap())).collect()
 }
 
-/// Holds a text to all of these parts; a part behind `!` must not be there.
+/// Holds a text to all of these parts, several of which stand in one with ` ; ` between; a part behind `!` must not be there.
 #[track_caller]
 pub fn has(text: &str, parts: &[&str]) {
-    for part in parts {
+    for part in parts.iter().flat_map(|parts| parts.split(" ; ")) {
         match part.strip_prefix('!') {
             Some(never) => assert!(!text.contains(never), "{never:?} is in\n{text}"),
             None => assert!(text.contains(part), "{part:?} is not in\n{text}"),

@@ -1,8 +1,8 @@
 //! Unstructured triangle meshes of the disc, and the disc as the body of a file.
 
+use crate::msh::{CYLINDER, plane_body};
 use frictionsim::mesh::{
-    AnnulusMesh, AnnulusSpecification, BodySpecification, BoundaryCondition,
-    CounterfaceSpecification, ElementKind, FileMesh, Mesh,
+    AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind, FileMesh, Mesh,
 };
 use std::collections::BTreeMap;
 
@@ -84,12 +84,6 @@ pub fn triangles(specification: &AnnulusSpecification, is_quadratic: bool) -> Me
 
 /// The disc of a file, clamped at its rim.
 pub fn body(file: &FileMesh) -> Mesh {
-    let specification = BodySpecification {
-        scale: 1.0,
-        contact: "inner".to_owned(),
-        counterface: CounterfaceSpecification::Cylinder { center: [0.0; 2], radius: None },
-        opposite: None,
-        conditions: vec![("outer".to_owned(), BoundaryCondition::Clamped)],
-    };
-    Mesh::from_gmsh(file, &specification).unwrap()
+    let held = [("outer", BoundaryCondition::Clamped)];
+    Mesh::from_gmsh(file, &plane_body("inner", CYLINDER, None, &held)).unwrap()
 }

@@ -1,28 +1,17 @@
 //! Transients of solid bodies that are tied together and slide on each other.
 
-use crate::bricks::{Block, file_of};
-use crate::disc::{RIGID, TANGENT, elastic, sliding_at, sweep_request, transient_settings};
-use crate::tier::sized;
+use crate::prelude::*;
+use frictionsim::cea::ComplexMode;
 use frictionsim::cea::sparse::sweep;
-use frictionsim::cea::{ComplexMode, ModeLimit};
 use frictionsim::contact::{
-    ContactStiffness, Counterpart, FrictionDecay, Motion, NormalLaw, PairFriction,
-    RigidCounterface, RigidMotion, RigidShape,
+    Counterpart, Motion, PairFriction, RigidCounterface, RigidMotion, RigidShape,
 };
-use frictionsim::fem::operator::SimdLevel;
 use frictionsim::fem::{
-    ElasticMaterial, MassKind, MaterialField, MaxwellChain, ModulusTable, PlaneFormulation,
-    RayleighDamping, RegionMaterial, RelaxedMaterials, TabledMaterial,
+    MaterialField, MaxwellChain, ModulusTable, RegionMaterial, RelaxedMaterials, TabledMaterial,
 };
 use frictionsim::linalg::c64;
-use frictionsim::mesh::{BoundaryCondition, ElasticSupport, FileMesh, Mesh};
-use frictionsim::prestress::{
-    Assembly, BaseChoice, DampingModel, SlidingSurfaces, TangentOptions, TiedSurfaces,
-};
-use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    SteppedBody, TransientAnalysis, TransientModel, TransientSettings,
-};
+use frictionsim::mesh::{FileMesh, Mesh};
+use frictionsim::prestress::{Assembly, BaseChoice, DampingModel, SlidingSurfaces, TiedSurfaces};
 
 const STEEL: ElasticMaterial = elastic(2e11, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
 
@@ -41,13 +30,9 @@ fn mesh(plate: [usize; 3]) -> Mesh {
     mesh_of(plate, true)
 }
 
-/// The same, or without that other block.
 fn mesh_of(plate: [usize; 3], with_lower: bool) -> Mesh {
-    let block = |name, height: f64, thickness: f64, counts| Block {
-        name,
-        origin: [0.0, 0.0, height],
-        size: [0.05, 0.04, thickness],
-        counts,
+    let block = |name, height: f64, thickness: f64, counts| {
+        brick(name, [0.0, 0.0, height], [0.05, 0.04, thickness], counts)
     };
     let lower = block("lower", 0.0, 0.02, [4, 3, 2]);
     let upper = [block("upper", 0.02, 0.015, [5, 4, 2]), block("plate", 0.035, 0.005, plate)];
@@ -143,7 +128,6 @@ fn settings(initial: InitialState, duration: f64, noise: f64) -> TransientSettin
     )
 }
 
-/// The record of a run, and the largest speed at its end, m/s.
 fn run(assembly: &Assembly<'_>, settings: &TransientSettings) -> (Recorder, f64) {
     let body = model(assembly);
     let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar).unwrap();
@@ -244,13 +228,8 @@ fn heavy_dashpots_of_a_support_bound_the_step() {
     let mut mesh = mesh([4, 3, 1]);
     let held = boundary(&mesh, "plate_x0");
     let dashpot = 1e9;
-    mesh.boundaries[held].condition = BoundaryCondition::Support(ElasticSupport {
-        normal_stiffness: 1e10,
-        tangential_stiffness: 1e10,
-        normal_damping: dashpot,
-        tangential_damping: dashpot,
-        ..ElasticSupport::default()
-    });
+    mesh.boundaries[held].condition =
+        BoundaryCondition::Support(springs([1e10, 1e10, 0.0], [dashpot, dashpot]));
     let assembly = assembly(&mesh, &STEEL, SPRINGS[0], None, 0.05);
     let operator = model(&assembly).operator(OperatorChoice::Auto, SimdLevel::Scalar).unwrap();
     let settings = settings(InitialState::Rest, 1e-4, 0.05);
@@ -264,25 +243,30 @@ fn heavy_dashpots_of_a_support_bound_the_step() {
     assert!(speed < 1.0, "{speed}");
 }
 
+/// Runs an assembly in one and in two parts; the state between these.
+fn goes_on_to_the_same_bits(assembly: &Assembly<'_>, initial: InitialState) -> TransientState {
+    let body = model(assembly);
+    let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar).unwrap();
+    let [first, whole] = [2e-4, 4e-4].map(|end| settings(initial, end, 0.05));
+    let ran = |mut run: CentralDifference<'_>| {
+        let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
+        run.run(&mut record).unwrap();
+        run.state()
+    };
+    let start = |settings| CentralDifference::start(body, operator.as_ref(), settings);
+    let half = ran(start(&first).unwrap());
+    let resumed = CentralDifference::resume(body, operator.as_ref(), &whole, &half);
+    assert_eq!(ran(resumed.unwrap()), ran(start(&whole).unwrap()));
+    half
+}
+
 /// Consistency: a run that goes on from a saved state is the same, bit by bit, as one that never stopped.
 #[test]
 fn an_assembly_goes_on_from_a_saved_state_bit_by_bit() {
     let mesh = mesh([4, 3, 1]);
     for springs in SPRINGS {
         let assembly = assembly(&mesh, &STEEL, springs, None, 0.05);
-        let body = model(&assembly);
-        let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar);
-        let operator = operator.unwrap();
-        let [first, whole] = [2e-4, 4e-4].map(|end| settings(InitialState::Rest, end, 0.05));
-        let ran = |mut run: CentralDifference<'_>| {
-            let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
-            run.run(&mut record).unwrap();
-            run.state()
-        };
-        let start = |settings| CentralDifference::start(body, operator.as_ref(), settings);
-        let half = ran(start(&first).unwrap());
-        let resumed = CentralDifference::resume(body, operator.as_ref(), &whole, &half);
-        assert_eq!(ran(resumed.unwrap()), ran(start(&whole).unwrap()));
+        goes_on_to_the_same_bits(&assembly, InitialState::Rest);
     }
 }
 
@@ -365,18 +349,6 @@ fn losses_of_an_assembly_slow_its_growth_as_the_eigenvalue_says() {
     println!("{rate} 1/s, {without} 1/s without losses");
     assert!(without > 1.02 * rate, "{rate} {without}");
 
-    let body = model(&stepped);
-    let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar);
-    let operator = operator.unwrap();
-    let [first, whole] = [2e-4, 4e-4].map(|end| settings(InitialState::SteadySliding, end, 0.05));
-    let ran = |mut run: CentralDifference<'_>| {
-        let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
-        run.run(&mut record).unwrap();
-        run.state()
-    };
-    let start = |settings| CentralDifference::start(body, operator.as_ref(), settings);
-    let half = ran(start(&first).unwrap());
+    let half = goes_on_to_the_same_bits(&stepped, InitialState::SteadySliding);
     assert!(half.relaxation.iter().flatten().any(|z| *z != 0.0));
-    let resumed = CentralDifference::resume(body, operator.as_ref(), &whole, &half);
-    assert_eq!(ran(resumed.unwrap()), ran(start(&whole).unwrap()));
 }

@@ -4,20 +4,8 @@
 //! The comparison with the transient is independent: time stepping from the cycle's fields shares with the search only
 //! the element matrices. The others are theory.
 
-use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
-use crate::tier::sized;
-use frictionsim::case::Case;
-use frictionsim::contact::ContactStatus;
-use frictionsim::cycle::{
-    BranchEnd, CycleError, CycleSolver, Family, LimitCycle, OperatingPoint, Parameter, Verdict,
-};
-use frictionsim::fem::RayleighDamping;
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::mesh::{
-    AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElasticSupport, ElementKind,
-};
-use frictionsim::study::cycle::CycleStudy;
-use std::f64::consts::TAU;
+use crate::prelude::*;
+use frictionsim::cycle::CycleError;
 
 fn disc() -> AnnulusSpecification {
     annulus(ElementKind::Quad4, 90, 18)
@@ -51,17 +39,11 @@ fn external_power_leaves_as_heat_of_body_and_contact() {
 
 #[test]
 fn cycles_along_a_branch_have_the_powers_of_each_alone() {
-    let bytes = include_bytes!("../../cases/limit-cycle.toml");
-    let overrides = [
-        "mesh.circumferential_elements=90",
-        "mesh.radial_elements=18",
-        "cycle.harmonics=[1]",
-        "cycle.continuation.from=70.0",
-        "cycle.continuation.to=250.0",
-        "cycle.continuation.count=3",
-        "cycle.confirmation_periods=0",
-    ];
-    let case = Case::parse("branch", bytes, &overrides.map(str::to_owned)).unwrap();
+    let overrides =
+        ["mesh.circumferential_elements=90 ; mesh.radial_elements=18 ; cycle.harmonics=[1] ; \
+         cycle.continuation.from=70.0 ; cycle.continuation.to=250.0 ; \
+         cycle.continuation.count=3 ; cycle.confirmation_periods=0"];
+    let case = shipped_case("limit-cycle.toml", &overrides);
     let study = CycleStudy::new(&case, SimdLevel::detect()).unwrap();
     let results = study.run(0, &|| {});
     let branch = results[0].branch.as_ref().unwrap();
@@ -324,11 +306,7 @@ fn number_of_phases_does_not_decide_what_is_found() {
 #[test]
 fn field_of_a_disc_with_a_supported_rim_has_the_nodes_of_its_mesh() {
     let mut specification = disc();
-    specification.outer = BoundaryCondition::Support(ElasticSupport {
-        normal_stiffness: 2e12,
-        tangential_stiffness: 2e12,
-        ..ElasticSupport::default()
-    });
+    specification.outer = BoundaryCondition::Support(springs([2e12, 2e12, 0.0], [0.0, 0.0]));
     let solver = CycleSolver::new(&specification, &POLYCARBONATE, &DAMPING, 1, None).unwrap();
     let cycle = solver.find(&operating(610.0)).unwrap();
     let [field, _] = solver.field(&cycle, 0.0);

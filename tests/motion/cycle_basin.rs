@@ -4,15 +4,10 @@
 //! read by their harmonics.
 
 use crate::cycle_branch::over_speed;
-use crate::cycle_periodic::shipped;
-use frictionsim::case::Case;
-use frictionsim::cea::Unwatched;
+use crate::prelude::*;
 use frictionsim::cycle::{BasinBoundary, BasinRequest};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::results::cycle::FoundCycle;
 use frictionsim::study::basin::boundary;
-use frictionsim::study::cycle::{PeriodicStudy, boundary_of_modes};
-use std::f64::consts::TAU;
+use frictionsim::study::cycle::boundary_of_modes;
 
 fn cycle(case: &Case) -> FoundCycle {
     let study = PeriodicStudy::new(case, SimdLevel::detect()).unwrap();
@@ -49,13 +44,10 @@ fn a_kick_tips_sliding_into_its_cycle_at_the_amplitude_of_the_unstable_cycle() {
 /// first node sticks decides in both.
 #[test]
 fn modes_of_an_annulus_compete_as_its_waves_do() {
-    let case = shipped(
+    let case = shipped_case(
         "basin.toml",
-        &[
-            "mesh.circumferential_elements=48",
-            "mesh.radial_elements=10",
-            "cea={ modes = 8, geometric_stiffness = false }",
-        ],
+        &["mesh.circumferential_elements=48 ; mesh.radial_elements=10 ; \
+             cea={ modes = 8, geometric_stiffness = false }"],
     );
     let simd = SimdLevel::detect();
     let waves = bounds(&boundary(&case, simd).unwrap());

@@ -4,16 +4,8 @@
 //! identities.
 
 use crate::oscillator::{EventDriven, oscillator};
-use frictionsim::case::Case;
-use frictionsim::cea::{SweepProgress, SweepWatch, Unwatched};
+use crate::prelude::*;
 use frictionsim::cycle::periodic::PeriodicBranch;
-use frictionsim::cycle::{BranchEnd, Parameter};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::results::cycle::FoundCycle;
-use frictionsim::study::cycle::PeriodicStudy;
-use std::collections::BTreeMap;
-use std::path::Path;
-use std::sync::Mutex;
 
 /// The oscillator's cycles over the speed of its plane: friction falls too slowly at high speed to feed a vibration, and the
 /// cycle that sticks lives on beyond the speed at which sliding becomes stable.
@@ -39,7 +31,6 @@ fn branch(case: &Case) -> PeriodicBranch {
     searched(case, &Unwatched).branch.unwrap()
 }
 
-/// The case at another speed.
 fn at_speed(folder: &Path, speed: f64) -> EventDriven {
     EventDriven::new(&oscillator(folder, &[&format!("contact.speed={speed}")]))
 }
@@ -139,8 +130,7 @@ impl SweepWatch for Memory {
 
 #[test]
 fn a_branch_that_goes_on_after_an_interruption_is_the_same_bit_by_bit() {
-    let folder = tempfile::tempdir().unwrap();
-    let case = over_speed(folder.path(), "branch", 0.8, &[]);
+    let case = over_speed(tempfile::tempdir().unwrap().path(), "branch", 0.8, &[]);
     let whole = searched(&case, &Unwatched);
     // As an interruption leaves it after two and four steps.
     for most in [2, 4] {
@@ -155,14 +145,12 @@ fn a_branch_that_goes_on_after_an_interruption_is_the_same_bit_by_bit() {
 #[test]
 fn a_branch_without_a_fold_says_so() {
     // A block under constant friction, above its onset.
-    let path = format!("{}/cases/sliding-block.toml", env!("CARGO_MANIFEST_DIR"));
     let overrides = [
         "contact.friction_coefficient=0.66",
         "cycle={ confirmation_periods = 0, stability = \"none\", continuation = { key = \"contact.friction_coefficient\", from = \
          0.6, to = 0.66, count = 3 } }",
     ];
-    let overrides: Vec<String> = overrides.iter().map(|text| text.to_string()).collect();
-    let case = Case::parse(&path, &std::fs::read(&path).unwrap(), &overrides).unwrap();
+    let case = shipped_case("sliding-block.toml", &overrides);
     let branch = branch(&case);
     assert!(branch.folds().is_empty() && branch.coexistence().is_empty());
     assert_eq!(branch.ends, [BranchEnd::Range; 2]);

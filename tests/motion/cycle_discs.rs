@@ -3,27 +3,11 @@
 //! Onsets are held to the eigenvalue analysis, results to scaling, stability and power to transients that start beside the
 //! cycle. The transients are independent of the grid of phases: they share with it the element matrices alone.
 
-use crate::disc::{elastic, sliding_at};
-use crate::tier::sized;
-use frictionsim::cea::ModeLimit;
-use frictionsim::contact::SlidingContact;
-use frictionsim::cycle::{CycleSolver, DiscModel, Family, OperatingPoint, Verdict};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
-use frictionsim::mesh::{AnnulusSpecification, ElementKind};
-use std::f64::consts::TAU;
+use crate::prelude::*;
+use frictionsim::cycle::DiscModel;
 
 fn ring(radii: [f64; 2], elements: [usize; 2]) -> AnnulusSpecification {
-    AnnulusSpecification {
-        inner_radius: radii[0],
-        outer_radius: radii[1],
-        circumferential_elements: elements[0],
-        radial_elements: elements[1],
-        radial_grading: 1.0,
-        element: ElementKind::Quad4,
-        outer: frictionsim::mesh::BoundaryCondition::Clamped,
-        shaft: None,
-    }
+    crate::disc::ring(radii, ElementKind::Quad4, elements[0], elements[1])
 }
 
 fn metal(young_modulus: f64, poisson_ratio: f64, density: f64) -> ElasticMaterial {

@@ -3,27 +3,17 @@
 //! Independent: a transient that grows into its cycle from noise with a step of its own; rotating waves, found along their phase;
 //! an oscillator integrated from event to event. The others are identities.
 
-use frictionsim::case::Case;
-use frictionsim::cea::Unwatched;
-use frictionsim::cycle::{Parameter, Verdict};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::results::cycle::{FoundCycle, PeriodicResult, Search};
-use frictionsim::study::cycle::{CycleStudy, PeriodicStudy, refuse_nothing};
+use crate::prelude::*;
+use frictionsim::results::cycle::Search;
+use frictionsim::study::cycle::refuse_nothing;
 use frictionsim::study::transient::TransientStudy;
 
 use crate::oscillator::{EventDriven, oscillator};
 
-/// A shipped case under overrides.
-pub fn shipped(name: &str, overrides: &[&str]) -> Case {
-    let path = format!("{}/cases/{name}", env!("CARGO_MANIFEST_DIR"));
-    let overrides: Vec<String> = overrides.iter().map(|text| text.to_string()).collect();
-    Case::parse(&path, &std::fs::read(&path).unwrap(), &overrides).unwrap()
-}
-
 /// The block at a friction coefficient at which one mode grows.
 fn block(overrides: &[&str]) -> Case {
     let own = ["contact.friction_coefficient=0.7", "cycle={ confirmation_periods = 20 }"];
-    shipped("sliding-block.toml", &[&own, overrides].concat())
+    shipped_case("sliding-block.toml", &[&own, overrides].concat())
 }
 
 fn cycles(case: &Case) -> Vec<PeriodicResult> {
@@ -63,11 +53,9 @@ pub fn hold_to_transient(case: &Case) -> PeriodicResult {
 }
 
 /// A transient that grows from noise.
-const FROM_NOISE: [&str; 3] = [
-    "transient.duration=0.012",
-    "transient.initial=\"steady-sliding\"",
-    "transient.perturbation.noise=1e-2",
-];
+const FROM_NOISE: [&str; 1] =
+    ["transient.duration=0.012 ; transient.initial=\"steady-sliding\" ; \
+     transient.perturbation.noise=1e-2"];
 
 #[test]
 fn the_cycle_of_a_block_is_that_of_its_transient() {
@@ -94,17 +82,13 @@ fn springs_and_dashpots_of_the_contact_are_those_of_the_transient() {
 
 #[test]
 fn the_cycle_of_a_disc_on_a_deformable_shaft_is_that_of_its_transient() {
-    let result = hold_to_transient(&shipped(
+    let result = hold_to_transient(&shipped_case(
         "deformable-shaft.toml",
-        &[
-            "mesh.circumferential_elements=48",
-            "mesh.radial_elements=10",
-            "mesh.shaft_radial_elements=2",
-            "cea.max_frequency_hz=12000.0",
-            "cycle={ onsets = \"lowest\", confirmation_periods = 0, stability = \"none\" }",
-            "transient.duration=0.012",
-            "transient.perturbation={ harmonics = [1], velocity = 0.05 }",
-        ],
+        &["mesh.circumferential_elements=48 ; mesh.radial_elements=10 ; \
+             mesh.shaft_radial_elements=2 ; cea.max_frequency_hz=12000.0 ; \
+             cycle={ onsets = \"lowest\", confirmation_periods = 0, stability = \"none\" } ; \
+             transient.duration=0.012 ; \
+             transient.perturbation={ harmonics = [1], velocity = 0.05 }"],
     ));
     assert!(found(&result).motion.powers.balance_residual() < 1e-6);
 }
@@ -153,10 +137,8 @@ fn a_branch_of_cycles_goes_from_neighbour_to_neighbour() {
     let near = |wanted: f64| values.iter().any(|value| (value - wanted).abs() < 1e-12);
     assert!([0.66, 0.68].into_iter().all(near), "{values:?} {:?}", branch.ends);
     // The first one is the cycle that is found from its own mode.
-    let own = cycles(&block(&[
-        "contact.friction_coefficient=0.64",
-        "cycle={ confirmation_periods = 0, stability = \"none\" }",
-    ]));
+    let own = cycles(&block(&["contact.friction_coefficient=0.64 ; \
+         cycle={ confirmation_periods = 0, stability = \"none\" }"]));
     let (a, b) = (&branch.motions[0].motion, &found(&own[0]).motion);
     assert!(
         (a.frequency_hz / b.frequency_hz - 1.0).abs() < 1e-4,
@@ -195,12 +177,11 @@ fn below_the_onset_steady_sliding_is_said_to_be_stable() {
 #[test]
 fn the_critical_damping_of_stable_sliding_is_where_the_onset_is_the_friction() {
     let at = |damping: f64| {
-        let case = shipped(
+        let case = shipped_case(
             "limit-cycle.toml",
             &[
-                "mesh.circumferential_elements=45",
-                "mesh.radial_elements=9",
-                "contact.friction_coefficient=0.05",
+                "mesh.circumferential_elements=45 ; mesh.radial_elements=9 ; \
+                 contact.friction_coefficient=0.05",
                 &format!("damping.stiffness_coefficient={damping:e}"),
                 "cycle={ continuation = { key = \"damping.stiffness_coefficient\", from = 0.0, to = 4.5e-7, count = 5 } }",
             ],
@@ -223,12 +204,10 @@ fn the_critical_damping_of_stable_sliding_is_where_the_onset_is_the_friction() {
 /// of a transient of 0.1 s (15368.5 Hz, stick 0.375).
 #[test]
 fn the_cycle_of_a_pad_in_slow_sliding_is_that_of_its_transient() {
-    let case = shipped(
+    let case = shipped_case(
         "pad-on-disc.toml",
-        &[
-            "contact.rotation_speed_rpm=5.0",
-            "cycle={ onsets = \"lowest\", confirmation_periods = 0, stability = \"none\" }",
-        ],
+        &["contact.rotation_speed_rpm=5.0 ; \
+             cycle={ onsets = \"lowest\", confirmation_periods = 0, stability = \"none\" }"],
     );
     let results = cycles(&case);
     let motion = &found(&results[0]).motion;
@@ -240,26 +219,20 @@ fn the_cycle_of_a_pad_in_slow_sliding_is_that_of_its_transient() {
 /// The same cycle by two methods: a wave along its phase, and a motion of the whole mesh.
 #[test]
 fn rotating_waves_are_periodic_motions_of_the_whole_mesh() {
-    let case = shipped(
+    let case = shipped_case(
         "limit-cycle.toml",
-        &[
-            "mesh.circumferential_elements=90",
-            "mesh.radial_elements=18",
-            "cycle={ harmonics = [2], onsets = \"lowest\", confirmation_periods = 0 }",
-            "cea={ modes = 8, friction_coefficients = [0.3], geometric_stiffness = false }",
-        ],
+        &["mesh.circumferential_elements=90 ; mesh.radial_elements=18 ; \
+             cycle={ harmonics = [2], onsets = \"lowest\", confirmation_periods = 0 } ; \
+             cea={ modes = 8, friction_coefficients = [0.3], geometric_stiffness = false }"],
     );
     let waves = CycleStudy::new(&case, SimdLevel::detect()).unwrap();
     let waves = waves.run(0, &|| {});
     let wave = waves[0].cycle.as_ref().unwrap();
-    let all = cycles(&shipped(
+    let all = cycles(&shipped_case(
         "limit-cycle.toml",
-        &[
-            "mesh.circumferential_elements=90",
-            "mesh.radial_elements=18",
-            "cycle={ confirmation_periods = 0 }",
-            "cea={ modes = 8, friction_coefficients = [0.3], geometric_stiffness = false }",
-        ],
+        &["mesh.circumferential_elements=90 ; mesh.radial_elements=18 ; \
+             cycle={ confirmation_periods = 0 } ; \
+             cea={ modes = 8, friction_coefficients = [0.3], geometric_stiffness = false }"],
     ));
     let distance = |result: &PeriodicResult| {
         let motion = result.outcome.as_ref().ok().map(|found| found.motion.frequency_hz);
@@ -298,8 +271,7 @@ fn rotating_waves_are_periodic_motions_of_the_whole_mesh() {
 
 #[test]
 fn an_oscillator_that_sticks_and_slips_agrees_with_integration_from_event_to_event() {
-    let folder = tempfile::tempdir().unwrap();
-    let case = oscillator(folder.path(), &[]);
+    let case = oscillator(tempfile::tempdir().unwrap().path(), &[]);
     let results = cycles(&case);
     assert_eq!(results.len(), 1);
     let motion = &found(&results[0]).motion;

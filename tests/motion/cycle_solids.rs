@@ -2,98 +2,43 @@
 //!
 //! Independent: a transient that grows into its cycle from noise, with a step of its own. The others are identities.
 
-use crate::bricks::{Block, file_of};
-use crate::cycle_periodic::{found, hold_to_transient, shipped};
-use frictionsim::case::Case;
-use frictionsim::cea::{SweepProgress, SweepWatch};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::results::cycle::PeriodicResult;
-use frictionsim::study::cycle::PeriodicStudy;
-use std::collections::BTreeMap;
-use std::f64::consts::TAU;
-use std::path::Path;
-use std::sync::Mutex;
+use crate::cycle_periodic::{found, hold_to_transient};
+use crate::prelude::*;
 
 /// A pad on a disc that turns, the seam of the disc glued.
-const PAD: &str = r#"
-title = "Pad on a disc"
-[mesh]
-file = "body.msh"
-[material]
-young_modulus = 2.5e9
-poisson_ratio = 0.38
-density = 1228.0
-[materials.pad]
-young_modulus = 5e8
-poisson_ratio = 0.3
-density = 2500.0
-[damping]
-mass_coefficient = 40.0
-stiffness_coefficient = 3e-7
-[boundaries.disc_x0]
-condition = "clamped"
-[boundaries.pad_z1]
-condition = "pressure"
-pressure = 2e5
-[boundaries.pad_y0]
-condition = "support"
-normal_stiffness = 1e10
-tangential_stiffness = 1e10
-[boundaries.pad_y1]
-condition = "support"
-normal_stiffness = 1e10
-tangential_stiffness = 1e10
-[motion.disc]
-axis = [0.0, 0.0, 1.0]
-rotation_speed_rpm = 200.0
-[contacts.pad]
-surface = "pad_z0"
-counter = "disc_z1"
-friction_coefficient = 0.5
-[ties.seam]
-surface = "disc_y0"
-counter = "disc_y1"
-[cea]
-modes = 20
+const PAD: &str = "title = \"Pad on a disc\"
+[mesh]\nfile = \"body.msh\"
+[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0
+[materials.pad]\nyoung_modulus = 5e8\npoisson_ratio = 0.3\ndensity = 2500.0
+[damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 3e-7
+[boundaries.disc_x0]\ncondition = \"clamped\"
+[boundaries.pad_z1]\ncondition = \"pressure\"\npressure = 2e5
+[boundaries.pad_y0]\ncondition = \"support\"\nnormal_stiffness = 1e10\n\
+     tangential_stiffness = 1e10
+[boundaries.pad_y1]\ncondition = \"support\"\nnormal_stiffness = 1e10\n\
+     tangential_stiffness = 1e10
+[motion.disc]\naxis = [0.0, 0.0, 1.0]\nrotation_speed_rpm = 200.0
+[contacts.pad]\nsurface = \"pad_z0\"\ncounter = \"disc_z1\"\nfriction_coefficient = 0.5
+[ties.seam]\nsurface = \"disc_y0\"\ncounter = \"disc_y1\"
+[cea]\nmodes = 20
 [cycle]
-[transient]
-duration = 0.05
-time_step = 1e-6
-initial = "steady-sliding"
-perturbation = { noise = 1e-2 }
-[output]
-probes = [100]
-sample_interval = 1e-5
-snapshots = []
-"#;
+[transient]\nduration = 0.05\ntime_step = 1e-6\ninitial = \"steady-sliding\"\n\
+     perturbation = { noise = 1e-2 }
+[output]\nprobes = [100]\nsample_interval = 1e-5\nsnapshots = []\n";
 
-/// The pad in a folder of its own, under overrides.
 fn pad(folder: &Path, overrides: &[&str]) -> Case {
     let blocks = [
-        Block {
-            name: "disc",
-            origin: [0.03, 0.0, 0.0],
-            size: [0.04, TAU, 0.006],
-            counts: [2, 16, 1],
-        },
-        Block {
-            name: "pad",
-            origin: [0.045, -0.3, 0.006],
-            size: [0.022, 0.6, 0.01],
-            counts: [2, 3, 1],
-        },
+        brick("disc", [0.03, 0.0, 0.0], [0.04, TAU, 0.006], [2, 16, 1]),
+        brick("pad", [0.045, -0.3, 0.006], [0.022, 0.6, 0.01], [2, 3, 1]),
     ];
     let polar = |[r, angle, z]: [f64; 3]| [r * angle.cos(), r * angle.sin(), z];
     std::fs::write(folder.join("body.msh"), file_of(&blocks, polar)).unwrap();
-    let overrides: Vec<String> = overrides.iter().map(|text| text.to_string()).collect();
-    let path = folder.join("pad.toml");
-    Case::parse(path.to_str().unwrap(), PAD.as_bytes(), &overrides).unwrap()
+    case_of(folder.join("pad.toml"), PAD, overrides)
 }
 
 #[test]
 fn the_cycle_of_a_pad_on_a_disc_is_that_of_its_transient() {
-    let folder = tempfile::tempdir().unwrap();
-    let result = hold_to_transient(&pad(folder.path(), &[]));
+    let result = hold_to_transient(&pad(tempfile::tempdir().unwrap().path(), &[]));
     let cycle = found(&result);
     let motion = &cycle.motion;
     // The balance of the time loop closes; what the motion misses its start by is left.
@@ -110,19 +55,12 @@ fn the_cycle_of_a_pad_on_a_disc_is_that_of_its_transient() {
 /// A body of revolution in three dimensions, whose friction is a vector on a ring: its transient grows into a rotating wave.
 #[test]
 fn the_cycle_of_a_ring_on_a_layer_is_that_of_its_transient() {
-    let result = hold_to_transient(&shipped(
+    let result = hold_to_transient(&shipped_case(
         "ring-on-layer.toml",
-        &[
-            "mesh.circumferential_elements=24",
-            "mesh.radial_elements=7",
-            "mesh.axial_elements=1",
-            "contact.friction_coefficient=0.4",
-            "cycle={ onsets = \"lowest\" }",
-            "transient.duration=0.03",
-            "transient.time_step=1e-6",
-            "transient.perturbation={ harmonics = [1, 2], velocity = 0.01 }",
-            "output.snapshots=[]",
-        ],
+        &["mesh.circumferential_elements=24 ; mesh.radial_elements=7 ; mesh.axial_elements=1 ; \
+             contact.friction_coefficient=0.4 ; cycle={ onsets = \"lowest\" } ; \
+             transient.duration=0.03 ; transient.time_step=1e-6 ; \
+             transient.perturbation={ harmonics = [1, 2], velocity = 0.01 } ; output.snapshots=[]"],
     ));
     let cycle = found(&result);
     assert!(cycle.motion.powers.balance_residual() < 1e-6);
@@ -162,11 +100,10 @@ impl SweepWatch for Kept {
 /// Consistency: what was kept when it stopped, and the rest anew, is the same, bit by bit.
 #[test]
 fn a_branch_of_solid_bodies_goes_on_after_an_interruption_bit_by_bit() {
-    let folder = tempfile::tempdir().unwrap();
     // More values than the twenty points between which what is done is kept.
     let range = "cycle={ confirmation_periods = 0, stability = \"none\", continuation = { key = \
                  \"contact.friction_coefficient\", from = 0.46, to = 0.5, count = 24 } }";
-    let case = pad(folder.path(), &[range]);
+    let case = pad(tempfile::tempdir().unwrap().path(), &[range]);
     let run = |kept: &Kept| -> Vec<PeriodicResult> {
         let study = PeriodicStudy::new(&case, SimdLevel::detect()).unwrap();
         study.run(1, kept, &|_| {}).unwrap()
@@ -190,9 +127,8 @@ fn a_branch_of_solid_bodies_goes_on_after_an_interruption_bit_by_bit() {
 
 #[test]
 fn parameters_that_solid_bodies_do_not_have_are_refused_with_those_they_have() {
-    let folder = tempfile::tempdir().unwrap();
     let range = "cycle.continuation={ key = \"contact.interference\", from = 0.0, to = 1e-5 }";
-    let case = pad(folder.path(), &[range]);
+    let case = pad(tempfile::tempdir().unwrap().path(), &[range]);
     let error = PeriodicStudy::new(&case, SimdLevel::detect()).err();
     let text = error.unwrap().to_string();
     assert!(text.contains("cannot be followed over contact.interference"), "{text}");

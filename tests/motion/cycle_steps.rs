@@ -2,15 +2,8 @@
 //!
 //! Independent: the frequency of a transient. The others hold the search to itself.
 
-use crate::bricks::{Block, file_of};
-use frictionsim::case::Case;
-use frictionsim::cea::Unwatched;
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::results::cycle::PeriodicResult;
-use frictionsim::study::cycle::PeriodicStudy;
-use std::fmt::Write;
+use crate::prelude::*;
 
-/// What all cases share.
 const MATERIAL: &str = "young_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n";
 const CYCLE: &str = "[cycle]\nonsets = \"all\"\nconfirmation_periods = 0\nstability = \"none\"\n";
 
@@ -25,34 +18,9 @@ struct PlaneBlock {
 }
 
 impl PlaneBlock {
-    fn mesh(&self) -> String {
-        let [nx, ny] = self.counts;
-        let node = |i: usize, j: usize| 1 + i + (nx + 1) * j;
-        let (mut nodes, mut elements, mut count) = (String::new(), String::new(), 0);
-        for j in 0..=ny {
-            for i in 0..=nx {
-                let x = self.size[0] * i as f64 / nx as f64;
-                let y = self.size[1] * j as f64 / ny as f64;
-                writeln!(nodes, "{} {x:?} {y:?} 0", node(i, j)).unwrap();
-            }
-        }
-        let mut element = |text: String| {
-            count += 1;
-            writeln!(elements, "{count} {text}").unwrap();
-        };
-        for i in 0..nx {
-            element(format!("1 2 1 1 {} {}", node(i, 0), node(i + 1, 0)));
-            element(format!("1 2 2 2 {} {}", node(i, ny), node(i + 1, ny)));
-            for j in 0..ny {
-                let [a, b, c, d] = [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
-                element(format!("3 2 3 3 {a} {b} {c} {d}"));
-            }
-        }
-        format!(
-            "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"face\"\n1 2 \"back\"\n2 3 \"block\"\n\
-             $EndPhysicalNames\n$Nodes\n{}\n{nodes}$EndNodes\n$Elements\n{count}\n{elements}$EndElements\n",
-            (nx + 1) * (ny + 1)
-        )
+    fn mesh(&self) -> Vec<u8> {
+        let [xs, ys] = [0, 1].map(|axis| even(self.size[axis], self.counts[axis]));
+        quadrilaterals(&xs, &ys, ["face", "back", "block"], |x, y| [x, y])
     }
 
     fn text(&self) -> String {
@@ -68,21 +36,18 @@ impl PlaneBlock {
     }
 
     fn cycles(&self, overrides: &[&str]) -> Vec<PeriodicResult> {
-        cycles(self.mesh().as_bytes(), &self.text(), overrides)
+        cycles(&self.mesh(), &self.text(), overrides)
     }
 }
 
 fn cycles(mesh: &[u8], text: &str, overrides: &[&str]) -> Vec<PeriodicResult> {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("body.msh"), mesh).unwrap();
-    let overrides: Vec<String> = overrides.iter().map(|text| text.to_string()).collect();
-    let path = folder.path().join("case.toml");
-    let case = Case::parse(path.to_str().unwrap(), text.as_bytes(), &overrides).unwrap();
+    let case = case_of(folder.path().join("case.toml"), text, overrides);
     let study = PeriodicStudy::new(&case, SimdLevel::detect()).unwrap();
     study.run(0, &Unwatched, &|_| {}).unwrap()
 }
 
-/// Frequency of the cycle that a mode has led to, Hz.
 fn frequency(results: &[PeriodicResult], mode: usize) -> f64 {
     let own = results.iter().find(|result| result.mode.number == mode).unwrap();
     own.outcome.as_ref().unwrap().motion.frequency_hz
@@ -146,8 +111,7 @@ fn the_cycle_of_a_mode_does_not_depend_on_the_time_step() {
 /// The transient of 0.1 s in steps of 1e-6 s from noise settles at 7037.17 Hz.
 #[test]
 fn a_cycle_under_falling_friction_is_found_at_the_automatic_step_where_the_transient_has_it() {
-    let block =
-        Block { name: "block", origin: [0.0; 3], size: [0.06, 0.04, 0.02], counts: [6, 2, 2] };
+    let block = brick("block", [0.0; 3], [0.06, 0.04, 0.02], [6, 2, 2]);
     let text = format!(
         "[mesh]\nfile = \"body.msh\"\n[boundaries.block_z1]\ncondition = \"support\"\nnormal_stiffness = 1e11\n\
          tangential_stiffness = 1e11\n[material]\n{MATERIAL}[damping]\nmass_coefficient = 40.0\n\

@@ -3,15 +3,7 @@
 //!
 //! Full size, 180 x 35 elements; the two methods share the element matrices and nothing else.
 
-use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact, transient_settings};
-use crate::tier::sized;
-use frictionsim::cycle::{CycleSolver, LimitCycle, OperatingPoint, Verdict};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
-use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    TransientAnalysis, TransientError, TransientModel,
-};
+use crate::prelude::*;
 
 fn operating(rpm: f64) -> OperatingPoint {
     OperatingPoint { contact: contact(rpm), damping: DAMPING }
@@ -55,7 +47,6 @@ fn amplitudes(record: &Recorder, harmonic: usize, from: f64, to: f64) -> Vec<(f6
     rows.map(|row| (row.time, amplitude(row.harmonics[harmonic]))).collect()
 }
 
-/// Slope of the logarithm, 1/s.
 fn rate(values: &[(f64, f64)]) -> f64 {
     let count = values.len() as f64;
     let mean = |of: &dyn Fn(&(f64, f64)) -> f64| values.iter().map(of).sum::<f64>() / count;

@@ -2,14 +2,7 @@
 //! its stability.
 
 use crate::cycle_solids::Kept;
-use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
-use crate::tier::sized;
-use frictionsim::cea::Unwatched;
-use frictionsim::contact::{ContactStatus, SlidingContact};
-use frictionsim::cycle::{BranchEnd, CycleSolver, LimitCycle, OperatingPoint, Parameter};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::mesh::ElementKind;
-use std::f64::consts::TAU;
+use crate::prelude::*;
 
 const FRICTION: f64 = 0.2;
 

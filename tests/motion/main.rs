@@ -2,8 +2,12 @@
 
 #[path = "../common/bricks.rs"]
 mod bricks;
+#[path = "../common/cases.rs"]
+mod cases;
 #[path = "../common/disc.rs"]
 mod disc;
+#[path = "../common/mesh_text.rs"]
+mod mesh_text;
 #[path = "../common/tier.rs"]
 mod tier;
 
@@ -18,4 +22,5 @@ mod cycle_steps;
 mod cycle_transient;
 mod cycle_two_waves;
 mod oscillator;
+mod prelude;
 mod transient;

@@ -1,8 +1,7 @@
 //! An oscillator of two contact nodes, and its motion integrated from event to event.
 
-use frictionsim::case::Case;
+use crate::prelude::*;
 use frictionsim::contact::ContactInterface;
-use frictionsim::fem::{assemble_stiffness, lumped_masses};
 
 /// A square of one element on a moving plane, its far side held: two contact nodes that stick and slip under friction that
 /// falls with speed.
@@ -20,8 +19,7 @@ friction_coefficient = 0.3\nstatic_friction_ratio = 1.1\ndecay_speed = 0.5\ninte
     std::fs::write(folder.join("square.msh"), mesh).unwrap();
     let path = folder.join("case.toml");
     std::fs::write(&path, text).unwrap();
-    let overrides: Vec<String> = overrides.iter().map(|text| text.to_string()).collect();
-    Case::parse(path.to_str().unwrap(), text.as_bytes(), &overrides).unwrap()
+    case_of(path, text, overrides)
 }
 
 /// The two contact nodes of the oscillator by its matrices: `m v' = T - K u - load - D v`, pressed by `N = preload + B u + b v`.
@@ -36,7 +34,6 @@ pub struct EventDriven {
     friction: [f64; 3],
 }
 
-/// Displacement and velocity of both nodes.
 pub type Motion = [f64; 4];
 
 impl EventDriven {

@@ -1,37 +1,14 @@
 //! Bodies of any plane shape: mesh files, supports, partial contact, transients (independent checks, unless a test
 //! says otherwise).
 
-use crate::disc::{
-    DAMPING, POLYCARBONATE, TANGENT, annulus, contact, sliding_at, sweep_request,
-    transient_settings,
-};
-use crate::msh::{FORMS, Form, write_msh};
-use frictionsim::cea::cyclic;
-use frictionsim::cea::sparse::sweep;
-use frictionsim::cea::{ComplexMode, ModeLimit};
-use frictionsim::contact::SlidingContact;
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::fem::{
-    ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
-};
-use frictionsim::mesh::{
-    AnnulusMesh, BodySpecification, BoundaryCondition, CounterfaceSpecification, ElasticSupport,
-    ElementKind, FileMesh, Mesh,
-};
-use frictionsim::prestress::{SlidingRange, SlidingTangent, SteadySliding, TangentOptions};
-use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    SteppedBody, TransientAnalysis, TransientModel,
-};
-
-const CYLINDER: CounterfaceSpecification =
-    CounterfaceSpecification::Cylinder { center: [0.0; 2], radius: None };
+use crate::msh::Form;
+use crate::prelude::*;
+use frictionsim::prestress::SlidingRange;
 
 fn options(mass: MassKind, geometric_stiffness: bool) -> TangentOptions {
     TangentOptions { mass, geometric_stiffness, ..TANGENT }
 }
 
-/// The disc as the body of a file: hole `inner`, rim `outer` clamped.
 fn disc_body(bytes: &[u8], scale: f64) -> Mesh {
     let specification = BodySpecification {
         scale,
@@ -44,13 +21,8 @@ fn disc_body(bytes: &[u8], scale: f64) -> Mesh {
 }
 
 fn modes(mesh: &Mesh, options: &TangentOptions, contact: &SlidingContact) -> Vec<ComplexMode> {
-    let stiffness = assemble_stiffness(mesh, &POLYCARBONATE);
-    let base = SteadySliding::solve(mesh, &stiffness, contact).unwrap();
-    let tangent = SlidingTangent::linearize(mesh, &POLYCARBONATE, &stiffness, &base, options);
-    let at = [contact.friction_coefficient];
-    let request = sweep_request(&at, ModeLimit::Lowest(8));
-    let found = sweep(&tangent, &request, &|_| {}).unwrap();
-    found.points.into_iter().next().unwrap().modes
+    let tangent = linearized(mesh, &POLYCARBONATE, contact, options);
+    modes_at(&tangent, contact.friction_coefficient, ModeLimit::Lowest(8))
 }
 
 fn assert_one_spectrum(found: &[ComplexMode], expected: &[ComplexMode], tolerance: f64) {
@@ -65,14 +37,12 @@ fn assert_one_spectrum(found: &[ComplexMode], expected: &[ComplexMode], toleranc
 fn every_form_of_the_file_reads_to_one_mesh() {
     for element in [ElementKind::Quad4, ElementKind::Quad8] {
         let mesh = AnnulusMesh::generate(&annulus(element, 12, 3)).unwrap().mesh;
-        let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
-        let read =
-            FORMS.map(|form| FileMesh::read(&write_msh(&mesh, form, &numbers, |p| p)).unwrap());
+        let read = FORMS.map(|form| FileMesh::read(&write_msh(&mesh, form, &[], |p| p)).unwrap());
         for file in &read {
             // Labels of elements differ between text and groups of bytes in nothing.
             assert_eq!(*file, read[0], "{element:?}");
         }
-        let body = disc_body(&write_msh(&mesh, FORMS[0], &numbers, |p| p), 1.0);
+        let body = disc_body(&write_msh(&mesh, FORMS[0], &[], |p| p), 1.0);
         assert_eq!(
             (body.node_count(), body.element_count()),
             (mesh.node_count(), mesh.element_count())
@@ -101,11 +71,7 @@ fn turned_renumbered_and_scaled_meshes_have_one_spectrum() {
 }
 
 fn supported(stiffness: f64) -> BoundaryCondition {
-    BoundaryCondition::Support(ElasticSupport {
-        normal_stiffness: stiffness,
-        tangential_stiffness: stiffness,
-        ..ElasticSupport::default()
-    })
+    BoundaryCondition::Support(springs([stiffness, stiffness, 0.0], [0.0, 0.0]))
 }
 
 /// Unstable modes of the disc on an elastic rim, from a prototype with quadratic elements in the radius and exact
@@ -161,14 +127,7 @@ fn a_supported_rim_gives_the_sounds_of_the_prototype() {
 #[test]
 fn a_supported_rim_has_one_spectrum_by_sectors_and_as_a_whole() {
     let mut specification = annulus(ElementKind::Quad4, 36, 8);
-    specification.outer = BoundaryCondition::Support(ElasticSupport {
-        loss_factor: 0.0,
-        normal_stiffness: 3e11,
-        tangential_stiffness: 1e11,
-        axial_stiffness: 0.0,
-        normal_damping: 2e5,
-        tangential_damping: 1e5,
-    });
+    specification.outer = BoundaryCondition::Support(springs([3e11, 1e11, 0.0], [2e5, 1e5]));
     let options = options(MassKind::Lumped, true);
     let whole = AnnulusMesh::generate(&specification).unwrap();
     let sparse = modes(&whole.mesh, &options, &contact(610.0));
@@ -180,52 +139,33 @@ fn a_supported_rim_has_one_spectrum_by_sectors_and_as_a_whole() {
 
 /// A rectangle of `nx` by `ny` four-node elements, its corner at the origin, with boundaries bottom, right, top, left.
 pub fn rectangle(width: f64, height: f64, nx: usize, ny: usize) -> Vec<u8> {
-    let node = |i: usize, j: usize| 1 + i + j * (nx + 1);
-    let mut text = String::from("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n5\n");
-    for (tag, name) in ["bottom", "right", "top", "left"].iter().enumerate() {
-        text += &format!("1 {} \"{name}\"\n", tag + 1);
-    }
-    text += "2 5 \"block\"\n$EndPhysicalNames\n$Nodes\n";
-    text += &format!("{}\n", (nx + 1) * (ny + 1));
-    for j in 0..=ny {
-        for i in 0..=nx {
-            let (x, y) = (width * i as f64 / nx as f64, height * j as f64 / ny as f64);
-            text += &format!("{} {x:?} {y:?} 0\n", node(i, j));
-        }
-    }
+    let node = |i: usize, j: usize| i + j * (nx + 1);
+    let (xs, ys) = (even(width, nx), even(height, ny));
+    let points: Vec<_> = ys.iter().flat_map(|&y| xs.iter().map(move |&x| [x, y, 0.0])).collect();
     let mut elements = Vec::new();
     for i in 0..nx {
-        elements.push(format!("1 2 1 1 {} {}", node(i, 0), node(i + 1, 0)));
-        elements.push(format!("1 2 3 3 {} {}", node(i, ny), node(i + 1, ny)));
+        elements.push((1, 0, vec![node(i, 0), node(i + 1, 0)]));
+        elements.push((1, 2, vec![node(i, ny), node(i + 1, ny)]));
     }
     for j in 0..ny {
-        elements.push(format!("1 2 4 4 {} {}", node(0, j), node(0, j + 1)));
-        elements.push(format!("1 2 2 2 {} {}", node(nx, j), node(nx, j + 1)));
+        elements.push((1, 3, vec![node(0, j), node(0, j + 1)]));
+        elements.push((1, 1, vec![node(nx, j), node(nx, j + 1)]));
         for i in 0..nx {
             let corners = [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
-            let corners = corners.map(|n| n.to_string()).join(" ");
-            elements.push(format!("3 2 5 5 {corners}"));
+            elements.push((3, 4, corners.to_vec()));
         }
     }
-    text += &format!("$EndNodes\n$Elements\n{}\n", elements.len());
-    for (i, element) in elements.iter().enumerate() {
-        text += &format!("{} {element}\n", i + 1);
-    }
-    text += "$EndElements\n";
-    text.into_bytes()
+    let groups = [(1, "bottom"), (1, "right"), (1, "top"), (1, "left"), (2, "block")];
+    mesh_text(&points, &groups, &elements)
 }
 
 fn block_specification() -> BodySpecification {
-    BodySpecification {
-        scale: 1.0,
-        contact: "bottom".to_owned(),
-        counterface: CounterfaceSpecification::Plane { direction: Some([1.0, 0.0]) },
-        opposite: None,
-        conditions: vec![
-            ("right".to_owned(), BoundaryCondition::Guide),
-            ("top".to_owned(), BoundaryCondition::Pressure(1e6)),
-        ],
-    }
+    plane_body(
+        "bottom",
+        CounterfaceSpecification::Plane { direction: Some([1.0, 0.0]) },
+        None,
+        &[("right", BoundaryCondition::Guide), ("top", BoundaryCondition::Pressure(1e6))],
+    )
 }
 
 fn plane(friction_coefficient: f64) -> SlidingContact {
@@ -263,11 +203,7 @@ fn a_pressed_block_is_in_balance() {
 fn a_block_on_an_elastic_mounting_lifts_a_corner_as_friction_rises() {
     let file = FileMesh::read(&rectangle(0.04, 0.06, 20, 30)).unwrap();
     let mut specification = block_specification();
-    let mounting = ElasticSupport {
-        normal_stiffness: 1e12,
-        tangential_stiffness: 1e12,
-        ..ElasticSupport::default()
-    };
+    let mounting = springs([1e12, 1e12, 0.0], [0.0, 0.0]);
     specification.conditions = vec![("top".to_owned(), BoundaryCondition::Support(mounting))];
     let mesh = Mesh::from_gmsh(&file, &specification).unwrap();
     let stiffness = assemble_stiffness(&mesh, &POLYCARBONATE);
@@ -297,13 +233,12 @@ fn a_block_on_an_elastic_mounting_lifts_a_corner_as_friction_rises() {
 #[test]
 fn a_body_without_symmetry_grows_in_time_as_its_eigenvalue_says() {
     let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 60, 12)).unwrap().mesh;
-    let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
     // The rim moves by 5 mm, the hole stays.
     let shift = |[x, y]: [f64; 2]| {
         let depth = (x.hypot(y) - 0.0205) / 0.07;
         [x - 5e-3 * depth, y]
     };
-    let body = disc_body(&write_msh(&mesh, FORMS[0], &numbers, shift), 1.0);
+    let body = disc_body(&write_msh(&mesh, FORMS[0], &[], shift), 1.0);
     let contact = contact(610.0);
     let found = modes(&body, &options(MassKind::Lumped, false), &contact);
     let exact = found.iter().max_by(|a, b| a.growth_rate().total_cmp(&b.growth_rate())).unwrap();
@@ -313,7 +248,6 @@ fn a_body_without_symmetry_grows_in_time_as_its_eigenvalue_says() {
         DAMPING,
         contact,
     );
-    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let settings = transient_settings(
         0.03,
         4e-6,
@@ -321,10 +255,8 @@ fn a_body_without_symmetry_grows_in_time_as_its_eigenvalue_says() {
         InitialState::SteadySliding,
         Perturbation::of(&[1, 2], 1e-12),
     );
-    let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
-    let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
-    run.run(&mut record).unwrap();
-    assert!(run.largest_residual() < 1e-10);
+    let (mut record, residual) = recorded(model, OperatorChoice::Auto, &settings);
+    assert!(residual < 1e-10);
     // The second half of the linear stage, where the fastest mode is alone.
     record.rows.drain(..record.rows.len() / 2);
     let analysis = TransientAnalysis::of(&record, &[2]);
@@ -340,14 +272,8 @@ fn a_body_without_symmetry_grows_in_time_as_its_eigenvalue_says() {
 fn energy_closes_with_supports_pressure_and_partial_contact() {
     let file = FileMesh::read(&rectangle(0.04, 0.06, 8, 12)).unwrap();
     let mut specification = block_specification();
-    specification.conditions[0].1 = BoundaryCondition::Support(ElasticSupport {
-        loss_factor: 0.0,
-        normal_stiffness: 1e11,
-        tangential_stiffness: 1e10,
-        axial_stiffness: 0.0,
-        normal_damping: 3e4,
-        tangential_damping: 1e4,
-    });
+    specification.conditions[0].1 =
+        BoundaryCondition::Support(springs([1e11, 1e10, 0.0], [3e4, 1e4]));
     let mesh = Mesh::from_gmsh(&file, &specification).unwrap();
     let model = TransientModel::new(
         SteppedBody::Plane { mesh: &mesh, annulus: None },
@@ -355,17 +281,13 @@ fn energy_closes_with_supports_pressure_and_partial_contact() {
         RayleighDamping { mass_coefficient: 40.0, stiffness_coefficient: 1e-7 },
         plane(0.5),
     );
-    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let settings =
         transient_settings(2e-3, 5e-6, 1e-4, InitialState::Rest, Perturbation::default());
-    let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
-    let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
-    run.run(&mut record).unwrap();
-    assert!(run.largest_residual() < 1e-10, "{}", run.largest_residual());
+    let (record, residual) = recorded(model, OperatorChoice::Auto, &settings);
+    assert!(residual < 1e-10, "{}", residual);
     assert!(record.rows.iter().any(|row| row.counts.open > 0));
 }
 
-/// Each message names what is wrong and what to do.
 #[test]
 fn bad_files_and_names_are_refused_with_a_remedy() {
     let good = String::from_utf8(rectangle(0.04, 0.03, 4, 3)).unwrap();
@@ -421,16 +343,9 @@ fn bad_files_and_names_are_refused_with_a_remedy() {
 #[test]
 fn mutated_files_are_read_or_refused() {
     let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad8, 6, 2)).unwrap().mesh;
-    let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
-    let seeds: Vec<Vec<u8>> =
-        FORMS.map(|form: Form| write_msh(&mesh, form, &numbers, |p| p)).into();
-    let specification = BodySpecification {
-        scale: 1.0,
-        contact: "inner".to_owned(),
-        counterface: CYLINDER,
-        opposite: None,
-        conditions: vec![("outer".to_owned(), BoundaryCondition::Clamped)],
-    };
+    let seeds: Vec<Vec<u8>> = FORMS.map(|form: Form| write_msh(&mesh, form, &[], |p| p)).into();
+    let specification =
+        plane_body("inner", CYLINDER, None, &[("outer", BoundaryCondition::Clamped)]);
     let mut state = 1_u64;
     let mut draw = |below: usize| {
         state =

@@ -1,17 +1,10 @@
 //! Sensitivities of bodies solved on their whole mesh against central differences of whole analyses run again (independent
 //! checks): the difference of two spectra knows nothing of vectors.
 
-use crate::bricks::{Block, file_of};
-use crate::disc::annulus;
-use crate::msh::{FORMS, write_msh};
-use frictionsim::case::Case;
-use frictionsim::cea::FrictionSweep;
+use crate::prelude::*;
 use frictionsim::linalg::c64;
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::results::cea::SensitivityReport;
-use frictionsim::study::eigenvalues::{body_sensitivities, modes_and_onsets};
-use std::path::Path;
-use tempfile::TempDir;
+use frictionsim::study::eigenvalues::body_sensitivities;
 
 /// What differences leave, relative: the square of their step where modes are about to meet, and the round-off of spectra over it.
 const TOLERANCE: f64 = 1e-3;
@@ -24,15 +17,15 @@ fn step_of(key: &str) -> f64 {
     }
 }
 
-struct Body {
-    folder: TempDir,
-    text: String,
+/// A case beside its files.
+pub struct Body {
+    pub folder: TempDir,
+    pub text: String,
 }
 
 impl Body {
-    fn case(&self, set: &[String]) -> Case {
-        let name = self.folder.path().join("case.toml").display().to_string();
-        Case::parse(&name, self.text.as_bytes(), set).unwrap_or_else(|e| panic!("{e}"))
+    pub fn case<S: AsRef<str>>(&self, set: &[S]) -> Case {
+        case_of(self.folder.path().join("case.toml"), &self.text, set)
     }
 
     /// The case's own friction coefficient and its spectrum.
@@ -43,7 +36,7 @@ impl Body {
     }
 
     fn sensitivities(&self) -> (SensitivityReport, Vec<String>) {
-        let (case, (_, sweep)) = (self.case(&[]), self.solve(&[]));
+        let (case, (_, sweep)) = (self.case(AS_IT_IS), self.solve(&[]));
         let found = body_sensitivities(&case, case.require_cea().unwrap(), &sweep, None).unwrap();
         (found.report, found.missing)
     }
@@ -111,8 +104,7 @@ fn nearest_onset(sweep: &FrictionSweep, friction: f64) -> f64 {
 fn oval(contact: &str) -> Body {
     let folder = tempfile::tempdir().unwrap();
     let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 24, 4)).unwrap().mesh;
-    let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
-    let oval = write_msh(&mesh, FORMS[2], &numbers, |[x, y]: [f64; 2]| {
+    let oval = write_msh(&mesh, FORMS[2], &[], |[x, y]: [f64; 2]| {
         let outwards = (x.hypot(y) - 0.0205) / 0.07;
         [x * (1.0 + 0.3 * outwards) + 0.006 * outwards, y * (1.0 - 0.1 * outwards)]
     });
@@ -176,13 +168,8 @@ fn sensitivities_of_a_block_whose_corner_lifts_are_differences_of_its_spectra() 
 fn sensitivities_of_an_assembly_are_differences_of_its_spectra() {
     let folder = tempfile::tempdir().unwrap();
     let blocks = [
-        Block { name: "lower", origin: [0.0; 3], size: [0.05, 0.04, 0.02], counts: [3, 2, 1] },
-        Block {
-            name: "upper",
-            origin: [0.005, 0.004, 0.02],
-            size: [0.04, 0.03, 0.015],
-            counts: [2, 2, 1],
-        },
+        brick("lower", [0.0; 3], [0.05, 0.04, 0.02], [3, 2, 1]),
+        brick("upper", [0.005, 0.004, 0.02], [0.04, 0.03, 0.015], [2, 2, 1]),
     ];
     std::fs::write(folder.path().join("blocks.msh"), file_of(&blocks, |point| point)).unwrap();
     let text = "[mesh]\nfile = \"blocks.msh\"\n[boundaries.lower_z0]\ncondition = \"clamped\"\n\

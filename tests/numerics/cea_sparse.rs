@@ -3,26 +3,13 @@
 
 mod counts;
 
-use crate::disc::{POLYCARBONATE, RIGID, TANGENT, annulus, contact, sweep_request};
-use crate::table_1::TABLE_1;
-use faer::{Mat, c64};
+use crate::prelude::*;
+use crate::structural_damping::dense_eigenvalues;
 use frictionsim::cea::sparse::{
     Centre, FrictionlessModes, Linearization, ShiftInverted, StiffnessFactors, StructureMatrices,
-    sweep,
 };
-use frictionsim::cea::{
-    CeaError, ComplexMode, FrictionSweep, ModeLimit, SweepProgress, SweepRequest, SweepWatch,
-};
-use frictionsim::contact::ContactStiffness;
-use frictionsim::fem::{DofMap, RayleighDamping, assemble_stiffness};
-use frictionsim::linalg::dense::random_columns;
-use frictionsim::linalg::dense_eigen::real_eigen;
-use frictionsim::linalg::{
-    BlockOperator, DenseLu, KrylovSchurSettings, LuAnalysis, MatrixPolynomial, krylov_schur,
-};
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
-use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
-use std::f64::consts::TAU;
+use frictionsim::cea::{CeaError, SweepProgress, SweepWatch};
+use frictionsim::linalg::{BlockOperator, KrylovSchurSettings, LuAnalysis, krylov_schur};
 use std::sync::Mutex;
 
 type Entries = Vec<(usize, usize, f64)>;
@@ -48,6 +35,16 @@ fn problem(
         ),
         None => on(&damping),
     };
+    let unknowns = DofMap::excluding(size, []);
+    bare([mass, damping, stiffness], proportional, unknowns)
+}
+
+/// Matrices without a contact.
+pub fn bare(
+    [mass, damping, stiffness]: [MatrixPolynomial; 3],
+    proportional: Option<RayleighDamping>,
+    unknowns: DofMap,
+) -> SlidingTangent {
     SlidingTangent {
         mass,
         damping,
@@ -55,7 +52,7 @@ fn problem(
         structural: None,
         tabled: Vec::new(),
         proportional,
-        unknowns: DofMap::excluding(size, []),
+        unknowns,
         contact_tangential: Vec::new(),
         contact_normal: Vec::new(),
         contact_opposite: Vec::new(),
@@ -198,28 +195,6 @@ fn sweep_of_a_general_quadratic_problem_equals_a_dense_decomposition() {
     }
 }
 
-/// Eigenvalues with `Im > 0` by rising frequency from the dense companion matrix.
-fn dense_eigenvalues(tangent: &SlidingTangent, mu: f64) -> Vec<c64> {
-    let size = tangent.mass.dimension();
-    let dense = |p: &MatrixPolynomial| {
-        p.pattern().multiply(&p.evaluate(mu), Mat::<f64>::identity(size, size).as_ref())
-    };
-    let lu = DenseLu::factorize(dense(&tangent.mass));
-    let (mut stiff, mut damped) = (dense(&tangent.stiffness), dense(&tangent.damping));
-    lu.solve_in_place(stiff.as_mut());
-    lu.solve_in_place(damped.as_mut());
-    let companion = Mat::from_fn(2 * size, 2 * size, |i, j| match (i < size, j < size) {
-        (true, true) => 0.0,
-        (true, false) => f64::from(i == j - size),
-        (false, true) => -stiff[(i - size, j)],
-        (false, false) => -damped[(i - size, j - size)],
-    });
-    let mut values: Vec<c64> = real_eigen(companion.as_ref(), false, 0).unwrap().values;
-    values.retain(|v| v.im > 0.0);
-    values.sort_by(|a, b| a.im.total_cmp(&b.im));
-    values
-}
-
 #[test]
 fn quadratic_and_reduced_problem_have_one_spectrum() {
     for normal_stiffness in [None, Some(7.4e12)] {
@@ -305,7 +280,6 @@ fn sweep_with_general_damping_agrees_with_krylov_schur_at_every_friction() {
     }
 }
 
-/// Consistency check.
 #[test]
 fn sweep_is_bitwise_equal_on_one_and_two_threads() {
     let tangent = Disc::coarse().tangent();
@@ -324,7 +298,6 @@ fn sweep_is_bitwise_equal_on_one_and_two_threads() {
     assert!(one.points[2].modes.iter().all(|m| m.shape.is_none()));
 }
 
-/// Keeps the steps of a sweep in their order.
 #[derive(Default)]
 struct Kept {
     known: Vec<(String, Vec<Vec<f64>>)>,
@@ -447,7 +420,9 @@ fn paper_disc_reproduces_table_1_and_the_critical_friction_coefficients() {
         let is_unstable = [3, 5, 7].contains(&(i + 1));
         // Mode 26 sits on the stability boundary.
         assert!(i + 1 == 26 || mode.is_unstable() == is_unstable, "mode {}", i + 1);
-        let expected = match (mode.harmonic, mode.real_hz() > rayleigh(mode)) {
+        // Without friction, `-(alpha + beta omega^2) / 2`.
+        let damped = -(40.0 + 4.5e-7 * mode.eigenvalue.norm_sqr()) / 2.0 / TAU;
+        let expected = match (mode.harmonic, mode.real_hz() > damped) {
             (0, _) => 0,
             (_, true) => -1,
             (_, false) => 1,
@@ -462,9 +437,4 @@ fn paper_disc_reproduces_table_1_and_the_critical_friction_coefficients() {
         assert!((interval.critical_friction - critical).abs() < 3e-3);
         assert_eq!(interval.direction, -1);
     }
-}
-
-/// Real part of a mode of this frequency without friction, Hz: `-(alpha + beta omega^2) / 2`.
-fn rayleigh(mode: &ComplexMode) -> f64 {
-    -(40.0 + 4.5e-7 * mode.eigenvalue.norm_sqr()) / 2.0 / TAU
 }

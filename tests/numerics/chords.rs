@@ -1,22 +1,11 @@
 //! Quadratic elements with straight edges on round counterfaces (independent: curved edges, linear elements, exact distances).
 
-use crate::block::block;
-use crate::bricks::{Block, file_of};
-use crate::disc::{POLYCARBONATE, RIGID, annulus, contact};
-use crate::triangles::body;
-use frictionsim::case::Case;
-use frictionsim::contact::{
-    ContactInterface, ContactStiffness, Counterpart, PairFriction, RigidCounterface, RigidMotion,
-    RigidShape, SurfacePair,
-};
-use frictionsim::fem::{ElasticMaterial, PlaneFormulation, assemble_stiffness};
-use frictionsim::mesh::{AnnulusMesh, BoundaryCondition, ElementKind, FileMesh, Mesh};
-use frictionsim::prestress::{Assembly, BaseChoice, SlidingSurfaces, SteadySliding};
+use crate::prelude::*;
+use frictionsim::contact::{RigidCounterface, RigidMotion, RigidShape, SurfacePair};
 
 const RUBBER: ElasticMaterial =
     ElasticMaterial { formulation: PlaneFormulation::ThreeDimensional, ..POLYCARBONATE };
 
-/// Radius of a ball, m.
 const BALL: f64 = 0.016;
 
 fn ball(interference: f64) -> RigidCounterface {
@@ -122,8 +111,7 @@ fn a_flat_face_keeps_its_distance_from_a_ball() {
 fn a_plane_ring_with_straight_edges_is_pressed_like_one_with_curved_edges() {
     let force = |is_straight: bool| {
         let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad8, 48, 3)).unwrap().mesh;
-        let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
-        let bytes = crate::msh::write_msh(&mesh, crate::msh::FORMS[3], &numbers, |p| p);
+        let bytes = crate::msh::write_msh(&mesh, crate::msh::FORMS[3], &[], |p| p);
         let mut file = FileMesh::read(&bytes).unwrap();
         if is_straight {
             straighten(&mut file);
@@ -146,9 +134,8 @@ fn a_plane_ring_with_straight_edges_is_pressed_like_one_with_curved_edges() {
 fn an_overlap_beyond_the_interference_is_told_with_its_depth() {
     let folder = tempfile::tempdir().unwrap();
     let ring = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 36, 3)).unwrap().mesh;
-    let numbers: Vec<usize> = (1..=ring.node_count()).collect();
-    let ring = crate::msh::write_msh(&ring, crate::msh::FORMS[2], &numbers, |p| p);
-    let block = Block { name: "cup", origin: [0.0; 3], size: [1.0; 3], counts: [3, 3, 1] };
+    let ring = crate::msh::write_msh(&ring, crate::msh::FORMS[2], &[], |p| p);
+    let block = brick("cup", [0.0; 3], [1.0; 3], [3, 3, 1]);
     for (mesh, held, contact, said) in [
         (ring, "outer", "radius = 0.0206\n", "by 1.00e-4 m, 5.0 times contact.interference"),
         (
@@ -165,9 +152,7 @@ fn an_overlap_beyond_the_interference_is_told_with_its_depth() {
                  young_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n[contact]\n{contact}\
                  friction_coefficient = 0.3\ninterference = 2e-5\nrotation_speed_rpm = 100.0\n"
             );
-            let name = folder.path().join("case.toml").display().to_string();
-            let case = Case::parse(&name, text.as_bytes(), &[]);
-            let case = case.unwrap_or_else(|errors| panic!("{errors}"));
+            let case = case_of(folder.path().join("case.toml"), &text, AS_IT_IS);
             case.warnings.iter().map(ToString::to_string).collect()
         };
         let told = warnings(contact);

@@ -5,9 +5,7 @@
 use crate::continuum;
 use crate::continuum::bessel::{determinant, of_complex_argument, of_real_argument, root_near};
 use crate::continuum::{Annulus, Contact, Eigenvalue, Rayleigh};
-use crate::table_1::TABLE_1;
-use faer::c64;
-use std::f64::consts::TAU;
+use crate::prelude::*;
 
 /// The disc of the paper with rounded material data.
 const DISC: Annulus = Annulus {
@@ -19,7 +17,6 @@ const DISC: Annulus = Annulus {
     plane_strain: true,
 };
 
-/// The disc with the Poisson's ratio that fits Table 1.
 const FITTED: Annulus = Annulus { poisson_ratio: 0.3805, ..DISC };
 
 /// Contact stiffness that fits Table 1, Pa/m.
@@ -28,7 +25,6 @@ const NORMAL_STIFFNESS: f64 = 7.4e12;
 /// `alpha_R` and `beta_R` of the paper.
 const RAYLEIGH: Rayleigh = (40.0, 4.5e-7);
 
-/// Exact eigenvalue of each row of Table 1.
 fn table_1_reference(annulus: &Annulus, contact: &Contact) -> Vec<Eigenvalue> {
     (0..TABLE_1.len())
         .map(|row| {

@@ -6,16 +6,14 @@
 //! the assembled sparse matrices, not from the program's own eigenvalue solvers.
 
 mod folded;
-mod rates;
+pub mod rates;
 
 use crate::continuum::prestress::SteadyState;
 use crate::continuum::{Annulus, Contact, Eigenvalue, Rayleigh};
-use faer::c64;
+use crate::prelude::*;
 use folded::{Discretisation, FORWARD, INTERFERENCE, base_state, material};
-use frictionsim::fem::{MassKind, nodal_stress};
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
+use frictionsim::fem::nodal_stress;
 use rates::{DISC, assert_rate, rate, refinements};
-use std::f64::consts::TAU;
 
 const NORMAL_STIFFNESS: f64 = 7.4e12;
 const RAYLEIGH: Rayleigh = (40.0, 4.5e-7);

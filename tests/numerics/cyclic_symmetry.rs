@@ -1,24 +1,20 @@
 //! Bodies from a mesh of one of their sectors, solved by waves around them, against their whole mesh.
 
-use crate::bricks::{Block, file_of};
-use frictionsim::case::{Case, CaseErrors};
-use frictionsim::cea::{ComplexMode, Unwatched};
+use crate::prelude::*;
+use frictionsim::case::CaseErrors;
+use frictionsim::cea::Unwatched;
 use frictionsim::results::Manifest;
 use frictionsim::results::cea::{self, Reading, View};
 use frictionsim::results::report::Report;
 use frictionsim::study::eigenvalues::{self, SlidingModel, Solution, solve};
 use frictionsim::study::uncertainty::Sampler;
-use std::f64::consts::TAU;
-use std::fmt::Write;
-use std::fs;
-use std::path::PathBuf;
 
 /// One of `count` sectors of a disc as a file in MSH 2.2: bent cut faces, uneven elements, and a hole, the boundary "screw", off the
 /// middle. Nodes within the second cut face lie `shift` elements farther out than those of the first.
-fn disc_sector(count: usize, [around, radial]: [usize; 2], shift: f64) -> String {
+fn disc_sector(count: usize, [around, radial]: [usize; 2], shift: f64) -> Vec<u8> {
     let [inner, outer] = [0.0205, 0.0905];
-    let node = |i: usize, j: usize| 1 + i * (radial + 1) + j;
-    let (mut nodes, mut elements) = (String::new(), String::new());
+    let node = |i: usize, j: usize| i * (radial + 1) + j;
+    let (mut points, mut elements) = (Vec::new(), Vec::new());
     let is_hole = |i: usize, j: usize| {
         let [t, r] = [(i as f64 + 0.5) / around as f64, (j as f64 + 0.5) / radial as f64];
         (0.3..0.55).contains(&t) && (0.6..0.8).contains(&r)
@@ -37,21 +33,16 @@ fn disc_sector(count: usize, [around, radial]: [usize; 2], shift: f64) -> String
             let share = r / radial as f64;
             let angle = TAU / count as f64 * (t / around as f64 + 0.15 * share * share);
             let radius = inner + (outer - inner) * share;
-            let [x, y] = [radius * angle.cos(), radius * angle.sin()];
-            writeln!(nodes, "{} {x:?} {y:?} 0", node(i, j)).unwrap();
+            points.push([radius * angle.cos(), radius * angle.sin(), 0.0]);
         }
     }
-    let mut total = 0;
-    let mut add = |kind: usize, group: usize, list: &[usize]| {
-        total += 1;
-        let list: Vec<String> = list.iter().map(usize::to_string).collect();
-        writeln!(elements, "{total} {kind} 2 {group} {group} {}", list.join(" ")).unwrap();
-    };
+    let mut add =
+        |kind: u32, group: usize, list: &[usize]| elements.push((kind, group, list.to_vec()));
     for i in 0..around {
-        add(1, 1, &[node(i, 0), node(i + 1, 0)]);
+        add(1, 0, &[node(i, 0), node(i + 1, 0)]);
         for j in (0..radial).filter(|&j| !is_hole(i, j)) {
             let [a, b] = [i, i + 1];
-            add(3, 2, &[node(a, j), node(a, j + 1), node(b, j + 1), node(b, j)]);
+            add(3, 1, &[node(a, j), node(a, j + 1), node(b, j + 1), node(b, j)]);
             // Edges towards the hole.
             let sides = [
                 (i > 0 && is_hole(i - 1, j), [node(a, j), node(a, j + 1)]),
@@ -60,21 +51,15 @@ fn disc_sector(count: usize, [around, radial]: [usize; 2], shift: f64) -> String
                 (is_hole(i, j + 1), [node(a, j + 1), node(b, j + 1)]),
             ];
             for (_, edge) in sides.into_iter().filter(|side| side.0) {
-                add(1, 3, &edge);
+                add(1, 2, &edge);
             }
         }
     }
-    let node_count = (around + 1) * (radial + 1);
-    format!(
-        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"inner\"\n2 2 \"disc\"\n1 3 \"screw\"\n$EndPhysicalNames\n\
-         $Nodes\n{node_count}\n{nodes}$EndNodes\n$Elements\n{total}\n{elements}$EndElements\n"
-    )
+    mesh_text(&points, &[(1, "inner"), (2, "disc"), (1, "screw")], &elements)
 }
 
-/// A case beside its mesh, solved by one of the methods.
 fn read(name: &str, mesh: &[u8], text: &str, method: &str) -> Result<Case, CaseErrors> {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("sectors-{name}"));
-    fs::create_dir_all(&folder).unwrap();
+    let folder = kept(&format!("sectors-{name}"));
     fs::write(folder.join("sector.msh"), mesh).unwrap();
     let path = folder.join("case.toml");
     let method = format!("cea.method={method}");
@@ -139,18 +124,15 @@ fn waves_around_a_plane_body_have_the_spectrum_of_its_whole_mesh() {
     for (count, contact, size) in cases {
         let mesh = disc_sector(count, size, 0.0);
         let text = screwed_disc(count, &format!("{contact}{analysis}"));
-        assert_same(&format!("disc-{count}"), mesh.as_bytes(), &text);
+        assert_same(&format!("disc-{count}"), &mesh, &text);
     }
 }
 
 /// The same of solid bodies: a ring between two rings of lining, cut along bent faces, pressed by a load that the base state solves.
 #[test]
 fn waves_around_solid_bodies_have_the_spectrum_of_their_whole_mesh() {
-    let block = |name, z: [f64; 2], layers| Block {
-        name,
-        origin: [0.07, 0.0, z[0]],
-        size: [0.05, TAU / 6.0, z[1] - z[0]],
-        counts: [3, 4, layers],
+    let block = |name, z: [f64; 2], layers| {
+        brick(name, [0.07, 0.0, z[0]], [0.05, TAU / 6.0, z[1] - z[0]], [3, 4, layers])
     };
     let blocks = [
         block("below", [-0.02, -0.008], 1),
@@ -190,12 +172,7 @@ fn waves_around_solid_bodies_have_the_spectrum_of_their_whole_mesh() {
 /// `n Omega` beside those of the turning frame, but for what linear elements of 9 degrees make of the transport.
 #[test]
 fn waves_around_a_turning_ring_have_the_spectrum_of_its_whole_mesh() {
-    let ring = Block {
-        name: "ring",
-        origin: [0.05, 0.0, -0.005],
-        size: [0.1, TAU / 20.0, 0.01],
-        counts: [3, 2, 1],
-    };
+    let ring = brick("ring", [0.05, 0.0, -0.005], [0.1, TAU / 20.0, 0.01], [3, 2, 1]);
     let mesh = file_of(&[ring], |[r, t, z]| [r * t.cos(), r * t.sin(), z]);
     let text = |frame: &str| {
         format!(
@@ -228,27 +205,24 @@ fn waves_around_a_turning_ring_have_the_spectrum_of_its_whole_mesh() {
     }
 }
 
-/// A body that differs in one place has the spectrum of its whole mesh, and says why.
 #[test]
 fn a_body_with_one_mass_is_solved_whole() {
     let more = "[cea]\nmodes = 6\nfriction_coefficients = [0.0, 0.4]\n[modifications.lump]\nat = { x = 0.0905, y = 0.0 }\nmass = 0.5\n";
     let mesh = disc_sector(3, [14, 6], 0.0);
     let text = screwed_disc(3, more);
-    let [auto, whole] =
-        ["auto", "sparse"].map(|method| solved("mass", mesh.as_bytes(), &text, method));
+    let [auto, whole] = ["auto", "sparse"].map(|method| solved("mass", &mesh, &text, method));
     assert_eq!(auto.sweep, whole.sweep);
     assert_eq!(auto.method, "sparse");
     let note = auto.notes.iter().find(|note| note.contains("whole mesh"));
     assert!(note.unwrap().contains("mass of sector"), "{note:?}");
 }
 
-/// Sectors that do not meet their copies are refused with what does not fit.
 #[test]
 fn sectors_that_do_not_meet_are_refused() {
     let refused = |name: &str, sectors: usize, shift: f64| {
         let mesh = disc_sector(3, [14, 6], shift);
         let text = screwed_disc(sectors, "[cea]\nmodes = 6\n");
-        let case = read(name, mesh.as_bytes(), &text, "auto");
+        let case = read(name, &mesh, &text, "auto");
         case.unwrap_err().to_string()
     };
     let wrong = refused("wrong-count", 5, 0.0);
@@ -259,15 +233,9 @@ fn sectors_that_do_not_meet_are_refused() {
     assert!(shifted.contains("Periodic Curve"), "{shifted}");
 }
 
-/// A wrong number of sectors of solid bodies is reported at its key.
 #[test]
 fn a_wrong_number_of_solid_sectors_is_reported_where_it_is_given() {
-    let block = Block {
-        name: "ring",
-        origin: [0.07, 0.0, 0.0],
-        size: [0.05, TAU / 6.0, 0.01],
-        counts: [2, 4, 1],
-    };
+    let block = brick("ring", [0.07, 0.0, 0.0], [0.05, TAU / 6.0, 0.01], [2, 4, 1]);
     let mesh = file_of(&[block], |[r, t, z]| [r * t.cos(), r * t.sin(), z]);
     let text = "[mesh]\nfile = \"sector.msh\"\nsectors = 5\n\
                 [material]\nyoung_modulus = 1.1e11\npoisson_ratio = 0.28\ndensity = 7200.0\n\
@@ -286,7 +254,7 @@ fn every_table_of_a_body_of_sectors_has_its_nodal_diameters_and_samples_have_its
     let more = "[cea]\nmodes = 8\nfriction_coefficients = [0.0, 0.2, 0.4]\n[uncertainty]\nsamples = 2\nindex_samples = 0\n\
         [uncertainty.distributions]\n\"material.density\" = { uniform = [1227.999999, 1228.000001] }\n";
     let mesh = disc_sector(4, [8, 5], 0.0);
-    let case = read("tables", mesh.as_bytes(), &screwed_disc(4, more), "auto");
+    let case = read("tables", &mesh, &screwed_disc(4, more), "auto");
     let case = case.unwrap_or_else(|e| panic!("{e}"));
     let cea = case.cea.clone().unwrap();
     let model = SlidingModel::new(&case, &cea).unwrap();
@@ -321,20 +289,18 @@ fn every_table_of_a_body_of_sectors_has_its_nodal_diameters_and_samples_have_its
     }
 }
 
-/// A contact that nothing presses has no critical friction: refused, at its key.
 #[test]
 fn a_contact_without_pressure_is_refused() {
     let text =
         screwed_disc(4, "[cea]\nmodes = 4\n").replace("interference = 25e-6", "interference = 0.0");
     let mesh = disc_sector(4, [8, 5], 0.0);
-    let refused = read("no-pressure", mesh.as_bytes(), &text, "auto").unwrap_err().to_string();
+    let refused = read("no-pressure", &mesh, &text, "auto").unwrap_err().to_string();
     assert!(
         refused.contains("contact.interference = 0.0") && refused.contains("nothing presses"),
         "{refused}"
     );
     // Solid bodies may be pressed by what overlaps in their mesh: there the base state tells.
-    let block =
-        Block { name: "block", origin: [0.0; 3], size: [0.02, 0.02, 0.01], counts: [2, 2, 1] };
+    let block = brick("block", [0.0; 3], [0.02, 0.02, 0.01], [2, 2, 1]);
     let text = "[mesh]\nfile = \"sector.msh\"\n[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n\
         [boundaries.block_z1]\ncondition = \"clamped\"\n[contact]\nboundary = \"block_z0\"\ncounterface = \"plane\"\n\
         direction = [1.0, 0.0, 0.0]\nspeed = 1.0\nfriction_coefficient = 0.3\ninterference = 0.0\n[cea]\nmodes = 2\n";

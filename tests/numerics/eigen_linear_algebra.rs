@@ -1,16 +1,17 @@
 //! Sparse factorizations and the Krylov-Schur iteration against dense decompositions and against
 //! faer's own iteration (independent checks).
 
+use crate::prelude::*;
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::matrix_free::LinOp;
 use faer::matrix_free::eigen::{PartialEigenParams, partial_eigen, partial_eigen_scratch};
-use faer::{Mat, MatMut, MatRef, Par, c64};
+use faer::{MatMut, MatRef, Par};
 use frictionsim::linalg::banded::{BandedMatrix, CompactRows};
-use frictionsim::linalg::dense::{GrowingColumns, column, product, random_columns};
+use frictionsim::linalg::dense::{GrowingColumns, column, product};
 use frictionsim::linalg::dense_eigen::real_eigen;
 use frictionsim::linalg::{
     BlockOperator, ComplexSparseLu, KrylovSchurSettings, LdlAnalysis, LinalgError, LuAnalysis,
-    MatrixPolynomial, RealPairs, SparseCholesky, SparseLdl, SparseLu, krylov_schur,
+    RealPairs, SparseCholesky, SparseLdl, SparseLu, krylov_schur,
 };
 
 /// Five-point Laplacian on a `side x side` grid, plus `skew` times an unsymmetric convection.
@@ -80,7 +81,6 @@ fn settings(wanted: usize) -> KrylovSchurSettings {
     KrylovSchurSettings { wanted, tolerance: 1e-12, max_applications: 2000, dense_up_to: 0 }
 }
 
-/// Largest eigenvalues of the inverse.
 fn largest(p: &MatrixPolynomial, wanted: usize) -> RealPairs {
     let start = random_columns(p.dimension(), 4, 0x5eed);
     let pairs = krylov_schur(&inverse_of(p), start, &|_| true, &settings(wanted)).unwrap();

@@ -1,14 +1,7 @@
 //! Independent checks of the element matrices against elasticity theory.
 
-use crate::disc::{elastic, sliding_at};
-use frictionsim::contact::SlidingContact;
-use frictionsim::fem::{
-    DofMap, ElasticMaterial, MassKind, PlaneFormulation, assemble_mass, assemble_stiffness,
-    nodal_stress,
-};
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, Mesh};
-use frictionsim::prestress::{PrestressError, SteadySliding};
-use std::f64::consts::PI;
+use crate::prelude::*;
+use frictionsim::fem::nodal_stress;
 
 const ELEMENTS: [ElementKind; 2] = [ElementKind::Quad4, ElementKind::Quad8];
 

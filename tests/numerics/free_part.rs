@@ -1,17 +1,10 @@
 //! Parts by themselves: free modes, and the constants of a material from them.
 
-use crate::bricks::{Block, file_of};
-use crate::tier::sized;
-use frictionsim::case::Case;
-use frictionsim::fem::{MassKind, Triplets, assemble_mass, assemble_stiffness};
+use crate::plane_body::studies::line;
+use crate::prelude::*;
 use frictionsim::linalg::{GaussianNoise, c64};
 use frictionsim::study::StudyError;
-use frictionsim::study::eigenvalues::modes_and_onsets;
 use frictionsim::study::fit::{FitError, MeasuredMode, fit_case};
-use nalgebra::DMatrix;
-use std::f64::consts::TAU;
-use std::fs;
-use std::path::PathBuf;
 
 /// The nine constants of a lining, by key.
 const CONSTANTS: [(&str, f64); 9] = [
@@ -28,28 +21,17 @@ const CONSTANTS: [(&str, f64); 9] = [
 
 /// A block of lining of 50 x 40 x 20 mm that nothing holds.
 fn lining(name: &str, sections: &str, overrides: &[String]) -> Case {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("free-part-{name}"));
-    fs::create_dir_all(&folder).unwrap();
-    let block =
-        Block { name: "part", origin: [0.0; 3], size: [0.05, 0.04, 0.02], counts: [4, 3, 2] };
+    let folder = kept(&format!("free-part-{name}"));
+    let block = brick("part", [0.0; 3], [0.05, 0.04, 0.02], [4, 3, 2]);
     fs::write(folder.join("part.msh"), file_of(&[block], |point| point)).unwrap();
     let text = format!(
-        r#"
-[mesh]
-file = "part.msh"
-[material]
-young_moduli = [8e9, 7e9, 1.5e9]
-poisson_ratios = [0.25, 0.15, 0.2]
-shear_moduli = [3e9, 1.2e9, 1e9]
-density = 2500.0
-{sections}"#
+        "[mesh]\nfile = \"part.msh\"
+[material]\nyoung_moduli = [8e9, 7e9, 1.5e9]\npoisson_ratios = [0.25, 0.15, 0.2]\n\
+     shear_moduli = [3e9, 1.2e9, 1e9]\ndensity = 2500.0\n{sections}"
     );
-    let path = folder.join("part.toml");
-    let parsed = Case::parse(path.to_str().unwrap(), text.as_bytes(), overrides);
-    parsed.unwrap_or_else(|errors| panic!("{errors}"))
+    case_of(folder.join("part.toml"), &text, overrides)
 }
 
-/// Frequencies of the dense pencil of the elements, rigid motions left out, rad/s.
 fn dense(case: &Case) -> Vec<f64> {
     let body = case.body.assembly().unwrap();
     let count = body.mesh.dof_count();
@@ -62,12 +44,7 @@ fn dense(case: &Case) -> Vec<f64> {
     };
     let mass = full(&assemble_mass(&body.mesh, &body.materials, MassKind::Consistent));
     let stiffness = full(&assemble_stiffness(&body.mesh, &body.materials));
-    let factor = mass.cholesky().unwrap().l();
-    let half = factor.solve_lower_triangular(&stiffness).unwrap();
-    let scaled = factor.solve_lower_triangular(&half.transpose()).unwrap();
-    let symmetric = (&scaled + scaled.transpose()) * 0.5;
-    let mut squares: Vec<f64> = symmetric.symmetric_eigenvalues().iter().copied().collect();
-    squares.sort_by(f64::total_cmp);
+    let squares = crate::supported_bodies::squares(mass, &stiffness);
     // Six rigid motions of round-off.
     assert!(squares[5].abs() < 1e-6 * squares[6]);
     squares[6..].iter().map(|square| square.sqrt()).collect()
@@ -125,15 +102,7 @@ fn fitted(constants: &[(&str, f64)]) -> String {
 fn measured(case: &Case, modes: usize, noise: f64, seed: u64) -> Vec<MeasuredMode> {
     let mut draw = GaussianNoise::new(seed);
     let lines = dense(case).into_iter().take(modes).enumerate();
-    let lines = lines.map(|(i, omega)| MeasuredMode {
-        line: i + 2,
-        frequency_hz: omega / TAU * (1.0 + noise * draw.draw().re),
-        real_hz: None,
-        harmonic: None,
-        sigma_hz: None,
-        is_unstable: false,
-    });
-    lines.collect()
+    lines.map(|(i, omega)| line(i + 2, omega / TAU * (1.0 + noise * draw.draw().re))).collect()
 }
 
 /// Statistics: of nine constants fitted to thirty free modes with errors of 0.1 %, nine in ten and more lie inside their 95 %

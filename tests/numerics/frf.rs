@@ -1,15 +1,7 @@
 //! Frequency responses of the finite-element model against theory and against each other.
 
-use crate::disc::{TANGENT, elastic, sliding_at};
-use frictionsim::fem::{
-    ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
-};
-use frictionsim::frf::{
-    Direction, FrfError, FrfSystem, ReductionSettings, Terminal, direct_response, reduced_response,
-};
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
-use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
-use std::f64::consts::{PI, TAU};
+use crate::prelude::*;
+use frictionsim::frf::{ReductionSettings, reduced_response};
 
 const RADIAL: usize = 10;
 

@@ -1,17 +1,8 @@
 //! Frequency responses harmonic by harmonic against sparse solutions of the whole mesh (another
 //! assembly, another factorization: independent checks).
 
-use crate::disc::{DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, contact};
-use frictionsim::case::{Case, unset};
-use frictionsim::contact::ContactStiffness;
-use frictionsim::fem::{MassKind, assemble_stiffness};
-use frictionsim::frf::{
-    CyclicSystem, Direction, FrfError, FrfSystem, Terminal, cyclic_response, direct_response,
-};
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, SectorMesh};
-use frictionsim::prestress::{
-    DampingModel, SlidingTangent, SteadySliding, TangentOptions, WaveTangent,
-};
+use crate::prelude::*;
+use frictionsim::case::unset;
 use frictionsim::study::response::FrequencyStudy;
 
 /// Even and odd numbers of sectors differ in their last harmonic.

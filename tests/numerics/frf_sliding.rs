@@ -1,21 +1,9 @@
 //! Frequency responses in sliding contact against eigenvalues and eigenvectors: of a dense
 //! decomposition, and of the eigenvalue analysis (other equations, other solvers: independent checks).
 
-use crate::disc::{POLYCARBONATE, RIGID, TANGENT, annulus, contact, sweep_request};
-use faer::{Mat, c64};
-use frictionsim::cea::ModeLimit;
-use frictionsim::cea::sparse::sweep;
-use frictionsim::contact::ContactStiffness;
-use frictionsim::fem::assemble_stiffness;
-use frictionsim::frf::{
-    CyclicSystem, Direction, FrfSystem, Terminal, cyclic_response, direct_response,
-};
-use frictionsim::linalg::{DenseLu, MatrixPolynomial};
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, SectorMesh};
-use frictionsim::prestress::{
-    DampingModel, SlidingTangent, SteadySliding, TangentOptions, WaveTangent,
-};
-use std::f64::consts::TAU;
+use crate::prelude::*;
+use crate::structural_damping::dense;
+use frictionsim::linalg::DenseLu;
 
 const RADIAL: usize = 5;
 /// Scale between displacement and velocity in the state, rad/s: balances the companion matrix.
@@ -31,9 +19,7 @@ fn options(damping_model: DampingModel, contact: ContactStiffness) -> TangentOpt
 
 fn tangent(options: &TangentOptions) -> SlidingTangent {
     let mesh = AnnulusMesh::generate(&specification()).unwrap().mesh;
-    let stiffness = assemble_stiffness(&mesh, &POLYCARBONATE);
-    let base = SteadySliding::solve(&mesh, &stiffness, &contact(610.0)).unwrap();
-    SlidingTangent::linearize(&mesh, &POLYCARBONATE, &stiffness, &base, options)
+    linearized(&mesh, &POLYCARBONATE, &contact(610.0), options)
 }
 
 fn cyclic(options: &TangentOptions, friction_coefficient: f64) -> CyclicSystem {
@@ -65,11 +51,7 @@ struct ModalForm {
 impl ModalForm {
     fn of(tangent: &SlidingTangent, friction_coefficient: f64) -> Self {
         let size = tangent.mass.dimension();
-        let dense = |p: &MatrixPolynomial| {
-            let unit = Mat::<f64>::identity(size, size);
-            let values = p.evaluate(friction_coefficient);
-            p.pattern().multiply(&values, unit.as_ref())
-        };
+        let dense = |p: &MatrixPolynomial| dense(p, friction_coefficient);
         let mass = DenseLu::factorize(dense(&tangent.mass));
         let (mut stiffness, mut damping) = (dense(&tangent.stiffness), dense(&tangent.damping));
         mass.solve_in_place(stiffness.as_mut());
@@ -131,12 +113,7 @@ impl ModalForm {
 #[test]
 fn responses_in_sliding_contact_are_the_sums_over_right_and_left_eigenvectors() {
     let rigid = ContactStiffness::default();
-    let penalty = ContactStiffness {
-        normal_stiffness: Some(7.4e12),
-        normal_damping: 3e5,
-        tangential_damping: 2e5,
-        ..RIGID
-    };
+    let penalty = compliant(7.4e12, [3e5, 2e5]);
     // Unstable modes included: the response is that of the equations, not of a steady state.
     let frequencies: Vec<f64> = (1..=40).map(|k| 431.7 * f64::from(k)).collect();
     for (damping_model, contact) in [

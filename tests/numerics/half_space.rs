@@ -4,13 +4,9 @@
 //! with frictional boundary conditions, J. Vib. Acoust. 117 (1995) 445. Short waves on the inner edge of an annulus tend to
 //! them as their number grows.
 
-use crate::disc::{TANGENT, elastic, sliding_at};
+use crate::prelude::*;
 use faer::linalg::solvers::Solve;
-use faer::{Mat, c64};
-use frictionsim::fem::{PlaneFormulation, RayleighDamping};
 use frictionsim::linalg::banded::BandedMatrix;
-use frictionsim::mesh::{AnnulusSpecification, ElementKind, SectorMesh};
-use frictionsim::prestress::{TangentOptions, WaveTangent};
 
 const POISSON_RATIO: f64 = 0.3;
 const FRICTION: f64 = 2.0;
@@ -43,16 +39,7 @@ const START: f64 = -1.4;
 
 /// Speed of the fastest growing wave of `n` lengths on the inner edge of the annulus from 1 to 1.5.
 fn annulus_speed(n: usize) -> c64 {
-    let specification = AnnulusSpecification {
-        inner_radius: 1.0,
-        outer_radius: 1.5,
-        circumferential_elements: 200,
-        radial_elements: 40,
-        radial_grading: 1.0,
-        element: ElementKind::Quad8,
-        outer: frictionsim::mesh::BoundaryCondition::Clamped,
-        shaft: None,
-    };
+    let specification = ring([1.0, 1.5], ElementKind::Quad8, 200, 40);
     // Shear modulus and density one: speeds come in units of that of shear waves.
     let material =
         elastic(2.0 * (1.0 + POISSON_RATIO), POISSON_RATIO, 1.0, PlaneFormulation::PlaneStrain);

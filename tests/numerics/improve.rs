@@ -1,35 +1,19 @@
 //! Derivatives of growth rates by modifications of a body against differences of whole analyses run again with that
 //! modification, small (independent check: the difference of two spectra knows nothing of vectors).
 
-use crate::bricks::{Block, file_of};
-use crate::disc::annulus;
-use crate::msh::{FORMS, write_msh};
-use frictionsim::case::Case;
+use crate::body_sensitivity::Body;
+use crate::prelude::*;
 use frictionsim::linalg::c64;
-use frictionsim::mesh::{AnnulusMesh, ElementKind, Mesh};
 use frictionsim::results::improve::TargetFields;
-use frictionsim::study::eigenvalues::modes_and_onsets;
 use frictionsim::study::improve::{Improvement, improve};
-use std::f64::consts::TAU;
-use tempfile::TempDir;
 
 /// What differences of second order leave, relative to the largest derivative of a kind over the body.
 const TOLERANCE: f64 = 0.01;
 
-struct Body {
-    folder: TempDir,
-    text: String,
-}
-
 impl Body {
-    fn case(&self, set: &[String]) -> Case {
-        let name = self.folder.path().join("case.toml").display().to_string();
-        Case::parse(&name, self.text.as_bytes(), set).unwrap_or_else(|e| panic!("{e}"))
-    }
-
     fn improved(&self) -> Improvement {
-        let set = ["improve.confirm=0", "improve.candidates=1"].map(str::to_owned);
-        improve(&self.case(&set)).unwrap_or_else(|e| panic!("{e}"))
+        let case = self.case(&["improve.confirm=0", "improve.candidates=1"]);
+        improve(&case).unwrap_or_else(|e| panic!("{e}"))
     }
 
     /// The eigenvalue nearest to one after some changes.
@@ -52,7 +36,7 @@ impl Body {
 
     /// Holds the fields of the fastest mode to differences at some nodes, and in the region `patch`; steps are of mass, kg,
     /// stiffness, N/m, and damping, N s/m.
-    fn check(&self, nodes: &[usize], [mass, spring, dashpot]: [f64; 3]) {
+    fn check_fields(&self, nodes: &[usize], [mass, spring, dashpot]: [f64; 3]) {
         let found = self.improved();
         let fastest = found.modes.iter().enumerate();
         let fastest =
@@ -117,7 +101,7 @@ impl Body {
             _ => brick_volume(mesh, e),
         };
         let sum = |field: &[f64]| own().map(|e| field[e] * size(e)).sum::<f64>();
-        let case = self.case(&[]);
+        let case = self.case(AS_IT_IS);
         let elastic = *case.materials().of(region);
         let weaker = |p: f64| {
             vec![
@@ -155,7 +139,6 @@ fn near(what: &str, derivative: f64, difference: f64, field: &[f64]) {
     );
 }
 
-/// Volume of a brick with parallel sides.
 fn brick_volume(mesh: &Mesh, element: usize) -> f64 {
     let nodes = mesh.element_nodes(element);
     let at = |k: usize| mesh.nodes[nodes[k] as usize];
@@ -174,8 +157,7 @@ fn disc(place: impl Fn([f64; 2]) -> [f64; 2], rest: &str) -> Body {
     for element in [4 * 5 + 1, 4 * 5 + 2] {
         mesh.element_regions[element] = 1;
     }
-    let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
-    let bytes = write_msh(&mesh, FORMS[2], &numbers, place);
+    let bytes = write_msh(&mesh, FORMS[2], &[], place);
     std::fs::write(folder.path().join("disc.msh"), bytes).unwrap();
     let text = format!(
         "[geometry]\nthickness = 0.009\n[mesh]\nfile = \"disc.msh\"\n\
@@ -195,7 +177,7 @@ fn fields_of_the_disc_are_differences_of_its_spectra() {
          [contact]\nfriction_coefficient = 0.3\ninterference = 25e-6\nrotation_speed_rpm = 610.0\n\
          [cea]\nmodes = 12\ngeometric_stiffness = false\n",
     );
-    body.check(&[7, 23], [1e-5, 1e3, 1e-2]);
+    body.check_fields(&[7, 23], [1e-5, 1e3, 1e-2]);
 }
 
 /// An oval on springs and dashpots under a compliant contact: nothing is proportional.
@@ -211,14 +193,14 @@ fn fields_of_an_oval_on_supports_are_differences_of_its_spectra() {
          [contact]\nfriction_coefficient = 0.3\ninterference = 25e-6\nrotation_speed_rpm = 610.0\n\
          normal_stiffness = 1e14\n[cea]\nmodes = 12\ngeometric_stiffness = false\n",
     );
-    body.check(&[7], [1e-5, 1e3, 1e-2]);
+    body.check_fields(&[7], [1e-5, 1e3, 1e-2]);
 }
 
 /// A pad on a slab of bricks, free of stress.
 #[test]
 fn fields_of_an_assembly_are_differences_of_its_spectra() {
     let folder = tempfile::tempdir().unwrap();
-    let block = |name, origin, size, counts| Block { name, origin, size, counts };
+    let block = |name, origin, size, counts| brick(name, origin, size, counts);
     let blocks = [
         block("slab", [0.0; 3], [0.06, 0.03, 0.01], [6, 3, 1]),
         block("patch", [0.005, 0.005, 0.01], [0.02, 0.02, 0.02], [3, 3, 2]),
@@ -235,11 +217,11 @@ fn fields_of_an_assembly_are_differences_of_its_spectra() {
         normal_stiffness = 1e13\nstate = \"closed\"\n[cea]\nmodes = 10\n"
         .to_owned();
     let body = Body { folder, text };
-    let mesh = body.case(&[]).mesh().unwrap();
+    let mesh = body.case(AS_IT_IS).mesh().unwrap();
     let node = mesh.nearest_node([0.005, 0.005]).unwrap().0;
     let free = (0..mesh.node_count()).find(|&n| {
         let [x, y, z] = mesh.nodes[n];
         x > 0.02 && y < 0.006 && (z - 0.02).abs() < 1e-9
     });
-    body.check(&[free.unwrap_or(node)], [1e-6, 1e2, 1e-3]);
+    body.check_fields(&[free.unwrap_or(node)], [1e-6, 1e2, 1e-3]);
 }

@@ -4,10 +4,16 @@
 mod block;
 #[path = "../common/bricks.rs"]
 mod bricks;
+#[path = "../common/cases.rs"]
+mod cases;
 #[path = "../common/disc.rs"]
 mod disc;
+#[path = "../common/mesh_text.rs"]
+mod mesh_text;
 #[path = "../common/msh.rs"]
 mod msh;
+#[path = "../common/program.rs"]
+mod program;
 #[path = "../common/table_1.rs"]
 mod table_1;
 #[path = "../common/tier.rs"]
@@ -41,6 +47,7 @@ mod opening;
 mod orthotropy;
 mod plane_body;
 mod plane_spectrum;
+mod prelude;
 mod pyramids;
 mod relaxation;
 mod shaft;

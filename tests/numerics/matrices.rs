@@ -3,17 +3,13 @@
 //! Independent check: `disk_brake100` of the NLEVP collection (licence beside the data) with eigenvalues computed to 40 digits elsewhere.
 //! Consistency check: the exported matrices of a body without symmetry, solved densely, have the eigenvalues of `cea`.
 
-use crate::bricks::{Block, file_of};
-use assert_cmd::Command;
+use crate::prelude::*;
+use crate::program::rows;
 use faer::linalg::solvers::Solve;
 use frictionsim::cea::quadratic_modes;
 use frictionsim::linalg::{MarketMatrix, Mat, c64};
 use serde_json::Value;
-use std::f64::consts::TAU;
-use std::fs;
 use std::io::Read;
-use std::path::Path;
-use tempfile::TempDir;
 
 pub fn dense(matrix: &MarketMatrix) -> Mat<f64> {
     let mut dense = Mat::zeros(matrix.rows, matrix.columns);
@@ -26,12 +22,9 @@ pub fn dense(matrix: &MarketMatrix) -> Mat<f64> {
 /// Badly scaled on purpose: sizes of eigenvalues lie seven orders apart. A plain linearization loses the small ones.
 #[test]
 fn the_public_disk_brake_problem_has_its_eigenvalues_of_every_size() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/numerics/nlevp");
-    let [mass, damping, stiffness] = ["M", "C", "K"].map(|name| {
-        let text = fs::read_to_string(folder.join(format!("disk_brake100_{name}.mtx"))).unwrap();
-        dense(&MarketMatrix::read(&text, usize::MAX).unwrap())
-    });
-    let text = fs::read_to_string(folder.join("disk_brake100_eigenvalues.csv")).unwrap();
+    let [mass, damping, stiffness] =
+        ["M.mtx", "C.mtx", "K.mtx"].map(|name| dense(&read(&public(name))));
+    let text = fs::read_to_string(public("eigenvalues.csv")).unwrap();
     let exact = text.lines().skip(1).map(|line| {
         let (re, im) = line.split_once(',').unwrap();
         c64::new(re.parse().unwrap(), im.parse().unwrap())
@@ -51,31 +44,9 @@ fn the_public_disk_brake_problem_has_its_eigenvalues_of_every_size() {
 /// A sheared block of 5 x 3 quadrilaterals, thicker on one side, on a plane that slides under it; its back on springs and dashpots of
 /// their own, so that damping is not proportional.
 fn block(folder: &TempDir) {
-    let mut mesh = String::from("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n");
-    mesh += "1 1 \"face\"\n1 2 \"back\"\n2 3 \"block\"\n$EndPhysicalNames\n$Nodes\n24\n";
-    for j in 0..4 {
-        for i in 0..6 {
-            let (x, y) = (0.01 * f64::from(i), 0.01 * f64::from(j));
-            mesh += &format!("{} {} {} 0\n", 1 + i + 6 * j, x + 0.2 * y, y * (1.0 + 4.0 * x));
-        }
-    }
-    mesh += "$EndNodes\n$Elements\n25\n";
-    let mut number = 0;
-    for (tag, row) in [(1, 0), (2, 3)] {
-        for i in 1..6 {
-            number += 1;
-            mesh += &format!("{number} 1 2 {tag} {tag} {} {}\n", i + 6 * row, i + 1 + 6 * row);
-        }
-    }
-    for j in 0..3 {
-        for i in 1..6 {
-            number += 1;
-            let first = i + 6 * j;
-            let [a, b, c, d] = [first, first + 1, first + 7, first + 6];
-            mesh += &format!("{number} 3 2 3 3 {a} {b} {c} {d}\n");
-        }
-    }
-    mesh += "$EndElements\n";
+    let names = ["face", "back", "block"];
+    let sheared = |x: f64, y: f64| [x + 0.2 * y, y * (1.0 + 4.0 * x)];
+    let mesh = quadrilaterals(&even(0.05, 5), &even(0.03, 3), names, sheared);
     fs::write(folder.path().join("block.msh"), mesh).unwrap();
     let case = "[mesh]\nfile = \"block.msh\"\n[boundaries.back]\ncondition = \"support\"\nnormal_stiffness = 1e12\n\
         tangential_stiffness = 1e12\nnormal_damping = 2e5\n[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\n\
@@ -85,14 +56,23 @@ fn block(folder: &TempDir) {
     fs::write(folder.path().join("block.toml"), case).unwrap();
 }
 
-fn run(folder: &TempDir, command: &str, set: &[&str]) -> std::process::Output {
-    let mut program = Command::cargo_bin("frictionsim").unwrap();
-    program.current_dir(folder.path()).args([command, "block.toml", "--quiet", "--no-figures"]);
-    program.args(["--force", "--out", command]);
-    for text in set {
-        program.args(["--set", text]);
-    }
-    program.output().unwrap()
+fn run(folder: &TempDir, command: &str, set: &[&str]) -> Run {
+    let run = Run::of(command, "block.toml").within(folder).out(command);
+    run.args(&["--quiet", "--force"]).set(set)
+}
+
+fn solved(folder: &TempDir, set: &[&str]) -> Answer {
+    run(folder, "cea", set).done();
+    run(folder, "matrices", set).done()
+}
+
+fn read(path: &Path) -> MarketMatrix {
+    MarketMatrix::read(&fs::read_to_string(path).unwrap(), usize::MAX).unwrap()
+}
+
+fn public(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/numerics/nlevp");
+    folder.join(format!("disk_brake100_{name}"))
 }
 
 /// The exported problem at a friction coefficient, put together as `matrices.json` says.
@@ -104,8 +84,7 @@ fn assembled(folder: &Path, friction: f64) -> [Mat<f64>; 4] {
     let mut sums = [0, 1, 2, 3].map(|_| Mat::<f64>::zeros(size, size));
     for entry in description["matrices"].as_array().unwrap() {
         let file = folder.join(entry["matrix_market"].as_str().unwrap());
-        let matrix =
-            dense(&MarketMatrix::read(&fs::read_to_string(file).unwrap(), usize::MAX).unwrap());
+        let matrix = dense(&read(&file));
         let roles = ["mass", "damping", "stiffness", "structural"];
         for (sum, role) in sums.iter_mut().zip(roles) {
             if let Some(power) = entry["role"][role]["friction_power"].as_i64() {
@@ -123,13 +102,10 @@ fn assembled(folder: &Path, friction: f64) -> [Mat<f64>; 4] {
 
 #[test]
 fn exported_matrices_solved_densely_have_the_eigenvalues_of_the_analysis() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     block(&folder);
     for contact in [&[][..], &["contact.normal_stiffness=1e13", "contact.normal_damping=1e4"]] {
-        for command in ["cea", "matrices"] {
-            let output = run(&folder, command, contact);
-            assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        }
+        solved(&folder, contact);
         assert!(listed_modes_found(&folder, 0.3) >= 6);
     }
 }
@@ -159,15 +135,11 @@ pub fn lossy_eigenvalues([mass, damping, stiffness, losses]: [&Mat<f64>; 4]) -> 
 /// Structural damping of the block and of the springs of its support, in a matrix of its own.
 #[test]
 fn exported_structural_damping_has_the_eigenvalues_of_the_analysis() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     block(&folder);
     let lossy =
         ["material.loss_factor=0.03", "contact.normal_stiffness=1e13", "contact.loss_factor=0.1"];
-    for command in ["cea", "matrices"] {
-        let output = run(&folder, command, &lossy);
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success(), "{said}");
-    }
+    solved(&folder, &lossy);
     let [.., losses] = assembled(&folder.path().join("matrices"), 0.3);
     assert!(losses.norm_max() > 0.0);
     assert!(listed_modes_found(&folder, 0.3) >= 6);
@@ -178,7 +150,6 @@ fn listed_modes_found(folder: &TempDir, friction: f64) -> usize {
     modes_among(folder, friction, &assembled(&folder.path().join("matrices"), friction))
 }
 
-/// The same for matrices at that friction coefficient.
 fn modes_among(folder: &TempDir, friction: f64, matrices: &[Mat<f64>; 4]) -> usize {
     let [mass, damping, stiffness, losses] = matrices;
     let found: Vec<c64> = if losses.norm_max() > 0.0 {
@@ -187,16 +158,11 @@ fn modes_among(folder: &TempDir, friction: f64, matrices: &[Mat<f64>; 4]) -> usi
         let found = quadratic_modes(mass.as_ref(), damping.as_ref(), stiffness.as_ref()).unwrap();
         found.iter().map(|mode| mode.eigenvalue).collect()
     };
-    let table = fs::read_to_string(folder.path().join("cea/eigenvalues.csv")).unwrap();
-    let mut rows = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
-    let header = rows.next().unwrap();
-    let column = |name: &str| header.iter().position(|own| *own == name).unwrap();
     let mut count = 0;
-    let at_friction =
-        |row: &Vec<&str>| row[column("friction_coefficient")].parse::<f64>().unwrap() == friction;
-    for row in rows.filter(at_friction) {
-        let part = |name: &str| TAU * row[column(name)].parse::<f64>().unwrap();
-        let listed = c64::new(part("real_hz"), part("frequency_hz"));
+    let rows = rows(&folder.path().join("cea/eigenvalues.csv"));
+    for row in rows.iter().filter(|row| row.number("friction_coefficient") == friction) {
+        let [re, im] = row.numbers(["real_hz", "frequency_hz"]);
+        let listed = c64::new(TAU * re, TAU * im);
         let distances = found.iter().map(|eigenvalue| (eigenvalue - listed).norm());
         let error = distances.fold(f64::INFINITY, f64::min) / listed.norm();
         assert!(error < 1e-9, "{listed}: {error:e}");
@@ -216,12 +182,7 @@ fn lifted(out: &Path, unknown: usize) -> f64 {
 /// Two blocks that slide on each other, on springs and rigidly, and the rows of their contact.
 #[test]
 fn exported_matrices_of_solid_bodies_have_the_eigenvalues_of_the_analysis() {
-    let block = |name, z: f64, counts| Block {
-        name,
-        origin: [0.0, 0.0, z],
-        size: [0.02, 0.02, 0.01],
-        counts,
-    };
+    let block = |name, z: f64, counts| brick(name, [0.0, 0.0, z], [0.02, 0.02, 0.01], counts);
     let blocks = [block("low", 0.0, [2, 2, 1]), block("high", 0.01, [3, 2, 1])];
     let text = "[mesh]\nfile = \"block.msh\"\n[material]\nyoung_modulus = 2e10\npoisson_ratio = 0.3\ndensity = 2500.0\n\
         [damping]\nmass_coefficient = 10.0\nstiffness_coefficient = 1e-7\n\
@@ -231,19 +192,14 @@ fn exported_matrices_of_solid_bodies_have_the_eigenvalues_of_the_analysis() {
         [contacts.face]\nsurface = \"high_z0\"\ncounter = \"low_z1\"\nfriction_coefficient = 0.4\n\
         [cea]\nfriction_coefficients = [0.4]\nmodes = 6\n";
     for contact in [&["contacts.face.normal_stiffness=1e13"][..], &[]] {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = folder();
         fs::write(folder.path().join("block.msh"), file_of(&blocks, |p| p)).unwrap();
         fs::write(folder.path().join("block.toml"), text).unwrap();
-        for command in ["cea", "matrices"] {
-            let output = run(&folder, command, contact);
-            let said = String::from_utf8_lossy(&output.stderr);
-            assert!(output.status.success(), "{said}");
-        }
+        solved(&folder, contact);
         assert!(listed_modes_found(&folder, 0.4) >= 6);
         // Each point parts by one where the upper block is lifted by one; pressed rigid points do not part.
         let out = folder.path().join("matrices");
-        let text = fs::read_to_string(out.join("contact_normal.mtx")).unwrap();
-        let normal = MarketMatrix::read(&text, usize::MAX).unwrap();
+        let normal = read(&out.join("contact_normal.mtx"));
         let mut parted = vec![0.0; normal.rows];
         for &(point, unknown, share) in &normal.entries {
             parted[point] += share * lifted(&out, unknown);
@@ -252,9 +208,8 @@ fn exported_matrices_of_solid_bodies_have_the_eigenvalues_of_the_analysis() {
         assert!(parted.iter().all(|own| (own - expected).abs() < 1e-12), "{parted:?}");
         let points = fs::read_to_string(out.join("contact.csv")).unwrap();
         assert!(points.starts_with("point,contact,status,area_m2,normal_force_n,x_m,y_m,z_m\n"));
-        let forces = points.lines().skip(1);
-        let sum: f64 =
-            forces.map(|line| line.split(',').nth(4).unwrap().parse::<f64>().unwrap()).sum();
+        let rows = rows(&out.join("contact.csv"));
+        let sum: f64 = rows.iter().map(|row| row.number("normal_force_n")).sum();
         // 1 MPa on 400 mm2, but for what the springs of the side bear.
         assert!((sum / 400.0 - 1.0).abs() < 0.02, "{sum}");
     }
@@ -262,12 +217,8 @@ fn exported_matrices_of_solid_bodies_have_the_eigenvalues_of_the_analysis() {
 
 /// Two blocks of which the upper one, taller than wide, is held loosely at its side, and slides on the lower.
 fn tall_block(folder: &TempDir, contact: &str, frictions: &str) {
-    let block = |name, z: f64, height, counts| Block {
-        name,
-        origin: [0.0, 0.0, z],
-        size: [0.02, 0.02, height],
-        counts,
-    };
+    let block =
+        |name, z: f64, height, counts| brick(name, [0.0, 0.0, z], [0.02, 0.02, height], counts);
     let blocks = [block("low", 0.0, 0.01, [2, 2, 1]), block("high", 0.01, 0.03, [3, 2, 2])];
     let text = format!(
         "[mesh]\nfile = \"block.msh\"\n[material]\nyoung_modulus = 2e10\npoisson_ratio = 0.3\ndensity = 2500.0\n\
@@ -295,7 +246,7 @@ fn exported_matrices_have_the_eigenvalues_of_the_analysis_where_contact_opens_or
         (true, vec!["contacts.face.normal_stiffness=1e13".to_owned()]),
         (true, of("contacts.face").to_vec()),
     ] {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = folder();
         match is_solid {
             true => tall_block(&folder, "", "[0.7]"),
             false => block(&folder),
@@ -306,10 +257,7 @@ fn exported_matrices_have_the_eigenvalues_of_the_analysis_where_contact_opens_or
             true => "contacts.face.friction_coefficient=0.7",
             false => "contact.friction_coefficient=0.7",
         });
-        for command in ["cea", "matrices"] {
-            let output = run(&folder, command, &set);
-            assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        }
+        solved(&folder, &set);
         let out = folder.path().join("matrices");
         let text = fs::read(out.join("matrices.json")).unwrap();
         let description: Value = serde_json::from_slice(&text).unwrap();
@@ -332,25 +280,17 @@ fn exported_matrices_have_the_eigenvalues_of_the_analysis_where_contact_opens_or
 
 /// What `frictionsim matrices --friction` writes, without losses.
 fn at_friction(folder: &TempDir, friction: f64, set: &[&str]) -> [Mat<f64>; 4] {
-    let mut program = Command::cargo_bin("frictionsim").unwrap();
-    program.current_dir(folder.path()).args(["matrices", "block.toml", "--quiet", "--force"]);
-    program.args(["--out", "alone", "--friction", &friction.to_string()]);
-    set.iter().for_each(|text| {
-        program.args(["--set", text]);
-    });
-    let output = program.output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let out = folder.path().join("alone");
+    let run = Run::new(&["matrices", "block.toml", "--quiet", "--force"]).within(folder);
+    let run = run.out("alone").args(&["--friction", &friction.to_string()]).set(set);
+    let out = run.done().out;
     let files = fs::read_dir(&out).unwrap().map(|file| file.unwrap().file_name());
     let files = files.map(|name| name.to_string_lossy().into_owned());
     let mut files: Vec<String> = files.filter(|name| !name.starts_with('.')).collect();
     files.sort();
     let beside = ["manifest.json", "mesh.msh", "summary.json"];
     assert_eq!(files, [&["C.mtx", "K.mtx", "M.mtx"][..], &beside].concat());
-    let [mass, damping, stiffness] = ["M", "C", "K"].map(|name| {
-        let text = fs::read_to_string(out.join(format!("{name}.mtx"))).unwrap();
-        dense(&MarketMatrix::read(&text, usize::MAX).unwrap())
-    });
+    let [mass, damping, stiffness] =
+        ["M.mtx", "C.mtx", "K.mtx"].map(|name| dense(&read(&out.join(name))));
     let none = Mat::zeros(mass.nrows(), mass.nrows());
     [mass, damping, stiffness, none]
 }
@@ -359,16 +299,12 @@ fn at_friction(folder: &TempDir, friction: f64, set: &[&str]) -> [Mat<f64>; 4] {
 /// analysis starts without friction from another one, and reports and exported matrices are those of the case's own friction.
 #[test]
 fn exported_matrices_hold_where_contact_that_stiffens_has_opened() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let law = "normal_law = \"exponential\"\nreference_pressure = 1e5\nheight = 1e-6";
     tall_block(&folder, law, "[0.1, 0.8]");
     for turning in ["100.0", "-100.0"] {
         let turning = format!("motion.low.rotation_speed_rpm={turning}");
-        for command in ["cea", "matrices"] {
-            let output = run(&folder, command, &[&turning]);
-            let said = String::from_utf8_lossy(&output.stderr);
-            assert!(output.status.success(), "{said}");
-        }
+        solved(&folder, &[&turning]);
         assert_eq!(listed_modes_found(&folder, 0.8), 6);
         let out = folder.path();
         let read = |file: &str| -> Value {
@@ -386,15 +322,13 @@ fn exported_matrices_hold_where_contact_that_stiffens_has_opened() {
 /// between which other points touch.
 #[test]
 fn modes_do_not_depend_on_the_other_friction_values_asked_for() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let law = "normal_law = \"exponential\"\nreference_pressure = 1e5\nheight = 1e-6";
     tall_block(&folder, law, "[0.8]");
-    assert!(run(&folder, "matrices", &[]).status.success());
+    run(&folder, "matrices", &[]).done();
     for others in ["", "0.1, ", "0.7, ", "0.1, 0.5, 0.7, "] {
         let frictions = format!("cea.friction_coefficients=[{others}0.8]");
-        let output = run(&folder, "cea", &[&frictions]);
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success(), "{said}");
+        run(&folder, "cea", &[&frictions]).done();
         assert_eq!(listed_modes_found(&folder, 0.8), 6);
     }
 }
@@ -403,33 +337,23 @@ fn modes_do_not_depend_on_the_other_friction_values_asked_for() {
 /// a step of friction. Branches end, which a note says, and the modes listed are those of the exported matrices.
 #[test]
 fn modes_of_slow_sliding_are_those_of_the_exported_matrices() {
-    let slow = [
-        "motion.low.rotation_speed_rpm=1.0",
-        "boundaries.high_x1.normal_stiffness=1e11",
-        "boundaries.high_x1.tangential_stiffness=1e11",
-        "contacts.face.friction_coefficient=0.3",
-    ];
-    let folder = tempfile::tempdir().unwrap();
+    let slow = ["motion.low.rotation_speed_rpm=1.0 ; boundaries.high_x1.normal_stiffness=1e11 ; \
+         boundaries.high_x1.tangential_stiffness=1e11 ; contacts.face.friction_coefficient=0.3"];
+    let folder = folder();
     let springs = "normal_stiffness = 4e12";
     tall_block(&folder, springs, "[0.05, 0.15, 0.3, 0.5]");
-    for command in ["cea", "matrices"] {
-        let output = run(&folder, command, &slow);
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success(), "{said}");
-    }
+    solved(&folder, &slow);
     assert_eq!(listed_modes_found(&folder, 0.3), 6);
-    let summary = fs::read(folder.path().join("cea/summary.json")).unwrap();
-    let summary: Value = serde_json::from_slice(&summary).unwrap();
-    let notes = summary["notes"].to_string();
-    assert!(notes.contains("too fast to be followed"), "{notes}");
+    let summary = fs::read_to_string(folder.path().join("cea/summary.json")).unwrap();
+    has(&summary, &["too fast to be followed"]);
 }
 
 /// The keys and types that `scipy.sparse.load_npz` asks for.
 #[test]
 fn archives_hold_compressed_rows_as_scipy_reads_them() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     block(&folder);
-    assert!(run(&folder, "matrices", &[]).status.success());
+    run(&folder, "matrices", &[]).done();
     let out = folder.path().join("matrices");
     let matrix = fs::read_to_string(out.join("K.mtx")).unwrap();
     let (pointers, columns, _) = MarketMatrix::read(&matrix, usize::MAX).unwrap().compressed_rows();
@@ -461,21 +385,14 @@ fn archives_hold_compressed_rows_as_scipy_reads_them() {
 
 #[test]
 fn matrices_of_a_body_of_revolution_are_refused_with_the_reason() {
-    let folder = tempfile::tempdir().unwrap();
-    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/ring-on-layer.toml");
-    fs::copy(case, folder.path().join("block.toml")).unwrap();
-    let output = run(&folder, "matrices", &[]);
-    assert_eq!(output.status.code(), Some(2));
-    let text = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(text.contains("one set for each harmonic"), "{text}");
+    let folder = folder();
+    fs::copy(shipped("ring-on-layer.toml"), folder.path().join("block.toml")).unwrap();
+    run(&folder, "matrices", &[]).refused(&["one set for each harmonic"]);
 }
 
-/// A case of the public problem in a folder of its own.
 fn brake(folder: &TempDir, stiffness: &str) {
-    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/numerics/nlevp");
-    for name in ["M", "C", "K"] {
-        let to = folder.path().join(format!("{name}.mtx"));
-        fs::copy(data.join(format!("disk_brake100_{name}.mtx")), to).unwrap();
+    for name in ["M.mtx", "C.mtx", "K.mtx"] {
+        fs::copy(public(name), folder.path().join(name)).unwrap();
     }
     let case = format!(
         "[superelements.brake]\nmass = \"M.mtx\"\ndamping = \"C.mtx\"\nstiffness = \"{stiffness}\"\n[cea]\nmodes = 100\n"
@@ -485,23 +402,16 @@ fn brake(folder: &TempDir, stiffness: &str) {
 
 #[test]
 fn cea_of_a_superelement_lists_the_oscillating_modes_of_its_matrices() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     brake(&folder, "K.mtx");
-    let output = run(&folder, "cea", &[]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/numerics/nlevp");
-    let text = fs::read_to_string(data.join("disk_brake100_eigenvalues.csv")).unwrap();
+    let found = run(&folder, "cea", &[]).done().rows("eigenvalues.csv");
+    let found: Vec<f64> = found.iter().map(|row| TAU * row.number("frequency_hz")).collect();
+    let text = fs::read_to_string(public("eigenvalues.csv")).unwrap();
     let exact: Vec<f64> = text
         .lines()
         .skip(1)
         .map(|line| line.split_once(',').unwrap().1.parse::<f64>().unwrap())
         .filter(|imaginary| *imaginary > 0.0)
-        .collect();
-    let table = fs::read_to_string(folder.path().join("cea/eigenvalues.csv")).unwrap();
-    let found: Vec<f64> = table
-        .lines()
-        .skip(1)
-        .map(|line| TAU * line.split(',').nth(3).unwrap().parse::<f64>().unwrap())
         .collect();
     assert_eq!(found.len(), exact.len());
     for exact in exact {
@@ -514,7 +424,7 @@ fn cea_of_a_superelement_lists_the_oscillating_modes_of_its_matrices() {
 
 #[test]
 fn check_takes_a_superelement_as_cea_does() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     brake(&folder, "K.mtx");
     let case = folder.path().join("block.toml");
     let found = frictionsim::app::check::examine(&case, &[]).unwrap();
@@ -526,7 +436,7 @@ fn check_takes_a_superelement_as_cea_does() {
 
 #[test]
 fn superelements_that_cannot_be_solved_are_refused_with_matrix_and_reason() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     for (matrix, words) in [
         ("2 2 1\n1 1 1.0\n", "superelements.brake.stiffness is 2 x 2"),
         ("100 100 1\n1 1 inf\n", "line 3: inf is not finite"),
@@ -535,12 +445,8 @@ fn superelements_that_cannot_be_solved_are_refused_with_matrix_and_reason() {
         brake(&folder, "other.mtx");
         let text = format!("%%MatrixMarket matrix coordinate real general\n{matrix}");
         fs::write(folder.path().join("other.mtx"), text).unwrap();
-        let output = run(&folder, "cea", &[]);
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(2), "{said}");
-        assert!(said.contains(words), "{said}");
+        run(&folder, "cea", &[]).refused(&[words]);
     }
     brake(&folder, "nowhere.mtx");
-    let said = run(&folder, "cea", &[]).stderr;
-    assert!(String::from_utf8_lossy(&said).contains("superelements.brake.stiffness: nowhere.mtx"));
+    run(&folder, "cea", &[]).end().warns(&["superelements.brake.stiffness: nowhere.mtx"]);
 }

@@ -1,23 +1,12 @@
 //! What the mesh makes of frequencies and of critical friction, against finer meshes.
 
-use crate::bricks::{Block, file_of};
-use crate::tier::sized;
-use frictionsim::case::Case;
+use crate::prelude::*;
 use frictionsim::cea::Unwatched;
 use frictionsim::study::eigenvalues::{SlidingModel, Solution, solve};
-use std::fs;
-use std::path::PathBuf;
 
-/// Shipped cases, with the sweep of their own made short.
 fn shipped(name: &str, modes: usize, frictions: &str) -> Case {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("cases").join(format!("{name}.toml"));
-    let overrides = [
-        format!("cea.modes={modes}"),
-        format!("cea.friction_coefficients={frictions}"),
-        "cea.sensitivities=false".to_owned(),
-    ];
-    let text = fs::read(&path).unwrap();
-    Case::parse(path.to_str().unwrap(), &text, &overrides).unwrap_or_else(|e| panic!("{e}"))
+    let own = format!("cea.modes={modes} ; cea.friction_coefficients={frictions}");
+    shipped_case(&format!("{name}.toml"), &[own.as_str(), "cea.sensitivities=false"])
 }
 
 fn solved(case: &Case) -> Solution {
@@ -50,20 +39,17 @@ fn effectivities(coarse: &[[f64; 2]], fine: &[[f64; 2]]) -> Vec<f64> {
 #[test]
 fn estimates_of_frequencies_are_within_a_factor_of_two_of_the_error_by_refinement() {
     let lining = |fineness: usize| {
-        let folder =
-            PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("mesh-error-{fineness}"));
-        fs::create_dir_all(&folder).unwrap();
-        let block = Block {
-            name: "part",
-            origin: [0.0; 3],
-            size: [0.05, 0.04, 0.02],
-            counts: sized([7, 6, 4], [10, 8, 6]).map(|count| count * fineness),
-        };
+        let folder = kept(&format!("mesh-error-{fineness}"));
+        let block = brick(
+            "part",
+            [0.0; 3],
+            [0.05, 0.04, 0.02],
+            sized([7, 6, 4], [10, 8, 6]).map(|count| count * fineness),
+        );
         fs::write(folder.join("part.msh"), file_of(&[block], |point| point)).unwrap();
         let text = "[mesh]\nfile = \"part.msh\"\n[material]\nyoung_modulus = 8e9\npoisson_ratio = 0.25\n\
                     density = 2500.0\n[cea]\nmodes = 8\n";
-        let path = folder.join("part.toml");
-        Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]).unwrap()
+        case_of(folder.join("part.toml"), text, AS_IT_IS)
     };
     let disc = shipped("disc-triangles", 6, "[0.0, 0.3]");
     // The strain of bricks with incompatible modes is better than that of others, and so less is recovered.
@@ -87,15 +73,13 @@ fn estimates_of_frequencies_are_within_a_factor_of_two_of_the_error_by_refinemen
 #[test]
 fn estimates_of_one_layer_of_bricks_in_bending_are_of_the_size_of_the_error() {
     let plate = |fineness: usize| {
-        let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("plate-{fineness}"));
-        fs::create_dir_all(&folder).unwrap();
+        let folder = kept(&format!("plate-{fineness}"));
         let counts = [16 * fineness, 8 * fineness, fineness];
-        let block = Block { name: "part", origin: [0.0; 3], size: [0.16, 0.08, 0.006], counts };
+        let block = brick("part", [0.0; 3], [0.16, 0.08, 0.006], counts);
         fs::write(folder.join("part.msh"), file_of(&[block], |point| point)).unwrap();
         let text = "[mesh]\nfile = \"part.msh\"\n[material]\nyoung_modulus = 2e11\npoisson_ratio = 0.3\n\
                     density = 7800.0\n[boundaries.part_x0]\ncondition = \"clamped\"\n[cea]\nmodes = 5\n";
-        let path = folder.join("part.toml");
-        Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]).unwrap()
+        case_of(folder.join("part.toml"), text, AS_IT_IS)
     };
     let [coarse, fine] = [plate(1), plate(2)].map(|case| estimates(&solved(&case)));
     let found = effectivities(&coarse, &fine);

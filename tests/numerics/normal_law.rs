@@ -1,16 +1,10 @@
 //! Contact of plane bodies that stiffens with pressure.
 
 use crate::cea_cyclic::model::paper_options;
-use crate::disc::{POLYCARBONATE, RIGID, TANGENT, annulus, contact, sliding_at, sweep_request};
 use crate::friction_law::block::{MASS, STEEL, WIDTH, block};
-use frictionsim::cea::{ComplexMode, ModeLimit, cyclic, sparse};
-use frictionsim::contact::{ContactStiffness, NormalLaw, SlidingContact};
-use frictionsim::fem::{RayleighDamping, assemble_stiffness, sector};
-use frictionsim::mesh::{AnnulusMesh, ElementKind, SectorMesh};
-use frictionsim::prestress::{
-    SectorSliding, SlidingRange, SlidingTangent, SteadySliding, TangentOptions,
-};
-use std::f64::consts::TAU;
+use crate::prelude::*;
+use frictionsim::fem::sector;
+use frictionsim::prestress::{SectorSliding, SlidingRange};
 
 const LAWS: [NormalLaw; 2] = [
     NormalLaw::Exponential { reference_pressure: 2e5, height: 4e-6 },

@@ -2,42 +2,18 @@
 //! checks): these know one contact state each, and follow no branch.
 
 use crate::body::rectangle;
-use crate::tier::sized;
-use frictionsim::case::Case;
-use frictionsim::cea::{FrictionSweep, UnstableInterval};
-use frictionsim::study::eigenvalues::modes_and_onsets;
-use std::fs;
-use tempfile::TempDir;
+use crate::prelude::*;
 
 /// A block on an elastic mounting, which the drag tilts: between friction 0.2 and 0.66 six of its nine contact nodes lift.
-const CASE: &str = r#"
-[mesh]
-file = "block.msh"
-[boundaries.top]
-condition = "support"
-normal_stiffness = 1e12
-tangential_stiffness = 1e12
-[material]
-young_modulus = 2.5e9
-poisson_ratio = 0.38
-density = 1228.0
-formulation = "plane-strain"
-[damping]
-mass_coefficient = 10.0
-stiffness_coefficient = 1e-8
-[contact]
-boundary = "bottom"
-counterface = "plane"
-direction = [1.0, 0.0]
-speed = 1.5
-friction_coefficient = 0.5
-interference = 1e-5
-[cea]
-friction_coefficients = [0.1, 0.8]
-modes = 10
-"#;
+const CASE: &str = "[mesh]\nfile = \"block.msh\"
+[boundaries.top]\ncondition = \"support\"\nnormal_stiffness = 1e12\ntangential_stiffness = 1e12
+[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n\
+     formulation = \"plane-strain\"
+[damping]\nmass_coefficient = 10.0\nstiffness_coefficient = 1e-8
+[contact]\nboundary = \"bottom\"\ncounterface = \"plane\"\ndirection = [1.0, 0.0]\n\
+     speed = 1.5\nfriction_coefficient = 0.5\ninterference = 1e-5
+[cea]\nfriction_coefficients = [0.1, 0.8]\nmodes = 10\n";
 
-/// The block in a folder of its own.
 fn block() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let mesh = rectangle(0.04, 0.06, 8, 12);
@@ -53,7 +29,7 @@ fn sweep(folder: &TempDir, frictions: &[f64]) -> FrictionSweep {
         format!("cea.friction_coefficients={frictions:?}"),
         format!("contact.friction_coefficient={own:?}"),
     ];
-    let case = Case::parse(&name, CASE.as_bytes(), &set).unwrap_or_else(|e| panic!("{e}"));
+    let case = case_of(name, CASE, &set);
     modes_and_onsets(&case).unwrap()
 }
 
@@ -95,7 +71,6 @@ fn critical_friction_is_that_of_the_contact_state_there() {
     assert!(after < 0.0, "{end} {after}");
 }
 
-/// Consistency check: critical friction does not depend on the friction values asked for.
 #[test]
 fn critical_friction_does_not_depend_on_the_friction_values_asked_for() {
     let folder = block();

@@ -1,12 +1,10 @@
 //! Orthotropic materials against closed forms, a Rayleigh-Ritz series and the isotropic material.
 
-use crate::block::{SOLIDS, block};
+use crate::prelude::*;
 use crate::solid_elements::Pencil;
 use frictionsim::fem::element::ElementGeometry;
-use frictionsim::fem::{ElasticMaterial, MaterialAxes, Orthotropy, PlaneFormulation};
-use frictionsim::mesh::{BoundaryCondition, ElementKind, Mesh};
-use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
-use std::f64::consts::PI;
+use frictionsim::fem::{MaterialAxes, Orthotropy};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 
 /// A lining: soft across its plane.
 fn lining(axes: MaterialAxes) -> Orthotropy {
@@ -199,7 +197,6 @@ fn a_thin_orthotropic_plate_has_the_frequencies_of_kirchhoffs_theory() {
     }
 }
 
-/// Isotropic constants, written as nine.
 fn as_nine(material: &ElasticMaterial, axes: MaterialAxes) -> ElasticMaterial {
     let (e, nu) = (material.young_modulus, material.poisson_ratio);
     ElasticMaterial {
@@ -215,12 +212,6 @@ fn as_nine(material: &ElasticMaterial, axes: MaterialAxes) -> ElasticMaterial {
 
 #[test]
 fn isotropic_constants_given_as_orthotropic_have_the_isotropic_stiffness() {
-    let plain = ElasticMaterial {
-        young_modulus: 2.5e9,
-        poisson_ratio: 0.3805,
-        density: 1228.0,
-        ..ElasticMaterial::PLAIN
-    };
     let all_axes = [
         MaterialAxes::global(),
         MaterialAxes::along([1.0, 2.0, 0.5], [0.0, 1.0, -1.0]).unwrap(),
@@ -236,7 +227,7 @@ fn isotropic_constants_given_as_orthotropic_have_the_isotropic_stiffness() {
     ];
     let flat = [ElementKind::Tri3, ElementKind::Quad8];
     for formulation in formulations {
-        let plain = ElasticMaterial { formulation, ..plain };
+        let plain = ElasticMaterial { formulation, ..POLYCARBONATE };
         let kinds: &[ElementKind] = match formulation {
             PlaneFormulation::ThreeDimensional => &SOLIDS,
             _ => &flat,
@@ -267,7 +258,7 @@ fn isotropic_constants_given_as_orthotropic_have_the_isotropic_stiffness() {
             assert!(error < 1e-12, "{kind:?} {formulation:?} {axes:?} {error:e}");
         }
     }
-    let [e, nu] = as_nine(&plain, all_axes[0]).orthotropy.unwrap().mean_constants();
+    let [e, nu] = as_nine(&POLYCARBONATE, all_axes[0]).orthotropy.unwrap().mean_constants();
     assert!((e / 2.5e9 - 1.0).abs() < 1e-12 && (nu / 0.3805 - 1.0).abs() < 1e-12);
 }
 

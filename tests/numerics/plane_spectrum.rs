@@ -1,16 +1,10 @@
 //! Eigenvalues on unstructured meshes against Table 1 and the exact continuum (independent checks).
 
-use crate::continuum::{Annulus, Contact};
-use crate::disc::{DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, contact, sweep_request};
-use crate::msh::{FORMS, write_msh};
-use crate::table_1::TABLE_1;
-use crate::triangles::{body, triangles};
-use frictionsim::cea::sparse::sweep;
-use frictionsim::cea::{ComplexMode, ModeLimit};
-use frictionsim::contact::ContactStiffness;
-use frictionsim::fem::assemble_stiffness;
-use frictionsim::mesh::{AnnulusMesh, ElementKind, FileMesh, Mesh, refined_file};
-use frictionsim::prestress::{SlidingTangent, SteadySliding, TangentOptions};
+use crate::continuum::Contact;
+use crate::convergence::rates::DISC;
+use crate::prelude::*;
+use crate::triangles::triangles;
+use frictionsim::mesh::refined_file;
 
 const NORMAL_STIFFNESS: f64 = 7.4e12;
 
@@ -24,29 +18,15 @@ fn modes(mesh: &Mesh, count: usize) -> Vec<ComplexMode> {
         ..TANGENT
     };
     let contact = contact(610.0);
-    let stiffness = assemble_stiffness(mesh, &POLYCARBONATE);
-    let base = SteadySliding::solve(mesh, &stiffness, &contact).unwrap();
-    let tangent = SlidingTangent::linearize(mesh, &POLYCARBONATE, &stiffness, &base, &options);
-    let at = [contact.friction_coefficient];
-    let request = sweep_request(&at, ModeLimit::Lowest(count));
-    let found = sweep(&tangent, &request, &|_| {}).unwrap();
-    found.points.into_iter().next().unwrap().modes
+    let tangent = linearized(mesh, &POLYCARBONATE, &contact, &options);
+    modes_at(&tangent, contact.friction_coefficient, ModeLimit::Lowest(count))
 }
 
-/// Eigenvalues of the continuum, rad/s.
 fn exact(names: &[(usize, usize, i8)]) -> Vec<faer::c64> {
-    let disc = Annulus {
-        inner_radius: 0.0205,
-        outer_radius: 0.0905,
-        young_modulus: 2.5e9,
-        poisson_ratio: 0.3805,
-        density: 1228.0,
-        plane_strain: true,
-    };
     let contact = Contact::penalty(0.3, NORMAL_STIFFNESS);
     let rayleigh = (DAMPING.mass_coefficient, DAMPING.stiffness_coefficient);
     let all = names.iter();
-    all.map(|&(n, branch, direction)| disc.branch(n, branch, direction, &contact, rayleigh).lambda)
+    all.map(|&(n, branch, direction)| DISC.branch(n, branch, direction, &contact, rayleigh).lambda)
         .collect()
 }
 
@@ -61,8 +41,7 @@ fn error_of(mesh: &Mesh, names: &[(usize, usize, i8)]) -> f64 {
 }
 
 fn import(mesh: &Mesh) -> Mesh {
-    let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
-    body(&FileMesh::read(&write_msh(mesh, FORMS[3], &numbers, |p| p)).unwrap())
+    body(&FileMesh::read(&write_msh(mesh, FORMS[3], &[], |p| p)).unwrap())
 }
 
 #[test]
@@ -96,8 +75,7 @@ fn eigenvalues_on_unstructured_meshes_converge_with_orders_two_and_four() {
         [(ElementKind::Tri3, 48, 9, 2.0), (ElementKind::Tri6, 24, 4, 4.0)]
     {
         let mesh = triangles(&annulus(ElementKind::Quad4, around, radial), kind.is_quadratic());
-        let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
-        let bytes = write_msh(&mesh, FORMS[3], &numbers, |p| p);
+        let bytes = write_msh(&mesh, FORMS[3], &[], |p| p);
         let mut file = FileMesh::read(&bytes).unwrap();
         let mut errors = Vec::new();
         for level in 0..3 {

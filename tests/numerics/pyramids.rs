@@ -1,10 +1,8 @@
 //! Pyramids between bricks and tetrahedra (theory: the patch test), and as Gmsh and Nastran number them (independent: their manuals).
 
-use crate::disc::elastic;
-use frictionsim::fem::{ElasticMaterial, PlaneFormulation, assemble_stiffness, solid_stress};
-use frictionsim::mesh::{ElementKind, FileElement, FileMesh, Mesh};
-use std::collections::BTreeMap;
-use std::fmt::Write;
+use crate::prelude::*;
+use frictionsim::fem::solid_stress;
+use frictionsim::mesh::FileElement;
 
 const STEEL: ElasticMaterial = elastic(2e11, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
 
@@ -99,7 +97,6 @@ fn bricks_pyramids_and_tetrahedra_in_one_body_pass_the_patch_test() {
     }
 }
 
-/// A body of all three shapes is refined into one without cracks, of the same volume.
 #[test]
 fn bodies_of_mixed_shapes_are_refined_without_cracks() {
     for is_quadratic in [false, true] {
@@ -125,18 +122,8 @@ fn pyramids_of_gmsh_are_read_in_the_order_of_its_manual() {
     for (number, count) in [(7, 5), (19, 13)] {
         let points: Vec<[f64; 3]> =
             corners.into_iter().chain(edges.map(middle)).take(count).collect();
-        let mut text = format!("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{count}\n");
-        for (node, [x, y, z]) in points.iter().enumerate() {
-            writeln!(text, "{} {x} {y} {z}", node + 1).unwrap();
-        }
-        let labels: Vec<String> = (1..=count).map(|node| node.to_string()).collect();
-        write!(
-            text,
-            "$EndNodes\n$Elements\n1\n1 {number} 2 1 1 {}\n$EndElements\n",
-            labels.join(" ")
-        )
-        .unwrap();
-        let mesh = Mesh::from_solids(&FileMesh::read(text.as_bytes()).unwrap(), 1.0, &[]).unwrap();
+        let bytes = mesh_text(&points, &[(3, "body")], &[(number, 0, (0..count).collect())]);
+        let mesh = Mesh::from_solids(&FileMesh::read(&bytes).unwrap(), 1.0, &[]).unwrap();
         let kind = mesh.element_kind(0);
         assert_eq!(kind.node_count(), count);
         let nodes = mesh.element_nodes(0);

@@ -1,22 +1,8 @@
 //! Maxwell chains in time: growth against the eigenvalue, energy to round-off, restart to the bit.
 
-use crate::disc::{POLYCARBONATE, TANGENT, annulus, contact, sweep_request, transient_settings};
-use frictionsim::cea::ModeLimit;
-use frictionsim::cea::sparse::sweep;
-use frictionsim::contact::SlidingContact;
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::fem::{
-    ElasticMaterial, MassKind, MaxwellChain, ModulusTable, RayleighDamping, RegionMaterial,
-    RelaxedMaterials, TabledMaterial, assemble_stiffness,
-};
+use crate::prelude::*;
+use frictionsim::fem::{MaxwellChain, ModulusTable, RelaxedMaterials, TabledMaterial};
 use frictionsim::linalg::c64;
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
-use frictionsim::prestress::{SlidingTangent, SteadySliding, TangentOptions};
-use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    TransientAnalysis, TransientModel, TransientSettings,
-};
-use std::sync::Arc;
 
 const BAND: [f64; 2] = [300.0, 30_000.0];
 const HARMONIC: usize = 2;
@@ -65,15 +51,11 @@ fn eigenvalue() -> f64 {
     let table = Some(Arc::new(table));
     let materials = vec![TabledMaterial { own, table }];
     let mesh = disc().mesh;
-    let elastic = assemble_stiffness(&mesh, &materials);
-    let base = SteadySliding::solve(&mesh, &elastic, &sliding()).unwrap();
     let options =
         TangentOptions { mass: MassKind::Lumped, damping: RayleighDamping::default(), ..TANGENT };
-    let tangent = SlidingTangent::linearize(&mesh, &materials, &elastic, &base, &options);
-    let at = [sliding().friction_coefficient];
-    let request = sweep_request(&at, ModeLimit::Lowest(8));
-    let found = sweep(&tangent, &request, &|_| {}).unwrap();
-    let modes = found.points[0].modes.iter();
+    let tangent = linearized(&mesh, &materials, &sliding(), &options);
+    let modes =
+        modes_at(&tangent, sliding().friction_coefficient, ModeLimit::Lowest(8)).into_iter();
     let own = modes.filter(|mode| mode.harmonic == HARMONIC);
     own.map(|mode| mode.growth_rate()).fold(f64::NEG_INFINITY, f64::max)
 }
@@ -85,13 +67,10 @@ fn a_wave_grows_as_its_eigenvalue_says_with_a_chain_in_place_of_a_loss_factor() 
     let (disc, materials) = (disc(), relaxed());
     let undamped = RayleighDamping::default();
     let model = TransientModel::of_annulus(&disc, &materials, undamped, sliding());
-    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let settings = settings(0.020, 0.0);
-    let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
-    let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
-    run.run(&mut record).unwrap();
-    println!("balance {:e}", run.largest_residual());
-    assert!(run.largest_residual() < 1e-10);
+    let (record, residual) = recorded(model, OperatorChoice::Auto, &settings);
+    println!("balance {:e}", residual);
+    assert!(residual < 1e-10);
     let analysis = TransientAnalysis::of(&record, &[HARMONIC]);
     let found = analysis.growth[0].stage.as_ref().unwrap().rate_per_s.value;
     let exact = eigenvalue();

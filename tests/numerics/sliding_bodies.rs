@@ -5,20 +5,15 @@
 //! Independent check: a dense decomposition of the exported matrices at each friction coefficient. Every mode damped by less than
 //! half of critical that lies below the highest one listed is listed, and what is listed is an eigenvalue.
 
-use crate::bricks::{Block, file_of};
 use crate::matrices::{dense, lossy_eigenvalues};
-use crate::tier::sized;
+use crate::prelude::*;
 use faer::linalg::solvers::Solve;
-use frictionsim::case::Case;
 use frictionsim::linalg::{Mat, c64};
 use frictionsim::results::matrices::{ExportedSystem, MatrixRole};
-use frictionsim::study::eigenvalues::modes_and_onsets;
 use frictionsim::study::matrices::matrices;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
-use std::f64::consts::TAU;
 use std::fmt::Write as _;
-use std::fs;
 
 #[derive(Clone, Debug)]
 struct Slider {
@@ -77,45 +72,15 @@ fn sliders() -> impl Strategy<Value = Slider> {
     )
 }
 
-/// A mesh of one layer of quadrilaterals in the plane of the first two directions, named as a block of bricks is.
-fn quadrilaterals([along, across, _]: [usize; 3], [width, height, _]: [f64; 3]) -> String {
-    let (mut text, around) = (String::new(), along + 1);
-    let nodes = around * (across + 1);
-    text += "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"part_z0\"\n1 2 \"part_z1\"\n";
-    write!(text, "2 3 \"part\"\n$EndPhysicalNames\n$Nodes\n{nodes}\n").unwrap();
-    for node in 0..nodes {
-        let (i, j) = (node % around, node / around);
-        let (x, y) = (i as f64 / along as f64, j as f64 / across as f64);
-        writeln!(text, "{} {:?} {:?} 0", node + 1, width * x, height * y).unwrap();
-    }
-    write!(text, "$EndNodes\n$Elements\n{}\n", along * (across + 2)).unwrap();
-    for k in 0..along * (across + 2) {
-        let (i, row) = (k % along, k / along);
-        let first = 1 + i + around * row.saturating_sub(2);
-        let corner = 1 + i + around * across * row;
-        match row {
-            0 | 1 => {
-                writeln!(text, "{} 1 2 {tag} {tag} {corner} {}", k + 1, corner + 1, tag = row + 1)
-            }
-            _ => {
-                let above = first + around;
-                writeln!(text, "{} 3 2 3 3 {first} {} {} {above}", k + 1, first + 1, above + 1)
-            }
-        }
-        .unwrap();
-    }
-    text + "$EndElements\n"
-}
-
-fn case_of(slider: &Slider) -> Case {
+fn part(slider: &Slider) -> Case {
     // Tests run side by side, so each case has a folder of its own.
     let folder = tempfile::tempdir().unwrap();
     let (mesh, direction, formulation) = if slider.is_plane {
-        let mesh = quadrilaterals(slider.counts, slider.size).into_bytes();
+        let [xs, ys] = [0, 1].map(|axis| even(slider.size[axis], slider.counts[axis]));
+        let mesh = quadrilaterals(&xs, &ys, ["part_z0", "part_z1", "part"], |x, y| [x, y]);
         (mesh, "[1.0, 0.0]", "formulation = \"plane-strain\"\n")
     } else {
-        let block =
-            Block { name: "part", origin: [0.0; 3], size: slider.size, counts: slider.counts };
+        let block = brick("part", [0.0; 3], slider.size, slider.counts);
         (file_of(&[block], |point| point), "[1.0, 0.0, 0.0]", "")
     };
     fs::write(folder.path().join("part.msh"), mesh).unwrap();
@@ -143,9 +108,7 @@ fn case_of(slider: &Slider) -> Case {
     if let Some(stiffness) = slider.contact_stiffness {
         writeln!(text, "normal_stiffness = {stiffness:e}").unwrap();
     }
-    let path = folder.path().join("part.toml");
-    let parsed = Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]);
-    parsed.unwrap_or_else(|errors| panic!("{errors}"))
+    case_of(folder.path().join("part.toml"), &text, AS_IT_IS)
 }
 
 /// Mass, damping, stiffness and structural damping of an export at one friction coefficient.
@@ -193,7 +156,7 @@ const PROMISED: f64 = 0.5;
 
 /// Holds the modes to a dense decomposition, and each to Newton's method where that is not sharp enough, or `is_polished`.
 fn check(slider: &Slider, is_polished: bool) -> Result<(), TestCaseError> {
-    let case = case_of(slider);
+    let case = part(slider);
     let found = match modes_and_onsets(&case) {
         Ok(found) => found,
         // A block that friction tips over, or lifts off altogether, has no steady sliding.
@@ -278,7 +241,7 @@ fn slow_motions_close_together_keep_their_digits_beside_fast_modes() {
 fn equal_eigenvalues_that_friction_does_not_move_are_all_listed() {
     let folder = tempfile::tempdir().unwrap();
     let size = [0.07207033928546175, 0.005263329653561904, 0.0062918081827297535];
-    let block = Block { name: "part", origin: [0.0; 3], size, counts: [3, 2, 5] };
+    let block = brick("part", [0.0; 3], size, [3, 2, 5]);
     fs::write(folder.path().join("part.msh"), file_of(&[block], |point| point)).unwrap();
     let text = "[mesh]\nfile = \"part.msh\"\n[material]\nyoung_modulus = 1.720164e8\npoisson_ratio = 0.0\n\
                 density = 7850.0\n[boundaries.part_z1]\ncondition = \"support\"\nnormal_stiffness = 8757.597\n\
@@ -286,8 +249,7 @@ fn equal_eigenvalues_that_friction_does_not_move_are_all_listed() {
                 direction = [1.0, 0.0, 0.0]\nspeed = 5.134476e-3\nfriction_coefficient = 0.58\n\
                 interference = 6.291808e-9\nnormal_stiffness = 2.698371e11\n\
                 [cea]\nfriction_coefficients = [0.0, 0.397, 0.58]\ngeometric_stiffness = false\nmodes = 27\n";
-    let path = folder.path().join("part.toml");
-    let case = Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]).unwrap();
+    let case = case_of(folder.path().join("part.toml"), text, AS_IT_IS);
     let found = modes_and_onsets(&case).unwrap();
     assert!(found.ended.iter().all(|end| end.lost_before.is_none()), "{:?}", found.ended);
     for point in found.points {

@@ -1,22 +1,17 @@
 //! Solid elements of every kind against theory and against each other.
 
-use crate::block::{SOLIDS, block};
-use crate::disc::elastic;
-use faer::Mat;
+use crate::prelude::*;
 use faer::linalg::solvers::Solve;
 use faer::sparse::{SparseColMat, Triplet};
 use frictionsim::fem::{
-    DofMap, ElasticMaterial, MassKind, PlaneFormulation, Triplets, assemble_geometric_stiffness,
-    assemble_mass, assemble_pressures, assemble_stiffness, assemble_supports, lumped_masses,
+    assemble_geometric_stiffness, assemble_pressures, assemble_supports, lumped_masses,
     solid_stress,
 };
-use frictionsim::mesh::{BoundaryCondition, ElasticSupport, ElementKind, FileMesh, Mesh};
-use nalgebra::{DMatrix, Matrix3, Rotation3, SymmetricEigen, Vector3};
-use std::f64::consts::{FRAC_PI_2, PI};
+use nalgebra::{Matrix3, Rotation3, SymmetricEigen, Vector3};
+use std::f64::consts::FRAC_PI_2;
 
 const STEEL: ElasticMaterial = elastic(2e11, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
 
-/// A parallelepiped without right angles.
 fn skewed([x, y, z]: [f64; 3]) -> [f64; 3] {
     [0.10 * x + 0.02 * y - 0.01 * z, 0.01 * x + 0.08 * y + 0.02 * z, 0.06 * z - 0.01 * y]
 }
@@ -410,7 +405,6 @@ fn geometric_stiffness_of_rigid_rotations_is_the_work_of_the_stress() {
     }
 }
 
-/// A body turned in space by any angle has the same frequencies.
 #[test]
 fn a_turned_block_has_the_same_frequencies() {
     let turn = Rotation3::from_euler_angles(1.1, 0.4, -0.7);
@@ -430,7 +424,6 @@ fn a_turned_block_has_the_same_frequencies() {
     }
 }
 
-/// Volumes of the regions and areas of the surfaces of a mesh file.
 fn measures(bytes: &[u8]) -> Vec<(String, f64)> {
     let mesh = Mesh::from_solids(&FileMesh::read(bytes).unwrap(), 1.0, &[]).unwrap();
     let regions = mesh.regions.iter().cloned().zip(mesh.region_measures());

@@ -1,13 +1,10 @@
 //! Uniform refinement of solid bodies (independent: volumes, surfaces, exact eigenvalues of the meshed block).
 
-use crate::block::{SOLIDS, block};
-use crate::disc::elastic;
-use frictionsim::fem::{ElasticMaterial, PlaneFormulation, lumped_masses};
-use frictionsim::mesh::{BoundaryCondition, ElementKind, FileMesh, Mesh};
+use crate::prelude::*;
+use frictionsim::fem::lumped_masses;
 
 const STEEL: ElasticMaterial = elastic(2e11, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
 
-/// A barrel-shaped block.
 fn barrel([x, y, z]: [f64; 3]) -> [f64; 3] {
     let bulge = 1.0 + 0.3 * z * (1.0 - z);
     [0.1 * bulge * (x - 0.5), 0.08 * bulge * (y - 0.4), 0.06 * z + 0.01 * x * y]
@@ -74,7 +71,6 @@ fn a_refined_block_is_the_block_meshed_finer() {
     }
 }
 
-/// A set of nodes that is no surface: an edge keeps being one.
 #[test]
 fn nodes_between_those_of_a_held_edge_are_held_too() {
     let mut file = block(ElementKind::Tet10, [2, 2, 2], |place| place.map(|x| 0.1 * x));

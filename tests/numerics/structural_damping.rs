@@ -1,63 +1,33 @@
 //! Structural damping `K (1 + i eta)`: closed form where one loss factor holds for the whole body, dense complex matrices where
 //! disc and shaft have their own.
 
-use crate::disc::{POLYCARBONATE, RIGID, TANGENT, annulus, contact, sweep_request};
-use faer::{Mat, c64};
-use frictionsim::cea::sparse::{mode_pairs, sweep};
-use frictionsim::cea::{FrictionSweep, ModeLimit};
-use frictionsim::contact::ContactStiffness;
-use frictionsim::fem::{
-    AnnulusMaterials, ElasticMaterial, RayleighDamping, RegionMaterial, assemble_stiffness,
-};
-use frictionsim::frf::{Direction, FrfSystem, Terminal, direct_response};
-use frictionsim::linalg::dense_eigen::complex_eigenvalues;
-use frictionsim::linalg::{ComplexDenseLu, MatrixPolynomial};
-use frictionsim::mesh::{
-    AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElasticSupport, ElementKind,
-    ShaftSpecification,
-};
-use frictionsim::prestress::{SlidingTangent, SteadySliding, TangentOptions};
-use std::f64::consts::TAU;
+use crate::matrices::lossy_eigenvalues;
+use crate::prelude::*;
+use frictionsim::cea::sparse::mode_pairs;
 
-/// The disc on a deformable shaft of steel, with a loss factor each.
 fn tangent(losses: [f64; 2], damping: RayleighDamping) -> SlidingTangent {
     let (rigid, held) = (ContactStiffness::default(), BoundaryCondition::Clamped);
     tangent_with(losses, damping, rigid, held)
 }
 
-/// The same with a contact and what holds the outer edge.
 fn tangent_with(
     [disc, shaft]: [f64; 2],
     damping: RayleighDamping,
     contact_stiffness: ContactStiffness,
     outer: BoundaryCondition,
 ) -> SlidingTangent {
-    let specification = AnnulusSpecification {
-        shaft: Some(ShaftSpecification {
-            inner_radius: 0.006,
-            radial_elements: 1,
-            bore: BoundaryCondition::Clamped,
-        }),
-        outer,
-        ..annulus(ElementKind::Quad4, 16, 3)
-    };
+    let specification =
+        AnnulusSpecification { outer, ..on_shaft(annulus(ElementKind::Quad4, 16, 3), 1) };
     let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
     let lossy =
         |loss_factor: f64, elastic: ElasticMaterial| ElasticMaterial { loss_factor, ..elastic };
-    let steel = ElasticMaterial {
-        young_modulus: 2.1e11,
-        poisson_ratio: 0.3,
-        density: 7850.0,
-        ..POLYCARBONATE
-    };
+    let steel = elastic(2.1e11, 0.3, 7850.0, PlaneFormulation::PlaneStrain);
     let materials = AnnulusMaterials {
         annulus: lossy(disc, POLYCARBONATE),
         shaft: Some(RegionMaterial { elastic: lossy(shaft, steel), damping: None }),
     };
-    let elastic = assemble_stiffness(&mesh, &materials);
-    let base = SteadySliding::solve(&mesh, &elastic, &contact(610.0)).unwrap();
     let options = TangentOptions { damping, contact: contact_stiffness, ..TANGENT };
-    SlidingTangent::linearize(&mesh, &materials, &elastic, &base, &options)
+    linearized(&mesh, &materials, &contact(610.0), &options)
 }
 
 pub fn solved(tangent: &SlidingTangent, frictions: &[f64]) -> FrictionSweep {
@@ -89,27 +59,12 @@ pub fn dense(polynomial: &MatrixPolynomial, mu: f64) -> Mat<f64> {
 pub fn dense_eigenvalues(tangent: &SlidingTangent, mu: f64) -> Vec<c64> {
     let [mass, damping, stiffness] =
         [&tangent.mass, &tangent.damping, &tangent.stiffness].map(|p| dense(p, mu));
-    let lost = dense(tangent.structural.as_ref().unwrap(), mu);
-    let n = mass.nrows();
-    // lambda = 1e4 nu: both halves of a vector alike in size.
-    let scale = 1e4;
-    let lu = ComplexDenseLu::factorize(Mat::from_fn(n, n, |i, j| {
-        c64::new(mass[(i, j)] * scale * scale, 0.0)
-    }));
-    let mut stiff = Mat::from_fn(n, n, |i, j| c64::new(stiffness[(i, j)], lost[(i, j)]));
-    let mut damped = Mat::from_fn(n, n, |i, j| c64::new(damping[(i, j)] * scale, 0.0));
-    lu.solve_in_place(stiff.as_mut());
-    lu.solve_in_place(damped.as_mut());
-    let companion = Mat::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
-        (true, true) => c64::new(0.0, 0.0),
-        (true, false) => c64::new(f64::from(u8::from(i == j - n)), 0.0),
-        (false, true) => -stiff[(i - n, j)],
-        (false, false) => -damped[(i - n, j - n)],
-    });
-    let mut values = complex_eigenvalues(companion.as_ref()).unwrap();
+    let none = || Mat::zeros(mass.nrows(), mass.nrows());
+    let losses = tangent.structural.as_ref().map_or_else(none, |p| dense(p, mu));
+    let mut values = lossy_eigenvalues([&mass, &damping, &stiffness, &losses]);
     values.retain(|value| value.im > 0.0);
     values.sort_by(|a, b| a.im.total_cmp(&b.im));
-    values.into_iter().map(|value| value * scale).collect()
+    values
 }
 
 /// Theory: with one loss factor for all, `lambda = lambda_0 sqrt(1 + i eta)` of the undamped eigenvalues `lambda_0`, with and

@@ -3,21 +3,13 @@
 //! Independent check: a dense decomposition of the exported matrices. What both leave is round-off of the stiffest waves of the mesh:
 //! that much a frequency may differ.
 
-use crate::bricks::{Block, file_of};
-use crate::tier::sized;
-use frictionsim::case::Case;
+use crate::prelude::*;
 use frictionsim::results::matrices::{ExportedSystem, MatrixRole};
-use frictionsim::study::eigenvalues::modes_and_onsets;
 use frictionsim::study::matrices::matrices;
-use nalgebra::DMatrix;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
-use std::f64::consts::TAU;
 use std::fmt::Write as _;
-use std::fs;
-use std::path::PathBuf;
 
-/// How a block is held.
 #[derive(Clone, Debug)]
 enum Hold {
     Springs { normal: f64, tangential: f64 },
@@ -58,10 +50,9 @@ fn bodies() -> impl Strategy<Value = Body> {
     )
 }
 
-fn case_of(body: &Body, folder: &str) -> Case {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(folder);
-    fs::create_dir_all(&folder).unwrap();
-    let block = Block { name: "part", origin: [0.0; 3], size: body.size, counts: body.counts };
+fn part(body: &Body, folder: &str) -> Case {
+    let folder = kept(folder);
+    let block = brick("part", [0.0; 3], body.size, body.counts);
     fs::write(folder.join("part.msh"), file_of(&[block], |point| point)).unwrap();
     let mut text = format!(
         "[mesh]\nfile = \"part.msh\"\n[material]\nyoung_modulus = {:e}\npoisson_ratio = 0.3\ndensity = 7850.0\n\
@@ -80,9 +71,7 @@ fn case_of(body: &Body, folder: &str) -> Case {
         Hold::Nothing => Ok(()),
     }
     .unwrap();
-    let path = folder.join("part.toml");
-    let parsed = Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]);
-    parsed.unwrap_or_else(|errors| panic!("{errors}"))
+    case_of(folder.join("part.toml"), &text, AS_IT_IS)
 }
 
 /// Squares of all angular frequencies by a dense decomposition, ascending.
@@ -97,8 +86,13 @@ fn dense(system: &ExportedSystem) -> Vec<f64> {
     };
     let mass = full(MatrixRole::Mass { friction_power: 0 });
     let stiffness = full(MatrixRole::Stiffness { friction_power: 0 });
+    squares(mass, &stiffness)
+}
+
+/// Eigenvalues of a symmetric pencil, ascending.
+pub fn squares(mass: DMatrix<f64>, stiffness: &DMatrix<f64>) -> Vec<f64> {
     let factor = mass.cholesky().unwrap().l();
-    let half = factor.solve_lower_triangular(&stiffness).unwrap();
+    let half = factor.solve_lower_triangular(stiffness).unwrap();
     let scaled = factor.solve_lower_triangular(&half.transpose()).unwrap();
     let symmetric = (&scaled + scaled.transpose()) * 0.5;
     let mut squares: Vec<f64> = symmetric.symmetric_eigenvalues().iter().copied().collect();
@@ -106,9 +100,8 @@ fn dense(system: &ExportedSystem) -> Vec<f64> {
     squares
 }
 
-/// Whether the modes of a body are those of the dense decomposition.
 fn check(body: &Body, folder: &str) -> Result<(), TestCaseError> {
-    check_case(&case_of(body, folder), body.modes)
+    check_case(&part(body, folder), body.modes)
 }
 
 fn check_case(case: &Case, count: usize) -> Result<(), TestCaseError> {
@@ -155,52 +148,32 @@ fn rigid_motions_take_no_places_of_modes_however_many_are_asked_for() {
 }
 
 /// A ring of 80 to 120 mm and 20 mm thickness, of bricks in one layer; its outer face is `rim`.
-fn ring(sectors: usize) -> String {
+fn ring(sectors: usize) -> Vec<u8> {
     let radii = [0.08, 0.1, 0.12];
     let node = |sector: usize, radius: usize, side: usize| {
-        1 + (sector % sectors * radii.len() + radius) * 2 + side
+        (sector % sectors * radii.len() + radius) * 2 + side
     };
-    let (mut nodes, mut elements) = (String::new(), String::new());
+    let (mut points, mut elements) = (Vec::new(), Vec::new());
     for sector in 0..sectors {
         let (sine, cosine) = (TAU * sector as f64 / sectors as f64).sin_cos();
-        for (i, radius) in radii.iter().enumerate() {
-            for (side, z) in [0.0, 0.02].into_iter().enumerate() {
-                let [x, y] = [radius * cosine, radius * sine];
-                writeln!(nodes, "{} {x:?} {y:?} {z}", node(sector, i, side)).unwrap();
-            }
+        for radius in radii {
+            points.extend([0.0, 0.02].map(|z| [radius * cosine, radius * sine, z]));
         }
         let face = |i, side| [node(sector, i, side), node(sector + 1, i, side)];
-        let mut element = |number: usize, kind: usize, pairs: &[[usize; 2]]| {
-            let corners = pairs.iter().flatten().map(usize::to_string).collect::<Vec<_>>();
-            let number = 3 * sector + number;
-            writeln!(
-                elements,
-                "{number} {kind} 2 {0} {0} {1}",
-                usize::from(kind == 3) + 1,
-                corners.join(" ")
-            )
-            .unwrap();
-        };
         let back = |[a, b]: [usize; 2]| [b, a];
         for i in 0..2 {
-            let side = |side| [back(face(i, side)), face(i + 1, side)];
-            element(1 + i, 5, [side(0), side(1)].as_flattened());
+            let side = |side| [back(face(i, side)), face(i + 1, side)].concat();
+            elements.push((5, 0, [side(0), side(1)].concat()));
         }
-        element(3, 3, &[face(2, 0), back(face(2, 1))]);
+        elements.push((3, 1, [face(2, 0), back(face(2, 1))].concat()));
     }
-    format!(
-        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"ring\"\n2 2 \"rim\"\n$EndPhysicalNames\n\
-         $Nodes\n{}\n{nodes}$EndNodes\n$Elements\n{}\n{elements}$EndElements\n",
-        6 * sectors,
-        3 * sectors
-    )
+    mesh_text(&points, &[(3, "ring"), (2, "rim")], &elements)
 }
 
 /// Pairs of equal frequencies, and the rigid motions of any stiffness between soft and stiff.
 #[test]
 fn a_ring_on_springs_at_its_rim_has_its_modes_at_every_stiffness() {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("supported-ring");
-    fs::create_dir_all(&folder).unwrap();
+    let folder = kept("supported-ring");
     fs::write(folder.join("ring.msh"), ring(16)).unwrap();
     let path = folder.join("ring.toml");
     for exponent in 2..14 {
@@ -209,8 +182,7 @@ fn a_ring_on_springs_at_its_rim_has_its_modes_at_every_stiffness() {
              [boundaries.rim]\ncondition = \"support\"\nnormal_stiffness = 1e{exponent}\n\
              [cea]\nfriction_coefficients = [0.0]\nmodes = 24\n"
         );
-        let parsed = Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]);
-        let case = parsed.unwrap_or_else(|errors| panic!("{errors}"));
+        let case = case_of(&path, &text, AS_IT_IS);
         check_case(&case, 24).unwrap_or_else(|error| panic!("1e{exponent} Pa/m: {error}"));
     }
 }

@@ -1,30 +1,12 @@
 //! Modulus and loss factor over frequency: every mode at its own frequency, against dense matrices frozen there.
 
-use crate::block::block;
-use crate::bricks::{Block, file_of};
-use crate::disc::{POLYCARBONATE, RIGID, TANGENT, annulus, contact, sweep_request};
+use crate::prelude::*;
 use crate::structural_damping::{dense_eigenvalues, eigenvalues, largest_error, solved};
-use faer::c64;
-use frictionsim::case::Case;
-use frictionsim::cea::sparse::{mode_pairs, sweep};
-use frictionsim::cea::{CeaError, ModeLimit};
-use frictionsim::contact::ContactStiffness;
-use frictionsim::fem::{
-    ElasticMaterial, ModulusTable, PlaneFormulation, RayleighDamping, RegionMaterial,
-    TabledMaterial, assemble_stiffness,
-};
-use frictionsim::frf::{Direction, FrfSystem, Terminal, direct_response};
-use frictionsim::mesh::{
-    AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElasticSupport, ElementKind, Mesh,
-    ShaftSpecification,
-};
-use frictionsim::prestress::{Assembly, BaseChoice, SlidingTangent, SteadySliding, TangentOptions};
-use frictionsim::study::eigenvalues::{modes_and_onsets, preflight};
+use frictionsim::cea::CeaError;
+use frictionsim::cea::sparse::mode_pairs;
+use frictionsim::fem::{ModulusTable, TabledMaterial};
+use frictionsim::study::eigenvalues::preflight;
 use frictionsim::study::response::FrequencyStudy;
-use std::f64::consts::TAU;
-use std::fs;
-use std::path::PathBuf;
-use std::sync::Arc;
 
 /// A modulus that rises fivefold over the modes of the disc, with much damping.
 fn rubber(scale: f64) -> Vec<[f64; 3]> {
@@ -40,36 +22,22 @@ fn rubber(scale: f64) -> Vec<[f64; 3]> {
 
 /// The disc, whose modulus depends on frequency, on a deformable shaft of steel.
 fn tangent(rows: Vec<[f64; 3]>, contact_stiffness: ContactStiffness) -> SlidingTangent {
-    let specification = AnnulusSpecification {
-        shaft: Some(ShaftSpecification {
-            inner_radius: 0.006,
-            radial_elements: 1,
-            bore: BoundaryCondition::Clamped,
-        }),
-        ..annulus(ElementKind::Quad4, 16, 3)
-    };
+    let specification = on_shaft(annulus(ElementKind::Quad4, 16, 3), 1);
     let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
-    let steel = ElasticMaterial {
-        young_modulus: 2.1e11,
-        poisson_ratio: 0.3,
-        density: 7850.0,
-        loss_factor: 0.002,
-        ..POLYCARBONATE
-    };
+    let steel = elastic(2.1e11, 0.3, 7850.0, PlaneFormulation::PlaneStrain);
+    let steel = ElasticMaterial { loss_factor: 0.002, ..steel };
     let table = ModulusTable::new("materials.disc.table", "rubber.csv", rows);
     let disc = ElasticMaterial { young_modulus: table.static_modulus(), ..POLYCARBONATE };
     let own = |elastic| RegionMaterial { elastic, damping: None };
     let materials =
         vec![TabledMaterial { own: own(disc), table: Some(Arc::new(table)) }, own(steel).into()];
-    let elastic = assemble_stiffness(&mesh, &materials);
-    let base = SteadySliding::solve(&mesh, &elastic, &contact(610.0)).unwrap();
     let options = TangentOptions {
         geometric_stiffness: true,
         damping: RayleighDamping { mass_coefficient: 20.0, stiffness_coefficient: 1e-7 },
         contact: contact_stiffness,
         ..TANGENT
     };
-    SlidingTangent::linearize(&mesh, &materials, &elastic, &base, &options)
+    linearized(&mesh, &materials, &contact(610.0), &options)
 }
 
 /// Independent check: dense companion matrices with the stiffness frozen at a found eigenvalue's own frequency have that eigenvalue,
@@ -245,18 +213,11 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
         (side.to_owned(), held)
     });
     // Nothing else holds the beam along itself: at 70 Hz it moves as a whole.
-    let soft = BoundaryCondition::Support(ElasticSupport {
-        tangential_stiffness: 2e6,
-        ..ElasticSupport::default()
-    });
+    let soft = BoundaryCondition::Support(springs([0.0, 2e6, 0.0], [0.0, 0.0]));
     let held = [&sides[..], &[("z1".to_owned(), soft)]].concat();
     let mesh = Mesh::from_solids(&file, 1.0, &held).unwrap();
-    let solid = |young_modulus: f64, poisson_ratio: f64, density: f64| ElasticMaterial {
-        young_modulus,
-        poisson_ratio,
-        density,
-        formulation: PlaneFormulation::ThreeDimensional,
-        ..ElasticMaterial::PLAIN
+    let solid = |young_modulus: f64, poisson_ratio: f64, density: f64| {
+        elastic(young_modulus, poisson_ratio, density, PlaneFormulation::ThreeDimensional)
     };
     let own = |elastic| RegionMaterial { elastic, damping: None };
     let poisson_ratio = 0.3;
@@ -316,14 +277,9 @@ const RUBBER: &str = "frequency_hz,young_modulus,loss_factor
 
 /// A block of steel on one of rubber that stands on the ground; both move along z alone.
 fn mount(name: &str, table: &str, sections: &str) -> Result<Case, String> {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("mount-{name}"));
-    fs::create_dir_all(&folder).unwrap();
-    let block = |name, z: f64, height: f64| Block {
-        name,
-        origin: [0.0, 0.0, z],
-        size: [0.02, 0.02, height],
-        counts: [2, 2, 2],
-    };
+    let folder = kept(&format!("mount-{name}"));
+    let block =
+        |name, z: f64, height: f64| brick(name, [0.0, 0.0, z], [0.02, 0.02, height], [2, 2, 2]);
     let blocks = [block("rubber", 0.0, 0.01), block("mass", 0.01, 0.02)];
     fs::write(folder.join("mount.msh"), file_of(&blocks, |point| point)).unwrap();
     fs::write(folder.join("rubber.csv"), table).unwrap();
@@ -331,28 +287,14 @@ fn mount(name: &str, table: &str, sections: &str) -> Result<Case, String> {
         format!("[boundaries.{side}]\ncondition = \"fixed\"\ndirections = [\"x\", \"y\"]\n")
     });
     let text = format!(
-        r#"
-[mesh]
-file = "mount.msh"
-[material]
-young_modulus = 2e11
-poisson_ratio = 0.3
-density = 7850.0
-[materials.rubber]
-table = "rubber.csv"
-poisson_ratio = 0.0
-density = 25.0
-[boundaries.rubber_z0]
-condition = "clamped"
-[ties.glue]
-surface = "rubber_z1"
-counter = "mass_z0"
-{}{sections}"#,
+        "[mesh]\nfile = \"mount.msh\"
+[material]\nyoung_modulus = 2e11\npoisson_ratio = 0.3\ndensity = 7850.0
+[materials.rubber]\ntable = \"rubber.csv\"\npoisson_ratio = 0.0\ndensity = 25.0
+[boundaries.rubber_z0]\ncondition = \"clamped\"
+[ties.glue]\nsurface = \"rubber_z1\"\ncounter = \"mass_z0\"\n{}{sections}",
         guides.concat()
     );
-    let path = folder.join("mount.toml");
-    let parsed = Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]);
-    parsed.map_err(|errors| errors.to_string())
+    read_case(folder.join("mount.toml"), &text, AS_IT_IS)
 }
 
 /// Closed form: `lambda^2 m + k(f) (1 + i eta(f)) = 0` with `k = E A / h` and a third of the rubber's mass, from a file; its hash

@@ -1,9 +1,6 @@
 //! The built-in disc and its shaft with moduli over frequency, by case.
 
-use faer::c64;
-use frictionsim::case::Case;
-use frictionsim::study::eigenvalues::modes_and_onsets;
-use std::fs;
+use crate::prelude::*;
 
 /// A lining whose modulus and losses rise over the modes of a disc.
 const LINING: &str = "\
@@ -14,34 +11,19 @@ frequency_hz,young_modulus,loss_factor
 20000,2.9e9,0.0010
 ";
 
-/// The disc of the paper, of a material and with sections of its own.
 fn disc_of(material: &str, sections: &str) -> Case {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("lining.csv"), LINING).unwrap();
     let flat = "frequency_hz,young_modulus,loss_factor\n0,3e9,0.1\n50000,3e9,0.1\n";
     fs::write(folder.path().join("flat.csv"), flat).unwrap();
     let text = format!(
-        r#"
-[geometry]
-inner_radius = 0.0205
-outer_radius = 0.0905
-{sections}
-[material]
-{material}
-poisson_ratio = 0.3805
-density = 1228.0
-[contact]
-friction_coefficient = 0.3
-interference = 25e-6
-rotation_speed_rpm = 610.0
-[cea]
-max_frequency_hz = 12000.0
-friction_coefficients = {{ from = 0.0, to = 0.6, count = 7 }}
-geometric_stiffness = false
-"#
+        "[geometry]\ninner_radius = 0.0205\nouter_radius = 0.0905\n{sections}
+[material]\n{material}\npoisson_ratio = 0.3805\ndensity = 1228.0
+[contact]\nfriction_coefficient = 0.3\ninterference = 25e-6\nrotation_speed_rpm = 610.0
+[cea]\nmax_frequency_hz = 12000.0\n\
+     friction_coefficients = {{ from = 0.0, to = 0.6, count = 7 }}\ngeometric_stiffness = false\n"
     );
-    let path = folder.path().join("disc.toml");
-    Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]).unwrap()
+    case_of(folder.path().join("disc.toml"), &text, AS_IT_IS)
 }
 
 const GRID: &str = "[mesh]\ncircumferential_elements = 24\nradial_elements = 4\n";

@@ -9,12 +9,10 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-/// What is said of a mesh file.
 fn said(name: &str, text: &str) -> String {
     FileMesh::read_as(name, text.as_bytes()).expect_err("the file is wrong").to_string()
 }
 
-/// What is said of a case in a folder.
 fn said_of(folder: &Path, case: &str) -> String {
     let path = folder.join("case.toml").display().to_string();
     Case::parse(&path, case.as_bytes(), &[]).unwrap_err().messages().join("\n")

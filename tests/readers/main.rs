@@ -4,6 +4,8 @@
 mod block;
 #[path = "../common/msh.rs"]
 mod msh;
+#[path = "../common/program.rs"]
+mod program;
 #[path = "../common/tier.rs"]
 mod tier;
 

@@ -1,24 +1,22 @@
 //! What each analysis is held to.
 
 use super::{Answer, Bench, Cell};
-use serde_json::{Value, json};
-use std::path::Path;
+use crate::prelude::*;
 
 /// A cell of the table: the body's bench, and that of the same body described otherwise.
 type Check = fn(&Bench, Option<&Bench>) -> Cell;
 
-/// Every analysis with its check.
 pub const ALL: &[(&str, Check)] = &[
     ("`check`", check),
     ("`mesh`", mesh),
     ("`cea`", cea),
-    ("`cea`, cyclic", cea_cyclic),
-    ("`cea`, sparse", cea_sparse),
+    ("`cea`, cyclic", |bench, _| by_method(bench, "cyclic")),
+    ("`cea`, sparse", |bench, _| by_method(bench, "sparse")),
     ("sensitivities", sensitivities),
-    ("`transient`, cyclic", transient_cyclic),
-    ("`transient`, sparse", transient_sparse),
-    ("`frf`, free", frf_free),
-    ("`frf`, clamped", frf_clamped),
+    ("`transient`, cyclic", |bench, _| transient(bench, "cyclic")),
+    ("`transient`, sparse", |bench, _| transient(bench, "sparse")),
+    ("`frf`, free", |bench, _| reciprocal(bench, "free")),
+    ("`frf`, clamped", |bench, _| reciprocal(bench, "clamped")),
     ("`frf`, sliding", frf_sliding),
     ("`cycle`", cycle),
     ("`basin`", basin),
@@ -64,14 +62,12 @@ fn is_close(a: f64, b: f64, tolerance: f64) -> bool {
     (a - b).abs() <= tolerance * a.abs().max(b.abs())
 }
 
-/// Names of the columns of a CSV file.
 fn headers(folder: &Path, file: &str) -> Vec<String> {
     let mut reader = csv::Reader::from_path(folder.join(file)).unwrap();
     let headers = reader.headers().unwrap().iter();
     headers.map(str::to_owned).collect()
 }
 
-/// Columns of a CSV file by name.
 fn column(folder: &Path, file: &str, name: &str) -> Vec<f64> {
     let mut reader =
         csv::Reader::from_path(folder.join(file)).unwrap_or_else(|error| panic!("{file}: {error}"));
@@ -110,7 +106,6 @@ fn agree(a: &[[f64; 2]], b: &[[f64; 2]], tolerance: f64) -> Cell {
     verdict(worst <= tolerance, || format!("spectra differ by {worst:e}"))
 }
 
-/// The lowest onset of a summary of `cea`.
 fn lowest_onset(summary: &Value) -> Option<f64> {
     let onsets = summary["critical_frictions"].as_array()?.iter();
     let onsets = onsets.filter_map(|onset| onset["critical_friction"].as_f64());
@@ -152,14 +147,6 @@ fn by_method(bench: &Bench, method: &str) -> Cell {
     let (_, own) = done!(bench.run("cea", &[&method]));
     let (_, other) = needed!(bench.run("cea", &[]));
     agree(&spectrum(&own), &spectrum(&other), 1e-8)
-}
-
-fn cea_cyclic(bench: &Bench, _: Option<&Bench>) -> Cell {
-    by_method(bench, "cyclic")
-}
-
-fn cea_sparse(bench: &Bench, _: Option<&Bench>) -> Cell {
-    by_method(bench, "sparse")
 }
 
 /// Relative change of a parameter for a difference: small, since eigenvalues bend where two of them are about to meet.
@@ -240,14 +227,6 @@ fn transient(bench: &Bench, operator: &str) -> Cell {
     verdict(is_close(own, other, 1e-8), || format!("strain energy {own} and {other}"))
 }
 
-fn transient_cyclic(bench: &Bench, _: Option<&Bench>) -> Cell {
-    transient(bench, "cyclic")
-}
-
-fn transient_sparse(bench: &Bench, _: Option<&Bench>) -> Cell {
-    transient(bench, "sparse")
-}
-
 /// The response from one place to another, at three frequencies.
 fn response(bench: &Bench, boundary: &str, terminals: [[f64; 2]; 2], method: &str) -> Answer {
     let place = |[x, y]: [f64; 2]| format!("{{x={x:?},y={y:?}}}");
@@ -277,14 +256,6 @@ fn reciprocal(bench: &Bench, boundary: &str) -> Cell {
     let (there, back) = (magnitudes(&there), magnitudes(&back));
     let same = there.iter().zip(&back).all(|(a, b)| is_close(*a, *b, 1e-7));
     verdict(same, || format!("{there:?} there, {back:?} back"))
-}
-
-fn frf_free(bench: &Bench, _: Option<&Bench>) -> Cell {
-    reciprocal(bench, "free")
-}
-
-fn frf_clamped(bench: &Bench, _: Option<&Bench>) -> Cell {
-    reciprocal(bench, "clamped")
 }
 
 /// In sliding contact friction breaks the symmetry: the twin or the direct solution is the other route.
@@ -449,7 +420,6 @@ fn convergence(bench: &Bench, _: Option<&Bench>) -> Cell {
     verdict(found, || format!("{lowest} is not among {values:?}"))
 }
 
-/// What is drawn again is there.
 fn plot(bench: &Bench, _: Option<&Bench>) -> Cell {
     let (_, folder) = needed!(bench.run_drawn("cea", &["cea.friction_coefficients=[0.0,0.3]"]));
     match bench.redraw(&folder) {
@@ -462,7 +432,6 @@ fn plot(bench: &Bench, _: Option<&Bench>) -> Cell {
     }
 }
 
-/// A run differs from itself by nothing.
 fn compare(bench: &Bench, _: Option<&Bench>) -> Cell {
     let runs = [bench.run("cea", &[]), bench.run_with("cea", &[], &[])];
     let [Answer::Done(_, a), Answer::Done(_, b)] = runs else {

@@ -1,6 +1,6 @@
 //! Mesh files of rings and blocks of four-node quadrilaterals, written node by node.
 
-use std::fmt::Write as _;
+use crate::mesh_text::mesh_text;
 
 /// Type of the element in the file, its physical group, its nodes.
 type Element = (u32, String, Vec<usize>);
@@ -24,7 +24,6 @@ pub enum Shape {
     Block { width: f64, height: f64 },
 }
 
-/// All grids in one MSH 2.2 file.
 pub fn msh(grids: &[Grid<'_>]) -> String {
     let mut nodes: Vec<[f64; 2]> = Vec::new();
     let mut elements: Vec<Element> = Vec::new();
@@ -88,27 +87,15 @@ impl Grid<'_> {
 
 fn written(nodes: &[[f64; 2]], elements: &[Element]) -> String {
     let mut groups: Vec<(u32, &str)> = Vec::new();
-    for (kind, name, _) in elements {
+    let mut listed = Vec::new();
+    for (kind, name, corners) in elements {
         let group = (if *kind == 1 { 1 } else { 2 }, name.as_str());
-        if !groups.contains(&group) {
+        let at = groups.iter().position(|own| *own == group).unwrap_or(groups.len());
+        if at == groups.len() {
             groups.push(group);
         }
+        listed.push((*kind, at, corners.clone()));
     }
-    let mut text =
-        format!("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{}\n", groups.len());
-    for (i, (dimension, name)) in groups.iter().enumerate() {
-        writeln!(text, "{dimension} {} \"{name}\"", i + 1).unwrap();
-    }
-    writeln!(text, "$EndPhysicalNames\n$Nodes\n{}", nodes.len()).unwrap();
-    for (i, [x, y]) in nodes.iter().enumerate() {
-        writeln!(text, "{} {x:?} {y:?} 0", i + 1).unwrap();
-    }
-    writeln!(text, "$EndNodes\n$Elements\n{}", elements.len()).unwrap();
-    for (i, (kind, name, corners)) in elements.iter().enumerate() {
-        let dimension = if *kind == 1 { 1 } else { 2 };
-        let tag = 1 + groups.iter().position(|g| *g == (dimension, name.as_str())).unwrap();
-        let corners: Vec<String> = corners.iter().map(|node| (node + 1).to_string()).collect();
-        writeln!(text, "{} {kind} 2 {tag} {tag} {}", i + 1, corners.join(" ")).unwrap();
-    }
-    text + "$EndElements\n"
+    let points: Vec<_> = nodes.iter().map(|&[x, y]| [x, y, 0.0]).collect();
+    String::from_utf8(mesh_text(&points, &groups, &listed)).unwrap()
 }

@@ -1,9 +1,8 @@
 //! The kinds of bodies, coarse.
 
 use super::grid::{Grid, Shape, msh};
-use crate::bricks::{Block, file_of};
+use crate::prelude::*;
 
-/// A kind of body.
 pub struct Kind {
     pub name: &'static str,
     pub case: String,
@@ -32,7 +31,6 @@ fn case(geometry: &str, contact: &str, further: &str) -> String {
     )
 }
 
-/// The built-in annulus.
 fn annulus(geometry: &str, contact: &str, further: &str) -> String {
     let geometry = format!(
         "inner_radius = 0.0205\nouter_radius = 0.0905\n{geometry}\n\
@@ -42,7 +40,6 @@ fn annulus(geometry: &str, contact: &str, further: &str) -> String {
     case(&geometry, &contact, further)
 }
 
-/// A ring from a file.
 fn imported(contact: &str, further: &str) -> String {
     let contact = format!("interference = 25e-6\nrotation_speed_rpm = 610.0\n{contact}");
     let further = format!("[boundaries.outer]\ncondition = \"clamped\"\n{further}");
@@ -76,11 +73,8 @@ fn two_bodies(around: usize) -> String {
 /// A slab that turns about a far axis, a lining pressed on it, and a backplate glued to the lining, whose meshes do not match: on
 /// springs against the slab as `contact` says, held at a side of the plate by springs of `support` Pa/m.
 fn solids(contact: &str, support: &str, counts: [[usize; 3]; 3]) -> (String, String) {
-    let block = |name, bottom, height, counts| Block {
-        name,
-        origin: [0.0, 0.0, bottom],
-        size: [0.04, 0.035, height],
-        counts,
+    let block = |name, bottom, height, counts| {
+        brick(name, [0.0, 0.0, bottom], [0.04, 0.035, height], counts)
     };
     let blocks = [
         block("slab", -0.035, 0.02, counts[0]),
@@ -102,12 +96,8 @@ fn solids(contact: &str, support: &str, counts: [[usize; 3]; 3]) -> (String, Str
 
 /// One sector of a ring around a cylinder, whose body is its six copies; its own friction lies above the onset at 0.12.
 fn sectors() -> (String, String) {
-    let sector = Block {
-        name: "ring",
-        origin: [0.0205, 0.0, 0.0],
-        size: [0.07, std::f64::consts::TAU / 6.0, 0.009],
-        counts: [3, 2, 1],
-    };
+    let sector =
+        brick("ring", [0.0205, 0.0, 0.0], [0.07, std::f64::consts::TAU / 6.0, 0.009], [3, 2, 1]);
     let mesh = file_of(&[sector], |[r, t, z]| [r * t.cos(), r * t.sin(), z]);
     let case = format!(
         "title = \"A kind of body\"\n[mesh]\nfile = \"body.msh\"\nsectors = 6\n[material]\n{POLYCARBONATE}
@@ -118,7 +108,6 @@ rotation_speed_rpm = 610.0\nfriction_coefficient = 0.3\n{ANALYSES}"
     (case, String::from_utf8(mesh).expect("a file of text"))
 }
 
-/// All kinds, in the order of the table.
 pub fn kinds() -> Vec<Kind> {
     let kind = |name, case| Kind { name, case, mesh: None, twin: None };
     let of_file = |name, case, mesh| Kind { name, case, mesh: Some(mesh), twin: None };

@@ -1,9 +1,8 @@
 //! Consistency check: what `check` says of a case is what its runs say.
 
 use super::RUN;
-use crate::bricks::{Block, file_of};
-use frictionsim::case::{Analysis, Case};
-use frictionsim::results::Manifest;
+use crate::prelude::*;
+use frictionsim::case::Analysis;
 use frictionsim::study::{StudyError, preflight, summarize};
 
 /// Values for keys, good and bad ones.
@@ -35,16 +34,10 @@ const POOL: &[(&str, &[&str])] = &[
     ("output.snapshots", &["[0]", "[1e-5, 2e-5]", "[1]"]),
 ];
 
-/// A small case with a few keys changed.
 fn overrides(seed: u64) -> Vec<String> {
-    let small = [
-        "mesh.circumferential_elements=24",
-        "mesh.radial_elements=4",
-        "transient.duration=4e-5",
-        "transient.expansion_time=1e-5",
-        "output.probes=[1]",
-        "output.snapshots=[]",
-    ];
+    let small =
+        ["mesh.circumferential_elements=24 ; mesh.radial_elements=4 ; transient.duration=4e-5 ; \
+         transient.expansion_time=1e-5 ; output.probes=[1] ; output.snapshots=[]"];
     // Marsaglia's xorshift.
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     let mut random = |count: usize| {
@@ -53,7 +46,8 @@ fn overrides(seed: u64) -> Vec<String> {
         state ^= state << 17;
         (state >> 11) as usize % count
     };
-    let mut all: Vec<String> = small.iter().map(|text| text.to_string()).collect();
+    let mut all: Vec<String> =
+        small.iter().flat_map(|text| text.split(" ; ")).map(str::to_owned).collect();
     for _ in 0..1 + random(3) {
         let (key, values) = POOL[random(POOL.len())];
         all.push(format!("{key}={}", values[random(values.len())]));
@@ -92,8 +86,7 @@ fn check_refuses_what_a_run_refuses_and_nothing_else() {
 #[test]
 fn check_knows_what_runs_of_rings_blocks_and_pads_refuse() {
     let folder = tempfile::tempdir().unwrap();
-    let block =
-        Block { name: "pad", origin: [0.0; 3], size: [0.03, 0.02, 0.01], counts: [2, 2, 1] };
+    let block = brick("pad", [0.0; 3], [0.03, 0.02, 0.01], [2, 2, 1]);
     std::fs::write(folder.path().join("pad.msh"), file_of(&[block], |point| point)).unwrap();
     let path = folder.path().join("case.toml");
     let steel = "young_modulus = 2.1e11\npoisson_ratio = 0.3\ndensity = 7850.0\n";
@@ -114,12 +107,8 @@ fn check_knows_what_runs_of_rings_blocks_and_pads_refuse() {
                response_direction = \"z\"\n";
     // Nothing but the contact holds the upper block up.
     let upper = |z| [0.0, 0.0, z];
-    let pair = [("lower", 0.0, 3), ("upper", 0.01, 2)].map(|(name, z, count)| Block {
-        name,
-        origin: upper(z),
-        size: [0.03, 0.02, 0.01],
-        counts: [count, count, 1],
-    });
+    let pair = [("lower", 0.0, 3), ("upper", 0.01, 2)]
+        .map(|(name, z, count)| brick(name, upper(z), [0.03, 0.02, 0.01], [count, count, 1]));
     std::fs::write(folder.path().join("pair.msh"), file_of(&pair, |point| point)).unwrap();
     let floating = format!(
         "[mesh]\nfile = \"pair.msh\"\n[material]\n{steel}[boundaries.lower_z0]\ncondition = \"clamped\"\n\

@@ -1,6 +1,7 @@
 //! Keys of friction that falls with speed.
 
-use super::{DISC, RUN, assert_reports, valid};
+use super::{DISC, RUN, valid};
+use crate::prelude::*;
 use frictionsim::contact::FrictionDecay;
 
 const RATIO: &str = "contact.static_friction_ratio=1.4";
@@ -23,11 +24,11 @@ fn what_needs_constant_friction_says_so() {
     let parts = ["constant friction", "static_friction_ratio"];
     let cycles = valid(CYCLES, &[RATIO, SPEED]);
     let waves = cycles.require_rotating_waves().unwrap_err();
-    assert_reports(&waves.to_string(), &parts);
+    has(&waves.to_string(), &parts);
     assert!(cycles.require_cycle().is_ok() && !cycles.has_rotating_waves());
     // Modes compete instead of waves.
     let basin = valid(BASIN, &[RATIO, SPEED]).require_basin().unwrap_err();
-    assert_reports(&basin.to_string(), &["basin.harmonics is not used", "basin.modes"]);
+    has(&basin.to_string(), &["basin.harmonics is not used", "basin.modes"]);
 }
 
 #[test]

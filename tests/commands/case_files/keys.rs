@@ -1,11 +1,10 @@
 //! Consistency checks of the declarations of keys: what readers, messages, schema and template make
 //! of them is one and the same.
 
-use super::{DISC, RUN, assert_reports, parse, report, valid};
-use frictionsim::case::{Case, Default, KEYS, reference, unset};
-use serde_json::Value;
+use super::{DISC, RUN, parse, report, valid};
+use crate::prelude::*;
+use frictionsim::case::{Default, reference, unset};
 
-/// A case with every section.
 fn whole() -> String {
     let further = "
         [cycle]
@@ -59,7 +58,7 @@ fn a_default_written_out_changes_nothing() {
             Ok(written) => written,
             // A seed needs the noise that it is the seed of.
             Err(errors) => {
-                assert_reports(&errors.to_string(), &["is given without"]);
+                has(&errors.to_string(), &["is given without"]);
                 continue;
             }
         };
@@ -116,41 +115,13 @@ fn a_template_with_every_key_holds_no_key_that_is_unknown() {
 }
 
 #[test]
-fn names_of_other_programs_lead_to_the_key() {
-    for (given, section, expected) in [
-        ("E", "material", "`young_modulus`"),
-        ("nu", "material", "`poisson_ratio`"),
-        ("rho", "material", "`density`"),
-        ("mu", "contact", "`friction_coefficient`"),
-        ("rpm", "contact", "`rotation_speed_rpm`"),
-        ("omega", "material", "`rotation_speed_rpm` of [contact]"),
-        ("dt", "transient", "`time_step`"),
-    ] {
-        let text = format!("{section}.{given}=1");
-        assert_reports(&report(RUN, &[&text]), &[&format!("did you mean {expected}?")]);
-    }
-    for (given, expected) in [
-        ("inertance", "\"accelerance\""),
-        ("compliance", "\"receptance\""),
-        ("Mobility", "\"mobility\""),
-    ] {
-        let text = format!("frf.quantity={given}");
-        assert_reports(&report(&whole(), &[&text]), &[&format!("did you mean {expected}?")]);
-    }
-}
-
-#[test]
-fn numbers_with_a_comma_and_files_that_are_no_text_are_named() {
-    assert_reports(
-        &report(RUN, &["contact.friction_coefficient=0,3"]),
-        &["must be a number", "decimal point: 0.3"],
-    );
+fn files_that_are_no_text_are_named() {
     let utf16: Vec<u8> = RUN.encode_utf16().flat_map(u16::to_le_bytes).collect();
     let marked = [[0xff, 0xfe].as_slice(), &utf16].concat();
     for (bytes, part) in [(marked, "UTF-16"), (utf16, "zero bytes")] {
         let errors = Case::parse("case.toml", &bytes, &[]).unwrap_err();
         assert_eq!(errors.diagnostics.len(), 1, "{errors}");
-        assert_reports(&errors.to_string(), &[part, "UTF-8", "case.toml"]);
+        has(&errors.to_string(), &[part, "UTF-8", "case.toml"]);
         assert!(!errors.to_string().contains("inner"), "{errors}");
     }
 }
@@ -163,14 +134,6 @@ fn a_key_taken_away_makes_room_for_another() {
     assert!(valid(RUN, &[&unset("transient")]).transient.is_none());
     // A known key that is not there may go; an unknown one may not.
     valid(DISC, &[&unset("transient.duration")]);
-    assert_reports(
-        &report(DISC, &[&unset("cea.max_frequency")]),
-        &["--unset", "did you mean \"cea.max_frequency_hz\"?"],
-    );
-    assert_reports(
-        &report(DISC, &[&unset("material.density")]),
-        &["missing key `material.density`"],
-    );
 }
 
 #[test]
@@ -186,16 +149,9 @@ fn a_title_says_what_overrides_its_case() {
 
 #[test]
 fn a_single_value_stands_for_a_list_of_one() {
-    let given = [
-        "output.probes=7",
-        "output.snapshots=0.01",
-        "transient.perturbation.harmonics=3",
-        "cea.shapes_at=0.2",
-        "cea.friction_coefficients=0.2",
-        "sweep.analyses=cea",
-        "sweep.\"contact.friction_coefficient\"=0.2",
-        "cycle.harmonics=2",
-    ];
+    let given = ["output.probes=7 ; output.snapshots=0.01 ; transient.perturbation.harmonics=3 ; \
+         cea.shapes_at=0.2 ; cea.friction_coefficients=0.2 ; sweep.analyses=cea ; \
+         sweep.\"contact.friction_coefficient\"=0.2 ; cycle.harmonics=2"];
     let case = valid(RUN, &given);
     assert_eq!(case.output.probes, [7]);
     assert_eq!(case.output.snapshots, [0.01]);
@@ -204,21 +160,10 @@ fn a_single_value_stands_for_a_list_of_one() {
 }
 
 #[test]
-fn a_branch_follows_what_a_limit_cycle_depends_on() {
-    for (text, part) in [
-        ("cycle.continuation.key=\"mesh.radial_elements\"", "cannot be followed over"),
-        ("cycle.continuation.from=-10", "cannot be negative"),
-        ("cycle.continuation.to=10", "equals from"),
-    ] {
-        assert_reports(&report(&whole(), &[text]), &[part, "--set:1:"]);
-    }
-}
-
-#[test]
 fn a_cylinder_at_rest_has_no_limit_cycle() {
     for speed in ["0", "-610"] {
         let text = format!("contact.rotation_speed_rpm={speed}");
         let errors = valid(&whole(), &[&text]).require_cycle().unwrap_err();
-        assert_reports(&errors.to_string(), &["contact.rotation_speed_rpm", speed, "--set:1:"]);
+        has(&errors.to_string(), &["contact.rotation_speed_rpm", speed, "--set:1:"]);
     }
 }

@@ -32,7 +32,6 @@ fn keys_that_an_analysis_ignores_are_said() {
     assert!(rigid.ignored_by("transient").is_empty());
 }
 
-/// What cannot run because of a slip of units names the slip before its consequence.
 #[test]
 fn a_slip_of_units_is_named_before_what_it_makes_impossible() {
     let text = report(RUN, &["damping.stiffness_coefficient=45"]);

@@ -1,13 +1,10 @@
 //! Consistency checks of sizes: what a case asks for is weighed before anything of it is made.
 
-use super::{RUN, STUDY, assert_reports, parse, valid};
-use crate::bricks::{Block, file_of_order};
-use crate::program::{Run, folder, shipped};
-use frictionsim::case::Case;
+use super::{RUN, STUDY, parse, valid};
+use crate::bricks::file_of_order;
+use crate::prelude::*;
 use std::process::Stdio;
-use std::time::{Duration, Instant};
 
-/// Reads a case under an override, well or not, and says how long that took.
 fn seconds_to_read(text: &str, overrides: &[&str]) -> Duration {
     let start = Instant::now();
     let _ = parse(text, overrides).map_err(|errors| errors.to_string());
@@ -64,7 +61,7 @@ fn memory_is_refused_at_the_key_that_asks_for_it() {
         assert!(bytes > 1e11, "{overrides:?}: {bytes}");
         assert_eq!(blamed, key);
         let errors = case.memory_error(command, bytes, 1e9).to_string();
-        assert_reports(&errors, &[key, "GiB are available", "--set:1:"]);
+        has(&errors, &[key, "GiB are available", "--set:1:"]);
     }
 }
 

@@ -1,12 +1,10 @@
 //! Consistency check of remedies: sections that commands ask for are those of the body at hand.
 
-use crate::program::shipped;
-use frictionsim::case::Case;
+use crate::prelude::*;
 
 fn parse(name: &str, further: &str) -> Case {
     let text = std::fs::read_to_string(shipped(name)).unwrap() + further;
-    let case = Case::parse(&shipped(name), text.as_bytes(), &[]);
-    case.unwrap_or_else(|errors| panic!("{name} {further}\n{errors}"))
+    case_of(shipped(name), &text, AS_IT_IS)
 }
 
 #[test]

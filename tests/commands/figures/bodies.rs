@@ -3,15 +3,11 @@
 //! Consistency checks: they look at the drawing, not at the physics.
 
 use crate::figures::{check_texts, synthetic, texts};
-use frictionsim::cea::{FrictionSweep, UnstableInterval};
-use frictionsim::fem::{NodalStress, RayleighDamping};
+use crate::prelude::*;
 use frictionsim::mesh::Mesh;
-use frictionsim::results::cea::{
-    BaseField, BaseState, CeaReport, View, document, draw, write_base,
-};
-use frictionsim::results::{DrawingOptions, Extent, Format, Manifest, OutputFolder, Replace};
+use frictionsim::results::cea::{View, document, draw, write_base};
+use frictionsim::results::{DrawingOptions, Format};
 use std::f64::consts::PI;
-use tempfile::TempDir;
 
 /// A body whose mesh is no annulus to the program, though its hole is round.
 fn body() -> Mesh {
@@ -101,7 +97,6 @@ fn report<'a>(
     }
 }
 
-/// Draws the figures of a report and gives its folder.
 fn drawn(report: &CeaReport<'_>, width_mm: Option<f64>) -> TempDir {
     let out = tempfile::tempdir().unwrap();
     let path = out.path().join("out");

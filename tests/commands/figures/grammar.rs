@@ -52,7 +52,6 @@ fn axis(choice: u8, value: f64) -> Axis {
     }
 }
 
-/// A figure with every layer there is.
 fn figure(xs: &[f64], ys: &[f64], zs: &[f64], axes: (u8, u8), value: f64) -> Figure {
     let pairs = || xs.iter().copied().zip(ys.iter().copied());
     let plot = Panel::new(axis(axes.0, value), axis(axes.1, value))

@@ -2,11 +2,10 @@
 
 use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact, transient_settings};
 use crate::figures::check;
+use crate::prelude::*;
 use frictionsim::chart::Figure;
 use frictionsim::contact::SlidingContact;
 use frictionsim::fem::operator::SimdLevel;
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
-use frictionsim::results::Extent;
 use frictionsim::results::charts::ModeLine;
 use frictionsim::results::transient::{RunFigures, draw_run};
 use frictionsim::transient::{

@@ -1,10 +1,10 @@
 //! Figures of parameter studies, from their points.
 
 use crate::figures::check;
+use crate::prelude::*;
 use frictionsim::results::charts::ModeLine;
 use frictionsim::results::sweep::PointRecord;
 use frictionsim::results::sweep_figures::draw_sweep;
-use serde_json::{Value, json};
 
 fn point(number: usize, swept: Value, summaries: Value) -> PointRecord {
     let object = |value: Value| value.as_object().cloned().unwrap_or_default();

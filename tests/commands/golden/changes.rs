@@ -19,30 +19,10 @@ const CHANGES: &[(&str, &str, &str, &str)] = &[
     // Its transient is two milliseconds long: two quantities fewer, whose rows shift the others.
     ("convergence", "convergence.csv", "*", GROWTH),
     ("convergence", "summary.json", "series[].quantities[]*", GROWTH),
-    (
-        "*",
-        "*",
-        "cycles[].confirmation*",
-        "the transient is seeded, its frequency is that of the wave's own harmonic",
-    ),
-    (
-        "*",
-        "*",
-        "cycles[].onsets*",
-        "onsets are those below the case's friction, from the eigenvalue analysis",
-    ),
-    (
-        "*",
-        "*",
-        "summaries.cycle.cycles[].confirmation*",
-        "the transient is seeded, its frequency is that of the wave's own harmonic",
-    ),
-    (
-        "*",
-        "*",
-        "summaries.cycle.cycles[].onsets*",
-        "onsets are those below the case's friction, from the eigenvalue analysis",
-    ),
+    ("*", "*", "cycles[].confirmation*", SEEDED),
+    ("*", "*", "cycles[].onsets*", ONSETS),
+    ("*", "*", "summaries.cycle.cycles[].confirmation*", SEEDED),
+    ("*", "*", "summaries.cycle.cycles[].onsets*", ONSETS),
     ("*", "*", "cycles[].branch.folds*", FOLDS),
     ("*", "*", "branch", BRANCH),
     ("*", "*", "critical_frictions[].branch", BRANCH),
@@ -52,6 +32,10 @@ const CHANGES: &[(&str, &str, &str, &str)] = &[
     ("identify", "modes.csv", "used", "a flag is true or false in every table"),
     ("*", "*", "summaries.cycle.cycles[].branch.folds*", FOLDS),
 ];
+
+const SEEDED: &str = "the transient is seeded, its frequency is that of the wave's own harmonic";
+
+const ONSETS: &str = "onsets are those below the case's friction, from the eigenvalue analysis";
 
 const BRANCH: &str = "branches are counted from 1, as modes are";
 
@@ -70,7 +54,6 @@ const MEAN_ACCELERATION: &str =
 
 const GROWTH: &str = "a rate needs 20 periods above round-off and an exponential envelope";
 
-/// Whether a listed change explains a difference.
 pub fn explains(case: &str, file: &str, key: &str) -> bool {
     let fits = |pattern: &str, name: &str| match pattern.strip_suffix('*') {
         Some(start) => name.starts_with(start),
@@ -79,7 +62,6 @@ pub fn explains(case: &str, file: &str, key: &str) -> bool {
     CHANGES.iter().any(|(c, f, k, _)| fits(c, case) && fits(f, file) && fits(k, key))
 }
 
-/// Wall times and speeds.
 pub fn depends_on_the_clock(key: &str) -> bool {
     ["wall_s", "core_s", "points_per_core_hour", "element_steps_per_s"]
         .iter()

@@ -1,15 +1,7 @@
 //! The contact law, the steady start, and an exact impact.
 
-use crate::disc::sliding_at;
+use crate::prelude::*;
 use crate::transient::model::{Watch, disc, largest, model, settings};
-use frictionsim::contact::ContactStatus;
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::fem::{RayleighDamping, assemble_stiffness, lumped_masses};
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ShaftSpecification};
-use frictionsim::prestress::SteadySliding;
-use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, Sample, TimeStep,
-};
 
 /// Theory: the laws of Signorini and Coulomb at every node of every step.
 #[test]
@@ -60,12 +52,7 @@ fn multipliers_obey_signorini_and_coulomb_at_every_step() {
 /// Exact: rigid contact holds two bodies together, and what a sticking node has along the sliding is the speed between them.
 #[test]
 fn gap_and_velocity_of_a_node_between_two_bodies_are_those_over_the_other_body() {
-    let shaft = ShaftSpecification {
-        inner_radius: 0.006,
-        radial_elements: 2,
-        bore: BoundaryCondition::Clamped,
-    };
-    let specification = AnnulusSpecification { shaft: Some(shaft), ..disc(30, 6).specification };
+    let specification = crate::disc::on_shaft(disc(30, 6).specification, 2);
     let annulus = AnnulusMesh::generate(&specification).unwrap();
     let model = model(&annulus, 610.0);
     let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
@@ -125,14 +112,8 @@ fn steady_sliding_start_stays_in_equilibrium() {
 #[test]
 fn bar_rebounds_from_a_rigid_wall_as_one_dimensional_theory_says() {
     let (inner, length, speed) = (10.0, 0.02, 1.0);
-    let annulus = AnnulusMesh::generate(&AnnulusSpecification {
-        inner_radius: inner,
-        outer_radius: inner + length,
-        circumferential_elements: 360,
-        radial_elements: 200,
-        ..disc(3, 1).specification
-    })
-    .unwrap();
+    let specification = crate::disc::ring([inner, inner + length], ElementKind::Quad4, 360, 200);
+    let annulus = AnnulusMesh::generate(&specification).unwrap();
     let mut model = model(&annulus, 0.0);
     model.damping = RayleighDamping::default();
     model.contact = sliding_at(0.0, 0.0, 0.0);

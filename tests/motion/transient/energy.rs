@@ -1,11 +1,7 @@
 //! The energy balance.
 
+use crate::prelude::*;
 use crate::transient::model::{Watch, disc, model, settings};
-use frictionsim::fem::RayleighDamping;
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::transient::{
-    CentralDifference, OperatorChoice, Perturbation, Recorder, RecorderSettings, Sample, TimeStep,
-};
 
 /// Theory: the discrete energy identity is exact, whatever contact and damping do.
 #[test]
@@ -13,12 +9,9 @@ fn every_joule_is_accounted_for_through_stick_slip_and_separation() {
     let annulus = disc(45, 9);
     for choice in [OperatorChoice::Cyclic, OperatorChoice::Sparse] {
         let model = model(&annulus, 610.0);
-        let operator = model.operator(choice, SimdLevel::detect()).unwrap();
         let mut settings = settings(6e-3, &[1, 2]);
         settings.perturbation = Perturbation::of(&[1, 2], 2.0);
-        let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
-        let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
-        run.run(&mut record).unwrap();
+        let (record, _) = recorded(model, choice, &settings);
         for row in &record.rows {
             // Ten thousand steps of round-off 1e-16.
             assert!(row.balance_residual < 1e-12, "{} s: {:e}", row.time, row.balance_residual);

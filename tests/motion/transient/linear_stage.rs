@@ -1,19 +1,11 @@
 //! The linear stage against the complex eigenvalues of the same model.
 
-use crate::disc::TANGENT;
+use crate::prelude::*;
 use crate::transient::model::{disc, model, settings};
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::fem::{MassKind, assemble_stiffness};
 use frictionsim::linalg::MatrixPolynomial;
-use frictionsim::mesh::AnnulusMesh;
-use frictionsim::prestress::{SlidingTangent, SteadySliding, TangentOptions};
-use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    SteppedBody, TransientAnalysis, TransientModel,
-};
-use std::f64::consts::TAU;
+use frictionsim::prestress::SlidingTangent;
 
 /// The matrix that acts on `U exp(i n theta_j)`, from the rows of one sector.
 fn harmonic(
@@ -59,10 +51,8 @@ fn least_stable(model: &TransientModel<'_>, n: usize) -> c64 {
     let SteppedBody::Plane { mesh, annulus: Some(annulus) } = model.body else {
         panic!("an annulus");
     };
-    let stiffness = assemble_stiffness(mesh, model.material);
-    let base = SteadySliding::solve(mesh, &stiffness, &model.contact).unwrap();
     let options = TangentOptions { mass: MassKind::Lumped, damping: model.damping, ..TANGENT };
-    let tangent = SlidingTangent::linearize(mesh, model.material, &stiffness, &base, &options);
+    let tangent = linearized(mesh, model.material, &model.contact, &options);
     let mass = harmonic(&tangent.mass, &tangent, annulus, n);
     let stiffness = harmonic(&tangent.stiffness, &tangent, annulus, n);
     let reduced = mass.partial_piv_lu().solve(&stiffness);
@@ -79,20 +69,14 @@ fn least_stable(model: &TransientModel<'_>, n: usize) -> c64 {
 /// Cross-method: the strongest check that the two halves of the program agree.
 #[test]
 fn seeded_harmonics_grow_as_the_complex_eigenvalues_predict() {
-    compare(&disc(60, 12), 0.012);
-}
-
-fn compare(annulus: &AnnulusMesh, duration: f64) {
-    let model = model(annulus, 610.0);
-    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let annulus = disc(60, 12);
+    let model = model(&annulus, 610.0);
     for n in [1, 2, 3] {
-        let mut settings = settings(duration, &[n]);
+        let mut settings = settings(0.012, &[n]);
         settings.initial = InitialState::SteadySliding;
         // Small enough to stay linear over the whole run.
         settings.perturbation = Perturbation::of(&[n], 1e-8);
-        let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
-        let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
-        run.run(&mut record).unwrap();
+        let (record, _) = recorded(model, OperatorChoice::Auto, &settings);
         let analysis = TransientAnalysis::of(&record, &[n]);
         assert_eq!(analysis.first_nonlinearity, None);
         let growth = &analysis.growth[0];

@@ -1,11 +1,6 @@
 //! The disc of the paper on meshes that run in seconds.
 
-use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact, transient_settings};
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
-use frictionsim::transient::{
-    InitialState, Observer, Perturbation, Sample, TransientModel, TransientSettings,
-};
-use std::ops::ControlFlow;
+use crate::prelude::*;
 
 pub fn disc(circumferential_elements: usize, radial_elements: usize) -> AnnulusMesh {
     let specification = annulus(ElementKind::Quad4, circumferential_elements, radial_elements);
@@ -20,7 +15,6 @@ pub fn settings(duration: f64, harmonics: &[usize]) -> TransientSettings {
     transient_settings(duration, 4e-6, 1e-4, InitialState::Rest, Perturbation::of(harmonics, 1e-3))
 }
 
-/// Hands every sample to a closure.
 pub struct Watch<F>(pub F);
 
 impl<F: FnMut(&Sample<'_>)> Observer for Watch<F> {

@@ -1,27 +1,13 @@
 //! Contact that stiffens with pressure, step by step.
 
-use crate::disc::{DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, contact, sweep_request};
+use crate::prelude::*;
 use crate::transient::model::{Watch, settings};
-use frictionsim::cea::ModeLimit;
 use frictionsim::cea::cyclic::sweep;
-use frictionsim::contact::{ContactStiffness, NormalLaw};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::fem::{MassKind, assemble_stiffness};
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
-use frictionsim::prestress::{SteadySliding, TangentOptions};
-use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    Sample, TransientAnalysis, TransientModel,
-};
 
 const LAWS: [NormalLaw; 2] = [
     NormalLaw::Exponential { reference_pressure: 2e5, height: 2e-6 },
     NormalLaw::Cubic { stiffness: 5e11, cubic_stiffness: 2e23 },
 ];
-
-fn stiffening(law: NormalLaw) -> ContactStiffness {
-    ContactStiffness { normal_stiffness: Some(law.stiffness(0.0)), law: Some(law), ..RIGID }
-}
 
 fn disc(stiffness: ContactStiffness, mesh: &AnnulusMesh) -> TransientModel<'_> {
     TransientModel {
@@ -38,19 +24,16 @@ fn every_joule_is_accounted_for_on_contact_that_stiffens() {
         let damped = ContactStiffness { normal_damping: 1e5, ..stiffening(law) };
         for stiffness in [stiffening(law), damped] {
             let model = disc(stiffness, &mesh);
-            let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
             let mut settings = settings(4e-3, &[]);
             settings.perturbation = Perturbation::of(&[1, 2], 2.0);
-            let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
-            let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
-            run.run(&mut record).unwrap();
+            let (record, residual) = recorded(model, OperatorChoice::Auto, &settings);
             for row in &record.rows {
                 // Ten thousand steps of round-off 1e-16.
                 assert!(row.balance_residual < 1e-12, "{law:?} {:e}", row.balance_residual);
             }
             let open: u64 = record.rows.iter().map(|row| row.counts.open).sum();
             let stored = record.rows.iter().map(|row| row.contact_energy);
-            println!("{law:?}: open {open}, {:e}", run.largest_residual());
+            println!("{law:?}: open {open}, {:e}", residual);
             assert!(open > 0 && stored.fold(0.0, f64::max) > 0.0);
         }
     }
@@ -97,13 +80,10 @@ fn a_wave_on_contact_that_stiffens_grows_as_its_eigenvalue_says() {
 
         let stiffness = stiffening(law).damped_by(DAMPING.stiffness_coefficient);
         let model = disc(stiffness, &mesh);
-        let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
         let mut settings = settings(0.012, &[harmonic]);
         settings.initial = InitialState::SteadySliding;
         settings.perturbation = Perturbation::of(&[harmonic], 1e-8);
-        let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
-        let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
-        run.run(&mut record).unwrap();
+        let (record, _) = recorded(model, OperatorChoice::Auto, &settings);
         let analysis = TransientAnalysis::of(&record, &[harmonic]);
         let rate = analysis.growth[0].stage.as_ref().unwrap().rate_per_s.value;
         println!("{law:?}: {rate} 1/s, eigenvalue {exact} 1/s");

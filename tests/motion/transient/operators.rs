@@ -1,14 +1,12 @@
 //! The two operators against the assembled matrix, each other and the scalar kernels.
 
-use crate::disc::POLYCARBONATE;
+use crate::prelude::*;
 use crate::transient::model::{Watch, disc, largest, largest_difference, model, settings};
+use frictionsim::fem::DofMap;
 use frictionsim::fem::operator::{
-    AlignedVector, CyclicStencil, MotionFields, SimdLevel, SparseOperator, StepCoefficients,
+    AlignedVector, CyclicStencil, MotionFields, SparseOperator, StepCoefficients,
     StiffnessOperator, gather, largest_frequency, scatter,
 };
-use frictionsim::fem::{DofMap, assemble_stiffness, lumped_masses};
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification};
-use frictionsim::transient::{CentralDifference, OperatorChoice, Perturbation, TransientState};
 
 const LEVELS: [SimdLevel; 3] = [SimdLevel::Scalar, SimdLevel::Avx2, SimdLevel::Avx512];
 

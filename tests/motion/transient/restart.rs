@@ -1,16 +1,8 @@
 //! Saved and restored states.
 
-use crate::disc::RIGID;
+use crate::prelude::*;
 use crate::transient::model::{Watch, disc, model, settings};
-use frictionsim::contact::{ContactStiffness, FrictionDecay};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::transient::{
-    CentralDifference, Observer, OperatorChoice, Perturbation, Recorder, RecorderSettings, RunEnd,
-    Sample, TransientError, TransientState,
-};
-use std::ops::ControlFlow;
 
-/// Records, and stops at a sample with the state there.
 struct StopAt {
     record: Recorder,
     index: u64,
@@ -36,12 +28,7 @@ fn restarted_run_equals_uninterrupted_run_bitwise() {
     // Friction that remembers nothing and springs that are where their nodes are.
     let mut compliant = rigid;
     compliant.contact.decay = Some(FrictionDecay { static_ratio: 1.4, decay_speed: 0.5 });
-    compliant.stiffness = ContactStiffness {
-        normal_stiffness: Some(2e12),
-        normal_damping: 1e5,
-        tangential_damping: 1e4,
-        ..RIGID
-    };
+    compliant.stiffness = crate::disc::compliant(2e12, [1e5, 1e4]);
     for (model, choice) in [
         (rigid, OperatorChoice::Cyclic),
         (rigid, OperatorChoice::Sparse),

@@ -1,13 +1,8 @@
 //! Seeds: the velocity that is added to the body's.
 
+use crate::prelude::*;
 use crate::transient::model::{Watch, disc, model, settings};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::mesh::AnnulusMesh;
-use frictionsim::transient::{
-    CentralDifference, OperatorChoice, Perturbation, Recorder, RecorderSettings, RunEnd, Sample,
-    StandingWave, TransientSettings,
-};
-use std::f64::consts::TAU;
+use frictionsim::transient::StandingWave;
 
 fn record(annulus: &AnnulusMesh, settings: &TransientSettings) -> Recorder {
     let model = model(annulus, 610.0);

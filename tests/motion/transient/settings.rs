@@ -1,11 +1,7 @@
 //! Settings that make no run, and runs that break.
 
+use crate::prelude::*;
 use crate::transient::model::{Watch, disc, model, settings};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::transient::{
-    CentralDifference, OperatorChoice, Perturbation, Recorder, RecorderSettings, Sample, TimeStep,
-    TransientError, TransientSettings,
-};
 
 fn failure(change: impl FnOnce(&mut TransientSettings)) -> String {
     let annulus = disc(24, 6);

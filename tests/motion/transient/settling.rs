@@ -1,13 +1,9 @@
 //! When a run has settled, and what is kept of it.
 
+use crate::prelude::*;
 use crate::transient::model::{disc, model, settings};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::transient::{
-    CentralDifference, EndState, OperatorChoice, Perturbation, Recorder, RecorderSettings, RunEnd,
-    TransientAnalysis, TransientSettings, Unsettled,
-};
+use frictionsim::transient::{EndState, Unsettled};
 
-/// A run of the coarse disc at some speed, with its record and how it ended.
 fn run(rpm: f64, settings: &TransientSettings, wanted: &RecorderSettings) -> (Recorder, RunEnd) {
     let annulus = disc(45, 9);
     let model = model(&annulus, rpm);
@@ -25,10 +21,7 @@ fn torus() -> Recorder {
     model.contact.friction_coefficient = 0.2;
     let mut settings = settings(0.05, &[1, 2]);
     settings.perturbation = Perturbation::of(&[1, 2], 0.3);
-    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
-    let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
-    let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
-    run.run(&mut record).unwrap();
+    let (record, _) = recorded(model, OperatorChoice::Auto, &settings);
     record
 }
 

@@ -1,9 +1,7 @@
 //! Order of the time integration.
 
+use crate::prelude::*;
 use crate::transient::model::{Watch, disc, largest_difference, model, settings};
-use frictionsim::fem::RayleighDamping;
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::transient::{CentralDifference, OperatorChoice, Sample, TimeStep};
 
 /// Displacement and velocity of free undamped vibration after 0.2 ms with this many steps.
 fn end(steps: u32) -> (Vec<f64>, Vec<f64>) {

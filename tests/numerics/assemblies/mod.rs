@@ -7,19 +7,11 @@ mod rotation;
 mod slow_sliding;
 mod topography;
 
-use crate::bricks::{Block, file_of, file_of_order};
-use crate::disc::{RIGID, TANGENT, elastic, sweep_request};
+use crate::bricks::file_of_order;
+use crate::prelude::*;
 use crate::structural_damping::dense;
-use frictionsim::cea::ModeLimit;
-use frictionsim::cea::sparse::sweep;
-use frictionsim::contact::{ContactStiffness, Counterpart, Motion, PairError, PairFriction};
-use frictionsim::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
+use frictionsim::contact::PairError;
 use frictionsim::linalg::c64;
-use frictionsim::mesh::{BoundaryCondition, FileMesh, Mesh};
-use frictionsim::prestress::{
-    Assembly, BaseChoice, PrestressError, SlidingSurfaces, SlidingTangent, TangentOptions,
-    TiedSurfaces,
-};
 
 const STEEL: ElasticMaterial = elastic(2e11, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
 
@@ -52,7 +44,11 @@ fn sliding(mesh: &Mesh, normal_stiffness: Option<f64>) -> SlidingSurfaces {
     }
 }
 
-/// The lower block turns about an axis far away.
+fn tie(mesh: &Mesh, surface: &str, counter: &str) -> TiedSurfaces {
+    let [surface, counter] = [surface, counter].map(|name| boundary(mesh, name));
+    TiedSurfaces { name: "glue".to_owned(), surface, counter }
+}
+
 fn turning(mesh: &Mesh, axis: [f64; 3], center: [f64; 3]) -> Motion {
     let region = mesh.regions.iter().position(|name| name == "lower");
     Motion { regions: vec![region.unwrap()], axis, center, rotation_speed: 10.0, inertia: None }
@@ -60,13 +56,8 @@ fn turning(mesh: &Mesh, axis: [f64; 3], center: [f64; 3]) -> Motion {
 
 fn stacked(gap: f64) -> [Block; 2] {
     [
-        Block { name: "lower", origin: [0.0; 3], size: [0.05, 0.04, 0.02], counts: [5, 3, 2] },
-        Block {
-            name: "upper",
-            origin: [0.0, 0.0, 0.02 + gap],
-            size: [0.05, 0.04, 0.015],
-            counts: [4, 4, 2],
-        },
+        brick("lower", [0.0; 3], [0.05, 0.04, 0.02], [5, 3, 2]),
+        brick("upper", [0.0, 0.0, 0.02 + gap], [0.05, 0.04, 0.015], [4, 4, 2]),
     ]
 }
 
@@ -128,12 +119,8 @@ fn constant_pressure_passes_a_contact_between_meshes_that_do_not_match() {
 #[test]
 fn constant_pressure_passes_a_tie_between_meshes_that_do_not_match() {
     let mesh = mesh_of(&file_of(&stacked(0.0), |point| point), &PRESSED);
-    let tie = TiedSurfaces {
-        name: "glue".to_owned(),
-        surface: boundary(&mesh, "upper_z0"),
-        counter: boundary(&mesh, "lower_z1"),
-    };
-    let assembly = Assembly::new(&mesh, &STEEL, &[tie], &[], &[], BaseChoice::Solved).unwrap();
+    let glue = tie(&mesh, "upper_z0", "lower_z1");
+    let assembly = Assembly::new(&mesh, &STEEL, &[glue], &[], &[], BaseChoice::Solved).unwrap();
     let range = assembly.range(&[0.0]).unwrap();
     let error = patch_error(&mesh, &range.states[0].displacements[0], 0.0);
     let size = 1e8 / STEEL.young_modulus * 0.035;
@@ -144,11 +131,8 @@ fn constant_pressure_passes_a_tie_between_meshes_that_do_not_match() {
 fn eigenvalues(assembly: &Assembly<'_>, friction: f64, count: usize) -> Vec<c64> {
     let range = assembly.range(&[friction]).unwrap();
     let tangent = assembly.tangent(&range.states[0], &OPTIONS).unwrap();
-    let at = [friction];
-    let request = sweep_request(&at, ModeLimit::Lowest(count));
-    let found = sweep(&tangent, &request, &|_| {}).unwrap();
-    let modes = found.points.into_iter().flat_map(|point| point.modes);
-    modes.map(|mode| mode.eigenvalue).collect()
+    let modes = modes_at(&tangent, friction, ModeLimit::Lowest(count));
+    modes.into_iter().map(|mode| mode.eigenvalue).collect()
 }
 
 /// Coefficients of the powers of `x - origin` from those of the powers of `x`, by repeated division.
@@ -202,24 +186,16 @@ fn largest_difference(a: &[c64], b: &[c64]) -> f64 {
 #[test]
 fn a_tie_of_two_halves_has_the_spectrum_of_the_whole() {
     let clamped = [("whole_z0", BoundaryCondition::Clamped)];
-    let whole =
-        [Block { name: "whole", origin: [0.0; 3], size: [0.05, 0.04, 0.04], counts: [4, 3, 4] }];
+    let whole = [brick("whole", [0.0; 3], [0.05, 0.04, 0.04], [4, 3, 4])];
     let whole = mesh_of(&file_of(&whole, |point| point), &clamped);
     let expected = Assembly::new(&whole, &STEEL, &[], &[], &[], BaseChoice::Closed).unwrap();
-    let half = |name: &'static str, height: f64| Block {
-        name,
-        origin: [0.0, 0.0, height],
-        size: [0.05, 0.04, 0.02],
-        counts: [4, 3, 2],
+    let half = |name: &'static str, height: f64| {
+        brick(name, [0.0, 0.0, height], [0.05, 0.04, 0.02], [4, 3, 2])
     };
     let halves = file_of(&[half("lower", 0.0), half("upper", 0.02)], |point| point);
     let halves = mesh_of(&halves, &[("lower_z0", BoundaryCondition::Clamped)]);
-    let tie = TiedSurfaces {
-        name: "glue".to_owned(),
-        surface: boundary(&halves, "upper_z0"),
-        counter: boundary(&halves, "lower_z1"),
-    };
-    let tied = Assembly::new(&halves, &STEEL, &[tie], &[], &[], BaseChoice::Closed).unwrap();
+    let glue = tie(&halves, "upper_z0", "lower_z1");
+    let tied = Assembly::new(&halves, &STEEL, &[glue], &[], &[], BaseChoice::Closed).unwrap();
     let error = largest_difference(&eigenvalues(&expected, 0.0, 8), &eigenvalues(&tied, 0.0, 8));
     println!("{error:e}");
     assert!(error < 1e-9, "{error:e}");

@@ -4,11 +4,8 @@ use super::{
     PRESSED, STEEL, eigenvalues, largest_difference, mesh_of, patch_error, sliding, stacked,
     turning,
 };
-use crate::bricks::file_of;
-use frictionsim::contact::NormalLaw;
+use crate::prelude::*;
 use frictionsim::linalg::c64;
-use frictionsim::mesh::Mesh;
-use frictionsim::prestress::{Assembly, BaseChoice, SlidingSurfaces};
 
 const LAWS: [NormalLaw; 2] = [
     NormalLaw::Exponential { reference_pressure: 2e6, height: 5e-6 },

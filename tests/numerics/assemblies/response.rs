@@ -1,18 +1,12 @@
 //! Frequency responses of assemblies against their eigenvalues (cross-method: the response knows no modes).
 
 use super::rotation::{ring, turning as spinning};
-use super::{OPTIONS, PRESSED, STEEL, boundary, mesh_of, sliding, stacked, turning};
-use crate::bricks::{Block, file_of};
-use crate::disc::sweep_request;
-use frictionsim::cea::ModeLimit;
-use frictionsim::cea::sparse::sweep;
-use frictionsim::fem::{RayleighDamping, RotationFrame};
-use frictionsim::frf::{Axis, Direction, FrfError, FrfSystem, Terminal, direct_response};
-use frictionsim::linalg::{MatrixPolynomial, c64};
-use frictionsim::mesh::{BoundaryCondition, Mesh};
-use frictionsim::prestress::{Assembly, BaseChoice, SlidingTangent, TangentOptions, TiedSurfaces};
-use nalgebra::{DMatrix, DVector};
-use std::f64::consts::TAU;
+use super::{OPTIONS, PRESSED, STEEL, mesh_of, sliding, stacked, tie, turning};
+use crate::prelude::*;
+use frictionsim::fem::RotationFrame;
+use frictionsim::frf::Axis;
+use frictionsim::linalg::c64;
+use nalgebra::DVector;
 
 const DAMPED: TangentOptions = TangentOptions {
     damping: RayleighDamping { mass_coefficient: 30.0, stiffness_coefficient: 2e-8 },
@@ -80,7 +74,7 @@ fn lowest(tangent: &SlidingTangent, friction: f64) -> c64 {
 /// Cross-method: two tied halves respond like the whole, and a node that follows another can be observed, not excited.
 #[test]
 fn tied_halves_respond_like_the_whole() {
-    let block = |name, origin, size, counts| Block { name, origin, size, counts };
+    let block = |name, origin, size, counts| brick(name, origin, size, counts);
     let clamped = |name| [(name, BoundaryCondition::Clamped)];
     let whole = [block("bar", [0.0; 3], [0.12, 0.02, 0.02], [6, 2, 2])];
     let halves = [
@@ -90,14 +84,8 @@ fn tied_halves_respond_like_the_whole() {
     let lines = [500.0, 1300.0, 4000.0];
     let responses = [(whole.as_slice(), "bar_x0"), (&halves, "left_x0")].map(|(blocks, held)| {
         let mesh = mesh_of(&file_of(blocks, |point| point), &clamped(held));
-        let ties: Vec<TiedSurfaces> = (blocks.len() == 2)
-            .then(|| TiedSurfaces {
-                name: "glue".to_owned(),
-                surface: boundary(&mesh, "right_x0"),
-                counter: boundary(&mesh, "left_x1"),
-            })
-            .into_iter()
-            .collect();
+        let ties: Vec<TiedSurfaces> =
+            (blocks.len() == 2).then(|| tie(&mesh, "right_x0", "left_x1")).into_iter().collect();
         let assembly = Assembly::new(&mesh, &STEEL, &ties, &[], &[], BaseChoice::Closed).unwrap();
         let range = assembly.range(&[0.0]).unwrap();
         let tangent = assembly.tangent(&range.states[0], &DAMPED).unwrap();

@@ -1,14 +1,8 @@
 //! Solid bodies on a rigid counterface: a block that is held at every node is one, and the program has another route for it.
 
 use super::{STEEL, boundary, eigenvalues, largest_difference, mesh_of, sliding, stacked, turning};
-use crate::bricks::{Block, file_of};
-use frictionsim::contact::{
-    ContactStiffness, Counterpart, Motion, PairError, PairFriction, RigidCounterface, RigidMotion,
-    RigidShape, Topography,
-};
-use frictionsim::mesh::{BoundaryCondition, Mesh};
-use frictionsim::prestress::{Assembly, BaseChoice, PrestressError, SlidingSurfaces};
-use std::sync::Arc;
+use crate::prelude::*;
+use frictionsim::contact::{PairError, RigidCounterface, RigidMotion, RigidShape, Topography};
 
 /// How far the counterface is pushed in, m.
 const INTERFERENCE: f64 = 2e-6;
@@ -87,7 +81,7 @@ fn a_rigid_plane_is_a_body_that_is_held_everywhere() {
 /// A bush of one ring of bricks around a shaft that turns: every node of the bore is pressed alike.
 #[test]
 fn a_shaft_presses_a_bush_evenly_whatever_its_axis() {
-    let block = Block { name: "bush", origin: [0.0; 3], size: [1.0; 3], counts: [2, 24, 2] };
+    let block = brick("bush", [0.0; 3], [1.0; 3], [2, 24, 2]);
     let (radius, wall, center) = (0.02, 0.01, [0.3, -0.2, 0.5]);
     // The axis lies along (2, 2, 1) / 3.
     let [e, f, axis] = [[1.0, 0.0, -2.0], [-4.0, 5.0, -2.0], [2.0, 2.0, 1.0]];

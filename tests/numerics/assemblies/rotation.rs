@@ -1,39 +1,20 @@
 //! Rings that turn, in both frames.
 
-use super::{OPTIONS, STEEL, boundary, eigenvalues, mesh_of};
-use crate::bricks::{Block, file_of};
-use crate::disc::sweep_request;
-use frictionsim::cea::ModeLimit;
-use frictionsim::cea::sparse::sweep;
-use frictionsim::contact::Motion;
-use frictionsim::fem::{MassKind, RotationFrame, assemble_mass, assemble_supports};
-use frictionsim::mesh::{BoundaryCondition, ElasticSupport, Mesh};
-use frictionsim::prestress::{Assembly, BaseChoice, PrestressError, TiedSurfaces};
-use std::f64::consts::TAU;
+use super::{OPTIONS, STEEL, eigenvalues, mesh_of, tie};
+use crate::prelude::*;
+use frictionsim::fem::{RotationFrame, assemble_supports};
 
-/// Springs softer than the ring.
-const SOFT: ElasticSupport = ElasticSupport {
-    normal_stiffness: 2e6,
-    tangential_stiffness: 3e6,
-    axial_stiffness: 0.0,
-    normal_damping: 0.0,
-    tangential_damping: 0.0,
-    loss_factor: 0.0,
-};
+const SOFT: ElasticSupport = springs([2e6, 3e6, 0.0], [0.0, 0.0]);
 
 /// A ring of bricks along radius, angle and axis, r 50 to 150 mm, 10 mm thick, its two ends glued.
 pub(super) fn ring(counts: [usize; 3], bore: BoundaryCondition) -> (Mesh, TiedSurfaces) {
-    let block = Block { name: "ring", origin: [0.05, 0.0, -0.005], size: [0.1, TAU, 0.01], counts };
+    let block = brick("ring", [0.05, 0.0, -0.005], [0.1, TAU, 0.01], counts);
     let file = file_of(&[block], |[radius, angle, z]| {
         let (sin, cos) = angle.sin_cos();
         [radius * cos, radius * sin, z]
     });
     let mesh = mesh_of(&file, &[("ring_x0", bore)]);
-    let seam = TiedSurfaces {
-        name: "seam".to_owned(),
-        surface: boundary(&mesh, "ring_y1"),
-        counter: boundary(&mesh, "ring_y0"),
-    };
+    let seam = tie(&mesh, "ring_y1", "ring_y0");
     (mesh, seam)
 }
 

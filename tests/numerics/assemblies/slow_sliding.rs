@@ -2,16 +2,11 @@
 //! imaginary part, too.
 
 use super::*;
-use crate::disc::sweep_request;
+use crate::prelude::*;
 use crate::structural_damping::dense_eigenvalues;
-use frictionsim::fem::RayleighDamping;
 
 /// Damping factor below which no mode may be missing.
 const LIGHT: f64 = 0.5;
-
-fn damping_factor(own: &c64) -> f64 {
-    -own.re / own.norm()
-}
 
 fn holds(all: &[c64], own: &c64) -> bool {
     all.iter().any(|other| (other - own).norm() < 1e-8 * own.norm())
@@ -47,7 +42,7 @@ fn lists_of_lossy_modes_have_no_gaps_however_slow_the_sliding() {
             assert!(listed.len() >= count, "{named}: {listed:?}");
             assert!(listed.iter().all(|own| holds(&exact, own)), "{named}: {listed:?}");
             let top = listed.iter().fold(0.0_f64, |top, own| top.max(own.im));
-            let light = exact.iter().filter(|own| own.im < top && damping_factor(own) < LIGHT);
+            let light = exact.iter().filter(|own| own.im < top && -own.re / own.norm() < LIGHT);
             for own in light {
                 assert!(holds(&listed, own), "{named}: {own} is not in {listed:?}");
             }

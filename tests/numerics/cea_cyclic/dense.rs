@@ -1,19 +1,9 @@
 //! Independent checks: dense solutions of harmonics folded from the matrices of the full mesh.
 
 use crate::cea_cyclic::model::{paper_options, run};
-use crate::disc::{POLYCARBONATE, RIGID, annulus, contact, sweep_request};
+use crate::prelude::*;
 use faer::linalg::solvers::Solve;
-use faer::{Mat, c64};
-use frictionsim::cea::ModeLimit;
 use frictionsim::cea::cyclic::sweep;
-use frictionsim::contact::{ContactStiffness, SlidingContact};
-use frictionsim::fem::{
-    ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
-};
-use frictionsim::linalg::MatrixPolynomial;
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind};
-use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
-use std::f64::consts::TAU;
 
 /// Harmonic `n` of a matrix of the full mesh: couplings of the first sector's unknowns with everything,
 /// weighted with the wave's phase.
@@ -92,9 +82,7 @@ fn worst_difference(
     let request = sweep_request(frictions, ModeLimit::MaxFrequency(limit_hz));
     let cyclic = sweep(specification, material, options, contact, &request).unwrap();
     let mesh = AnnulusMesh::generate(specification).unwrap();
-    let elastic = assemble_stiffness(&mesh.mesh, material);
-    let base = SteadySliding::solve(&mesh.mesh, &elastic, contact).unwrap();
-    let tangent = SlidingTangent::linearize(&mesh.mesh, material, &elastic, &base, options);
+    let tangent = linearized(&mesh.mesh, material, contact, options);
     let sectors = mesh.sector_count() as i32;
     let against: i8 = if contact.rotation_speed < 0.0 { 1 } else { -1 };
     let mut worst = 0.0_f64;

@@ -1,11 +1,7 @@
 //! Sweeps of the paper's disc.
 
-use crate::disc::{POLYCARBONATE, RIGID, TANGENT, contact, sweep_request};
-use frictionsim::cea::ModeLimit;
-use frictionsim::cea::cyclic::{WaveSweep, sweep};
-use frictionsim::contact::ContactStiffness;
-use frictionsim::mesh::AnnulusSpecification;
-use frictionsim::prestress::TangentOptions;
+use crate::prelude::*;
+use frictionsim::cea::cyclic::sweep;
 
 pub fn paper_options() -> TangentOptions {
     TangentOptions {

@@ -1,19 +1,12 @@
 //! Independent check: sensitivities against finite differences of the whole analysis.
 
 use crate::cea_cyclic::model::paper_options;
-use crate::disc::{POLYCARBONATE, RIGID, annulus, contact, sweep_request};
+use crate::prelude::*;
 use crate::waves::{STEP, difference, is_of, pairs, rates};
-use faer::c64;
-use frictionsim::cea::ModeLimit;
-use frictionsim::cea::cyclic::{WavePair, WaveSweep, sweep};
-use frictionsim::contact::{ContactStiffness, NormalLaw, SlidingContact};
-use frictionsim::fem::{AnnulusMaterials, ElasticMaterial, PlaneFormulation};
-use frictionsim::mesh::{AnnulusSpecification, ElementKind, SectorMesh};
-use frictionsim::prestress::{DampingModel, TangentOptions, WaveTangent};
+use frictionsim::cea::cyclic::{WavePair, sweep};
 
 const FRICTION: f64 = 0.35;
 
-/// Everything that an analysis is made from.
 #[derive(Clone, Copy)]
 struct CyclicModel {
     specification: AnnulusSpecification,
@@ -127,11 +120,7 @@ fn sensitivities_of_stiffening_contact_equal_finite_differences() {
             cubic_stiffness: cubic_stiffness * (1.0 + second),
         },
     };
-    let of = |law: NormalLaw| ContactStiffness {
-        normal_stiffness: Some(law.stiffness(0.0)),
-        law: Some(law),
-        ..RIGID
-    };
+    let of = |law: NormalLaw| stiffening(law);
     for (law, element) in laws.into_iter().zip([ElementKind::Quad8, ElementKind::Quad4]) {
         let mut contact = contact(610.0);
         contact.interference = 3e-4;

@@ -1,14 +1,9 @@
 //! Onsets, intervals, completeness and maps, against the paper, the continuum and each other.
 
 use crate::cea_cyclic::model::{paper_options, run};
-use crate::disc::{POLYCARBONATE, annulus, contact, sweep_request};
-use crate::table_1::TABLE_1;
+use crate::prelude::*;
+use frictionsim::cea::ModeBranch;
 use frictionsim::cea::cyclic::sweep;
-use frictionsim::cea::{ModeBranch, ModeLimit, UnstableInterval};
-use frictionsim::contact::ContactStiffness;
-use frictionsim::fem::{ElasticMaterial, MassKind};
-use frictionsim::mesh::ElementKind;
-use frictionsim::prestress::TangentOptions;
 
 #[test]
 fn eigenvalues_equal_table_1_of_the_paper() {

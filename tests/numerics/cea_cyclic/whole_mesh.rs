@@ -1,15 +1,8 @@
 //! Cross-method checks: the sparse solver and the matrices of the whole mesh.
 
 use crate::cea_cyclic::model::{paper_options, run};
-use crate::disc::{POLYCARBONATE, annulus, contact, sweep_request};
-use faer::c64;
+use crate::prelude::*;
 use frictionsim::cea::cyclic::sweep;
-use frictionsim::cea::sparse;
-use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest};
-use frictionsim::fem::{MassKind, assemble_stiffness};
-use frictionsim::linalg::MatrixPolynomial;
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
-use frictionsim::prestress::{SlidingTangent, SteadySliding};
 
 /// Cross-method check: the sparse solver on the whole mesh, which knows nothing of the symmetry.
 #[test]
@@ -28,9 +21,7 @@ fn spectrum_branches_and_onsets_equal_those_of_the_sparse_solver() {
         let cyclic = run(&specification, &options, &frictions, ModeLimit::Lowest(18)).sweep;
         let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
         let (material, contact) = (POLYCARBONATE, contact(610.0));
-        let elastic = assemble_stiffness(&mesh, &material);
-        let base = SteadySliding::solve(&mesh, &elastic, &contact).unwrap();
-        let tangent = SlidingTangent::linearize(&mesh, &material, &elastic, &base, &options);
+        let tangent = linearized(&mesh, &material, &contact, &options);
         let request = sweep_request(&frictions, ModeLimit::Lowest(18));
         let sparse = sparse::sweep(&tangent, &request, &|_| {}).unwrap();
         for (ours, theirs) in cyclic.points.iter().zip(&sparse.points) {
@@ -66,9 +57,7 @@ fn a_cut_through_a_pair_keeps_both_members_in_both_solvers() {
     let specification = annulus(ElementKind::Quad4, 24, 5);
     let options = paper_options();
     let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
-    let elastic = assemble_stiffness(&mesh, &POLYCARBONATE);
-    let base = SteadySliding::solve(&mesh, &elastic, &contact(610.0)).unwrap();
-    let tangent = SlidingTangent::linearize(&mesh, &POLYCARBONATE, &elastic, &base, &options);
+    let tangent = linearized(&mesh, &POLYCARBONATE, &contact(610.0), &options);
     for asked in 2..6 {
         let cyclic = run(&specification, &options, &[0.0, 0.4], ModeLimit::Lowest(asked)).sweep;
         let request = sweep_request(&[0.0, 0.4], ModeLimit::Lowest(asked));
@@ -93,9 +82,7 @@ fn solvers_differ_by_no_more_than_the_uncertainty_that_they_state() {
         options.contact.normal_stiffness = Some(penalty);
         let cyclic = run(&specification, &options, &[0.4], ModeLimit::Lowest(8)).sweep;
         let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
-        let elastic = assemble_stiffness(&mesh, &POLYCARBONATE);
-        let base = SteadySliding::solve(&mesh, &elastic, &contact(610.0)).unwrap();
-        let tangent = SlidingTangent::linearize(&mesh, &POLYCARBONATE, &elastic, &base, &options);
+        let tangent = linearized(&mesh, &POLYCARBONATE, &contact(610.0), &options);
         let request = sweep_request(&[0.4], ModeLimit::Lowest(8));
         let Ok(sparse) = sparse::sweep(&tangent, &request, &|_| {}) else {
             assert!(penalty > 1e20, "{penalty:e}");
@@ -128,9 +115,7 @@ fn expanded_shapes_are_eigenvectors_of_the_full_mesh() {
         let (material, contact) = (POLYCARBONATE, contact(610.0));
         let found = sweep(&specification, &material, &options, &contact, &request).unwrap();
         let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
-        let elastic = assemble_stiffness(&mesh, &material);
-        let base = SteadySliding::solve(&mesh, &elastic, &contact).unwrap();
-        let tangent = SlidingTangent::linearize(&mesh, &material, &elastic, &base, &options);
+        let tangent = linearized(&mesh, &material, &contact, &options);
         let multiply = |p: &MatrixPolynomial, x: &[c64]| {
             let (values, pattern) = (p.evaluate(0.6), p.pattern());
             let mut y = vec![c64::new(0.0, 0.0); x.len()];

@@ -1,13 +1,9 @@
 //! Counts by the argument principle against dense spectra and against lists that are short on purpose.
 
 use super::{Disc, Entries, dense_eigenvalues, problem};
-use crate::disc::sweep_request;
-use faer::{Mat, c64};
-use frictionsim::cea::sparse::{ModeCounter, sweep};
-use frictionsim::cea::{CountedRegion, ModeLimit, SweepRequest};
-use frictionsim::linalg::dense::random_columns;
-use frictionsim::prestress::{DampingModel, SlidingTangent};
-use std::f64::consts::TAU;
+use crate::prelude::*;
+use frictionsim::cea::CountedRegion;
+use frictionsim::cea::sparse::ModeCounter;
 
 /// A chain of unit masses with dashpots at some, and with friction strong enough for flutter.
 fn chain(count: usize) -> [Vec<Entries>; 3] {

@@ -2,12 +2,11 @@
 //! shares no discretisation with the spectral element.
 
 use super::{Annulus, Contact};
-use faer::{Mat, c64};
+use crate::prelude::*;
 
 /// Bessel functions of integer order: `[J_n(z), Y_n(z)]`.
 pub type BesselPair = fn(usize, c64) -> [c64; 2];
 
-/// For real arguments, from the C mathematics library's algorithms.
 pub fn of_real_argument(order: usize, z: c64) -> [c64; 2] {
     assert_eq!(z.im, 0.0, "this pair takes real arguments only");
     let order = order as i32;

@@ -1,33 +1,17 @@
 //! The program's discrete problem, solved densely one circumferential harmonic at a time.
 
 use crate::continuum::{Annulus, Contact, Eigenvalue, Rayleigh, damped_pair, smallest_first};
-use crate::disc::{RIGID, TANGENT, sliding_at};
-use faer::{Mat, c64};
-use frictionsim::contact::ContactStiffness;
-use frictionsim::fem::{
-    ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
-};
-use frictionsim::linalg::MatrixPolynomial;
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification};
-use frictionsim::prestress::{SlidingTangent, SteadySliding, TangentOptions};
-use std::f64::consts::TAU;
+use crate::prelude::*;
 
 /// Radial expansion of the cylinder, m.
 pub const INTERFERENCE: f64 = 25e-6;
 
-/// The reference's material as the program takes it.
 pub fn material(annulus: &Annulus) -> ElasticMaterial {
-    ElasticMaterial {
-        young_modulus: annulus.young_modulus,
-        poisson_ratio: annulus.poisson_ratio,
-        density: annulus.density,
-        formulation: if annulus.plane_strain {
-            PlaneFormulation::PlaneStrain
-        } else {
-            PlaneFormulation::PlaneStress
-        },
-        ..ElasticMaterial::PLAIN
-    }
+    let formulation = match annulus.plane_strain {
+        true => PlaneFormulation::PlaneStrain,
+        false => PlaneFormulation::PlaneStress,
+    };
+    elastic(annulus.young_modulus, annulus.poisson_ratio, annulus.density, formulation)
 }
 
 /// Counter-clockwise rotation, rad/s; linear sliding knows its sign only.

@@ -1,9 +1,8 @@
 //! Families of meshes and the rate at which errors fall over them.
 
 use crate::continuum::Annulus;
-use frictionsim::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind};
+use crate::prelude::*;
 
-/// The disc of every study.
 pub const DISC: Annulus = Annulus {
     inner_radius: 0.0205,
     outer_radius: 0.0905,
@@ -13,12 +12,10 @@ pub const DISC: Annulus = Annulus {
     plane_strain: true,
 };
 
-/// Sectors and layers of the coarsest mesh of an element.
 pub fn coarsest(element: ElementKind) -> (usize, usize) {
     if element.is_quadratic() { (64, 16) } else { (120, 30) }
 }
 
-/// Mesh sizes relative to the coarsest.
 pub const SIZES: [f64; 3] = [1.0, 2.0 / 3.0, 1.0 / 2.0];
 
 /// Three meshes that are images of three uniform ones under one smooth map: the outermost element of
@@ -28,16 +25,8 @@ pub fn refinements(element: ElementKind) -> [AnnulusSpecification; 3] {
     SIZES.map(|size| {
         let finer = |count: usize| (count as f64 / size).round() as usize;
         let radial_elements = finer(layers);
-        AnnulusSpecification {
-            inner_radius: DISC.inner_radius,
-            outer_radius: DISC.outer_radius,
-            circumferential_elements: finer(sectors),
-            radial_elements,
-            radial_grading: 4.0_f64.powf(1.0 / radial_elements as f64),
-            element,
-            outer: BoundaryCondition::Clamped,
-            shaft: None,
-        }
+        let radial_grading = 4.0_f64.powf(1.0 / radial_elements as f64);
+        AnnulusSpecification { radial_grading, ..annulus(element, finer(sectors), radial_elements) }
     })
 }
 
@@ -59,7 +48,6 @@ pub fn rate(errors: [f64; 3]) -> f64 {
     product(y, y_mean) / product(x, x_mean)
 }
 
-/// Asserts the theoretical rate, within 0.1, of a quantity named `what`.
 pub fn assert_rate(element: ElementKind, what: &str, errors: [f64; 3]) {
     let expected = expected_rate(element);
     let slope = rate(errors);

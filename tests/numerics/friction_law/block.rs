@@ -2,27 +2,15 @@
 //!
 //! `M u'' + (c + N mu'(V)) u' + k u = 0` about steady sliding: unstable below `V = v_c ln(N mu (q - 1) / (v_c c))`.
 
-use crate::disc::{TANGENT, elastic, sweep_request, transient_settings};
-use frictionsim::cea::ModeLimit;
-use frictionsim::cea::sparse::sweep;
-use frictionsim::contact::{FrictionDecay, SlidingContact};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping, assemble_stiffness};
-use frictionsim::mesh::{
-    BodySpecification, BoundaryCondition, CounterfaceSpecification, ElasticSupport, FileMesh, Mesh,
-};
-use frictionsim::prestress::{SlidingTangent, SteadySliding, TangentOptions};
-use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    SampleRow, SteppedBody, TransientModel,
-};
+use crate::body::rectangle;
+use crate::prelude::*;
+use frictionsim::transient::SampleRow;
 
 /// So stiff that the block moves as one: its own modes lie above 30 kHz.
 pub const STEEL: ElasticMaterial = elastic(2.1e11, 0.3, 7850.0, PlaneFormulation::PlaneStrain);
 pub const WIDTH: f64 = 0.04;
 const HEIGHT: f64 = 0.03;
 pub const MASS: f64 = 7850.0 * WIDTH * HEIGHT;
-/// Normal force, N/m.
 const NORMAL: f64 = 1e6 * WIDTH;
 const SPRING: f64 = 3e10 * HEIGHT;
 const DASHPOT: f64 = 6e5 * HEIGHT;
@@ -44,56 +32,23 @@ fn contact(speed: f64) -> SlidingContact {
 
 /// 4 by 3 square elements; the plane below, the spring on the right, the pressure above.
 pub fn block(pressure: f64) -> Mesh {
-    let node = |i: usize, j: usize| 1 + i + 5 * j;
-    let mut lines = Vec::new();
-    for i in 0..4 {
-        lines.push(format!("1 2 1 1 {} {}", node(i, 0), node(i + 1, 0)));
-        lines.push(format!("1 2 3 3 {} {}", node(i, 3), node(i + 1, 3)));
-    }
-    for j in 0..3 {
-        lines.push(format!("1 2 2 2 {} {}", node(4, j), node(4, j + 1)));
-        for i in 0..4 {
-            let corners = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(a, b)| node(i + a, j + b));
-            lines.push(format!("3 2 4 4 {}", corners.map(|n| n.to_string()).join(" ")));
-        }
-    }
-    let numbered = |lines: &[String]| {
-        let all = lines.iter().enumerate().map(|(k, line)| format!("{} {line}\n", k + 1));
-        format!("{}\n{}", lines.len(), all.collect::<String>())
-    };
-    let nodes: Vec<String> = (0..20)
-        .map(|k| format!("{:?} {:?} 0", 0.01 * (k % 5) as f64, 0.01 * (k / 5) as f64))
-        .collect();
-    let text = format!(
-        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n1 1 \"bottom\"\n1 2 \"right\"\n1 3 \"top\"\n2 4 \
-         \"block\"\n$EndPhysicalNames\n$Nodes\n{}$EndNodes\n$Elements\n{}$EndElements\n",
-        numbered(&nodes),
-        numbered(&lines)
-    );
-    let mounting = ElasticSupport {
-        normal_stiffness: SPRING / HEIGHT,
-        normal_damping: DASHPOT / HEIGHT,
-        ..ElasticSupport::default()
-    };
-    let specification = BodySpecification {
-        scale: 1.0,
-        contact: "bottom".to_owned(),
-        counterface: CounterfaceSpecification::Plane { direction: Some([1.0, 0.0]) },
-        opposite: None,
-        conditions: vec![
-            ("right".to_owned(), BoundaryCondition::Support(mounting)),
-            ("top".to_owned(), BoundaryCondition::Pressure(pressure)),
+    let mounting = springs([SPRING / HEIGHT, 0.0, 0.0], [DASHPOT / HEIGHT, 0.0]);
+    let specification = plane_body(
+        "bottom",
+        CounterfaceSpecification::Plane { direction: Some([1.0, 0.0]) },
+        None,
+        &[
+            ("right", BoundaryCondition::Support(mounting)),
+            ("top", BoundaryCondition::Pressure(pressure)),
         ],
-    };
-    Mesh::from_gmsh(&FileMesh::read(text.as_bytes()).unwrap(), &specification).unwrap()
+    );
+    Mesh::from_gmsh(&FileMesh::read(&rectangle(0.04, 0.03, 4, 3)).unwrap(), &specification).unwrap()
 }
 
 /// Growth rate of the block on its spring by the eigenvalue analysis, 1/s.
 fn growth_rate(mesh: &Mesh, speed: f64) -> f64 {
-    let stiffness = assemble_stiffness(mesh, &STEEL);
-    let base = SteadySliding::solve(mesh, &stiffness, &contact(speed)).unwrap();
     let options = TangentOptions { damping: RayleighDamping::default(), ..TANGENT };
-    let tangent = SlidingTangent::linearize(mesh, &STEEL, &stiffness, &base, &options);
+    let tangent = linearized(mesh, &STEEL, &contact(speed), &options);
     let request = sweep_request(&[0.3], ModeLimit::Lowest(1));
     let found = sweep(&tangent, &request, &|_| {}).unwrap();
     let mode = &found.points[0].modes[0];
@@ -127,7 +82,6 @@ fn samples(mesh: &Mesh, speed: f64) -> Vec<SampleRow> {
         RayleighDamping { mass_coefficient: 0.0, stiffness_coefficient: 3e-7 },
         contact(speed),
     );
-    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let period = std::f64::consts::TAU * (MASS / SPRING).sqrt();
     let settings = transient_settings(
         40.0 * period,
@@ -136,10 +90,8 @@ fn samples(mesh: &Mesh, speed: f64) -> Vec<SampleRow> {
         InitialState::SteadySliding,
         Perturbation { noise: 1e-2 * speed, ..Perturbation::default() },
     );
-    let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
-    let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
-    run.run(&mut record).unwrap();
-    assert!(run.largest_residual() < 1e-10, "{:e}", run.largest_residual());
+    let (record, residual) = recorded(model, OperatorChoice::Auto, &settings);
+    assert!(residual < 1e-10, "{:e}", residual);
     record.rows
 }
 

@@ -1,20 +1,9 @@
 //! Growth of a seeded wave in the transient against the eigenvalue.
 
-use crate::disc::{
-    DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, contact, sweep_request, transient_settings,
-};
 use crate::friction_law::falling;
-use frictionsim::cea::ModeLimit;
+use crate::prelude::*;
 use frictionsim::cea::cyclic::sweep;
-use frictionsim::contact::{ContactStiffness, SlidingContact};
-use frictionsim::fem::MassKind;
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
-use frictionsim::prestress::TangentOptions;
-use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    SampleRow, TransientAnalysis, TransientModel, TransientSettings,
-};
+use frictionsim::transient::SampleRow;
 
 /// Largest growth rate of a harmonic (1/s) as the time loop has it: lumped mass, no geometric stiffness.
 fn eigenvalue(contact: &SlidingContact, stiffness: ContactStiffness, harmonic: usize) -> f64 {
@@ -39,12 +28,9 @@ fn growth(contact: &SlidingContact, stiffness: ContactStiffness, harmonic: usize
         stiffness: stiffness.damped_by(DAMPING.stiffness_coefficient),
         ..TransientModel::of_annulus(&annulus, &POLYCARBONATE, DAMPING, *contact)
     };
-    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let settings = settings(0.012, Perturbation::of(&[harmonic], 1e-8));
-    let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
-    let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
-    run.run(&mut record).unwrap();
-    assert!(run.largest_residual() < 1e-10);
+    let (record, residual) = recorded(model, OperatorChoice::Auto, &settings);
+    assert!(residual < 1e-10);
     let analysis = TransientAnalysis::of(&record, &[harmonic]);
     assert_eq!(analysis.first_nonlinearity, None);
     analysis.growth[0].stage.as_ref().unwrap().rate_per_s.value
@@ -74,12 +60,7 @@ fn a_seeded_wave_grows_or_decays_as_its_eigenvalue_says_at_two_speeds() {
 /// falling friction.
 #[test]
 fn a_wave_on_a_compliant_contact_grows_as_its_eigenvalue_says() {
-    let compliant = ContactStiffness {
-        normal_stiffness: Some(5e11),
-        normal_damping: 1e5,
-        tangential_damping: 1e4,
-        ..RIGID
-    };
+    let compliant = compliant(5e11, [1e5, 1e4]);
     let rigid = ContactStiffness::default();
     for contact in [contact(610.0), falling(610.0)] {
         let exact = eigenvalue(&contact, compliant, 2);
@@ -108,12 +89,9 @@ fn every_joule_is_accounted_for_under_a_falling_law_and_with_contact_springs() {
             stiffness,
             ..TransientModel::of_annulus(&annulus, &POLYCARBONATE, DAMPING, contact)
         };
-        let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
         let mut settings = settings(4e-3, Perturbation::of(&[1, 2], 2.0));
         settings.initial = InitialState::Rest;
-        let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
-        let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
-        run.run(&mut record).unwrap();
+        let (record, _) = recorded(model, OperatorChoice::Auto, &settings);
         for row in &record.rows {
             // Ten thousand steps of round-off 1e-16.
             assert!(row.balance_residual < 1e-12, "{:e}", row.balance_residual);

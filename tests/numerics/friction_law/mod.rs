@@ -3,13 +3,12 @@
 //! test says otherwise.
 
 use crate::disc;
+use crate::prelude::*;
 pub mod block;
 mod case;
 mod growth;
 mod node;
 mod spectrum;
-
-use frictionsim::contact::{FrictionDecay, SlidingContact};
 
 /// The paper's cylinder with friction that falls over speeds of the order of its own, 1.31 m/s at 610 rpm.
 pub fn falling(rotation_speed_rpm: f64) -> SlidingContact {

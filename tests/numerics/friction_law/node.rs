@@ -1,8 +1,7 @@
 //! The implicit law at one node.
 
-use frictionsim::contact::{
-    ContactStatus, CoulombFriction, FrictionDecay, NodeFriction, SlippingNode,
-};
+use crate::prelude::*;
+use frictionsim::contact::{CoulombFriction, NodeFriction, SlippingNode};
 
 const DECAY: FrictionDecay = FrictionDecay { static_ratio: 1.4, decay_speed: 0.2 };
 
@@ -63,7 +62,6 @@ fn a_law_too_steep_for_the_inertia_is_reported_and_keeps_stick_and_slip_apart() 
     }
 }
 
-/// Finite differences of the law's share.
 #[test]
 fn the_slope_of_the_law_equals_finite_differences() {
     let step = 1e-5;

@@ -1,17 +1,8 @@
 //! Eigenvalues, onsets, responses and sensitivities of the disc.
 
-use crate::disc::{POLYCARBONATE, RIGID, TANGENT, annulus, sweep_request};
 use crate::friction_law::falling;
+use crate::prelude::*;
 use crate::waves::{STEP, is_of, pairs, rates};
-use frictionsim::cea::cyclic::{self, WaveSweep};
-use frictionsim::cea::{ComplexMode, FrictionSweep, ModeLimit, sparse};
-use frictionsim::contact::{ContactStiffness, FrictionDecay, SlidingContact};
-use frictionsim::fem::{ElasticMaterial, assemble_stiffness};
-use frictionsim::frf::{
-    CyclicSystem, Direction, FrfSystem, Terminal, cyclic_response, direct_response,
-};
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, SectorMesh};
-use frictionsim::prestress::{SlidingTangent, SteadySliding, TangentOptions, WaveTangent};
 
 fn options(normal_stiffness: Option<f64>) -> TangentOptions {
     TangentOptions {
@@ -38,9 +29,7 @@ fn whole(
     contact: &SlidingContact,
 ) -> SlidingTangent {
     let mesh = AnnulusMesh::generate(specification).unwrap().mesh;
-    let elastic = assemble_stiffness(&mesh, &POLYCARBONATE);
-    let base = SteadySliding::solve(&mesh, &elastic, contact).unwrap();
-    SlidingTangent::linearize(&mesh, &POLYCARBONATE, &elastic, &base, options)
+    linearized(&mesh, &POLYCARBONATE, contact, options)
 }
 
 fn assert_same(ours: &FrictionSweep, theirs: &FrictionSweep) {

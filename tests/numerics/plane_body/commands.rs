@@ -1,15 +1,6 @@
 //! The commands on imported bodies.
 
-use crate::disc::annulus;
-use crate::msh::{FORMS, write_msh};
-use assert_cmd::Command;
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
-use predicates::str::contains;
-use serde_json::Value;
-use std::collections::BTreeMap;
-use std::fs;
-use std::path::Path;
-use tempfile::TempDir;
+use crate::prelude::*;
 
 const MATERIAL: &str = "[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0\n\
     [damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7\n\
@@ -35,34 +26,14 @@ fn folder() -> TempDir {
     folder
 }
 
-fn frictionsim(folder: &TempDir, command: &str, case: &str, set: &[&str]) -> Command {
-    let mut program = Command::cargo_bin("frictionsim").unwrap();
-    program.current_dir(folder.path()).args([command, case]);
-    if command != "check" {
-        program.arg("--quiet");
-    }
-    for text in set {
-        program.args(["--set", text]);
-    }
-    program
-}
-
-fn summary(folder: &Path) -> Value {
-    serde_json::from_slice(&fs::read(folder.join("summary.json")).unwrap()).unwrap()
-}
-
-/// Columns of a probe's table.
-fn table(path: &Path) -> Vec<Vec<f64>> {
-    let text = fs::read_to_string(path).unwrap();
-    let rows = text.lines().skip(1);
-    rows.map(|row| row.split(',').map(|cell| cell.parse().unwrap()).collect()).collect()
+fn run(folder: &TempDir, command: &str, case: &str, set: &[&str]) -> Run {
+    Run::of(command, case).within(folder).set(set)
 }
 
 /// Node 4 + 5 * 6 = 34 of the annulus stands at 90 degrees, 73 mm from the axis.
 #[test]
 fn a_probe_by_place_is_that_of_the_nearest_node_on_either_kind_of_mesh() {
     let folder = folder();
-    let path = folder.path();
     let places = [
         ("annulus.toml", "output.probes=[34]", "34", "number"),
         ("annulus.toml", "output.probes=[{ radius = 0.0731, angle_deg = 91 }]", "34", "polar"),
@@ -72,14 +43,14 @@ fn a_probe_by_place_is_that_of_the_nearest_node_on_either_kind_of_mesh() {
     ];
     let mut all = Vec::new();
     for (case, probe, label, out) in places {
-        frictionsim(&folder, "transient", case, &[probe])
-            .args(["--out", out, "--no-figures"])
-            .assert()
-            .success();
-        let probes = &summary(&path.join(out))["probes"][label];
+        let answer = run(&folder, "transient", case, &[probe]).out(out).done();
+        let probes = &answer.summary()["probes"][label];
         let is_placed = probe.contains('{');
         assert_eq!(probes["place"]["at_m"].is_array(), is_placed, "{probe}");
-        all.push((out, table(&path.join(out).join(format!("probe-{label}.csv")))));
+        let text = answer.text(&format!("probe-{label}.csv"));
+        let rows = text.lines().skip(1);
+        let numbers = |row: &str| row.split(',').map(|cell| cell.parse().unwrap()).collect();
+        all.push((out, rows.map(numbers).collect::<Vec<Vec<f64>>>()));
     }
     let (_, expected) = &all[0];
     let largest = |column: usize| expected.iter().fold(0.0_f64, |m, row| m.max(row[column].abs()));
@@ -106,14 +77,10 @@ fn bad_places_are_refused_with_the_remedy_and_far_ones_are_said() {
         ("body.toml", "[1034, { x = 0.0, y = 0.073 }]", "node 1034 twice"),
     ] {
         let text = format!("output.probes={probe}");
-        frictionsim(&folder, "check", case, &[&text]).assert().code(2).stderr(contains(words));
+        run(&folder, "check", case, &[&text]).refused(&[words]);
     }
-    let mut far = Command::cargo_bin("frictionsim").unwrap();
-    far.current_dir(folder.path())
-        .args(["check", "body.toml", "--set", "output.probes=[{ x = 0.0, y = 73.0 }]"])
-        .assert()
-        .success()
-        .stdout(contains("m away"));
+    let far = "output.probes=[{ x = 0.0, y = 73.0 }]";
+    Run::new(&["check", "body.toml"]).within(&folder).set(&[far]).done().says(&["m away"]);
 }
 
 #[test]
@@ -122,10 +89,8 @@ fn figures_of_a_body_are_drawn_again_without_its_mesh_file() {
     let path = folder.path();
     for command in ["transient", "cea", "mesh"] {
         let probe = "output.probes=[{ x = 0.0, y = 0.0205 }, { x = 0.0, y = 0.073 }]";
-        frictionsim(&folder, command, "body.toml", &[probe])
-            .args(["--out", command])
-            .assert()
-            .success();
+        let words = [command, "body.toml", "--quiet"];
+        Run::new(&words).within(&folder).out(command).set(&[probe]).done();
     }
     fs::remove_file(path.join("disc.msh")).unwrap();
     for command in ["transient", "cea", "mesh"] {
@@ -134,12 +99,7 @@ fn figures_of_a_body_are_drawn_again_without_its_mesh_file() {
         let all = || fs::read_dir(&figures).unwrap().map(|entry| bytes(&entry.unwrap()));
         let before: BTreeMap<_, _> = all().collect();
         assert!(!before.is_empty());
-        Command::cargo_bin("frictionsim")
-            .unwrap()
-            .current_dir(path)
-            .args(["plot", command])
-            .assert()
-            .success();
+        Run::new(&["plot", command]).within(path).done();
         assert!(all().collect::<BTreeMap<_, _>>() == before, "{command}");
     }
 }
@@ -147,25 +107,18 @@ fn figures_of_a_body_are_drawn_again_without_its_mesh_file() {
 #[test]
 fn a_signal_is_named_by_the_modes_of_an_imported_body() {
     let folder = folder();
-    frictionsim(&folder, "cea", "body.toml", &[])
-        .args(["--out", "cea", "--no-figures"])
-        .assert()
-        .success();
-    let text = fs::read_to_string(folder.path().join("cea/eigenvalues.csv")).unwrap();
-    let mut unstable = text.lines().filter(|row| row.contains(",true,"));
-    let cells: Vec<&str> = unstable.next().unwrap().split(',').collect();
-    let (mode, frequency): (usize, f64) = (cells[1].parse().unwrap(), cells[3].parse().unwrap());
+    let answer = run(&folder, "cea", "body.toml", &[]).out("cea").done();
+    let rows = answer.rows("eigenvalues.csv");
+    let unstable = rows.iter().find(|row| row["unstable"] == "true").unwrap();
+    let [mode, frequency] = unstable.numbers(["mode", "frequency_hz"]);
     let samples = (0..20_000).map(|k| f64::from(k) * 5e-6);
     let rows: String = samples
         .map(|t| format!("{t:e},{:e}\n", (std::f64::consts::TAU * frequency * t).sin()))
         .collect();
     fs::write(folder.path().join("tone.csv"), format!("time_s,a\n{rows}")).unwrap();
-    frictionsim(&folder, "signal", "tone.csv", &[])
-        .args(["--case", "body.toml", "--out", "signal"])
-        .assert()
-        .success();
-    let named = &summary(&folder.path().join("signal"))["channels"][0]["mode"];
-    assert_eq!(named["mode"], mode);
+    let run = run(&folder, "signal", "tone.csv", &[]).args(&["--case", "body.toml"]).out("signal");
+    let named = &run.done().summary()["channels"][0]["mode"];
+    assert_eq!(named["mode"], mode as u64);
     assert!(named.get("harmonic").is_none());
 }
 
@@ -174,11 +127,8 @@ fn a_signal_is_named_by_the_modes_of_an_imported_body() {
 fn convergence_of_an_imported_body_splits_its_elements() {
     let folder = folder();
     let set = ["convergence.analyses=[\"cea\"]", "cea.modes=8"];
-    frictionsim(&folder, "convergence", "body.toml", &set)
-        .args(["--out", "study", "--no-figures"])
-        .assert()
-        .success();
-    let series = &summary(&folder.path().join("study"))["series"][0];
+    let summary = run(&folder, "convergence", "body.toml", &set).out("study").done().summary();
+    let series = &summary["series"][0];
     assert_eq!(series["levels"][2], "1536 elements");
     let quantities = series["quantities"].as_array().unwrap();
     let orders = quantities.iter().filter_map(|quantity| {
@@ -189,8 +139,6 @@ fn convergence_of_an_imported_body_splits_its_elements() {
     assert!(orders.len() >= 3, "{orders:?}");
     // The start of 24 by 4 elements is coarse: only the lowest modes show the order within a twentieth.
     assert!(orders[..3].iter().all(|order| (order - 2.0).abs() < 0.1), "{orders:?}");
-    frictionsim(&folder, "convergence", "body.toml", &["convergence.factors=[1, 1.5, 2.25]"])
-        .assert()
-        .code(2)
-        .stderr(contains("powers of two"));
+    let other = ["convergence.factors=[1, 1.5, 2.25]"];
+    run(&folder, "convergence", "body.toml", &other).refused(&["powers of two"]);
 }

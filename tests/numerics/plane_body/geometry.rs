@@ -1,9 +1,8 @@
 //! Splitting of elements: arcs and nodes (independent checks).
 
-use crate::disc::annulus;
-use crate::msh::{FORMS, write_msh};
-use crate::triangles::{body, triangles};
-use frictionsim::mesh::{AnnulusMesh, ElementKind, FileMesh, Mesh, refined_file};
+use crate::prelude::*;
+use crate::triangles::triangles;
+use frictionsim::mesh::refined_file;
 
 const KINDS: [ElementKind; 4] =
     [ElementKind::Quad4, ElementKind::Quad8, ElementKind::Tri3, ElementKind::Tri6];
@@ -14,8 +13,7 @@ fn file(kind: ElementKind, around: usize, radial: usize) -> FileMesh {
         3 => triangles(&annulus(ElementKind::Quad4, around, radial), is_quadratic),
         _ => AnnulusMesh::generate(&annulus(kind, around, radial)).unwrap().mesh,
     };
-    let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
-    FileMesh::read(&write_msh(&mesh, FORMS[3], &numbers, |p| p)).unwrap()
+    FileMesh::read(&write_msh(&mesh, FORMS[3], &[], |p| p)).unwrap()
 }
 
 #[test]

@@ -5,4 +5,4 @@
 #[allow(dead_code)]
 mod commands;
 mod geometry;
-mod studies;
+pub mod studies;

@@ -3,17 +3,12 @@
 //! A consistency check against the generated disc of the same mesh, and against the eigenvalue analysis of a body without
 //! symmetry: its hub is round, its outer edge an oval about another centre.
 
-use crate::disc::annulus;
-use crate::msh::{FORMS, write_msh};
-use frictionsim::case::Case;
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
+use crate::prelude::*;
 use frictionsim::results::uncertainty::document;
-use frictionsim::study::eigenvalues::{modes_and_onsets, modes_at_own_friction};
+use frictionsim::study::eigenvalues::modes_at_own_friction;
 use frictionsim::study::fit::{MeasuredMode, fit_case, refuse_too_few};
 use frictionsim::study::tangent_options;
 use frictionsim::study::uncertainty::{Sampler, summarize};
-use std::fs;
-use tempfile::TempDir;
 
 const MODEL: &str = "[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0\n\
     [damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7\n\
@@ -25,18 +20,16 @@ const STUDIES: &str = "[cea]\nmodes = 6\nfriction_coefficients = [0.0, 0.5]\ngeo
 const GENERATED: &str = "[geometry]\ninner_radius = 0.0205\nouter_radius = 0.0905\n\
     [mesh]\ncircumferential_elements = 18\nradial_elements = 3\n";
 
-/// A folder with the meshes of the disc and of the oval.
 fn folder() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 18, 3)).unwrap().mesh;
-    let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
     let oval = |[x, y]: [f64; 2]| {
         let outwards = (x.hypot(y) - 0.0205) / 0.07;
         [x * (1.0 + 0.3 * outwards) + 0.006 * outwards, y * (1.0 - 0.1 * outwards)]
     };
-    let disc = write_msh(&mesh, FORMS[2], &numbers, |point| point);
+    let disc = write_msh(&mesh, FORMS[2], &[], |point| point);
     fs::write(folder.path().join("disc.msh"), disc).unwrap();
-    let oval = write_msh(&mesh, FORMS[2], &numbers, oval);
+    let oval = write_msh(&mesh, FORMS[2], &[], oval);
     fs::write(folder.path().join("oval.msh"), oval).unwrap();
     folder
 }
@@ -49,8 +42,7 @@ fn read(folder: &TempDir, mesh: &str, set: &[&str]) -> Result<Case, String> {
             "[mesh]\nfile = \"{file}\"\n[boundaries.outer]\ncondition = \"clamped\"\n{MODEL}{STUDIES}"
         ),
     };
-    let set: Vec<String> = set.iter().map(|text| (*text).to_owned()).collect();
-    Case::parse(&name, text.as_bytes(), &set).map_err(|errors| errors.to_string())
+    read_case(name, &text, set)
 }
 
 fn case(folder: &TempDir, mesh: &str, set: &[&str]) -> Case {
@@ -64,7 +56,7 @@ fn onsets(case: &Case) -> Vec<[f64; 2]> {
     onsets.map(|i| [i.critical_friction, i.frequency_hz]).collect()
 }
 
-fn line(number: usize, frequency_hz: f64) -> MeasuredMode {
+pub fn line(number: usize, frequency_hz: f64) -> MeasuredMode {
     MeasuredMode {
         line: number,
         frequency_hz,
@@ -153,8 +145,7 @@ fn a_fit_of_an_imported_body_is_of_that_body() {
 
 #[test]
 fn no_study_solves_an_imported_body_by_sectors() {
-    let folder = folder();
-    let body = case(&folder, "oval.msh", &["cea.method=cyclic"]);
+    let body = case(&folder(), "oval.msh", &["cea.method=cyclic"]);
     let refusal = |text: String| {
         assert!(text.contains("needs a body of equal sectors"), "{text}");
     };
@@ -166,13 +157,9 @@ fn no_study_solves_an_imported_body_by_sectors() {
 
 #[test]
 fn rotating_waves_are_sought_in_no_imported_body() {
-    let folder = folder();
-    let set = [
-        "basin={ harmonics = [1, 2] }",
-        "cycle={ confirmation_periods = 0 }",
-        "transient={ duration = 1e-4, initial = \"limit-cycle\", limit_cycle_harmonic = 1 }",
-    ];
-    let body = case(&folder, "disc.msh", &set);
+    let set = ["basin={ harmonics = [1, 2] } ; cycle={ confirmation_periods = 0 } ; \
+         transient={ duration = 1e-4, initial = \"limit-cycle\", limit_cycle_harmonic = 1 }"];
+    let body = case(&folder(), "disc.msh", &set);
     let errors =
         [body.require_rotating_waves().unwrap_err(), body.require_transient().unwrap_err()];
     for error in errors {
@@ -204,13 +191,11 @@ fn warnings_name_no_radius_that_an_imported_body_does_not_have() {
 /// On a cylinder outside the body, and on a plane, the slip speed is not that of a cylinder within.
 #[test]
 fn relative_seeds_of_an_imported_body_are_shares_of_its_own_slip_speed() {
-    let folder = folder();
     let set = [
-        "transient={ duration = 1e-4, expansion_time = 1e-5, perturbation = { harmonics = [1], velocity = 0.5, relative = true } }",
-        "contact.boundary=outer",
-        "boundaries={ inner = { condition = \"clamped\" } }",
+        "transient={ duration = 1e-4, expansion_time = 1e-5, perturbation = { harmonics = [1], velocity = 0.5, relative = true } } ; \
+         contact.boundary=outer ; boundaries={ inner = { condition = \"clamped\" } }",
     ];
-    let body = case(&folder, "disc.msh", &set);
+    let body = case(&folder(), "disc.msh", &set);
     let perturbation = &body.transient.as_ref().unwrap().perturbation;
     let expected = 0.5 * body.contact.sliding.rotation_speed * 0.0905;
     let found = perturbation.waves[0].velocity;
@@ -219,9 +204,8 @@ fn relative_seeds_of_an_imported_body_are_shares_of_its_own_slip_speed() {
 
 #[test]
 fn keys_that_have_no_effect_beside_a_mesh_file_are_said() {
-    let folder = folder();
     let set = ["mesh.circumferential_elements=10", "geometry.inner_radius=0.02"];
-    let body = case(&folder, "disc.msh", &set);
+    let body = case(&folder(), "disc.msh", &set);
     let said: Vec<String> = body.warnings.iter().map(ToString::to_string).collect();
     for key in ["mesh.circumferential_elements", "geometry.inner_radius"] {
         let expected = format!("{key} is not used: mesh.file describes the body");
@@ -276,8 +260,7 @@ fn a_check_of_an_imported_body_estimates_its_own_size() {
 
 #[test]
 fn a_table_of_more_modes_than_anybody_measures_is_refused_at_once() {
-    let folder = folder();
-    let body = case(&folder, "disc.msh", &[]);
+    let body = case(&folder(), "disc.msh", &[]);
     let many: Vec<MeasuredMode> = (0..20_000).map(|k| line(k + 2, 1e3 + k as f64)).collect();
     let text = refuse_too_few(&body, &many).unwrap_err().to_string();
     assert!(text.contains("20000 lines, at most 1000"), "{text}");

@@ -1,41 +1,21 @@
 //! Cases with a deformable shaft, good and bad.
 
-use frictionsim::case::Case;
+use crate::prelude::*;
 
-const CASE: &str = "
-[geometry]
-inner_radius = 0.0205
-outer_radius = 0.0905
-shaft_inner_radius = 0.006
-[mesh]
-circumferential_elements = 24
-radial_elements = 5
-shaft_radial_elements = 2
-[material]
-young_modulus = 2.5e9
-poisson_ratio = 0.3805
-density = 1228.0
-[materials.shaft]
-young_modulus = 2.1e11
-poisson_ratio = 0.3
-density = 7850.0
-[contact]
-friction_coefficient = 0.3
-interference = 25e-6
-rotation_speed_rpm = 610.0
-[cea]
-modes = 8
-[cycle]
-harmonics = [2]
-[frf]
-force_node = 8
-frequencies_hz = [1000.0]
-";
+const CASE: &str =
+    "[geometry]\ninner_radius = 0.0205\nouter_radius = 0.0905\nshaft_inner_radius = 0.006
+[mesh]\ncircumferential_elements = 24\nradial_elements = 5\nshaft_radial_elements = 2
+[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0
+[materials.shaft]\nyoung_modulus = 2.1e11\npoisson_ratio = 0.3\ndensity = 7850.0
+[contact]\nfriction_coefficient = 0.3\ninterference = 25e-6\nrotation_speed_rpm = 610.0
+[cea]\nmodes = 8
+[cycle]\nharmonics = [2]
+[frf]\nforce_node = 8\nfrequencies_hz = [1000.0]\n";
 
 fn parse(from: &str, to: &str) -> Result<Case, String> {
     assert!(CASE.contains(from), "{from}");
     let text = CASE.replacen(from, to, 1);
-    Case::parse("case.toml", text.as_bytes(), &[]).map_err(|error| error.to_string())
+    read_case("case.toml", &text, AS_IT_IS)
 }
 
 #[test]
@@ -49,7 +29,6 @@ fn a_case_describes_disc_and_shaft() {
     assert!(case.require_cea().is_ok());
 }
 
-/// Each message names its key and what to do.
 #[test]
 fn bad_shafts_are_refused_with_a_remedy() {
     for (from, to, key, remedy) in [
@@ -86,7 +65,6 @@ fn bad_shafts_are_refused_with_a_remedy() {
     }
 }
 
-/// What takes the cylinder as rigid says so.
 #[test]
 fn rotating_waves_refuse_a_deformable_shaft() {
     let error = parse("", "").unwrap().require_rotating_waves().unwrap_err();

@@ -1,17 +1,8 @@
 //! Small motions of disc and shaft.
 
-use crate::disc::{POLYCARBONATE, RIGID, annulus, contact, sweep_request};
+use crate::prelude::*;
 use crate::shaft::model::{STEEL, on, rigid_contact, spectrum, stiffer, with_shaft};
 use crate::waves::{STEP, is_of, pairs, rates};
-use frictionsim::cea::{ComplexMode, ModeLimit, sparse};
-use frictionsim::contact::ContactStiffness;
-use frictionsim::fem::{
-    AnnulusMaterials, MassKind, RayleighDamping, RegionMaterial, assemble_stiffness,
-};
-use frictionsim::mesh::{AnnulusMesh, BoundaryCondition, ElasticSupport, ElementKind, SectorMesh};
-use frictionsim::prestress::{
-    DampingModel, SlidingTangent, SteadySliding, TangentOptions, WaveTangent,
-};
 
 fn nearest(mode: &ComplexMode, others: &[ComplexMode]) -> f64 {
     let same = others.iter().filter(|m| {
@@ -24,12 +15,7 @@ fn nearest(mode: &ComplexMode, others: &[ComplexMode]) -> f64 {
 /// Cross-method check: the sparse solver on the whole mesh knows nothing of the symmetry.
 #[test]
 fn cyclic_and_sparse_spectra_of_two_bodies_are_the_same() {
-    let penalty = ContactStiffness {
-        normal_stiffness: Some(7.4e12),
-        normal_damping: 1e3,
-        tangential_damping: 2e3,
-        ..RIGID
-    };
+    let penalty = compliant(7.4e12, [1e3, 2e3]);
     let damped = |mut materials: AnnulusMaterials| {
         if let Some(shaft) = &mut materials.shaft {
             shaft.damping =
@@ -55,14 +41,7 @@ fn cyclic_and_sparse_spectra_of_two_bodies_are_the_same() {
     for (k, (element, around, options, materials)) in cases.into_iter().enumerate() {
         let mut specification = with_shaft(element, around, [2, 4]);
         if k == 2 {
-            let spring = ElasticSupport {
-                loss_factor: 0.0,
-                normal_stiffness: 1e13,
-                tangential_stiffness: 2e13,
-                axial_stiffness: 0.0,
-                normal_damping: 10.0,
-                tangential_damping: 0.0,
-            };
+            let spring = springs([1e13, 2e13, 0.0], [10.0, 0.0]);
             let shaft = specification.shaft.as_mut().unwrap();
             shaft.bore = BoundaryCondition::Support(spring);
         }
@@ -70,9 +49,7 @@ fn cyclic_and_sparse_spectra_of_two_bodies_are_the_same() {
         let limit = ModeLimit::Lowest(12);
         let cyclic = spectrum(&specification, &materials, &options, &frictions, limit).sweep;
         let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
-        let elastic = assemble_stiffness(&mesh, &materials);
-        let base = SteadySliding::solve(&mesh, &elastic, &contact(610.0)).unwrap();
-        let tangent = SlidingTangent::linearize(&mesh, &materials, &elastic, &base, &options);
+        let tangent = linearized(&mesh, &materials, &contact(610.0), &options);
         let request = sweep_request(&frictions, limit);
         let sparse = sparse::sweep(&tangent, &request, &|_| {}).unwrap();
         for (ours, theirs) in cyclic.points.iter().zip(&sparse.points) {

@@ -1,24 +1,13 @@
 //! The paper's disc on a deformable shaft.
 
-use crate::disc::{POLYCARBONATE, TANGENT, annulus, contact, elastic, sweep_request};
-use frictionsim::cea::ModeLimit;
-use frictionsim::cea::cyclic::{WaveSweep, sweep};
-use frictionsim::fem::{AnnulusMaterials, ElasticMaterial, PlaneFormulation, RegionMaterial};
-use frictionsim::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind, ShaftSpecification};
-use frictionsim::prestress::TangentOptions;
+use crate::prelude::*;
+use frictionsim::cea::cyclic::sweep;
 
 pub const STEEL: ElasticMaterial = elastic(2.1e11, 0.3, 7850.0, PlaneFormulation::PlaneStrain);
 
 /// The disc with a bore of 6 mm in its shaft.
 pub fn with_shaft(element: ElementKind, around: usize, radial: [usize; 2]) -> AnnulusSpecification {
-    AnnulusSpecification {
-        shaft: Some(ShaftSpecification {
-            inner_radius: 0.006,
-            radial_elements: radial[0],
-            bore: BoundaryCondition::Clamped,
-        }),
-        ..annulus(element, around, radial[1])
-    }
+    on_shaft(annulus(element, around, radial[1]), radial[0])
 }
 
 pub fn on(shaft: ElasticMaterial) -> AnnulusMaterials {
@@ -28,7 +17,6 @@ pub fn on(shaft: ElasticMaterial) -> AnnulusMaterials {
     }
 }
 
-/// A shaft of the disc's material, `factor` times as stiff.
 pub fn stiffer(factor: f64) -> AnnulusMaterials {
     on(ElasticMaterial { young_modulus: factor * POLYCARBONATE.young_modulus, ..POLYCARBONATE })
 }

@@ -1,15 +1,8 @@
 //! The base state that both bodies share, and the pair as one body.
 
-use crate::disc::{POLYCARBONATE, annulus, contact};
+use crate::prelude::*;
 use crate::shaft::model::{STEEL, on, with_shaft};
-use frictionsim::contact::ContactInterface;
-use frictionsim::fem::{
-    AnnulusMaterials, ElasticMaterial, MassKind, MaterialField, Triplets, assemble_mass,
-    assemble_stiffness,
-};
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, Mesh};
-use frictionsim::prestress::SteadySliding;
-use std::collections::BTreeMap;
+use frictionsim::fem::MaterialField;
 
 /// Radial compliance `u_r / p` at `r` of a ring pressed there, its other edge, of radius `held`, clamped.
 ///

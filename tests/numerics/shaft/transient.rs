@@ -1,17 +1,7 @@
 //! The stencil that steps disc and shaft, and the contact between its rows.
 
-use crate::disc::{DAMPING, POLYCARBONATE, contact, transient_settings};
+use crate::prelude::*;
 use crate::shaft::model::{STEEL, on, rigid_contact, spectrum, with_shaft};
-use frictionsim::cea::ModeLimit;
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::fem::{AnnulusMaterials, MassKind, RayleighDamping};
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
-use frictionsim::prestress::TangentOptions;
-use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    TransientAnalysis, TransientModel, TransientSettings,
-};
-use std::f64::consts::TAU;
 
 fn settings(duration: f64, perturbation: Perturbation) -> TransientSettings {
     transient_settings(duration, 4e-6, 1e-4, InitialState::SteadySliding, perturbation)
@@ -24,10 +14,7 @@ fn run(
     settings: &TransientSettings,
 ) -> Recorder {
     let model = TransientModel::of_annulus(annulus, materials, DAMPING, contact(610.0));
-    let operator = model.operator(choice, SimdLevel::detect()).unwrap();
-    let mut run = CentralDifference::start(model, operator.as_ref(), settings).unwrap();
-    let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
-    run.run(&mut record).unwrap();
+    let (record, _) = recorded(model, choice, settings);
     record
 }
 

@@ -1,12 +1,7 @@
 //! The disc of the source paper with its thickness.
 
-use crate::disc::sweep_request;
+use crate::prelude::*;
 use crate::solids::model::{disc, modes};
-use frictionsim::cea::cyclic::solid_sweep;
-use frictionsim::cea::{ComplexMode, ModeLimit};
-use frictionsim::fem::solid;
-use frictionsim::mesh::{ElementKind, SolidSector};
-use frictionsim::prestress::SolidSliding;
 
 /// Independent prototype, exact in theta: good to 2e-4 in plane; torsion is that of the plane.
 #[test]

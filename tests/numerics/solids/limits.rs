@@ -1,11 +1,9 @@
 //! Three dimensions where the plane program knows the answer.
 
-use crate::disc::sweep_request;
+use crate::prelude::*;
 use crate::solids::model::{disc, modes};
-use frictionsim::cea::cyclic::{solid_sweep, sweep};
-use frictionsim::cea::{ComplexMode, ModeLimit};
-use frictionsim::fem::{PlaneFormulation, revolved_stress};
-use frictionsim::mesh::{BoundaryCondition, ElementKind, SolidSector};
+use frictionsim::cea::cyclic::sweep;
+use frictionsim::fem::revolved_stress;
 
 fn plane(
     model: &frictionsim::cea::cyclic::SolidModel,

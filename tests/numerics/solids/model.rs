@@ -4,8 +4,11 @@ use crate::disc::{TANGENT, elastic, sliding_at, sweep_request};
 use frictionsim::cea::cyclic::SolidModel;
 use frictionsim::cea::{ComplexMode, ModeLimit, cyclic::solid_sweep};
 use frictionsim::fem::{PlaneFormulation, RayleighDamping};
-use frictionsim::mesh::{BoundaryCondition, ElementKind, SolidContact, SolidSpecification};
+use frictionsim::mesh::{
+    BoundaryCondition, ElementKind, SolidContact, SolidSector, SolidSpecification,
+};
 use frictionsim::prestress::TangentOptions;
+use frictionsim::transient::{SteppedBody, TransientModel};
 use std::f64::consts::TAU;
 
 /// Clamped outside, pressed inside by 25 um, 610 rpm, friction 0.3, without geometric stiffness.
@@ -32,10 +35,21 @@ pub fn disc(element: ElementKind, [around, radial, axial]: [usize; 3]) -> SolidM
     }
 }
 
-/// Modes below a frequency at one friction coefficient.
 pub fn modes(model: &SolidModel, friction: f64, limit_hz: f64) -> Vec<ComplexMode> {
     let at = [friction];
     let request = sweep_request(&at, ModeLimit::MaxFrequency(limit_hz));
     let found = solid_sweep(model, &request).unwrap();
     found.sweep.points.into_iter().next().unwrap().modes
+}
+
+pub fn body<'a>(model: &'a SolidModel, sector: &'a SolidSector) -> TransientModel<'a> {
+    TransientModel {
+        stiffness: model.options.contact,
+        ..TransientModel::new(
+            SteppedBody::Revolution(sector),
+            &model.material,
+            model.options.damping,
+            model.contact,
+        )
+    }
 }

@@ -1,14 +1,8 @@
 //! The transient of a guided body, `u_z = 0` at every node, beside that of plane strain.
 
-use crate::solids::model::disc;
-use frictionsim::contact::ContactStatus;
-use frictionsim::fem::PlaneFormulation;
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::mesh::{AnnulusMesh, BoundaryCondition, ElementKind, SolidSector};
-use frictionsim::transient::{
-    CentralDifference, InitialState, Observer, OperatorChoice, Perturbation, Sample, SteppedBody,
-    TimeStep, TransientModel, TransientSettings,
-};
+use crate::prelude::*;
+use crate::solids::model::{body, disc};
+use frictionsim::transient::{Observer, Sample, TimeStep};
 use std::ops::ControlFlow;
 
 /// Statuses, tangential displacements and normal forces of the contact nodes at every sample.
@@ -55,17 +49,8 @@ fn thick(divisions: [usize; 2]) -> Course {
     model.specification.conditions[2] = BoundaryCondition::Guide;
     model.specification.conditions[3] = BoundaryCondition::Guide;
     let sector = SolidSector::generate(&model.specification).unwrap();
-    let body = TransientModel {
-        stiffness: model.options.contact,
-        ..TransientModel::new(
-            SteppedBody::Revolution(&sector),
-            &model.material,
-            model.options.damping,
-            model.contact,
-        )
-    };
-    let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar);
-    let operator = operator.unwrap();
+    let body = body(&model, &sector);
+    let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar).unwrap();
     let mut run = CentralDifference::start(body, operator.as_ref(), &settings()).unwrap();
     let mut course = Course { is_solid: true, ..Course::default() };
     run.run(&mut course).unwrap();

@@ -1,18 +1,10 @@
 //! Poles of the frequency response of sliding bodies of revolution against the eigenvalues of `cea`. Cross-method: the response
 //! knows no modes.
 
-use crate::disc::{RIGID, sweep_request};
+use crate::prelude::*;
 use crate::solids::model::{disc, modes};
 use crate::solids::response::{at, sliding};
-use faer::{Mat, c64};
-use frictionsim::cea::cyclic::{SolidModel, solid_sweep};
-use frictionsim::cea::{ModeLimit, UnstableInterval};
-use frictionsim::contact::{ContactStiffness, FrictionDecay, NormalLaw};
 use frictionsim::frf::Direction::Tangential;
-use frictionsim::frf::cyclic_response;
-use frictionsim::linalg::ComplexDenseLu;
-use frictionsim::mesh::{ElementKind, SolidSector};
-use std::f64::consts::TAU;
 
 /// Distance of the response's nearest pole from `lambda / 2 pi`, Hz, from lines up to `range` (Hz) around `Im lambda / 2 pi`.
 ///
@@ -102,11 +94,7 @@ fn on_a_contact_that_stiffens_the_response_has_the_poles_of_the_eigenvalue_analy
         let mut model = disc(element, divisions);
         model.options.geometric_stiffness = true;
         let law = NormalLaw::Exponential { reference_pressure: 2e5, height: 2e-6 };
-        model.options.contact = ContactStiffness {
-            normal_stiffness: Some(law.stiffness(0.0)),
-            law: Some(law),
-            ..RIGID
-        };
+        model.options.contact = stiffening(law);
         has_poles_at_onsets(&model);
     }
 }

@@ -1,17 +1,8 @@
 //! Frequency responses of bodies of revolution.
 
-use crate::disc::RIGID;
+use crate::prelude::*;
 use crate::solids::model::disc;
 use crate::solids::whole_ring::WholeRing;
-use faer::c64;
-use frictionsim::cea::cyclic::SolidModel;
-use frictionsim::contact::ContactStiffness;
-use frictionsim::fem::{MassKind, PlaneFormulation};
-use frictionsim::frf::{CyclicSystem, Direction, FrfError, Terminal, cyclic_response};
-use frictionsim::mesh::{
-    BoundaryCondition, ElasticSupport, ElementKind, SectorMesh, SolidContact, SolidSector,
-};
-use frictionsim::prestress::{DampingModel, WaveTangent};
 
 use Direction::{Axial, Radial, Tangential};
 
@@ -109,14 +100,7 @@ fn a_body_on_springs_responds_like_the_whole_ring() {
     let mut model = small(ElementKind::Quad4);
     model.specification.conditions = [
         BoundaryCondition::Free,
-        BoundaryCondition::Support(ElasticSupport {
-            loss_factor: 0.0,
-            normal_stiffness: 1e11,
-            tangential_stiffness: 3e10,
-            axial_stiffness: 2e10,
-            normal_damping: 0.0,
-            tangential_damping: 0.0,
-        }),
+        BoundaryCondition::Support(springs([1e11, 3e10, 2e10], [0.0, 0.0])),
         BoundaryCondition::Free,
         BoundaryCondition::Guide,
     ];
@@ -141,12 +125,7 @@ fn a_body_on_springs_responds_like_the_whole_ring() {
 #[test]
 fn harmonics_in_sliding_contact_sum_to_the_response_of_a_whole_ring_of_bricks() {
     let rigid = ContactStiffness::default();
-    let springs = ContactStiffness {
-        normal_stiffness: Some(1e12),
-        normal_damping: 3e4,
-        tangential_damping: 2e4,
-        ..RIGID
-    };
+    let springs = compliant(1e12, [3e4, 2e4]);
     let ring = SolidContact::Ring { inner_radius: 0.03, outer_radius: 0.06 };
     let (hex8, hex20) = (ElementKind::Quad4, ElementKind::Quad8);
     for (element, contact, place) in [

@@ -1,14 +1,9 @@
 //! Frequency responses of bodies of revolution where theory or the plane program knows the answer.
 
+use crate::prelude::*;
 use crate::solids::model::disc;
 use crate::solids::response::{FREQUENCIES, at, body, sliding};
-use faer::c64;
-use frictionsim::fem::PlaneFormulation;
 use frictionsim::frf::Direction::{Axial, Radial, Tangential};
-use frictionsim::frf::{CyclicSystem, Terminal, cyclic_response};
-use frictionsim::mesh::{BoundaryCondition, ElementKind, SectorMesh, SolidSector};
-use frictionsim::prestress::WaveTangent;
-use std::f64::consts::TAU;
 
 /// Responses of plane strain for each metre and of the guided body times its thickness to a force along the inner edge, at places
 /// of a sixteenth of the circle: `(plane, solid)`, line by line.

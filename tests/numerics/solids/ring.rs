@@ -1,12 +1,7 @@
 //! A flat ring that presses on the face of a disc.
 
+use crate::prelude::*;
 use crate::solids::model::{disc, modes};
-use frictionsim::cea::cyclic::SolidModel;
-use frictionsim::contact::NormalLaw;
-use frictionsim::fem::solid;
-use frictionsim::mesh::{BoundaryCondition, ElementKind, SolidContact, SolidSector};
-use frictionsim::prestress::{PrestressError, SolidSliding};
-use std::f64::consts::TAU;
 
 /// A ring on the outer half of the top face.
 fn ringed(element: ElementKind, divisions: [usize; 3]) -> SolidModel {

@@ -1,18 +1,8 @@
 //! Independent check: sensitivities of bodies of revolution against central differences of the whole analysis, base state included.
 
-use crate::disc::{RIGID, sweep_request};
+use crate::prelude::*;
 use crate::solids::model::disc;
-use crate::tier::sized;
 use crate::waves::{STEP, pairs, rates};
-use faer::c64;
-use frictionsim::cea::cyclic::{SolidModel, solid_sweep};
-use frictionsim::cea::{ModeLimit, SweepRequest};
-use frictionsim::contact::{ContactStiffness, FrictionDecay, NormalLaw};
-use frictionsim::mesh::{
-    BoundaryCondition, ElasticSupport, ElementKind, SolidContact, SolidSector,
-};
-use frictionsim::prestress::{DampingModel, WaveTangent};
-use std::collections::BTreeMap;
 
 const FRICTION: f64 = 0.35;
 
@@ -156,12 +146,7 @@ fn compare(model: &SolidModel, what: &str) {
     assert!(errors.iter().all(|error| *error < 1e-7), "{what}: {errors:?}");
 }
 
-const SPRINGS: ContactStiffness = ContactStiffness {
-    normal_stiffness: Some(2e12),
-    normal_damping: 3e4,
-    tangential_damping: 2e4,
-    ..RIGID
-};
+const SPRINGS: ContactStiffness = compliant(2e12, [3e4, 2e4]);
 
 const COMPLIANT: ContactStiffness = ContactStiffness {
     normal_stiffness: Some(4e11),
@@ -215,14 +200,8 @@ fn sensitivities_on_springs_equal_finite_differences() {
         let mut model = strained(element, SPRINGS);
         model.contact.decay = None;
         // The base state of a body on springs changes with its stiffness even where it is pressed by a distance.
-        model.specification.conditions[1] = BoundaryCondition::Support(ElasticSupport {
-            loss_factor: 0.0,
-            normal_stiffness: 2e11,
-            tangential_stiffness: 1e11,
-            axial_stiffness: 1e11,
-            normal_damping: 1e4,
-            tangential_damping: 1e4,
-        });
+        model.specification.conditions[1] =
+            BoundaryCondition::Support(springs([2e11, 1e11, 1e11], [1e4, 1e4]));
         model.options.damping_model = DampingModel::BodyOnly;
         compare(&model, &format!("springs, {element:?}"));
     }

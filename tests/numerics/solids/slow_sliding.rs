@@ -3,16 +3,9 @@
 //! Independent check: all eigenvalues of a coarse whole harmonic by a dense decomposition, at finite speed and with the motion across the
 //! sliding held.
 
-use crate::disc::sweep_request;
+use crate::prelude::*;
 use crate::solids::model::disc;
-use assert_cmd::Command;
-use frictionsim::cea::ModeLimit;
-use frictionsim::cea::cyclic::{SolidModel, WaveSweep, solid_sweep};
-use frictionsim::linalg::{ComplexDenseLu, Mat, c64};
-use frictionsim::mesh::{BoundaryCondition, ElementKind, SolidContact, SolidSector};
-use frictionsim::prestress::WaveTangent;
-use std::f64::consts::TAU;
-use std::path::Path;
+use frictionsim::linalg::{Mat, c64};
 
 const FRICTION: f64 = 0.3;
 const LIMIT: f64 = 9000.0;
@@ -169,22 +162,10 @@ fn eigenvalues_are_continuous_in_the_speed_of_sliding() {
 
 #[test]
 fn the_note_names_the_dashpot_of_friction_and_not_the_damping_of_the_material() {
-    let folder = tempfile::TempDir::new().unwrap();
-    let mut command = Command::cargo_bin("frictionsim").unwrap();
-    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/ring-on-layer.toml");
-    command.arg("cea").arg(case).arg("--no-figures");
-    for set in [
-        "contact.rotation_speed_rpm=10.0",
-        "cea.friction_coefficients=[0.4]",
-        "mesh.circumferential_elements=24",
-        "mesh.radial_elements=7",
-        "mesh.axial_elements=1",
-    ] {
-        command.args(["--set", set]);
-    }
-    let output = command.arg("--out").arg(folder.path().join("out")).output().unwrap();
-    let text = String::from_utf8_lossy(&output.stdout);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    assert!(text.contains("dashpot of friction across the sliding"), "{text}");
-    assert!(!text.contains("damping.stiffness_coefficient set it"), "{text}");
+    let folder = folder();
+    let set = ["contact.rotation_speed_rpm=10.0 ; cea.friction_coefficients=[0.4] ; \
+         mesh.circumferential_elements=24 ; mesh.radial_elements=7 ; mesh.axial_elements=1"];
+    let run = Run::of("cea", shipped("ring-on-layer.toml")).out(folder.path()).set(&set);
+    run.done()
+        .says(&["dashpot of friction across the sliding", "!damping.stiffness_coefficient set it"]);
 }

@@ -1,31 +1,24 @@
 //! Studies and files of bodies of revolution.
 
+use crate::prelude::*;
 use crate::waves::pairs;
-use assert_cmd::Command;
-use frictionsim::case::Case;
-use frictionsim::study::eigenvalues::{
-    modes_and_onsets, modes_below, modes_with_waves_below, unstable_intervals,
-};
+use frictionsim::study::eigenvalues::{modes_below, modes_with_waves_below, unstable_intervals};
 use std::fs::File;
-use std::path::{Path, PathBuf};
 
-const COARSE: [&str; 4] = [
-    "mesh.circumferential_elements=24",
-    "mesh.radial_elements=5",
-    "mesh.axial_elements=1",
-    "cea.friction_coefficients=[0.0, 0.6]",
-];
+const COARSE: [&str; 1] =
+    ["mesh.circumferential_elements=24 ; mesh.radial_elements=5 ; mesh.axial_elements=1 ; \
+     cea.friction_coefficients=[0.0, 0.6]"];
 
-fn shipped() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/disc-three-dimensions.toml")
+const DISC: &str = "disc-three-dimensions.toml";
+
+fn run(command: &str, out: &Path, set: &[&str]) -> Answer {
+    Run::of(command, shipped(DISC)).out(out).set(&COARSE).set(set).done()
 }
 
 /// Cross-method: what `fit` and `uncertainty` ask for is what `cea` finds of the same body, not of its plane section.
 #[test]
 fn modes_for_a_fit_and_onsets_of_a_sample_are_those_of_the_body_with_its_thickness() {
-    let bytes = std::fs::read(shipped()).unwrap();
-    let overrides = COARSE.map(str::to_owned);
-    let case = Case::parse("disc", &bytes, &overrides).unwrap();
+    let case = shipped_case(DISC, &COARSE);
     let known = modes_and_onsets(&case).unwrap();
     let intervals = unstable_intervals(&case, &[0.3, 0.6], None).unwrap().intervals;
     assert_eq!(intervals.len(), known.intervals.len());
@@ -64,41 +57,27 @@ fn modes_for_a_fit_and_onsets_of_a_sample_are_those_of_the_body_with_its_thickne
 #[test]
 fn friction_that_falls_with_the_speed_is_said_and_destabilizes_a_body_with_thickness() {
     let lowest = |law: &[&str]| {
-        let folder = tempfile::tempdir().unwrap();
-        let mut run = Command::cargo_bin("frictionsim").unwrap();
-        run.current_dir(folder.path()).arg("cea");
-        run.arg(shipped()).args(["--out", "run", "--no-figures"]);
-        for set in COARSE.iter().chain(law) {
-            run.args(["--set", set]);
-        }
-        let output = run.assert().success().get_output().stdout.clone();
-        let summary = std::fs::read(folder.path().join("run/summary.json")).unwrap();
-        let summary: serde_json::Value = serde_json::from_slice(&summary).unwrap();
-        assert!(folder.path().join("run/sensitivities.csv").exists());
-        let onset = &summary["critical_frictions"][0]["critical_friction"];
-        (String::from_utf8(output).unwrap(), onset.as_f64().unwrap())
+        let folder = folder();
+        let answer = run("cea", folder.path(), law);
+        assert!(answer.path("sensitivities.csv").exists());
+        let onset = answer.summary()["critical_frictions"][0]["critical_friction"].as_f64();
+        (answer, onset.unwrap())
     };
-    let (said, falling) = lowest(&["contact.static_friction_ratio=1.4", "contact.decay_speed=2.0"]);
-    assert!(said.contains("friction falls with speed"), "{said}");
-    assert!(said.contains("rises by 1 %") && said.contains("decay_speed"), "{said}");
-    let (said, constant) = lowest(&[]);
-    assert!(!said.contains("friction falls with speed"), "{said}");
+    let (answer, falling) =
+        lowest(&["contact.static_friction_ratio=1.4", "contact.decay_speed=2.0"]);
+    answer.says(&["friction falls with speed", "rises by 1 %", "decay_speed"]);
+    let (answer, constant) = lowest(&[]);
+    answer.says(&["!friction falls with speed"]);
     assert!(falling < constant, "{falling} {constant}");
 }
 
 /// Names and NumPy headers of the arrays of `contact.npz` of a short run.
-fn contact_arrays(overrides: &[&str]) -> Vec<(String, String)> {
-    let folder = tempfile::tempdir().unwrap();
-    let mut run = Command::cargo_bin("frictionsim").unwrap();
-    run.current_dir(folder.path()).arg("transient");
-    run.arg(shipped()).args(["--out", "run", "--no-figures", "-qq"]);
+fn contact_arrays() -> Vec<(String, String)> {
+    let folder = folder();
     let transient =
         ["mesh.element=quad4", "transient.duration=2e-5", "transient.initial=steady-sliding"];
-    for set in COARSE.iter().chain(&transient).chain(overrides) {
-        run.args(["--set", set]);
-    }
-    run.assert().code(0);
-    let file = File::open(folder.path().join("run/contact.npz")).unwrap();
+    let answer = run("transient", folder.path(), &transient);
+    let file = File::open(answer.path("contact.npz")).unwrap();
     let mut archive = zip::ZipArchive::new(file).unwrap();
     let mut found = Vec::new();
     for k in 0..archive.len() {
@@ -113,7 +92,7 @@ fn contact_arrays(overrides: &[&str]) -> Vec<(String, String)> {
 
 #[test]
 fn the_contact_file_of_a_body_with_thickness_has_both_parts_of_the_shear() {
-    let arrays = contact_arrays(&[]);
+    let arrays = contact_arrays();
     let header = |name: &str| {
         let mut own = arrays.iter().filter(|array| array.0 == name);
         own.next().map(|array| array.1.clone())

@@ -1,35 +1,10 @@
 //! The transient of a body of revolution against its eigenvalue analysis and against itself.
 
-use crate::disc::transient_settings;
-use crate::solids::model::{disc, modes};
-use crate::tier::sized;
-use frictionsim::cea::cyclic::SolidModel;
-use frictionsim::contact::{ContactStatus, NormalLaw};
-use frictionsim::fem::operator::{OperatorError, SimdLevel, StiffnessOperator};
-use frictionsim::fem::{MassKind, RayleighDamping, solid};
-use frictionsim::mesh::{
-    BoundaryCondition, ElasticSupport, ElementKind, SolidContact, SolidSector,
-};
-use frictionsim::prestress::{DampingModel, PrestressError, SolidSliding};
-use frictionsim::transient::{
-    CentralDifference, InitialState, Observer, OperatorChoice, Perturbation, Recorder,
-    RecorderSettings, Sample, SteppedBody, TimeStep, TransientAnalysis, TransientError,
-    TransientModel, TransientSettings,
-};
-use std::f64::consts::TAU;
+use crate::prelude::*;
+use crate::solids::model::{body, disc, modes};
+use frictionsim::fem::operator::{OperatorError, StiffnessOperator};
+use frictionsim::transient::{Observer, Sample, TimeStep, TransientError};
 use std::ops::ControlFlow;
-
-fn body<'a>(model: &'a SolidModel, sector: &'a SolidSector) -> TransientModel<'a> {
-    TransientModel {
-        stiffness: model.options.contact,
-        ..TransientModel::new(
-            SteppedBody::Revolution(sector),
-            &model.material,
-            model.options.damping,
-            model.contact,
-        )
-    }
-}
 
 fn operator(body: &TransientModel<'_>) -> Box<dyn StiffnessOperator> {
     body.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap()
@@ -227,14 +202,8 @@ fn a_compliant_ring_with_dashpots_on_supports_of_its_own_keeps_the_balance() {
     model.options.contact.normal_stiffness = Some(1e12);
     model.options.contact.normal_damping = 1e4;
     model.options.contact.tangential_damping = 1e4;
-    model.specification.conditions[1] = BoundaryCondition::Support(ElasticSupport {
-        loss_factor: 0.0,
-        normal_stiffness: 1e11,
-        tangential_stiffness: 1e11,
-        axial_stiffness: 1e10,
-        normal_damping: 1e4,
-        tangential_damping: 1e4,
-    });
+    model.specification.conditions[1] =
+        BoundaryCondition::Support(springs([1e11, 1e11, 1e10], [1e4, 1e4]));
     let record = run(&model, &seeded(2, 0.5, 1e-3));
     let analysis = TransientAnalysis::of(&record, &[2]);
     assert!(analysis.largest_residual < 1e-10);

@@ -1,14 +1,8 @@
 //! Dense matrices of a whole ring of bricks, put together without harmonics.
 
-use faer::{Mat, c64};
-use frictionsim::cea::cyclic::SolidModel;
-use frictionsim::fem::MassKind;
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::linalg::ComplexDenseLu;
-use frictionsim::mesh::{BoundaryCondition, ElementKind, SolidSector, face_quadrature};
-use frictionsim::prestress::SolidSliding;
-use frictionsim::transient::{OperatorChoice, SteppedBody, TransientModel};
-use std::f64::consts::TAU;
+use crate::prelude::*;
+use crate::solids::model::body;
+use frictionsim::mesh::face_quadrature;
 
 /// `M`, `C`, `K` over the dofs `3 (s n + k) + c` in nodal frames, and the dofs that move.
 pub struct WholeRing {
@@ -142,17 +136,8 @@ fn global(sector: &SolidSector, s: usize, node: usize, half: usize) -> usize {
 /// `M` and `K` column by column.
 fn operated(sector: &SolidSector, model: &SolidModel) -> [Mat<f64>; 2] {
     assert_eq!(model.options.mass, MassKind::Lumped);
-    let body = TransientModel {
-        stiffness: model.options.contact,
-        ..TransientModel::new(
-            SteppedBody::Revolution(sector),
-            &model.material,
-            model.options.damping,
-            model.contact,
-        )
-    };
-    let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar);
-    let operator = operator.unwrap();
+    let body = body(model, sector);
+    let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar).unwrap();
     let count = operator.dof_count();
     let masses = operator.masses();
     let (mut mass, mut stiffness) = (Mat::zeros(count, count), Mat::zeros(count, count));

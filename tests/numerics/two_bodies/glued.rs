@@ -2,19 +2,11 @@
 //!
 //! Glue is what the contact says of sticking pairs, `u_n = sum P u` and `u_t = sum P u`, for good and in both directions.
 
-use crate::disc::POLYCARBONATE;
+use crate::cea_sparse::bare;
+use crate::prelude::*;
 use crate::two_bodies::model::{Part, file_of, one_material, rectangle, ring, rings, rings_of};
-use frictionsim::cea::ModeLimit;
 use frictionsim::cea::sparse::FrictionlessModes;
-use frictionsim::contact::ContactInterface;
-use frictionsim::fem::{DofMap, MassKind, Triplets, assemble_mass, assemble_stiffness};
-use frictionsim::linalg::{MatrixPolynomial, SparsityPattern};
-use frictionsim::mesh::{
-    BodySpecification, BoundaryCondition, CounterfaceSpecification, ElementKind, FileMesh, Mesh,
-};
-use frictionsim::prestress::SlidingTangent;
-use std::collections::BTreeMap;
-use std::sync::Arc;
+use frictionsim::linalg::SparsityPattern;
 
 /// `u = T y`: for each glued dof the dofs that it follows, with their weights.
 type Glue = BTreeMap<usize, Vec<(usize, f64)>>;
@@ -64,23 +56,8 @@ fn frequencies(mesh: &Mesh, glue: &Glue, held: Vec<usize>, count: usize) -> Vec<
     let pattern = Arc::new(SparsityPattern::from_positions(unknowns.len(), positions));
     let on_pattern = |terms| MatrixPolynomial::on_pattern(&pattern, &[terms]);
     let (stiffness, mass) = (on_pattern(stiffness), on_pattern(mass));
-    let structure = SlidingTangent {
-        damping: MatrixPolynomial::combination(0.0, &mass, 0.0, &stiffness),
-        mass,
-        stiffness,
-        structural: None,
-        tabled: Vec::new(),
-        proportional: None,
-        unknowns,
-        contact_tangential: Vec::new(),
-        contact_normal: Vec::new(),
-        contact_opposite: Vec::new(),
-        is_gyroscopic: false,
-        distances: Vec::new(),
-        contact_angles: Vec::new(),
-        sliding_direction: 1.0,
-        friction: Vec::new(),
-    };
+    let damping = MatrixPolynomial::combination(0.0, &mass, 0.0, &stiffness);
+    let structure = bare([mass, damping, stiffness], None, unknowns);
     let modes = FrictionlessModes::compute(&structure, ModeLimit::Lowest(count)).unwrap();
     modes.frequencies[..count].to_vec()
 }

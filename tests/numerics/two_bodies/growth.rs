@@ -1,19 +1,8 @@
 //! The linear stage of the transient between meshes that do not match, against the eigenvalues of the same bodies.
 
-use crate::disc::{DAMPING, POLYCARBONATE, transient_settings};
+use crate::prelude::*;
 use crate::two_bodies::model::{contact, modes_of, options, rings};
-use frictionsim::cea::ModeLimit;
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::fem::{
-    ElasticMaterial, MassKind, PlaneFormulation, RegionMaterial, assemble_stiffness,
-};
 use frictionsim::linalg::c64;
-use frictionsim::prestress::SteadySliding;
-use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    SteppedBody, TransientAnalysis, TransientModel,
-};
-use std::f64::consts::TAU;
 
 /// Size of the seeded mode, m: a slip speed a thousandth of the sliding, and far above the short waves, which grow faster, out
 /// of round-off.
@@ -22,13 +11,7 @@ const SEED: f64 = 1e-8;
 /// Cross-method check: a mode that is seeded as the eigenvalue analysis has it grows as that says.
 #[test]
 fn a_mode_of_two_bodies_whose_meshes_do_not_match_grows_as_its_eigenvalue_says() {
-    let brass = ElasticMaterial {
-        young_modulus: 1e11,
-        poisson_ratio: 0.35,
-        density: 8500.0,
-        formulation: PlaneFormulation::PlaneStrain,
-        ..ElasticMaterial::PLAIN
-    };
+    let brass = elastic(1e11, 0.35, 8500.0, PlaneFormulation::PlaneStrain);
     let mesh = rings([40, 48], [3, 9], 0.05);
     for shaft in [POLYCARBONATE, brass] {
         let region = |elastic| RegionMaterial { elastic, damping: None };

@@ -6,26 +6,9 @@ mod model;
 mod refusals;
 mod sweeps;
 
-use crate::disc::{
-    DAMPING, POLYCARBONATE, RIGID, annulus, sliding_at, sweep_request, transient_settings,
-};
-use faer::c64;
-use frictionsim::cea::cyclic;
-use frictionsim::cea::{ComplexMode, ModeLimit};
-use frictionsim::contact::{ContactInterface, ContactStiffness};
-use frictionsim::fem::operator::SimdLevel;
-use frictionsim::fem::{ElasticMaterial, MassKind, assemble_stiffness};
-use frictionsim::mesh::{
-    AnnulusSpecification, BodyError, BodySpecification, BoundaryCondition,
-    CounterfaceSpecification, ElasticSupport, ElementKind, FileMesh, Mesh, ShaftSpecification,
-};
-use frictionsim::prestress::SteadySliding;
-use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    SteppedBody, TransientModel,
-};
+use crate::prelude::*;
+use frictionsim::mesh::BodyError;
 use model::{Part, contact, file_of, modes, one_material, options, rectangle, rings};
-use std::collections::BTreeMap;
 
 /// Disc and shaft as built in, by sectors.
 fn built_in(
@@ -35,14 +18,7 @@ fn built_in(
     geometric_stiffness: bool,
     count: usize,
 ) -> Vec<ComplexMode> {
-    let specification = AnnulusSpecification {
-        shaft: Some(ShaftSpecification {
-            inner_radius: 0.006,
-            radial_elements: radial[0],
-            bore: BoundaryCondition::Clamped,
-        }),
-        ..annulus(element, around, radial[1])
-    };
+    let specification = on_shaft(annulus(element, around, radial[1]), radial[0]);
     let request = sweep_request(&[0.3], ModeLimit::Lowest(count));
     let options = options(MassKind::Consistent, geometric_stiffness);
     let material = one_material();
@@ -97,11 +73,7 @@ fn non_matching_meshes_keep_the_order_of_convergence() {
 
 /// Springs on the top of the upper block.
 fn mounting() -> ElasticSupport {
-    ElasticSupport {
-        normal_stiffness: 1e11,
-        tangential_stiffness: 1e10,
-        ..ElasticSupport::default()
-    }
+    springs([1e11, 1e10, 0.0], [0.0, 0.0])
 }
 
 /// A block pressed on another by the springs on its top; the lower one, wider on both sides, is clamped below.
@@ -112,16 +84,12 @@ fn blocks(along: [usize; 2]) -> Result<Mesh, BodyError> {
         Part { mesh: lower, region: "lower", names: ["floor", "track"], turn: 0.0 },
         Part { mesh: upper, region: "upper", names: ["sole", "top"], turn: 0.0 },
     ];
-    let specification = BodySpecification {
-        scale: 1.0,
-        contact: "sole".to_owned(),
-        counterface: CounterfaceSpecification::Plane { direction: None },
-        opposite: Some("track".to_owned()),
-        conditions: vec![
-            ("floor".to_owned(), BoundaryCondition::Clamped),
-            ("top".to_owned(), BoundaryCondition::Support(mounting())),
-        ],
-    };
+    let specification = plane_body(
+        "sole",
+        CounterfaceSpecification::Plane { direction: None },
+        Some("track"),
+        &[("floor", BoundaryCondition::Clamped), ("top", BoundaryCondition::Support(mounting()))],
+    );
     Mesh::from_gmsh(&FileMesh::read(&file_of(&parts)).unwrap(), &specification)
 }
 
@@ -183,12 +151,7 @@ fn a_block_on_a_block_of_another_mesh_is_pressed_alike_everywhere() {
 #[test]
 fn energy_closes_through_stick_and_opening_between_meshes_that_do_not_match() {
     let mesh = rings([20, 27], [2, 5], 0.1);
-    let compliant = ContactStiffness {
-        normal_stiffness: Some(2e12),
-        normal_damping: 1e4,
-        tangential_damping: 1e3,
-        ..RIGID
-    };
+    let compliant = compliant(2e12, [1e4, 1e3]);
     for stiffness in [ContactStiffness::default(), compliant] {
         let record = run(&mesh, stiffness, InitialState::Rest, 2e-3, 4.0);
         let opens: u64 = record.rows.iter().map(|row| row.counts.open).sum();
@@ -212,11 +175,8 @@ fn run(
         stiffness,
         ..TransientModel::new(body, one_material(), DAMPING, contact())
     };
-    let operator = model.operator(OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let settings =
         transient_settings(duration, 4e-6, 1e-4, initial, Perturbation::of(&[1, 2], velocity));
-    let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
-    let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
-    run.run(&mut record).unwrap();
+    let (record, _) = recorded(model, OperatorChoice::Auto, &settings);
     record
 }

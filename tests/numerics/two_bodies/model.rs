@@ -1,15 +1,14 @@
 //! Two bodies of a mesh file, four-node elements, their meshes matching or not.
 
-use crate::disc::{self, POLYCARBONATE, TANGENT, annulus, sweep_request};
+use crate::disc::{self, POLYCARBONATE, TANGENT, linearized, sweep_request};
+use crate::mesh_text::mesh_text;
+use crate::msh::{CYLINDER, plane_body};
 use frictionsim::cea::sparse::sweep;
 use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest};
 use frictionsim::contact::SlidingContact;
-use frictionsim::fem::{MassKind, MaterialField, assemble_stiffness};
-use frictionsim::mesh::{
-    AnnulusMesh, AnnulusSpecification, BodySpecification, Boundary, BoundaryCondition,
-    CounterfaceSpecification, ElementKind, FileMesh, Mesh,
-};
-use frictionsim::prestress::{SlidingTangent, SteadySliding, TangentOptions};
+use frictionsim::fem::{MassKind, MaterialField};
+use frictionsim::mesh::{AnnulusMesh, Boundary, BoundaryCondition, ElementKind, FileMesh, Mesh};
+use frictionsim::prestress::TangentOptions;
 
 /// A body with the names that its boundaries have in the file.
 pub struct Part<'a> {
@@ -22,51 +21,32 @@ pub struct Part<'a> {
 
 /// Both bodies in one file.
 pub fn file_of(parts: &[Part<'_>]) -> Vec<u8> {
-    let mut names = String::new();
-    let (mut nodes, mut elements) = (Vec::new(), Vec::new());
-    let mut tag = 0;
+    let (mut points, mut groups, mut elements) = (Vec::new(), Vec::new(), Vec::new());
     for part in parts {
-        let first = 1 + nodes.len();
+        let first = points.len();
         let (sin, cos) = part.turn.sin_cos();
-        for [x, y, _] in &part.mesh.nodes {
-            nodes.push([cos * x - sin * y, sin * x + cos * y]);
-        }
-        tag += 1;
-        names += &format!("2 {tag} \"{}\"\n", part.region);
-        let number = |node: u32| (first + node as usize).to_string();
+        points.extend(
+            part.mesh.nodes.iter().map(|[x, y, _]| [cos * x - sin * y, sin * x + cos * y, 0.0]),
+        );
+        let number = |node: &u32| first + *node as usize;
         for e in 0..part.mesh.element_count() {
-            let kind = part.mesh.element_kind(e).gmsh_type();
-            let nodes = part.mesh.element_nodes(e).iter();
-            let nodes: Vec<String> = nodes.map(|&n| number(n)).collect();
-            elements.push(format!("{kind} 2 {tag} {tag} {}", nodes.join(" ")));
+            let nodes = part.mesh.element_nodes(e).iter().map(number).collect();
+            elements.push((part.mesh.element_kind(e).gmsh_type(), groups.len(), nodes));
         }
+        groups.push((2, part.region));
         // Corners and middles alternate where edges have a middle.
         let (stride, kind) = if part.mesh.is_quad4() { (1, 1) } else { (2, 8) };
         for (boundary, name) in part.mesh.boundaries.iter().zip(part.names) {
-            tag += 1;
-            names += &format!("1 {tag} \"{name}\"\n");
             let count = boundary.nodes.len();
             for i in (0..count - usize::from(!boundary.is_closed)).step_by(stride) {
-                let place = |k: usize| number(boundary.nodes[(i + k) % count]);
-                let nodes = [place(stride), place(1)];
-                let nodes = nodes[..stride].join(" ");
-                elements.push(format!("{kind} 2 {tag} {tag} {} {nodes}", place(0)));
+                let place = |k: usize| number(&boundary.nodes[(i + k) % count]);
+                let nodes = [place(0), place(stride), place(1)][..1 + stride].to_vec();
+                elements.push((kind, groups.len(), nodes));
             }
+            groups.push((1, name));
         }
     }
-    let mut text = format!(
-        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{}\n{names}$EndPhysicalNames\n",
-        names.lines().count()
-    );
-    text += &format!("$Nodes\n{}\n", nodes.len());
-    for (i, [x, y]) in nodes.iter().enumerate() {
-        text += &format!("{} {x:?} {y:?} 0\n", i + 1);
-    }
-    text += &format!("$EndNodes\n$Elements\n{}\n", elements.len());
-    for (i, element) in elements.iter().enumerate() {
-        text += &format!("{} {element}\n", i + 1);
-    }
-    (text + "$EndElements\n").into_bytes()
+    mesh_text(&points, &groups, &elements)
 }
 
 /// Disc and shaft as rings of `around` elements (shaft, disc); the shaft is turned by `turn`.
@@ -88,25 +68,14 @@ pub fn rings_of(
         Part { mesh: disc, region: "disc", names: ["inner", "outer"], turn: 0.0 },
         Part { mesh: shaft, region: "shaft", names: ["bore", "journal"], turn },
     ];
-    let clamped = |name: &str| (name.to_owned(), BoundaryCondition::Clamped);
-    let specification = BodySpecification {
-        scale: 1.0,
-        contact: "inner".to_owned(),
-        counterface: CounterfaceSpecification::Cylinder { center: [0.0; 2], radius: None },
-        opposite: Some("journal".to_owned()),
-        conditions: vec![clamped("outer"), clamped("bore")],
-    };
+    let held = ["outer", "bore"].map(|name| (name, BoundaryCondition::Clamped));
+    let specification = plane_body("inner", CYLINDER, Some("journal"), &held);
     Mesh::from_gmsh(&FileMesh::read(&file_of(&parts)).unwrap(), &specification).unwrap()
 }
 
 /// One ring of even elements.
 pub fn ring(element: ElementKind, radii: [f64; 2], around: usize, radial: usize) -> Mesh {
-    let specification = AnnulusSpecification {
-        inner_radius: radii[0],
-        outer_radius: radii[1],
-        ..annulus(element, around, radial)
-    };
-    AnnulusMesh::generate(&specification).unwrap().mesh
+    AnnulusMesh::generate(&disc::ring(radii, element, around, radial)).unwrap().mesh
 }
 
 pub fn options(mass: MassKind, geometric_stiffness: bool) -> TangentOptions {
@@ -134,9 +103,7 @@ pub fn modes_of(
     limit: ModeLimit,
     shapes_at: &[f64],
 ) -> Vec<ComplexMode> {
-    let stiffness = assemble_stiffness(mesh, material);
-    let base = SteadySliding::solve(mesh, &stiffness, &contact()).unwrap();
-    let tangent = SlidingTangent::linearize(mesh, material, &stiffness, &base, options);
+    let tangent = linearized(mesh, material, &contact(), options);
     let request = SweepRequest { shapes_at, ..sweep_request(&[0.3], limit) };
     let found = sweep(&tangent, &request, &|_| {}).unwrap();
     found.points.into_iter().next().unwrap().modes

@@ -1,12 +1,11 @@
 //! Cases of two bodies that are refused.
 
+use crate::prelude::*;
 use crate::two_bodies::model::{Part, file_of, rectangle};
 
-/// Each message names what is wrong and what to do.
 #[test]
 fn bodies_that_do_not_meet_are_refused_with_a_remedy() {
-    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("two_bodies");
-    std::fs::create_dir_all(&folder).unwrap();
+    let folder = kept("two_bodies");
     let block = |y: f64, x: f64| {
         let parts = [
             Part {
@@ -34,9 +33,7 @@ fn bodies_that_do_not_meet_are_refused_with_a_remedy() {
              normal_stiffness = 1e11\ntangential_stiffness = 1e11\n[contact]\nboundary = \"sole\"\n\
              friction_coefficient = 0.3\ninterference = 1e-5\nspeed = 1.0\n{contact}\n"
         );
-        let name = folder.join("case.toml");
-        let case = frictionsim::case::Case::parse(name.to_str().unwrap(), text.as_bytes(), &[]);
-        case.map(|_| ()).map_err(|error| error.to_string())
+        read_case(folder.join("case.toml"), &text, AS_IT_IS).map(|_| ())
     };
     let body = "counterface = \"body\"\ncounter_boundary = \"track\"";
     read("good.msh", body).unwrap();

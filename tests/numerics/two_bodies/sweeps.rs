@@ -1,9 +1,7 @@
 //! Steps whose sweeps over the contact between two bodies end before the forces have converged: consistency of what is said.
 
+use crate::prelude::*;
 use crate::two_bodies::model::{Part, file_of, rectangle};
-use assert_cmd::Command;
-use serde_json::Value;
-use std::path::Path;
 
 /// A block on another one, so many elements along the contact.
 fn write_case(folder: &Path, along: [usize; 2], upper_density: f64) {
@@ -24,87 +22,56 @@ fn write_case(folder: &Path, along: [usize; 2], upper_density: f64) {
     std::fs::create_dir_all(folder).unwrap();
     std::fs::write(folder.join("blocks.msh"), file_of(&parts)).unwrap();
     let text = format!(
-        r#"
-[mesh]
-file = "blocks.msh"
-[material]
-young_modulus = 2.5e9
-poisson_ratio = 0.3
-density = 1228.0
-[materials.upper]
-young_modulus = 2.5e9
-poisson_ratio = 0.3
-density = {upper_density:?}
-[damping]
-mass_coefficient = 40.0
-stiffness_coefficient = 4.5e-7
-[boundaries.floor]
-condition = "clamped"
-[boundaries.top]
-condition = "support"
-normal_stiffness = 1e11
-tangential_stiffness = 1e11
-[contact]
-boundary = "sole"
-counterface = "body"
-counter_boundary = "track"
-friction_coefficient = 0.3
-interference = 1e-5
-speed = 1.0
-[transient]
-duration = 2e-4
-expansion_time = 5e-5
-"#
+        "[mesh]\nfile = \"blocks.msh\"
+[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3\ndensity = 1228.0
+[materials.upper]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3\ndensity = {upper_density:?}
+[damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7
+[boundaries.floor]\ncondition = \"clamped\"
+[boundaries.top]\ncondition = \"support\"\nnormal_stiffness = 1e11\ntangential_stiffness = 1e11
+[contact]\nboundary = \"sole\"\ncounterface = \"body\"\ncounter_boundary = \"track\"\n\
+     friction_coefficient = 0.3\ninterference = 1e-5\nspeed = 1.0
+[transient]\nduration = 2e-4\nexpansion_time = 5e-5\n"
     );
     std::fs::write(folder.join("case.toml"), text).unwrap();
 }
 
-/// What a run prints, and its summary.
-fn run(folder: &Path, options: &[&str]) -> (String, Value) {
-    let mut program = Command::cargo_bin("frictionsim").unwrap();
-    program.current_dir(folder).args(["transient", "case.toml"]);
-    program.args(["--no-figures", "--out", "out"]).args(options);
-    let output = program.assert().success().get_output().stdout.clone();
-    let summary = std::fs::read(folder.join("out/summary.json")).unwrap();
-    let printed = String::from_utf8(output).unwrap();
-    (printed, serde_json::from_slice(&summary).unwrap())
+fn run(folder: &Path, options: &[&str]) -> Answer {
+    Run::of("transient", "case.toml").within(folder).out("out").args(options).done()
 }
 
 /// Forty nodes of a heavy body on four of a light one: their forces are all but indeterminate, and the sweeps end before
 /// they settle. With the curves of one fineness each node meets its own, and one sweep is enough.
 #[test]
 fn steps_whose_sweeps_end_early_are_counted_and_said_where_there_are_any() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     write_case(folder.path(), [4, 40], 1e5);
-    let (printed, summary) = run(folder.path(), &[]);
+    let answer = run(folder.path(), &[]);
+    let summary = answer.summary();
     let steps = summary["steps"].as_u64().unwrap();
     let unconverged = summary["unconverged_steps"].as_u64().unwrap();
     assert!(unconverged > 0 && unconverged <= steps, "{unconverged} of {steps}");
     let sentence = format!("had not converged in {unconverged} of {steps} steps");
-    assert!(printed.contains(&sentence), "{printed}");
-    assert!(printed.contains("Exchange the two sides of the contact"));
+    has(&answer.stdout, &[&sentence, "Exchange the two sides of the contact"]);
     // The energy of a step closes whatever its forces are.
     assert!(summary["max_balance_residual"].as_f64().unwrap() < 1e-10);
 
     let matching = tempfile::tempdir().unwrap();
     write_case(matching.path(), [10, 10], 1e5);
-    let (printed, summary) = run(matching.path(), &[]);
-    assert!(summary.get("unconverged_steps").is_none());
-    assert!(!printed.contains("converged"), "{printed}");
+    let answer = run(matching.path(), &[]).says(&["!converged"]);
+    assert!(answer.summary().get("unconverged_steps").is_none());
 }
 
 /// The count belongs to the whole run: one that goes on ends with the same record and summary.
 #[test]
 fn a_run_that_goes_on_keeps_the_count_of_its_steps_without_converged_forces() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     write_case(folder.path(), [4, 40], 1e5);
-    let (_, whole) = run(folder.path(), &[]);
-    let record = std::fs::read(folder.path().join("out/record.bin")).unwrap();
+    let whole = run(folder.path(), &[]);
+    let (steps, record) = (whole.summary()["unconverged_steps"].clone(), whole.bytes("record.bin"));
     let shorter = ["--force", "--set", "transient.duration=1e-4"];
-    let (_, first) = run(folder.path(), &shorter);
-    assert!(first["unconverged_steps"].as_u64() < whole["unconverged_steps"].as_u64());
-    let (_, extended) = run(folder.path(), &["--resume"]);
-    assert_eq!(extended["unconverged_steps"], whole["unconverged_steps"]);
-    let resumed = std::fs::read(folder.path().join("out/record.bin")).unwrap();
-    assert!(record == resumed);
+    let first = run(folder.path(), &shorter).summary();
+    assert!(first["unconverged_steps"].as_u64() < steps.as_u64());
+    let extended = run(folder.path(), &["--resume"]);
+    assert_eq!(extended.summary()["unconverged_steps"], steps);
+    assert!(record == extended.bytes("record.bin"));
 }

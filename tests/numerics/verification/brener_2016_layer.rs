@@ -10,8 +10,7 @@
 //! nu 0.3, f 0.3, H 50 mm, steel; as the layer of an annulus with radius `a`, `n = k a`, errors fall with `H / a`.
 
 use super::{folder, order, table};
-use faer::{Mat, c64};
-use std::f64::consts::TAU;
+use crate::prelude::*;
 
 const YOUNG: f64 = 2.1e11;
 const POISSON: f64 = 0.3;

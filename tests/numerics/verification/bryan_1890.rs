@@ -11,9 +11,7 @@
 //! the shape; 600 rpm.
 
 use super::{folder, integral, order, ritz, table};
-use crate::bricks::{Block, file_of};
-use nalgebra::DMatrix;
-use std::f64::consts::TAU;
+use crate::prelude::*;
 
 const RADII: [f64; 2] = [0.08, 0.12];
 const YOUNG: f64 = 2.1e11;
@@ -67,12 +65,12 @@ fn closed_form(n: f64) -> [f64; 2] {
 /// speed.
 fn ring(sectors: usize) -> [[f64; 2]; 2] {
     let [inner, outer] = RADII;
-    let block = Block {
-        name: "ring",
-        origin: [inner, 0.0, 0.0],
-        size: [outer - inner, TAU / sectors as f64, 0.01],
-        counts: [sectors / 12, 1, 1],
-    };
+    let block = brick(
+        "ring",
+        [inner, 0.0, 0.0],
+        [outer - inner, TAU / sectors as f64, 0.01],
+        [sectors / 12, 1, 1],
+    );
     let mesh = file_of(&[block], |[r, angle, z]| [r * angle.cos(), r * angle.sin(), z]);
     let case = format!(
         "[mesh]\nfile = \"body.msh\"\nsectors = {sectors}\n[material]\nyoung_modulus = {YOUNG:e}\n\

@@ -10,14 +10,15 @@
 //! `G_nn`, `G_nt` the normal response of the body without contact to a normal force and to one along the sliding. At a
 //! critical friction of `cea` the root lies on the axis, where `frf` has both responses.
 
-use super::{folder, plane_block, table};
+use super::{folder, table};
+use crate::mesh_text::quadrilaterals;
 
 #[test]
 fn duffour_woodhouse_critical_friction_is_a_root_of_two_responses() {
     // A leaning block stands on its edge: one node of its face touches the plane.
     let xs: Vec<f64> = (0..=8).map(|i| 0.03 * (f64::from(i) / 8.0 - 0.5)).collect();
     let ys: Vec<f64> = (0..=10).map(|j| f64::from(j) / 10.0).collect();
-    let mesh = plane_block(&xs, &ys, |x, share| {
+    let mesh = quadrilaterals(&xs, &ys, ["face", "top", "body"], |x, share| {
         let y = 0.1 * x.abs() * (1.0 - share) + 0.05 * share;
         [x - y, y]
     });

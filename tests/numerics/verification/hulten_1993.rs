@@ -12,8 +12,7 @@
 //! force from either plane. What is left is its elasticity: errors fall with one over Young's modulus.
 
 use super::{folder, order, table};
-use crate::bricks::{Block, file_of};
-use std::f64::consts::TAU;
+use crate::prelude::*;
 
 /// Frequencies on the two springs, Hz.
 const OWN: [f64; 2] = [1000.0, 750.0];
@@ -21,7 +20,7 @@ const OWN: [f64; 2] = [1000.0, 750.0];
 /// Critical friction, frequency there, and growth at friction 0.4 of a block of that modulus.
 fn block(young_modulus: f64) -> [f64; 3] {
     let size = [0.02, 0.06, 0.01];
-    let block = Block { name: "block", origin: [0.0; 3], size, counts: [2, 4, 2] };
+    let block = brick("block", [0.0; 3], size, [2, 4, 2]);
     let folder = folder("hulten_1993", &file_of(&[block], |point| point));
     let mass = 7850.0 * size[0] * size[1] * size[2];
     let [wall, floor] = [OWN[0] / size[1], OWN[1] / size[0]]

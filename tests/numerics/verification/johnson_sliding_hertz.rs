@@ -10,7 +10,8 @@
 //! with `s` from the middle of the patch, which lies `2 g a` against the friction on the body. R 0.1 m, steel, friction 0.5; the
 //! force is the computed one, as the block of 800 x 200 mm above the patch is pushed down.
 
-use super::{folder, order, plane_block, table};
+use super::{folder, order, table};
+use crate::mesh_text::quadrilaterals;
 use std::f64::consts::PI;
 
 const RADIUS: f64 = 0.1;
@@ -37,7 +38,7 @@ fn errors(step: f64) -> [f64; 2] {
     let left = right[1..].iter().rev().map(|x| -x);
     let xs: Vec<f64> = left.chain(right.iter().copied()).collect();
     let ys = graded(HEIGHT, step, 0.6e-3);
-    let mesh = plane_block(&xs, &ys, |x, y| {
+    let mesh = quadrilaterals(&xs, &ys, ["face", "top", "body"], |x, y| {
         // Round beside the patch, flat beyond.
         let below = 0.5 * x.abs().min(6e-3).powi(2) / RADIUS;
         [x, below + (HEIGHT - below) * y / HEIGHT]

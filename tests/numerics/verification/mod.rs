@@ -13,16 +13,12 @@ mod nafems_fv52;
 mod oberst;
 mod sector_pads;
 
-use nalgebra::{DMatrix, DVector};
-use std::collections::BTreeMap;
-use std::fmt::Write;
-use std::fs;
-use std::path::{Path, PathBuf};
+use crate::prelude::*;
+use nalgebra::DVector;
 
 /// A row of a table of results by the names of its columns; what is no number is not a number.
 type Row = BTreeMap<String, f64>;
 
-/// The folder of one verification, with the mesh of its case.
 fn folder(name: &str, mesh: &[u8]) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("verification").join(name);
     fs::create_dir_all(&folder).unwrap();
@@ -51,51 +47,6 @@ fn rows(path: &Path) -> Vec<Row> {
         cells.map(|(head, cell)| (head.to_owned(), cell.parse().unwrap_or(f64::NAN))).collect()
     };
     reader.records().map(|record| row(record.unwrap())).collect()
-}
-
-/// A mesh file in MSH 2.2: groups by dimension and name, elements by kind, group from 0 and nodes from 0.
-fn msh(
-    points: &[[f64; 3]],
-    groups: &[(u32, &str)],
-    elements: &[(u32, usize, Vec<usize>)],
-) -> Vec<u8> {
-    let mut text =
-        format!("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{}\n", groups.len());
-    for (group, (dimension, name)) in groups.iter().enumerate() {
-        writeln!(text, "{dimension} {} \"{name}\"", group + 1).unwrap();
-    }
-    writeln!(text, "$EndPhysicalNames\n$Nodes\n{}", points.len()).unwrap();
-    for (node, [x, y, z]) in points.iter().enumerate() {
-        writeln!(text, "{} {x:?} {y:?} {z:?}", node + 1).unwrap();
-    }
-    writeln!(text, "$EndNodes\n$Elements\n{}", elements.len()).unwrap();
-    for (k, (kind, group, nodes)) in elements.iter().enumerate() {
-        let nodes: Vec<String> = nodes.iter().map(|node| (node + 1).to_string()).collect();
-        let (number, group) = (k + 1, group + 1);
-        writeln!(text, "{number} {kind} 2 {group} {group} {}", nodes.join(" ")).unwrap();
-    }
-    text.push_str("$EndElements\n");
-    text.into_bytes()
-}
-
-/// A plane mesh of quadrilaterals over a grid of lines, `place` taking a point of the grid to the body: region `body`, its
-/// lower edge `face`, its upper edge `top`.
-fn plane_block(xs: &[f64], ys: &[f64], place: impl Fn(f64, f64) -> [f64; 2]) -> Vec<u8> {
-    let node = |i: usize, j: usize| i + xs.len() * j;
-    let at = |(&x, &y): (&f64, &f64)| [place(x, y)[0], place(x, y)[1], 0.0];
-    let points: Vec<[f64; 3]> =
-        ys.iter().flat_map(|y| xs.iter().map(move |x| (x, y))).map(at).collect();
-    let mut elements = Vec::new();
-    let last = ys.len() - 1;
-    for i in 0..xs.len() - 1 {
-        elements.push((1, 0, vec![node(i, 0), node(i + 1, 0)]));
-        elements.push((1, 1, vec![node(i + 1, last), node(i, last)]));
-        for j in 0..last {
-            let corners = [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
-            elements.push((3, 2, corners.to_vec()));
-        }
-    }
-    msh(&points, &[(1, "face"), (1, "top"), (2, "body")], &elements)
 }
 
 /// Integral of a smooth function by Simpson's rule on 400 intervals.

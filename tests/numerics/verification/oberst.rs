@@ -10,16 +10,12 @@
 //! 1 mm of 210 GPa under 2 mm of 3 GPa with a loss factor of 0.5, 200 mm long, one end clamped: the first bending mode.
 
 use super::{folder, table};
-use crate::bricks::{Block, file_of};
-use faer::c64;
+use crate::prelude::*;
 
 /// Frequency (Hz) and loss factor of the first mode on so many elements along the beam.
 fn beam(elements: usize) -> [f64; 2] {
-    let layer = |name, z, thickness, count| Block {
-        name,
-        origin: [0.0, 0.0, z],
-        size: [0.2, 0.005, thickness],
-        counts: [elements, 1, count],
+    let layer = |name, z, thickness, count| {
+        brick(name, [0.0, 0.0, z], [0.2, 0.005, thickness], [elements, 1, count])
     };
     let mesh = file_of(&[layer("metal", 0.0, 1e-3, 1), layer("layer", 1e-3, 2e-3, 2)], |p| p);
     let case = "[mesh]\nfile = \"body.msh\"\n[material]\nyoung_modulus = 2.1e11\npoisson_ratio = 0.0\n\

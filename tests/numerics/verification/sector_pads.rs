@@ -12,10 +12,9 @@
 //! whatever `k`, the material and the number of faces are. r 50 to 100 mm, bore clamped, pads from 75 mm on, +-37.5 degrees, steel:
 //! bricks of 20 nodes, 4 x 48 x 1. Errors fall with the square of the thickness, as shear and rotation do.
 
-use super::{folder, integral, msh, order, ritz, table};
-use nalgebra::DMatrix;
-use std::collections::BTreeMap;
-use std::f64::consts::{PI, TAU};
+use super::{folder, integral, order, ritz, table};
+use crate::bricks::EDGES;
+use crate::prelude::*;
 
 const RADII: [f64; 2] = [0.05, 0.1];
 const PAD: f64 = 0.075;
@@ -68,20 +67,6 @@ fn plate(thickness: f64) -> Vec<u8> {
     // Corners in units of half an element, then the middles of edges.
     let low = [[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0]];
     let high = low.map(|[i, j, _]| [i, j, 2]);
-    let edges = [
-        [0, 1],
-        [0, 3],
-        [0, 4],
-        [1, 2],
-        [1, 5],
-        [2, 3],
-        [2, 6],
-        [3, 7],
-        [4, 5],
-        [4, 7],
-        [5, 6],
-        [6, 7],
-    ];
     let ring = [[0, 1], [1, 2], [2, 3], [3, 0]];
     for i in 0..RADIAL {
         for j in 0..AROUND {
@@ -94,7 +79,7 @@ fn plate(thickness: f64) -> Vec<u8> {
                     let list = all.map(|[a, b, c]| node([2 * i + a, 2 * j + b, c])).collect();
                     elements.push((kind, group, list));
                 };
-            add(17, 3, &[low, high].concat(), &edges);
+            add(17, 3, &[low, high].concat(), EDGES.as_chunks().0);
             if i == 0 {
                 add(16, 0, &[low[0], high[0], high[3], low[3]], &ring);
             }
@@ -107,7 +92,7 @@ fn plate(thickness: f64) -> Vec<u8> {
             }
         }
     }
-    msh(&points, &[(2, "bore"), (2, "below"), (2, "above"), (3, "disc")], &elements)
+    mesh_text(&points, &[(2, "bore"), (2, "below"), (2, "above"), (3, "disc")], &elements)
 }
 
 /// Critical frictions of the waves of five and six nodal diameters.

@@ -2,10 +2,9 @@
 
 use crate::fuzz::hold;
 use crate::fuzz::mutation::{Random, binary, text};
-use crate::msh::{FORMS, write_msh};
+use crate::msh::{CYLINDER, FORMS, plane_body, write_msh};
 use frictionsim::mesh::{
-    AnnulusMesh, AnnulusSpecification, BodySpecification, BoundaryCondition,
-    CounterfaceSpecification, ElementKind, FileMesh, Mesh,
+    AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind, FileMesh, Mesh,
 };
 
 fn ring(element: ElementKind) -> Mesh {
@@ -25,20 +24,14 @@ fn ring(element: ElementKind) -> Mesh {
 #[test]
 fn no_mesh_file_makes_its_reader_panic() {
     let meshes = [ElementKind::Quad4, ElementKind::Quad8].map(ring);
-    let files = meshes.iter().flat_map(|mesh| {
-        let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
-        FORMS.map(|form| (form, write_msh(mesh, form, &numbers, |point| point)))
-    });
+    let files = meshes
+        .iter()
+        .flat_map(|mesh| FORMS.map(|form| (form, write_msh(mesh, form, &[], |point| point))));
     let (binaries, texts): (Vec<_>, Vec<_>) = files.partition(|(form, _)| form.is_binary);
     let [binaries, texts] =
         [binaries, texts].map(|files| files.into_iter().map(|file| file.1).collect::<Vec<_>>());
-    let specification = BodySpecification {
-        scale: 1.0,
-        contact: "inner".to_owned(),
-        counterface: CounterfaceSpecification::Cylinder { center: [0.0; 2], radius: None },
-        opposite: None,
-        conditions: vec![("outer".to_owned(), BoundaryCondition::Clamped)],
-    };
+    let specification =
+        plane_body("inner", CYLINDER, None, &[("outer", BoundaryCondition::Clamped)]);
     hold(
         "mesh",
         |random: &mut Random| match random.below(2) {

@@ -2,7 +2,7 @@
 
 use crate::fuzz::hold;
 use crate::fuzz::mutation::{Random, binary, text};
-use assert_cmd::Command;
+use crate::program::{Run, shipped};
 use frictionsim::app::plot::redraw;
 use frictionsim::results::transient::{CHECKPOINT, read_checkpoint, write_checkpoint};
 use frictionsim::results::{DrawingOptions, Format, Manifest, OutputFolder, Replace, read_record};
@@ -10,79 +10,32 @@ use frictionsim::transient::{Recorder, TransientAnalysis, TransientState};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A mesh and times so small that each run takes moments.
-const SMALL: [&str; 6] = [
-    "--set",
-    "mesh.circumferential_elements=24",
-    "--set",
-    "mesh.radial_elements=4",
-    "--format=svg",
-    "-qq",
-];
-
-fn frictionsim(folder: &Path, arguments: &[&str]) {
-    let mut command = Command::cargo_bin("frictionsim").unwrap();
-    command.current_dir(folder).args(arguments).assert().code(0);
-}
-
-fn case(name: &str) -> String {
-    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
-    cases.join(name).display().to_string()
-}
-
-/// One finished folder of a command with the files that `plot` reads.
+/// One finished folder of a command with the files that `plot` reads, of a run that takes moments.
 fn finished(folder: &Path, command: &str) -> PathBuf {
-    let (disc, run) = (case("polycarbonate-disc.toml"), case("polycarbonate-610rpm.toml"));
-    let cycle = case("limit-cycle.toml");
-    // Without the transient, which takes seconds.
-    let convergence = folder.join("convergence.toml").display().to_string();
-    let text = fs::read_to_string(case("convergence.toml")).unwrap();
-    let lines = text.lines().filter(|line| !line.starts_with("time_step_factors"));
-    fs::write(&convergence, lines.collect::<Vec<&str>>().join("\n")).unwrap();
-    let with = |first: &[&str], more: &[&str]| {
-        let all = [first, &SMALL, &["--out", command], more].concat();
-        frictionsim(folder, &all);
-    };
-    match command {
-        "mesh" => with(&["mesh", &disc], &[]),
-        "cea" => with(&["cea", &disc], &["--set", "cea.friction_coefficients=[0.0, 0.3]"]),
-        "transient" => with(
-            &["transient", &run],
-            &[
-                "--set",
-                "transient.duration=1e-3",
-                "--set",
-                "output.snapshots=[5e-4, 1e-3]",
-                "--set",
-                "output.probes=[1, 3]",
-            ],
+    let (name, changes) = match command {
+        "mesh" => ("polycarbonate-disc", "mesh.radial_elements=4"),
+        "cea" => ("polycarbonate-disc", "cea.friction_coefficients=[0.0, 0.3]"),
+        "transient" => (
+            "polycarbonate-610rpm",
+            "transient.duration=1e-3 ; output.snapshots=[5e-4, 1e-3] ; output.probes=[1, 3]",
         ),
-        "cycle" => with(
-            &["cycle", &cycle],
-            &[
-                "--set",
-                "cycle.harmonics=[2]",
-                "--set",
-                "cycle.stability=\"none\"",
-                "--set",
-                "cycle.confirmation_periods=0",
-                "--set",
-                "cycle.continuation.count=2",
-                "--set",
-                "mesh.circumferential_elements=36",
-                "--set",
-                "mesh.radial_elements=8",
-            ],
+        "cycle" => (
+            "limit-cycle",
+            "cycle.harmonics=[2] ; cycle.stability=\"none\" ; cycle.confirmation_periods=0 ; \
+             cycle.continuation.count=2 ; mesh.circumferential_elements=36 ; mesh.radial_elements=8",
         ),
-        "convergence" => {
-            with(&["convergence", &convergence], &["--set", "convergence.analyses=[\"cea\"]"])
-        }
-        "sweep" => {
-            with(&["sweep", &disc], &["--set", "sweep.\"contact.interference\"=[2e-5, 3e-5]"])
-        }
+        "convergence" => ("convergence", "convergence.analyses=[\"cea\"]"),
+        "sweep" => ("polycarbonate-disc", "sweep.\"contact.interference\"=[2e-5, 3e-5]"),
         other => panic!("{other}"),
-    }
-    folder.join(command)
+    };
+    // Without the transient of the study of the mesh, which takes seconds.
+    let text = fs::read_to_string(shipped(&format!("{name}.toml"))).unwrap();
+    let lines = text.lines().filter(|line| !line.starts_with("time_step_factors"));
+    let case = folder.join(format!("{name}.toml"));
+    fs::write(&case, lines.collect::<Vec<&str>>().join("\n")).unwrap();
+    let run = Run::new(&[command, case.to_str().unwrap(), "--format=svg", "-qq"]).within(folder);
+    let small = "mesh.circumferential_elements=24 ; mesh.radial_elements=4";
+    run.set(&[small, changes]).out(command).done().out
 }
 
 /// Gives a framed file the checksum and length of its changed contents, so that only what they say can refuse it.
@@ -106,14 +59,12 @@ fn record_of(random: &mut Random, original: &[u8]) -> Vec<u8> {
     }
 }
 
-/// Draws a folder as `plot` does.
 fn plot(folder: &Path) -> bool {
     let manifest = frictionsim::results::read_manifest(folder);
     let coarse = DrawingOptions { dots_per_inch: 20.0, width_mm: None, formats: vec![Format::Svg] };
     manifest.is_ok_and(|manifest| redraw(folder, &manifest, &coarse).is_ok())
 }
 
-/// Holds `plot` to changed figures of a command.
 fn hold_figures(command: &str) {
     let scratch = tempfile::tempdir().unwrap();
     let folder = finished(scratch.path(), command);

@@ -12,12 +12,10 @@ pub use universal::BRICK as UNIVERSAL;
 
 use frictionsim::mesh::{FileMesh, Mesh, MeshFileError};
 
-/// A file of the given name and text.
 fn read(name: &str, text: &str) -> Result<FileMesh, MeshFileError> {
     FileMesh::read_as(name, text.as_bytes())
 }
 
-/// Its solid bodies.
 fn body(name: &str, text: &str) -> Mesh {
     let file = read(name, text).unwrap_or_else(|error| panic!("{error}"));
     Mesh::from_solids(&file, 1.0, &[]).unwrap_or_else(|error| panic!("{error}"))
@@ -30,14 +28,16 @@ fn area(mesh: &Mesh, name: &str) -> f64 {
     mesh.face_area(&boundary.faces)
 }
 
-/// The error of a file that must not be read.
 fn error(name: &str, text: &str) -> String {
     read(name, text).expect_err("the file is wrong").to_string()
 }
 
-/// Each pair of a change and what must be said: `from` exchanged by `to` in a right file.
-fn check_errors(name: &str, text: &str, changes: &[(&str, &str, &str)]) {
-    for (from, to, said) in changes {
+/// Lines `FROM => TO => SAID` of a change to a right file, and what must be said of it.
+fn check_errors(name: &str, text: &str, changes: &str) {
+    for change in changes.trim_matches('\n').split('\n') {
+        let parts: Vec<String> =
+            change.split(" => ").map(|part| part.replace("\\n", "\n")).collect();
+        let [from, to, said] = &parts[..] else { panic!("{change}") };
         assert!(text.contains(from), "{from}");
         let found = error(name, &text.replacen(from, to, 1));
         assert!(found.contains(said), "{from} -> {to}: {found}, not {said}");

@@ -11,7 +11,6 @@ use frictionsim::signal::reader::{
 use frictionsim::signal::{FrequencyResponse, ResponseQuantity};
 use std::f64::consts::TAU;
 
-/// The first response of a table, and the notes.
 #[derive(Debug)]
 struct Read {
     response: FrequencyResponse,

@@ -1,0 +1,36 @@
+//! What most of these tests name.
+
+pub use crate::bricks::{Block, brick, file_of};
+pub use crate::cases::{case_of, shipped_case};
+pub use crate::disc::{
+    DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, contact, elastic, linearized, recorded,
+    sliding_at, springs, stiffening, sweep_request, transient_settings,
+};
+pub use crate::mesh_text::{even, quadrilaterals};
+pub use crate::tier::sized;
+pub use frictionsim::case::Case;
+pub use frictionsim::cea::{ModeLimit, SweepProgress, SweepWatch, Unwatched};
+pub use frictionsim::contact::{
+    ContactStatus, ContactStiffness, FrictionDecay, NormalLaw, SlidingContact,
+};
+pub use frictionsim::cycle::{
+    BranchEnd, CycleSolver, Family, LimitCycle, OperatingPoint, Parameter, Verdict,
+};
+pub use frictionsim::fem::operator::SimdLevel;
+pub use frictionsim::fem::{
+    ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness, lumped_masses,
+};
+pub use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
+pub use frictionsim::prestress::{SteadySliding, TangentOptions};
+pub use frictionsim::results::cycle::{FoundCycle, PeriodicResult};
+pub use frictionsim::study::cycle::{CycleStudy, PeriodicStudy};
+pub use frictionsim::transient::{
+    CentralDifference, InitialState, Observer, OperatorChoice, Perturbation, Recorder,
+    RecorderSettings, RunEnd, Sample, SteppedBody, TimeStep, TransientAnalysis, TransientError,
+    TransientModel, TransientSettings, TransientState,
+};
+pub use std::collections::BTreeMap;
+pub use std::f64::consts::TAU;
+pub use std::ops::ControlFlow;
+pub use std::path::Path;
+pub use std::sync::Mutex;
