@@ -73,7 +73,7 @@ fn what_cannot_be_found_says_why_and_what_to_change() {
     // A mesh too coarse for the wave: it is refused, not reported.
     let coarse =
         ["mesh.circumferential_elements=60", "mesh.radial_elements=12", "cycle.harmonics=[2]"];
-    end(&coarse).code(1).warns(&["refine the mesh", "mesh.circumferential_elements"]);
+    end(&coarse).code(1).warns(&["Refine the mesh", "mesh.circumferential_elements"]);
 }
 
 #[test]
