@@ -7,7 +7,7 @@ use crate::cycle::{Family, Onset};
 use crate::output::Described;
 use crate::results::extent::Extent;
 use crate::results::manifest::Manifest;
-use crate::results::summary::{CriticalSummary, MeanPowers, StatusFractions, present};
+use crate::results::summary::{CriticalSummary, MeanPowers, StatusFractions};
 use serde::Serialize;
 use std::f64::consts::TAU;
 use std::fmt;
