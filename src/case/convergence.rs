@@ -176,12 +176,8 @@ fn is_ordered(section: &Section<'_>, key: &'static str, values: &[f64], sign: f6
         } else {
             ("fall", "each step shorter than the one before")
         };
-        section.reject(
-            key,
-            format!("{} must {word}, but {} follows {}", section.name(key), pair[1], pair[0]),
-            why.to_owned(),
-            None,
-        );
+        refuse!(section, key, "{} must {word}, but {} follows {}", section.name(key), pair[1],
+            pair[0]; "{why}");
     }
     pair.is_none()
 }

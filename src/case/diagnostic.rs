@@ -227,6 +227,11 @@ macro_rules! refuse {
     ($($said:tt)*) => { $crate::case::at_key!(reject, $($said)*) };
 }
 
+/// Refuses what stands at a place: `refuse_at!(section, place, what; label; remedy)`.
+macro_rules! refuse_at {
+    ($section:expr, $($said:tt)*) => { $crate::case::said!(reject_placed, $section, $($said)*) };
+}
+
 /// As [`refuse!`] what is no error but what the user should hear of.
 macro_rules! caution {
     ($($said:tt)*) => { $crate::case::at_key!(warn, $($said)*) };
@@ -241,5 +246,5 @@ macro_rules! at_key {
         $crate::case::said!($method, $section, $($said)*)
     };
 }
-pub(super) use {at_key, caution, diagnosis, refuse};
+pub(super) use {at_key, caution, diagnosis, refuse, refuse_at};
 pub(crate) use {refusal, said};

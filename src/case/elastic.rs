@@ -197,12 +197,7 @@ pub(super) fn place_axes(
             true => "axes",
             false => "young_moduli",
         };
-        section.reject(
-            key,
-            format!("{}: {message}", section.name(key)),
-            label.to_owned(),
-            Some(help.to_owned()),
-        );
+        refuse!(section, key, "{}: {message}", section.name(key); "{label}"; "{help}");
     };
     if let MaterialAxes::Cylindrical { axis, center } = &mut orthotropy.axes {
         let found = match body {

@@ -67,7 +67,7 @@ pub use convergence::Convergence;
 pub use cost::{CeaCost, Cost, CycleCost, FrfCost, RunCost, StudyCost, TransientCost};
 pub use cycle::{Continuation, Cycle};
 pub use diagnostic::{CaseErrors, Diagnostic, Location, Remedy, Source};
-use diagnostic::{at_key, caution, diagnosis, refuse};
+use diagnostic::{at_key, caution, diagnosis, refuse, refuse_at};
 pub(crate) use diagnostic::{refusal, said};
 pub use file_sections::FileSection;
 pub use fit::{Fit, FitParameter};

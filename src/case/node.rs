@@ -1,9 +1,9 @@
 //! Nodes of the mesh as a case names them: by number, or by a place whose nearest node is meant.
 
 use super::body::{Body, solid_node_count};
-use super::caution;
 use super::diagnostic::Location;
 use super::reader::{NodePlace, Section};
+use super::{caution, refuse_at};
 use crate::mesh::{AnnulusSpecification, Counterface, SectorMesh, SolidSpecification};
 use std::f64::consts::TAU;
 
@@ -63,12 +63,8 @@ impl Nodes<'_> {
             }
         };
         if let (2, Some(z)) = (body.dimension(), z) {
-            section.reject_placed(
-                at,
-                format!("{}: z = {z} of a plane body", section.name(key)),
-                "the body is plane",
-                "leave z out",
-            );
+            refuse_at!(section, at, "{}: z = {z} of a plane body", section.name(key);
+                "the body is plane"; "leave z out");
             return None;
         }
         let (node, point) = nearest(body, asked, z)?;
@@ -116,12 +112,8 @@ fn numbered(
     };
     let nodes = body.node_count();
     if number as u128 > nodes && nodes > 0 {
-        section.reject_placed(
-            at,
-            format!("{what} does not exist: the mesh has nodes 1 to {nodes}"),
-            format!("must be at most {nodes}"),
-            help,
-        );
+        refuse_at!(section, at, "{what} does not exist: the mesh has nodes 1 to {nodes}";
+            "must be at most {nodes}"; "{help}");
         return None;
     }
     Some(number.saturating_sub(1))
@@ -138,18 +130,10 @@ fn labelled(
     let found = labels.binary_search(&number).ok();
     if found.is_none() {
         let ends = [labels.first(), labels.last()].map(|label| label.map_or(0, |&n| n));
-        section.reject_placed(
-            at,
-            format!(
-                "{what} does not exist: the elements of the mesh file have {} nodes, numbered \
-                 {} to {}",
-                labels.len(),
-                ends[0],
-                ends[1]
-            ),
-            "no node of the body",
-            "give its position instead, { x = .., y = .. } in metres",
-        );
+        refuse_at!(section, at,
+            "{what} does not exist: the elements of the mesh file have {} nodes, numbered {} to {}",
+            labels.len(), ends[0], ends[1]; "no node of the body";
+            "give its position instead, {{ x = .., y = .. }} in metres");
     }
     found
 }

@@ -2,9 +2,9 @@
 
 use super::diagnostic::{CaseErrors, Location};
 use super::key::{Bound, CaseKey, Kind};
-use super::keys;
 use super::reader::Section;
 use super::value::{RawEntry, RawTable, RawValue};
+use super::{keys, refuse_at};
 
 /// Sections that make the model.
 const MODEL: &[&str] = &[
@@ -92,12 +92,8 @@ fn collect<'a>(
                 collect(section, format!("{name}.{key}"), entry, found);
             }
         }
-        (_, Err(reason)) => section.reject_placed(
-            &entry.key_at,
-            format!("\"{name}\" in {} cannot be varied", section.name("").trim_end_matches('.')),
-            "no continuous parameter",
-            reason,
-        ),
+        (_, Err(reason)) => refuse_at!(section, &entry.key_at, "\"{name}\" in {} cannot be varied",
+            section.name("").trim_end_matches('.'); "no continuous parameter"; "{reason}"),
     }
 }
 
@@ -133,12 +129,8 @@ pub(super) fn number(section: &Section<'_>, entry: &RawEntry, value: Option<&Raw
     let number = value.and_then(RawValue::number);
     number.filter(|v| v.is_finite()).unwrap_or_else(|| {
         let found = value.map_or("missing".to_owned(), |v| format!("{} is given", v.shortened()));
-        section.reject_placed(
-            &entry.item.at,
-            format!("a finite number is needed: {found}"),
-            "not a number",
-            "write numbers in SI units",
-        );
+        refuse_at!(section, &entry.item.at, "a finite number is needed: {found}"; "not a number";
+            "write numbers in SI units");
         f64::NAN
     })
 }
@@ -146,12 +138,8 @@ pub(super) fn number(section: &Section<'_>, entry: &RawEntry, value: Option<&Raw
 /// Reports the keys of an entry that it does not take.
 pub(super) fn only(section: &Section<'_>, table: &RawTable, known: &[&str]) {
     for (key, entry) in table.iter().filter(|(key, _)| !known.contains(&key.as_str())) {
-        section.reject_placed(
-            &entry.key_at,
-            format!("unknown key `{key}`"),
-            "not known here",
-            format!("it takes {}", known.join(", ")),
-        );
+        refuse_at!(section, &entry.key_at, "unknown key `{key}`"; "not known here"; "it takes {}",
+            known.join(", "));
     }
 }
 
@@ -163,12 +151,8 @@ pub(super) fn refuse_twice<'a>(
     let mut seen: Vec<&str> = Vec::new();
     for (key, at) in keys {
         if seen.contains(&key.as_str()) {
-            section.reject_placed(
-                at,
-                format!("{key} is set twice"),
-                "set by another entry already",
-                "vary each key once",
-            );
+            refuse_at!(section, at, "{key} is set twice"; "set by another entry already";
+                "vary each key once");
         }
         seen.push(key);
     }

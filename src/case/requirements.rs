@@ -67,12 +67,9 @@ impl Case {
         if !self.body.is_quadratic() {
             return Ok(());
         }
-        Err(self.error_at(
-            "mesh.element",
-            "mesh.element = \"quad8\" is for the complex eigenvalue analysis only",
-            label.to_owned(),
-            "add --set mesh.element=quad4, and refine the mesh if need be",
-        ))
+        Err(refusal!(self, "mesh.element",
+            "mesh.element = \"quad8\" is for the complex eigenvalue analysis only"; "{label}";
+            "add --set mesh.element=quad4, and refine the mesh if need be"))
     }
 
     /// The parameter study.

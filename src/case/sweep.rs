@@ -5,7 +5,7 @@ use super::key::Bound;
 use super::reader::Section;
 use super::value::{RawEntry, RawValue, range_count};
 use super::words::{Analysis, Combination};
-use super::{Case, keys, parameters};
+use super::{Case, keys, parameters, refuse_at};
 
 /// A swept key and its values.
 #[derive(Clone, Debug, PartialEq)]
@@ -96,12 +96,8 @@ pub(super) fn read(root: &Section<'_>) -> Option<Sweep> {
     let set = keys.iter().flat_map(|key| key.names().map(move |name| (name, &key.at)));
     parameters::refuse_twice(&section, set);
     if keys.is_empty() {
-        section.reject_placed(
-            &section.place(""),
-            "[sweep] sweeps nothing",
-            "no key with values",
-            "add for example `\"contact.friction_coefficient\" = [0.2, 0.3, 0.4]`",
-        );
+        refuse_at!(section, &section.place(""), "[sweep] sweeps nothing"; "no key with values";
+            "add for example `\"contact.friction_coefficient\" = [0.2, 0.3, 0.4]`");
     }
     let sweep = Sweep { keys, combination, analyses };
     check_lengths(&section, &sweep);
@@ -125,13 +121,12 @@ fn swept<'a>(
                 swept(section, format!("{name}.{key}"), entry, entries);
             }
         }
-        _ => section.reject_placed(
-            &entry.key_at,
-            format!("unknown key `{name}` in [sweep]"),
-            "not a case key that can be swept",
-            (section.findings.scope.hint(&name, |_| true))
-                .unwrap_or_else(|| "a swept key is a dotted case key in quotes".to_owned()),
-        ),
+        _ => {
+            let near = section.findings.scope.hint(&name, |_| true);
+            let help = near.as_deref().unwrap_or("a swept key is a dotted case key in quotes");
+            refuse_at!(section, &entry.key_at, "unknown key `{name}` in [sweep]";
+                "not a case key that can be swept"; "{help}");
+        }
     }
 }
 
@@ -167,12 +162,9 @@ fn fits(section: &Section<'_>, combination: Combination, entries: &[(String, &Ra
     }
     let longest = entries.iter().max_by_key(|(_, entry)| length(entry));
     if let Some((name, entry)) = longest {
-        section.reject_placed(
-            &entry.item.at,
-            format!("[sweep] has {count} {what}, most of them for \"{name}\""),
-            format!("at most {MOST_POINTS}"),
-            "sweep fewer values",
-        );
+        refuse_at!(section, &entry.item.at,
+            "[sweep] has {count} {what}, most of them for \"{name}\""; "at most {MOST_POINTS}";
+            "sweep fewer values");
     }
     false
 }
@@ -196,12 +188,9 @@ fn also(section: &Section<'_>, key: &str, entry: &RawEntry) -> Vec<String> {
         let is_key = keys::find(&name).is_some() && !name.starts_with("sweep.");
         if !is_key {
             let near = section.findings.scope.hint(&name, |_| true);
-            section.reject_placed(
-                &item.at,
-                format!("\"{key}\" in [sweep] also sets {name}"),
-                "not a case key that can be swept",
-                near.unwrap_or_else(|| "`also` names keys that take the same values".to_owned()),
-            );
+            let help = near.as_deref().unwrap_or("`also` names keys that take the same values");
+            refuse_at!(section, &item.at, "\"{key}\" in [sweep] also sets {name}";
+                "not a case key that can be swept"; "{help}");
         }
         is_key.then_some(name)
     });
@@ -222,12 +211,8 @@ fn values(section: &Section<'_>, key: String, entry: &RawEntry) -> SweptKey {
         other => vec![other.to_string()],
     };
     if values.is_empty() && matches!(entry.item.value, RawValue::Array(_)) {
-        section.reject_placed(
-            &entry.item.at,
-            format!("\"{key}\" in [sweep] has no values"),
-            "at least one value",
-            "list its values or give a range { from, to, count }",
-        );
+        refuse_at!(section, &entry.item.at, "\"{key}\" in [sweep] has no values";
+            "at least one value"; "list its values or give a range {{ from, to, count }}");
     }
     SweptKey { key, also, values, at: entry.item.at.clone() }
 }
@@ -237,18 +222,10 @@ fn check_lengths(section: &Section<'_>, sweep: &Sweep) {
         && let Some((first, rest)) = sweep.keys.split_first()
         && let Some(other) = rest.iter().find(|k| k.values.len() != first.values.len())
     {
-        section.reject_placed(
-            &other.at,
-            format!(
-                "\"{}\" has {} values but \"{}\" has {}",
-                other.key,
-                other.values.len(),
-                first.key,
-                first.values.len()
-            ),
-            "zipped keys need equally many values",
-            "give them the same count, or combine = \"grid\"",
-        );
+        refuse_at!(section, &other.at, "\"{}\" has {} values but \"{}\" has {}", other.key,
+            other.values.len(), first.key, first.values.len();
+            "zipped keys need equally many values";
+            "give them the same count, or combine = \"grid\"");
     }
 }
 

@@ -6,7 +6,7 @@ use super::body::{Body, Revolution};
 use super::diagnostic::CaseErrors;
 use super::node::{Nodes, PlacedNode};
 use super::reader::Section;
-use super::{caution, refusal, refuse};
+use super::{caution, refusal, refuse, refuse_at};
 use crate::contact::SlidingContact;
 use crate::mesh::{Counterface, SolidContact};
 use crate::prestress::BaseChoice;
@@ -332,12 +332,8 @@ fn probes(section: &Section<'_>, nodes: &Nodes<'_>) -> (Vec<usize>, Vec<PlacedNo
             continue;
         };
         if probes.contains(&(node + 1)) {
-            section.reject_placed(
-                &named.1,
-                format!("output.probes names node {} twice", nodes.label(node)),
-                "must not be listed twice",
-                "leave one of them out",
-            );
+            refuse_at!(section, &named.1, "output.probes names node {} twice", nodes.label(node);
+                "must not be listed twice"; "leave one of them out");
         }
         probes.push(node + 1);
         placed.extend(place);

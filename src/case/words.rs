@@ -218,17 +218,19 @@ choices! {
     FrfBoundary { "free" = Self::Free, "clamped" = Self::Clamped, "sliding" = Self::Sliding }
     BaseChoice { "solved" = Self::Solved, "closed" = Self::Closed }
     RotationFrame { "rest" = Self::Rest, "turning" = Self::Turning }
-    Direction {
-        "radial" = Self::Radial,
-        "tangential" = Self::Tangential,
-        "axial" = Self::Axial,
-        "x" = Self::X,
-        "y" = Self::Y,
-        "z" = Self::Z,
-    }
-    ResponseQuantity {
-        "accelerance" = Self::Accelerance,
-        "mobility" = Self::Mobility,
-        "receptance" = Self::Receptance,
-    }
+}
+
+/// Takes the words of choices from their names.
+macro_rules! named {
+    ($($choice:ident: $($variant:ident),+;)+) => {$(
+        impl Choice for $choice {
+            const WORDS: &'static [(&'static str, Self)] =
+                &[$((Self::$variant.name(), Self::$variant)),+];
+        }
+    )+};
+}
+
+named! {
+    Direction: Radial, Tangential, Axial, X, Y, Z;
+    ResponseQuantity: Accelerance, Mobility, Receptance;
 }

@@ -42,7 +42,7 @@ pub struct Axis {
 
 impl Direction {
     /// Its name in case files.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Radial => "radial",
             Self::Tangential => "tangential",

@@ -38,8 +38,11 @@ pub fn describe_field<T: Described>(
         return T::describe(path, keys);
     }
     let path = if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
-    keys.push(Key { path: path.clone(), meaning: meaning.trim() });
-    T::describe(&path, keys);
+    // What several variants have is told once.
+    if keys.iter().all(|key| key.path != path) {
+        keys.push(Key { path: path.clone(), meaning: meaning.trim() });
+        T::describe(&path, keys);
+    }
 }
 
 macro_rules! plain {
@@ -55,17 +58,15 @@ impl Described for serde_json::Map<String, serde_json::Value> {
     }
 }
 
-impl<T: Described> Described for Option<T> {
-    fn describe(path: &str, keys: &mut Vec<Key>) {
-        T::describe(path, keys);
-    }
+macro_rules! holders {
+    ($($holder:ident $place:literal),+) => {$(impl<T: Described> Described for $holder<T> {
+        fn describe(path: &str, keys: &mut Vec<Key>) {
+            T::describe(&format!("{path}{}", $place), keys);
+        }
+    })+};
 }
 
-impl<T: Described> Described for Vec<T> {
-    fn describe(path: &str, keys: &mut Vec<Key>) {
-        T::describe(&format!("{path}[]"), keys);
-    }
-}
+holders!(Option "", Box "", Vec "[]");
 
 impl<T: Described, const N: usize> Described for [T; N] {
     fn describe(path: &str, keys: &mut Vec<Key>) {

@@ -43,163 +43,113 @@ impl FileReference {
     }
 }
 
-/// The files of all commands whose columns are declared.
-pub fn reference() -> Vec<FileReference> {
-    let file = |command, file, groups: Vec<Vec<Entry>>| FileReference {
-        command,
-        file,
-        entries: groups.concat(),
-    };
-    vec![
-        file("basin", "basin.csv", vec![all(RUNS)]),
-        summary::<BasinSummary>("basin"),
-        file("cea", "eigenvalues.csv", vec![all(PLACES), all(MODES), all(AXIAL)]),
-        file("cea", "stability.csv", vec![all(ONSETS), all(ONSET_ERRORS)]),
-        file(
-            "cea",
-            "prestress.csv",
-            vec![
-                all(NODES),
-                all(RINGS),
-                all(&POINTS[..1]),
-                all(TRACTIONS),
-                all(STATUS),
-                all(PLANE),
-                all(&POINTS[3..]),
-            ],
-        ),
-        file("cea", "sensitivities.csv", vec![all(ROWS), rates()]),
-        file("cea", "contributions.csv", vec![all(NAMES), all(BRANCHES), all(CONTRIBUTIONS)]),
-        file("cea", "coupling.csv", vec![all(NAMES), all(COUPLINGS)]),
-        file("cea", "feed.csv", vec![all(&NAMES[..3]), all(FEED)]),
-        summary::<CeaSummary>("cea"),
-        summary::<ComparisonSummary>("compare"),
-        file("convergence", "convergence.csv", vec![all(convergence::ROWS)]),
-        summary::<ConvergenceSummary>("convergence"),
-        file(
-            "cycle",
-            "cycle.csv",
-            vec![
-                all(cycle::NAMES),
-                all(cycle::MOTION),
-                all(cycle::POWERS),
-                all(cycle::KNOWN),
-                all(cycle::ERRORS),
-            ],
-        ),
-        file(
-            "cycle",
-            "cycle-N.csv",
-            vec![all(cycle::HISTORY), all(cycle::WAVE_PATH), all(cycle::PATH)],
-        ),
-        file("cycle", "contact-N.csv", vec![all(cycle::CONTACT_NODES)]),
-        file("cycle", "harmonics-N.csv", vec![all(cycle::HARMONICS)]),
-        file("cycle", "stability-N.csv", vec![parameter(), all(cycle::EXPONENTS)]),
-        file("cycle", "branch-N.csv", vec![parameter(), all(cycle::BRANCH)]),
-        file("cycle", "two-waves-N.csv", vec![parameter(), all(cycle::TWO_WAVES)]),
-        summary::<CycleSummary>("cycle"),
-        file(
-            "fit",
-            "fit.csv",
-            vec![all(fit::MEASURED), entries("model_", fit::MODES), all(fit::DIFFERENCES)],
-        ),
-        file("fit", "modes.csv", vec![all(fit::MODES), all(fit::GROWS)]),
-        summary::<FitSummary>("fit"),
-        file(
-            "frf",
-            "frf.csv",
-            vec![pairs(&[
-                ("frequency_hz", "frequency"),
-                ("KEY_real", "real part of the accelerance, mobility or receptance"),
-                ("KEY_imaginary", "its imaginary part"),
-            ])],
-        ),
-        summary::<ResponseSummary>("frf"),
-        file("identify", "modes.csv", vec![all(identification::MODES)]),
-        file("identify", "fit.csv", vec![pairs(&identification::FITTED)]),
-        summary::<IdentificationSummary>("identify"),
-        file(
-            "improve",
-            "candidates.csv",
-            vec![
-                all(improve::CANDIDATES),
-                all(improve::EFFECTS),
-                entries("predicted_", improve::STATES),
-                entries("confirmed_", improve::STATES),
-                entries("confirmed_", improve::BESIDE),
-                all(improve::VERDICTS),
-            ],
-        ),
-        summary::<ImproveSummary>("improve"),
-        file("mac", "mac.csv", vec![all(mac::ROWS)]),
-        summary::<MacSummary>("mac"),
-        file("matrices", "unknowns.csv", vec![all(matrices::UNKNOWN)]),
-        file(
-            "matrices",
-            "contact.csv",
-            vec![all(matrices::PLANE_POINT), all(matrices::SOLID_POINT)],
-        ),
-        summary::<MatricesSummary>("matrices"),
-        summary::<MeshSummary<MeshStatistics>>("mesh"),
-        file("signal", "peaks.csv", vec![all(signal::PEAKS)]),
-        file("signal", "spectrum-N.csv", vec![pairs(&signal::SPECTRUM)]),
-        summary::<SignalSummary>("signal"),
-        file(
-            "sweep",
-            "points.csv",
-            vec![swept(), one("KEY.KEY", "numbers of the summaries"), points()],
-        ),
-        file("sweep", "stability.csv", vec![swept(), all(ONSETS), points()]),
-        file("sweep", "unstable_modes.csv", vec![swept(), all(sweep::UNSTABLE), points()]),
-        file("sweep", "modes.csv", vec![swept(), all(sweep::OWN_MODES), points()]),
-        file("sweep", "branches.csv", vec![swept(), all(sweep::BRANCHES), points()]),
-        summary::<SweepSummary>("sweep"),
-        file(
-            "transient",
-            "probe-N.csv",
-            vec![
-                one("time_s", "time"),
-                pairs(&[
-                    ("u_KEY_m", "displacement in a direction: r, theta, x, y or z"),
-                    ("v_KEY_m_per_s", "velocity"),
-                    (
-                        "a_KEY_m_per_s2",
-                        "acceleration: mean since the last sample, or with `step` of the step alone",
-                    ),
-                ]),
-            ],
-        ),
-        file("transient", "energy.csv", vec![all(transient::ENERGY)]),
-        file("transient", "contact.csv", vec![all(transient::STATUS)]),
-        file(
-            "transient",
-            "harmonics.csv",
-            vec![
-                one("time_s", "time"),
-                pairs(&[
-                    ("nKEY_real_m", "amplitude of a harmonic along the contact edge, real part"),
-                    ("nKEY_imaginary_m", "imaginary part"),
-                ]),
-            ],
-        ),
-        summary::<TransientSummary>("transient"),
-        file(
-            "uncertainty",
-            "samples.csv",
-            vec![
-                one("sample", "number of the sample, from 1"),
-                one("KEY", "value of an uncertain parameter, by its key"),
-                all(uncertainty::SAMPLES),
-                all(uncertainty::ONSETS),
-                all(uncertainty::ERRORS),
-            ],
-        ),
-        summary::<UncertaintySummary>("uncertainty"),
-    ]
+/// What has entries: columns, or entries themselves.
+trait Listed {
+    fn listed(self) -> Vec<Entry>;
 }
 
-fn all<T>(columns: &[Column<T>]) -> Vec<Entry> {
-    entries("", columns)
+impl<T> Listed for &[Column<T>] {
+    fn listed(self) -> Vec<Entry> {
+        entries("", self)
+    }
+}
+
+impl Listed for Vec<Entry> {
+    fn listed(self) -> Vec<Entry> {
+        self
+    }
+}
+
+/// A file of a command and what it holds, in its order.
+macro_rules! file {
+    ($command:literal, $file:literal; $($group:expr),+) => {
+        FileReference {
+            command: $command,
+            file: $file,
+            entries: [$($group.listed()),+].concat(),
+        }
+    };
+}
+
+/// The files of all commands whose columns are declared.
+pub fn reference() -> Vec<FileReference> {
+    vec![
+        file!("basin", "basin.csv"; RUNS),
+        summary::<BasinSummary>("basin"),
+        file!("cea", "eigenvalues.csv"; PLACES, MODES, AXIAL),
+        file!("cea", "stability.csv"; ONSETS, ONSET_ERRORS),
+        file!("cea", "prestress.csv"; NODES, RINGS, &POINTS[..1], TRACTIONS, STATUS, PLANE,
+            &POINTS[3..]),
+        file!("cea", "sensitivities.csv"; ROWS, rates()),
+        file!("cea", "contributions.csv"; NAMES, BRANCHES, CONTRIBUTIONS),
+        file!("cea", "coupling.csv"; NAMES, COUPLINGS),
+        file!("cea", "feed.csv"; &NAMES[..3], FEED),
+        summary::<CeaSummary>("cea"),
+        summary::<ComparisonSummary>("compare"),
+        file!("convergence", "convergence.csv"; convergence::ROWS),
+        summary::<ConvergenceSummary>("convergence"),
+        file!("cycle", "cycle.csv"; cycle::NAMES, cycle::MOTION, cycle::STATUS, cycle::POWERS,
+            cycle::BALANCE, cycle::KNOWN, cycle::ERRORS),
+        file!("cycle", "cycle-N.csv"; cycle::HISTORY, cycle::WAVE_PATH, cycle::PATH),
+        file!("cycle", "contact-N.csv"; cycle::CONTACT_NODES),
+        file!("cycle", "harmonics-N.csv"; cycle::HARMONICS),
+        file!("cycle", "stability-N.csv"; parameter(), cycle::EXPONENTS),
+        file!("cycle", "branch-N.csv"; parameter(), cycle::BRANCH, cycle::STATUS, cycle::POWERS,
+            cycle::ALONG),
+        file!("cycle", "two-waves-N.csv"; parameter(), cycle::TWO_WAVES),
+        summary::<CycleSummary>("cycle"),
+        file!("fit", "fit.csv"; fit::MEASURED, entries("model_", fit::MODES), fit::DIFFERENCES),
+        file!("fit", "modes.csv"; fit::MODES, fit::GROWS),
+        summary::<FitSummary>("fit"),
+        file!("frf", "frf.csv";
+        pairs(&[
+            ("frequency_hz", "frequency"),
+            ("KEY_real", "real part of the accelerance, mobility or receptance"),
+            ("KEY_imaginary", "its imaginary part"),
+        ])),
+        summary::<ResponseSummary>("frf"),
+        file!("identify", "modes.csv"; identification::MODES),
+        file!("identify", "fit.csv"; pairs(&identification::FITTED)),
+        summary::<IdentificationSummary>("identify"),
+        file!("improve", "candidates.csv"; improve::CANDIDATES, improve::EFFECTS,
+            entries("predicted_", improve::STATES), entries("confirmed_", improve::STATES),
+            entries("confirmed_", improve::BESIDE), improve::VERDICTS),
+        summary::<ImproveSummary>("improve"),
+        file!("mac", "mac.csv"; mac::ROWS),
+        summary::<MacSummary>("mac"),
+        file!("matrices", "unknowns.csv"; matrices::UNKNOWN),
+        file!("matrices", "contact.csv"; matrices::PLANE_POINT, matrices::SOLID_POINT),
+        summary::<MatricesSummary>("matrices"),
+        summary::<MeshSummary<MeshStatistics>>("mesh"),
+        file!("signal", "peaks.csv"; signal::PEAKS),
+        file!("signal", "spectrum-N.csv"; pairs(&signal::SPECTRUM)),
+        summary::<SignalSummary>("signal"),
+        file!("sweep", "points.csv"; swept(), one("KEY.KEY", "numbers of the summaries"), points()),
+        file!("sweep", "stability.csv"; swept(), ONSETS, points()),
+        file!("sweep", "unstable_modes.csv"; swept(), sweep::UNSTABLE, points()),
+        file!("sweep", "modes.csv"; swept(), sweep::OWN_MODES, points()),
+        file!("sweep", "branches.csv"; swept(), sweep::BRANCHES, points()),
+        summary::<SweepSummary>("sweep"),
+        file!("transient", "probe-N.csv"; one("time_s", "time"),
+        pairs(&[
+            ("u_KEY_m", "displacement in a direction: r, theta, x, y or z"),
+            ("v_KEY_m_per_s", "velocity"),
+            ("a_KEY_m_per_s2",
+                "acceleration: mean since the last sample, or with `step` of the step alone"),
+        ])),
+        file!("transient", "energy.csv"; transient::ENERGY),
+        file!("transient", "contact.csv"; transient::STATUS),
+        file!("transient", "harmonics.csv"; one("time_s", "time"),
+        pairs(&[
+            ("nKEY_real_m", "amplitude of a harmonic along the contact edge, real part"),
+            ("nKEY_imaginary_m", "imaginary part"),
+        ])),
+        summary::<TransientSummary>("transient"),
+        file!("uncertainty", "samples.csv"; one("sample", "number of the sample, from 1"),
+            one("KEY", "value of an uncertain parameter, by its key"), uncertainty::SAMPLES,
+            uncertainty::ONSETS, uncertainty::ERRORS),
+        summary::<UncertaintySummary>("uncertainty"),
+    ]
 }
 
 /// A swept key.

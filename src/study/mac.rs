@@ -217,16 +217,9 @@ fn off_body(
         Some(_) => "mesh.file",
         None => "geometry",
     };
-    case.error_at(
-        key,
-        format!(
-            "shape {}: {off} of {} points lie off the body, up to {farthest:.3e} m from its nearest node",
-            shape.name,
-            own.len()
-        ),
-        format!("half its size is {:.3e} m", case.body.size()),
-        Some(help),
-    )
+    refusal!(case, key,
+        "shape {}: {off} of {} points lie off the body, up to {farthest:.3e} m from its nearest \
+         node", shape.name, own.len(); "half its size is {:.3e} m", case.body.size(); "{help}")
 }
 
 fn nearest_node(mesh: &Mesh, point: [f64; 3]) -> (usize, f64) {

@@ -38,12 +38,12 @@ fn rust_files(folder: &Path, files: &mut Vec<PathBuf>) {
 const BUDGETS: &[(&str, usize)] = &[
     ("crates/bounds", 196),
     ("crates/chart", 4_988),
-    ("crates/described", 81),
+    ("crates/described", 104),
     ("crates/formats", 6_853),
     ("crates/linalg", 4_075),
     ("crates/signal", 6_631),
     ("src/app", 5_433),
-    ("src/case", 12_000),
+    ("src/case", 11_917),
     ("src/cea", 10_590),
     ("src/contact", 2_668),
     ("src/cycle", 8_347),
@@ -53,10 +53,10 @@ const BUDGETS: &[(&str, usize)] = &[
     ("src/lib.rs", 103),
     ("src/main.rs", 5),
     ("src/mesh", 4_615),
-    ("src/output", 815),
+    ("src/output", 816),
     ("src/prestress", 5_318),
-    ("src/results", 20_722),
-    ("src/study", 12_491),
+    ("src/results", 20_672),
+    ("src/study", 12_471),
     ("src/transient", 5_022),
 ];
 

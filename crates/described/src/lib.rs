@@ -6,9 +6,10 @@ use std::iter::Peekable;
 
 type Tokens = Peekable<proc_macro::token_stream::IntoIter>;
 
-/// Implements `crate::output::Described`; an enum is a value without keys of its own.
+/// Implements `crate::output::Described`. An untagged enum has the keys of its variants, another one is a value without keys.
 #[proc_macro_derive(Described)]
 pub fn derive_described(item: TokenStream) -> TokenStream {
+    let is_untagged = item.to_string().contains("untagged");
     let mut tokens = item.into_iter();
     let is_kind = |token: &TokenTree| ["struct", "enum"].contains(&token.to_string().as_str());
     let kind = tokens.find(is_kind).map(|kind| kind.to_string());
@@ -24,10 +25,11 @@ pub fn derive_described(item: TokenStream) -> TokenStream {
         _ => None,
     });
     let mut calls = String::new();
-    let body = body.filter(|_| kind.as_deref() == Some("struct"));
-    let mut tokens = body.unwrap_or_default().into_iter().peekable();
-    while tokens.peek().is_some() {
-        describe_field(&mut tokens, &mut calls);
+    let body = body.unwrap_or_default();
+    if kind.as_deref() == Some("struct") {
+        describe_fields(body, &mut calls);
+    } else if is_untagged {
+        body.into_iter().for_each(|token| describe_variant(&token, &mut calls));
     }
     let bound = match generics.as_str() {
         "" => String::new(),
@@ -40,6 +42,27 @@ pub fn derive_described(item: TokenStream) -> TokenStream {
         }}"
     );
     code.parse().unwrap_or_default()
+}
+
+/// Adds the calls that describe what a variant holds between its brackets: one value, or fields.
+fn describe_variant(token: &TokenTree, calls: &mut String) {
+    let TokenTree::Group(group) = token else { return };
+    let own = group.stream();
+    match group.delimiter() {
+        Delimiter::Brace => describe_fields(own, calls),
+        Delimiter::Parenthesis => {
+            *calls += &format!("<{own} as crate::output::Described>::describe(path, keys);");
+        }
+        _ => {}
+    }
+}
+
+/// Adds the calls that describe fields.
+fn describe_fields(fields: TokenStream, calls: &mut String) {
+    let mut tokens = fields.into_iter().peekable();
+    while tokens.peek().is_some() {
+        describe_field(&mut tokens, calls);
+    }
 }
 
 /// Takes one field off the tokens of a struct and adds the call that describes it.

@@ -26,7 +26,7 @@ impl ResponseQuantity {
     }
 
     /// Name as written in headers, cases and options.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             ResponseQuantity::Receptance => "receptance",
             ResponseQuantity::Mobility => "mobility",

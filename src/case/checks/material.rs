@@ -81,17 +81,12 @@ pub(super) fn poisson_ratio(case: &Case) -> Option<Diagnostic> {
         return None;
     }
     let key = material_key(case, "poisson_ratio");
-    Some(case.diagnosis(
-        &key,
-        format!(
-            "{key} = {ratio} is nearly incompressible: the elements lock, and the \
-             time step of a transient shrinks by {:.3} against 0.45",
-            // c_p grows with sqrt((1 - nu) / ((1 + nu) (1 - 2 nu))).
-            (0.55 / (1.45 * 0.1) / ((1.0 - ratio) / ((1.0 + ratio) * (1.0 - 2.0 * ratio)))).sqrt()
-        ),
-        "above 0.49",
-        "use a lower ratio or plane stress, and study the convergence",
-    ))
+    // c_p grows with sqrt((1 - nu) / ((1 + nu) (1 - 2 nu))).
+    let shrinks = 0.55 / (1.45 * 0.1) / ((1.0 - ratio) / ((1.0 + ratio) * (1.0 - 2.0 * ratio)));
+    Some(diagnosis!(case, &key,
+        "{key} = {ratio} is nearly incompressible: the elements lock, and the time step of a \
+         transient shrinks by {:.3} against 0.45", shrinks.sqrt();
+        "above 0.49"; "use a lower ratio or plane stress, and study the convergence"))
 }
 
 /// `zeta = (alpha / omega + beta omega) / 2` at the highest frequency asked for, else where a bar as long as the body has its

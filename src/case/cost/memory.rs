@@ -1,6 +1,6 @@
 //! Memory of each command, and which key asks for it.
 
-use crate::case::{Case, CaseErrors};
+use crate::case::{Case, CaseErrors, refusal};
 
 impl Case {
     /// Memory that a command needs, bytes, and the key that asks for most of it.
@@ -49,17 +49,10 @@ impl Case {
             "mesh.file" => "mesh the body more coarsely",
             _ => "lower mesh.circumferential_elements or mesh.radial_elements",
         };
-        self.error_at(
-            key,
-            format!(
-                "{command} needs about {:.1} GiB of memory, {:.1} GiB are available: most of \
-                 it for {key}{given}",
-                gibibytes(needed),
-                gibibytes(available)
-            ),
-            "too much for this machine",
-            Some(remedy.to_owned()),
-        )
+        refusal!(self, key,
+            "{command} needs about {:.1} GiB of memory, {:.1} GiB are available: most of it for \
+             {key}{given}", gibibytes(needed), gibibytes(available); "too much for this machine";
+            "{remedy}")
     }
 
     /// What the size of the mesh comes from: the element count that is further from a usual one, or the file.

@@ -5,7 +5,7 @@ use crate::case::diagnostic::Location;
 use crate::case::key::{Bound, Kind};
 use crate::case::range::{Spacing, range_values};
 use crate::case::value::{RawItem, RawTable, RawValue};
-use crate::case::{keys, refuse};
+use crate::case::{keys, refuse, refuse_at};
 
 /// Longest list that a range may stand for.
 const LONGEST_RANGE: usize = 100_000;
@@ -56,15 +56,10 @@ impl<'a> Section<'a> {
         let highest = elements / 2;
         for (value, at) in &values {
             if *value > highest && elements > 0 {
-                self.reject_placed(
-                    at,
-                    format!(
-                        "harmonic {value} in {} is above the mesh's highest, {highest}",
-                        self.name("harmonics")
-                    ),
-                    format!("at most half of {elements} elements"),
-                    "lower the harmonic or raise mesh.circumferential_elements",
-                );
+                refuse_at!(self, at,
+                    "harmonic {value} in {} is above the mesh's highest, {highest}",
+                    self.name("harmonics"); "at most half of {elements} elements";
+                    "lower the harmonic or raise mesh.circumferential_elements");
             }
         }
         Some(values.into_iter().map(|(value, _)| value).collect())

@@ -1,175 +1,17 @@
-//! Branches of limit cycles over a parameter: rows, and figures of curves that may turn back.
+//! Figures of branches of limit cycles, whose curves may turn back.
 
+use super::branch::{BranchRecord, FamilyRecord};
 use super::two_waves::TwoWaveRecord;
 use crate::chart::{
     Axis, ChartError, Figure, INK, Line, MUTED, Marker, Panel, Points, Rule, SERIES, Scale, Stroke,
 };
-use crate::cycle::{Family, Verdict};
-use crate::output::{Described, columns, significant};
+use crate::output::significant;
 use crate::results::charts::palette::{
     CONTACT_DISSIPATION, MATERIAL_DISSIPATION, NORMAL_POWER, SLIDE_POWER, STATUSES, STICK_POWER,
 };
 use crate::results::drawing::{Declaration, declared};
 use crate::results::extent::Extent;
 use crate::results::parameter::parameter_axis;
-use crate::results::summary::MeanPowers;
-use serde::{Deserialize, Serialize};
-
-/// A cycle of a branch.
-#[derive(Clone, Debug)]
-pub(in crate::results) struct BranchRow {
-    /// The parameter, in units of its key.
-    pub value: f64,
-    /// Circumferential harmonic of a wave.
-    pub harmonic: Option<usize>,
-    pub main_frequency_hz: f64,
-    /// Fractions that stick, slip, are open.
-    pub fractions: [f64; 3],
-    pub powers: MeanPowers,
-    pub amplitude_m: f64,
-    pub balance_residual: f64,
-    /// Growth rate of the leading perturbation, 1/s, where it is known.
-    pub growth_rate: Option<f64>,
-    pub verdict: Option<Verdict>,
-    pub stepped: Option<SteppedRow>,
-}
-
-/// What else there is to a motion that was stepped in time.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::results) struct SteppedRow {
-    pub velocity_level_db: f64,
-    pub residual: f64,
-    pub periods: usize,
-    pub fold: bool,
-}
-
-columns! {
-    /// A cycle of a branch, behind the parameter.
-    pub(in crate::results) BRANCH: row as BranchRow;
-    harmonic: "circumferential harmonic of a wave" = row.harmonic;
-    main_frequency_hz: "frequency" = row.main_frequency_hz;
-    stick: "fraction of the contact that sticks" = row.fractions[0];
-    slip: "fraction that slips" = row.fractions[1];
-    open: "fraction that is open" = row.fractions[2];
-    external_w: "power of the counterface" = row.powers.external;
-    stick_w: "power given to the body by nodes that stick" = row.powers.stick;
-    slide_w: "power given to the body by nodes that slide" = row.powers.slide;
-    contact_dissipated_w: "power lost to friction" = row.powers.contact_dissipated;
-    material_damping_w: "power lost in the body" = row.powers.material_damping;
-    normal_contact_w: "power of the normal contact forces" = row.powers.normal_contact;
-    amplitude_m: "amplitude along the counterface" = row.amplitude_m;
-    velocity_level_db: "level of the velocity over 5e-8 m/s, of motions of the whole mesh"
-        = row.stepped.map(|own| own.velocity_level_db);
-    balance_residual: "residual of the energy balance, relative to the external power"
-        = row.balance_residual;
-    growth_rate_per_s: "growth rate of the leading perturbation, where it was asked for"
-        = row.growth_rate;
-    stability: "stable, unstable or undecided, where it was asked for"
-        = row.verdict.map(Verdict::word);
-    residual: "what the motion misses its start by, of motions of the whole mesh"
-        = row.stepped.map(|own| own.residual);
-    periods: "periods stepped to find it, of motions of the whole mesh"
-        = row.stepped.map(|own| own.periods);
-    fold: "whether the branch turns back here, of motions of the whole mesh"
-        = row.stepped.map(|own| own.fold);
-}
-
-/// The limit cycles of one harmonic or mode.
-#[derive(Clone, Debug, PartialEq, Described, Serialize, Deserialize)]
-pub struct FamilyRecord {
-    /// Circumferential harmonic; 0 of a body without rotating waves, whose cycles have a mode.
-    pub harmonic: usize,
-    /// Onset of that harmonic at which the cycles are born, from 1.
-    pub onset: usize,
-    /// The mode that leads to the cycles of a body without rotating waves.
-    #[serde(default)]
-    pub mode: Option<usize>,
-    /// Critical friction and frequency (Hz) of every onset.
-    pub onsets: Vec<[f64; 2]>,
-    /// Frequency (Hz) and amplitude (m) of the cycle at the case's own operating point.
-    pub cycle: Option<[f64; 2]>,
-    /// Its branch.
-    pub branch: Option<BranchRecord>,
-}
-
-/// Cycles along a branch, in its order.
-#[derive(Clone, Debug, Default, PartialEq, Described, Serialize, Deserialize)]
-pub struct BranchRecord {
-    /// Case key of the parameter.
-    pub key: String,
-    /// The parameter at each cycle, in units of the key.
-    pub values: Vec<f64>,
-    /// The case's own value.
-    pub own_value: f64,
-    /// Main frequency, Hz.
-    pub frequency_hz: Vec<f64>,
-    /// Amplitude along the counterface, m.
-    pub amplitude: Vec<f64>,
-    /// Fractions that stick, slip, are open.
-    pub status: [Vec<f64>; 3],
-    /// Powers relative to the external one: stick, slide, dissipated in the contact, material damping, normal contact.
-    pub shares: [Vec<f64>; 5],
-    /// What powers are of.
-    #[serde(default)]
-    pub extent: Extent,
-    /// Power of the counterface, W or W/m.
-    #[serde(default)]
-    pub external: Vec<f64>,
-    /// Whether the cycle is stable, where that is known.
-    pub stable: Vec<Option<bool>>,
-    /// Growth rate of its leading perturbation, 1/s, where it is known.
-    pub growth_rate: Vec<Option<f64>>,
-    /// Parameter values at which the branch turns back.
-    pub folds: Vec<f64>,
-    /// Values at which steady sliding loses its stability, where these were looked for.
-    #[serde(default)]
-    pub sliding_onsets: Vec<f64>,
-    /// Where cycles live beside stable sliding.
-    #[serde(default)]
-    pub coexistence: Vec<[f64; 2]>,
-    /// Amplitude (m) and velocity of the kick (m/s) of the unstable cycle between stable sliding and the case's own.
-    #[serde(default)]
-    pub threshold: Option<[f64; 2]>,
-}
-
-impl FamilyRecord {
-    /// Which limit cycles.
-    pub fn family(&self) -> Family {
-        Family { harmonic: self.harmonic, onset: self.onset }
-    }
-}
-
-impl BranchRecord {
-    /// The columns of a branch.
-    pub(super) fn of(key: &str, extent: Extent, rows: &[BranchRow]) -> Self {
-        let column = |of: &dyn Fn(&BranchRow) -> f64| -> Vec<f64> { rows.iter().map(of).collect() };
-        let power =
-            |of: fn(&MeanPowers) -> Option<f64>| column(&|row| of(&row.powers).unwrap_or(f64::NAN));
-        let external = power(|powers| powers.external);
-        let share = |of: fn(&MeanPowers) -> Option<f64>| {
-            power(of).iter().zip(&external).map(|(own, all)| own / all).collect()
-        };
-        Self {
-            key: key.to_owned(),
-            values: column(&|row| row.value),
-            frequency_hz: column(&|row| row.main_frequency_hz),
-            amplitude: column(&|row| row.amplitude_m),
-            status: [0, 1, 2].map(|i| column(&|row| row.fractions[i])),
-            shares: [
-                share(|powers| powers.stick),
-                share(|powers| powers.slide),
-                share(|powers| powers.contact_dissipated),
-                share(|powers| powers.material_damping),
-                share(|powers| powers.normal_contact),
-            ],
-            stable: rows.iter().map(|row| row.verdict?.is_stable()).collect(),
-            growth_rate: rows.iter().map(|row| row.growth_rate).collect(),
-            external,
-            extent,
-            ..Self::default()
-        }
-    }
-}
 
 /// A family with what its name says besides the harmonic.
 pub type NamedFamily<'a> = (String, &'a FamilyRecord);

@@ -1,6 +1,6 @@
 //! A branch of limit cycles as a curve that may turn back.
 
-use super::branches::BranchRecord;
+use super::branch::BranchRecord;
 use crate::chart::{Line, Stroke};
 
 /// A point of a curve: part `weight` of the way from cycle `before` to the next.

@@ -1,5 +1,6 @@
 //! Limit cycles: one outcome, one set of columns and of figures, whatever solver has found them.
 
+mod branch;
 mod branches;
 mod curve;
 mod fields;
@@ -10,22 +11,28 @@ mod record;
 mod summary;
 mod tables;
 mod two_waves;
+mod verdicts;
 mod waves;
 mod words;
 
-pub(super) use branches::BRANCH;
-pub use branches::{BranchRecord, FamilyRecord, NamedFamily, draw_branches};
+pub(super) use branch::{ALONG, BRANCH};
+pub use branch::{
+    BranchRecord, BranchSummary, FamilyRecord, ModeOfChange, MotionBranch, StabilityChangeSummary,
+    WaveBranch,
+};
+pub use branches::{NamedFamily, draw_branches};
 pub use fields::CycleFrame;
 pub use figures::CycleFigures;
 pub use motions::{FoundCycle, PeriodicResult, SoughtMode};
 pub use record::{CycleRecord, MotionRecord};
 pub use summary::*;
 pub(super) use tables::{
-    CONTACT_NODES, ERRORS, EXPONENTS, HARMONICS, HISTORY, KNOWN, MOTION, NAMES, PATH, POWERS,
-    WAVE_PATH,
+    BALANCE, CONTACT_NODES, ERRORS, EXPONENTS, HARMONICS, HISTORY, KNOWN, MOTION, NAMES, PATH,
+    POWERS, STATUS, WAVE_PATH,
 };
 pub(super) use two_waves::TWO_WAVES;
 pub use two_waves::{FoundTwoWaves, TwoWaveResult, TwoWaveSummary};
+pub use verdicts::*;
 pub use waves::{Absence, CycleResult, Finding, known};
 
 use crate::contact::{ContactInterface, SlidingContact};
@@ -39,7 +46,7 @@ use crate::results::finding::{write_page, write_table, write_tables};
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::manifest::Manifest;
 use crate::results::summary::{CriticalSummary, write_summary};
-use branches::BranchRow;
+use branch::BranchRow;
 use motions::ContactNode;
 use record::HistoryRow;
 use serde_json::Value;
@@ -141,7 +148,8 @@ impl CycleReport<'_> {
     pub fn curves(&self) -> Vec<FamilyRecord> {
         match &self.search {
             Search::Waves(search) => {
-                search.results.iter().map(|own| own.family_record(self)).collect()
+                let all = search.results.iter();
+                all.map(|own| own.family_record(self, search.inner_radius)).collect()
             }
             Search::Motions(search) => {
                 let all = search.results.iter();

@@ -1,12 +1,14 @@
 //! Motions of the whole mesh as limit cycles.
 
-use super::branches::{BranchRecord, BranchRow, FamilyRecord, SteppedRow};
+use super::branch::{
+    BranchRecord, BranchRow, BranchSummary, FamilyRecord, MotionBranch, StabilityChangeSummary,
+    SteppedRow,
+};
 use super::record::{HistoryRow, MotionRecord};
 use super::summary::{
-    BranchSummary, ConfirmationSummary, CycleMotion, CycleName, KnownStability, ModeOfCycle,
-    ModeSummary, MotionBranch, Perturbation, SoughtCycle, SoundSummary, StabilityChangeSummary,
-    StabilitySummary, SteppedMotion,
+    CycleMotion, CycleName, ModeOfCycle, ModeSummary, SoughtCycle, SoundSummary, SteppedMotion,
 };
+use super::verdicts::{ConfirmationSummary, KnownStability, Perturbation, StabilitySummary};
 use super::{CycleReport, MotionSearch, Told};
 use crate::chart::extremes;
 use crate::contact::{ContactInterface, ContactStatus};
@@ -270,7 +272,7 @@ impl PeriodicResult {
     pub(super) fn family_record(&self, report: &CycleReport<'_>) -> Option<FamilyRecord> {
         let (branch, rows) = self.branch_rows(report.thickness)?;
         let motion = &self.own()?.motion;
-        let in_units = |value: f64| branch.parameter.in_key_units(value);
+        let own_value = branch.parameter.in_key_units(branch.own);
         Some(FamilyRecord {
             harmonic: 0,
             onset: 0,
@@ -278,14 +280,8 @@ impl PeriodicResult {
             onsets: Vec::new(),
             cycle: Some([motion.frequency_hz, motion.amplitude]),
             branch: Some(BranchRecord {
-                own_value: in_units(branch.own),
-                folds: branch.folds().into_iter().map(in_units).collect(),
-                sliding_onsets: branch.onsets.iter().map(|&at| in_units(at)).collect(),
-                coexistence: (branch.coexistence().into_iter())
-                    .map(|ends| ends.map(in_units))
-                    .collect(),
                 threshold: branch.threshold().map(|own| [own.amplitude, own.kick_velocity()]),
-                ..BranchRecord::of(branch.parameter.key(), report.extent, &rows)
+                ..BranchRecord::of(branch_summary(branch), own_value, report.extent, &rows)
             }),
         })
     }

@@ -1,6 +1,6 @@
 //! What the figures of a search for limit cycles show.
 
-use super::branches::FamilyRecord;
+use super::branch::FamilyRecord;
 use super::two_waves::TwoWaveRecord;
 use super::{CycleReport, Search};
 use crate::contact::ContactStatus;

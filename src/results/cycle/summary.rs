@@ -1,12 +1,13 @@
 //! `summary.json` of a search for limit cycles.
 
-use super::branches::FamilyRecord;
+use super::branch::{BranchSummary, FamilyRecord};
 use super::two_waves::TwoWaveSummary;
-use crate::cycle::{Confirmation, Family, Onset};
-use crate::output::{Described, Key};
+use super::verdicts::{ConfirmationRun, ConfirmationSummary, KnownStability, StabilitySummary};
+use crate::cycle::{Family, Onset};
+use crate::output::Described;
 use crate::results::extent::Extent;
 use crate::results::manifest::Manifest;
-use crate::results::summary::{CriticalSummary, MeanPowers, StatusFractions, present};
+use crate::results::summary::{CriticalSummary, MeanPowers, StatusFractions};
 use serde::Serialize;
 use std::f64::consts::TAU;
 use std::fmt;
@@ -45,7 +46,7 @@ pub struct CycleSummary {
 }
 
 /// What a search has started from.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 #[serde(untagged)]
 pub enum Origin {
     /// From modes of the whole body.
@@ -68,13 +69,6 @@ pub struct ModesSought {
 pub struct WavesSought {
     /// The lowest onset of all.
     pub lowest_onset: Option<OnsetSummary>,
-}
-
-impl Described for Origin {
-    fn describe(path: &str, keys: &mut Vec<Key>) {
-        ModesSought::describe(path, keys);
-        WavesSought::describe(path, keys);
-    }
 }
 
 /// Where a wave starts to grow.
@@ -138,14 +132,40 @@ pub struct SoughtCycle {
     pub branch: Option<BranchSummary>,
 }
 
+impl SoughtCycle {
+    /// Its stability, where it is known.
+    pub(super) fn known(&self) -> Option<&KnownStability> {
+        match self.stability.as_ref()? {
+            StabilitySummary::Known(known) => Some(known),
+            StabilitySummary::Failed { .. } => None,
+        }
+    }
+
+    /// The transient that started on it, if one ran.
+    pub(super) fn run(&self) -> Option<&ConfirmationRun> {
+        match self.confirmation.as_ref()? {
+            ConfirmationSummary::Ran(run) => Some(run),
+            ConfirmationSummary::Failed { .. } => None,
+        }
+    }
+
+    /// Whether a transient that started on it has stayed there.
+    pub(super) fn agrees(&self) -> Option<bool> {
+        Some(match self.confirmation.as_ref()? {
+            ConfirmationSummary::Ran(run) => run.agrees,
+            ConfirmationSummary::Failed { agrees, .. } => *agrees,
+        })
+    }
+}
+
 /// What leads to a cycle.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Described, Serialize)]
 #[serde(untagged)]
 pub enum CycleName {
-    /// A mode of a body without rotating waves.
-    Mode(ModeOfCycle),
     /// A wave of a disc.
     Wave(WaveOfCycle),
+    /// A mode of a body without rotating waves.
+    Mode(ModeOfCycle),
 }
 
 /// A mode, and what it leads to.
@@ -177,13 +197,6 @@ pub struct WaveOfCycle {
     pub phases: usize,
     /// Every onset of the harmonic.
     pub onsets: Vec<OnsetSummary>,
-}
-
-impl Described for CycleName {
-    fn describe(path: &str, keys: &mut Vec<Key>) {
-        WaveOfCycle::describe(path, keys);
-        ModeOfCycle::describe(path, keys);
-    }
 }
 
 impl CycleName {
@@ -274,208 +287,4 @@ pub struct SoundSummary {
     pub area_m2: f64,
     /// Power of harmonics 1, 2, ..., W.
     pub harmonics_w: Vec<f64>,
-}
-
-/// A transient that started on a cycle, or why none could.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(untagged)]
-pub enum ConfirmationSummary {
-    /// It ran.
-    Ran(ConfirmationRun),
-    /// It could not.
-    Failed {
-        /// False.
-        agrees: bool,
-        /// Why.
-        error: String,
-    },
-}
-
-/// A transient that started on a cycle.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct ConfirmationRun {
-    /// Length of the run in periods of the cycle.
-    pub periods: usize,
-    /// Whether it still is on the cycle.
-    pub agrees: bool,
-    /// Frequency, Hz; none if it has stopped to vibrate.
-    pub main_frequency_hz: Option<f64>,
-    /// Its harmonic, of a wave that still vibrates.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub main_harmonic: Option<usize>,
-    /// Fractions of contact nodes.
-    pub status: StatusFractions,
-    /// Power of the counterface.
-    pub power_w: ExternalPower,
-    /// E-folds of the leading perturbation over the run; negative where it decays, 0 where it is not known.
-    pub e_folds: f64,
-}
-
-impl ConfirmationSummary {
-    /// Of a run, and whether that still is on the cycle.
-    pub(super) fn ran(run: &Confirmation, agrees: bool, thickness: f64) -> Self {
-        Self::Ran(ConfirmationRun {
-            periods: run.periods,
-            agrees,
-            main_frequency_hz: run.main_frequency_hz.and_then(present),
-            main_harmonic: run.main_harmonic,
-            status: StatusFractions::of(run.status),
-            power_w: ExternalPower { external: present(run.external_power * thickness) },
-            e_folds: run.e_folds,
-        })
-    }
-}
-
-impl Described for ConfirmationSummary {
-    fn describe(path: &str, keys: &mut Vec<Key>) {
-        ConfirmationRun::describe(path, keys);
-        keys.push(Key { path: format!("{path}.error"), meaning: "why it could not run" });
-    }
-}
-
-/// Power of the counterface alone.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
-pub struct ExternalPower {
-    /// Mean power, W.
-    pub external: Option<f64>,
-}
-
-/// Stability of a cycle, or why it is not known.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(untagged)]
-pub enum StabilitySummary {
-    /// It is known.
-    Known(Box<KnownStability>),
-    /// It could not be found.
-    Failed {
-        /// Why.
-        error: String,
-    },
-}
-
-/// Stability of a cycle.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct KnownStability {
-    /// `stable`, `unstable` or `undecided`.
-    pub verdict: String,
-    /// The same as a flag; none if undecided.
-    pub is_stable: Option<bool>,
-    /// Circumferential harmonics that grow, of a wave.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub growing_harmonics: Option<Vec<usize>>,
-    /// The leading perturbation.
-    pub leading: Option<Perturbation>,
-    /// Modulus of the multiplier of a shift in phase, which is 1, of a motion that was stepped in time.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub shift: Option<f64>,
-}
-
-impl Described for StabilitySummary {
-    fn describe(path: &str, keys: &mut Vec<Key>) {
-        KnownStability::describe(path, keys);
-        keys.push(Key { path: format!("{path}.error"), meaning: "why it is not known" });
-    }
-}
-
-/// A small perturbation of a cycle: an exponent of a wave, a multiplier of a motion that was stepped in time.
-#[derive(Clone, Debug, Default, PartialEq, Described, Serialize)]
-pub struct Perturbation {
-    /// Growth rate, 1/s.
-    pub growth_rate_per_s: f64,
-    /// Class of the harmonics that it holds: those that differ from plus or minus it by a multiple of the wave's.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub class: Option<usize>,
-    /// Frequency in the frame of the wave, rad/s.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub wave_frequency_rad_per_s: Option<f64>,
-    /// Circumferential harmonic at which it moves the contact edge most.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub harmonic: Option<usize>,
-    /// Frequency in the fixed frame, Hz.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub frequency_hz: Option<f64>,
-    /// Distance of its frequency from the nearest harmonic of the cycle, Hz.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub beat_hz: Option<f64>,
-    /// Modulus of the multiplier.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub modulus: Option<f64>,
-    /// Argument of the multiplier, rad.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub argument_rad: Option<f64>,
-    /// What it leads to where it grows.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub leads_to: Option<String>,
-    /// Uncertainty of the growth rate, 1/s.
-    pub uncertainty_per_s: Option<f64>,
-}
-
-/// A branch of limit cycles.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct BranchSummary {
-    /// Case key of the parameter.
-    pub key: String,
-    /// Cycles.
-    pub cycles: usize,
-    /// Smallest and largest value of the parameter.
-    pub range: Option<[f64; 2]>,
-    /// Values at which it turns back, in its order.
-    pub folds: Vec<f64>,
-    /// Why it ends, at either end.
-    pub ends: [String; 2],
-    /// Where stability changes between folds: the value; of waves an object.
-    pub stability_changes: Vec<StabilityChangeSummary>,
-    /// What else there is to a branch of waves.
-    #[serde(flatten)]
-    pub waves: Option<WaveBranch>,
-    /// What else there is to one of motions of the whole mesh.
-    #[serde(flatten)]
-    pub motions: Option<MotionBranch>,
-}
-
-/// What only branches of waves have.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct WaveBranch {
-    /// Speed from which on no node sticks, rpm.
-    pub saturation_speed_rpm: Option<f64>,
-    /// Dense factorizations spent.
-    pub factorizations: usize,
-}
-
-/// What only branches of motions of the whole mesh have.
-#[derive(Clone, Debug, PartialEq, Described, Serialize)]
-pub struct MotionBranch {
-    /// Values at which steady sliding loses its stability.
-    pub onsets: Vec<f64>,
-    /// Where cycles live beside stable sliding.
-    pub coexistence: Vec<[f64; 2]>,
-}
-
-/// Where a branch changes its stability.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[serde(untagged)]
-pub enum StabilityChangeSummary {
-    /// Of a motion of the whole mesh.
-    At(f64),
-    /// Of a wave, by a mode.
-    By(ModeOfChange),
-}
-
-/// The mode by which a wave changes its stability.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
-pub struct ModeOfChange {
-    /// Value of the parameter.
-    pub at: f64,
-    /// Circumferential harmonic of the mode that starts or ceases to grow.
-    pub harmonic: usize,
-    /// Its frequency, Hz.
-    pub frequency_hz: f64,
-    /// Whether the wave gives way to a motion of two frequencies: a Neimark-Sacker bifurcation.
-    pub to_two_frequencies: bool,
-}
-
-impl Described for StabilityChangeSummary {
-    fn describe(path: &str, keys: &mut Vec<Key>) {
-        ModeOfChange::describe(path, keys);
-    }
 }

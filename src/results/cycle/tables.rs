@@ -1,17 +1,16 @@
 //! Columns of limit cycles, and the document of a search.
 
 use super::Told;
-use super::branches::BRANCH;
+use super::branch::{ALONG, BRANCH};
 use super::motions::ContactNode;
 use super::record::HistoryRow;
-use super::summary::{
-    ConfirmationSummary, CycleMotion, CycleSummary, KnownStability, Perturbation, SoughtCycle,
-    StabilitySummary,
-};
+use super::summary::{CycleMotion, CycleSummary, SoughtCycle};
 use super::two_waves::TwoWaveSummary;
+use super::verdicts::Perturbation;
 use crate::cycle::periodic::MotionHarmonic;
 use crate::output::{Document, Section, Table, columns, fixed};
 use crate::results::charts::palette::status_of_code;
+use crate::results::summary::{MeanPowers, StatusFractions};
 
 columns! {
     /// What leads to a cycle.
@@ -26,35 +25,42 @@ columns! {
 
 columns! {
     /// What a cycle is.
-    pub(in crate::results) MOTION: own as SoughtCycle;
-    main_frequency_hz: "frequency"
-        = own.of(|cycle| Some(cycle.main_frequency_hz)), Always "main frequency" Fixed(2);
+    pub(in crate::results) MOTION: cycle as CycleMotion;
+    main_frequency_hz: "frequency" = cycle.main_frequency_hz, Always "main frequency" Fixed(2);
     amplitude_m: "amplitude along the counterface"
-        = own.of(|cycle| cycle.amplitude_m), Always "amplitude" Scientific(3);
-    stick: "fraction of the contact that sticks"
-        = own.of(|cycle| cycle.status.stick), Always "stick" Percent(1);
-    slip: "fraction that slips" = own.of(|cycle| cycle.status.slip), Always "slip" Percent(1);
-    open: "fraction that is open" = own.of(|cycle| cycle.status.open), Always "open" Percent(1);
+        = cycle.amplitude_m, Always "amplitude" Scientific(3);
+}
+
+columns! {
+    /// What its contact does.
+    pub(in crate::results) STATUS: status as StatusFractions;
+    stick: "fraction of the contact that sticks" = status.stick, Always "stick" Percent(1);
+    slip: "fraction that slips" = status.slip, Always "slip" Percent(1);
+    open: "fraction that is open" = status.open, Always "open" Percent(1);
 }
 
 columns! {
     /// Where its power goes.
-    pub(in crate::results) POWERS: own as SoughtCycle;
+    pub(in crate::results) POWERS: power as MeanPowers;
     external_w: "power of the counterface"
-        = own.of(|cycle| cycle.power_w.external), Always "power of the counterface" Fixed(2);
-    stick_w: "of it given to the body by nodes that stick"
-        = own.of(|cycle| cycle.power_w.stick), Always "while sticking" Fixed(2);
-    slide_w: "of it given to the body by nodes that slide"
-        = own.of(|cycle| cycle.power_w.slide), Always "while sliding" Fixed(2);
+        = power.external, Always "power of the counterface" Fixed(2);
+    stick_w: "power given to the body by nodes that stick"
+        = power.stick, Always "while sticking" Fixed(2);
+    slide_w: "power given to the body by nodes that slide"
+        = power.slide, Always "while sliding" Fixed(2);
     contact_dissipated_w: "power lost to friction"
-        = own.of(|cycle| cycle.power_w.contact_dissipated),
-        Always "dissipated in the contact" Fixed(2);
+        = power.contact_dissipated, Always "dissipated in the contact" Fixed(2);
     material_damping_w: "power lost in the body"
-        = own.of(|cycle| cycle.power_w.material_damping), Always "material damping" Fixed(2);
+        = power.material_damping, Always "material damping" Fixed(2);
     normal_contact_w: "power of the normal contact forces"
-        = own.of(|cycle| cycle.power_w.normal_contact), Always "normal contact" Fixed(2);
+        = power.normal_contact, Always "normal contact" Fixed(2);
+}
+
+columns! {
+    /// How well its powers balance.
+    pub(in crate::results) BALANCE: cycle as CycleMotion;
     balance_residual: "residual of the energy balance, relative to the power of the counterface"
-        = own.of(|cycle| Some(cycle.balance_residual)), Always "balance" Scientific(1);
+        = cycle.balance_residual, Always "balance" Scientific(1);
 }
 
 columns! {
@@ -220,7 +226,11 @@ impl Told {
                 true => &["velocity_level_db", "stability", "residual", "periods", "fold"][..],
                 false => &["harmonic"],
             };
-            let table = table.columns(BRANCH, rows);
+            let table = table
+                .columns(BRANCH, rows)
+                .columns(STATUS, rows.iter().map(|row| StatusFractions::of(row.fractions)))
+                .columns(POWERS, rows.iter().map(|row| row.powers))
+                .columns(ALONG, rows);
             tables.push(others.iter().fold(table, |table, key| table.without_empty(key)));
         }
         tables
@@ -231,29 +241,6 @@ impl SoughtCycle {
     /// A quantity of the cycle, where there is one.
     fn of<T>(&self, of: impl Fn(&CycleMotion) -> Option<T>) -> Option<T> {
         of(self.cycle.as_ref()?)
-    }
-
-    /// Its stability, where it is known.
-    pub(super) fn known(&self) -> Option<&KnownStability> {
-        match self.stability.as_ref()? {
-            StabilitySummary::Known(known) => Some(known),
-            StabilitySummary::Failed { .. } => None,
-        }
-    }
-
-    /// The transient that started on it, if one ran.
-    pub(super) fn run(&self) -> Option<&super::ConfirmationRun> {
-        match self.confirmation.as_ref()? {
-            ConfirmationSummary::Ran(run) => Some(run),
-            ConfirmationSummary::Failed { .. } => None,
-        }
-    }
-
-    pub(super) fn agrees(&self) -> Option<bool> {
-        Some(match self.confirmation.as_ref()? {
-            ConfirmationSummary::Ran(run) => run.agrees,
-            ConfirmationSummary::Failed { agrees, .. } => *agrees,
-        })
     }
 
     /// Why there is no cycle of its own.
@@ -276,26 +263,39 @@ impl SoughtCycle {
     }
 }
 
+/// A table with what each cycle is; nothing where there is none.
+fn with_motions(table: Table, cycles: &[&SoughtCycle]) -> Table {
+    let cycles = || cycles.iter().map(|own| own.cycle.as_ref());
+    table.group("", "", MOTION, cycles()).group(
+        "",
+        "",
+        STATUS,
+        cycles().map(|own| Some(own?.status)),
+    )
+}
+
+/// A table with where the power of each cycle goes.
+fn with_powers(table: Table, cycles: &[&SoughtCycle]) -> Table {
+    let cycles = || cycles.iter().map(|own| own.cycle.as_ref());
+    let table = table.group("", "", POWERS, cycles().map(|own| Some(own?.power_w)));
+    table.group("", "", BALANCE, cycles())
+}
+
 impl CycleSummary {
     /// Tables and sentences of a search.
     pub fn document(&self) -> Document {
         let cycles = &self.cycles;
+        let found: Vec<&SoughtCycle> = cycles.iter().filter(|own| own.cycle.is_some()).collect();
+        let all: Vec<&SoughtCycle> = cycles.iter().collect();
         let motions = Table::new("", "Limit cycles at the case's own operating point")
             .columns(NAMES, cycles)
-            .columns(BESIDE, cycles)
-            .columns(MOTION, cycles)
-            .columns(KNOWN, cycles)
-            .columns(SAID, cycles);
-        let found: Vec<&SoughtCycle> = cycles.iter().filter(|own| own.cycle.is_some()).collect();
-        let powers = Table::new("", "Their powers")
-            .columns(NAMES, found.iter().copied())
-            .columns(POWERS, found.iter().copied());
-        let file = Table::new("cycle.csv", "")
-            .columns(NAMES, cycles)
-            .columns(MOTION, cycles)
-            .columns(POWERS, cycles)
-            .columns(KNOWN, cycles)
-            .columns(ERRORS, cycles);
+            .columns(BESIDE, cycles);
+        let motions = with_motions(motions, &all).columns(KNOWN, cycles).columns(SAID, cycles);
+        let powers = Table::new("", "Their powers").columns(NAMES, found.iter().copied());
+        let powers = with_powers(powers, &found);
+        let file = Table::new("cycle.csv", "").columns(NAMES, cycles);
+        let file = with_powers(with_motions(file, &all), &all);
+        let file = file.columns(KNOWN, cycles).columns(ERRORS, cycles);
         let results =
             match self.steady_sliding_stable && found.is_empty() {
                 true => Section::new("Results"),

@@ -1,13 +1,13 @@
 //! Rotating waves of a disc as limit cycles.
 
-use super::branches::{BranchRecord, BranchRow, FamilyRecord};
+use super::branch::{
+    BranchRecord, BranchRow, BranchSummary, FamilyRecord, ModeOfChange, StabilityChangeSummary,
+    WaveBranch,
+};
 use super::motions::mean_powers;
 use super::record::{HistoryRow, MotionRecord};
-use super::summary::{
-    BranchSummary, ConfirmationSummary, CycleMotion, CycleName, KnownStability, ModeOfChange,
-    OnsetSummary, Perturbation, SoughtCycle, StabilityChangeSummary, StabilitySummary, WaveBranch,
-    WaveOfCycle,
-};
+use super::summary::{CycleMotion, CycleName, OnsetSummary, SoughtCycle, WaveOfCycle};
+use super::verdicts::{ConfirmationSummary, KnownStability, Perturbation, StabilitySummary};
 use super::{CycleFrame, CycleReport, Told, WaveSearch};
 use crate::chart::extremes;
 use crate::cycle::periodic::velocity_level;
@@ -238,7 +238,11 @@ impl CycleResult {
     }
 
     /// What the figures of branches show of it.
-    pub(super) fn family_record(&self, report: &CycleReport<'_>) -> FamilyRecord {
+    pub(super) fn family_record(
+        &self,
+        report: &CycleReport<'_>,
+        inner_radius: f64,
+    ) -> FamilyRecord {
         let own = self.cycle.as_ref().ok();
         let rows = self.branch_rows(report.thickness).zip(own);
         FamilyRecord {
@@ -249,12 +253,9 @@ impl CycleResult {
                 .map(|onset| [onset.friction_coefficient, onset.frequency / TAU])
                 .collect(),
             cycle: own.map(|cycle| [cycle.frequency_hz(), amplitude(cycle)]),
-            branch: rows.map(|((branch, rows), own)| BranchRecord {
-                own_value: value(branch, own),
-                folds: (branch.folds.iter())
-                    .map(|&fold| branch.parameter.in_key_units(fold))
-                    .collect(),
-                ..BranchRecord::of(branch.parameter.key(), report.extent, &rows)
+            branch: rows.map(|((branch, rows), own)| {
+                let summary = self.branch(branch, inner_radius);
+                BranchRecord::of(summary, value(branch, own), report.extent, &rows)
             }),
         }
     }

@@ -1,8 +1,8 @@
 //! Limit cycles in words.
 
-use super::summary::{
-    BranchSummary, ConfirmationSummary, SoughtCycle, StabilityChangeSummary, StabilitySummary,
-};
+use super::branch::{BranchSummary, StabilityChangeSummary};
+use super::summary::SoughtCycle;
+use super::verdicts::{ConfirmationSummary, StabilitySummary};
 use super::{CycleReport, MotionSearch, Search, WaveSearch};
 use crate::cycle::periodic::ASTRAY;
 use crate::output::significant;

@@ -184,26 +184,8 @@ impl RunFigures<'_> {
         // What the start leaves behind has died out by a third of the stage.
         let window = (0.35 * stage, 0.95 * stage);
         let rate = self.growing_mode().and_then(|(frequency, rate)| {
-            let inside = times.iter().zip(&sizes);
-            let inside = inside.filter(|(t, a)| (window.0..=window.1).contains(*t) && **a > 0.0);
-            let (sum, count) = inside
-                .fold((0.0, 0.0), |(sum, count), (t, a)| (sum + a.ln() - rate * t, count + 1.0));
-            let at = |t: f64| (t, (sum / count + rate * t).exp());
-            let name = format!(
-                "rate of the eigenvalue analysis, {} kHz: {} s^{{−1}}",
-                significant(frequency * 1e-3, 4),
-                significant(rate, 4)
-            );
-            (count > 0.0).then(|| {
-                Line::through([at(window.0), at(window.1)])
-                    .stroke(Stroke::dashed(INK, 1.1))
-                    .name(name)
-            })
-        });
-        let nonlinear = linear_end.map(|time| {
-            Rule::vertical(time)
-                .stroke(Stroke::dotted(MUTED, 0.7))
-                .beside("first stick or separation")
+            let of = format!("{} kHz", significant(frequency * 1e-3, 4));
+            predicted((&times, &sizes), window, rate, &of)
         });
         let end = linear_end.map_or(last, |end| last.min(start + SHOWN_STAGES * (end - start)));
         let amplitude =
@@ -212,7 +194,7 @@ impl RunFigures<'_> {
             .height(190.0)
             .layer(edge)
             .layers(rate)
-            .layers(nonlinear);
+            .layers(linear_end.map(nonlinear));
         let caption = match has_stage {
             true => {
                 "Growth of the tangential vibration of the contact edge, with the rate of the \
@@ -254,36 +236,16 @@ impl RunFigures<'_> {
         // What the start leaves behind has died out by a third of the stage.
         let stage = linear_end.unwrap_or(last);
         let window = (0.35 * stage, 0.95 * stage);
-        let predicted = self.growth_rates.iter().filter(|(n, _)| is_shown(*n));
-        let rates = predicted.filter_map(|&(n, rate)| {
-            let inside = times
-                .iter()
-                .zip(&amplitudes[&n])
-                .filter(|(t, a)| (window.0..=window.1).contains(*t) && **a > 0.0);
-            let (sum, count) = inside
-                .fold((0.0, 0.0), |(sum, count), (t, a)| (sum + a.ln() - rate * t, count + 1.0));
-            let at = |t: f64| (t, (sum / count + rate * t).exp());
-            let name = format!(
-                "rate of the eigenvalue analysis, *n* = {n}: {} s^{{−1}}",
-                significant(rate, 4)
-            );
-            (count > 0.0).then(|| {
-                Line::through([at(window.0), at(window.1)])
-                    .stroke(Stroke::dashed(INK, 1.1))
-                    .name(name)
-            })
+        let rates = self.growth_rates.iter().filter(|(n, _)| is_shown(*n));
+        let rates = rates.filter_map(|&(n, rate)| {
+            predicted((&times, &amplitudes[&n]), window, rate, &format!("*n* = {n}"))
         });
         let amplitude = Axis::new("amplitude of *u*_{θ}", "m").decades(GROWTH_DECADES).room(0.02);
-        let nonlinear = linear_end.map(|time| {
-            Rule::vertical(time)
-                .stroke(Stroke::dotted(MUTED, 0.7))
-                .beside("first stick or separation")
-        });
         let panel = Panel::new(Axis::time().between(start, end), amplitude)
             .height(190.0)
             .layers(lines.collect::<Vec<_>>())
             .layers(rates.collect::<Vec<_>>())
-            .layers(nonlinear);
+            .layers(linear_end.map(nonlinear));
         let figure = Figure::new(
             "growth",
             "Growth of the harmonics of the tangential displacement of the contact edge, with the rates of the eigenvalue analysis.",
@@ -294,4 +256,27 @@ impl RunFigures<'_> {
             false => figure,
         }
     }
+}
+
+/// What a rate of the eigenvalue analysis makes of a vibration over a window; none where nothing vibrates there.
+fn predicted(
+    (times, sizes): (&[f64], &[f64]),
+    window: (f64, f64),
+    rate: f64,
+    of: &str,
+) -> Option<Line> {
+    let inside = times.iter().zip(sizes);
+    let inside = inside.filter(|(t, a)| (window.0..=window.1).contains(*t) && **a > 0.0);
+    let (sum, count) =
+        inside.fold((0.0, 0.0), |(sum, count), (t, a)| (sum + a.ln() - rate * t, count + 1.0));
+    let at = |t: f64| (t, (sum / count + rate * t).exp());
+    let name = format!("rate of the eigenvalue analysis, {of}: {} s^{{−1}}", significant(rate, 4));
+    let line = || Line::through([at(window.0), at(window.1)]).stroke(Stroke::dashed(INK, 1.1));
+    (count > 0.0).then(|| line().name(name))
+}
+
+/// Where the linear stage ends.
+fn nonlinear(time: f64) -> Rule {
+    let rule = Rule::vertical(time).stroke(Stroke::dotted(MUTED, 0.7));
+    rule.beside("first stick or separation")
 }

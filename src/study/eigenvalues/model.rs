@@ -115,12 +115,8 @@ fn refuse_uncountable(case: &Case, solver: &Solver) -> Result<(), CaseErrors> {
         ),
         _ => return Ok(()),
     };
-    Err(case.error_at(
-        "cea.count_modes",
-        format!("cea.count_modes = true: {why}"),
-        "modes cannot be counted".to_owned(),
-        Some(help.to_owned()),
-    ))
+    Err(refusal!(case, "cea.count_modes", "cea.count_modes = true: {why}";
+        "modes cannot be counted"; "{help}"))
 }
 
 /// A model whose spectrum can be asked for.

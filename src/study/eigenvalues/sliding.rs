@@ -4,7 +4,7 @@ use super::StudyError;
 use super::assembly::base_state;
 use super::model::Model;
 use super::solid::SolidBody;
-use crate::case::{AssemblyBody, Case, Cea};
+use crate::case::{AssemblyBody, Case, Cea, refusal};
 use crate::fem::nodal_stress;
 use crate::fem::sector::supported_stiffness;
 use crate::mesh::{AnnulusMesh, Mesh, SectorMesh};
@@ -94,17 +94,8 @@ impl SlidingModel {
         let message = format!(
             "nothing presses the contact: its pressure is zero everywhere at friction {friction}"
         );
-        Err(StudyError::Case(
-            case.error_at(
-                &key,
-                message,
-                "no pressure".to_owned(),
-                Some(
-                    "give an interference above zero, or a boundary with condition = \"pressure\""
-                        .to_owned(),
-                ),
-            ),
-        ))
+        Err(StudyError::Case(refusal!(case, &key, "{message}"; "no pressure";
+                "give an interference above zero, or a boundary with condition = \"pressure\"")))
     }
 
     /// The body in three dimensions and its base state, if it is one.
