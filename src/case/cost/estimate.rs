@@ -25,9 +25,9 @@ const SOLID_BYTES: f64 = 600.0;
 /// Memory of a whole plane mesh, bytes: at all, and for each unknown and vector of its basis.
 const SPARSE_BYTES: [f64; 2] = [1e8, 100.0];
 
-/// Memory of the factors of `n` unknowns of solid bodies, bytes for each of `n^(4/3)`, and for each unknown and mode, and operations for
-/// each of `n^2` and each friction value; measured on blocks of 8- and 20-node bricks and on a rotor, 1e3 to 2e4 unknowns.
+/// Factors of `n` unknowns of solid bodies, measured from 1e3 to 2e4: bytes for each of `n^(4/3)`, and for each unknown and mode.
 const FACTOR_BYTES: [f64; 2] = [3.6e3, 240.0];
+/// Their operations at each friction value, for each of `n^2`.
 const FACTORS: f64 = 120.0;
 
 /// Phases of a limit cycle where the mesh decides.

@@ -17,8 +17,8 @@ const MOST_SHIFTS: usize = 6;
 const BESIDE: f64 = 1e-3;
 /// Refinements of lossy modes whose corrections are kept beside the modes: with none of them convergence is slow and uneven.
 const HISTORY: usize = 3;
-/// Unknowns up to which a problem is decomposed, of twice that size, where its modes are lossy or do not converge: one or two seconds for
-/// each friction value.
+/// Unknowns up to which a problem, of twice that size, is decomposed: where its modes are lossy or do not converge. That takes a
+/// second or two for each friction value.
 const MOST_DENSE: usize = 300;
 /// Samples between two friction values, at places where branches were lost, after which more of them are no help.
 const MOST_BETWEEN: usize = 8;
