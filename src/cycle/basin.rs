@@ -8,13 +8,11 @@ use crate::fem::operator::{SimdLevel, StiffnessOperator, largest_frequency};
 use crate::linalg::interruption;
 use crate::mesh::AnnulusMesh;
 use crate::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, StandingWave, TimeStep,
+    CentralDifference, InitialState, OperatorChoice, Perturbation, SAFETY, StandingWave, TimeStep,
     TransientModel, TransientSettings, stable_step_limit,
 };
 use std::f64::consts::TAU;
 
-/// Share of the stability limit that a step takes.
-const SAFETY: f64 = 0.95;
 /// Velocity of the larger seed, in units of what saturates a wave, the slip speed or the interference times its frequency: a
 /// few e-folds below saturation, in which waves with the rotor die.
 pub(super) const SEED: f64 = 0.01;

@@ -239,8 +239,7 @@ impl<'a> Branch<'a> {
             unreachable!("branches of one wave have one frequency");
         };
         [0, 1].map(|row| {
-            let columns = [&linear.gap_columns, &linear.slip_columns][row];
-            let columns = columns.each_ref().map(|column| self.wave.harmonics(column));
+            let columns = linear.columns[row].each_ref().map(|column| self.wave.harmonics(column));
             let mut rate = self.wave.values(
                 (0..columns[0].len())
                     .map(|k| columns[0][k] * forces[0][k] + columns[1][k] * forces[1][k]),

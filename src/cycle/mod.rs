@@ -11,6 +11,8 @@
 //! together, each at its own frequency, are a steady contact problem along both phases
 //! ([`TwoWaves`]).
 //!
+//! How a branch goes on from step to step to its ends, whatever finds its points, is said once, in `continuation`.
+//!
 //! Bodies without symmetry have no rotating waves; their cycles are periodic motions of the whole mesh ([`periodic`]).
 
 mod arnoldi;

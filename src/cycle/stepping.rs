@@ -12,13 +12,10 @@ use crate::fem::operator::{
 use crate::linalg::interruption;
 use crate::mesh::AnnulusMesh;
 use crate::transient::{
-    CentralDifference, InitialState, OperatorChoice, Perturbation, TimeStep, TransientModel,
-    TransientSettings, stable_step_limit,
+    CentralDifference, InitialState, OperatorChoice, Perturbation, SAFETY, TimeStep,
+    TransientModel, TransientSettings, stable_step_limit,
 };
 use std::f64::consts::TAU;
-
-/// Share of the stability limit that a step takes.
-const SAFETY: f64 = 0.95;
 
 /// Periods of the transient between a wave that satisfies the contact laws on a grid of phases and the one that is looked
 /// at: what the grid and its landing time leave of a difference to the mesh's own cycle fades meanwhile.

@@ -84,17 +84,6 @@ enum Law {
     Slip = 1,
 }
 
-impl Law {
-    fn columns(self, linear: &Linearization) -> &[Vec<f64>; 2] {
-        [&linear.gap_columns, &linear.slip_columns][self as usize]
-    }
-
-    /// Force for a unit of what it misses.
-    fn scale(self, linear: &Linearization) -> f64 {
-        [linear.normal_scale(), linear.tangential_scale()][self as usize]
-    }
-}
-
 /// The unknowns of one set of contact states: normal forces in contact, tangential forces in stick, and the scalars, one or two
 /// frequencies and the parameter.
 ///
@@ -153,7 +142,8 @@ impl<'a> System<'a> {
         lags.sum()
     }
 
-    /// A row of responses at `row`: columns of the circulant, drag of slipping points included.
+    /// A row of responses at `row`, columns of the circulant with the drag of slipping points, and what the law misses there,
+    /// scaled.
     fn response_row(
         &self,
         matrix: &mut Mat<f64>,
@@ -161,10 +151,10 @@ impl<'a> System<'a> {
         row: usize,
         linear: &Linearization,
         law: Law,
-    ) {
+    ) -> f64 {
         let friction = self.state.point.contact.friction_coefficient;
-        let columns = law.columns(linear);
-        let scale = law.scale(linear) / self.force_scale;
+        let columns = &linear.columns[law as usize];
+        let scale = linear.scales[law as usize] / self.force_scale;
         let force = scale * self.force_scale;
         for (j, &i) in self.contact.iter().enumerate() {
             let drag = friction * self.state.contact[i].drag();
@@ -177,11 +167,7 @@ impl<'a> System<'a> {
         for (j, ((_, own), by)) in self.scalars().iter().zip(&linear.by).enumerate() {
             matrix[(at, self.forces() + j)] = scale * own * by[law as usize][row];
         }
-    }
-
-    /// What a law misses at a point, scaled.
-    fn missed(&self, linear: &Linearization, law: Law, i: usize) -> f64 {
-        law.scale(linear) / self.force_scale * [&linear.gap, &linear.slip][law as usize][i]
+        scale * [&linear.gap, &linear.slip][law as usize][row]
     }
 
     /// Matrix and residual, scaled.
@@ -191,8 +177,7 @@ impl<'a> System<'a> {
         let mut residual = vec![0.0; size];
         let gaps = self.contact.iter().map(|&i| (i, Law::Gap));
         for (at, (i, law)) in gaps.chain(self.stick.iter().map(|&i| (i, Law::Slip))).enumerate() {
-            self.response_row(&mut matrix, at, i, linear, law);
-            residual[at] = self.missed(linear, law, i);
+            residual[at] = self.response_row(&mut matrix, at, i, linear, law);
         }
         // `Im(u_theta,1) = 0` along each phase.
         for own in &self.phases {
@@ -286,12 +271,10 @@ impl<'a> System<'a> {
                 residual[at] = self.state.normal[i] / self.force_scale;
             }
             Event::Touch(i) => {
-                self.response_row(matrix, at, i, linear, Law::Gap);
-                residual[at] = self.missed(linear, Law::Gap, i);
+                residual[at] = self.response_row(matrix, at, i, linear, Law::Gap);
             }
             Event::Rest(i) => {
-                self.response_row(matrix, at, i, linear, Law::Slip);
-                residual[at] = self.missed(linear, Law::Slip, i);
+                residual[at] = self.response_row(matrix, at, i, linear, Law::Slip);
             }
             Event::SlideForward(i) | Event::SlideBackward(i) => {
                 let drag = if matches!(event, Event::SlideForward(_)) { 1.0 } else { -1.0 };

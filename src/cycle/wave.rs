@@ -199,12 +199,10 @@ pub struct Linearization {
     pub slip: Vec<f64>,
     /// Derivatives of gap and slip with each frequency, forces fixed, and with the parameter, free forces fixed.
     pub by: Vec<[Vec<f64>; 2]>,
-    /// Response of the gap, at rising phase, to a unit normal and tangential force at phase zero.
-    pub gap_columns: [Vec<f64>; 2],
-    /// Response of the tangential velocity.
-    pub slip_columns: [Vec<f64>; 2],
+    /// Responses of gap and tangential velocity, at rising phase, to a unit normal and tangential force at phase zero.
+    pub columns: [[Vec<f64>; 2]; 2],
     /// Forces for a unit of gap and of velocity.
-    scales: [f64; 2],
+    pub scales: [f64; 2],
     /// What ties each phase down.
     pub first: Vec<FirstHarmonic>,
 }
@@ -328,15 +326,13 @@ impl Linearization {
             Parameter::Interference => by_gap.fill(-1.0),
             _ => {}
         }
-        let gap_columns = [gap_column(0), gap_column(1)];
-        let slip_columns = [slip_column(0), slip_column(1)];
+        let columns = [[gap_column(0), gap_column(1)], [slip_column(0), slip_column(1)]];
         Self {
             gap,
             slip,
             by,
-            scales: [&gap_columns[0], &slip_columns[1]].map(|column| 1.0 / largest(column)),
-            gap_columns,
-            slip_columns,
+            scales: [0, 1].map(|law| 1.0 / largest(&columns[law][law])),
+            columns,
             first,
         }
     }

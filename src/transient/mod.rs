@@ -32,7 +32,7 @@ pub use perturbation::{Perturbation, StandingWave};
 pub use recorder::{ContactFrame, Recorder, RecorderSettings, SampleRow, Snapshot};
 pub use sample::{Observer, Sample};
 pub use settings::{
-    InitialState, OperatorChoice, StepPlan, TimeStep, TransientSettings, stable_step_limit,
+    InitialState, OperatorChoice, SAFETY, StepPlan, TimeStep, TransientSettings, stable_step_limit,
     whole_intervals,
 };
 pub use settling::{Drift, EndState, Settling, Unsettled, Vibration};

@@ -5,7 +5,7 @@ use crate::fem::{MaterialField, MaxwellChain, RayleighDamping};
 use crate::mesh::Mesh;
 
 /// Share of the stability limit that an automatic time step uses.
-const SAFETY: f64 = 0.95;
+pub const SAFETY: f64 = 0.95;
 
 /// How the time step is chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -54,23 +54,14 @@ pub struct PeriodicBranch {
     pub motions: Vec<BranchMotion>,
     /// Why it ends, at its first and at its last motion.
     pub ends: [BranchEnd; 2],
-    /// Those at the value that was to be kept.
-    pub kept: Vec<KeptMotion>,
+    /// The points at the value that was to be kept, with their states.
+    pub kept: Vec<Point>,
     /// The value that was to be kept, SI.
     pub own: f64,
     /// Where it was started from, SI.
     pub start: f64,
     /// Values at which steady sliding loses its stability, SI, where these were looked for.
     pub onsets: Vec<f64>,
-}
-
-/// A motion of a branch with its state.
-#[derive(Clone, Debug)]
-pub struct KeptMotion {
-    /// The motion.
-    pub found: Found,
-    /// Steps of its period.
-    pub steps: usize,
 }
 
 impl PeriodicBranch {
@@ -185,12 +176,9 @@ impl BranchRequest<'_, '_> {
         let mut points = joined(down.points, None, up.points.split_off(1));
         let slightly = 1e-9 * scales[0];
         points.retain(|own| (least - slightly..=most + slightly).contains(&own.value));
-        let at_own = points.iter().filter(|point| point.value == self.kept);
-        let at_own =
-            at_own.map(|point| KeptMotion { found: point.found.clone(), steps: point.steps });
         Ok(PeriodicBranch {
             parameter: self.parameter,
-            kept: at_own.collect(),
+            kept: points.iter().filter(|own| own.value == self.kept).cloned().collect(),
             motions: self.motions(&points)?,
             ends: [low_end, high_end],
             own: self.kept,

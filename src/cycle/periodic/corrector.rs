@@ -71,7 +71,7 @@ impl Goal {
 
 /// A point of a branch.
 #[derive(Clone, Debug)]
-pub(super) struct Point {
+pub struct Point {
     /// The parameter, SI.
     pub value: f64,
     /// The motion.
@@ -84,19 +84,19 @@ pub(super) struct Point {
 
 impl Point {
     /// Where it lies.
-    pub fn place(&self, scales: Place) -> Place {
+    pub(super) fn place(&self, scales: Place) -> Place {
         [self.value / scales[0], self.found.image.amplitude / scales[1]]
     }
 
     /// What it is found again from: those of its motion, the value, and whether it is a fold.
-    pub fn columns(&self) -> Vec<Vec<f64>> {
+    pub(super) fn columns(&self) -> Vec<Vec<f64>> {
         let mut columns = self.found.columns(self.steps);
         columns.push(vec![self.value, f64::from(u8::from(self.is_fold))]);
         columns
     }
 
     /// The motion `share` of the way from here to another one and beyond.
-    pub fn towards(&self, other: &Self, share: f64) -> Guess {
+    pub(super) fn towards(&self, other: &Self, share: f64) -> Guess {
         Guess::combined([(self, 1.0 - share), (other, share)].into_iter())
     }
 }

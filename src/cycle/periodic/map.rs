@@ -5,7 +5,7 @@ use crate::cycle::vector::{add, difference, dot, norm};
 use crate::fem::operator::{StiffnessOperator, scatter};
 use crate::linalg::interruption;
 use crate::transient::{
-    CentralDifference, ContactPowers, InitialState, Perturbation, StatusCounts, TimeStep,
+    CentralDifference, ContactPowers, InitialState, Perturbation, SAFETY, StatusCounts, TimeStep,
     TransientError, TransientModel, TransientSettings,
 };
 
@@ -110,7 +110,7 @@ impl<'a> PeriodMap<'a> {
         let places = (0..operator.dof_count()).map(|dof| operator.position(dof));
         let moving =
             places.filter(|&place| masses[place] > 0.0).map(|place| (place, masses[place].sqrt()));
-        let longest = 0.95 * run.plan().limit;
+        let longest = SAFETY * run.plan().limit;
         let mut map = Self {
             moving: moving.collect(),
             frequency,

@@ -44,8 +44,9 @@ mod spectrum;
 mod start;
 mod two_frequencies;
 
-pub use branch::{BranchMotion, BranchRequest, KeptMotion, PeriodicBranch};
+pub use branch::{BranchMotion, BranchRequest, PeriodicBranch};
 pub use contest::ModeContest;
+pub use corrector::Point;
 pub use error::PeriodicError;
 pub use ladder::{ASTRAY, find_from};
 pub use map::{PeriodImage, PeriodMap, PeriodicState};

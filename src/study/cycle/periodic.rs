@@ -12,8 +12,8 @@ use super::operating_point;
 use crate::case::{Case, Cycle, OnsetChoice, StabilityChoice, TimeStep};
 use crate::cea::{ComplexMode, PartWatch, SweepWatch};
 use crate::cycle::periodic::{
-    BranchRequest, FloquetMultipliers, Found, KeptMotion, MotionRequest, PeriodMap, PeriodicBranch,
-    PeriodicError, PeriodicMotion, REMAINDER, Sound, find_from,
+    BranchRequest, FloquetMultipliers, Found, MotionRequest, PeriodMap, PeriodicBranch,
+    PeriodicError, PeriodicMotion, Point, REMAINDER, Sound, find_from,
 };
 use crate::cycle::{Confirmation, CriticalValue, Parameter};
 use crate::fem::operator::{SimdLevel, StiffnessOperator};
@@ -289,7 +289,7 @@ impl<'a> PeriodicStudy<'a> {
         let largest = kept
             .into_iter()
             .max_by(|a, b| a.found.image.amplitude.total_cmp(&b.found.image.amplitude));
-        let Some(KeptMotion { found, steps }) = largest else {
+        let Some(Point { found, steps, .. }) = largest else {
             let parameter = branch.parameter;
             let value = |value: f64| parameter.in_key_units(value);
             let [least, most] = branch.range().unwrap_or([f64::NAN; 2]).map(value);
