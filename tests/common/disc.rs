@@ -2,6 +2,7 @@
 
 #![allow(dead_code, reason = "each binary uses a part")]
 
+use faer::c64;
 use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest, sparse};
 use frictionsim::contact::{ContactStiffness, NormalLaw, SlidingContact};
 use frictionsim::fem::operator::SimdLevel;
@@ -14,9 +15,9 @@ use frictionsim::mesh::{
 use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
-    TimeStep, TransientModel, TransientSettings,
+    TimeStep, TransientAnalysis, TransientModel, TransientSettings,
 };
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 pub const POLYCARBONATE: ElasticMaterial = ElasticMaterial {
     young_modulus: 2.5e9,
@@ -171,6 +172,17 @@ pub fn recorded(
     let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
     run.run(&mut record).unwrap();
     (record, run.largest_residual())
+}
+
+/// Holds the linear stage of a harmonic to the eigenvalue of a mode: its rate to 1 %, its frequency to a tolerance.
+pub fn grows_as(record: &Recorder, harmonic: usize, expected: c64, tolerance: f64) {
+    let analysis = TransientAnalysis::of(record, &[harmonic]);
+    let stage = analysis.growth[0].stage.as_ref().unwrap();
+    let found = c64::new(stage.rate_per_s.value, TAU * stage.frequency_hz.value.abs());
+    println!("n = {harmonic}: {found}, eigenvalue {expected}, {:e}", analysis.largest_residual);
+    assert!((found.re / expected.re - 1.0).abs() < 0.01);
+    assert!((found.im / expected.im.abs() - 1.0).abs() < tolerance);
+    assert!(analysis.largest_residual < 1e-10);
 }
 
 /// A transient with the step that its model has.

@@ -3,8 +3,8 @@
 pub use crate::bricks::{Block, brick, file_of};
 pub use crate::cases::{case_of, shipped_case};
 pub use crate::disc::{
-    DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, contact, elastic, linearized, recorded,
-    sliding_at, springs, stiffening, sweep_request, transient_settings,
+    DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, contact, elastic, grows_as, linearized,
+    recorded, sliding_at, springs, stiffening, sweep_request, transient_settings,
 };
 pub use crate::mesh_text::{even, quadrilaterals};
 pub use crate::tier::sized;

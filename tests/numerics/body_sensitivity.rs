@@ -2,7 +2,6 @@
 //! checks): the difference of two spectra knows nothing of vectors.
 
 use crate::prelude::*;
-use frictionsim::linalg::c64;
 use frictionsim::results::cea::SensitivityReport;
 use frictionsim::study::eigenvalues::body_sensitivities;
 

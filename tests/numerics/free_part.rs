@@ -2,7 +2,7 @@
 
 use crate::plane_body::studies::line;
 use crate::prelude::*;
-use frictionsim::linalg::{GaussianNoise, c64};
+use frictionsim::linalg::GaussianNoise;
 use frictionsim::study::StudyError;
 use frictionsim::study::fit::{FitError, MeasuredMode, fit_case};
 

@@ -3,7 +3,6 @@
 
 use crate::body_sensitivity::Body;
 use crate::prelude::*;
-use frictionsim::linalg::c64;
 use frictionsim::results::improve::TargetFields;
 use frictionsim::study::improve::{Improvement, improve};
 

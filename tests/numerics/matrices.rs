@@ -7,7 +7,7 @@ use crate::prelude::*;
 use crate::program::rows;
 use faer::linalg::solvers::Solve;
 use frictionsim::cea::quadratic_modes;
-use frictionsim::linalg::{MarketMatrix, Mat, c64};
+use frictionsim::linalg::MarketMatrix;
 use serde_json::Value;
 use std::io::Read;
 

@@ -4,8 +4,8 @@ pub use crate::block::{SOLIDS, block};
 pub use crate::bricks::{Block, brick, file_of};
 pub use crate::cases::{AS_IT_IS, case_of, kept, read_case, shipped_case};
 pub use crate::disc::{
-    DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, compliant, contact, elastic, linearized,
-    modes_at, on_shaft, recorded, ring, sliding_at, springs, stiffening, sweep_request,
+    DAMPING, POLYCARBONATE, RIGID, TANGENT, annulus, compliant, contact, elastic, grows_as,
+    linearized, modes_at, on_shaft, recorded, ring, sliding_at, springs, stiffening, sweep_request,
     transient_settings,
 };
 pub use crate::mesh_text::{even, mesh_text, quadrilaterals};

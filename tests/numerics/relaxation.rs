@@ -2,7 +2,6 @@
 
 use crate::prelude::*;
 use frictionsim::fem::{MaxwellChain, ModulusTable, RelaxedMaterials, TabledMaterial};
-use frictionsim::linalg::c64;
 
 const BAND: [f64; 2] = [300.0, 30_000.0];
 const HARMONIC: usize = 2;

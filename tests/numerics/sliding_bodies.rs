@@ -8,7 +8,6 @@
 use crate::matrices::{dense, lossy_eigenvalues};
 use crate::prelude::*;
 use faer::linalg::solvers::Solve;
-use frictionsim::linalg::{Mat, c64};
 use frictionsim::results::matrices::{ExportedSystem, MatrixRole};
 use frictionsim::study::matrices::matrices;
 use proptest::prelude::*;

@@ -11,7 +11,6 @@ use crate::bricks::file_of_order;
 use crate::prelude::*;
 use crate::structural_damping::dense;
 use frictionsim::contact::PairError;
-use frictionsim::linalg::c64;
 
 const STEEL: ElasticMaterial = elastic(2e11, 0.3, 7850.0, PlaneFormulation::ThreeDimensional);
 

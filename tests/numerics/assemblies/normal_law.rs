@@ -5,7 +5,6 @@ use super::{
     turning,
 };
 use crate::prelude::*;
-use frictionsim::linalg::c64;
 
 const LAWS: [NormalLaw; 2] = [
     NormalLaw::Exponential { reference_pressure: 2e6, height: 5e-6 },

@@ -5,7 +5,6 @@ use super::{OPTIONS, PRESSED, STEEL, mesh_of, sliding, stacked, tie, turning};
 use crate::prelude::*;
 use frictionsim::fem::RotationFrame;
 use frictionsim::frf::Axis;
-use frictionsim::linalg::c64;
 use nalgebra::DVector;
 
 const DAMPED: TangentOptions = TangentOptions {

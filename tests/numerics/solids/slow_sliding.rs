@@ -5,7 +5,6 @@
 
 use crate::prelude::*;
 use crate::solids::model::disc;
-use frictionsim::linalg::{Mat, c64};
 
 const FRICTION: f64 = 0.3;
 const LIMIT: f64 = 9000.0;
