@@ -25,7 +25,7 @@ pub enum PairError {
     /// The outward normals point the same way.
     #[error(
         "surface \"{surface}\" faces away from \"{counter}\": where they lie over each other their outward normals point the \
-         same way; name the surfaces that touch"
+         same way. Name the surfaces that touch"
     )]
     FacesAway {
         /// Own surface.

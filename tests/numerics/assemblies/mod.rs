@@ -265,7 +265,7 @@ fn surfaces_that_make_no_contact_are_named_with_the_remedy() {
     for (message, wanted) in &cases {
         assert!(message.starts_with("contacts.pad: "), "{message}");
         assert!(message.contains(wanted), "{message}");
-        assert!(message.contains("name") || message.contains("move"), "{message}");
+        assert!(message.contains("Name") || message.contains("Move"), "{message}");
     }
 }
 
