@@ -37,7 +37,8 @@ impl BranchEnd {
             Self::Steps => "too many steps were spent",
             Self::Separated => "the body leaves its counterface",
             Self::Unphysical => {
-                "the wave opens inside the cylinder or draws energy from the normal contact: refine the mesh"
+                "the wave opens inside the cylinder or draws energy from the normal contact: \
+                 refine the mesh"
             }
         }
     }
@@ -151,10 +152,8 @@ where
     let follow = |name: &str, direction: f64| {
         let mut way = half(direction)?;
         // A start outside the range has nothing to find on the way out.
-        let end = match values.end_at(start, direction > 0.0) {
-            true => BranchEnd::Range,
-            false => way.run(name, watch)?,
-        };
+        let is_out = values.end_at(start, direction > 0.0);
+        let end = if is_out { BranchEnd::Range } else { way.run(name, watch)? };
         Ok((way, end))
     };
     let (down, up) = rayon::join(|| follow("down", -1.0), || follow("up", 1.0));

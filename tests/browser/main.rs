@@ -13,7 +13,7 @@ use page::*;
 use program::{Run, shipped};
 use serde_json::{Value, json};
 
-/// Tests by their names. Whether there is a browser is known only when they run, so `#[ignore]` cannot say it.
+/// Tests by their names: whether there is a browser is known only when they run, too late for an attribute of theirs.
 macro_rules! tests {
     ($($name:ident),* $(,)?) => {
         [$((stringify!($name), $name as fn())),*]

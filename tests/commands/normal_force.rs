@@ -1,6 +1,6 @@
 //! `normal_force`: force and interference are two ways to say one thing.
 
-use crate::bodies::grid::{Grid, Shape, msh};
+use crate::bodies::grid::{Grid, msh};
 use crate::prelude::*;
 
 const MATERIAL: &str = "young_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n";
@@ -28,14 +28,7 @@ fn read(folder: &Path, text: &str) -> Result<Case, String> {
 
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    let block = Grid {
-        shape: Shape::Block { width: 0.04, height: 0.03 },
-        along: 6,
-        across: 4,
-        region_of_layer: &|_| "block",
-        names: ["face", "back"],
-        triangles: false,
-    };
+    let block = Grid::block([0.04, 0.03], [6, 4], &|_| "block");
     fs::write(folder.path().join("block.msh"), msh(&[block])).unwrap();
     let pad = |name, left: f64| brick(name, [left, 0.0, 0.0], [0.02, 0.02, 0.01], [2, 2, 1]);
     let pads = [pad("left", 0.0), pad("right", 0.02)];

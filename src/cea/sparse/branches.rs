@@ -8,16 +8,20 @@ use super::{MULTIPLE, NEARLY_CRITICAL};
 use crate::linalg::{ComplexDenseLu, LinalgError};
 use crate::linalg::{Mat, c64};
 
-/// Distance of an overlap from 1 within which two modes at neighbouring friction coefficients may be one, and are one beyond doubt.
-const SAME: [f64; 2] = [0.5, 0.1];
+/// Distance of an overlap from 1 within which two modes at neighbouring friction coefficients may be one.
+const ALIKE: f64 = 0.5;
+/// Distance within which they are one beyond doubt.
+const SAME: f64 = 0.1;
 /// Part of the end of a range by which a mode is above it beyond doubt.
 const ABOVE_RANGE: f64 = 0.01;
 /// Bisections of an interval, one within the other, before modes are matched by their extrapolated eigenvalue.
 const MAX_BISECTIONS: usize = 10;
 /// Bisections of an interval in all; a branch that these do not follow is lost.
 const MOST_BETWEEN: usize = 250;
-/// Relative distance of eigenvalues that are the same, and to what the eigenvalue of a mode that is the same beyond doubt is predicted.
-const EQUAL: [f64; 2] = [1e-6, 1e-3];
+/// Relative distance of eigenvalues that are equal.
+const EQUAL: f64 = 1e-6;
+/// Relative error of the predicted eigenvalue of a mode that is the same beyond doubt.
+const PREDICTED: f64 = 1e-3;
 
 /// Name of a branch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -269,9 +273,8 @@ fn match_modes(
     let overlaps = overlaps(from, to, model);
     let mut links = clear_links(from, to, &overlaps);
     let step = to.0 - from.0;
-    let needed_links = links.iter().zip(from.1).take(needed);
-    let mut open = needed_links.filter(|(link, mode)| link.is_none() && !may_vanish(mode, step));
-    let is_clear = open.next().is_none();
+    let mut needed_links = links.iter().zip(from.1).take(needed);
+    let is_clear = needed_links.all(|(link, mode)| link.is_some() || may_vanish(mode, step));
     if !is_clear && depth < MAX_BISECTIONS && *solved < MOST_BETWEEN {
         *solved += 1;
         let modes = model.solve_between(middle, from.1.len().max(to.1.len()))?;
@@ -284,8 +287,7 @@ fn match_modes(
     if !is_clear && depth == MAX_BISECTIONS {
         link_by_extrapolation(from, to, needed, &mut links);
     }
-    let between = [from.0, to.0];
-    let last_seen = |mode: &ReducedMode| LastSeen { mode: mode.clone(), between };
+    let last_seen = |mode: &ReducedMode| LastSeen { mode: mode.clone(), between: [from.0, to.0] };
     let pairs = links.into_iter().zip(from.1);
     Ok(pairs.map(|(link, mode)| link.ok_or_else(|| last_seen(mode))).collect())
 }
@@ -306,14 +308,14 @@ fn clear_links(from: ModesAt<'_>, to: ModesAt<'_>, overlaps: &Mat<f64>) -> Vec<O
         let a = &from.1[i];
         let distance = |j: usize| (overlaps[(i, j)] - 1.0).abs();
         let best = (0..to.1.len()).min_by(|&j, &k| distance(j).total_cmp(&distance(k)));
-        let Some(j) = best.filter(|&j| distance(j) < SAME[0] && !taken[j]) else {
+        let Some(j) = best.filter(|&j| distance(j) < ALIKE && !taken[j]) else {
             continue;
         };
         let b = &to.1[j];
         let predicted = a.eigenvalue + (a.derivative + b.derivative) * (0.5 * step);
         let reach = 0.5 * (a.derivative.norm() + b.derivative.norm()) * step;
         let error = (b.eigenvalue - predicted).norm();
-        let accuracy = if distance(j) < SAME[1] { EQUAL[1] } else { EQUAL[0] };
+        let accuracy = if distance(j) < SAME { PREDICTED } else { EQUAL };
         if error <= 0.5 * reach + accuracy * a.eigenvalue.norm() {
             *link = Some(j);
             taken[j] = true;
@@ -322,10 +324,8 @@ fn clear_links(from: ModesAt<'_>, to: ModesAt<'_>, overlaps: &Mat<f64>) -> Vec<O
     // A multiple eigenvalue that friction does not move: each vector continues all, and their derivatives are worth nothing where it is
     // defective. One branch is as good as the other.
     for (i, link) in links.iter_mut().enumerate().filter(|(_, link)| link.is_none()) {
-        let a = &from.1[i];
-        let is_equal = |b: &ReducedMode| {
-            (b.eigenvalue - a.eigenvalue).norm() <= EQUAL[0] * a.eigenvalue.norm()
-        };
+        let own = from.1[i].eigenvalue;
+        let is_equal = |b: &ReducedMode| (b.eigenvalue - own).norm() <= EQUAL * own.norm();
         let is_multiple = from.1.iter().filter(|b| is_equal(b)).nth(1).is_some();
         let free = (0..to.1.len()).find(|&j| !taken[j] && is_equal(&to.1[j]));
         if let Some(j) = free.filter(|_| is_multiple) {

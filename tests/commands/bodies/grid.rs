@@ -18,6 +18,18 @@ pub struct Grid<'a> {
     pub triangles: bool,
 }
 
+impl<'a> Grid<'a> {
+    /// A block of one region between its `face` and its `back`.
+    pub fn block(
+        [width, height]: [f64; 2],
+        [along, across]: [usize; 2],
+        region_of_layer: &'a dyn Fn(usize) -> &'a str,
+    ) -> Self {
+        let shape = Shape::Block { width, height };
+        Self { shape, along, across, region_of_layer, names: ["face", "back"], triangles: false }
+    }
+}
+
 #[derive(Clone, Copy)]
 pub enum Shape {
     Ring { inner: f64, outer: f64 },

@@ -185,14 +185,7 @@ pub fn kinds() -> Vec<Kind> {
         of_file(
             "block, contact opens in part",
             block,
-            msh(&[Grid {
-                shape: Shape::Block { width: 0.04, height: 0.06 },
-                along: 10,
-                across: 10,
-                region_of_layer: &|_| "block",
-                names: ["face", "back"],
-                triangles: false,
-            }]),
+            msh(&[Grid::block([0.04, 0.06], [10, 10], &|_| "block")]),
         ),
         Kind {
             twin: Some("annulus and shaft"),
