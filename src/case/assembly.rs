@@ -75,6 +75,11 @@ pub(super) struct AssemblyParts {
 }
 
 impl AssemblyParts {
+    /// Whether all facing points are said to touch, free of stress.
+    pub fn is_stress_free(&self) -> bool {
+        self.base == BaseChoice::Closed
+    }
+
     /// Direction and a point of the axis of what turns, bodies and rigid counterfaces, where all have the same.
     pub(super) fn axis(&self) -> Result<[[f64; 3]; 2], &'static str> {
         let rigid = self.contacts.iter().filter_map(|contact| contact.surfaces.counter.rigid());

@@ -72,11 +72,18 @@ pub(super) fn cea(
     }
     let unknowns =
         body.map_or(0, |body| body.node_count().saturating_mul(body.dimension() as u128));
+    // Vendors' studies of assemblies are linear about the undeformed bodies: more is done where it is asked for.
+    let is_file_of_solids =
+        matches!(body, Some(Body::Assembly(_))) && root.section("mesh", false).has("file");
+    let is_stressed = match section.has("geometric_stiffness") {
+        true => section.flag("geometric_stiffness"),
+        false => !is_file_of_solids,
+    };
     let cea = Cea {
         modes: mode_selection(&section, unknowns),
         method: section.choice("method"),
         mass: section.choice("mass"),
-        geometric_stiffness: section.flag("geometric_stiffness"),
+        geometric_stiffness: is_stressed,
         shapes_at: section.rising("shapes_at").unwrap_or_else(|| vec![friction_coefficient]),
         own_friction: Some(friction_coefficient),
         friction_coefficients,

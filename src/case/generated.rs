@@ -90,9 +90,6 @@ fn revolution_body(
     if changes.is_empty() && !is_lossy && !is_asked_for {
         return Some(Body::Revolution(revolution));
     }
-    if cea.is_given() && cea.flag("geometric_stiffness") {
-        solid::warn_of_stress(&cea);
-    }
     let found = whole_revolution(&revolution, parts, changes);
     let reject = |(key, why): modifications::Misfit| {
         let section = key.split('.').next().unwrap_or_default().to_owned();

@@ -198,7 +198,7 @@ const SECTIONS: &[Shared] = &[
         key("modes", Count(1), "", Otherwise("cea.max_frequency_hz decides"), "28", "how many of the lowest modes are found"),
         key("method", Choice(words::<CeaMethod>), "", Value("\"auto\""), "\"auto\"", "the eigenvalue solver (auto = cyclic where the model has the symmetry)"),
         key("mass", Choice(words::<MassKind>), "", Value("\"consistent\""), "\"consistent\"", "the mass matrix"),
-        key("geometric_stiffness", Flag, "", Value("true"), "true", "whether the prestress enters the tangent stiffness"),
+        key("geometric_stiffness", Flag, "", Otherwise("true; false for solid bodies of a mesh file"), "true", "whether the prestress enters the tangent stiffness, and contact forces turn with the surfaces"),
         key("shapes_at", Numbers(NotNegative), "", Otherwise("contact.friction_coefficient"), "[0.3]", "the friction coefficients whose mode shapes are written"),
         key("sensitivities", Flag, "", Otherwise("those of bodies solved harmonic by harmonic"), "true", "whether derivatives of eigenvalues and critical friction by the numbers of the case are computed"),
         key("count_modes", Flag, "", Value("false"), "true", "whether the modes of a whole mesh are counted by the argument principle under friction, too")]),

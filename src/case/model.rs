@@ -153,11 +153,13 @@ fn assembly_model(
     (conditions, common, tables): (&[NamedCondition], &mut TabledMaterial, &mut TableFiles<'_>),
     (thickness, changes): (f64, &[Modification]),
 ) -> Model {
-    let cea = root.section("cea", false);
-    if cea.has("geometric_stiffness") && cea.flag("geometric_stiffness") {
-        solid::warn_of_stress(&cea);
-    }
     let (mut parts, contact) = assembly::sections(root, tables);
+    let cea = root.section("cea", false);
+    if cea.has("geometric_stiffness") && cea.flag("geometric_stiffness") && parts.is_stress_free() {
+        caution!(cea, "geometric_stiffness",
+            "bodies that are closed and free of stress have no geometric stiffness";
+            "no effect with base_state = \"closed\""; "leave one of the two out");
+    }
     let axis = match parts.turns() {
         true => parts.axis(),
         false => Ok([[0.0, 0.0, 1.0], [0.0; 3]]),

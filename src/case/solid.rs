@@ -4,21 +4,13 @@ use super::boundaries::NamedCondition;
 use super::diagnostic::CaseErrors;
 use super::reader::Section;
 use super::{Case, suggestion};
-use super::{caution, refusal, refuse};
+use super::{refusal, refuse};
 use crate::fem::{ElasticMaterial, PlaneFormulation};
 use crate::mesh::{AnnulusSpecification, BoundaryCondition, SolidContact, SolidFace};
 
 /// Whether the body has a thickness of its own.
 pub(super) fn is_solid(material: &ElasticMaterial) -> bool {
     material.formulation == PlaneFormulation::ThreeDimensional
-}
-
-/// Says that the stress of the base state is left out of the modes.
-pub(super) fn warn_of_stress(cea: &Section<'_>) {
-    caution!(cea, "geometric_stiffness",
-        "solid bodies on their whole mesh have no geometric stiffness: the stress of the base \
-         state is left out of their modes";
-        "no effect; set it to false");
 }
 
 /// Elements over the thickness; `None` in the plane, where they are an error.

@@ -11,7 +11,7 @@ use crate::mesh::{BoundaryCondition, Mesh, SolidContact, SolidFace, SolidSector}
 use crate::prestress::{BaseChoice, SlidingSurfaces};
 use std::sync::Arc;
 
-/// The whole mesh of a body of revolution on its rigid cylinder, or under its rigid ring. It has no geometric stiffness.
+/// The whole mesh of a body of revolution on its rigid cylinder, or under its rigid ring.
 pub(super) fn whole_revolution(
     revolution: &Revolution,
     (material, contact): (&TabledMaterial, &Contact),

@@ -111,6 +111,14 @@ impl RigidCounterface {
         }
     }
 
+    /// Its rotation, rad/s.
+    pub(super) fn spin(&self) -> Vector3<f64> {
+        match self.motion {
+            RigidMotion::Sliding(_) => Vector3::zeros(),
+            RigidMotion::Turning(speed) => Vector3::from(self.axis) * speed,
+        }
+    }
+
     /// Its unit normal into the body at a point of the contact surface whose own normal is `mean`.
     pub(super) fn normal(&self, position: [f64; 3], mean: [f64; 3]) -> [f64; 3] {
         let mean = Vector3::from(mean);
@@ -121,6 +129,23 @@ impl RigidCounterface {
                 (radial * radial.dot(&mean).signum()).into()
             }
         }
+    }
+
+    /// Rate at which its unit normal `n` into the body turns towards `a` as the point moves along `b`, 1/m; both lie in its
+    /// surface.
+    pub(super) fn curvature(
+        &self,
+        at: [f64; 3],
+        n: Vector3<f64>,
+        [a, b]: [Vector3<f64>; 2],
+    ) -> f64 {
+        let (arm, axis) = (self.arm(&at.into()), Vector3::from(self.axis));
+        let along = match self.shape {
+            RigidShape::Plane => return 0.0,
+            RigidShape::Cylinder(_) => a.dot(&b) - a.dot(&axis) * b.dot(&axis),
+            RigidShape::Sphere(_) => a.dot(&b),
+        };
+        arm.dot(&n).signum() * along / arm.norm()
     }
 
     /// Lays it against `surface`.

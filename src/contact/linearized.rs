@@ -28,8 +28,6 @@ pub struct PressedPoints<'a> {
 pub struct ContactTerms {
     /// Penalty and the friction that follows it; nothing for rigid contact.
     pub stiffness: Vec<Triplets>,
-    /// Forces of the base state that turn with the surface; belongs with the geometric stiffness.
-    pub turning: Vec<Triplets>,
     /// Dashpots of contact and friction.
     pub dashpots: Vec<Triplets>,
     /// Structural damping of the penalty, whose force is `i` times it; nothing where it has none.
@@ -44,8 +42,8 @@ pub struct ContactTerms {
 /// ```
 ///
 /// along the rows `n`, `t` and `d` of normal, slip and slip across, with `k_n` at the base state's pressure where contact
-/// stiffens: friction follows the normal force, falls with the slip speed, and turns with the direction of slip. Shape: sums
-/// over all dofs of both bodies, N/m and N s/m.
+/// stiffens: friction follows the normal force, falls with the slip speed, and turns with the direction of slip. Forces of the
+/// base state turn with the surfaces beside ([`super::turned`]). Shape: sums over all dofs of both bodies, N/m and N s/m.
 pub fn linearized(
     points: &[Point],
     state: &PressedPoints<'_>,
@@ -53,10 +51,6 @@ pub fn linearized(
 ) -> ContactTerms {
     let mut terms = ContactTerms::default();
     let frozen = state.frozen_below;
-    let merge_many = |terms: &mut [Triplets]| {
-        let many = terms.iter_mut();
-        many.filter(|term| term.entries.len() > MANY_ENTRIES).for_each(Triplets::merge);
-    };
     let first = state.first;
     let pressed = || (0..points.len()).filter(|&i| state.is_pressed[first + i]);
     for point in pressed().map(|i| &points[i]) {
@@ -104,22 +98,25 @@ pub fn linearized(
                 add(&point.across, friction.drag.abs() * force / point.speed);
             }
         }
-        for (point, &force) in points.iter().zip(&forces[first..]) {
-            add_turning(&mut terms.turning, (p, frozen), point, force);
-        }
         merge_many(&mut terms.dashpots);
     }
     merge_many(&mut terms.stiffness);
     terms
 }
 
+/// Sums the entries of terms that have become many.
+pub(super) fn merge_many(terms: &mut [Triplets]) {
+    let many = terms.iter_mut();
+    many.filter(|term| term.entries.len() > MANY_ENTRIES).for_each(Triplets::merge);
+}
+
 /// The term of what the power `p` of a state multiplies: `mu^p`, or `(mu - a)^p` from the coefficient `a` on below which it is frozen.
-fn alone(p: usize, frozen_below: f64) -> usize {
+pub(super) fn alone(p: usize, frozen_below: f64) -> usize {
     p + usize::from(frozen_below > 0.0 && p > 0)
 }
 
 /// The terms of what `mu` and the power `p` of a state multiply, and their factors.
-fn following(p: usize, frozen_below: f64) -> impl Iterator<Item = (usize, f64)> {
+pub(super) fn following(p: usize, frozen_below: f64) -> impl Iterator<Item = (usize, f64)> {
     FrictionWeights::frozen_below(frozen_below).times_mu(alone(p, frozen_below))
 }
 
@@ -138,32 +135,8 @@ fn add_normal_law(
     }
 }
 
-/// Normal force and friction of the base state as they turn with the surface.
-///
-/// The normal is that of the surface that the point meets, `theta` its turn there; with `w` and `xi` the separation and the
-/// slip, `eta` and `epsilon` the slopes of the opposite body along normal and tangent, `kappa` the curvature,
-///
-/// ```text
-/// theta = kappa xi - eta,   N: -kappa xi xi + xi eta + eta xi,   T: w theta + epsilon xi
-/// ```
-///
-/// as products of a row and a column. On a rigid counterface both slopes vanish. Plane bodies alone have it.
-fn add_turning(terms: &mut Vec<Triplets>, (p, frozen): (usize, f64), point: &Point, force: f64) {
-    let curvature = point.curvature;
-    let pressed = power(terms, alone(p, frozen));
-    add_product(pressed, -curvature * force, &point.slip, &point.slip);
-    add_product(pressed, force, &point.slip, &point.tilt);
-    add_product(pressed, force, &point.tilt, &point.slip);
-    for (term, factor) in following(p, frozen) {
-        let (sheared, drag) = (power(terms, term), point.friction.drag * factor * force);
-        add_product(sheared, curvature * drag, &point.normal, &point.slip);
-        add_product(sheared, -drag, &point.normal, &point.tilt);
-        add_product(sheared, drag, &point.stretch, &point.slip);
-    }
-}
-
 /// The coefficient of a term, made where it is not yet there.
-fn power(terms: &mut Vec<Triplets>, p: usize) -> &mut Triplets {
+pub(super) fn power(terms: &mut Vec<Triplets>, p: usize) -> &mut Triplets {
     if terms.len() <= p {
         terms.resize_with(p + 1, Triplets::default);
     }
@@ -171,7 +144,7 @@ fn power(terms: &mut Vec<Triplets>, p: usize) -> &mut Triplets {
 }
 
 /// `A += factor row column^T`.
-fn add_product(terms: &mut Triplets, factor: f64, row: &Row, column: &Row) {
+pub(super) fn add_product(terms: &mut Triplets, factor: f64, row: &Row, column: &Row) {
     if factor == 0.0 {
         return;
     }

@@ -1,7 +1,8 @@
 //! Interface kinematics, Coulomb's law, node status, and contact linearised around steady sliding.
 //!
 //! A contact [`Point`] is rows over the degrees of freedom of one body or two: separation, slip along the sliding and
-//! across it. [`linearized`] makes the terms of small motions of such points, whatever they come from.
+//! across it. [`linearized`] makes the terms of small motions of such points, whatever they come from, [`turned`] those of forces
+//! that turn with the surfaces.
 //!
 //! A plane body touches a rigid cylinder that turns inside the contact edge or around it. Or it
 //! touches a rigid plane that moves along itself, or another body. `delta` is how far it is pushed
@@ -28,6 +29,7 @@ mod polygon;
 mod surface;
 mod surface_law;
 mod topography;
+mod turning;
 
 pub use counterpart::{Counterpart, RigidCounterface, RigidMotion, RigidShape};
 pub use interface::ContactInterface;
@@ -44,6 +46,7 @@ pub use point::{Point, Row};
 pub use surface::{SegmentPoint, SurfacePair, row_along};
 pub use surface_law::{PointFriction, SlippingPoint};
 pub use topography::Topography;
+pub use turning::{Turning, turned};
 
 /// The rigid moving counterface and its friction law.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -27,6 +27,8 @@ pub struct MortarNode {
     pub own: Vec<(u32, f64)>,
     /// Nodes of the counter surface with theirs.
     pub counter: Vec<(u32, f64)>,
+    /// Nodes of the counter surface with their slopes by arc, 1/m.
+    pub slopes: Vec<(u32, Vector3<f64>)>,
     /// Nodes of the own surface that move along a direction, and how far, where the jump here alone is one.
     pub lift: Vec<(u32, f64)>,
 }
@@ -38,6 +40,7 @@ struct Sums {
     gap: f64,
     normal: Vector3<f64>,
     counter: BTreeMap<u32, f64>,
+    slopes: BTreeMap<u32, Vector3<f64>>,
 }
 
 /// The nodes of `surface` that have the other surface of `pair` before them.
@@ -109,6 +112,11 @@ pub fn mortar_nodes(mesh: &Mesh, surface: &Boundary, pair: &SurfacePair) -> Vec<
                     .map(|(&other, value)| (other, value / sum.area))
                     .filter(|entry| entry.1 != 0.0)
                     .collect(),
+                slopes: sum
+                    .slopes
+                    .iter()
+                    .map(|(&other, slope)| (other, slope / sum.area))
+                    .collect(),
             }
         })
         .collect()
@@ -141,6 +149,9 @@ fn add_face(face: &BoundaryFace, points: &[&SegmentPoint], sums: &mut BTreeMap<u
             sum.normal += Vector3::from(point.normal) * psi;
             for &(other, value) in &point.counter {
                 *sum.counter.entry(other).or_default() += psi * value;
+            }
+            for &(other, slope) in &point.slopes {
+                *sum.slopes.entry(other).or_default() += slope * psi;
             }
         }
     }

@@ -2,7 +2,9 @@
 
 use super::mortar::{MortarNode, mortar_nodes};
 use super::surface::{SurfacePair, row_along};
-use super::{Counterpart, FrictionDecay, PairError, Point, Row, SteadyFriction, Topography};
+use super::{
+    Counterpart, FrictionDecay, PairError, Point, RigidCounterface, Row, SteadyFriction, Topography,
+};
 use crate::fem::{RotationFrame, Spin};
 use crate::mesh::{Boundary, Mesh};
 use nalgebra::Vector3;
@@ -31,13 +33,14 @@ impl Motion {
         (Vector3::from(self.axis).cross(&arm) * self.rotation_speed).into()
     }
 
+    /// `Omega` along the axis, rad/s.
+    pub fn spin_vector(&self) -> Vector3<f64> {
+        Vector3::from(self.axis) * self.rotation_speed
+    }
+
     /// How its inertia turns, where it counts.
     pub fn spin(&self) -> Option<Spin> {
-        self.inertia.map(|frame| Spin {
-            velocity: Vector3::from(self.axis) * self.rotation_speed,
-            center: self.center,
-            frame,
-        })
+        self.inertia.map(|frame| Spin { velocity: self.spin_vector(), center: self.center, frame })
     }
 }
 
@@ -79,6 +82,10 @@ pub struct ContactSurface {
     pub sites: Vec<ContactSite>,
     /// Nodes of the own surface that each point is among, with their shares in it.
     pub shares: Vec<Vec<(u32, f64)>>,
+    /// Nodes of the counter surface before each point, with the slopes of their shares by arc, 1/m; none on a rigid one.
+    pub slopes: Vec<Vec<(u32, Vector3<f64>)>>,
+    /// Rotation of the counterpart relative to the own body, rad/s.
+    pub spin: Vector3<f64>,
     /// Nodes of the own surface that have the other before them.
     pub nodes: Vec<u32>,
     /// Area of the own surface, and how much of it is covered, m2.
@@ -128,10 +135,14 @@ impl ContactSurface {
             };
             counter - of(own_motion)
         };
+        let spin = |motion: Option<&Motion>| motion.map_or(Vector3::zeros(), Motion::spin_vector);
         let mut found = Self {
             points: Vec::new(),
             sites: Vec::new(),
             shares: Vec::new(),
+            slopes: Vec::new(),
+            spin: counterpart.rigid().map_or_else(|| spin(counter_motion), RigidCounterface::spin)
+                - spin(own_motion),
             nodes: own_nodes(&pair),
             area: pair.area,
             covered: pair.covered,
@@ -183,6 +194,7 @@ impl ContactSurface {
             };
             self.add(site, [point.area, point.gap], friction, jump);
             self.shares.push(point.own.clone());
+            self.slopes.push(point.slopes.clone());
         }
     }
 
@@ -199,6 +211,7 @@ impl ContactSurface {
             let jump = |direction: [f64; 3]| node.jump(mesh, direction);
             self.add(site, [node.area, node.gap], friction, jump);
             self.shares.push(vec![(node.node, 1.0)]);
+            self.slopes.push(node.slopes);
             let lift = row_along(mesh, &node.lift, node.normal, 1.0);
             self.points.last_mut().expect("one was added").lift = lift;
         }
@@ -212,6 +225,7 @@ impl ContactSurface {
         retain(&mut self.points, &is_kept);
         retain(&mut self.sites, &is_kept);
         retain(&mut self.shares, &is_kept);
+        retain(&mut self.slopes, &is_kept);
         let nodes: BTreeSet<u32> = self.shares.iter().flatten().map(|own| own.0).collect();
         self.nodes = nodes.into_iter().collect();
     }

@@ -31,12 +31,6 @@ pub struct Point {
     pub slip: Row,
     /// Row of the slip across the sliding; empty in the plane.
     pub across: Row,
-    /// Row of the slope of the counterface's displacement along the normal, by the arc, 1/m; empty on a rigid one.
-    pub tilt: Row,
-    /// Row of the slope of its displacement along the tangent, 1/m.
-    pub stretch: Row,
-    /// Rate at which the normal turns as the point moves along `t`, 1/m.
-    pub curvature: f64,
     /// Sliding speed `V`, m/s.
     pub speed: f64,
     /// Friction at that speed for each unit of friction coefficient and normal force.
@@ -48,12 +42,6 @@ impl ContactInterface {
     pub fn points(&self, contact: &SlidingContact) -> Vec<Point> {
         let friction = self.steady_friction(contact);
         let speed = self.surface_speed(contact.rotation_speed).abs();
-        let curvature = self.counterface.curvature();
-        let slope = |i: usize, along: fn(&super::OppositeShare) -> f64| -> Row {
-            let shares = self.opposite_of(i).iter();
-            let all = shares.map(|share| (share.dof, along(share)));
-            all.filter(|(_, value)| *value != 0.0).collect()
-        };
         let point = |i: usize| Point {
             weight: self.tributary_lengths[i],
             gap: self.gaps[i],
@@ -61,9 +49,6 @@ impl ContactInterface {
             lift: vec![(self.normal_dof(i), 1.0)],
             slip: self.slip(i).collect(),
             across: Row::new(),
-            tilt: slope(i, |share| share.normal_slope),
-            stretch: slope(i, |share| share.tangential_slope),
-            curvature,
             speed,
             friction,
         };

@@ -23,6 +23,8 @@ pub struct SegmentPoint {
     pub own: Vec<(u32, f64)>,
     /// Nodes of the face before it with theirs.
     pub counter: Vec<(u32, f64)>,
+    /// The same with their slopes by arc on the own surface, 1/m.
+    pub slopes: Vec<(u32, Vector3<f64>)>,
 }
 
 /// Two surfaces of a solid mesh that face each other.
@@ -71,6 +73,34 @@ struct Facet<'a> {
     radius: f64,
 }
 
+/// A point of a facet.
+struct FacetPoint {
+    /// Shape functions and their slopes by place on the face.
+    shapes: Vec<(f64, [f64; 3])>,
+    position: Vector3<f64>,
+    tangents: [Vector3<f64>; 2],
+}
+
+impl FacetPoint {
+    /// Unit outward normal.
+    fn normal(&self) -> Vector3<f64> {
+        self.tangents[0].cross(&self.tangents[1]).normalize()
+    }
+
+    fn values(&self) -> Vec<f64> {
+        self.shapes.iter().map(|shape| shape.0).collect()
+    }
+
+    /// Slopes of the shape functions by arc across `normal`, along which the face is seen, 1/m.
+    fn slopes(&self, normal: &Vector3<f64>) -> Vec<Vector3<f64>> {
+        let [a, b] = &self.tangents;
+        let [across_a, across_b] = [b.cross(normal), normal.cross(a)];
+        let dual = [across_a / across_a.dot(a), across_b / across_b.dot(b)];
+        let shapes = self.shapes.iter();
+        shapes.map(|(_, slopes)| dual[0] * slopes[0] + dual[1] * slopes[1]).collect()
+    }
+}
+
 impl<'a> Facet<'a> {
     fn of(mesh: &Mesh, face: &'a BoundaryFace) -> Self {
         let points: Vec<Vector3<f64>> =
@@ -98,8 +128,8 @@ impl<'a> Facet<'a> {
         &self.points[..self.face.kind.corner_count()]
     }
 
-    /// Shape functions, position and outward normal of the point that projects onto `target` in `plane`.
-    fn at(&self, plane: &Plane, target: Vector2<f64>) -> (Vec<f64>, Vector3<f64>, Vector3<f64>) {
+    /// The point that projects onto `target` in `plane`.
+    fn at(&self, plane: &Plane, target: Vector2<f64>) -> FacetPoint {
         let is_triangle = self.face.kind.corner_count() == 3;
         let mut place = if is_triangle { [1.0 / 3.0; 2] } else { [0.0; 2] };
         let mut found = None;
@@ -114,9 +144,7 @@ impl<'a> Facet<'a> {
             }
             let off = target - plane.flat(&position);
             let [a, b] = tangents.map(|tangent| plane.flat_direction(&tangent));
-            let normal = tangents[0].cross(&tangents[1]).normalize();
-            let values = shapes.iter().map(|shape| shape.0).collect();
-            found = Some((values, position, normal));
+            found = Some(FacetPoint { shapes, position, tangents });
             if off.norm() < 1e-14 * self.radius {
                 break;
             }
@@ -240,10 +268,14 @@ impl SurfacePair {
             return;
         };
         let meet = |target: Vector2<f64>, position: &Vector3<f64>, outward: &Vector3<f64>| {
-            let (shares, opposite, _) = other.at(plane, target);
-            let gap = (opposite - position).dot(outward);
-            let counter = nodes_with(other.face, shares);
-            (gap.abs() <= self.reach).then_some((counter, gap, -outward))
+            let opposite = other.at(plane, target);
+            let gap = (opposite.position - position).dot(outward);
+            (gap.abs() <= self.reach).then(|| Meeting {
+                counter: nodes_with(other.face, opposite.values()),
+                slopes: nodes_with(other.face, opposite.slopes(outward)),
+                gap,
+                normal: -outward,
+            })
         };
         let points = quadrature((f, facet), &polygon, plane, meet);
         self.covered += points.iter().map(|point| point.area).sum::<f64>();
@@ -269,7 +301,8 @@ impl SurfacePair {
             let corners = facet.corners().iter();
             let polygon: Vec<_> = corners.map(|corner| plane.flat(corner)).collect();
             let meet = |_: Vector2<f64>, position: &Vector3<f64>, _: &Vector3<f64>| {
-                Some((Vec::new(), 0.0, placed.normal(position)))
+                let normal = placed.normal(position);
+                Some(Meeting { counter: Vec::new(), slopes: Vec::new(), gap: 0.0, normal })
             };
             quadrature((f, facet), &polygon, &plane, meet)
         });
@@ -287,9 +320,17 @@ impl SurfacePair {
     }
 }
 
-/// What lies before a point of a face: its nodes with their shape functions, the gap (m), and the unit normal from there into the
-/// face's own body.
-type Meeting = (Vec<(u32, f64)>, f64, Vector3<f64>);
+/// What lies before a point of a face.
+struct Meeting {
+    /// Its nodes with their shape functions.
+    counter: Vec<(u32, f64)>,
+    /// The same with their slopes by arc, 1/m.
+    slopes: Vec<(u32, Vector3<f64>)>,
+    /// The gap, m.
+    gap: f64,
+    /// The unit normal from there into the face's own body.
+    normal: Vector3<f64>,
+}
 
 /// The quadrature points of a convex polygon on a face that have something before them: `meet` is asked with the place in the
 /// plane, the position on the face and its outward normal.
@@ -307,26 +348,28 @@ fn quadrature(
         for (shares, weight) in RULE {
             let parts = corners.iter().zip(shares).map(|(corner, share)| corner * share);
             let target = parts.sum::<Vector2<f64>>();
-            let (values, position, outward) = facet.at(plane, target);
-            let Some((counter, gap, normal)) = meet(target, &position, &outward) else {
+            let own = facet.at(plane, target);
+            let outward = own.normal();
+            let Some(met) = meet(target, &own.position, &outward) else {
                 continue;
             };
             points.push(SegmentPoint {
                 face: f,
-                position: position.into(),
-                normal: normal.into(),
+                position: own.position.into(),
+                normal: met.normal.into(),
                 // Area on the surface itself, whose normal leans against the plane's.
                 area: weight * triangle / outward.dot(&facet.normal),
-                gap,
-                own: nodes_with(facet.face, values),
-                counter,
+                gap: met.gap,
+                own: nodes_with(facet.face, own.values()),
+                counter: met.counter,
+                slopes: met.slopes,
             });
         }
     }
     points
 }
 
-fn nodes_with(face: &BoundaryFace, values: Vec<f64>) -> Vec<(u32, f64)> {
+fn nodes_with<T>(face: &BoundaryFace, values: Vec<T>) -> Vec<(u32, T)> {
     face.nodes.iter().copied().zip(values).collect()
 }
 

@@ -6,21 +6,24 @@ use super::elimination::Elimination;
 use super::joint::{BaseChoice, SlidingSurfaces, TiedSurfaces};
 use super::pressed_state::{PressedState, Pressing};
 use super::rotation::{Rotation, grounded};
-use super::tangent::{BodyTerms, ContactDofs, ContactPart, SlidingTangent};
+use super::tangent::{BodyTerms, ContactDofs, ContactPart, SlidingTangent, frozen_terms};
 use super::{PrestressError, TangentOptions};
-use crate::contact::{ContactSurface, Motion, PairError, PointKind, SurfacePair, mortar_nodes};
+use crate::contact::{
+    ContactSurface, Motion, PairError, PointKind, SurfacePair, Turning, mortar_nodes,
+};
 use crate::fem::{
-    MaterialField, Triplets, assemble_pressures, assemble_stiffness, assemble_supports,
+    MaterialField, Triplets, assemble_geometric_stiffness, assemble_pressures, assemble_stiffness,
+    assemble_supports,
 };
 use crate::mesh::Mesh;
 use std::sync::Arc;
 
 /// Solid bodies of one mesh with what ties them and what slides.
 ///
-/// Meshes stay where they are; the sliding is imposed as a relative velocity. Small motions are taken about the undeformed
-/// bodies: neither geometric stiffness nor forces that turn with the surface, of which one without the other would not leave
-/// a rigid rotation free. A region that turns may have the inertia of its rotation ([`crate::fem::RotationTerms`]) with the
-/// geometric stiffness of its centrifugal stress.
+/// Meshes stay where they are; the sliding is imposed as a relative velocity. Small motions have the geometric stiffness of the
+/// base state where [`TangentOptions::geometric_stiffness`] asks for it, and with it the turning of contact forces: of these one
+/// without the other would not leave a rigid rotation free. Pressures are dead. A region that turns may have the inertia of its
+/// rotation ([`crate::fem::RotationTerms`]) with the geometric stiffness of its centrifugal stress.
 #[derive(Debug)]
 pub struct Assembly<'a> {
     mesh: &'a Mesh,
@@ -311,15 +314,20 @@ impl<'a> Assembly<'a> {
     ) -> Result<SlidingTangent, PrestressError> {
         let joined = &self.joined;
         let (elastic, supports) = (joined.elastic.clone(), joined.supports.clone());
+        let geometric = options.geometric_stiffness.then(|| self.geometric(state)).flatten();
+        let none = || vec![Vec::new(); joined.contacts.len()];
+        let turnings = geometric.as_ref().map_or_else(none, |_| self.turnings());
         let body = BodyTerms {
+            geometric,
             rotation: joined.rotation.as_ref().map(|own| own.terms.clone()),
             ..BodyTerms::of((self.mesh, self.materials), elastic, supports, options)
         };
         // Each contact has its stretch of the state's points.
         let mut first = 0;
-        let parts = joined.contacts.iter().map(|(contact, surface)| {
+        let parts = joined.contacts.iter().zip(&turnings).map(|((contact, surface), turnings)| {
             let part = ContactPart {
                 points: &surface.points,
+                turnings,
                 state: state.points_from(first),
                 stiffness: contact.stiffness,
                 has_own_dofs: contact.stiffness.normal_stiffness.is_none(),
@@ -337,6 +345,32 @@ impl<'a> Assembly<'a> {
             ..ContactDofs::default()
         };
         SlidingTangent::assemble(&body, &parts, joined.basis.clone(), &dofs, options)
+    }
+
+    /// How the points of each contact turn.
+    pub fn turnings(&self) -> Vec<Vec<Turning>> {
+        let contacts = self.joined.contacts.iter();
+        contacts.map(|(own, surface)| surface.turnings(self.mesh, &own.counter)).collect()
+    }
+
+    /// Displacements of a state, by power of friction, whose stress acts on small motions beside the terms of the rotation, which
+    /// have the centrifugal one; `None` of a state that is free of stress.
+    pub fn stressing(&self, state: &PressedState) -> Option<Vec<Vec<f64>>> {
+        let mut powers =
+            (self.joined.base == BaseChoice::Solved).then(|| state.displacements.clone())?;
+        if let Some(rotation) = &self.joined.rotation {
+            let own = powers[0].iter_mut().zip(&rotation.displacement);
+            own.for_each(|(whole, centrifugal)| *whole -= centrifugal);
+        }
+        Some(powers)
+    }
+
+    /// Geometric stiffness of a state by power of friction, N/m, in the terms of one that is frozen; `None` of a state that is free of stress.
+    fn geometric(&self, state: &PressedState) -> Option<Vec<Triplets>> {
+        let powers = self.stressing(state)?;
+        let powers =
+            powers.iter().map(|own| assemble_geometric_stiffness(self.mesh, self.materials, own));
+        Some(frozen_terms(powers.collect(), state.frozen_below))
     }
 }
 

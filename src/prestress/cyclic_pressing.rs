@@ -110,8 +110,6 @@ impl SectorPressing {
                 lift: folded(&point.lift),
                 slip: folded(&point.slip),
                 across: folded(&point.across),
-                tilt: folded(&point.tilt),
-                stretch: folded(&point.stretch),
                 ..point.clone()
             }
         });

@@ -26,6 +26,8 @@ pub(super) struct Rotation {
     pub terms: [Triplets; 2],
     /// Centrifugal load, N.
     pub centrifugal: Vec<f64>,
+    /// What it does alone, m; its stress is in the terms.
+    pub displacement: Vec<f64>,
 }
 
 impl Rotation {
@@ -69,6 +71,7 @@ impl Rotation {
         Ok(Some(Self {
             terms: [terms.transport, terms.gyroscopic],
             centrifugal: terms.centrifugal,
+            displacement,
         }))
     }
 }

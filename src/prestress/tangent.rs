@@ -3,7 +3,7 @@
 use super::elimination::{Elimination, ProjectedPolynomial, RigidFriction};
 use super::tabled::{TabledGain, TabledStiffness};
 use super::{DampingModel, PrestressError, SteadySliding, TangentOptions};
-use crate::contact::{ContactStiffness, Point, PressedPoints, Row, linearized};
+use crate::contact::{ContactStiffness, Point, PressedPoints, Row, Turning, linearized, turned};
 use crate::fem::{
     DofMap, MaterialField, ModulusTable, RayleighDamping, Triplets, assemble_extra_damping,
     assemble_geometric_stiffness, assemble_losses, assemble_mass, assemble_supports,
@@ -156,6 +156,8 @@ impl BodyTerms {
 pub struct ContactPart<'a> {
     /// Its points.
     pub points: &'a [Point],
+    /// How they turn; not read where nothing turns with the geometric stiffness.
+    pub turnings: &'a [Turning],
     /// Which are pressed, with what forces.
     pub state: PressedPoints<'a>,
     /// Penalty or rigid, and dashpots.
@@ -196,8 +198,10 @@ impl SlidingTangent {
             geometric: geometric.map(|terms| frozen_terms(terms, base.frozen_below)),
             ..BodyTerms::of((mesh, material), elastic.clone(), assemble_supports(mesh), options)
         };
+        let turnings = base.interface.turnings();
         let part = ContactPart {
             points: &base.points,
+            turnings: &turnings,
             state: base.points_from(0),
             stiffness: options.contact,
             has_own_dofs: true,
@@ -268,7 +272,7 @@ impl SlidingTangent {
             add_powers(&mut dashpots, &terms.dashpots);
             add_powers(&mut losses, &terms.structural);
             if body.geometric.is_some() {
-                add_powers(&mut stiffness, &terms.turning);
+                add_powers(&mut stiffness, &turned(part.points, part.turnings, &part.state));
             }
         }
         stiffness.iter_mut().chain(&mut dashpots).for_each(Triplets::merge);
@@ -362,7 +366,7 @@ fn add_powers(sum: &mut Vec<Triplets>, terms: &[Triplets]) {
 }
 
 /// What a state adds by power of `mu - a`, in the terms of one that is frozen below `a`.
-fn frozen_terms(mut powers: Vec<Triplets>, frozen_below: f64) -> Vec<Triplets> {
+pub(super) fn frozen_terms(mut powers: Vec<Triplets>, frozen_below: f64) -> Vec<Triplets> {
     if frozen_below > 0.0 && powers.len() > 1 {
         powers.insert(1, Triplets::default());
     }

@@ -43,8 +43,7 @@ fn rigid_rotation_leaves_the_prestressed_edge_in_balance() {
             stiffnesses: &[],
             frozen_below: 0.0,
         };
-        let options = ContactStiffness::default();
-        let mut prestress = linearized(&base.points, &state, &options).turning;
+        let mut prestress = turned(&base.points, &base.interface.turnings(), &state);
         for (terms, displacement) in prestress.iter_mut().zip(&base.displacements) {
             let stress = assemble_geometric_stiffness(&mesh, &material, displacement);
             terms.entries.extend(stress.entries);

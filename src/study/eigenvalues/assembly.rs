@@ -57,6 +57,11 @@ impl AssemblyModel {
         Assembly::of(mesh, materials, Arc::clone(&self.joined))
     }
 
+    /// Whether the stress of the base state acts on small motions.
+    pub fn is_stressed(&self) -> bool {
+        self.options.geometric_stiffness && self.body.base == BaseChoice::Solved
+    }
+
     /// The state at the case's own friction coefficient.
     pub(in crate::study) fn base(&self) -> &PressedState {
         let own = self.range.state_of.last();

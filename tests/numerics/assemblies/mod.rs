@@ -1,6 +1,7 @@
 //! Solid bodies that are tied together and slide on each other (independent checks, unless a test says otherwise).
 
 mod normal_law;
+mod prestress;
 mod response;
 mod rigid_counterface;
 mod rotation;

@@ -22,7 +22,7 @@ fn sheet() -> [Block; 2] {
     [lower, upper]
 }
 
-fn plane(motion: RigidMotion, center: [f64; 3]) -> RigidCounterface {
+pub(super) fn plane(motion: RigidMotion, center: [f64; 3]) -> RigidCounterface {
     RigidCounterface {
         shape: RigidShape::Plane,
         center,

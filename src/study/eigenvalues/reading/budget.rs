@@ -64,12 +64,17 @@ impl Parts<'_> {
         shapes: &Shapes<'_>,
         sums: &mut Sums,
     ) -> Vec<Row> {
-        let beta = self.options.damping.stiffness_coefficient;
+        let beta = self.whole_beta();
         let mut rows = Vec::new();
         for (region, own) in self.regions.iter().enumerate() {
             let [mass, stiffness] = own.pair.multiply(shapes.columns.as_ref());
             let (m, k) = (shapes.forms(&mass), shapes.forms(&stiffness));
-            let g = self.geometric_forms(model, shapes, region);
+            // The prestress takes part in the damping, and in the balance of forces.
+            let is_asked_for = beta != 0.0 || sums.balance.is_some();
+            let stressed = is_asked_for.then(|| self.geometric_image(model, shapes, region));
+            let stressed = stressed.flatten();
+            let none = || vec![0.0; shapes.modes.len()];
+            let g = stressed.as_ref().map_or_else(none, |image| shapes.forms(image));
             let each = (0..shapes.modes.len()).map(|i| {
                 let lambda = shapes.modes[i].1.eigenvalue;
                 let ratio = own.ratio(lambda);
@@ -87,6 +92,9 @@ impl Parts<'_> {
                     [lambda * lambda + lambda * own.alpha, lambda * own.beta + own.ratio(lambda)]
                 };
                 shapes.add(balance, [&mass, &stiffness], factors);
+                if let Some(image) = &stressed {
+                    shapes.add(balance, [image], |lambda| [c64::ONE + lambda * beta]);
+                }
             }
         }
         rows

@@ -15,11 +15,11 @@ use super::parts::Parts;
 use super::shapes::Shapes;
 use crate::case::Case;
 use crate::cea::FrictionPoint;
-use crate::contact::{ContactStiffness, Point, PressedPoints, linearized};
-use crate::fem::{Triplets, assemble_geometric_stiffness};
+use crate::contact::{ContactStiffness, Point, PressedPoints, Turning, linearized, turned};
+use crate::fem::Triplets;
 use crate::linalg::c64;
 use crate::mesh::Mesh;
-use crate::prestress::{DampingModel, SteadySliding};
+use crate::prestress::SteadySliding;
 use crate::results::cea::{Feed, FeedPlace, ModeFeed};
 use crate::study::eigenvalues::assembly::AssemblyModel;
 use crate::study::eigenvalues::model::Model;
@@ -29,6 +29,8 @@ use crate::study::eigenvalues::sliding::{SlidingModel, SteadyState};
 struct Pressed {
     place: FeedPlace,
     point: Point,
+    /// How it turns; nothing where no stress acts on small motions.
+    turning: Vec<Turning>,
     is_pressed: bool,
     /// Normal force, and stiffness where contact stiffens, by power of friction.
     forces: Vec<Vec<f64>>,
@@ -63,24 +65,14 @@ pub(super) fn feed(
     parts.of_regions(model, &shapes, &mut sums);
     parts.of_supports(&shapes, &mut sums);
     parts.of_rotation(&shapes, &mut sums);
-    let geometric = geometric(case, model, parts, friction);
-    let has_turning = geometric.is_some();
-    let terms: Vec<PointTerms> =
-        pressed.iter().map(|own| terms(own, friction, has_turning)).collect();
-    let whole = parts.options.damping_model == DampingModel::WholeTangent;
-    let beta = match whole {
-        true => parts.options.damping.stiffness_coefficient,
-        false => 0.0,
-    };
+    let terms: Vec<PointTerms> = pressed.iter().map(|own| terms(own, friction)).collect();
+    let beta = parts.whole_beta();
     let balance = sums.balance.unwrap_or_default();
     let modes = balance.into_iter().enumerate().map(|(i, mut forces)| {
         let (number, mode) = shapes.modes[i];
         let (lambda, phi) = (mode.eigenvalue, shapes.column(i));
         // beta_R multiplies stiffness of prestress and contact too, where the damping has them.
         let of_stiffness = c64::ONE + lambda * beta;
-        for &(row, column, value) in geometric.iter().flat_map(|own| &own.entries) {
-            forces[row] += of_stiffness * phi[column] * value;
-        }
         let factors = [of_stiffness, lambda];
         for own in &terms {
             for (entries, factor) in own.iter().zip(factors) {
@@ -128,7 +120,7 @@ fn form(terms: &PointTerms, factors: [c64; 2], phi: &[c64]) -> c64 {
 }
 
 /// What one point adds to the stiffness and to the dashpots.
-fn terms(own: &Pressed, friction: f64, has_turning: bool) -> PointTerms {
+fn terms(own: &Pressed, friction: f64) -> PointTerms {
     let state = PressedPoints {
         first: 0,
         is_pressed: &[own.is_pressed],
@@ -136,7 +128,8 @@ fn terms(own: &Pressed, friction: f64, has_turning: bool) -> PointTerms {
         stiffnesses: &own.springs,
         frozen_below: 0.0,
     };
-    let found = linearized(std::slice::from_ref(&own.point), &state, &own.stiffness);
+    let point = std::slice::from_ref(&own.point);
+    let found = linearized(point, &state, &own.stiffness);
     let at = |powers: &[Triplets]| -> Vec<(usize, usize, f64)> {
         let each = powers.iter().enumerate().flat_map(|(power, terms)| {
             let factor = friction.powi(power as i32);
@@ -146,27 +139,8 @@ fn terms(own: &Pressed, friction: f64, has_turning: bool) -> PointTerms {
         each.collect()
     };
     let mut stiffness = at(&found.stiffness);
-    if has_turning {
-        stiffness.extend(at(&found.turning));
-    }
+    stiffness.extend(at(&turned(point, &own.turning, &state)));
     [stiffness, at(&found.dashpots)]
-}
-
-/// Geometric stiffness of the base state of a plane body, where it acts back.
-fn geometric(
-    case: &Case,
-    model: &SlidingModel,
-    parts: &Parts<'_>,
-    friction: f64,
-) -> Option<Triplets> {
-    let SteadyState::Plane(base) = &model.state else {
-        return None;
-    };
-    let acts = parts.options.geometric_stiffness;
-    acts.then(|| {
-        let displacement = base.displacement(friction);
-        assemble_geometric_stiffness(parts.mesh, case.materials(), &displacement)
-    })
 }
 
 /// The nodes of a plane contact edge.
@@ -175,11 +149,14 @@ fn of_edge(case: &Case, parts: &Parts<'_>, base: &SteadySliding) -> Vec<Pressed>
         all.iter().map(|forces| vec![forces[i]]).collect()
     };
     let places = edge_places(case, parts.mesh, &parts.contacts[0].0, base);
+    let turnings = base.interface.turnings();
+    let turns = parts.options.geometric_stiffness;
     let points = base.points.iter().zip(places).enumerate();
     points
         .map(|(i, (point, place))| Pressed {
             place,
             point: point.clone(),
+            turning: turnings[i..].iter().take(usize::from(turns)).cloned().collect(),
             is_pressed: base.is_pressed[i],
             forces: by_power(&base.normal_forces, i),
             springs: by_power(&base.stiffnesses, i),
@@ -216,7 +193,9 @@ fn of_assembly(model: &AssemblyModel) -> Vec<Pressed> {
         all.iter().map(|values| vec![values[i]]).collect()
     };
     let mut found = Vec::new();
-    for (contact, surface) in assembly.contacts() {
+    let none = || vec![Vec::new(); assembly.contacts().len()];
+    let turnings = if model.is_stressed() { assembly.turnings() } else { none() };
+    for ((contact, surface), turnings) in assembly.contacts().iter().zip(&turnings) {
         for (place, point) in surface.points.iter().enumerate() {
             let i = found.len();
             found.push(Pressed {
@@ -227,6 +206,7 @@ fn of_assembly(model: &AssemblyModel) -> Vec<Pressed> {
                     shares: surface.shares[place].clone(),
                 },
                 point: point.clone(),
+                turning: turnings.get(place).cloned().into_iter().collect(),
                 is_pressed: state.is_pressed[i],
                 forces: by_power(&state.normal_forces, i),
                 springs: by_power(&state.stiffnesses, i),

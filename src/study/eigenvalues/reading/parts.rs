@@ -11,6 +11,7 @@ use crate::mesh::{BoundaryCondition, Mesh};
 use crate::prestress::{DampingModel, TangentOptions};
 use crate::study::eigenvalues::model::Model;
 use crate::study::eigenvalues::sliding::{SlidingModel, SteadyState};
+use std::borrow::Cow;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -148,20 +149,15 @@ impl<'a> Parts<'a> {
         sum
     }
 
-    /// Forms `phi^H K_sigma phi` of a region for each shape, where the damping has a part of it.
-    pub fn geometric_forms(
+    /// `K_sigma phi` of a region for each shape; `None` where no stress of the base state acts on small motions.
+    pub fn geometric_image(
         &self,
         model: &SlidingModel,
         shapes: &Shapes<'_>,
         region: usize,
-    ) -> Vec<f64> {
-        let whole = self.options.damping_model == DampingModel::WholeTangent;
-        let is_damped = whole && self.options.damping.stiffness_coefficient != 0.0;
+    ) -> Option<Mat<f64>> {
         let base = base_state(self.case, model, shapes.friction);
-        let base = base.filter(|_| is_damped && self.options.geometric_stiffness);
-        let Some((state, displacements, origin)) = base else {
-            return vec![0.0; shapes.modes.len()];
-        };
+        let (state, displacements, origin) = base.filter(|_| self.options.geometric_stiffness)?;
         // Linear in the displacement: assembled once for each state and power of the friction beyond its origin.
         let mut known = self.geometric.borrow_mut();
         let geometric = known.entry((state, region)).or_insert_with(|| {
@@ -174,8 +170,15 @@ impl<'a> Parts<'a> {
             MatrixPolynomial::from_triplets(self.mesh.dof_count(), &terms)
         });
         let values = geometric.evaluate((shapes.friction - origin).max(0.0));
-        let image = geometric.pattern().multiply(&values, shapes.columns.as_ref());
-        shapes.forms(&image)
+        Some(geometric.pattern().multiply(&values, shapes.columns.as_ref()))
+    }
+
+    /// What `beta_R` multiplies of the geometric stiffness and of contact.
+    pub fn whole_beta(&self) -> f64 {
+        match self.options.damping_model {
+            DampingModel::WholeTangent => self.options.damping.stiffness_coefficient,
+            DampingModel::BodyOnly => 0.0,
+        }
     }
 }
 
@@ -211,21 +214,32 @@ fn contact_dofs(mesh: &Mesh, contacts: &[(String, Vec<usize>)]) -> Vec<(String, 
     names.zip(dofs).collect()
 }
 
-/// Number and displacements, by power of the friction beyond an origin, of the base state of a plane body at a friction coefficient.
+/// Number and displacements, by power of the friction beyond an origin, of the base state at a friction coefficient, as far as
+/// their stress is not in the terms of the rotation.
 fn base_state<'m>(
     case: &Case,
     model: &'m SlidingModel,
     friction: f64,
-) -> Option<(usize, &'m [Vec<f64>], f64)> {
+) -> Option<(usize, Cow<'m, [Vec<f64>]>, f64)> {
+    let place = || {
+        let solved = case.cea.as_ref()?.solved_friction_coefficients();
+        solved.iter().position(|&mu| mu == friction)
+    };
     match (&model.model, &model.state) {
         (Model::Whole(whole), _) => {
-            let solved = case.cea.as_ref()?.solved_friction_coefficients();
-            let place = solved.iter().position(|&mu| mu == friction)?;
-            let state = whole.range.state_of[place];
+            let state = whole.range.state_of[place()?];
             let own = &whole.range.states[state];
-            Some((state, &own.displacements, own.frozen_below))
+            Some((state, Cow::Borrowed(&own.displacements), own.frozen_below))
         }
-        (_, SteadyState::Plane(base)) => Some((0, &base.displacements, base.frozen_below)),
+        (Model::Assembly(assembly), _) => {
+            let state = assembly.range.state_of[place()?];
+            let own = &assembly.range.states[state];
+            let displacements = assembly.assembly().stressing(own)?;
+            Some((state, Cow::Owned(displacements), own.frozen_below))
+        }
+        (_, SteadyState::Plane(base)) => {
+            Some((0, Cow::Borrowed(&base.displacements), base.frozen_below))
+        }
         (_, SteadyState::Solid(_) | SteadyState::Assembly(_)) => None,
     }
 }

@@ -76,12 +76,12 @@ impl<'a> Shapes<'a> {
         parts.map(|(&re, &im)| c64::new(re, im)).collect()
     }
 
-    /// Adds `factors_0 A_0 phi + factors_1 A_1 phi` of each mode to its balance.
-    pub fn add(
+    /// Adds `sum_k factors_k A_k phi` of each mode to its balance.
+    pub fn add<const N: usize>(
         &self,
         balance: &mut [Vec<c64>],
-        images: [&Mat<f64>; 2],
-        factors: impl Fn(c64) -> [c64; 2],
+        images: [&Mat<f64>; N],
+        factors: impl Fn(c64) -> [c64; N],
     ) {
         for (i, ((_, mode), sum)) in self.modes.iter().zip(balance).enumerate() {
             for (image, factor) in images.into_iter().zip(factors(mode.eigenvalue)) {

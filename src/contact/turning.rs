@@ -1,0 +1,148 @@
+//! How the forces of the base state turn with the surfaces.
+
+use super::linearized::{add_product, alone, following, merge_many, power};
+use super::surface::row_along;
+use super::{
+    ContactInterface, ContactSurface, Counterpart, OppositeShare, Point, PressedPoints, Row,
+};
+use crate::fem::Triplets;
+use crate::mesh::{Boundary, Mesh};
+use nalgebra::Vector3;
+use std::collections::BTreeMap;
+
+/// How the directions at a contact point turn with small motions, along the sliding `t` and across it `d`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Turning {
+    /// Rows of the slopes `eta` of the counterface's displacement along the normal, by arc along `t` and `d`, 1/m; empty on a
+    /// rigid one.
+    pub tilt: [Row; 2],
+    /// Rows of the slopes `epsilon` of its displacement along `t`, 1/m.
+    pub stretch: [Row; 2],
+    /// Row of the turn of the sliding within the surface, `d . (grad V) u / V`, 1/m.
+    pub veer: Row,
+    /// Rates `kappa` at which the normal turns towards `t` and `d` as the point moves along them, 1/m.
+    pub curvature: [[f64; 2]; 2],
+}
+
+/// Forces of the base state at `points` that turn as `turnings` say, by power of `mu`, moved to the left-hand side.
+///
+/// The normal is that of the surface that the point meets, `theta` its turn there; with `w` the separation, `xi` the slip
+/// along and across, `delta` the turn of the sliding,
+///
+/// ```text
+/// theta_a = sum_b kappa_ab xi_b - eta_a
+/// N: sum_a (xi_a eta_a + eta_a xi_a) - sum_ab kappa_ab xi_a xi_b
+/// T: w theta_t + sum_a epsilon_a xi_a - xi_d delta
+/// ```
+///
+/// as products of a row and a column: the second derivatives of the separation, and the friction along the counterface and at
+/// its place. With the geometric stiffness they leave a rotation of everything, sliding included, without force. Shape: sums
+/// over all dofs of both bodies, N/m.
+pub fn turned(points: &[Point], turnings: &[Turning], state: &PressedPoints<'_>) -> Vec<Triplets> {
+    let mut terms = Vec::new();
+    for (p, forces) in state.normal_forces.iter().enumerate() {
+        for (i, own) in points.iter().zip(turnings).enumerate() {
+            add_turning(&mut terms, (p, state.frozen_below), own, forces[state.first + i]);
+        }
+        merge_many(&mut terms);
+    }
+    terms
+}
+
+fn add_turning(
+    terms: &mut Vec<Triplets>,
+    (p, frozen): (usize, f64),
+    (point, turning): (&Point, &Turning),
+    force: f64,
+) {
+    let (moves, curvature) = ([&point.slip, &point.across], turning.curvature);
+    let pressed = power(terms, alone(p, frozen));
+    for a in 0..2 {
+        for b in 0..2 {
+            add_product(pressed, -curvature[a][b] * force, moves[a], moves[b]);
+        }
+        add_product(pressed, force, moves[a], &turning.tilt[a]);
+        add_product(pressed, force, &turning.tilt[a], moves[a]);
+    }
+    for (term, factor) in following(p, frozen) {
+        let (sheared, drag) = (power(terms, term), point.friction.drag * factor * force);
+        for a in 0..2 {
+            add_product(sheared, curvature[0][a] * drag, &point.normal, moves[a]);
+        }
+        add_product(sheared, -drag, &point.normal, &turning.tilt[0]);
+        for a in 0..2 {
+            add_product(sheared, drag, &turning.stretch[a], moves[a]);
+        }
+        add_product(sheared, -drag, &point.across, &turning.veer);
+    }
+}
+
+impl ContactInterface {
+    /// How its points turn; nothing is across in the plane.
+    pub fn turnings(&self) -> Vec<Turning> {
+        let slope = |i: usize, along: fn(&OppositeShare) -> f64| -> Row {
+            let shares = self.opposite_of(i).iter();
+            let all = shares.map(|share| (share.dof, along(share)));
+            all.filter(|(_, value)| *value != 0.0).collect()
+        };
+        let curvature = self.counterface.curvature();
+        let turning = |i: usize| Turning {
+            tilt: [slope(i, |share| share.normal_slope), Row::new()],
+            stretch: [slope(i, |share| share.tangential_slope), Row::new()],
+            veer: Row::new(),
+            curvature: [[curvature, 0.0], [0.0; 2]],
+        };
+        (0..self.len()).map(turning).collect()
+    }
+}
+
+impl ContactSurface {
+    /// How its points turn on what they meet. A surface of a body has the curvature of its nodes' mean normals. Points that do
+    /// not slide have no directions to turn.
+    pub fn turnings(&self, mesh: &Mesh, counterpart: &Counterpart) -> Vec<Turning> {
+        let counter = counterpart.surface().map(|place| &mesh.boundaries[place]);
+        let normals = counter.map_or_else(BTreeMap::new, |own| nodal_normals(mesh, own));
+        let sites = self.sites.iter().zip(&self.points).zip(&self.shares).zip(&self.slopes);
+        let turnings = sites.map(|(((site, point), shares), slopes)| {
+            if point.speed == 0.0 {
+                return Turning::default();
+            }
+            let [n, t] = [site.normal, site.direction].map(Vector3::from);
+            let directions = [t, n.cross(&t)];
+            // Displacements of the counterface along a direction, by arc.
+            let slope = |direction: Vector3<f64>, arc: Vector3<f64>| -> Row {
+                let shares = slopes.iter().map(|(node, slope)| (*node, slope.dot(&arc)));
+                row_along(mesh, &shares.collect::<Vec<_>>(), direction.into(), 1.0)
+            };
+            let turn = |a: Vector3<f64>, b: Vector3<f64>| match counterpart.rigid() {
+                Some(rigid) => rigid.curvature(site.position, n, [a, b]),
+                None => {
+                    let parts = slopes.iter().map(|(node, g)| g.dot(&b) * normals[node].dot(&a));
+                    parts.sum()
+                }
+            };
+            let [along, across] = [0, 1].map(|a| turn(directions[a], directions[a]));
+            let mixed =
+                0.5 * (turn(directions[0], directions[1]) + turn(directions[1], directions[0]));
+            let veer = directions[1].cross(&self.spin) / point.speed;
+            Turning {
+                tilt: directions.map(|arc| slope(n, arc)),
+                stretch: directions.map(|arc| slope(t, arc)),
+                veer: row_along(mesh, shares, veer.into(), 1.0),
+                curvature: [[along, mixed], [mixed, across]],
+            }
+        });
+        turnings.collect()
+    }
+}
+
+/// Mean outward normal of the faces at each node of a boundary.
+fn nodal_normals(mesh: &Mesh, boundary: &Boundary) -> BTreeMap<u32, Vector3<f64>> {
+    let mut sums: BTreeMap<u32, Vector3<f64>> = BTreeMap::new();
+    for face in &boundary.faces {
+        let area = mesh.area_vector(face);
+        face.nodes.iter().for_each(|&node| *sums.entry(node).or_default() += area);
+    }
+    sums.values_mut().for_each(|sum| *sum = sum.normalize());
+    sums
+}

@@ -1,0 +1,213 @@
+//! The stress of the base state in small motions of solid bodies: geometric stiffness, and contact forces that turn.
+
+use super::rigid_counterface::plane;
+use super::{OPTIONS, STEEL, boundary, mesh_of, sliding, stacked, turning};
+use crate::bricks::file_of_order;
+use crate::prelude::*;
+use frictionsim::contact::{RigidCounterface, RigidMotion, RigidShape};
+use frictionsim::fem::assemble_geometric_stiffness;
+use frictionsim::prestress::RigidFriction;
+use nalgebra::Vector3;
+use std::collections::BTreeSet;
+use std::f64::consts::{PI, TAU};
+
+const STRESSED: TangentOptions = TangentOptions { geometric_stiffness: true, ..OPTIONS };
+
+const SPRINGS: ElasticSupport = springs([1e12, 1e12, 0.0], [0.0; 2]);
+
+/// The forces on inner nodes that a rotation of everything about the axis of the sliding costs beside elastic ones, over those that
+/// the stress alone has there.
+fn forces_of_a_rotation(mesh: &Mesh, contact: SlidingSurfaces, motions: &[Motion]) -> f64 {
+    let friction = 0.3;
+    let axis = match (&contact.counter, motions) {
+        (Counterpart::Rigid(rigid), _) => (rigid.axis, rigid.center),
+        (_, motions) => (motions[0].axis, motions[0].center),
+    };
+    let solved = BaseChoice::Solved;
+    let assembly = Assembly::new(mesh, &STEEL, &[], &[contact], motions, solved).unwrap();
+    let range = assembly.range(&[friction]).unwrap();
+    let [without, tangent] =
+        [OPTIONS, STRESSED].map(|own| assembly.tangent(&range.states[0], &own).unwrap());
+    let (axis, center) = (Vector3::from(axis.0), Vector3::from(axis.1));
+    let rotation = (0..mesh.node_count()).flat_map(|node| {
+        let arm = Vector3::from(mesh.nodes[node]) - center;
+        let moved = axis.cross(&arm);
+        [moved.x, moved.y, moved.z]
+    });
+    let rotation: Vec<f64> = rotation.collect();
+
+    // Springs and loads stay where they are: their nodes are left out, and those that move them through rigid contact.
+    let bound = mesh.boundaries.iter().filter(|own| own.condition != BoundaryCondition::Free);
+    let loaded: BTreeSet<usize> =
+        bound.flat_map(|own| own.nodes.iter().map(|&node| node as usize)).collect();
+    let rows = tangent.distances.iter().filter(|(dof, _)| loaded.contains(&(dof / 3)));
+    let moving = rows.flat_map(|(_, row)| row.iter().map(|(dof, _)| dof / 3));
+    let is_loaded =
+        |own: &&RigidFriction| own.lift.iter().any(|(dof, _)| loaded.contains(&(dof / 3)));
+    let dragged = tangent.friction.iter().filter(is_loaded);
+    let moving = moving.chain(dragged.flat_map(|own| own.slip.iter().map(|(dof, _)| dof / 3)));
+    let outer: BTreeSet<usize> = moving.chain(loaded.iter().copied()).collect();
+    let is_inner = |dof: &usize| !outer.contains(&(dof / 3));
+    let largest = |forces: &dyn Fn(usize) -> f64| {
+        let unknowns = tangent.unknowns.dofs.iter().enumerate();
+        let inner = unknowns.filter(|(_, dof)| is_inner(dof));
+        inner.map(|(unknown, _)| forces(unknown).abs()).fold(0.0, f64::max)
+    };
+    // The unknown of an open point of rigid contact is its separation, which rows of others may hold.
+    let mut free = rotation.clone();
+    for _ in 0..40 {
+        for (dof, row) in &tangent.distances {
+            let others = row.iter().filter(|(other, _)| other != dof);
+            let others: f64 = others.map(|&(other, share)| free[other] * share).sum();
+            if let Some((_, own)) = row.iter().find(|(other, _)| other == dof) {
+                free[*dof] = (rotation[*dof] - others) / own;
+            }
+        }
+    }
+    let unknowns = tangent.unknowns.restrict(&free);
+    let unknowns = Mat::from_fn(unknowns.len(), 1, |i, _| unknowns[i]);
+    let [whole, elastic] = [&tangent, &without].map(|own| {
+        let values = own.stiffness.evaluate(friction);
+        own.stiffness.pattern().multiply(&values, unknowns.as_ref())
+    });
+    let whole = whole - elastic;
+    let displacement = range.states[0].displacement(friction);
+    let stress = assemble_geometric_stiffness(mesh, &STEEL, &displacement);
+    let alone = stress.multiply(mesh.dof_count(), &rotation);
+    largest(&|unknown| whole[(unknown, 0)])
+        / largest(&|unknown| alone[tangent.unknowns.dofs[unknown]])
+}
+
+/// Blocks as they are, or bent around the axis z at a radius of 50 mm.
+fn bent(is_bent: bool) -> impl Fn([f64; 3]) -> [f64; 3] {
+    move |[x, y, z]| match is_bent {
+        false => [x, y, z],
+        true => {
+            let (sin, cos) = (x / 0.05).sin_cos();
+            [(0.05 + z) * sin, -(0.05 + z) * cos, y]
+        }
+    }
+}
+
+/// Independent check (objectivity): bodies that turn with everything about the axis of the sliding cost no force, flat ones to
+/// round-off, and curved ones as closely as their faces meet.
+#[test]
+fn a_rotation_of_everything_costs_no_force() {
+    let conditions = [
+        ("lower_z0", BoundaryCondition::Support(SPRINGS)),
+        ("upper_x0", BoundaryCondition::Support(SPRINGS)),
+        ("upper_x1", BoundaryCondition::Support(SPRINGS)),
+        ("upper_z1", BoundaryCondition::Pressure(1e8)),
+    ];
+    let bodies = [(false, 1, 1e-8), (false, 2, 1e-8), (true, 1, 3e-2), (true, 2, 3e-2)];
+    for (is_bent, order, bound) in bodies {
+        let mut blocks = stacked(0.0);
+        blocks.iter_mut().for_each(|own| own.counts[1] = 2);
+        let bytes = file_of_order(&blocks, order, bent(is_bent));
+        let mesh = mesh_of(&bytes, &conditions);
+        let center = if is_bent { [0.0; 3] } else { [1.0, 0.3, 0.0] };
+        let motion = turning(&mesh, [0.0, 0.0, 1.0], center);
+        for normal_stiffness in [None, Some(1e14)] {
+            let contact = sliding(&mesh, normal_stiffness);
+            let left = forces_of_a_rotation(&mesh, contact, std::slice::from_ref(&motion));
+            println!("bent {is_bent} {order} {normal_stiffness:?}: {left:e}");
+            assert!(left < bound, "{is_bent} {order} {normal_stiffness:?}: {left:e}");
+        }
+    }
+}
+
+/// The same on rigid counterfaces of each shape.
+#[test]
+fn a_rotation_about_a_rigid_counterface_costs_no_force() {
+    let shapes = [
+        (RigidShape::Plane, false, [1.0, 0.3, 0.0]),
+        (RigidShape::Cylinder(None), true, [0.0; 3]),
+        (RigidShape::Sphere(Some(0.07)), true, [0.0, 0.0, 0.02]),
+    ];
+    for (shape, is_bent, center) in shapes {
+        let [_, upper] = stacked(0.0);
+        let bytes = file_of(&[upper], bent(is_bent));
+        let conditions = [
+            ("upper_x0", BoundaryCondition::Support(SPRINGS)),
+            ("upper_z1", BoundaryCondition::Support(SPRINGS)),
+        ];
+        let mesh = mesh_of(&bytes, &conditions);
+        let motion = RigidMotion::Turning(10.0);
+        let rigid = RigidCounterface { shape, interference: 2e-4, ..plane(motion, center) };
+        for normal_stiffness in [None, Some(1e14)] {
+            let contact = SlidingSurfaces {
+                name: "pad".to_owned(),
+                surface: boundary(&mesh, "upper_z0"),
+                counter: Counterpart::Rigid(rigid),
+                friction: PairFriction { ratio: 1.0, decay: None },
+                stiffness: ContactStiffness { normal_stiffness, ..RIGID },
+                law: None,
+                topography: None,
+            };
+            let left = forces_of_a_rotation(&mesh, contact, &[]);
+            println!("{shape:?} {normal_stiffness:?}: {left:e}");
+            assert!(left < 1e-8, "{shape:?} {normal_stiffness:?}: {left:e}");
+        }
+    }
+}
+
+/// Theory (Euler): a column clamped at one end carries `pi^2 E I / 4 L^2` at the other; its frequency falls to zero there.
+#[test]
+fn a_column_buckles_under_the_load_of_euler() {
+    let (length, side) = (0.2, 0.01);
+    let column = [brick("column", [0.0; 3], [side, side, length], [1, 1, 8])];
+    let bytes = file_of_order(&column, 2, |point| point);
+    let inertia = side.powi(4) / 12.0;
+    let euler = PI.powi(2) * STEEL.young_modulus * inertia / (4.0 * length * length);
+    let stiffness = [0.9, 0.95].map(|share| {
+        let pressure = BoundaryCondition::Pressure(share * euler / (side * side));
+        let conditions = [("column_z0", BoundaryCondition::Clamped), ("column_z1", pressure)];
+        let mesh = mesh_of(&bytes, &conditions);
+        let solved = BaseChoice::Solved;
+        let assembly = Assembly::new(&mesh, &STEEL, &[], &[], &[], solved).unwrap();
+        let state = assembly.range(&[0.0]).unwrap().states.remove(0);
+        let tangent = assembly.tangent(&state, &STRESSED).unwrap();
+        let modes = modes_at(&tangent, 0.0, ModeLimit::Lowest(2));
+        modes[0].eigenvalue.im.powi(2)
+    });
+    // The square of the frequency falls almost in proportion to the load there.
+    let critical = 0.9 + 0.05 * stiffness[0] / (stiffness[0] - stiffness[1]);
+    println!("{critical}");
+    assert!((critical - 1.0).abs() < 0.02, "{critical}");
+}
+
+/// Independent check: the whole mesh of a body of revolution against its harmonics, with stress and turning forces, the contact
+/// rigid and on springs that carry the base state.
+#[test]
+fn the_whole_mesh_of_a_disc_has_the_prestress_of_its_harmonics() {
+    let compliant = "normal_stiffness = 1e13\nbase_state = \"compliant\"\n";
+    for (contact, bound) in [("", 5e-4), (compliant, 2e-2)] {
+        // Frequencies of the modes of the section's plane: of the others friction across the sliding, which is distributed in
+        // another way, is a part.
+        let frequencies = |method: &str, stressed: bool| -> Vec<f64> {
+            let text = format!(
+                "[geometry]\ninner_radius = 0.02\nouter_radius = 0.05\nthickness = 0.01\n\
+                 [mesh]\ncircumferential_elements = 24\nradial_elements = 2\naxial_elements = 2\n\
+                 [material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n\
+                 formulation = \"three-dimensional\"\n\
+                 [contact]\nfriction_coefficient = 0.4\ninterference = 1e-4\nrotation_speed_rpm = 600.0\n{contact}\
+                 [cea]\nmodes = 12\nmethod = \"{method}\"\ngeometric_stiffness = {stressed}\n\
+                 friction_coefficients = [0.4]\n"
+            );
+            let points = modes_and_onsets(&case_of("disc.toml", &text, AS_IT_IS)).unwrap().points;
+            let all = points[0].modes.iter().map(|mode| mode.eigenvalue.im / TAU);
+            all.filter(|own| (10e3..15e3).contains(own)).collect()
+        };
+        let shifts = ["cyclic", "sparse"].map(|method| -> Vec<f64> {
+            let [with, without] = [true, false].map(|stressed| frequencies(method, stressed));
+            assert_eq!(with.len(), without.len());
+            with.iter().zip(&without).map(|(a, b)| a - b).collect()
+        });
+        println!("{contact:?} {shifts:?}");
+        let [cyclic, sparse] = &shifts;
+        assert!(cyclic.len() >= 3 && cyclic.len() == sparse.len());
+        for (a, b) in cyclic.iter().zip(sparse) {
+            assert!(a.abs() > 10.0 && (a / b - 1.0).abs() < bound, "{contact:?} {shifts:?}");
+        }
+    }
+}
