@@ -1,5 +1,6 @@
 //! `[cea]`: the complex eigenvalue analysis.
 
+use super::Case;
 use super::body::Body;
 use super::reader::Section;
 use super::refuse;
@@ -55,6 +56,21 @@ impl Cea {
     }
 }
 
+/// Whether the prestress acts on small motions where nothing is said: studies of solid parts of a file are linear about the
+/// undeformed bodies.
+fn is_stressed_by_default(body: Option<&Body>, is_file: bool) -> bool {
+    !(is_file && matches!(body, Some(Body::Assembly(_))))
+}
+
+impl Case {
+    /// Whether the prestress enters the tangent stiffness.
+    pub fn has_geometric_stiffness(&self) -> bool {
+        let is_file = self.raw.find("mesh.file").is_some();
+        let by_default = || is_stressed_by_default(Some(&self.body), is_file);
+        self.cea.as_ref().map_or_else(by_default, |cea| cea.geometric_stiffness)
+    }
+}
+
 pub(super) fn cea(
     root: &Section<'_>,
     body: Option<&Body>,
@@ -72,12 +88,9 @@ pub(super) fn cea(
     }
     let unknowns =
         body.map_or(0, |body| body.node_count().saturating_mul(body.dimension() as u128));
-    // Vendors' studies of assemblies are linear about the undeformed bodies: more is done where it is asked for.
-    let is_file_of_solids =
-        matches!(body, Some(Body::Assembly(_))) && root.section("mesh", false).has("file");
     let is_stressed = match section.has("geometric_stiffness") {
         true => section.flag("geometric_stiffness"),
-        false => !is_file_of_solids,
+        false => is_stressed_by_default(body, root.section("mesh", false).has("file")),
     };
     let cea = Cea {
         modes: mode_selection(&section, unknowns),

@@ -353,23 +353,22 @@ impl<'a> Assembly<'a> {
         contacts.map(|(own, surface)| surface.turnings(self.mesh, &own.counter)).collect()
     }
 
-    /// Displacements of a state, by power of friction, whose stress acts on small motions beside the terms of the rotation, which
-    /// have the centrifugal one; `None` of a state that is free of stress.
-    pub fn stressing(&self, state: &PressedState) -> Option<Vec<Vec<f64>>> {
-        let mut powers =
-            (self.joined.base == BaseChoice::Solved).then(|| state.displacements.clone())?;
+    /// A state with the displacements whose stress acts on small motions beside the terms of the rotation, which have the
+    /// centrifugal one; `None` of a state that is free of stress.
+    pub fn stressing(&self, state: &PressedState) -> Option<PressedState> {
+        let mut own = (self.joined.base == BaseChoice::Solved).then(|| state.clone())?;
         if let Some(rotation) = &self.joined.rotation {
-            let own = powers[0].iter_mut().zip(&rotation.displacement);
-            own.for_each(|(whole, centrifugal)| *whole -= centrifugal);
+            let pairs = own.displacements[0].iter_mut().zip(&rotation.displacement);
+            pairs.for_each(|(whole, centrifugal)| *whole -= centrifugal);
         }
-        Some(powers)
+        Some(own)
     }
 
     /// Geometric stiffness of a state by power of friction, N/m, in the terms of one that is frozen; `None` of a state that is free of stress.
     fn geometric(&self, state: &PressedState) -> Option<Vec<Triplets>> {
-        let powers = self.stressing(state)?;
-        let powers =
-            powers.iter().map(|own| assemble_geometric_stiffness(self.mesh, self.materials, own));
+        let own = self.stressing(state)?;
+        let powers = own.displacements.iter();
+        let powers = powers.map(|own| assemble_geometric_stiffness(self.mesh, self.materials, own));
         Some(frozen_terms(powers.collect(), state.frozen_below))
     }
 }

@@ -4,12 +4,12 @@ use crate::case::Case;
 use crate::fem::MassKind;
 use crate::prestress::{DampingModel, TangentOptions};
 
-/// How a case takes the tangent of steady sliding: geometric stiffness unless its `[cea]` says otherwise, damping of body
-/// or of body and contact, contact stiffness and dashpots.
+/// How a case takes the tangent of steady sliding: geometric stiffness as its `[cea]` or its body says, damping of body or of
+/// body and contact, contact stiffness and dashpots.
 pub fn tangent_options(case: &Case, mass: MassKind) -> TangentOptions {
     TangentOptions {
         mass,
-        geometric_stiffness: case.cea.as_ref().is_none_or(|cea| cea.geometric_stiffness),
+        geometric_stiffness: case.has_geometric_stiffness(),
         damping: case.damping.rayleigh,
         damping_model: match case.damping.include_contact {
             true => DampingModel::WholeTangent,

@@ -156,8 +156,18 @@ fn the_feed_over_the_contact_points_adds_up_to_that_of_the_contacts() {
     let compliant = ["contact.normal_stiffness=7.4e12", "cea.method=\"sparse\""];
     let falling = ["contact.static_friction_ratio=1.3", "contact.decay_speed=1.0"];
     let disc = "disc.toml";
-    let kinds: [(&str, &[&str]); 4] =
-        [(brake, &soft), (disc, &[]), (disc, &compliant), (disc, &falling)];
+    // Contact that opens: each state is a polynomial of its own in friction.
+    let tread = &shipped("tread-block.toml");
+    let few = "cea.friction_coefficients=[0.3, 0.6] ; cea.modes=4";
+    let stressed = [soft[0], "cea.geometric_stiffness=true"];
+    let kinds: [(&str, &[&str]); 6] = [
+        (brake, &stressed),
+        (tread, &[few]),
+        (tread, &[few, "cea.geometric_stiffness=true"]),
+        (disc, &[]),
+        (disc, &compliant),
+        (disc, &falling),
+    ];
     for (path, set) in kinds {
         let answer = cea(folder.path(), path, set);
         let (feed, rows) = (answer.rows("feed.csv"), answer.rows("contributions.csv"));

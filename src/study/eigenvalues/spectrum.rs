@@ -21,7 +21,7 @@ pub(in crate::study) fn analysis(case: &Case, frictions: &[f64], limit_hz: f64) 
             modes,
             method: CeaMethod::Auto,
             mass: MassKind::Consistent,
-            geometric_stiffness: true,
+            geometric_stiffness: case.has_geometric_stiffness(),
             shapes_at: Vec::new(),
             own_friction: None,
             sensitivities: None,

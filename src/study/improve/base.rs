@@ -84,7 +84,7 @@ pub(super) struct Base<'a> {
     pub tangent: SlidingTangent,
     /// The case's own friction coefficient.
     pub friction: f64,
-    /// Displacement of the base state there, with which elements have a geometric stiffness; none of solids.
+    /// Displacement of the base state there, with which elements have a geometric stiffness; none where it is free of stress.
     pub displacement: Option<Vec<f64>>,
     pub window: Window,
     /// Eigenvalues of all listed modes, by frequency.
@@ -158,6 +158,9 @@ impl<'a> Base<'a> {
         let modes: Vec<PairedMode> = modes.collect();
         let displacement = match &model {
             Model::Whole(whole) => Some(whole.base().displacement(friction)),
+            Model::Assembly(own) => {
+                own.assembly().stressing(own.base()).map(|state| state.displacement(friction))
+            }
             _ => None,
         };
         Ok(Self {

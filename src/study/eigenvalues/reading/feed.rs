@@ -32,7 +32,7 @@ struct Pressed {
     /// How it turns; nothing where no stress acts on small motions.
     turning: Vec<Turning>,
     is_pressed: bool,
-    /// Normal force, and stiffness where contact stiffens, by power of friction.
+    /// Normal force, none of a state that is free of stress, and stiffness where contact stiffens.
     forces: Vec<Vec<f64>>,
     springs: Vec<Vec<f64>>,
     stiffness: ContactStiffness,
@@ -55,7 +55,7 @@ pub(super) fn feed(
         return None;
     }
     let pressed = match (&model.model, &model.state) {
-        (Model::Assembly(assembly), _) => of_assembly(assembly),
+        (Model::Assembly(assembly), _) => of_assembly(assembly, friction),
         (_, SteadyState::Plane(base)) => of_edge(case, parts, base),
         _ => return None,
     };
@@ -145,9 +145,8 @@ fn terms(own: &Pressed, friction: f64) -> PointTerms {
 
 /// The nodes of a plane contact edge.
 fn of_edge(case: &Case, parts: &Parts<'_>, base: &SteadySliding) -> Vec<Pressed> {
-    let by_power = |all: &[Vec<f64>], i: usize| -> Vec<Vec<f64>> {
-        all.iter().map(|forces| vec![forces[i]]).collect()
-    };
+    let friction = case.contact.sliding.friction_coefficient;
+    let (forces, springs) = (base.normal_forces(friction), base.springs(friction));
     let places = edge_places(case, parts.mesh, &parts.contacts[0].0, base);
     let turnings = base.interface.turnings();
     let turns = parts.options.geometric_stiffness;
@@ -158,11 +157,16 @@ fn of_edge(case: &Case, parts: &Parts<'_>, base: &SteadySliding) -> Vec<Pressed>
             point: point.clone(),
             turning: turnings[i..].iter().take(usize::from(turns)).cloned().collect(),
             is_pressed: base.is_pressed[i],
-            forces: by_power(&base.normal_forces, i),
-            springs: by_power(&base.stiffnesses, i),
+            forces: value_of(&forces, i),
+            springs: value_of(&springs, i),
             stiffness: parts.options.contact,
         })
         .collect()
+}
+
+/// The value of a point as a power of friction, where there are any.
+fn value_of(values: &[f64], point: usize) -> Vec<Vec<f64>> {
+    values.get(point).map(|value| vec![*value]).into_iter().collect()
 }
 
 /// The places of the nodes of a plane contact edge, in the order of its points.
@@ -187,11 +191,9 @@ pub(super) fn edge_places(
 }
 
 /// The points of all contacts of solid bodies.
-fn of_assembly(model: &AssemblyModel) -> Vec<Pressed> {
+fn of_assembly(model: &AssemblyModel, friction: f64) -> Vec<Pressed> {
     let (assembly, state) = (model.assembly(), model.base());
-    let by_power = |all: &[Vec<f64>], i: usize| -> Vec<Vec<f64>> {
-        all.iter().map(|values| vec![values[i]]).collect()
-    };
+    let (forces, springs) = (state.normal_forces(friction), state.springs(friction));
     let mut found = Vec::new();
     let none = || vec![Vec::new(); assembly.contacts().len()];
     let turnings = if model.is_stressed() { assembly.turnings() } else { none() };
@@ -208,8 +210,8 @@ fn of_assembly(model: &AssemblyModel) -> Vec<Pressed> {
                 point: point.clone(),
                 turning: turnings.get(place).cloned().into_iter().collect(),
                 is_pressed: state.is_pressed[i],
-                forces: by_power(&state.normal_forces, i),
-                springs: by_power(&state.stiffnesses, i),
+                forces: value_of(&forces, i),
+                springs: value_of(&springs, i),
                 stiffness: contact.stiffness,
             });
         }

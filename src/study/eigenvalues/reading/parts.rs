@@ -234,8 +234,8 @@ fn base_state<'m>(
         (Model::Assembly(assembly), _) => {
             let state = assembly.range.state_of[place()?];
             let own = &assembly.range.states[state];
-            let displacements = assembly.assembly().stressing(own)?;
-            Some((state, Cow::Owned(displacements), own.frozen_below))
+            let own = assembly.assembly().stressing(own)?;
+            Some((state, Cow::Owned(own.displacements), own.frozen_below))
         }
         (_, SteadyState::Plane(base)) => {
             Some((0, Cow::Borrowed(&base.displacements), base.frozen_below))
