@@ -10,6 +10,9 @@ use crate::mesh::{Boundary, Mesh};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
+/// Points after which the entries of one place are summed.
+const POINTS_AT_A_TIME: usize = 2000;
+
 /// How the directions at a contact point turn with small motions, along the sliding `t` and across it `d`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Turning {
@@ -40,41 +43,47 @@ pub struct Turning {
 /// over all dofs of both bodies, N/m.
 pub fn turned(points: &[Point], turnings: &[Turning], state: &PressedPoints<'_>) -> Vec<Triplets> {
     let mut terms = Vec::new();
-    for (p, forces) in state.normal_forces.iter().enumerate() {
-        for (i, own) in points.iter().zip(turnings).enumerate() {
-            add_turning(&mut terms, (p, state.frozen_below), own, forces[state.first + i]);
+    for (i, (point, turning)) in points.iter().zip(turnings).enumerate() {
+        if i % POINTS_AT_A_TIME == 0 {
+            merge_many(&mut terms);
         }
-        merge_many(&mut terms);
+        let [normal, friction] = of_unit_force(point, turning);
+        for (p, forces) in state.normal_forces.iter().enumerate() {
+            let (force, frozen) = (forces[state.first + i], state.frozen_below);
+            let pressed = power(&mut terms, alone(p, frozen));
+            normal.iter().for_each(|&(i, j, value)| pressed.push(i, j, force * value));
+            for (term, factor) in following(p, frozen) {
+                let (sheared, factor) = (power(&mut terms, term), factor * force);
+                let own = friction.iter();
+                own.for_each(|&(i, j, value)| sheared.push(i, j, factor * value));
+            }
+        }
     }
+    merge_many(&mut terms);
     terms
 }
 
-fn add_turning(
-    terms: &mut Vec<Triplets>,
-    (p, frozen): (usize, f64),
-    (point, turning): (&Point, &Turning),
-    force: f64,
-) {
-    let (moves, curvature) = ([&point.slip, &point.across], turning.curvature);
-    let pressed = power(terms, alone(p, frozen));
+/// What a unit normal force adds, and its friction for each unit of friction coefficient.
+fn of_unit_force(point: &Point, turning: &Turning) -> [Vec<(usize, usize, f64)>; 2] {
+    let [mut normal, mut friction] = [Triplets::default(), Triplets::default()];
+    let (moves, curvature, drag) =
+        ([&point.slip, &point.across], turning.curvature, point.friction.drag);
     for a in 0..2 {
         for b in 0..2 {
-            add_product(pressed, -curvature[a][b] * force, moves[a], moves[b]);
+            add_product(&mut normal, -curvature[a][b], moves[a], moves[b]);
         }
-        add_product(pressed, force, moves[a], &turning.tilt[a]);
-        add_product(pressed, force, &turning.tilt[a], moves[a]);
+        add_product(&mut normal, 1.0, moves[a], &turning.tilt[a]);
+        add_product(&mut normal, 1.0, &turning.tilt[a], moves[a]);
+        add_product(&mut friction, curvature[0][a] * drag, &point.normal, moves[a]);
+        add_product(&mut friction, drag, &turning.stretch[a], moves[a]);
     }
-    for (term, factor) in following(p, frozen) {
-        let (sheared, drag) = (power(terms, term), point.friction.drag * factor * force);
-        for a in 0..2 {
-            add_product(sheared, curvature[0][a] * drag, &point.normal, moves[a]);
-        }
-        add_product(sheared, -drag, &point.normal, &turning.tilt[0]);
-        for a in 0..2 {
-            add_product(sheared, drag, &turning.stretch[a], moves[a]);
-        }
-        add_product(sheared, -drag, &point.across, &turning.veer);
-    }
+    add_product(&mut friction, -drag, &point.normal, &turning.tilt[0]);
+    add_product(&mut friction, -drag, &point.across, &turning.veer);
+    [normal, friction].map(|terms| {
+        let mut sums = BTreeMap::new();
+        terms.entries.iter().for_each(|&(i, j, value)| *sums.entry((i, j)).or_default() += value);
+        sums.into_iter().map(|((i, j), value)| (i, j, value)).collect()
+    })
 }
 
 impl ContactInterface {
