@@ -20,6 +20,8 @@ const HISTORY: usize = 3;
 /// Unknowns up to which a problem, of twice that size, is decomposed: where its modes are lossy or do not converge. That takes a
 /// second or two for each friction value.
 const MOST_DENSE: usize = 300;
+/// Frequency up to which modes are held, over the highest one: two that differ in damping change places as they converge.
+const CHANGE_PLACES: f64 = 1.01;
 /// Samples between two friction values, at places where branches were lost, after which more of them are no help.
 const MOST_BETWEEN: usize = 8;
 impl BasisBuilder<'_> {
@@ -238,12 +240,12 @@ impl BasisBuilder<'_> {
 
     /// Coordinates of the modes to be held, real and imaginary parts.
     fn leading(&self, modes: &[ReducedMode]) -> Mat<f64> {
-        let mut held = self.count.min(modes.len());
-        if self.is_lossy() {
-            // Motions near critical damping, which may be none, take no places.
-            let mut far = (0..modes.len()).filter(|&j| !modes[j].is_nearly_critical());
-            held = far.nth(self.count - 1).map_or(modes.len(), |j| j + 1);
-        }
+        // Motions near critical damping, which may be none, take no places.
+        let mut far = (0..modes.len()).filter(|&j| !modes[j].is_nearly_critical());
+        let held = far.nth(self.count - 1).map_or(modes.len(), |j| {
+            let end = CHANGE_PLACES * modes[j].eigenvalue.im;
+            modes.partition_point(|mode| mode.eigenvalue.im < end)
+        });
         PackedModes::of(&modes[..held], self.model.dimension()).coordinates
     }
 
