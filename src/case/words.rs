@@ -208,12 +208,6 @@ choices! {
     PlaneFormulation { "plane-strain" = Self::PlaneStrain, "plane-stress" = Self::PlaneStress, "three-dimensional" = Self::ThreeDimensional }
     MassKind { "consistent" = Self::Consistent, "lumped" = Self::Lumped }
     Spacing { "linear" = Self::Linear, "log" = Self::Logarithmic }
-    InitialState {
-        "rest" = Self::Rest,
-        "steady-sliding" = Self::SteadySliding,
-        // Harmonic and onset are keys of their own.
-        "limit-cycle" = Self::LimitCycle { harmonic: 1, onset: 1 },
-    }
     OperatorChoice { "auto" = Self::Auto, "cyclic" = Self::Cyclic, "sparse" = Self::Sparse }
     FrfBoundary { "free" = Self::Free, "clamped" = Self::Clamped, "sliding" = Self::Sliding }
     BaseChoice { "solved" = Self::Solved, "closed" = Self::Closed }
@@ -222,15 +216,16 @@ choices! {
 
 /// Takes the words of choices from their names.
 macro_rules! named {
-    ($($choice:ident: $($variant:ident),+;)+) => {$(
+    ($($choice:ident: $($value:expr),+;)+) => {$(
         impl Choice for $choice {
-            const WORDS: &'static [(&'static str, Self)] =
-                &[$((Self::$variant.name(), Self::$variant)),+];
+            const WORDS: &'static [(&'static str, Self)] = &[$(($value.name(), $value)),+];
         }
     )+};
 }
 
 named! {
-    Direction: Radial, Tangential, Axial, X, Y, Z;
-    ResponseQuantity: Accelerance, Mobility, Receptance;
+    Direction: Self::Radial, Self::Tangential, Self::Axial, Self::X, Self::Y, Self::Z;
+    ResponseQuantity: Self::Accelerance, Self::Mobility, Self::Receptance;
+    // Harmonic and onset are keys of their own.
+    InitialState: Self::Rest, Self::SteadySliding, Self::LimitCycle { harmonic: 1, onset: 1 };
 }
