@@ -19,6 +19,48 @@ pub(super) fn words<T: Choice>() -> Vec<&'static str> {
     T::WORDS.iter().map(|pair| pair.0).collect()
 }
 
+/// Finds the words of the choices that keys take, by the names of their types.
+macro_rules! words_by_name {
+    ($($choice:ident),+ $(,)?) => {
+        /// The words of the choice of a type, by its name.
+        pub(super) fn words_named(name: &str) -> Option<fn() -> Vec<&'static str>> {
+            Some(match name {
+                $(stringify!($choice) => words::<$choice>,)+
+                _ => return None,
+            })
+        }
+    };
+}
+
+words_by_name!(
+    ElementKind,
+    UnitsWord,
+    FilePart,
+    ConditionWord,
+    HeldAxis,
+    AxesWord,
+    PlaneFormulation,
+    CounterfaceWord,
+    NormalLawWord,
+    BaseContact,
+    BaseChoice,
+    RotationFrame,
+    CeaMethod,
+    MassKind,
+    ModificationKind,
+    InitialState,
+    OperatorChoice,
+    Combination,
+    Analysis,
+    OnsetChoice,
+    StabilityChoice,
+    Spacing,
+    FrfBoundary,
+    Direction,
+    ResponseQuantity,
+    FrfMethod,
+);
+
 /// The words of a choice with what they stand for.
 pub(super) fn words_of<T: Choice>() -> impl Iterator<Item = (&'static str, T)> {
     T::WORDS.iter().copied()
