@@ -6,7 +6,7 @@ use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, refusal};
 use crate::results::OutputFolder;
 use crate::results::cea::KeptSteps;
-use crate::results::cycle::{CycleFigures, CycleRecord, CycleReport, PeriodicResult};
+use crate::results::cycle::{CycleFigures, CycleReport, PeriodicResult};
 use crate::study::cycle::{CycleStudy, PeriodicStudy, refuse_nothing};
 use clap::Args;
 use serde_json::Value;
@@ -135,13 +135,8 @@ fn written(
     if let Some(drawing) = session.options.output.drawing() {
         let bodies = session.case.body.assembly().into_iter();
         let surfaces = bodies.flat_map(|body| &body.contacts);
-        let data = CycleFigures {
-            record: &CycleRecord::of(report),
-            mesh: report.mesh,
-            solid: report.solid,
-            surfaces: surfaces.map(|own| (own.name.clone(), own.surface)).collect(),
-            materials: session.case.materials(),
-        };
+        let surfaces = surfaces.map(|own| (own.name.clone(), own.surface)).collect();
+        let data = CycleFigures::new(report, surfaces, session.case.materials());
         summary.draw(folder, &data, &drawing)?;
     }
     Ok((summary.document().to_text(), object))

@@ -1,5 +1,6 @@
 //! Options of every command that draws figures.
 
+use crate::chart::WIDEST;
 use crate::results::{DOTS_PER_INCH, DrawingOptions, Format};
 use clap::{Args, ValueEnum};
 
@@ -72,7 +73,7 @@ fn width(text: &str) -> Result<f64, String> {
     match (text, text.trim_end_matches("mm").trim().parse::<f64>()) {
         ("column", _) => Ok(85.0),
         ("page", _) => Ok(178.0),
-        (_, Ok(width)) if (60.0..=420.0).contains(&width) => Ok(width),
-        _ => Err("\"column\", \"page\" or 60 to 420 mm".to_owned()),
+        (_, Ok(width)) if (60.0..=WIDEST).contains(&width) => Ok(width),
+        _ => Err(format!("\"column\", \"page\" or 60 to {WIDEST} mm")),
     }
 }

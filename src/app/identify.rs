@@ -5,8 +5,7 @@ use super::measurement::{Measurement, SideFile};
 use super::options::OutputOptions;
 use super::profile::{Profile, Run};
 use crate::results::identification::{
-    DAMPING_BLOCK, IdentificationRecord, IdentificationSummary, document, identification,
-    write_fits,
+    DAMPING_BLOCK, IdentificationSummary, document, identification, write_fits,
 };
 use crate::signal::reader::{ResponseOptions, read_response, write_response};
 use crate::signal::{FrequencyResponse, IdentificationOptions, ResponseQuantity, identify};
@@ -118,8 +117,7 @@ impl Run for Arguments {
         }
         let document = document(&summary);
         let text = document.to_text();
-        let record = IdentificationRecord::of(&responses[0], &found);
-        let figures = || Ok(vec![identification(&record)]);
+        let figures = || Ok(vec![identification(&responses[0], &found)]);
         self.output.finish_result(folder, &text, document, &summary, figures)
     }
 }

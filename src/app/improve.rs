@@ -3,7 +3,6 @@
 use super::profile::{Profile, Run};
 use super::{Failure, RunOptions, Session};
 use crate::results::improve::{ImproveSummary, document, figures, write};
-use crate::study::extent_of;
 use crate::study::improve::improve;
 use clap::Args;
 
@@ -39,20 +38,8 @@ impl Run for Arguments {
         session.case.require_cea()?;
         let folder = session.begin()?;
         let found = improve(&session.case)?;
-        let summary = ImproveSummary {
-            command: "improve".to_owned(),
-            title: session.case.title.clone(),
-            wall_s: session.wall_seconds(),
-            dofs: found.dofs,
-            friction_coefficient: session.case.contact.sliding.friction_coefficient,
-            base: found.base,
-            modes: found.modes.clone(),
-            sizes: found.sizes,
-            extent: extent_of(&session.case),
-            candidates: found.candidates.clone(),
-            notes: found.notes.clone(),
-            manifest: session.manifest.clone(),
-        };
+        let (wall_s, manifest) = (session.wall_seconds(), session.manifest.clone());
+        let summary = ImproveSummary { wall_s, manifest, ..found.summary };
         write(&folder, &summary, &found.mesh, &found.fields)?;
         let document = document(&summary);
         let text = document.to_text();

@@ -71,7 +71,7 @@ fn describe(keys: &[&CaseKey]) -> String {
             key.short(),
             key.values(),
             match key.default_text() {
-                "required" => "required".to_owned(),
+                needed if needed.starts_with("required") => needed.to_owned(),
                 default => format!("default {default}"),
             },
             key.meaning

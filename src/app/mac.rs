@@ -49,17 +49,10 @@ impl Run for Arguments {
         let folder = session.begin()?;
         let found = assurance(&session.case, &shapes, self.scale)?;
         let summary = MacSummary {
-            command: "mac".to_owned(),
-            title: session.case.title.clone(),
             wall_s: session.wall_seconds(),
             measurement: source,
-            friction_coefficient: session.case.contact.sliding.friction_coefficient,
-            shapes: found.shapes,
-            modes: found.modes,
-            mac: found.matrix,
-            pairs: found.pairs,
-            notes: found.notes,
             manifest: folder.manifest().clone(),
+            ..found
         };
         session.options.output.finish_finding(folder, &summary)
     }

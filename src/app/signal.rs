@@ -8,9 +8,10 @@ use super::{Failure, terminal};
 use crate::case::{Case, Cea};
 use crate::cea::{ComplexMode, ModeLimit};
 use crate::fem::MassKind;
+use crate::results::charts::ModeLine;
 use crate::results::signal::{
-    ChannelRecord, ChannelSummary, ModeSummary, SignalRecord, SignalSummary, document,
-    draw as draw_figures, write_spectra,
+    ChannelSummary, ModeSummary, SignalDrawing, SignalSummary, document, draw as draw_figures,
+    write_spectra,
 };
 use crate::signal::reader::{
     Channel, SignalFile, SignalOptions, read_signal, slowdown, write_signal, write_wav,
@@ -153,8 +154,19 @@ impl Run for Arguments {
         let document = document(&summary);
         let text = document.to_text() + &aside;
         self.output.finish_result(folder, &text, document, &summary, || {
-            let shown = record(self, &file, &summary, &modes, spectra);
-            let (figures, left_out) = draw_figures(&shown, &summary)?;
+            let unstable = modes.iter().filter(|mode| mode.unstable);
+            let line = |mode: &ModeSummary| ModeLine {
+                frequency_hz: mode.frequency_hz,
+                label: mode.label(),
+            };
+            let drawing = SignalDrawing {
+                file: &file,
+                spectra,
+                window: window_length(self, &file),
+                max_frequency_hz: self.max_frequency,
+                modes: unstable.map(line).collect(),
+            };
+            let (figures, left_out) = draw_figures(&drawing, &summary)?;
             left_out.iter().for_each(|reason| tracing::warn!("{reason}"));
             Ok(figures)
         })
@@ -278,34 +290,6 @@ fn modes_below(case: &Case, frequency_hz: f64) -> Result<Vec<ComplexMode>, Failu
     let options = tangent_options(case, case.cea.as_ref().map_or(MassKind::Consistent, mass));
     modes_at_own_friction(case, &options, ModeLimit::MaxFrequency(frequency_hz))
         .map_err(|error| Failure::run(format!("modes of the case: {error}")))
-}
-
-/// What the figures show.
-fn record(
-    arguments: &Arguments,
-    file: &SignalFile,
-    summary: &SignalSummary,
-    modes: &[ModeSummary],
-    spectra: Vec<AmplitudeSpectrum>,
-) -> SignalRecord {
-    let unstable = modes.iter().filter(|mode| mode.unstable);
-    let channels = file.channels.iter().zip(&summary.channels).zip(spectra);
-    SignalRecord {
-        sampling_rate: file.sampling_rate,
-        start: file.start,
-        window: window_length(arguments, file),
-        max_frequency_hz: arguments.max_frequency,
-        references: unstable.map(|m| (m.frequency_hz, m.label())).collect(),
-        channels: channels
-            .map(|((channel, found), spectrum)| ChannelRecord {
-                name: channel.name.clone(),
-                samples: channel.samples.clone(),
-                interval_s: (found.interval_s[0], found.interval_s[1]),
-                frequencies_hz: spectrum.frequencies_hz,
-                amplitudes: spectrum.amplitudes,
-            })
-            .collect(),
-    }
 }
 
 /// Options that change the result.

@@ -1,6 +1,7 @@
 //! Declaration of a case key: kind of value, bound, unit, default, meaning.
 
 use super::value::RawValue;
+use super::words::words_named;
 
 /// Where a number must lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,6 +52,22 @@ impl Bound {
         }
     }
 
+    /// The bound of a condition behind the word "number".
+    fn of_condition(text: &str) -> Option<Self> {
+        Some(match text {
+            "" => Self::Finite,
+            " > 0" => Self::Positive,
+            " >= 0" => Self::NotNegative,
+            _ => match text.strip_prefix(" between ") {
+                Some(ends) => {
+                    let (low, high) = ends.split_once(" and ")?;
+                    Self::Between(low.parse().ok()?, high.parse().ok()?)
+                }
+                None => Self::AtLeast(text.strip_prefix(" >= ")?.parse().ok()?),
+            },
+        })
+    }
+
     /// As a condition behind the word "number".
     pub(super) fn condition(self) -> String {
         match self {
@@ -98,6 +115,47 @@ pub enum Kind {
     Table(&'static str),
 }
 
+impl Kind {
+    /// The kind of a declaration: `number > 0`, `integer >= 1 or list`, `one CeaMethod`.
+    fn read(text: &'static str) -> Option<Self> {
+        if let Some(least) = text.strip_prefix("integer >= ") {
+            let number = least.trim_end_matches(" or list").parse().ok()?;
+            return Some(if least.ends_with("list") {
+                Self::Counts(number)
+            } else {
+                Self::Count(number)
+            });
+        }
+        if let Some(bound) = text.strip_prefix("number") {
+            let bound_of = Bound::of_condition;
+            return Some(
+                match (bound.strip_suffix(", list or range"), bound.split_once(" or \"")) {
+                    (Some(bound), _) => Self::Numbers(bound_of(bound)?),
+                    (_, Some((bound, word))) => {
+                        Self::NumberOr(bound_of(bound)?, word.trim_end_matches('"'))
+                    }
+                    _ => Self::Number(bound_of(bound)?),
+                },
+            );
+        }
+        Some(match (text, text.split_once(' ')) {
+            ("text", _) => Self::Text,
+            ("text or list", _) => Self::Texts,
+            ("true or false", _) => Self::Flag,
+            ("node", _) => Self::Node,
+            ("node or list", _) => Self::Nodes,
+            ("numeric case key", _) => Self::Parameter,
+            (_, Some(("table", _))) => Self::Table(text),
+            (_, Some(("some", name))) => Self::Choices(words_named(name)?),
+            (_, Some(("one", name))) => match name.strip_suffix(" or two vectors") {
+                Some(name) => Self::Directions(words_named(name)?),
+                None => Self::Choice(words_named(name)?),
+            },
+            _ => return None,
+        })
+    }
+}
+
 /// What holds where a key is left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Default {
@@ -135,6 +193,23 @@ pub struct CaseKey {
 }
 
 impl CaseKey {
+    /// The key of a declaration, `name | values | unit | default | example`, and of what it is.
+    pub(super) fn read(head: &'static str, text: &'static str) -> Option<Self> {
+        let fields: Vec<&str> = head.split(" | ").collect();
+        let [name, values, unit, default, example] = fields[..] else {
+            return None;
+        };
+        let (meaning, of_waves) = text.split_once(" of waves: ").unwrap_or((text, ""));
+        let default = match default.strip_prefix("= ") {
+            Some(value) => Default::Value(value),
+            None if default == "required" => Default::Required,
+            None if default.starts_with("required, or ") => Default::RequiredUnless(default),
+            None => Default::Otherwise(default),
+        };
+        let (kind, unit) = (Kind::read(values)?, if unit == "-" { "" } else { unit });
+        Some(Self { name, kind, unit, default, example, meaning, of_waves, since: "0.1" })
+    }
+
     /// Whether the value is a single number, as a parameter study or a branch varies it.
     pub fn is_numeric(&self) -> bool {
         matches!(self.kind, Kind::Number(_) | Kind::NumberOr(..) | Kind::Count(_) | Kind::Node)

@@ -19,6 +19,48 @@ pub(super) fn words<T: Choice>() -> Vec<&'static str> {
     T::WORDS.iter().map(|pair| pair.0).collect()
 }
 
+/// Finds the words of the choices that keys take, by the names of their types.
+macro_rules! words_by_name {
+    ($($choice:ident),+ $(,)?) => {
+        /// The words of the choice of a type, by its name.
+        pub(super) fn words_named(name: &str) -> Option<fn() -> Vec<&'static str>> {
+            Some(match name {
+                $(stringify!($choice) => words::<$choice>,)+
+                _ => return None,
+            })
+        }
+    };
+}
+
+words_by_name!(
+    ElementKind,
+    UnitsWord,
+    FilePart,
+    ConditionWord,
+    HeldAxis,
+    AxesWord,
+    PlaneFormulation,
+    CounterfaceWord,
+    NormalLawWord,
+    BaseContact,
+    BaseChoice,
+    RotationFrame,
+    CeaMethod,
+    MassKind,
+    ModificationKind,
+    InitialState,
+    OperatorChoice,
+    Combination,
+    Analysis,
+    OnsetChoice,
+    StabilityChoice,
+    Spacing,
+    FrfBoundary,
+    Direction,
+    ResponseQuantity,
+    FrfMethod,
+);
+
 /// The words of a choice with what they stand for.
 pub(super) fn words_of<T: Choice>() -> impl Iterator<Item = (&'static str, T)> {
     T::WORDS.iter().copied()
@@ -208,12 +250,6 @@ choices! {
     PlaneFormulation { "plane-strain" = Self::PlaneStrain, "plane-stress" = Self::PlaneStress, "three-dimensional" = Self::ThreeDimensional }
     MassKind { "consistent" = Self::Consistent, "lumped" = Self::Lumped }
     Spacing { "linear" = Self::Linear, "log" = Self::Logarithmic }
-    InitialState {
-        "rest" = Self::Rest,
-        "steady-sliding" = Self::SteadySliding,
-        // Harmonic and onset are keys of their own.
-        "limit-cycle" = Self::LimitCycle { harmonic: 1, onset: 1 },
-    }
     OperatorChoice { "auto" = Self::Auto, "cyclic" = Self::Cyclic, "sparse" = Self::Sparse }
     FrfBoundary { "free" = Self::Free, "clamped" = Self::Clamped, "sliding" = Self::Sliding }
     BaseChoice { "solved" = Self::Solved, "closed" = Self::Closed }
@@ -222,15 +258,16 @@ choices! {
 
 /// Takes the words of choices from their names.
 macro_rules! named {
-    ($($choice:ident: $($variant:ident),+;)+) => {$(
+    ($($choice:ident: $($value:expr),+;)+) => {$(
         impl Choice for $choice {
-            const WORDS: &'static [(&'static str, Self)] =
-                &[$((Self::$variant.name(), Self::$variant)),+];
+            const WORDS: &'static [(&'static str, Self)] = &[$(($value.name(), $value)),+];
         }
     )+};
 }
 
 named! {
-    Direction: Radial, Tangential, Axial, X, Y, Z;
-    ResponseQuantity: Accelerance, Mobility, Receptance;
+    Direction: Self::Radial, Self::Tangential, Self::Axial, Self::X, Self::Y, Self::Z;
+    ResponseQuantity: Self::Accelerance, Self::Mobility, Self::Receptance;
+    // Harmonic and onset are keys of their own.
+    InitialState: Self::Rest, Self::SteadySliding, Self::LimitCycle { harmonic: 1, onset: 1 };
 }

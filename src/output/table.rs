@@ -122,17 +122,17 @@ impl<T> Column<T> {
 }
 
 /// Declares columns: `NAME: row as Type; key: "meaning" = cell, Always "label" Fixed(2); ...`; a constant may stand for a
-/// meaning.
+/// meaning, and columns that no file has need none.
 macro_rules! columns {
     ($(#[$meta:meta])* $vis:vis $name:ident: $row:ident as $type:ty;
-     $($key:ident: $meaning:tt = $cell:expr $(, $when:ident $label:literal $format:expr)?;)+) => {
+     $($key:ident $(: $meaning:tt)? = $cell:expr $(, $when:ident $label:literal $format:expr)?;)+) => {
         $(#[$meta])*
         $vis const $name: &[$crate::output::Column<$type>] = {
             #[allow(unused_imports)]
             use $crate::output::Format::*;
             &[$($crate::output::Column {
                 key: stringify!($key),
-                meaning: $meaning,
+                meaning: [$($meaning,)? ""][0],
                 look: {
                     const LOOKS: &[$crate::output::Look] = &[$($crate::output::Look {
                         when: $crate::output::Shown::$when, label: $label, format: $format,

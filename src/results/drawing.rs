@@ -109,8 +109,9 @@ impl Record for Page {
 }
 
 impl Page {
-    /// The page of a document and its figures.
+    /// The page of a document and its figures, of which it keeps what a drawing shows.
     pub fn new(document: Document, figures: Vec<Figure>, manifest: &Manifest) -> Self {
+        let figures = figures.into_iter().map(Figure::thinned).collect();
         Self { document, figures, manifest: manifest.clone() }
     }
 

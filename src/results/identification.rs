@@ -3,17 +3,18 @@
 mod figures;
 mod summary;
 
-pub use figures::{IdentificationRecord, identification, unit_of};
+pub use figures::{identification, unit_of};
 pub use summary::{
     CoefficientSummary, FitSummary, HalfPowerSummary, IdentificationSummary, ModeSummary,
     ResponseSummary,
 };
 
+use super::table::write_rows;
 use super::{FolderError, OutputFolder};
-use crate::output::{Document, Section, Table, columns, csv};
+use crate::linalg::c64;
+use crate::output::{Document, Section, Table, columns};
 use crate::signal::reader::NamedResponse;
-use crate::signal::{Estimate, FrequencyResponse, ModalFit};
-use std::io;
+use crate::signal::{Estimate, ModalFit};
 
 /// Name of the `[damping]` section in its folder.
 pub const DAMPING_BLOCK: &str = "damping.toml";
@@ -44,25 +45,28 @@ columns! {
 columns! {
     /// Rayleigh coefficients of an estimator.
     COEFFICIENTS: row as (&'static str, [Estimate; 2]);
-    estimator: "what they are from" = row.0, Always "estimator" Plain;
-    mass_coefficient_per_s: "alpha_R" = row.1[0].value, Always "alpha_R" Scientific(4);
-    mass_coefficient_low: "lower end of its 95 % interval"
-        = row.1[0].low, Always "from" Scientific(4);
-    mass_coefficient_high: "upper end" = row.1[0].high, Always "to" Scientific(4);
-    stiffness_coefficient_s: "beta_R" = row.1[1].value, Always "beta_R" Scientific(4);
-    stiffness_coefficient_low: "lower end of its 95 % interval"
-        = row.1[1].low, Always "from" Scientific(4);
-    stiffness_coefficient_high: "upper end" = row.1[1].high, Always "to" Scientific(4);
+    estimator = row.0, Always "estimator" Plain;
+    mass_coefficient_per_s = row.1[0].value, Always "alpha_R" Scientific(4);
+    mass_coefficient_low = row.1[0].low, Always "from" Scientific(4);
+    mass_coefficient_high = row.1[0].high, Always "to" Scientific(4);
+    stiffness_coefficient_s = row.1[1].value, Always "beta_R" Scientific(4);
+    stiffness_coefficient_low = row.1[1].low, Always "from" Scientific(4);
+    stiffness_coefficient_high = row.1[1].high, Always "to" Scientific(4);
 }
 
-/// A response and its fit, in the order of their columns.
-pub(super) const FITTED: [(&str, &str); 5] = [
-    ("frequency_hz", "frequency of the line"),
-    ("real", "real part of the response, in its unit"),
-    ("imaginary", "imaginary part"),
-    ("fit_real", "real part of the fitted response; empty outside the range of the fit"),
-    ("fit_imaginary", "imaginary part"),
-];
+/// Frequency of a line, response, fitted response.
+type FittedLine = (f64, c64, Option<c64>);
+
+columns! {
+    /// A line of a response and its fit.
+    pub(super) FITTED: row as FittedLine;
+    frequency_hz: "frequency of the line" = row.0;
+    real: "real part of the response, in its unit" = row.1.re;
+    imaginary: "imaginary part" = row.1.im;
+    fit_real: "real part of the fitted response; empty outside the range of the fit"
+        = row.2.map(|fit| fit.re);
+    fit_imaginary: "imaginary part" = row.2.map(|fit| fit.im);
+}
 
 /// Tables and sentences.
 pub fn document(summary: &IdentificationSummary) -> Document {
@@ -124,23 +128,9 @@ pub fn write_fits(
             0 => "fit.csv".to_owned(),
             _ => format!("fit-{}.csv", k + 1),
         };
-        folder.write(&name, |out| write_fit(out, &named.response, fit, k))?;
+        let lines = named.response.frequencies_hz().iter().zip(named.response.values());
+        let lines = lines.map(|(&f, &h)| (f, h, fit.evaluate(k, f)));
+        folder.write(&name, |out| write_rows(out, FITTED, lines))?;
     }
     Ok(())
-}
-
-fn write_fit(
-    out: &mut dyn io::Write,
-    response: &FrequencyResponse,
-    fit: &ModalFit,
-    number: usize,
-) -> io::Result<()> {
-    let mut table = csv::Table::new(out, &FITTED.map(|column| column.0))?;
-    for (f, h) in response.frequencies_hz().iter().zip(response.values()) {
-        let model = fit.evaluate(number, *f);
-        let part = |v: Option<f64>| v.unwrap_or(f64::NAN);
-        let (re, im) = (part(model.map(|m| m.re)), part(model.map(|m| m.im)));
-        table.numbers(&[*f, h.re, h.im, re, im])?;
-    }
-    table.finish()
 }

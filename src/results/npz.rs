@@ -1,5 +1,6 @@
 //! NPZ archives: named arrays as NumPy reads them, deflated.
 
+use crate::contact::ContactStatus;
 use std::io::{self, Cursor, Write};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
@@ -12,33 +13,18 @@ pub trait NpyNumber: Copy {
     fn append(self, bytes: &mut Vec<u8>);
 }
 
-impl NpyNumber for f64 {
-    const DESCRIPTION: &'static str = "<f8";
-    fn append(self, bytes: &mut Vec<u8>) {
-        bytes.extend(self.to_le_bytes());
-    }
+macro_rules! numbers {
+    ($($kind:ty: $description:literal),+) => {$(
+        impl NpyNumber for $kind {
+            const DESCRIPTION: &'static str = $description;
+            fn append(self, bytes: &mut Vec<u8>) {
+                bytes.extend(self.to_le_bytes());
+            }
+        }
+    )+};
 }
 
-impl NpyNumber for f32 {
-    const DESCRIPTION: &'static str = "<f4";
-    fn append(self, bytes: &mut Vec<u8>) {
-        bytes.extend(self.to_le_bytes());
-    }
-}
-
-impl NpyNumber for u8 {
-    const DESCRIPTION: &'static str = "|u1";
-    fn append(self, bytes: &mut Vec<u8>) {
-        bytes.push(self);
-    }
-}
-
-impl NpyNumber for i64 {
-    const DESCRIPTION: &'static str = "<i8";
-    fn append(self, bytes: &mut Vec<u8>) {
-        bytes.extend(self.to_le_bytes());
-    }
-}
+numbers!(f64: "<f8", f32: "<f4", u8: "|u1", i64: "<i8");
 
 /// An archive in memory; the same arrays give the same bytes.
 pub struct NpzArchive {
@@ -69,6 +55,15 @@ impl NpzArchive {
         let mut bytes = header(&format!("|S{}", word.len()), &[]);
         bytes.extend(word.as_bytes());
         self.entry(name, &bytes)
+    }
+
+    /// Adds what the codes of an array `status` stand for: the numbers `status_open`, `status_stick` and `status_slip`.
+    pub fn status_codes(&mut self) -> io::Result<()> {
+        let statuses = [ContactStatus::Open, ContactStatus::Stick, ContactStatus::Slip];
+        statuses.into_iter().try_for_each(|status| {
+            let name = format!("status_{}", status.name());
+            self.array(&name, &[], std::iter::once(status as u8))
+        })
     }
 
     fn entry(&mut self, name: &str, bytes: &[u8]) -> io::Result<()> {

@@ -3,15 +3,16 @@
 mod figures;
 mod summary;
 
-pub use figures::{ChannelRecord, SignalRecord, draw};
+pub use figures::{SignalDrawing, draw};
 pub use summary::{
     ChannelSummary, GrowthSummary, ModeSummary, NearestMode, PeakSummary, SignalSummary,
     Superharmonic,
 };
 
 use super::cea::{BRANCH, DIRECTION};
+use super::table::write_rows;
 use super::{FolderError, OutputFolder};
-use crate::output::{Document, Section, Table, columns, csv, fixed, significant};
+use crate::output::{Document, Section, Table, columns, fixed, significant};
 use crate::signal::AmplitudeSpectrum;
 
 /// A peak of a channel, numbered from 1, and what it is.
@@ -41,12 +42,15 @@ columns! {
 columns! {
     /// What a peak is, in words.
     WORDS: row as Row;
-    what: "what it is" = row.3.clone(), IfAny "what it is" Plain;
+    what = row.3.clone(), IfAny "what it is" Plain;
 }
 
-/// A spectrum, in the order of its columns.
-pub(super) const SPECTRUM: [(&str, &str); 2] =
-    [("frequency_hz", "frequency"), ("amplitude", "amplitude, in the unit of the signal")];
+columns! {
+    /// A line of a spectrum.
+    pub(super) SPECTRUM: line as (f64, f64);
+    frequency_hz: "frequency" = line.0;
+    amplitude: "amplitude, in the unit of the signal" = line.1;
+}
 
 /// The peaks of a channel.
 fn rows(channel: &ChannelSummary) -> impl Iterator<Item = Row> {
@@ -102,13 +106,8 @@ pub fn write_spectra(
     spectra: &[AmplitudeSpectrum],
 ) -> Result<(), FolderError> {
     for (k, spectrum) in spectra.iter().enumerate() {
-        folder.write(&format!("spectrum-{}.csv", k + 1), |out| {
-            let mut table = csv::Table::new(out, &SPECTRUM.map(|column| column.0))?;
-            for (f, a) in spectrum.frequencies_hz.iter().zip(&spectrum.amplitudes) {
-                table.numbers(&[*f, *a])?;
-            }
-            table.finish()
-        })?;
+        let lines = spectrum.frequencies_hz.iter().copied().zip(spectrum.amplitudes.clone());
+        folder.write(&format!("spectrum-{}.csv", k + 1), |out| write_rows(out, SPECTRUM, lines))?;
     }
     Ok(())
 }

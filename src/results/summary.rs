@@ -7,6 +7,7 @@ use super::folder::{FolderError, OutputFolder};
 use super::reopening::{SUMMARY, read_own};
 use crate::cycle::CriticalValue;
 use crate::output::Described;
+use crate::transient::ContactPowers;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -64,6 +65,21 @@ pub struct MeanPowers {
     /// Lost in the dashpots of a contact that has some.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_damping: Option<f64>,
+}
+
+impl MeanPowers {
+    /// Of the contact and of the damping of the body.
+    pub fn of(contact: &ContactPowers, material_damping: f64) -> Self {
+        Self {
+            external: present(contact.external),
+            stick: present(contact.stick),
+            slide: present(contact.slide),
+            contact_dissipated: present(contact.contact_dissipated),
+            material_damping: present(material_damping),
+            normal_contact: present(contact.normal),
+            contact_damping: (contact.damping != 0.0).then_some(contact.damping),
+        }
+    }
 }
 
 /// Amplitude ratios between which the winner of two waves changes.

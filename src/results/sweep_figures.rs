@@ -255,10 +255,7 @@ impl Study {
             self.ring_caption()
         );
         let columns = self.series.len().clamp(1, 3);
-        Ok(Figure::new("status", caption)
-            .columns(columns)
-            .shared_y()
-            .panels(panels.collect::<Vec<_>>()))
+        Ok(Figure::new("status", caption).columns(columns).shared_y().panels(panels))
     }
 }
 

@@ -6,7 +6,8 @@ use super::fit::least_cost;
 use crate::case::{Body, Case, Cea, refusal};
 use crate::linalg::c64;
 use crate::mesh::Mesh;
-use crate::results::mac::{MacMode, MacPair, MacShape};
+use crate::results::Manifest;
+use crate::results::mac::{MacMode, MacPair, MacShape, MacSummary};
 use crate::signal::reader::MeasuredShape;
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
@@ -17,20 +18,6 @@ const FAR: f64 = 0.05;
 const UNITS: [(f64, &str); 4] =
     [(1e-3, "millimetres"), (1e-2, "centimetres"), (0.0254, "inches"), (1e3, "kilometres")];
 
-/// What the shapes of a file have to do with the modes of a case.
-pub struct Assurance {
-    /// The measured shapes.
-    pub shapes: Vec<MacShape>,
-    /// The modes at the case's friction coefficient.
-    pub modes: Vec<MacMode>,
-    /// `[shape][mode]`.
-    pub matrix: Vec<Vec<f64>>,
-    /// The mode of each shape, where one is left for it.
-    pub pairs: Vec<MacPair>,
-    /// What there is to say.
-    pub notes: Vec<String>,
-}
-
 /// Modal assurance criterion
 ///
 /// ```text
@@ -39,7 +26,8 @@ pub struct Assurance {
 ///
 /// of every measured shape `y` with every mode `phi` at the case's friction coefficient, over the measured points, each at its
 /// nearest node, and directions; each shape is paired with one mode so that the sum is largest. `scale` is the factor on the
-/// coordinates of the file. Points off the body are left out, and said.
+/// coordinates of the file. Points off the body are left out, and said. The
+/// source of the shapes, the time and the manifest are left open.
 ///
 /// Source: R. J. Allemang, The modal assurance criterion: twenty years of use and abuse, Sound and Vibration 37 (2003).
 ///
@@ -49,7 +37,7 @@ pub fn assurance(
     case: &Case,
     shapes: &[MeasuredShape],
     scale: f64,
-) -> Result<Assurance, StudyError> {
+) -> Result<MacSummary, StudyError> {
     let cea = case.require_cea()?;
     refuse_revolution(case)?;
     let friction = case.contact.sliding.friction_coefficient;
@@ -80,7 +68,12 @@ pub fn assurance(
     for (shape, placed) in shapes.iter().zip(&placed) {
         notes.extend(placed.note(shape, case.body.size()));
     }
-    Ok(Assurance {
+    Ok(MacSummary {
+        command: "mac".to_owned(),
+        title: case.title.clone(),
+        wall_s: 0.0,
+        measurement: String::new(),
+        friction_coefficient: friction,
         pairs: paired(&matrix),
         shapes: shapes
             .iter()
@@ -103,8 +96,9 @@ pub fn assurance(
                 harmonic: case.has_sectors().then_some(mode.harmonic),
             })
             .collect(),
-        matrix,
+        mac: matrix,
         notes,
+        manifest: Manifest::new("mac"),
     })
 }
 

@@ -34,8 +34,8 @@ pub enum InitialState {
 }
 
 impl InitialState {
-    /// Its name in results.
-    pub fn name(self) -> &'static str {
+    /// Its name, in cases and in results.
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Rest => "rest",
             Self::SteadySliding => "steady-sliding",

@@ -37,13 +37,13 @@ fn rust_files(folder: &Path, files: &mut Vec<PathBuf>) {
 /// after a merge that conflicts here, the failure names the numbers to write.
 const BUDGETS: &[(&str, usize)] = &[
     ("crates/bounds", 196),
-    ("crates/chart", 4_988),
+    ("crates/chart", 4_987),
     ("crates/described", 104),
     ("crates/formats", 6_853),
     ("crates/linalg", 4_075),
     ("crates/signal", 6_631),
-    ("src/app", 5_433),
-    ("src/case", 11_935),
+    ("src/app", 5_392),
+    ("src/case", 11_807),
     ("src/cea", 10_592),
     ("src/contact", 2_879),
     ("src/cycle", 8_310),
@@ -55,8 +55,8 @@ const BUDGETS: &[(&str, usize)] = &[
     ("src/mesh", 4_615),
     ("src/output", 816),
     ("src/prestress", 5_365),
-    ("src/results", 20_672),
-    ("src/study", 12_483),
+    ("src/results", 20_435),
+    ("src/study", 12_451),
     ("src/transient", 5_022),
 ];
 

@@ -261,7 +261,21 @@ fn sentences_of_readme_guide_and_modules_have_25_words_at_most() {
     }
 }
 
-/// Sentences of messages, notes, captions, and of the pages of keys and columns: one ends at a full stop or a question mark. A value put in is one word.
+/// Everything that `--help` prints of a command, of its options and of its subcommands.
+fn help(command: &clap::Command) -> Vec<String> {
+    let own = [command.get_about(), command.get_long_about(), command.get_after_help()];
+    let mut texts: Vec<String> = own.into_iter().flatten().map(ToString::to_string).collect();
+    for option in command.get_arguments() {
+        let values = option.get_possible_values();
+        let values = values.iter().map(|value| value.get_help());
+        let all = values.chain([option.get_help(), option.get_long_help()]).flatten();
+        texts.extend(all.map(ToString::to_string));
+    }
+    texts.into_iter().chain(command.get_subcommands().flat_map(help)).collect()
+}
+
+/// Sentences of messages, notes, captions, of `--help`, and of the pages of keys and columns: one ends at a full stop or a
+/// question mark. A value put in is one word.
 #[test]
 fn sentences_of_messages_have_under_25_words() {
     let (mut long, mut count) = (String::new(), 0);
@@ -278,7 +292,8 @@ fn sentences_of_messages_have_under_25_words() {
     let pages = pages.into_iter().map(|(name, page)| {
         (name.to_owned(), page.split('|').map(str::to_owned).collect::<Vec<_>>())
     });
-    for (path, texts) in modules.chain(pages) {
+    let help = ("--help".to_owned(), help(&frictionsim::app::command_line()));
+    for (path, texts) in modules.chain(pages).chain([help]) {
         for text in texts {
             count += 1;
             let ends = |text: &str| text.replace(". ", ".\n").replace("? ", "?\n");

@@ -37,7 +37,7 @@ impl Body {
     /// stiffness, N/m, and damping, N s/m.
     fn check_fields(&self, nodes: &[usize], [mass, spring, dashpot]: [f64; 3]) {
         let found = self.improved();
-        let fastest = found.modes.iter().enumerate();
+        let fastest = found.summary.modes.iter().enumerate();
         let fastest =
             fastest.max_by(|a, b| a.1.growth_rate_per_s.total_cmp(&b.1.growth_rate_per_s));
         let (k, mode) = fastest.unwrap();

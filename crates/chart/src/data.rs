@@ -107,20 +107,10 @@ pub struct Series {
     pub is_whole: bool,
 }
 
-/// Bit by bit: gaps, which are not numbers, equal each other.
+/// By what its numbers say: gaps, which are not numbers, equal each other.
 impl PartialEq for Series {
     fn eq(&self, other: &Self) -> bool {
-        let bits = |values: &[f64]| -> Vec<u64> { values.iter().map(|v| v.to_bits()).collect() };
-        let words = |series: &Self| {
-            let values = series.values.as_ref();
-            (
-                (series.name.clone(), series.kind, series.colour),
-                [bits(&series.xs), bits(&series.ys)],
-                values.map(|(name, values)| (name.clone(), bits(values))),
-                (series.rows.clone(), series.tips.clone(), series.is_whole),
-            )
-        };
-        words(self) == words(other)
+        format!("{self:?}") == format!("{other:?}")
     }
 }
 

@@ -1,7 +1,24 @@
 //! Thinning of long series for drawing.
 
+use super::svg::POINTS_PER_MM;
+
 /// Columns for each point of width to which series are thinned (200 dots per inch, as the images have).
 pub(super) const COLUMNS_PER_POINT: f64 = 200.0 / 72.0;
+
+/// Width of the widest drawing, mm.
+pub const WIDEST: f64 = 420.0;
+
+/// Columns to which series are thinned for keeps, four for each one of the widest drawing: no eye tells it from the whole.
+const FINEST: f64 = 4.0 * WIDEST * POINTS_PER_MM * COLUMNS_PER_POINT;
+
+/// Places of the samples that drawings of any width need: all, or of a series so long that most samples have no column of their
+/// own those of [`keep_extremes`]. `fraction_of` is the place of an abscissa along its axis.
+pub(super) fn lasting(xs: &[f64], ys: &[f64], fraction_of: &dyn Fn(f64) -> f64) -> Vec<usize> {
+    match xs.len() as f64 > 4.0 * FINEST {
+        true => kept(xs, ys, |x| FINEST * fraction_of(x)),
+        false => (0..xs.len()).collect(),
+    }
+}
 
 /// Thins a series with rising abscissae to at most four points for each column of a drawing, and
 /// keeps the first, lowest, highest and last value of each column, so no extreme is lost.
@@ -13,12 +30,19 @@ pub fn keep_extremes(
     values: &[f64],
     column_of: impl Fn(f64) -> f64,
 ) -> Vec<(f64, f64)> {
+    let gap = |value: f64| if value.is_finite() { value } else { f64::NAN };
+    let kept = kept(abscissae, values, column_of).into_iter();
+    kept.map(|at| (abscissae[at], gap(values[at]))).collect()
+}
+
+/// Places of the samples that [`keep_extremes`] keeps.
+fn kept(abscissae: &[f64], values: &[f64], column_of: impl Fn(f64) -> f64) -> Vec<usize> {
     let mut out = Vec::new();
     let count = abscissae.len().min(values.len());
     let mut start = 0;
     while start < count {
         if !values[start].is_finite() {
-            out.push((abscissae[start], f64::NAN));
+            out.push(start);
             start += 1;
             continue;
         }
@@ -38,15 +62,10 @@ pub fn keep_extremes(
         end = end.max(start + 1);
         let mut kept = [start, lowest, highest, end - 1];
         kept.sort_unstable();
-        let mut previous = usize::MAX;
-        for index in kept {
-            if index != previous {
-                out.push((abscissae[index], values[index]));
-            }
-            previous = index;
-        }
+        out.extend(kept);
         start = end;
     }
+    out.dedup();
     out
 }
 

@@ -32,13 +32,8 @@ pub struct Figure {
 impl Figure {
     /// An empty figure across two columns of a page.
     pub fn new(name: impl Into<String>, caption: impl Into<String>) -> Self {
-        Self {
-            name: name.into(),
-            caption: caption.into(),
-            grid: Grid::new(TWO_COLUMNS),
-            motion: None,
-            steps: None,
-        }
+        let grid = Grid::new(TWO_COLUMNS);
+        Self { name: name.into(), caption: caption.into(), grid, motion: None, steps: None }
     }
 
     /// The same under another name.
@@ -122,6 +117,13 @@ impl Figure {
         Self { steps: Some(steps), ..self }
     }
 
+    /// The same without the samples of long curves that no drawing shows; a signal to listen to keeps all.
+    #[must_use]
+    pub fn thinned(mut self) -> Self {
+        self.grid.cells.iter_mut().flatten().for_each(Panel::thin);
+        self
+    }
+
     /// Whether its lists are as long as they must be and its counts are in range, as those of one that was read must be.
     pub fn is_whole(&self) -> bool {
         self.grid.is_whole() && self.grid.panels().all(Panel::is_whole)
@@ -167,5 +169,64 @@ impl Figure {
         };
         let parts: String = self.grid.panels().enumerate().filter_map(describe).collect();
         Ok(svg.finish(title, &format!("{}{parts}", self.caption)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Drawing, Fill, INK, Line, SERIES, WIDEST};
+
+    /// A vibration of so many samples over one second, with a spike, its range and a signal to listen to.
+    fn figure(samples: usize) -> Figure {
+        let times: Vec<f64> = (0..samples).map(|i| i as f64 / samples as f64).collect();
+        let mut values: Vec<f64> =
+            times.iter().map(|t| (900.0 * t).sin() * (7e4 * t).cos()).collect();
+        values[samples / 3] = 2.0;
+        let panel = Panel::new(Axis::time(), Axis::new("value", ""))
+            .layer(Fill::range_of(&times, &values, INK).opacity(0.2))
+            .layer(Fill::from(0.0, &times, &times, SERIES[2]).opacity(0.2))
+            .layer(Line::new(&times, &values).solid(SERIES[0], 0.5).name("all"))
+            .layer(Line::new(&times, &times).solid(SERIES[1], 0.5).whole());
+        Figure::new("long", "A long line.").panel(panel)
+    }
+
+    #[test]
+    fn a_thinned_figure_is_the_same_picture_with_a_fraction_of_the_numbers() {
+        let [whole, thinned] = [figure(200_000), figure(200_000).thinned()];
+        let counts = |figure: &Figure| -> Vec<usize> {
+            figure.data().panels[0].series.iter().map(|series| series.xs.len()).collect()
+        };
+        // The area, the line, the signal.
+        assert_eq!(counts(&whole), [200_000; 3]);
+        let [area, line, signal] = counts(&thinned)[..] else { panic!("three series") };
+        assert!(signal == 200_000 && area < 60_000 && line < 60_000, "{area} {line}");
+        // Light of each square of a millimetre: within a column the order of its extremes may be another.
+        let squares = |figure: &Figure, width: f64| -> Vec<f64> {
+            let drawing = Drawing::parse(&figure.to_svg(Some(width)).unwrap()).unwrap();
+            let png = drawing.to_png(8.0 * 25.4).unwrap();
+            let mut reader = png::Decoder::new(std::io::Cursor::new(png)).read_info().unwrap();
+            let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+            let frame = reader.next_frame(&mut pixels).unwrap();
+            let (row, of_pixel) = (frame.line_size, frame.line_size / frame.width as usize);
+            let mut sums = vec![0.0; row.div_ceil(8 * of_pixel) * pixels.len().div_ceil(8 * row)];
+            for (place, value) in pixels.iter().enumerate() {
+                let square =
+                    place / row / 8 * row.div_ceil(8 * of_pixel) + place % row / (8 * of_pixel);
+                sums[square] += f64::from(*value) / (64.0 * 255.0 * of_pixel as f64);
+            }
+            sums
+        };
+        // A dense band of strokes may be a tenth lighter or darker somewhere.
+        for width in [85.0, WIDEST] {
+            let [one, other] = [&whole, &thinned].map(|figure| squares(figure, width));
+            let off = one.iter().zip(&other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(one.len() == other.len() && off < 0.1, "{width} mm: {off}");
+        }
+    }
+
+    #[test]
+    fn a_figure_of_a_usual_run_keeps_every_number() {
+        assert!(figure(25_000).thinned().data() == figure(25_000).data());
     }
 }

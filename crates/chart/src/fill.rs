@@ -2,7 +2,7 @@
 
 use super::colour::Colour;
 use super::data::{Series, SeriesKind};
-use super::decimation::COLUMNS_PER_POINT;
+use super::decimation::{COLUMNS_PER_POINT, lasting};
 use super::frame::Frame;
 use super::layer::Layer;
 use super::legend::Key;
@@ -19,7 +19,7 @@ pub struct Fill {
     is_range: bool,
     colour: Colour,
     opacity: f64,
-    name: Option<String>,
+    pub(super) name: Option<String>,
 }
 
 impl Fill {
@@ -45,9 +45,11 @@ impl Fill {
         Self { opacity, ..self }
     }
 
-    /// The same with an entry in the legend.
-    pub fn name(self, name: impl Into<String>) -> Self {
-        Self { name: Some(name.into()), ..self }
+    /// Leaves out what no drawing shows of a long area.
+    pub(super) fn thin(&mut self, fraction_of: &dyn Fn(f64) -> f64) {
+        let (xs, ys): (Vec<f64>, Vec<f64>) = self.points.iter().map(|p| (p[0], p[1])).unzip();
+        let kept = lasting(&xs, &ys, fraction_of).into_iter();
+        self.points = kept.map(|at| self.points[at]).collect();
     }
 }
 

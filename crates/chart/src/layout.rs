@@ -21,7 +21,7 @@ const GAP: f64 = 6.0;
 const NOTE_SIZE: f64 = 6.25;
 
 /// What a figure has in a grid, row by row, with all that tells where it stands.
-#[derive(Serialize, Deserialize)]
+#[derive(Default, Serialize, Deserialize)]
 pub(super) struct Grid {
     /// Width of the page that it is meant for, mm.
     pub width_mm: f64,
@@ -44,16 +44,7 @@ pub(super) struct Grid {
 impl Grid {
     /// An empty grid of one column.
     pub fn new(width_mm: f64) -> Self {
-        Self {
-            width_mm,
-            columns: 1,
-            weights: Vec::new(),
-            cells: Vec::new(),
-            shares: [false, false],
-            has_letters: true,
-            notes: Vec::new(),
-            foot: None,
-        }
+        Self { width_mm, columns: 1, has_letters: true, ..Self::default() }
     }
 
     pub fn is_whole(&self) -> bool {

@@ -50,7 +50,7 @@ pub use colour::{Colour, ColourMap, GRID, INK, MUTED, SERIES};
 pub use data::{
     AxisData, FigureData, LabelData, Mark, PanelData, RuleData, Series, SeriesKind, Steps,
 };
-pub use decimation::keep_extremes;
+pub use decimation::{WIDEST, keep_extremes};
 pub use field::{Cell, Field, Mesh};
 pub use figure::Figure;
 pub use fill::Fill;

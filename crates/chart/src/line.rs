@@ -2,7 +2,7 @@
 
 use super::colour::{Colour, INK, SERIES};
 use super::data::{Series, SeriesKind};
-use super::decimation::{COLUMNS_PER_POINT, keep_extremes, simplify};
+use super::decimation::{COLUMNS_PER_POINT, keep_extremes, lasting, simplify};
 use super::frame::Frame;
 use super::layer::Layer;
 use super::legend::Key;
@@ -23,7 +23,7 @@ pub struct Line {
     stroke: Stroke,
     marker: Option<(Marker, f64)>,
     arrows: usize,
-    name: Option<String>,
+    pub(super) name: Option<String>,
     label: Option<String>,
     is_whole: bool,
 }
@@ -68,11 +68,6 @@ impl Line {
         Self { arrows, ..self }
     }
 
-    /// The same with an entry in the legend.
-    pub fn name(self, name: impl Into<String>) -> Self {
-        Self { name: Some(name.into()), ..self }
-    }
-
     /// The same with a name for those who take the numbers, which the legend does not show.
     pub fn label(self, label: impl Into<String>) -> Self {
         Self { label: Some(label.into()), ..self }
@@ -95,6 +90,14 @@ impl Line {
             simplify(&places.collect::<Vec<_>>(), INVISIBLE)
         });
         places.filter(|piece| !piece.is_empty()).collect()
+    }
+
+    /// Leaves out what no drawing shows of a long curve over rising abscissae.
+    pub(super) fn thin(&mut self, fraction_of: &dyn Fn(f64) -> f64) {
+        if self.xs.is_sorted() && !self.is_whole {
+            let kept = lasting(&self.xs, &self.ys, fraction_of).into_iter();
+            (self.xs, self.ys) = kept.map(|at| (self.xs[at], self.ys[at])).unzip();
+        }
     }
 
     fn points(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
@@ -201,7 +204,7 @@ pub struct Points {
     marker: Marker,
     radius: f64,
     colour: Colour,
-    name: Option<String>,
+    pub(super) name: Option<String>,
     label: Option<String>,
     rows: Vec<usize>,
     tips: Vec<String>,
@@ -248,11 +251,6 @@ impl Points {
     /// The same, each point standing for the row of a table with this number.
     pub fn rows(self, rows: Vec<usize>) -> Self {
         Self { rows, ..self }
-    }
-
-    /// The same with an entry in the legend.
-    pub fn name(self, name: impl Into<String>) -> Self {
-        Self { name: Some(name.into()), ..self }
     }
 }
 

@@ -16,7 +16,7 @@ pub struct Rule {
     is_horizontal: bool,
     stroke: Stroke,
     stretches: bool,
-    name: Option<String>,
+    pub(super) name: Option<String>,
     beside: Option<String>,
     rim: Option<String>,
 }
@@ -45,11 +45,6 @@ impl Rule {
     /// The same, and the axis reaches it.
     pub fn stretching(self) -> Self {
         Self { stretches: true, ..self }
-    }
-
-    /// The same with an entry in the legend.
-    pub fn name(self, name: impl Into<String>) -> Self {
-        Self { name: Some(name.into()), ..self }
     }
 
     /// The same with a text along it inside the frame.
@@ -148,9 +143,7 @@ impl Label {
     pub fn style(self, style: TextStyle) -> Self {
         Self { style, ..self }
     }
-}
 
-impl Label {
     /// The baseline point, moved as little as keeps the text off the frame; a text that starts at its point and passes the
     /// right end stands on the other side of it.
     fn inside(&self, frame: &Frame, (x, y): (f64, f64)) -> (f64, f64) {

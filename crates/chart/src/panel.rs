@@ -161,6 +161,19 @@ impl Panel {
         [self.x.resolve(x), self.y.resolve(y)]
     }
 
+    /// Leaves out of its layers what no drawing shows.
+    pub(super) fn thin(&mut self) {
+        let [x, _] = self.rulers();
+        let fraction_of = |value: f64| x.fraction(value);
+        for layer in &mut self.layers {
+            match layer {
+                Drawn::Line(line) => line.thin(&fraction_of),
+                Drawn::Fill(fill) => fill.thin(&fraction_of),
+                _ => {}
+            }
+        }
+    }
+
     /// Its numbers in the units that its axes show.
     pub(super) fn data(&self) -> PanelData {
         let [x, y] = self.rulers();

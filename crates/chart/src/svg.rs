@@ -97,12 +97,8 @@ impl Stroke {
     }
 
     fn write(&self, out: &mut String) {
-        let _ = write!(
-            out,
-            r#" fill="none" stroke="{}" stroke-width="{}""#,
-            self.colour,
-            number(self.width)
-        );
+        let (colour, width) = (self.colour, number(self.width));
+        let _ = write!(out, r#" fill="none" stroke="{colour}" stroke-width="{width}""#);
         if self.is_dashed() {
             let parts = self.dash.iter().take_while(|&&length| length > 0.0);
             let parts: Vec<String> = parts.map(|&length| number(length)).collect();
@@ -120,14 +116,8 @@ fn number(value: f64) -> String {
     if !hundredths.is_finite() || hundredths == 0.0 {
         return "0".into();
     }
-    let mut out = format!("{:.2}", hundredths / 100.0);
-    while out.ends_with('0') {
-        out.pop();
-    }
-    if out.ends_with('.') {
-        out.pop();
-    }
-    out
+    let text = format!("{:.2}", hundredths / 100.0);
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 /// Text with the five XML specials escaped.
@@ -285,12 +275,9 @@ impl Svg {
 
     /// Clips everything up to [`Svg::end_group`] to a rectangle.
     pub fn begin_clip(&mut self, rect: &Rect) {
-        let id = self.id();
-        let _ = writeln!(
-            self.definitions,
-            r#"<clipPath id="{id}"><rect {}/></clipPath>"#,
-            rect.attributes()
-        );
+        let (id, place) = (self.id(), rect.attributes());
+        let clip = format!(r#"<clipPath id="{id}"><rect {place}/></clipPath>"#);
+        let _ = writeln!(self.definitions, "{clip}");
         let _ = writeln!(self.body, r##"<g clip-path="url(#{id})">"##);
     }
 

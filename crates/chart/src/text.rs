@@ -51,44 +51,33 @@ pub struct TextStyle {
 impl TextStyle {
     /// Regular dark text, left-aligned.
     pub fn new(size: f64) -> Self {
-        Self {
-            size,
-            anchor: Anchor::Start,
-            rotation: 0.0,
-            colour: INK.into(),
-            bold: false,
-            halo: false,
-        }
+        let (anchor, colour) = (Anchor::Start, INK.into());
+        Self { size, anchor, rotation: 0.0, colour, bold: false, halo: false }
     }
 
     /// The same with another anchor.
-    pub fn anchored(mut self, anchor: Anchor) -> Self {
-        self.anchor = anchor;
-        self
+    pub fn anchored(self, anchor: Anchor) -> Self {
+        Self { anchor, ..self }
     }
 
     /// The same, rotated (degrees clockwise).
-    pub fn rotated(mut self, degrees: f64) -> Self {
-        self.rotation = degrees;
-        self
+    pub fn rotated(self, rotation: f64) -> Self {
+        Self { rotation, ..self }
     }
 
     /// The same in another colour.
-    pub fn coloured(mut self, colour: impl Into<Colour>) -> Self {
-        self.colour = colour.into();
-        self
+    pub fn coloured(self, colour: impl Into<Colour>) -> Self {
+        Self { colour: colour.into(), ..self }
     }
 
     /// The same in bold.
-    pub fn bold(mut self) -> Self {
-        self.bold = true;
-        self
+    pub fn bold(self) -> Self {
+        Self { bold: true, ..self }
     }
 
     /// The same with a white outline.
-    pub fn with_halo(mut self) -> Self {
-        self.halo = true;
-        self
+    pub fn with_halo(self) -> Self {
+        Self { halo: true, ..self }
     }
 }
 
@@ -163,8 +152,7 @@ pub(super) fn wrapped(markup: &str, (size, bold): (f64, bool), most: f64) -> Vec
     for word in words(markup) {
         match lines.last_mut() {
             Some(line) if width(&format!("{line} {word}"), size, bold) <= most => {
-                line.push(' ');
-                line.push_str(&word);
+                *line += &format!(" {word}");
             }
             _ => lines.push(word),
         }

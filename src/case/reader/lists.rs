@@ -141,7 +141,7 @@ impl<'a> Section<'a> {
     /// The values of `{ from, to, count, spacing }`; none where something is wrong with it.
     pub fn range(&self, key: &str, table: &'a RawTable, item: &RawItem, bound: Bound) -> Vec<f64> {
         let mut range = Section::new(self.findings, self.name(key), Some(table), item.at.clone());
-        range.declarations = Some(keys::RANGE);
+        range.declarations = Some(&keys::RANGE);
         let [from, to] = ["from", "to"].map(|end| {
             let value = range.number(end);
             match table.get(end) {

@@ -34,7 +34,7 @@ impl<'a> Section<'a> {
             return self.read_count(key, item, 1).map(NodePlace::Number);
         };
         let mut place = Section::new(self.findings, self.name(key), Some(table), item.at.clone());
-        place.declarations = Some(keys::PLACE);
+        place.declarations = Some(&keys::PLACE);
         let [x, y, z, radius, angle] =
             ["x", "y", "z", "radius", "angle_deg"].map(|part| place.optional_number(part));
         place.close();

@@ -36,7 +36,7 @@ pub(super) fn search(summary: &BasinSummary) -> Result<Figure, ChartError> {
         Axis::new("winner", "").between(-0.5, 1.5).ticks(names),
     )
     .height(90.0)
-    .layers(bounds.collect::<Vec<_>>())
+    .layers(bounds)
     .layer(points(first, true))
     .layer(points(second, true))
     .layer(points(first, false))

@@ -135,8 +135,7 @@ fn pairs(report: &CeaReport<'_>) -> Result<Figure, ChartError> {
         }
         false => "Frequency and damping factor over friction of the modes that turn unstable.",
     };
-    let figure =
-        Figure::new("pairs", caption).columns(2).shared_x().panels(panels.collect::<Vec<_>>());
+    let figure = Figure::new("pairs", caption).columns(2).shared_x().panels(panels);
     Ok(match report.contact_changes {
         [] => figure,
         _ => figure.note("thin dashed joins: contact opens or closes between"),

@@ -112,7 +112,7 @@ pub(super) fn locus(report: &CeaReport<'_>, dampings: &[NamedDamping]) -> Figure
     .height(250f64.max(30.0 + 13.0 * interval_rows(sweep).len() as f64))
     .layer(Rule::vertical(0.0).stroke(Stroke::solid(INK, 0.6)))
     .layers(damping_curves(dampings, highest))
-    .layers(curves.collect::<Vec<_>>())
+    .layers(curves)
     .layer(marked(&|_, mode| !mode.is_unstable()).marker(Marker::Disc, 0.9, STABLE).name("stable"))
     .layer(
         marked(&|_, mode| mode.is_unstable())
@@ -124,7 +124,7 @@ pub(super) fn locus(report: &CeaReport<'_>, dampings: &[NamedDamping]) -> Figure
             .marker(Marker::Circle, 1.7, MUTED)
             .name(format!("lowest friction, *μ* = {}", signed(first, 2))),
     )
-    .layers(labels.collect::<Vec<_>>());
+    .layers(labels);
     with_notes(figure_of(report, plane, &numbers).steps(steps(report)), report, hidden)
 }
 
@@ -224,8 +224,7 @@ fn stability_bars(report: &CeaReport<'_>, numbers: &BTreeMap<Branch, usize>) -> 
         };
         (row as f64 + 0.5, format!("{number}{frequency} kHz{harmonic}"))
     });
-    let y =
-        Axis::new("", "").between(0.0, rows.len().max(1) as f64).ticks(names.collect::<Vec<_>>());
+    let y = Axis::new("", "").between(0.0, rows.len().max(1) as f64).ticks(names);
     let bars = rows.iter().enumerate().flat_map(|(row, (_, intervals))| {
         intervals.iter().map(move |interval| {
             let end = interval.restabilized.map_or(high, |(friction, _)| friction);

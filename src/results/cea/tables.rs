@@ -83,14 +83,14 @@ columns! {
 columns! {
     /// A mode in words.
     MODE_WORDS: row as ModeRow;
-    travels: "how it travels" = row.own.direction.map(direction_name), IfAny "travels" Plain;
-    stability: "whether it grows" = row.own.unstable.then_some("unstable"), IfAny "stability" Plain;
+    travels = row.own.direction.map(direction_name), IfAny "travels" Plain;
+    stability = row.own.unstable.then_some("unstable"), IfAny "stability" Plain;
 }
 
 columns! {
     /// The friction value of a mode, for people.
     FRICTION: row as ModeRow;
-    friction: "friction coefficient" = row.friction, Always "friction" Plain;
+    friction = row.friction, Always "friction" Plain;
 }
 
 columns! {
@@ -120,9 +120,8 @@ columns! {
 columns! {
     /// An onset in words.
     ONSET_WORDS: onset as CriticalFriction;
-    travels: "how it travels" = onset.direction.map(direction_name), IfAny "travels" Plain;
-    remark: "where it is unstable from the start"
-        = onset.unstable_from_start.then_some("from the start"), IfAny "remark" Plain;
+    travels = onset.direction.map(direction_name), IfAny "travels" Plain;
+    remark = onset.unstable_from_start.then_some("from the start"), IfAny "remark" Plain;
 }
 
 /// Where a document is read.

@@ -105,24 +105,27 @@ pub fn open_contact_figure(
             .legend()
             .layer(status_ground(status, |i| (i as f64 - 0.5) * step).unnamed())
     };
+    let names = ("counterface", "tangential velocity");
+    let [traction, velocity] = contact_panels(panel, along, [pressure, shear], (&velocity, names));
+    Figure::new(name, caption).shared_x().panel(traction.caption(instant)).panel(velocity)
+}
+
+/// Tractions (Pa) and tangential velocity along a contact; `names` are those of the counterface and of an absolute velocity.
+fn contact_panels(
+    panel: impl Fn(Axis) -> Panel,
+    line: impl Fn(&[f64]) -> Line,
+    [pressure, shear]: [&[f64]; 2],
+    (velocity, names): (&ContactVelocity<'_>, (&str, &str)),
+) -> [Panel; 2] {
     let traction = Axis::new("traction", "Pa").prefixed().including(0.0).room(0.08);
-    Figure::new(name, caption)
-        .shared_x()
-        .panel(
-            panel(traction)
-                .caption(instant)
-                .layer(along(pressure).solid(INK, 1.1).name("pressure *p*"))
-                .layer(along(shear).solid(SERIES[1], 1.1).name("friction traction *τ*")),
-        )
-        .panel(
-            panel(Axis::new("velocity", "m/s").including(0.0))
-                .layer(velocity.sticking("counterface"))
-                .layer(
-                    along(velocity.values())
-                        .solid(SERIES[0], 1.1)
-                        .name(velocity.name("tangential velocity")),
-                ),
-        )
+    [
+        panel(traction)
+            .layer(line(pressure).solid(INK, 1.1).name("pressure *p*"))
+            .layer(line(shear).solid(SERIES[1], 1.1).name("friction traction *τ*")),
+        panel(Axis::new("velocity", "m/s").including(0.0))
+            .layer(velocity.sticking(names.0))
+            .layer(line(velocity.values()).solid(SERIES[0], 1.1).name(velocity.name(names.1))),
+    ]
 }
 
 /// The contact at one instant: arcs of stick, slip and separation around the circle, and over the angle the tractions (Pa) and
@@ -134,9 +137,9 @@ pub fn contact_figure(
     velocity: ContactVelocity<'_>,
 ) -> Figure {
     let step = TAU / status.len().max(1) as f64;
-    let closed = |values: &[f64]| -> Vec<(f64, f64)> {
+    let closed = |values: &[f64]| {
         let around = values.iter().chain(values.first()).enumerate();
-        around.map(|(i, &value)| (first_angle + i as f64 * step, value)).collect()
+        Line::through(around.map(|(i, &value)| (first_angle + i as f64 * step, value)))
     };
     let all_around: Vec<ContactStatus> = status.iter().chain(status.first()).copied().collect();
     let ground = || status_ground(&all_around, |i| first_angle + (i as f64 - 0.5) * step);
@@ -156,28 +159,12 @@ pub fn contact_figure(
         .layers(angles)
         .layer(Label::new((0.0, 0.0), "↺").style(centred(13.0)))
         .layer(Label::new((0.0, 0.0), "rotor").style(centred(6.75)).moved(0.0, 11.0));
+    let names = (counterface, "tangential *v*_{θ}");
     Figure::new(name, caption)
         .weighted(&[1.0, 1.7])
         .shared_x()
         .panel(circle)
-        .panel(
-            over_angle(Axis::new("traction", "Pa").prefixed().including(0.0).room(0.08))
-                .layer(Line::through(closed(pressure)).solid(INK, 1.1).name("pressure *p*"))
-                .layer(
-                    Line::through(closed(shear))
-                        .solid(SERIES[1], 1.1)
-                        .name("friction traction *τ*"),
-                ),
-        )
-        .panel(
-            over_angle(Axis::new("velocity", "m/s").including(0.0))
-                .layer(velocity.sticking(counterface))
-                .layer(
-                    Line::through(closed(velocity.values()))
-                        .solid(SERIES[0], 1.1)
-                        .name(velocity.name("tangential *v*_{θ}")),
-                ),
-        )
+        .panels(contact_panels(over_angle, closed, [pressure, shear], (&velocity, names)))
 }
 
 /// One field of several: heading, values at the nodes, status of each node of the contact edge.

@@ -247,12 +247,12 @@ fn first_of(quantities: &[SharedQuantity]) -> Vec<&SharedQuantity> {
 columns! {
     /// What a run was made from.
     INPUTS: run as ComparedRun;
-    run: "its name" = run.name.clone(), Always "run" Plain;
-    command: "its command" = run.manifest.command.clone(), Always "command" Plain;
-    case: "its case" = run.manifest.case_file.clone(), Always "case" Plain;
-    overrides: "what the command line changed" = run.overrides(), Always "overrides" Plain;
-    version: "version of the program" = run.manifest.version.clone(), Always "version" Plain;
-    hash: "hash of the case" = run.manifest.case_hash.clone(), Always "SHA-256 of the case" Plain;
+    run = run.name.clone(), Always "run" Plain;
+    command = run.manifest.command.clone(), Always "command" Plain;
+    case = run.manifest.case_file.clone(), Always "case" Plain;
+    overrides = run.overrides(), Always "overrides" Plain;
+    version = run.manifest.version.clone(), Always "version" Plain;
+    hash = run.manifest.case_hash.clone(), Always "SHA-256 of the case" Plain;
 }
 
 impl ComparedRun {

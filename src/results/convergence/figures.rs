@@ -13,7 +13,7 @@ pub(super) fn convergence(series: &[Series]) -> Figure {
          convergence from the three finest levels (right), for each study.",
     )
     .columns(2)
-    .panels(panels.collect::<Vec<_>>())
+    .panels(panels)
     .note("a quantity whose changes do not fall has no order, and none is shown")
 }
 
@@ -37,7 +37,7 @@ fn changes(series: &Series) -> Panel {
         .height(130.0)
         .caption(series.heading())
         .legend()
-        .layers(lines.collect::<Vec<_>>())
+        .layers(lines)
 }
 
 fn orders(series: &Series) -> Panel {
@@ -45,7 +45,7 @@ fn orders(series: &Series) -> Panel {
     let count = groups.len();
     let row = |index: usize| (count - index) as f64 - 0.5;
     let names = groups.iter().enumerate().map(|(index, group)| (row(index), (*group).to_owned()));
-    let y = Axis::new("", "").between(0.0, count.max(1) as f64).ticks(names.collect::<Vec<_>>());
+    let y = Axis::new("", "").between(0.0, count.max(1) as f64).ticks(names);
     let points = groups.iter().enumerate().map(|(index, group)| {
         let own: Vec<f64> = series
             .quantities
@@ -64,7 +64,7 @@ fn orders(series: &Series) -> Panel {
     Panel::new(Axis::new("observed order", "–").including(0.0).including(2.5), y)
         .height(130.0)
         .layers(rules)
-        .layers(points.collect::<Vec<_>>())
+        .layers(points)
 }
 
 /// What quantities have in common: the same property of several modes, else the same unit.

@@ -157,18 +157,18 @@ columns! {
 columns! {
     /// What a quantity is.
     NAMES: own as Quantity;
-    quantity: "name" = own.name.clone(), Always "quantity" Plain;
-    unit: "unit" = Some(own.unit.clone()).filter(|unit| !unit.is_empty()), IfAny "unit" Plain;
+    quantity = own.name.clone(), Always "quantity" Plain;
+    unit = Some(own.unit.clone()).filter(|unit| !unit.is_empty()), IfAny "unit" Plain;
 }
 
 columns! {
     /// What the levels say of a quantity.
     VERDICTS: own as Quantity;
-    extrapolated: "limit" = own.extrapolated, Always "extrapolated" Significant(7);
-    order: "order" = own.order, Always "order" Fixed(2);
-    error: "error of the finest" = own.error(own.values.len() - 1), IfAny "error" Significant(3);
-    spread: "spread of the three finest" = own.spread, Always "spread" Significant(4);
-    verdict: "verdict" = own.verdict.clone(), Always "verdict" Plain;
+    extrapolated = own.extrapolated, Always "extrapolated" Significant(7);
+    order = own.order, Always "order" Fixed(2);
+    error = own.error(own.values.len() - 1), IfAny "error" Significant(3);
+    spread = own.spread, Always "spread" Significant(4);
+    verdict = own.verdict.clone(), Always "verdict" Plain;
 }
 
 impl Series {

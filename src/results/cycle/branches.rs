@@ -1,10 +1,11 @@
 //! Figures of branches of limit cycles, whose curves may turn back.
 
 use super::branch::{BranchRecord, FamilyRecord};
-use super::two_waves::TwoWaveRecord;
+use super::two_waves::TwoWaveResult;
 use crate::chart::{
-    Axis, ChartError, Figure, INK, Line, MUTED, Marker, Panel, Points, Rule, SERIES, Scale, Stroke,
+    Axis, ChartError, Figure, Line, MUTED, Marker, Panel, Points, Rule, SERIES, Scale, Stroke,
 };
+use crate::cycle::TwoWaveMotion;
 use crate::output::significant;
 use crate::results::charts::palette::{
     CONTACT_DISSIPATION, MATERIAL_DISSIPATION, NORMAL_POWER, SLIDE_POWER, STATUSES, STICK_POWER,
@@ -28,7 +29,7 @@ const POWERS: [(&str, &str); 5] = [
 /// Draws frequency, amplitude, statuses and powers along the branches of several families.
 pub fn draw_branches(
     families: &[NamedFamily<'_>],
-    two_waves: &[TwoWaveRecord],
+    two_waves: &[TwoWaveResult],
 ) -> Result<Vec<Figure>, ChartError> {
     // A branch of a single cycle is no curve.
     let curves: Vec<Curve<'_>> = families
@@ -78,11 +79,15 @@ fn with_strokes(figure: Figure, curves: &[Curve<'_>]) -> Figure {
     }
 }
 
+/// Frequencies and amplitudes of two waves.
+const OF_BOTH: [fn(&TwoWaveMotion) -> [f64; 2]; 2] =
+    [TwoWaveMotion::frequencies_hz, |motion| motion.amplitudes];
+
 /// One quantity along a branch.
 type Column = fn(&BranchRecord) -> &Vec<f64>;
 
 /// Main frequency, amplitude and power of the limit cycles over the parameter, one curve for each family.
-fn frequencies(curves: &[Curve<'_>], two_waves: &[TwoWaveRecord]) -> Result<Figure, ChartError> {
+fn frequencies(curves: &[Curve<'_>], two_waves: &[TwoWaveResult]) -> Result<Figure, ChartError> {
     let (x, scale) = axis_of(curves);
     let amplitude = Axis::new("amplitude along the contact", "m").prefixed();
     let amplitude = if scale == Scale::Logarithmic {
@@ -126,17 +131,9 @@ fn frequencies(curves: &[Curve<'_>], two_waves: &[TwoWaveRecord]) -> Result<Figu
         ),
     ];
     let panels = quantities.into_iter().map(|(panel, quantity, own)| {
-        let together = two_waves.iter().flat_map(|pair| {
-            let columns = own.map(|own| [&pair.frequency_hz, &pair.amplitude][own]);
-            columns.into_iter().flatten().map(|ys| {
-                let points = pair.values.iter().copied().zip(ys.iter().copied());
-                let [first, second] = pair.harmonics;
-                Line::through(points)
-                    .stroke(Stroke::dotted(INK, 1.1))
-                    .name(format!("*n* = {first} and {second} together"))
-            })
-        });
-        let panel = panel.layers(together.collect::<Vec<_>>());
+        let of_both = own.map(|own| OF_BOTH[own]);
+        let together = two_waves.iter().flat_map(|pair| of_both.map(|own| pair.curves(own)));
+        let panel = panel.layers(together.flatten());
         curves.iter().enumerate().fold(panel, |panel, (index, curve)| {
             let (branch, colour) = (curve.branch, SERIES[index % SERIES.len()]);
             let ys = quantity(branch);
@@ -171,8 +168,7 @@ fn frequencies(curves: &[Curve<'_>], two_waves: &[TwoWaveRecord]) -> Result<Figu
         "Main frequency (a), amplitude (b) and power of the counterface (c) of the limit cycles \
          along their branches. Dotted: where linear theory has them begin. Diamonds: folds.{both}"
     );
-    let figure =
-        Figure::new("branch-frequencies", caption).shared_x().panels(panels.collect::<Vec<_>>());
+    let figure = Figure::new("branch-frequencies", caption).shared_x().panels(panels);
     Ok(with_strokes(figure, curves))
 }
 

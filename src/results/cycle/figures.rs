@@ -1,13 +1,14 @@
 //! The figures of limit cycles, from their record.
 
-use super::record::{CycleRecord, HistoryRow, MotionRecord};
+use super::record::{HistoryRow, MotionRecord};
+use super::{CycleReport, PeriodicResult, Search};
 use crate::chart::{
     Axis, ChartError, ColourMap, Figure, INK, Line, MUTED, Marker, Motion, MotionKind, MotionState,
     Panel, Rule, SERIES, Stroke, plain,
 };
 use crate::contact::ContactStatus;
 use crate::fem::MaterialField;
-use crate::mesh::{Mesh, SolidFace, SolidSector};
+use crate::mesh::SolidFace;
 use crate::results::charts::palette::{status_ground, status_of_code};
 use crate::results::charts::{
     ContactVelocity, Disc, FieldFrame, MovingBody, contact_figure, field_figure,
@@ -25,23 +26,21 @@ const ROUND_OFF: f64 = 1e-9;
 
 /// Limit cycles and what their figures show besides.
 pub struct CycleFigures<'a> {
-    /// The record.
-    pub record: &'a CycleRecord,
-    /// The mesh; of a body of revolution in three dimensions the section across the axis.
-    pub mesh: &'a Mesh,
-    /// One sector of a body of revolution in three dimensions.
-    pub solid: Option<&'a SolidSector>,
+    /// What was found.
+    pub(super) report: &'a CycleReport<'a>,
+    /// What is shown of each cycle.
+    pub(super) cycles: Vec<MotionRecord>,
     /// The contacts of an assembly, each with the boundary that has its points.
-    pub surfaces: Vec<(String, usize)>,
+    pub(super) surfaces: Vec<(String, usize)>,
     /// The materials, for the stress fields.
-    pub materials: &'a dyn MaterialField,
+    materials: &'a dyn MaterialField,
 }
 
 /// Draws the cycles: contact over the period and at one instant, history, closed curves and harmonics of each, then the
 /// fields of all.
 pub fn draw_cycles(data: &CycleFigures<'_>) -> Result<Vec<Figure>, ChartError> {
     let mut figures: Vec<Declaration<'_>> = Vec::new();
-    for motion in &data.record.cycles {
+    for motion in &data.cycles {
         figures.push(Box::new(move || data.status(motion)));
         figures.push(Box::new(move || Ok(data.at_one_instant(motion))));
         figures.push(Box::new(move || Ok(data.history(motion))));
@@ -53,22 +52,47 @@ pub fn draw_cycles(data: &CycleFigures<'_>) -> Result<Vec<Figure>, ChartError> {
     declared(figures)
 }
 
-impl CycleFigures<'_> {
+impl<'a> CycleFigures<'a> {
+    /// The figures of a search; `surfaces` are the contacts of an assembly, each with the boundary that has its points.
+    pub fn new(
+        report: &'a CycleReport<'a>,
+        surfaces: Vec<(String, usize)>,
+        materials: &'a dyn MaterialField,
+    ) -> Self {
+        let cycles = match &report.search {
+            Search::Waves(search) => {
+                search.results.iter().filter_map(|own| own.motion_record(search)).collect()
+            }
+            Search::Motions(search) => {
+                search.results.iter().filter_map(PeriodicResult::motion_record).collect()
+            }
+        };
+        Self { report, cycles, surfaces, materials }
+    }
+
+    /// Nodes of the contact of motions of the whole mesh, counted from 0.
+    pub(super) fn nodes(&self) -> &[u32] {
+        match &self.report.search {
+            Search::Waves(_) => &[],
+            Search::Motions(search) => &search.interface.nodes,
+        }
+    }
+
     /// Which contact nodes the figures over the angle show: of several rings of nodes the middle one.
     fn is_shown(&self, node: usize) -> bool {
-        let rings = self.solid.map_or(1, |sector| sector.rings.len());
+        let rings = self.report.solid.map_or(1, |sector| sector.rings.len());
         node % rings == rings / 2
     }
 
     fn shown<T: Copy>(&self, values: &[T]) -> Vec<T> {
-        let count = self.record.nodes.len().max(1);
+        let count = self.nodes().len().max(1);
         let places = (0..values.len()).filter(|&i| self.is_shown(i % count));
         places.map(|i| values[i]).collect()
     }
 
     /// Whether it is of solid bodies of a mesh.
     fn is_assembly(&self) -> bool {
-        self.solid.is_none() && self.mesh.dimension == 3
+        self.report.solid.is_none() && self.report.mesh.dimension == 3
     }
 
     /// Where the shown contact nodes are.
@@ -77,7 +101,7 @@ impl CycleFigures<'_> {
             true => {
                 Axis::new("contact nodes in their order", "%").times(100.0 / TAU).between(0.0, TAU)
             }
-            false => place_axis(self.mesh.has_round_contact()),
+            false => place_axis(self.report.mesh.has_round_contact()),
         }
     }
 
@@ -112,13 +136,13 @@ impl CycleFigures<'_> {
         let n = motion.diameters.max(1);
         let around = |values: &[f64]| self.shown(&values.repeat(n));
         let [pressure, shear, velocity] = motion.edge.each_ref().map(|own| around(own));
-        let velocity = match self.mesh.opposite {
+        let velocity = match self.report.mesh.opposite {
             Some(_) => ContactVelocity::Absolute(&velocity, f64::NAN),
             None => ContactVelocity::Absolute(&velocity, self.shown_speed(motion)),
         };
         let statuses = self.shown(&motion.first_statuses().repeat(n));
         let name = format!("contact-{}", motion.tag);
-        if !self.mesh.has_round_contact() {
+        if !self.report.mesh.has_round_contact() {
             let caption = format!(
                 "Limit cycle of {} at one instant along the contact edge: tractions (a), velocity (b), on a ground coloured by \
                  status.",
@@ -138,8 +162,11 @@ impl CycleFigures<'_> {
             "Limit cycle of {} at one instant: status around the circle (a), tractions (b), velocity (c){turns}.",
             motion.whose()
         );
-        let first = self.record.angles.first().copied();
-        let counterface = match self.solid {
+        let first = match &self.report.search {
+            Search::Waves(_) => None,
+            Search::Motions(search) => search.interface.angles.first().copied(),
+        };
+        let counterface = match self.report.solid {
             Some(sector) if sector.specification.contact.face() != SolidFace::Inner => "ring",
             _ => "cylinder *Ωa*",
         };
@@ -153,7 +180,7 @@ impl CycleFigures<'_> {
 
     /// Speed of the counterface at the shown contact nodes, m/s: it grows with the radius.
     fn shown_speed(&self, motion: &MotionRecord) -> f64 {
-        let Some(sector) = self.solid else {
+        let Some(sector) = self.report.solid else {
             return motion.counterface_speed;
         };
         let radius = |ring: usize| sector.rings[ring].radius;
@@ -163,11 +190,11 @@ impl CycleFigures<'_> {
 
     /// The contact node of the history in words.
     fn node(&self, motion: &MotionRecord) -> String {
-        let node = self.record.nodes.get(motion.node).map(|&node| node as usize);
-        match (node, self.solid) {
+        let node = self.nodes().get(motion.node).map(|&node| node as usize);
+        match (node, self.report.solid) {
             (None, _) => "a contact node".to_owned(),
             (Some(node), Some(_)) => format!("contact node {}", node + 1),
-            (Some(node), None) => format!("contact node {}", self.mesh.node_label(node)),
+            (Some(node), None) => format!("contact node {}", self.report.mesh.node_label(node)),
         }
     }
 
@@ -183,7 +210,7 @@ impl CycleFigures<'_> {
             repeated.panel(metres, 62.0, caption).layer(line(of, INK))
         };
         // What a node that sticks moves with, and the limits of friction, where they are numbers.
-        let counterface = (self.mesh.opposite.is_none())
+        let counterface = (self.report.mesh.opposite.is_none())
             .then(|| Rule::horizontal(motion.counterface_speed).stretching().name("counterface"));
         let limit = |sign: f64| {
             let friction = sign * motion.friction_coefficient.unwrap_or(f64::NAN);
@@ -258,7 +285,7 @@ impl CycleFigures<'_> {
 
     /// Contact status at time zero of every node of the edge; of a wave that of the nearest phase.
     fn around(&self, motion: &MotionRecord) -> Vec<u8> {
-        let nodes = self.mesh.contact_edge().nodes.len();
+        let nodes = self.report.mesh.contact_edge().nodes.len();
         let points = motion.status.len().max(1);
         let nearest =
             |node: usize| (2 * motion.diameters * node * points + nodes) / (2 * nodes) % points;
@@ -269,12 +296,12 @@ impl CycleFigures<'_> {
     }
 
     fn shown_cycles(&self) -> impl Iterator<Item = &MotionRecord> {
-        self.record.cycles.iter().take(FIELD_LIMIT)
+        self.cycles.iter().take(FIELD_LIMIT)
     }
 
     /// The waves in motion, without the steady state that they ride on.
     fn turning(&self) -> Motion {
-        let body = MovingBody::new(self.mesh);
+        let body = MovingBody::new(self.report.mesh);
         let states = self.shown_cycles().map(|wave| MotionState {
             name: plain(&wave.heading()),
             frequency_hz: wave.frequency_hz,
@@ -293,7 +320,7 @@ impl CycleFigures<'_> {
         }
         let frames = self.shown_cycles().map(|motion| -> FieldFrame {
             let velocity = &motion.velocity_field;
-            match self.solid {
+            match self.report.solid {
                 // A ring of statuses shows one edge.
                 Some(sector) => (motion.heading(), speeds_on_top(sector, velocity), Vec::new()),
                 None => {
@@ -306,20 +333,20 @@ impl CycleFigures<'_> {
         let caption =
             ("velocity", "Velocity modulus and contact status of the limit cycles at one instant.");
         let axis = Axis::new("velocity |*v*|", "m/s");
-        let disc = Disc::new(self.mesh);
+        let disc = Disc::new(self.report.mesh);
         let figure = field_figure(caption, &disc, &axis, ColourMap::Viridis, frames.collect())?;
-        let is_wave = self.record.cycles.iter().any(|own| own.diameters > 0);
+        let is_wave = self.cycles.iter().any(|own| own.diameters > 0);
         Ok(if is_wave { figure.motion(self.turning()) } else { figure })
     }
 
     fn shear_stress(&self) -> Result<Figure, ChartError> {
-        if self.solid.is_some() || self.is_assembly() {
+        if self.report.solid.is_some() || self.is_assembly() {
             return Err(ChartError::empty("shear stress of a plane body"));
         }
         let cycles = self.shown_cycles();
         let fields = cycles.map(|motion| (motion.heading(), &motion.displacement_field[..]));
         let caption = "Shear stress of the limit cycles at one instant.";
-        shear_stress_figure(caption, &Disc::new(self.mesh), self.materials, fields)
+        shear_stress_figure(caption, &Disc::new(self.report.mesh), self.materials, fields)
     }
 }
 

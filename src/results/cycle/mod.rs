@@ -23,8 +23,8 @@ pub use branch::{
 pub use branches::{NamedFamily, draw_branches};
 pub use fields::CycleFrame;
 pub use figures::CycleFigures;
-pub use motions::{FoundCycle, PeriodicResult, SoughtMode};
-pub use record::{CycleRecord, MotionRecord};
+pub use motions::{FoundCycle, PeriodicResult};
+pub use record::MotionRecord;
 pub use summary::*;
 pub(super) use tables::{
     BALANCE, CONTACT_NODES, ERRORS, EXPONENTS, HARMONICS, HISTORY, KNOWN, MOTION, NAMES, PATH,
@@ -108,7 +108,7 @@ pub struct MotionSearch {
     /// Frequency of the highest, Hz.
     pub highest_hz: f64,
     /// The mode that grows fastest or decays slowest.
-    pub least_stable: Option<SoughtMode>,
+    pub least_stable: Option<ModeSummary>,
     /// One entry for each mode that grows, fastest first.
     pub results: Vec<PeriodicResult>,
 }
@@ -175,8 +175,7 @@ impl CycleReport<'_> {
                 (Origin::Waves(WavesSought { lowest_onset }), pairs.collect())
             }
             Search::Motions(search) => {
-                let least_stable = search.least_stable.map(ModeSummary::from);
-                let modes = search.modes;
+                let MotionSearch { modes, least_stable, .. } = *search;
                 (Origin::Modes(ModesSought { modes, least_stable }), Vec::new())
             }
         };
@@ -234,10 +233,15 @@ impl CycleSummary {
         data: &CycleFigures<'_>,
         options: &DrawingOptions,
     ) -> Result<(), DrawingError> {
+        let families = data.report.curves();
         let families: Vec<NamedFamily<'_>> =
-            data.record.families.iter().map(|own| (String::new(), own)).collect();
+            families.iter().map(|own| (String::new(), own)).collect();
+        let two_waves = match &data.report.search {
+            Search::Waves(search) => &search.two_waves[..],
+            Search::Motions(_) => &[],
+        };
         let mut figures = figures::draw_cycles(data)?;
-        figures.extend(draw_branches(&families, &data.record.two_waves)?);
+        figures.extend(draw_branches(&families, two_waves)?);
         write_page(folder, self.document(), figures, options)
     }
 }

@@ -11,7 +11,7 @@ use super::summary::{
 use super::verdicts::{ConfirmationSummary, KnownStability, Perturbation, StabilitySummary};
 use super::{CycleReport, MotionSearch, Told};
 use crate::chart::extremes;
-use crate::contact::{ContactInterface, ContactStatus};
+use crate::contact::ContactInterface;
 use crate::cycle::periodic::{
     BranchMotion, ContactInstant, FloquetMultiplier, FloquetMultipliers, PeriodicBranch,
     PeriodicMotion, REMAINDER, Sound,
@@ -20,36 +20,7 @@ use crate::cycle::{Confirmation, CyclePowers, Verdict};
 use crate::results::npz::NpzArchive;
 use crate::results::summary::{MeanPowers, StatusFractions, present};
 use std::f64::consts::TAU;
-use std::fmt;
 use std::io;
-
-/// A mode of steady sliding.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SoughtMode {
-    /// Number by frequency, from 1, among the modes of the case's own friction coefficient.
-    pub number: usize,
-    /// Frequency, Hz.
-    pub frequency_hz: f64,
-    /// Growth rate, 1/s.
-    pub growth_rate: f64,
-}
-
-/// `mode 15`.
-impl fmt::Display for SoughtMode {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "mode {}", self.number)
-    }
-}
-
-impl From<SoughtMode> for ModeSummary {
-    fn from(mode: SoughtMode) -> Self {
-        Self {
-            mode: mode.number,
-            mode_frequency_hz: mode.frequency_hz,
-            growth_rate_per_s: mode.growth_rate,
-        }
-    }
-}
 
 /// A limit cycle and what is known of it.
 #[derive(Clone, Debug)]
@@ -72,7 +43,7 @@ pub struct FoundCycle {
 #[derive(Clone, Debug)]
 pub struct PeriodicResult {
     /// The mode.
-    pub mode: SoughtMode,
+    pub mode: ModeSummary,
     /// The cycle, or why there is none.
     pub outcome: Result<FoundCycle, String>,
     /// Mode that has led to the same cycle before.
@@ -97,23 +68,14 @@ pub(in crate::results) struct ContactNode {
 impl MotionSearch {
     /// Whether no mode looked at grows at the case's own operating point.
     pub(super) fn is_stable(&self) -> bool {
-        self.least_stable.is_none_or(|mode| mode.growth_rate <= 0.0)
+        self.least_stable.is_none_or(|mode| mode.growth_rate_per_s <= 0.0)
     }
 }
 
 /// The powers of a body of such a thickness, W.
 pub(super) fn mean_powers(powers: &CyclePowers, thickness: f64) -> MeanPowers {
     let powers = powers.scaled(thickness);
-    let contact = &powers.contact;
-    MeanPowers {
-        external: present(contact.external),
-        stick: present(contact.stick),
-        slide: present(contact.slide),
-        contact_dissipated: present(contact.contact_dissipated),
-        material_damping: present(powers.material_damping),
-        normal_contact: present(contact.normal),
-        contact_damping: (contact.damping != 0.0).then_some(contact.damping),
-    }
+    MeanPowers::of(&powers.contact, powers.material_damping)
 }
 
 /// What a multiplier is.
@@ -226,7 +188,7 @@ impl PeriodicResult {
 
     /// Part of a file name: `mode15`.
     pub fn tag(&self) -> String {
-        format!("mode{}", self.mode.number)
+        format!("mode{}", self.mode.mode)
     }
 
     /// What the summary says of it.
@@ -234,7 +196,7 @@ impl PeriodicResult {
         let found = self.own();
         SoughtCycle {
             name: CycleName::Mode(ModeOfCycle {
-                mode: self.mode.into(),
+                mode: self.mode,
                 same_as: self.same_as,
                 sought_from: self.start.map(|(_, value)| value),
             }),
@@ -276,7 +238,7 @@ impl PeriodicResult {
         Some(FamilyRecord {
             harmonic: 0,
             onset: 0,
-            mode: Some(self.mode.number),
+            mode: Some(self.mode.mode),
             onsets: Vec::new(),
             cycle: Some([motion.frequency_hz, motion.amplitude]),
             branch: Some(BranchRecord {
@@ -333,7 +295,7 @@ impl PeriodicResult {
         Some(MotionRecord {
             tag: self.tag(),
             diameters: 0,
-            mode: self.mode.number,
+            mode: self.mode.mode,
             frequency_hz: motion.frequency_hz,
             history: history(motion),
             status: codes.map(|status| *status as u8).collect(),
@@ -427,12 +389,6 @@ fn encode_contact(interface: &ContactInterface, motion: &PeriodicMotion) -> io::
         let motion = instants.iter().flat_map(|at| &at.displacement);
         archive.array(name, &shape, motion.map(|u| u[component]))?;
     }
-    for (name, code) in [
-        ("status_open", ContactStatus::Open),
-        ("status_stick", ContactStatus::Stick),
-        ("status_slip", ContactStatus::Slip),
-    ] {
-        archive.array(name, &[], std::iter::once(code as u8))?;
-    }
+    archive.status_codes()?;
     archive.finish()
 }

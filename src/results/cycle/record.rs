@@ -1,25 +1,7 @@
-//! What the figures of a search for limit cycles show.
+//! What the figures of a limit cycle show.
 
-use super::branch::FamilyRecord;
-use super::two_waves::TwoWaveRecord;
-use super::{CycleReport, Search};
 use crate::contact::ContactStatus;
 use crate::results::charts::palette::status_of_code;
-
-/// Everything that the figures show.
-#[derive(Clone, Debug, PartialEq)]
-pub struct CycleRecord {
-    /// One entry for each cycle.
-    pub cycles: Vec<MotionRecord>,
-    /// Branches, by what leads to them.
-    pub families: Vec<FamilyRecord>,
-    /// Branches of two waves that live together.
-    pub two_waves: Vec<TwoWaveRecord>,
-    /// Nodes of the contact of motions of the whole mesh, counted from 0.
-    pub nodes: Vec<u32>,
-    /// Their angles, rad.
-    pub angles: Vec<f64>,
-}
 
 /// One limit cycle.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,29 +52,6 @@ pub struct HistoryRow {
     pub displacement: [f64; 2],
     /// Velocity, m/s.
     pub velocity: [f64; 2],
-}
-
-impl CycleRecord {
-    /// What the figures show of a report.
-    pub fn of(report: &CycleReport<'_>) -> Self {
-        let families = report.curves();
-        match &report.search {
-            Search::Waves(search) => Self {
-                cycles: search.results.iter().filter_map(|own| own.motion_record(search)).collect(),
-                families,
-                two_waves: search.two_waves.iter().filter_map(TwoWaveRecord::of).collect(),
-                nodes: Vec::new(),
-                angles: Vec::new(),
-            },
-            Search::Motions(search) => Self {
-                cycles: search.results.iter().filter_map(|own| own.motion_record()).collect(),
-                families,
-                two_waves: Vec::new(),
-                nodes: search.interface.nodes.clone(),
-                angles: search.interface.angles.clone(),
-            },
-        }
-    }
 }
 
 impl MotionRecord {

@@ -98,12 +98,19 @@ impl From<&Onset> for OnsetSummary {
 /// A mode of steady sliding.
 #[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
 pub struct ModeSummary {
-    /// Number by frequency, from 1.
+    /// Number by frequency, from 1, at the case's own friction coefficient.
     pub mode: usize,
     /// Frequency, Hz.
     pub mode_frequency_hz: f64,
     /// Growth rate, 1/s.
     pub growth_rate_per_s: f64,
+}
+
+/// `mode 15`.
+impl fmt::Display for ModeSummary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "mode {}", self.mode)
+    }
 }
 
 /// A limit cycle that was sought.
@@ -224,7 +231,7 @@ impl fmt::Display for CycleName {
             Self::Wave(WaveOfCycle { harmonic, onset, .. }) => {
                 Family { harmonic: *harmonic, onset: *onset }.fmt(f)
             }
-            Self::Mode(own) => write!(f, "mode {}", own.mode.mode),
+            Self::Mode(own) => own.mode.fmt(f),
         }
     }
 }

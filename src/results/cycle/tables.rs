@@ -90,23 +90,21 @@ columns! {
 columns! {
     /// What leads to a cycle, for people.
     BESIDE: own as SoughtCycle;
-    phases: "phases"
-        = own.name.wave().map(|own| own.phases).filter(|&phases| phases > 0), IfAny "phases" Count;
-    critical: "friction above which the wave grows"
-        = own.name.wave().and_then(|own| own.critical_friction), IfAny "grows above" Fixed(5);
-    mode_hz: "frequency of the mode"
-        = own.name.mode().map(|own| own.mode.mode_frequency_hz), IfAny "its frequency" Fixed(2);
-    mode_per_s: "growth rate of the mode"
-        = own.name.mode().map(|own| own.mode.growth_rate_per_s), IfAny "its growth rate" Fixed(1);
+    phases = own.name.wave().map(|own| own.phases).filter(|&phases| phases > 0),
+        IfAny "phases" Count;
+    critical = own.name.wave().and_then(|own| own.critical_friction), IfAny "grows above" Fixed(5);
+    mode_hz = own.name.mode().map(|own| own.mode.mode_frequency_hz), IfAny "its frequency" Fixed(2);
+    mode_per_s = own.name.mode().map(|own| own.mode.growth_rate_per_s),
+        IfAny "its growth rate" Fixed(1);
 }
 
 columns! {
     /// What a transient says, and why there is none, for people.
     SAID: own as SoughtCycle;
-    transient_hz: "frequency of a transient from it"
-        = own.run().and_then(|run| run.main_frequency_hz), IfAny "transient from it" Fixed(2);
-    stays: "whether a transient stays on it" = own.agrees(), IfAny "a transient stays on it" Plain;
-    absence: "why there is none" = own.absence(), IfAny "why there is none" Plain;
+    transient_hz = own.run().and_then(|run| run.main_frequency_hz),
+        IfAny "transient from it" Fixed(2);
+    stays = own.agrees(), IfAny "a transient stays on it" Plain;
+    absence = own.absence(), IfAny "why there is none" Plain;
 }
 
 columns! {

@@ -1,6 +1,7 @@
-//! Motions of two frequencies: words, table, summary, record.
+//! Motions of two frequencies: words, table, summary, curves.
 
 use super::fields::CycleFrame;
+use crate::chart::{INK, Line, Stroke};
 use crate::cycle::{BranchEnd, Measured, TwoWaveBranch, TwoWaveMotion};
 use crate::output::{Described, Table, columns, significant};
 use serde::Serialize;
@@ -82,53 +83,20 @@ columns! {
 columns! {
     /// A motion of two waves for people.
     SHOWN: own as TwoWaveSummary;
-    waves: "harmonics" = own.name(), Always "waves" Plain;
-    first_hz: "first frequency"
-        = own.frequencies_hz.map(|f| f[0]), Always "first frequency" Fixed(2);
-    second_hz: "second frequency"
-        = own.frequencies_hz.map(|f| f[1]), Always "second frequency" Fixed(2);
-    first_m: "first amplitude"
-        = own.amplitudes_m.map(|a| a[0]), Always "first amplitude" Scientific(3);
-    second_m: "second amplitude"
-        = own.amplitudes_m.map(|a| a[1]), Always "second amplitude" Scientific(3);
-    stick: "stick" = own.status.map(|s| s[0]), Always "stick" Percent(1);
-    slip: "slip" = own.status.map(|s| s[1]), Always "slip" Percent(1);
-    open: "open" = own.status.map(|s| s[2]), Always "open" Percent(1);
-    external_w: "power of the rotor" = own.external_w, Always "power of the rotor" Fixed(2);
-    stays: "whether a transient stays on it"
-        = own.is_confirmed, IfAny "a transient stays on it" Plain;
-    transient_1_hz: "first frequency of a transient"
-        = own.transient_frequencies_hz.map(|f| f[0]), IfAny "transient, first" Fixed(2);
-    transient_2_hz: "second frequency of a transient"
-        = own.transient_frequencies_hz.map(|f| f[1]), IfAny "second" Fixed(2);
-    births: "where one wave vanishes" = own.births_text(), IfAny "one wave alone at" Plain;
-    error: "why there is none" = own.error.clone(), IfAny "why there is none" Plain;
-}
-
-/// Motions of two waves along a branch, in its order.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TwoWaveRecord {
-    /// Their harmonics.
-    pub harmonics: [usize; 2],
-    /// The parameter, in units of its key.
-    pub values: Vec<f64>,
-    /// Both frequencies, Hz.
-    pub frequency_hz: [Vec<f64>; 2],
-    /// Both amplitudes of the edge's tangential displacement, m.
-    pub amplitude: [Vec<f64>; 2],
-}
-
-impl TwoWaveRecord {
-    pub(super) fn of(result: &TwoWaveResult) -> Option<Self> {
-        let branch = result.outcome.as_ref().ok()?.branch.as_ref()?;
-        let column = |of: &dyn Fn(&TwoWaveMotion) -> f64| branch.motions.iter().map(of).collect();
-        Some(Self {
-            harmonics: result.harmonics,
-            values: column(&|own| value(branch, own)),
-            frequency_hz: [0, 1].map(|wave| column(&|own| own.frequencies_hz()[wave])),
-            amplitude: [0, 1].map(|wave| column(&|own| own.amplitudes[wave])),
-        })
-    }
+    waves = own.name(), Always "waves" Plain;
+    first_hz = own.frequencies_hz.map(|f| f[0]), Always "first frequency" Fixed(2);
+    second_hz = own.frequencies_hz.map(|f| f[1]), Always "second frequency" Fixed(2);
+    first_m = own.amplitudes_m.map(|a| a[0]), Always "first amplitude" Scientific(3);
+    second_m = own.amplitudes_m.map(|a| a[1]), Always "second amplitude" Scientific(3);
+    stick = own.status.map(|s| s[0]), Always "stick" Percent(1);
+    slip = own.status.map(|s| s[1]), Always "slip" Percent(1);
+    open = own.status.map(|s| s[2]), Always "open" Percent(1);
+    external_w = own.external_w, Always "power of the rotor" Fixed(2);
+    stays = own.is_confirmed, IfAny "a transient stays on it" Plain;
+    transient_1_hz = own.transient_frequencies_hz.map(|f| f[0]), IfAny "transient, first" Fixed(2);
+    transient_2_hz = own.transient_frequencies_hz.map(|f| f[1]), IfAny "second" Fixed(2);
+    births = own.births_text(), IfAny "one wave alone at" Plain;
+    error = own.error.clone(), IfAny "why there is none" Plain;
 }
 
 /// Value of the parameter of a branch at a motion, in units of its key.
@@ -169,6 +137,22 @@ impl TwoWaveResult {
             ends: branch.map(|branch| branch.ends.map(|end| described(end).to_owned())),
             error: self.outcome.as_ref().err().cloned(),
         }
+    }
+
+    /// A quantity of both waves along their branch.
+    pub(super) fn curves(&self, quantity: fn(&TwoWaveMotion) -> [f64; 2]) -> Vec<Line> {
+        let found = self.outcome.as_ref().ok();
+        let Some(branch) = found.and_then(|found| found.branch.as_ref()) else {
+            return Vec::new();
+        };
+        let [first, second] = self.harmonics;
+        let curve = |wave: usize| {
+            let motions = branch.motions.iter();
+            Line::through(motions.map(|own| (value(branch, own), quantity(own)[wave])))
+                .stroke(Stroke::dotted(INK, 1.1))
+                .name(format!("*n* = {first} and {second} together"))
+        };
+        [0, 1].map(curve).into()
     }
 
     /// The table of its branch, or of the motion alone.

@@ -80,7 +80,7 @@ impl CycleReport<'_> {
             );
         }
         let slowest = search.least_stable.map_or_else(String::new, |mode| {
-            let (frequency, rate) = (mode.frequency_hz, mode.growth_rate);
+            let (frequency, rate) = (mode.mode_frequency_hz, mode.growth_rate_per_s);
             format!("; the slowest to decay is {mode}, {frequency:.2} Hz, at {rate:.1} 1/s")
         });
         let advice = self.critical.map_or_else(

@@ -28,7 +28,7 @@ pub fn fit(summary: &FitSummary) -> Figure {
     let plane = Panel::new(frequency(), Axis::new("growth Re *λ*/2π", "Hz"))
         .height(160.0)
         .layer(Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.6)))
-        .layers(rules.collect::<Vec<_>>())
+        .layers(rules)
         .layer(Points::new(complex).marker(Marker::Square, 2.6, INK).name("measured"))
         .layer(
             points(&summary.modes_of_case, true)

@@ -50,13 +50,13 @@ columns! {
 columns! {
     /// A fitted parameter.
     PARAMETERS: row as (String, FittedParameter);
-    parameter: "key of the case" = row.0.clone(), Always "parameter" Plain;
-    value: "fitted value" = row.1.value, Always "value" Significant(6);
-    unit: "its unit" = row.1.unit.clone(), Always "unit" Plain;
-    low: "lower end of its 95 % interval" = row.1.low, Always "95 % from" Significant(6);
-    high: "upper end" = row.1.high, Always "to" Significant(6);
-    from: "lower bound" = row.1.bounds[0], Always "sought from" Significant(6);
-    to: "upper bound" = row.1.bounds[1], Always "to" Significant(6);
+    parameter = row.0.clone(), Always "parameter" Plain;
+    value = row.1.value, Always "value" Significant(6);
+    unit = row.1.unit.clone(), Always "unit" Plain;
+    low = row.1.low, Always "95 % from" Significant(6);
+    high = row.1.high, Always "to" Significant(6);
+    from = row.1.bounds[0], Always "sought from" Significant(6);
+    to = row.1.bounds[1], Always "to" Significant(6);
 }
 
 impl Finding for FitSummary {

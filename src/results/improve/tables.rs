@@ -18,7 +18,7 @@ columns! {
 columns! {
     /// Where a modification is, in words.
     PLACE: own as Candidate;
-    place: "where it is, in words" = own.place(), Always "where" Plain;
+    place = own.place(), Always "where" Plain;
 }
 
 columns! {

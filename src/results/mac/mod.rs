@@ -94,9 +94,8 @@ columns! {
 columns! {
     /// How the mode grows, and what is left out of a shape.
     BESIDE: row as Row;
-    growth_rate_per_s: "growth rate of the mode"
-        = TAU * row.1.real_hz, Always "growth rate" Fixed(2);
-    off_body: "points off the body" = row.0.off_body, Always "points off the body" Count;
+    growth_rate_per_s = TAU * row.1.real_hz, Always "growth rate" Fixed(2);
+    off_body = row.0.off_body, Always "points off the body" Count;
 }
 
 impl MacSummary {

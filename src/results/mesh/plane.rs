@@ -10,18 +10,18 @@ use serde::Serialize;
 columns! {
     /// A region.
     REGIONS: own as RegionStatistics;
-    name: "its name" = own.name.clone(), Always "region" Plain;
-    elements: "its elements" = own.elements, Always "elements" Count;
-    area_m2: "its area" = own.area_m2, Always "area" Scientific(6);
+    name = own.name.clone(), Always "region" Plain;
+    elements = own.elements, Always "elements" Count;
+    area_m2 = own.area_m2, Always "area" Scientific(6);
 }
 
 columns! {
     /// A boundary.
     BOUNDARIES: own as BoundaryStatistics;
-    name: "its name" = own.name.clone(), Always "boundary" Plain;
-    nodes: "its nodes" = own.nodes, Always "nodes" Count;
-    length_m: "its length" = own.length_m, Always "length" Scientific(6);
-    condition: "what holds it" = own.condition.clone(), Always "condition" Plain;
+    name = own.name.clone(), Always "boundary" Plain;
+    nodes = own.nodes, Always "nodes" Count;
+    length_m = own.length_m, Always "length" Scientific(6);
+    condition = own.condition.clone(), Always "condition" Plain;
 }
 
 /// Size and quality of a mesh.

@@ -40,15 +40,15 @@ pub fn figure(mesh: &Mesh, title: &str, probes: &[usize]) -> Figure {
         .plain()
         .height(420.0)
         .layers(elements(mesh))
-        .layers(edges.collect::<Vec<_>>())
+        .layers(edges)
         .layer(normals(mesh, 0.035 * size))
         .layer(
             Points::new(known.iter().map(|probe| probe.1))
                 .marker(Marker::Disc, 2.0, INK)
                 .name("probes"),
         )
-        .layers(names.collect::<Vec<_>>())
-        .layers(labels.collect::<Vec<_>>());
+        .layers(names)
+        .layers(labels);
     Figure::new("mesh", super::caption(title)).panel(panel)
 }
 

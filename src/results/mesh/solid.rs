@@ -66,21 +66,20 @@ pub struct SolidBoundary {
 columns! {
     /// A region.
     REGIONS: own as SolidRegion;
-    name: "its name" = own.name.clone(), Always "region" Plain;
-    elements: "its elements" = own.elements, Always "elements" Count;
-    volume_m3: "its volume" = own.volume_m3, Always "volume" Scientific(6);
-    mass_kg: "its mass" = own.mass_kg, Always "mass" Fixed(6);
+    name = own.name.clone(), Always "region" Plain;
+    elements = own.elements, Always "elements" Count;
+    volume_m3 = own.volume_m3, Always "volume" Scientific(6);
+    mass_kg = own.mass_kg, Always "mass" Fixed(6);
 }
 
 columns! {
     /// A boundary.
     BOUNDARIES: own as SolidBoundary;
-    name: "its name" = own.name.clone(), Always "boundary" Plain;
-    nodes: "its nodes" = own.nodes, Always "nodes" Count;
-    faces: "its faces" = own.faces, Always "faces" Count;
-    area_m2: "their area" = own.area_m2, Always "area" Scientific(6);
-    condition: "what holds or loads it, or what it slides on"
-        = own.condition.clone(), Always "condition" Plain;
+    name = own.name.clone(), Always "boundary" Plain;
+    nodes = own.nodes, Always "nodes" Count;
+    faces = own.faces, Always "faces" Count;
+    area_m2 = own.area_m2, Always "area" Scientific(6);
+    condition = own.condition.clone(), Always "condition" Plain;
 }
 
 impl Measured for SolidMeshStatistics {

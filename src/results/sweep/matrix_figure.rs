@@ -140,9 +140,7 @@ impl Layout {
         let ticks = ticks.enumerate().map(|(at, label)| (at as f64, label.clone()));
         let along = self.abscissa.as_ref();
         let (name, unit) = along.map_or(("", ""), |own| (own.name.as_str(), own.unit.as_str()));
-        let x = Axis::new(name, unit)
-            .between(-0.5, labels as f64 - 0.5)
-            .ticks(ticks.collect::<Vec<_>>());
+        let x = Axis::new(name, unit).between(-0.5, labels as f64 - 0.5).ticks(ticks);
         let bands = (1..labels).step_by(2).map(|at| (at as f64 - 0.5, at as f64 + 0.5, GROUND));
         let foot = low + 0.025 * (high - low);
         let solved = own.iter().map(|(at, _)| (self.x(*at), foot));

@@ -35,37 +35,31 @@ fn critical(point: &PointRecord) -> Cell {
 columns! {
     /// What a person wants first of a point.
     FIRST: point as PointRecord;
-    main_frequency_hz: "main frequency"
-        = first(point, "/main_frequency_hz"), IfAny "main frequency" Fixed(2);
-    harmonic: "nodal diameters" = first(point, "/main_harmonic"), IfAny "n" Count;
-    stick: "stick" = first(point, "/status/stick"), IfAny "stick" Fixed(3);
-    slip: "slip" = first(point, "/status/slip"), IfAny "slip" Fixed(3);
-    open: "open" = first(point, "/status/open"), IfAny "open" Fixed(3);
-    critical_friction: "critical friction" = critical(point), IfAny "critical friction" Fixed(6);
-    critical_harmonic: "its nodal diameters"
-        = first(point, "/critical_frictions/0/harmonic"), IfAny "n" Count;
-    first_harmonic: "nodal diameters of the first cycle"
-        = first(point, "/cycles/0/harmonic"), IfAny "n" Count;
-    first_hz: "its frequency"
-        = first(point, "/cycles/0/main_frequency_hz"), IfAny "main frequency" Fixed(2);
-    first_stick: "its stick" = first(point, "/cycles/0/status/stick"), IfAny "stick" Fixed(3);
-    first_open: "its open" = first(point, "/cycles/0/status/open"), IfAny "open" Fixed(3);
-    second_harmonic: "nodal diameters of the second cycle"
-        = first(point, "/cycles/1/harmonic"), IfAny "n" Count;
-    second_hz: "its frequency"
-        = first(point, "/cycles/1/main_frequency_hz"), IfAny "main frequency" Fixed(2);
-    second_stick: "its stick" = first(point, "/cycles/1/status/stick"), IfAny "stick" Fixed(3);
-    second_open: "its open" = first(point, "/cycles/1/status/open"), IfAny "open" Fixed(3);
-    winner: "wave that always wins" = first(point, "/winner"), IfAny "n that always wins" Count;
-    low: "ratio below" = first(point, "/boundary/low"), IfAny "ratio below" Fixed(3);
-    high: "ratio above" = first(point, "/boundary/high"), IfAny "ratio above" Fixed(3);
+    main_frequency_hz = first(point, "/main_frequency_hz"), IfAny "main frequency" Fixed(2);
+    harmonic = first(point, "/main_harmonic"), IfAny "n" Count;
+    stick = first(point, "/status/stick"), IfAny "stick" Fixed(3);
+    slip = first(point, "/status/slip"), IfAny "slip" Fixed(3);
+    open = first(point, "/status/open"), IfAny "open" Fixed(3);
+    critical_friction = critical(point), IfAny "critical friction" Fixed(6);
+    critical_harmonic = first(point, "/critical_frictions/0/harmonic"), IfAny "n" Count;
+    first_harmonic = first(point, "/cycles/0/harmonic"), IfAny "n" Count;
+    first_hz = first(point, "/cycles/0/main_frequency_hz"), IfAny "main frequency" Fixed(2);
+    first_stick = first(point, "/cycles/0/status/stick"), IfAny "stick" Fixed(3);
+    first_open = first(point, "/cycles/0/status/open"), IfAny "open" Fixed(3);
+    second_harmonic = first(point, "/cycles/1/harmonic"), IfAny "n" Count;
+    second_hz = first(point, "/cycles/1/main_frequency_hz"), IfAny "main frequency" Fixed(2);
+    second_stick = first(point, "/cycles/1/status/stick"), IfAny "stick" Fixed(3);
+    second_open = first(point, "/cycles/1/status/open"), IfAny "open" Fixed(3);
+    winner = first(point, "/winner"), IfAny "n that always wins" Count;
+    low = first(point, "/boundary/low"), IfAny "ratio below" Fixed(3);
+    high = first(point, "/boundary/high"), IfAny "ratio above" Fixed(3);
 }
 
 columns! {
     /// How a point ends.
     ENDS: point as PointRecord;
-    end: "end of a transient" = first(point, "/end_state"), IfAny "ends in" Plain;
-    settled: "whether it has settled" = first(point, "/settled"), IfAny "settled" Plain;
+    end = first(point, "/end_state"), IfAny "ends in" Plain;
+    settled = first(point, "/settled"), IfAny "settled" Plain;
 }
 
 /// Names of the ends of a transient that are no limit cycle although it vibrates.

@@ -1,6 +1,5 @@
 //! `contact.npz`: the contact edge over time, node by node.
 
-use crate::contact::ContactStatus;
 use crate::results::npz::NpzArchive;
 use crate::transient::Recorder;
 use std::io;
@@ -29,12 +28,6 @@ pub fn encode_contact(record: &Recorder) -> io::Result<Vec<u8>> {
     }
     let interval = record.frame_stride as f64 * record.sample_interval;
     archive.array("interval_s", &[], std::iter::once(interval))?;
-    for (name, code) in [
-        ("status_open", ContactStatus::Open),
-        ("status_stick", ContactStatus::Stick),
-        ("status_slip", ContactStatus::Slip),
-    ] {
-        archive.array(name, &[], std::iter::once(code as u8))?;
-    }
+    archive.status_codes()?;
     archive.finish()
 }

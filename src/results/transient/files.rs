@@ -4,6 +4,7 @@ use super::contact::encode_contact;
 use super::{TransientReport, TransientSummary, summary};
 use crate::fem::{nodal_stress, revolved_stress, solid_stress};
 use crate::output::columns;
+use crate::results::charts::palette::status_of_code;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::pvd::{PvdEntry, write_pvd};
 use crate::results::record::write_record;
@@ -230,62 +231,44 @@ fn write_snapshots(folder: &OutputFolder, report: &TransientReport<'_>) -> Resul
 /// Motion and stress of all nodes, and the contact at the same step: status (0 open, 1 stick, 2 slip; -1 off the contact
 /// edge), pressure, shear and gap (zero off the contact edge).
 fn snapshot_fields(report: &TransientReport<'_>, snapshot: &Snapshot) -> Vec<Field> {
-    if let Some(sector) = report.solid {
-        let mut fields = vec![
-            solid_vectors("displacement_m", sector, &snapshot.displacement),
-            solid_vectors("velocity_m_per_s", sector, &snapshot.velocity),
-        ];
-        let stress = revolved_stress(sector, report.material.of(0), &snapshot.displacement);
-        fields.extend(Field::solid_stresses(&stress, "rtz"));
-        let nodes = snapshot.displacement.len() / 3;
-        fields.extend(contact_fields(&report.contact_nodes, nodes, snapshot));
-        return fields;
-    }
-    if report.mesh.dimension == 3 {
-        let mesh = report.mesh;
-        let mut fields = vec![
-            Field::vectors("displacement_m", mesh, &snapshot.displacement),
-            Field::vectors("velocity_m_per_s", mesh, &snapshot.velocity),
-        ];
-        let stress = solid_stress(mesh, report.material, &snapshot.displacement);
-        fields.extend(Field::solid_stresses(&stress, "xyz"));
-        fields.extend(contact_fields(&report.contact_nodes, mesh.node_count(), snapshot));
-        return fields;
-    }
-    let mut fields = vec![
-        Field::vectors("displacement_m", report.mesh, &snapshot.displacement),
-        Field::vectors("velocity_m_per_s", report.mesh, &snapshot.velocity),
-    ];
-    let stresses = nodal_stress(report.mesh, report.material, &snapshot.displacement);
-    fields.extend(Field::stresses(&stresses));
-    fields.extend(Field::cartesian_stresses(report.mesh, &stresses));
-    let count = report.mesh.node_count();
-    fields.extend(contact_fields(&report.contact_nodes, count, snapshot));
-    fields
-}
-
-/// Status, pressure, shear (in three dimensions across the sliding too) and gap of the contact nodes `edge` among `count` nodes.
-fn contact_fields(edge: &[u32], count: usize, snapshot: &Snapshot) -> Vec<Field> {
-    let mut status = vec![-1; count];
-    for (&node, &code) in edge.iter().zip(&snapshot.contact.status) {
-        status[node as usize] = i64::from(code);
-    }
-    let mut fields = vec![Field::integers("status", status)];
-    let mut on_edge = |name: &str, values: &mut dyn Iterator<Item = f64>| {
-        let mut field = vec![0.0; count];
-        for (&node, value) in edge.iter().zip(values) {
-            field[node as usize] = value;
-        }
-        fields.push(Field::scalars(name, field));
+    let (mesh, displacement) = (report.mesh, &snapshot.displacement);
+    let vectors = |name: &str, values: &[f64]| match report.solid {
+        Some(sector) => solid_vectors(name, sector, values),
+        None => Field::vectors(name, mesh, values),
     };
-    let contact = &snapshot.contact;
+    let mut fields = vec![
+        vectors("displacement_m", displacement),
+        vectors("velocity_m_per_s", &snapshot.velocity),
+    ];
+    let count = match (report.solid, mesh.dimension) {
+        (Some(sector), _) => {
+            let stress = revolved_stress(sector, report.material.of(0), displacement);
+            fields.extend(Field::solid_stresses(&stress, "rtz"));
+            displacement.len() / 3
+        }
+        (None, 3) => {
+            let stress = solid_stress(mesh, report.material, displacement);
+            fields.extend(Field::solid_stresses(&stress, "xyz"));
+            mesh.node_count()
+        }
+        _ => {
+            let stress = nodal_stress(mesh, report.material, displacement);
+            fields.extend(Field::stresses(&stress));
+            fields.extend(Field::cartesian_stresses(mesh, &stress));
+            mesh.node_count()
+        }
+    };
+    // In three dimensions friction may act across the sliding too.
+    let (edge, contact) = (&report.contact_nodes, &snapshot.contact);
+    let on_edge = |name: &str, values: &[f64]| Field::on_edge(name, count, edge, values);
     let wide = |values: &[f32]| values.iter().copied().map(f64::from).collect::<Vec<f64>>();
-    on_edge("pressure_pa", &mut wide(&contact.pressure).into_iter());
-    on_edge("shear_pa", &mut wide(contact.shear()).into_iter());
+    let codes = contact.status.iter().map(|&code| status_of_code(code));
+    fields.push(Field::status(count, edge, codes));
+    fields.push(on_edge("pressure_pa", &wide(&contact.pressure)));
+    fields.push(on_edge("shear_pa", &wide(contact.shear())));
     if !contact.shear_across().is_empty() {
-        let across = wide(contact.shear_across());
-        on_edge("shear_across_pa", &mut across.into_iter());
+        fields.push(on_edge("shear_across_pa", &wide(contact.shear_across())));
     }
-    on_edge("gap_m", &mut snapshot.gap.iter().copied());
+    fields.push(on_edge("gap_m", &snapshot.gap));
     fields
 }

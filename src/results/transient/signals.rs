@@ -243,8 +243,8 @@ impl RunFigures<'_> {
         let amplitude = Axis::new("amplitude of *u*_{θ}", "m").decades(GROWTH_DECADES).room(0.02);
         let panel = Panel::new(Axis::time().between(start, end), amplitude)
             .height(190.0)
-            .layers(lines.collect::<Vec<_>>())
-            .layers(rates.collect::<Vec<_>>())
+            .layers(lines)
+            .layers(rates)
             .layers(linear_end.map(nonlinear));
         let figure = Figure::new(
             "growth",

@@ -5,9 +5,7 @@ use crate::output::Described;
 use crate::results::extent::Extent;
 use crate::results::manifest::Manifest;
 use crate::results::summary::{MeanPowers, StatusFractions, present};
-use crate::transient::{
-    Drift, EndState, Growth, Perturbation, ProbeMotion, TransientAnalysis, Vibration,
-};
+use crate::transient::{Drift, EndState, Growth, Perturbation, TransientAnalysis, Vibration};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -204,8 +202,8 @@ pub struct MotionSummary {
 pub fn summary(report: &TransientReport<'_>, manifest: &Manifest) -> TransientSummary {
     let (plan, analysis) = (&report.plan, report.analysis);
     let (end, settling) = (&analysis.last_fifth, &analysis.settling);
-    let watts = |power: f64| present(power * report.thickness);
-
+    let body = end.material_damping * report.thickness;
+    let damping = Some(report.thickness * end.powers.damping);
     let two = match settling.state {
         EndState::TwoFrequency(two) => Some(two),
         _ => None,
@@ -237,16 +235,8 @@ pub fn summary(report: &TransientReport<'_>, manifest: &Manifest) -> TransientSu
         main_amplitude_m: end.main_amplitude,
         status: StatusFractions::of(end.status),
         power_w: MeanPowers {
-            external: watts(end.powers.external),
-            stick: watts(end.powers.stick),
-            slide: watts(end.powers.slide),
-            contact_dissipated: watts(end.powers.contact_dissipated),
-            material_damping: watts(end.material_damping),
-            normal_contact: watts(end.powers.normal),
-            contact_damping: report
-                .record
-                .has_contact_springs()
-                .then_some(report.thickness * end.powers.damping),
+            contact_damping: damping.filter(|_| report.record.has_contact_springs()),
+            ..MeanPowers::of(&end.powers.scaled(report.thickness), body)
         },
         extent: report.extent,
         ambiguous_friction: report.record.ambiguous_share(),
@@ -298,7 +288,13 @@ fn probes(report: &TransientReport<'_>) -> BTreeMap<String, ProbeSummary> {
     let motions = report.analysis.last_fifth.probes.iter().enumerate();
     motions
         .map(|(probe, motion)| {
-            let [radial, tangential] = [0, 1].map(|c| MotionSummary::of(motion, c));
+            let [radial, tangential] = [0, 1].map(|c| {
+                MotionSummary::of([
+                    motion.displacement_amplitude[c],
+                    motion.acceleration_rms[c],
+                    motion.acceleration_peak[c],
+                ])
+            });
             let node = report.record.probes[probe] - 1;
             let mut places = report.places.iter();
             let place = places.find(|place| place.0 == node).map(|&(_, asked_m)| {
@@ -309,11 +305,7 @@ fn probes(report: &TransientReport<'_>) -> BTreeMap<String, ProbeSummary> {
                 place,
                 radial,
                 tangential,
-                axial: motion.axial.map(|[displacement, rms, peak]| MotionSummary {
-                    displacement_amplitude_m: displacement,
-                    acceleration_rms_m_per_s2: rms,
-                    acceleration_peak_m_per_s2: peak,
-                }),
+                axial: motion.axial.map(MotionSummary::of),
             };
             (report.probe_label(probe).to_string(), summary)
         })
@@ -321,11 +313,11 @@ fn probes(report: &TransientReport<'_>) -> BTreeMap<String, ProbeSummary> {
 }
 
 impl MotionSummary {
-    fn of(motion: &ProbeMotion, component: usize) -> Self {
+    fn of([displacement, rms, peak]: [f64; 3]) -> Self {
         Self {
-            displacement_amplitude_m: motion.displacement_amplitude[component],
-            acceleration_rms_m_per_s2: motion.acceleration_rms[component],
-            acceleration_peak_m_per_s2: motion.acceleration_peak[component],
+            displacement_amplitude_m: displacement,
+            acceleration_rms_m_per_s2: rms,
+            acceleration_peak_m_per_s2: peak,
         }
     }
 }

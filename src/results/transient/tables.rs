@@ -17,12 +17,10 @@ type ProbeRow = (String, &'static str, MotionSummary);
 columns! {
     /// A probe in one direction.
     PROBES: row as ProbeRow;
-    node: "node" = row.0.clone(), Always "node" Plain;
-    direction: "direction" = row.1, Always "direction" Plain;
-    rms_m_per_s2: "root mean square of the acceleration"
-        = row.2.acceleration_rms_m_per_s2, Always "root mean square" Fixed(0);
-    peak_m_per_s2: "peak of the acceleration"
-        = row.2.acceleration_peak_m_per_s2, Always "peak" Fixed(0);
+    node = row.0.clone(), Always "node" Plain;
+    direction = row.1, Always "direction" Plain;
+    rms_m_per_s2 = row.2.acceleration_rms_m_per_s2, Always "root mean square" Fixed(0);
+    peak_m_per_s2 = row.2.acceleration_peak_m_per_s2, Always "peak" Fixed(0);
 }
 
 /// A vibration in the linear stage: its harmonic, its growth or why it has none, the rate of the eigenvalue analysis.
@@ -31,21 +29,16 @@ type GrowthRow = (String, Result<GrowthSummary, String>, Option<f64>);
 columns! {
     /// A vibration in the linear stage.
     GROWTH: row as GrowthRow;
-    vibration: "harmonic, or the strongest" = row.0.clone(), Always "vibration" Plain;
-    rate_per_s: "rate" = row.1.as_ref().ok().map(|own| own.rate_per_s), IfAny "rate" Fixed(2);
-    low_per_s: "low end"
-        = row.1.as_ref().ok().map(|own| own.rate_low_per_s), IfAny "95 % from" Fixed(2);
-    high_per_s: "high end"
-        = row.1.as_ref().ok().map(|own| own.rate_high_per_s), IfAny "to" Fixed(2);
-    predicted_per_s: "rate of the eigenvalue analysis"
-        = row.2, IfAny "rate of the eigenvalue analysis" Fixed(2);
-    frequency_hz: "frequency"
-        = row.1.as_ref().ok().map(|own| own.frequency_hz), IfAny "frequency" Fixed(1);
-    travels: "way"
-        = row.1.as_ref().ok().and_then(|own| own.direction)
+    vibration = row.0.clone(), Always "vibration" Plain;
+    rate_per_s = row.1.as_ref().ok().map(|own| own.rate_per_s), IfAny "rate" Fixed(2);
+    low_per_s = row.1.as_ref().ok().map(|own| own.rate_low_per_s), IfAny "95 % from" Fixed(2);
+    high_per_s = row.1.as_ref().ok().map(|own| own.rate_high_per_s), IfAny "to" Fixed(2);
+    predicted_per_s = row.2, IfAny "rate of the eigenvalue analysis" Fixed(2);
+    frequency_hz = row.1.as_ref().ok().map(|own| own.frequency_hz), IfAny "frequency" Fixed(1);
+    travels = row.1.as_ref().ok().and_then(|own| own.direction)
             .map(|way| if way > 0 { "with the rotor" } else { "against the rotor" }),
         IfAny "travels" Plain;
-    reason: "why none" = row.1.as_ref().err().cloned(), IfAny "why there is none" Plain;
+    reason = row.1.as_ref().err().cloned(), IfAny "why there is none" Plain;
 }
 
 /// Growth rates of the eigenvalue analysis, 1/s.

@@ -1,6 +1,6 @@
 //! The figures of an uncertainty analysis.
 
-use super::summary::{DesignCurve, RobustSummary, UncertaintySummary};
+use super::summary::{DesignCurve, Index, RobustSummary, UncertaintySummary};
 use crate::chart::{
     Axis, Bars, Figure, Fill, INK, Label, Line, Marker, Panel, Rule, SERIES, Stroke, look,
 };
@@ -24,19 +24,17 @@ pub fn uncertainty(summary: &UncertaintySummary) -> Figure {
             rule.name("friction of the case")
         })
     };
-    let over = &summary.probability_over_friction;
-    let part = |k: usize| -> Vec<f64> { over.iter().map(|row| row[k]).collect() };
-    let (at, value, low, high) = (part(0), part(1), part(2), part(3));
+    let (value, interval) = probability(&summary.probability_over_friction);
     let distribution = Panel::new(friction(), share("turned unstable below *μ*"))
         .height(150.0)
         .layers(own())
-        .layers(families.collect::<Vec<_>>())
+        .layers(families)
         .legend();
     let probability = Panel::new(friction(), share("probability of squeal"))
         .height(150.0)
-        .layer(Fill::between(&at, &low, &high, SERIES[0]).opacity(0.25).name("95 % interval"))
+        .layer(interval)
         .layers(own())
-        .layer(Line::new(&at, &value).solid(SERIES[0], 1.2).name("some mode unstable"))
+        .layer(value.name("some mode unstable"))
         .legend();
     Figure::new(
         "uncertainty",
@@ -46,6 +44,14 @@ pub fn uncertainty(summary: &UncertaintySummary) -> Figure {
     .columns(2)
     .panel(distribution)
     .panel(probability)
+}
+
+/// A probability over its abscissa, and its interval.
+fn probability(points: &[[f64; 4]]) -> (Line, Fill) {
+    let [at, value, low, high] =
+        [0, 1, 2, 3].map(|k| points.iter().map(|row| row[k]).collect::<Vec<f64>>());
+    let interval = Fill::between(&at, &low, &high, SERIES[0]).opacity(0.25).name("95 % interval");
+    (Line::new(&at, &value).solid(SERIES[0], 1.2), interval)
 }
 
 /// The friction coefficient up to which something happens, with a little room: onsets of families, changes of the probability,
@@ -67,12 +73,12 @@ pub fn indices(summary: &UncertaintySummary) -> Figure {
     let mut rows: Vec<_> = summary.sobol.iter().collect();
     rows.sort_by(|a, b| a.1.total.total_cmp(&b.1.total));
     let place = |k: usize| k as f64;
-    let total = rows.iter().enumerate();
-    let total =
-        total.map(|(k, (_, index))| (0.0, index.total.max(0.0), place(k) + 0.17, String::new()));
-    let first = rows.iter().enumerate();
-    let first =
-        first.map(|(k, (_, index))| (0.0, index.first.max(0.0), place(k) - 0.17, String::new()));
+    let bars = |of: fn(&Index) -> f64, shift: f64, colour: &str| {
+        let bar = |(k, row): (usize, &(&String, &Index))| {
+            (0.0, of(row.1).max(0.0), place(k) + shift, String::new())
+        };
+        Bars::new(rows.iter().enumerate().map(bar).collect(), colour)
+    };
     let whiskers = rows.iter().enumerate().flat_map(|(k, (_, index))| {
         let ends = [(index.first_interval, -0.17), (index.total_interval, 0.17)];
         ends.into_iter().filter_map(move |(interval, shift)| {
@@ -90,12 +96,11 @@ pub fn indices(summary: &UncertaintySummary) -> Figure {
             ends.fold(row.1.total.max(row.1.first), f64::max)
         })
         .fold(1.0, f64::max);
-    let y =
-        Axis::new("", "").between(-0.6, rows.len() as f64 - 0.4).ticks(names.collect::<Vec<_>>());
+    let y = Axis::new("", "").between(-0.6, rows.len() as f64 - 0.4).ticks(names);
     let panel = Panel::new(Axis::new("Sobol index", "–").between(0.0, largest), y)
         .height(34.0 * rows.len() as f64 + 12.0)
-        .layer(Bars::new(total.collect(), SERIES[5]))
-        .layer(Bars::new(first.collect(), SERIES[0]))
+        .layer(bars(|index| index.total, 0.17, SERIES[5]))
+        .layer(bars(|index| index.first, -0.17, SERIES[0]))
         .layers(whiskers);
     Figure::new(
         "indices",
@@ -110,15 +115,14 @@ pub fn indices(summary: &UncertaintySummary) -> Figure {
 /// Probability of squeal over each design parameter.
 pub fn robust(summary: &RobustSummary) -> Figure {
     let panel = |curve: &DesignCurve| {
-        let part = |k: usize| -> Vec<f64> { curve.points.iter().map(|row| row[k]).collect() };
-        let (at, value, low, high) = (part(0), part(1), part(2), part(3));
+        let (value, interval) = probability(&curve.points);
         let panel = Panel::new(
             parameter_axis(&curve.key),
             Axis::new("probability of squeal", "–").between(0.0, 1.0),
         )
         .height(130.0)
-        .layer(Fill::between(&at, &low, &high, SERIES[0]).opacity(0.25).name("95 % interval"))
-        .layer(Line::new(&at, &value).solid(SERIES[0], 1.2).marked(Marker::Disc, 1.5))
+        .layer(interval)
+        .layer(value.marked(Marker::Disc, 1.5))
         .layer(Rule::horizontal(summary.bound).stroke(Stroke::dashed(INK, 0.8)).name("bound"));
         let panel = match curve.own {
             Some(own) => panel.layer(
@@ -139,5 +143,5 @@ pub fn robust(summary: &RobustSummary) -> Figure {
          scattering as stated.",
     )
     .columns(summary.curves.len().min(2))
-    .panels(summary.curves.iter().map(panel).collect::<Vec<_>>())
+    .panels(summary.curves.iter().map(panel))
 }

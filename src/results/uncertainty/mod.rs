@@ -7,8 +7,7 @@ mod summary;
 pub(super) use report::{ERRORS, ONSETS, SAMPLES};
 pub use report::{document, draw_report, samples_table};
 pub use summary::{
-    CriticalFriction, DesignCurve, FamilySummary, Index, Interval, RobustSummary,
-    UncertaintySummary,
+    CriticalFriction, DesignCurve, FamilySummary, Index, RobustSummary, UncertaintySummary,
 };
 
 use serde::{Deserialize, Serialize};

@@ -37,41 +37,36 @@ columns! {
 columns! {
     /// A family of modes.
     FAMILIES: family as FamilySummary;
-    mode: "harmonic, branch, direction" = family.name(), Always "mode" Plain;
-    probability: "probability that it is unstable"
-        = family.probability, Always "unstable at that friction" Fixed(4);
-    probability_in_range: "probability that it turns unstable in the range"
-        = family.probability_in_range, Always "turns unstable in the range" Fixed(4);
-    critical_friction_median: "median of its critical friction"
-        = family.critical_friction_median, Always "median critical friction" Fixed(4);
-    frequency_hz: "mean frequency at its onset" = family.frequency_hz, Always "frequency" Fixed(2);
-    beyond_limit: "share of samples beyond the frequency limit"
-        = (family.beyond_limit > 0.0).then_some(family.beyond_limit),
+    mode = family.name(), Always "mode" Plain;
+    probability = family.probability, Always "unstable at that friction" Fixed(4);
+    probability_in_range = family.probability_in_range,
+        Always "turns unstable in the range" Fixed(4);
+    critical_friction_median = family.critical_friction_median,
+        Always "median critical friction" Fixed(4);
+    frequency_hz = family.frequency_hz, Always "frequency" Fixed(2);
+    beyond_limit = (family.beyond_limit > 0.0).then_some(family.beyond_limit),
         IfAny "beyond the frequency limit" Fixed(4);
 }
 
 columns! {
     /// Sobol's indices of a parameter.
     INDICES: row as (String, Index);
-    parameter: "key of the case" = row.0.clone(), Always "parameter" Plain;
-    first: "first-order index" = row.1.first, Always "first order" Fixed(3);
-    first_low: "lower end of its 95 % interval"
-        = row.1.first_interval.map(|ends| ends[0]), IfAny "from" Fixed(3);
-    first_high: "upper end" = row.1.first_interval.map(|ends| ends[1]), IfAny "to" Fixed(3);
-    total: "total index" = row.1.total, Always "total" Fixed(3);
-    total_low: "lower end of its 95 % interval"
-        = row.1.total_interval.map(|ends| ends[0]), IfAny "from" Fixed(3);
-    total_high: "upper end" = row.1.total_interval.map(|ends| ends[1]), IfAny "to" Fixed(3);
+    parameter = row.0.clone(), Always "parameter" Plain;
+    first = row.1.first, Always "first order" Fixed(3);
+    first_low = row.1.first_interval.map(|ends| ends[0]), IfAny "from" Fixed(3);
+    first_high = row.1.first_interval.map(|ends| ends[1]), IfAny "to" Fixed(3);
+    total = row.1.total, Always "total" Fixed(3);
+    total_low = row.1.total_interval.map(|ends| ends[0]), IfAny "from" Fixed(3);
+    total_high = row.1.total_interval.map(|ends| ends[1]), IfAny "to" Fixed(3);
 }
 
 columns! {
     /// The change of a design by one parameter.
     DESIGNS: curve as DesignCurve;
-    parameter: "key of the case" = curve.key.clone(), Always "parameter" Plain;
-    reached_at: "value at which the bound is reached"
-        = curve.reaches_bound_at, Always "reached at" Significant(4);
-    change_percent: "the change that takes" = curve.change_percent, Always "change" Signed(1);
-    effect: "what there is to say where it is not reached" = reach(curve), IfAny "remark" Plain;
+    parameter = curve.key.clone(), Always "parameter" Plain;
+    reached_at = curve.reaches_bound_at, Always "reached at" Significant(4);
+    change_percent = curve.change_percent, Always "change" Signed(1);
+    effect = reach(curve), IfAny "remark" Plain;
 }
 
 /// Why a design does not reach the bound.

@@ -2,6 +2,7 @@
 
 use crate::output::Described;
 use crate::results::Manifest;
+use crate::signal::Estimate;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -26,7 +27,7 @@ pub struct UncertaintySummary {
     pub largest_friction: f64,
     /// Probability that some mode is unstable, with Wilson's 95 % interval: at the case's friction coefficient, or at a
     /// sample's own.
-    pub probability_unstable: Interval,
+    pub probability_unstable: Estimate,
     /// Distribution of the lowest critical friction.
     pub critical_friction: CriticalFriction,
     /// The modes that turn unstable in some sample, the most probable first.
@@ -43,17 +44,6 @@ pub struct UncertaintySummary {
     pub notes: Vec<String>,
     /// What it was made from.
     pub manifest: Manifest,
-}
-
-/// A value with a 95 % interval.
-#[derive(Clone, Copy, Debug, PartialEq, Described, Serialize)]
-pub struct Interval {
-    /// The value.
-    pub value: f64,
-    /// Lower end.
-    pub low: f64,
-    /// Upper end.
-    pub high: f64,
 }
 
 /// Distribution of the lowest critical friction; absent where that lies beyond the range.

@@ -18,7 +18,7 @@ use crate::cycle::periodic::{
 use crate::cycle::{Confirmation, CriticalValue, Parameter};
 use crate::fem::operator::{SimdLevel, StiffnessOperator};
 use crate::results::cycle::{
-    CycleReport, FoundCycle, MotionSearch, PeriodicResult, Search, SoughtMode,
+    CycleReport, FoundCycle, ModeSummary, MotionSearch, PeriodicResult, Search,
 };
 use crate::transient::{OperatorChoice, TransientError, TransientModel};
 pub use basin::boundary_of_modes;
@@ -39,7 +39,7 @@ pub struct PeriodicStudy<'a> {
     stepped: SteppedMesh<'a>,
     simd: SimdLevel,
     /// The mode that grows fastest or decays slowest at the case's own operating point.
-    least_stable: Option<SoughtMode>,
+    least_stable: Option<ModeSummary>,
     /// Value of the parameter at which the search starts, where no mode grows at the case's own.
     start: Option<f64>,
     /// Where sliding loses its stability, where it is stable at the case's own operating point.
@@ -213,7 +213,7 @@ impl<'a> PeriodicStudy<'a> {
         Ok(results)
     }
 
-    fn mode(&self, place: usize) -> SoughtMode {
+    fn mode(&self, place: usize) -> ModeSummary {
         sought(&self.steady, place)
     }
 
@@ -335,12 +335,12 @@ fn longest_step(case: &Case) -> Option<f64> {
 }
 
 /// A mode as it is told of.
-fn sought(steady: &Steady, place: usize) -> SoughtMode {
+fn sought(steady: &Steady, place: usize) -> ModeSummary {
     let mode = &steady.modes[place];
-    SoughtMode {
-        number: place + 1,
-        frequency_hz: mode.frequency_hz(),
-        growth_rate: mode.growth_rate(),
+    ModeSummary {
+        mode: place + 1,
+        mode_frequency_hz: mode.frequency_hz(),
+        growth_rate_per_s: mode.growth_rate(),
     }
 }
 
@@ -381,6 +381,6 @@ fn name_repeated(results: &mut [PeriodicResult]) {
             let other = result.outcome.as_ref();
             result.same_as.is_none() && other.is_ok_and(|other| other.motion.is(&own.motion))
         });
-        rest[0].same_as = same.map(|result| result.mode.number);
+        rest[0].same_as = same.map(|result| result.mode.mode);
     }
 }

@@ -26,7 +26,7 @@ pub(super) fn law(direction: Option<[f64; 3]>) -> Matrix3<f64> {
 
 /// The case keys that make a trial, `KEY=VALUE`.
 pub(super) fn keys_of(search: &Search<'_>, trial: &Trial) -> Vec<String> {
-    let (base, budget) = (search.base, &search.budget);
+    let (base, sizes) = (search.base, &search.sizes);
     let d = base.mesh.dimension;
     let key = |name: &str, value: String| format!("modifications.{NAME}.{name}={value}");
     let list = |values: &[f64]| {
@@ -37,9 +37,9 @@ pub(super) fn keys_of(search: &Search<'_>, trial: &Trial) -> Vec<String> {
         Target::Hole(way) => vec![key("offset", list(way))],
         Target::Node(node, direction) => {
             let (name, amount) = match trial.kind {
-                ModificationKind::Mass => ("mass", budget.mass),
-                ModificationKind::Spring => ("stiffness", budget.stiffness),
-                _ => ("damping", budget.damping),
+                ModificationKind::Mass => ("mass", sizes.mass_kg),
+                ModificationKind::Spring => ("stiffness", sizes.stiffness_n_per_m),
+                _ => ("damping", sizes.damping_n_s_per_m),
             };
             let mut keys = vec![
                 key("at", base.mesh.node_label(*node).to_string()),
@@ -53,10 +53,10 @@ pub(super) fn keys_of(search: &Search<'_>, trial: &Trial) -> Vec<String> {
             let center = middle.map(|x| rounded(x, 7));
             // A hair more, so that elements at just that distance are in it.
             let moved = (Vector3::from(middle) - Vector3::from(center)).norm();
-            let radius = rounded((budget.patch_radius + moved) * (1.0 + 1e-6), 7);
+            let radius = rounded((sizes.patch_radius_m + moved) * (1.0 + 1e-6), 7);
             let own = match trial.kind {
                 ModificationKind::Removal => key("remove", "true".to_owned()),
-                _ => key("stiffness_coefficient", format!("{:?}", budget.patch_damping)),
+                _ => key("stiffness_coefficient", format!("{:?}", sizes.patch_damping_s)),
             };
             vec![key("center", list(&center[..d])), key("radius", format!("{radius:?}")), own]
         }

@@ -22,13 +22,14 @@ mod places;
 mod shown;
 mod trial;
 
-use super::StudyError;
+use super::{StudyError, extent_of};
 use crate::case::{Case, ModificationKind};
 use crate::cea::CeaError;
 use crate::fem::lumped_masses;
 use crate::mesh::Mesh;
 use crate::output::rounded;
-use crate::results::improve::{Candidate, Sizes, State, TargetFields, TargetMode};
+use crate::results::Manifest;
+use crate::results::improve::{Candidate, ImproveSummary, Sizes, State, TargetFields};
 pub(super) use base::refuse_bodies;
 use base::{Base, Outlook, state, target_modes};
 use confirm::{keys_of, run_again, verdict};
@@ -39,26 +40,16 @@ use places::Places;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
-use trial::{Budget, Search, Target, Trial};
+use trial::{Search, Target, Trial};
 
 /// What `improve` finds.
 pub struct Improvement {
+    /// What there is to say of it, without time and manifest.
+    pub summary: ImproveSummary,
     /// The mesh of the fields.
     pub mesh: Arc<Mesh>,
-    /// Unknowns of the eigenproblem.
-    pub dofs: usize,
-    /// What the case does as it is.
-    pub base: State,
-    /// The modes that are to be silenced.
-    pub modes: Vec<TargetMode>,
-    /// Derivatives of each of them over the mesh.
+    /// Derivatives of each target over the mesh.
     pub fields: Vec<TargetFields>,
-    /// Sizes of the modifications.
-    pub sizes: Sizes,
-    /// Modifications, the best first.
-    pub candidates: Vec<Candidate>,
-    /// What there is to say.
-    pub notes: Vec<String>,
 }
 
 /// Removals that are looked at closely, for each one that is listed.
@@ -78,13 +69,18 @@ struct Predicted {
 pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
     let cea = case.require_cea()?;
     let base = Base::solve(case, cea)?;
-    let budget = budget(&base);
+    let thickness = match base.mesh.dimension {
+        2 => case.thickness,
+        _ => 1.0,
+    };
+    let sizes = sizes(&base, thickness);
     let derivatives = Derivatives::of_targets(&base);
     let search = Search {
-        places: Places::of(&base, budget.patch_radius)?,
+        places: Places::of(&base, sizes.patch_radius_m)?,
         derivatives: &derivatives,
         base: &base,
-        budget,
+        sizes,
+        thickness,
     };
     let modal = ModalModel::new(&base).map_err(CeaError::from)?;
 
@@ -122,45 +118,39 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
             base.multiple
         ));
     }
-    Ok(Improvement {
-        mesh: Arc::clone(&base.mesh),
+    let summary = ImproveSummary {
+        command: "improve".to_owned(),
+        title: case.title.clone(),
+        wall_s: 0.0,
         dofs: base.tangent.unknowns.len(),
+        friction_coefficient: base.friction,
         base: state(base.outlook, base.onset),
         modes: target_modes(&base),
-        fields: shown::fields(&search),
-        sizes: Sizes {
-            mass_kg: budget.mass,
-            stiffness_n_per_m: budget.stiffness,
-            damping_n_s_per_m: budget.damping,
-            patch_radius_m: budget.patch_radius,
-            patch_damping_s: budget.patch_damping,
-            offset_m: budget.offset,
-        },
+        sizes,
+        extent: extent_of(case),
         candidates,
         notes,
-    })
+        manifest: Manifest::new("improve"),
+    };
+    let fields = shown::fields(&search);
+    Ok(Improvement { summary, mesh: Arc::clone(&base.mesh), fields })
 }
 
 /// Sizes of the modifications that the case gives, or that follow, to four digits, from its bodies and the fastest of its targets.
-fn budget(base: &Base<'_>) -> Budget {
+fn sizes(base: &Base<'_>, thickness: f64) -> Sizes {
     let asked = &base.case.improve;
-    let thickness = match base.mesh.dimension {
-        2 => base.case.thickness,
-        _ => 1.0,
-    };
     let worst = base.outlook.worst.map_or(1.0, |mode| mode.im);
     let masses = lumped_masses(&base.mesh, base.case.materials());
     let own = |asked: Option<f64>, usual: f64| asked.unwrap_or(rounded(usual, 4));
     let mass = own(asked.mass, 0.01 * thickness * masses.iter().sum::<f64>());
     let size = base.case.body.size();
-    Budget {
-        mass,
-        stiffness: own(asked.stiffness, worst * worst * mass),
-        damping: own(asked.damping, 0.1 * worst * mass),
-        patch_radius: own(asked.patch_radius, 0.05 * size),
-        patch_damping: own(asked.patch_damping, 0.1 / worst),
-        offset: own(asked.offset, 0.1 * size),
-        thickness,
+    Sizes {
+        mass_kg: mass,
+        stiffness_n_per_m: own(asked.stiffness, worst * worst * mass),
+        damping_n_s_per_m: own(asked.damping, 0.1 * worst * mass),
+        patch_radius_m: own(asked.patch_radius, 0.05 * size),
+        patch_damping_s: own(asked.patch_damping, 0.1 / worst),
+        offset_m: own(asked.offset, 0.1 * size),
     }
 }
 
@@ -206,7 +196,7 @@ fn predictions(
 
 /// What a trial changes in the space of the modes.
 fn change(search: &Search<'_>, modal: &ModalModel<'_>, trial: &Trial) -> Result<Change, String> {
-    let (base, budget) = (search.base, &search.budget);
+    let (base, sizes) = (search.base, &search.sizes);
     let d = base.mesh.dimension;
     match (&trial.target, trial.kind) {
         (Target::Node(node, direction), kind) => {
@@ -214,23 +204,23 @@ fn change(search: &Search<'_>, modal: &ModalModel<'_>, trial: &Trial) -> Result<
             let law = confirm::law(*direction);
             let own = base.mesh.in_frame(*node, &law);
             let matrix = |amount: f64| {
-                DMatrix::from_fn(d, d, |i, j| amount * own[(i, j)] / budget.thickness)
+                DMatrix::from_fn(d, d, |i, j| amount * own[(i, j)] / search.thickness)
             };
             let none = DMatrix::<f64>::zeros(d, d);
             Ok(match kind {
                 ModificationKind::Mass => {
-                    let mass = matrix(budget.mass);
+                    let mass = matrix(sizes.mass_kg);
                     let damping = &mass * base.options.damping.mass_coefficient;
                     modal.attached(&dofs, [&mass, &damping, &none])
                 }
                 ModificationKind::Spring => {
-                    modal.attached(&dofs, [&none, &none, &matrix(budget.stiffness)])
+                    modal.attached(&dofs, [&none, &none, &matrix(sizes.stiffness_n_per_m)])
                 }
-                _ => modal.attached(&dofs, [&none, &matrix(budget.damping), &none]),
+                _ => modal.attached(&dofs, [&none, &matrix(sizes.damping_n_s_per_m), &none]),
             })
         }
         (Target::Patch(_, elements), kind) => {
-            let (dofs, matrices) = patch_matrices(base, elements, kind, budget.patch_damping);
+            let (dofs, matrices) = patch_matrices(base, elements, kind, sizes.patch_damping_s);
             if kind != ModificationKind::Removal {
                 return Ok(modal.yielding(&dofs, matrices.each_ref()));
             }

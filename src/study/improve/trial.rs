@@ -5,30 +5,12 @@ use super::fields::Derivatives;
 use super::places::Places;
 use crate::case::ModificationKind;
 use crate::linalg::c64;
+use crate::results::improve::Sizes;
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use rayon::prelude::*;
 
 /// Places of each kind that are kept for a closer look, for each one that is listed.
 const KEPT: usize = 6;
-
-/// Sizes of the modifications.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Budget {
-    /// kg.
-    pub mass: f64,
-    /// N/m.
-    pub stiffness: f64,
-    /// N s/m.
-    pub damping: f64,
-    /// m.
-    pub patch_radius: f64,
-    /// s.
-    pub patch_damping: f64,
-    /// m.
-    pub offset: f64,
-    /// Extent that shares these among the matrices of a plane body, m; 1 of solid ones.
-    pub thickness: f64,
-}
 
 /// What is modified.
 #[derive(Clone, Debug)]
@@ -53,7 +35,9 @@ pub(super) struct Trial {
 /// Looks for the best places of each kind.
 pub(super) struct Search<'a> {
     pub base: &'a Base<'a>,
-    pub budget: Budget,
+    pub sizes: Sizes,
+    /// Extent that shares these among the matrices of a plane body, m; 1 of solid ones.
+    pub thickness: f64,
     pub places: Places,
     pub derivatives: &'a [Derivatives],
 }
@@ -93,11 +77,11 @@ impl Search<'_> {
 
     fn at_nodes(&self, kind: ModificationKind) -> Vec<Trial> {
         let alpha = self.base.options.damping.mass_coefficient;
-        let extent = self.budget.thickness;
+        let extent = self.thickness;
         let trial = |&node: &usize| {
             let (direction, first_order) = match kind {
                 ModificationKind::Mass => {
-                    let mass = self.budget.mass / extent;
+                    let mass = self.sizes.mass_kg / extent;
                     (None, self.growth(&|own| own.by_mass(node, alpha) * mass))
                 }
                 _ => {
@@ -106,8 +90,8 @@ impl Search<'_> {
                         _ => Derivatives::by_dashpot,
                     };
                     let amount = match kind {
-                        ModificationKind::Spring => self.budget.stiffness / extent,
-                        _ => self.budget.damping / extent,
+                        ModificationKind::Spring => self.sizes.stiffness_n_per_m / extent,
+                        _ => self.sizes.damping_n_s_per_m / extent,
                     };
                     let along = steepest(&of(self.fastest(), node), self.base.mesh.dimension);
                     let change = |own: &Derivatives| {
@@ -123,7 +107,7 @@ impl Search<'_> {
     }
 
     fn in_patches(&self, kind: ModificationKind) -> Vec<Trial> {
-        let beta = self.budget.patch_damping;
+        let beta = self.sizes.patch_damping_s;
         let trial = |(element, patch): &(usize, Vec<u32>)| {
             let change = |own: &Derivatives| {
                 let each = patch.iter().map(|&e| match kind {
@@ -147,7 +131,7 @@ impl Search<'_> {
             true => &[[1.0, 0.0]],
             false => &[[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]],
         };
-        let lengths = [0.5, 1.0].map(|share| share * self.budget.offset);
+        let lengths = [0.5, 1.0].map(|share| share * self.sizes.offset_m);
         let all = ways.iter().flat_map(|&[x, y]| {
             lengths.map(|length| Trial {
                 kind: ModificationKind::Offset,
@@ -167,7 +151,7 @@ impl Search<'_> {
         for trial in trials {
             let place = Vector3::from(self.place(&trial));
             let is_near = |(_, other): &(Trial, Vector3<f64>)| {
-                (place - other).norm() < 2.0 * self.budget.patch_radius
+                (place - other).norm() < 2.0 * self.sizes.patch_radius_m
             };
             if kept.len() < count && !kept.iter().any(is_near) {
                 kept.push((trial, place));

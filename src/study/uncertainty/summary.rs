@@ -4,9 +4,9 @@ use super::largest_friction;
 use crate::case::Case;
 use crate::results::Manifest;
 use crate::results::uncertainty::{
-    CriticalFriction, FamilySummary, Index, Interval, Sample, UncertaintySummary,
+    CriticalFriction, FamilySummary, Index, Sample, UncertaintySummary,
 };
-use crate::signal::student_95;
+use crate::signal::{Estimate, student_95};
 use std::collections::BTreeMap;
 
 /// Parts of the sequence whose scatter tells how sure a mean is.
@@ -19,12 +19,12 @@ const FRICTIONS: usize = 101;
 ///
 /// E. B. Wilson, "Probable inference, the law of succession, and statistical inference", J. Am. Stat. Assoc. 22 (1927)
 /// 209. Points of a Sobol sequence scatter less than the random trials that it is made for.
-pub fn wilson(hits: usize, count: usize) -> Interval {
+pub fn wilson(hits: usize, count: usize) -> Estimate {
     let (n, z2) = (count.max(1) as f64, 1.959_963_984_540_054_f64.powi(2));
     let value = hits as f64 / n;
     let middle = (value + 0.5 * z2 / n) / (1.0 + z2 / n);
     let half = (z2 * (value * (1.0 - value) + 0.25 * z2 / n) / n).sqrt() / (1.0 + z2 / n);
-    Interval {
+    Estimate {
         value,
         low: if hits == 0 { 0.0 } else { middle - half },
         high: if hits == count { 1.0 } else { middle + half },
