@@ -235,7 +235,7 @@ fn snapshot_fields(report: &TransientReport<'_>, snapshot: &Snapshot) -> Vec<Fie
             solid_vectors("displacement_m", sector, &snapshot.displacement),
             solid_vectors("velocity_m_per_s", sector, &snapshot.velocity),
         ];
-        let stress = revolved_stress(sector, report.material.of(0), &snapshot.displacement);
+        let stress = revolved_stress(sector, report.material, &snapshot.displacement);
         fields.extend(Field::solid_stresses(&stress, "rtz"));
         let nodes = snapshot.displacement.len() / 3;
         fields.extend(contact_fields(&report.contact_nodes, nodes, snapshot));
