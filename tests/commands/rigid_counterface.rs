@@ -122,6 +122,32 @@ fn a_generated_body_of_revolution_takes_what_breaks_its_symmetry() {
     let [auto, sparse] =
         ["auto", "sparse"].map(|out| fs::read(folder.path().join(out).join("K.mtx")).unwrap());
     assert!(auto == sparse, "the matrices are those of the whole mesh");
+    // What is predicted for one body, whichever way it was asked for.
+    let [auto, sparse] = ["auto", "sparse"].map(|method| {
+        let sets = [
+            "contact.friction_coefficient=0.6 ; cea.friction_coefficients=[0.0, 0.6]",
+            "improve.modifications=[\"mass\"] ; improve.confirm=0 ; improve.mass=0.01",
+            &format!("cea.method=\"{method}\""),
+        ];
+        let answer = run(folder.path(), "improve", DISC, method, &sets).code(0);
+        assert_eq!(answer.stdout.contains("whole mesh"), method == "auto", "{}", answer.stdout);
+        rows(&folder.path().join(method).join("candidates.csv"))
+    });
+    assert_eq!(auto.len(), sparse.len());
+    for (a, b) in auto.iter().zip(&sparse) {
+        let [a, b] = [a, b].map(|row| row.number("predicted_growth_rate_per_s"));
+        assert!((a - b).abs() < 1e-6 * a.abs(), "{a} {b}");
+    }
+    let shapes = folder.path().join("shapes.csv");
+    let points = ["0.0205,0,0.009", "0.01893953042,0.00784501036,0.009", "0,0.0205,0.009"];
+    let points = points.map(|point| format!("s,1000,{point},0,0,1\n")).concat();
+    fs::write(&shapes, format!("mode,frequency_hz,x,y,z,ux,uy,uz\n{points}")).unwrap();
+    let shapes = shapes.to_str().unwrap();
+    let mac = Run::of_text("mac", folder.path(), DISC).args(&[shapes, "--force"]).out("mac").end();
+    let mac = mac.code(0).summary();
+    // Motion along the axis, the same all around, is that of a mode of harmonic 0.
+    let best = mac["pairs"][0]["mode"].as_u64().unwrap() as usize;
+    assert_eq!(mac["modes"][best - 1]["harmonic"], 0, "{mac}");
     let springs = ["contact.normal_stiffness=1e12"];
     let refused = run(folder.path(), "matrices", DISC, "refused", &springs);
     refused.code(2).warns(&["contact.base_state", "\"compliant\""]);
