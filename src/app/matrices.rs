@@ -57,7 +57,7 @@ impl Run for Arguments {
 
     fn run(&self) -> Result<(), Failure> {
         let session = Session::start("matrices", &self.options)?;
-        let case = &session.case;
+        let case = &*session.case.on_whole_mesh()?;
         let folder = session.begin()?;
         let system = matrices(case, self.friction)?;
         let system = match self.friction {

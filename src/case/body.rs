@@ -128,8 +128,7 @@ impl Body {
         match self {
             Self::Annulus(annulus) => node_count(&annulus.specification),
             Self::Revolution(revolution) => solid_node_count(&revolution.specification),
-            Self::Imported(imported) => imported.mesh.node_count() as u128,
-            Self::Assembly(assembly) => assembly.mesh.node_count() as u128,
+            _ => self.whole_mesh().map_or(0, |mesh| mesh.node_count() as u128),
         }
     }
 
@@ -143,8 +142,7 @@ impl Body {
             Self::Revolution(Revolution { specification, .. }) => {
                 around(&specification.annulus) * specification.axial_elements as u128
             }
-            Self::Imported(imported) => imported.mesh.element_count() as u128,
-            Self::Assembly(assembly) => assembly.mesh.element_count() as u128,
+            _ => self.whole_mesh().map_or(0, |mesh| mesh.element_count() as u128),
         }
     }
 
@@ -170,49 +168,29 @@ impl Body {
 
     /// Whether an element has nodes between its corners.
     pub fn is_quadratic(&self) -> bool {
-        match self {
-            Self::Annulus(annulus) => annulus.specification.element.is_quadratic(),
-            Self::Revolution(revolution) => revolution.specification.annulus.element.is_quadratic(),
-            Self::Imported(imported) => {
-                let mut kinds = imported.mesh.element_kinds.iter();
-                kinds.any(|kind| kind.is_quadratic())
-            }
-            Self::Assembly(assembly) => {
-                let mut kinds = assembly.mesh.element_kinds.iter();
-                kinds.any(|kind| kind.is_quadratic())
-            }
-        }
+        let kinds = self.whole_mesh().map_or(&[][..], |mesh| &mesh.element_kinds);
+        let own = self.grid().map(|grid| &grid.element);
+        own.into_iter().chain(kinds).any(|kind| kind.is_quadratic())
     }
 
     /// Whether the elements are those that the explicit transient of this body takes.
     pub fn suits_transient(&self) -> bool {
-        match self {
-            Self::Imported(_) | Self::Assembly(_) => true,
-            Self::Annulus(_) | Self::Revolution(_) => !self.is_quadratic(),
-        }
+        !self.has_sectors() || !self.is_quadratic()
     }
 
     /// Area of the body across the axis, m2.
     pub fn area(&self) -> f64 {
-        let ring = |grid: &AnnulusSpecification| {
-            PI * (grid.outer_radius.powi(2) - grid.inner_radius.powi(2))
-        };
-        match self {
-            Self::Annulus(annulus) => ring(&annulus.specification),
-            Self::Revolution(revolution) => ring(&revolution.specification.annulus),
-            Self::Imported(imported) => imported.mesh.area(),
-            Self::Assembly(assembly) => (2.0 * assembly.mesh.size()).powi(2),
+        match (self.grid(), self.imported()) {
+            (Some(grid), _) => PI * (grid.outer_radius.powi(2) - grid.inner_radius.powi(2)),
+            (_, Some(imported)) => imported.mesh.area(),
+            _ => (2.0 * self.size()).powi(2),
         }
     }
 
     /// Half the largest extent of the body across the axis, m.
     pub fn size(&self) -> f64 {
-        match self {
-            Self::Annulus(annulus) => annulus.specification.outer_radius,
-            Self::Revolution(revolution) => revolution.specification.annulus.outer_radius,
-            Self::Imported(imported) => imported.mesh.size(),
-            Self::Assembly(assembly) => assembly.mesh.size(),
-        }
+        let of_mesh = self.whole_mesh().map(|mesh| mesh.size());
+        self.grid().map(|grid| grid.outer_radius).or(of_mesh).unwrap_or(0.0)
     }
 
     /// Whether its counterface moves along a straight line.
@@ -327,11 +305,7 @@ impl Body {
 
     /// Number of a node, counted from 0, as the user knows it: that of the mesh file, or counted from 1.
     pub fn node_label(&self, node: usize) -> usize {
-        match self {
-            Self::Imported(imported) => imported.mesh.node_label(node),
-            Self::Assembly(assembly) => assembly.mesh.node_label(node),
-            Self::Annulus(_) | Self::Revolution(_) => node + 1,
-        }
+        self.whole_mesh().map_or(node + 1, |mesh| mesh.node_label(node))
     }
 }
 

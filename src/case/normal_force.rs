@@ -10,9 +10,11 @@ use super::diagnostic::CaseErrors;
 use super::refusal;
 use super::{Case, Revolution};
 use crate::contact::{Counterpart, SlidingContact};
-use crate::fem::{assemble_stiffness, sector, solid};
+use crate::fem::{assemble_stiffness, sector};
 use crate::mesh::{SectorMesh, SolidSector};
-use crate::prestress::{PrestressError, SectorSliding, SolidSliding, SteadySliding};
+use crate::prestress::{
+    PrestressError, SectorSliding, SolidSliding, SteadySliding, supported_stiffness,
+};
 
 /// Factor of the steps up to an interference that presses enough.
 const STEP: f64 = 4.0;
@@ -154,14 +156,14 @@ impl Case {
         let pressed = match &self.body {
             Body::Annulus(annulus) => {
                 let mesh = SectorMesh::generate(&annulus.specification).map_err(in_words)?;
-                let stiffness = sector::supported_stiffness(&mesh, &annulus.materials);
+                let stiffness = supported_stiffness(&mesh, &annulus.materials);
                 let base = SectorSliding::solve(&mesh, &stiffness, &contact, law);
                 let whole = self.thickness * mesh.sector_count() as f64;
                 base.map(|base| vec![whole * base.state.normal_forces[0].iter().sum::<f64>()])
             }
             Body::Revolution(Revolution { specification, material }) => {
                 let mesh = SolidSector::generate(specification).map_err(in_words)?;
-                let elastic = solid::stiffness(&mesh, material);
+                let elastic = sector::stiffness(&mesh, material);
                 let law = self.contact.stiffness.base_law();
                 let base = SolidSliding::solve(&mesh, &elastic, &contact, law);
                 let whole = mesh.sector_count() as f64;

@@ -2,14 +2,36 @@
 //! are solved by.
 
 use super::assembly::AssemblyBody;
-use super::body::Revolution;
+use super::body::{Body, Revolution};
 use super::contact::Contact;
 use super::modifications::{Misfit, Modification, reshaped};
+use super::{Case, CaseErrors};
 use crate::contact::{Counterpart, PairFriction, RigidCounterface, RigidMotion, RigidShape};
 use crate::fem::{RegionMaterial, TabledMaterial};
 use crate::mesh::{BoundaryCondition, Mesh, SolidContact, SolidFace, SolidSector};
 use crate::prestress::{BaseChoice, SlidingSurfaces};
+use std::borrow::Cow;
 use std::sync::Arc;
+
+impl Case {
+    /// The case with a body of revolution on its whole mesh, as with `cea.method = "sparse"`.
+    ///
+    /// # Errors
+    /// What the whole mesh does not have, at its key.
+    pub fn on_whole_mesh(&self) -> Result<Cow<'_, Self>, CaseErrors> {
+        let Body::Revolution(revolution) = &self.body else {
+            return Ok(Cow::Borrowed(self));
+        };
+        let own = RegionMaterial { elastic: revolution.material, damping: None };
+        let material = TabledMaterial { own, table: None };
+        let body = whole_revolution(revolution, (&material, &self.contact), &[]);
+        let body = body.map_err(|(key, why)| {
+            let label = "does not fit the whole mesh";
+            self.error_at(&key, format!("{key}: {why}"), label, None::<String>)
+        })?;
+        Ok(Cow::Owned(Self { body: Body::Assembly(body), ..self.clone() }))
+    }
+}
 
 /// The whole mesh of a body of revolution on its rigid cylinder, or under its rigid ring.
 pub(super) fn whole_revolution(

@@ -2,7 +2,8 @@
 
 use super::CycleError;
 use crate::fem::fold::{MirrorParity, SectorMatrix};
-use crate::fem::{ElasticMaterial, MassKind, RayleighDamping, sector};
+use crate::fem::sector::{self, Sectored};
+use crate::fem::{ElasticMaterial, MassKind, RayleighDamping};
 use crate::linalg::banded::BandedMatrix;
 use crate::linalg::c64;
 use crate::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind, SectorMesh};
@@ -104,7 +105,7 @@ impl WaveBody {
         }
         let mesh = SectorMesh::generate(specification)?;
         let stiffness = sector::stiffness(&mesh, material);
-        let dofs = sector::wave_dofs(&mesh);
+        let dofs = mesh.wave_dofs();
         let fold = |n: usize, matrix: &SectorMatrix| dofs.fold(n, MirrorParity::Even, &[matrix]);
         let mass = fold(0, &sector::mass(&mesh, material, MassKind::Lumped));
         let support = match specification.outer {

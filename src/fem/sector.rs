@@ -1,100 +1,198 @@
-//! Matrices of one sector of the annulus: element stiffness and mass, supports, damping, geometric stiffness.
+//! Matrices of one sector of a body of equal sectors, in the plane and in space: stiffness, mass, geometric stiffness.
 //!
-//! Dofs are `2 k` radial and `2 k + 1` tangential of sector node `k`; nodes are numbered outwards,
-//! the contact edge first (see [`SectorMesh`]). So the matrices of a wave are block-tridiagonal in
-//! the radius.
+//! Dofs are `d k + c`, component `c` (radial, tangential, axial) of sector node `k`; for their order see [`SectorMesh`].
 
-use super::element;
+use super::element::ElementGeometry;
 use super::fold::{SectorMatrix, WaveDofs};
-use super::{MassKind, MaterialField, element_mass};
-use crate::mesh::{BoundaryCondition, NodalSupport, SectorMesh};
-use nalgebra::DMatrix;
+use super::{ElasticMaterial, MassKind, MaterialField};
+use crate::mesh::{SectorMesh, SolidSector};
+use nalgebra::{DMatrix, DVector, Matrix3};
+use std::collections::BTreeMap;
+use std::rc::Rc;
 
-/// The dofs that are not clamped.
-pub fn wave_dofs(sector: &SectorMesh) -> WaveDofs {
-    let free = 2 * sector.free_node_count();
-    let of_one_body = if sector.specification.element.is_quadratic() { 9 } else { 3 };
-    // Room for the contact of two bodies, in which a node of the shaft takes part in the motion of the pair.
-    let pair = sector.specification.shaft.map_or(0, |_| 2 * sector.contact_count);
-    let (dofs, sectors) = (2 * sector.node_count(), sector.sector_count());
-    WaveDofs::new(dofs, |dof| dof >= free, of_one_body + pair, sectors)
+/// One sector of a body of equal sectors, element by element.
+pub trait Sectored {
+    /// Components of a displacement.
+    const COMPONENTS: usize;
+
+    /// Elements of the sector.
+    fn element_count(&self) -> usize;
+
+    /// Regions with a material each.
+    fn region_count(&self) -> usize;
+
+    /// Region of an element.
+    fn region(&self, element: usize) -> usize;
+
+    /// The first element of the region that has the same matrices in the frames of its nodes.
+    fn alike(&self, element: usize) -> usize {
+        element
+    }
+
+    /// Sector nodes of an element with their angles in halves of a sector.
+    fn places(&self, element: usize) -> Vec<(usize, usize)>;
+
+    /// Geometry of an element, in the frames of its nodes.
+    fn geometry(&self, element: usize) -> ElementGeometry;
+
+    /// The dofs that nothing holds.
+    fn wave_dofs(&self) -> WaveDofs;
 }
 
-/// Sums the element matrices `compute(e)` (nodal frames) of one sector.
-fn assemble(sector: &SectorMesh, compute: impl Fn(usize) -> DMatrix<f64>) -> SectorMatrix {
-    let mesh = &sector.strip;
-    let elements = (0..mesh.element_count()).map(|e| {
-        let nodes = mesh.element_nodes(e).iter().map(|&node| node as usize);
-        let nodes = nodes.map(|node| (sector.sector_node_of[node], sector.half_steps[node]));
-        (nodes.collect::<Vec<_>>(), compute(e))
-    });
-    SectorMatrix::sum(2, elements)
+impl Sectored for SectorMesh {
+    const COMPONENTS: usize = 2;
+
+    fn element_count(&self) -> usize {
+        self.strip.element_count()
+    }
+
+    fn region_count(&self) -> usize {
+        self.strip.regions.len().max(1)
+    }
+
+    fn region(&self, element: usize) -> usize {
+        self.strip.region(element)
+    }
+
+    fn places(&self, element: usize) -> Vec<(usize, usize)> {
+        let nodes = self.strip.element_nodes(element).iter().map(|&node| node as usize);
+        nodes.map(|node| (self.sector_node_of[node], self.half_steps[node])).collect()
+    }
+
+    fn geometry(&self, element: usize) -> ElementGeometry {
+        ElementGeometry::new(&self.strip, element)
+    }
+
+    fn wave_dofs(&self) -> WaveDofs {
+        let free = 2 * self.free_node_count();
+        let of_one_body = if self.specification.element.is_quadratic() { 9 } else { 3 };
+        // Room for the contact of two bodies, in which a node of the shaft takes part in the motion of the pair.
+        let pair = self.specification.shaft.map_or(0, |_| 2 * self.contact_count);
+        let (dofs, sectors) = (2 * self.node_count(), self.sector_count());
+        WaveDofs::new(dofs, |dof| dof >= free, of_one_body + pair, sectors)
+    }
 }
 
-/// Springs and dashpots of the supported edges, Pa and Pa s.
-pub fn supports(sector: &SectorMesh) -> [SectorMatrix; 2] {
-    let supports = sector.strip.nodal_supports();
-    let of = |part: fn(&NodalSupport) -> [[f64; 2]; 2]| {
-        let own = supports.iter().map(|support| {
-            let matrix = part(support);
-            let node = [(sector.sector_node_of[support.node], 0)];
-            (node, DMatrix::from_fn(2, 2, |row, column| matrix[row][column]))
-        });
-        SectorMatrix::sum(2, own)
-    };
-    [of(|support| support.stiffness), of(|support| support.damping)]
-}
+impl Sectored for SolidSector {
+    const COMPONENTS: usize = 3;
 
-/// Name, springs and dashpots of each supported edge.
-pub fn each_support(sector: &SectorMesh) -> Vec<(String, [SectorMatrix; 2])> {
-    let boundaries = &sector.strip.boundaries;
-    let of = |own: usize| {
-        // The sector with this support alone.
-        let mut alone = sector.clone();
-        for (other, boundary) in alone.strip.boundaries.iter_mut().enumerate() {
-            if other != own {
-                boundary.condition = BoundaryCondition::Free;
-            }
+    fn element_count(&self) -> usize {
+        self.elements.len()
+    }
+
+    fn region_count(&self) -> usize {
+        1
+    }
+
+    fn region(&self, _: usize) -> usize {
+        0
+    }
+
+    /// Layers are alike.
+    fn alike(&self, element: usize) -> usize {
+        element % self.divisions()[0]
+    }
+
+    fn places(&self, element: usize) -> Vec<(usize, usize)> {
+        self.elements[element].clone()
+    }
+
+    fn geometry(&self, element: usize) -> ElementGeometry {
+        let (mut points, mut frames) = (Vec::new(), Vec::new());
+        for &(node, half) in &self.elements[element] {
+            let place = &self.nodes[node];
+            let (sin, cos) = (self.half_angle() * half as f64).sin_cos();
+            points.push([place.radius * cos, place.radius * sin, place.height]);
+            frames.push(Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0));
         }
-        (boundaries[own].name.clone(), supports(&alone))
-    };
-    let is_supported =
-        |own: &usize| matches!(boundaries[*own].condition, BoundaryCondition::Support(_));
-    (0..boundaries.len()).filter(is_supported).map(of).collect()
+        ElementGeometry::of_nodes(self.element_kind(), points, frames)
+    }
+
+    fn wave_dofs(&self) -> WaveDofs {
+        let half_bandwidth = 3 * self.node_bandwidth() + 2;
+        let (dofs, sectors) = (3 * self.node_count(), self.sector_count());
+        WaveDofs::new(dofs, |dof| self.is_held(dof), half_bandwidth, sectors)
+    }
 }
 
-/// Stiffness of one sector with the springs of its supports, Pa.
-pub fn supported_stiffness(sector: &SectorMesh, material: &dyn MaterialField) -> SectorMatrix {
-    let [springs, _] = supports(sector);
-    stiffness(sector, material).plus(&springs)
-}
-
-/// Elastic stiffness `K_e` of one sector without its supports, Pa.
-pub fn stiffness(sector: &SectorMesh, material: &dyn MaterialField) -> SectorMatrix {
-    let mesh = &sector.strip;
-    assemble(sector, |e| element::stiffness(mesh, e, material.of(mesh.region(e))))
-}
-
-/// Mass of one sector, kg/m.
-pub fn mass(sector: &SectorMesh, material: &dyn MaterialField, kind: MassKind) -> SectorMatrix {
-    assemble(sector, |e| element_mass(&sector.strip, material, kind, e))
-}
-
-/// Geometric stiffness of the stress that a displacement, the same in every sector, causes, Pa.
-///
-/// `displacement` holds `(u_r, u_theta)` of each free sector node, m. A purely radial one gives a matrix of even parity, a purely
-/// tangential one of odd parity.
-pub fn geometric_stiffness(
-    sector: &SectorMesh,
+/// Sums the element matrices `compute(e, material)` (nodal frames) of the elements of a region, or of all.
+fn assemble<S: Sectored>(
+    sector: &S,
     material: &dyn MaterialField,
+    region: Option<usize>,
+    compute: impl Fn(&ElementGeometry, &ElasticMaterial) -> DMatrix<f64>,
+) -> SectorMatrix {
+    let mut known: BTreeMap<usize, Rc<DMatrix<f64>>> = BTreeMap::new();
+    let mut matrix_of = |e: usize| {
+        let own = sector.alike(e);
+        let new = || Rc::new(compute(&sector.geometry(own), material.of(sector.region(own))));
+        Rc::clone(known.entry(own).or_insert_with(new))
+    };
+    let is_own = |e: &usize| region.is_none_or(|region| sector.region(*e) == region);
+    let elements = (0..sector.element_count()).filter(is_own);
+    SectorMatrix::sum(S::COMPONENTS, elements.map(|e| (sector.places(e), matrix_of(e))))
+}
+
+/// Elastic stiffness `K_e` of one sector without its supports, or of one of its regions: N/m, in the plane Pa.
+pub fn stiffness_of<S: Sectored>(
+    sector: &S,
+    material: &dyn MaterialField,
+    region: Option<usize>,
+) -> SectorMatrix {
+    assemble(sector, material, region, |geometry, own| geometry.stiffness(own).stiffness)
+}
+
+/// [`stiffness_of`] all regions.
+pub fn stiffness<S: Sectored>(sector: &S, material: &dyn MaterialField) -> SectorMatrix {
+    stiffness_of(sector, material, None)
+}
+
+/// Mass of one sector or of one of its regions, consistent or lumped: kg, in the plane kg/m.
+pub fn mass_of<S: Sectored>(
+    sector: &S,
+    material: &dyn MaterialField,
+    kind: MassKind,
+    region: Option<usize>,
+) -> SectorMatrix {
+    assemble(sector, material, region, |geometry, own| match kind {
+        MassKind::Consistent => geometry.consistent_mass(own),
+        MassKind::Lumped => {
+            let masses = geometry.lumped_mass(own).into_iter();
+            let each = masses.flat_map(|mass| [mass; 3].into_iter().take(S::COMPONENTS));
+            DMatrix::from_diagonal(&DVector::from_vec(each.collect()))
+        }
+    })
+}
+
+/// [`mass_of`] all regions.
+pub fn mass<S: Sectored>(sector: &S, material: &dyn MaterialField, kind: MassKind) -> SectorMatrix {
+    mass_of(sector, material, kind, None)
+}
+
+/// Geometric stiffness `∫ (grad N_I . sigma . grad N_J) I dV` of a region for the stress that a displacement, the same in every
+/// sector, causes, the amplitudes of the incompatible modes that come with it included: N/m, in the plane Pa.
+///
+/// `displacement` holds the components of each sector node, m; of nodes that come last and do not move it may lack them. One
+/// without tangential components gives a matrix of even parity, a purely tangential one of odd parity.
+pub fn geometric_stiffness<S: Sectored>(
+    sector: &S,
+    material: &dyn MaterialField,
+    region: usize,
     displacement: &[f64],
 ) -> SectorMatrix {
+    let mut known: BTreeMap<usize, Option<DMatrix<f64>>> = BTreeMap::new();
+    let own = material.of(region);
     let component = |dof: usize| displacement.get(dof).copied().unwrap_or(0.0);
-    let nodes = sector.sector_node_of.iter();
-    let spread: Vec<f64> =
-        nodes.flat_map(|node| [component(2 * node), component(2 * node + 1)]).collect();
-    assemble(sector, |e| {
-        let material = material.of(sector.strip.region(e));
-        element::geometric_stiffness(&sector.strip, e, material, &spread)
-    })
+    let elements = (0..sector.element_count()).filter(|e| sector.region(*e) == region);
+    let matrices = elements.map(|e| {
+        let (nodes, alike) = (sector.places(e), sector.alike(e));
+        let dofs = nodes.iter().flat_map(|(node, _)| (0..S::COMPONENTS).map(move |c| (node, c)));
+        let values = dofs.map(|(node, c)| component(S::COMPONENTS * node + c));
+        let values = DVector::from_iterator(S::COMPONENTS * nodes.len(), values);
+        let recovered = known.entry(alike).or_insert_with(|| sector.geometry(alike).recovered(own));
+        let internal = recovered.as_ref().map(|recovered| recovered * &values);
+        let geometry = sector.geometry(e);
+        (nodes, geometry.geometric_stiffness(own, values.as_slice(), internal.as_ref()))
+    });
+    SectorMatrix::sum(S::COMPONENTS, matrices)
 }

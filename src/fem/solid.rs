@@ -1,19 +1,109 @@
-//! Matrices of one sector of a body of revolution in three dimensions, three components a node, `(u_r, u_theta, u_z)`.
+//! Terms on the faces of a body of revolution in three dimensions: contact, supports, pressure.
 
-mod element;
-mod face;
-mod stress;
+use super::fold::SectorMatrix;
+use crate::mesh::{FaceElement, SolidSector, face_quadrature};
+use nalgebra::DMatrix;
 
-pub use element::{mass, stiffness};
-pub use face::{FaceTerm, face_load, face_matrix, whole_element};
-pub use stress::geometric_stiffness;
+/// A term `∫ w d_row (d_column . u) dA` on a face: a force along one direction for each unit of motion along another.
+pub struct FaceTerm<'a> {
+    /// Component `(r, theta, z)` along which the force acts.
+    pub row: usize,
+    /// Component of the motion.
+    pub column: usize,
+    /// `w`, per unit of area, from the radius (m) and the place along the element, -1 to 1.
+    pub weight: &'a dyn Fn(&FaceElement, f64, f64) -> f64,
+    /// The part of an element that it acts on, from -1 to 1 along it; of a linear element the nodes at those of its ends that
+    /// belong to it.
+    pub span: &'a dyn Fn(&FaceElement) -> [f64; 2],
+    /// Whether the weight of a linear element is taken at its nodes; else at its Gauss points.
+    pub is_nodal: bool,
+}
 
-use super::fold::WaveDofs;
-use crate::mesh::SolidSector;
+/// All of an element.
+pub fn whole_element(_: &FaceElement) -> [f64; 2] {
+    [-1.0, 1.0]
+}
 
-/// The dofs that no boundary holds.
-pub fn wave_dofs(sector: &SolidSector) -> WaveDofs {
-    let half_bandwidth = 3 * sector.node_bandwidth() + 2;
-    let (dofs, sectors) = (3 * sector.node_count(), sector.sector_count());
-    WaveDofs::new(dofs, |dof| sector.is_held(dof), half_bandwidth, sectors)
+/// Components in a node's frame of a unit vector along `component` at an angle `ahead` of the point.
+fn turned(component: usize, ahead: f64) -> [f64; 3] {
+    let (sin, cos) = ahead.sin_cos();
+    match component {
+        0 => [cos, -sin, 0.0],
+        1 => [sin, cos, 0.0],
+        _ => [0.0, 0.0, 1.0],
+    }
+}
+
+/// Angle of each node ahead of a point of a face element, rad.
+fn angles_ahead(sector: &SolidSector, face: &FaceElement, at: [f64; 2]) -> Vec<f64> {
+    let ahead = |(_, half): &(usize, usize)| sector.half_angle() * (*half as f64 - 1.0 - at[0]);
+    face.nodes.iter().map(ahead).collect()
+}
+
+/// The matrix of a term over some elements of a face: consistent for quadratic elements, lumped at the nodes for linear ones.
+pub fn face_matrix(
+    sector: &SolidSector,
+    faces: &[FaceElement],
+    term: &FaceTerm<'_>,
+) -> SectorMatrix {
+    let matrix_of = |face: &FaceElement| {
+        let size = 3 * face.nodes.len();
+        let mut matrix = DMatrix::zeros(size, size);
+        let span = (term.span)(face);
+        let (middle, half) = match sector.is_quadratic() {
+            true => (0.5 * (span[0] + span[1]), 0.5 * (span[1] - span[0])),
+            false => (0.0, 1.0),
+        };
+        for ([x, y], share) in face_quadrature(sector.is_quadratic()) {
+            let point = ([x, middle + half * y], half * share);
+            let (values, area) = face.values_at(sector, point);
+            let radius = face.radius_at(sector, point.0);
+            let weight = |along: f64| area * (term.weight)(face, radius, along);
+            if !sector.is_quadratic() {
+                for (a, value) in values.iter().enumerate() {
+                    // Corners 0 and 1 lie at the beginning of the element.
+                    let end = [-1.0, 1.0][a / 2];
+                    if span[a / 2].abs() == 1.0 {
+                        let weight = weight(if term.is_nodal { end } else { point.0[1] });
+                        matrix[(3 * a + term.row, 3 * a + term.column)] += weight * value;
+                    }
+                }
+                continue;
+            }
+            let weight = weight(point.0[1]);
+            let ahead = angles_ahead(sector, face, point.0);
+            let [rows, columns] = [term.row, term.column].map(|c| along(&values, &ahead, c));
+            for (j, column) in columns.iter().enumerate() {
+                for (i, row) in rows.iter().enumerate() {
+                    matrix[(i, j)] += weight * row * column;
+                }
+            }
+        }
+        matrix
+    };
+    SectorMatrix::sum(3, faces.iter().map(|face| (&face.nodes, matrix_of(face))))
+}
+
+/// Components in the nodes' frames of a unit vector along `component` at a point, times `values` of the nodes.
+fn along(values: &[f64], ahead: &[f64], component: usize) -> Vec<f64> {
+    let nodes = values.iter().zip(ahead);
+    nodes.flat_map(|(value, angle)| turned(component, *angle).map(|c| c * value)).collect()
+}
+
+/// Forces of a unit traction along `component` over some elements of a face, the same in every sector, m2.
+pub fn face_load(sector: &SolidSector, faces: &[FaceElement], component: usize) -> Vec<f64> {
+    let mut load = vec![0.0; 3 * sector.node_count()];
+    for face in faces {
+        for point in face_quadrature(sector.is_quadratic()) {
+            let (values, area) = face.values_at(sector, point);
+            let ahead = angles_ahead(sector, face, point.0);
+            for (((node, _), value), angle) in face.nodes.iter().zip(values).zip(ahead) {
+                let angle = if sector.is_quadratic() { angle } else { 0.0 };
+                for (c, part) in turned(component, angle).into_iter().enumerate() {
+                    load[3 * node + c] += area * value * part;
+                }
+            }
+        }
+    }
+    load
 }

@@ -105,7 +105,7 @@ pub fn solid_stress(
 /// repeat, which then is what is found.
 pub fn revolved_stress(
     sector: &SolidSector,
-    material: &ElasticMaterial,
+    material: &dyn MaterialField,
     displacement: &[f64],
 ) -> Vec<SolidStress> {
     let per_sector = sector.node_count();

@@ -3,7 +3,7 @@
 use super::harmonic::{Damping, Harmonic};
 use super::{Direction, FrfError, Terminal};
 use crate::fem::fold::WaveDofs;
-use crate::fem::{ElasticMaterial, MassKind, RayleighDamping};
+use crate::fem::{MassKind, MaterialField, RayleighDamping};
 use crate::mesh::{BoundaryCondition, SectorMesh, SolidSector};
 use crate::prestress::{MovingHarmonic, WaveTangent};
 
@@ -30,7 +30,7 @@ impl CyclicSystem {
     /// beta_R K`.
     pub fn body(
         sector: &SectorMesh,
-        material: &ElasticMaterial,
+        material: &dyn MaterialField,
         mass: MassKind,
         damping: RayleighDamping,
         is_clamped: bool,
@@ -39,7 +39,7 @@ impl CyclicSystem {
         if !is_clamped {
             sector = sector.with_free_outer_edge();
         }
-        let tangent = WaveTangent::of_free_annulus(&sector, material, mass, damping);
+        let tangent = WaveTangent::of_free(&sector, material, mass, damping);
         Self::sliding(&tangent, 0.0)
     }
 
@@ -47,7 +47,7 @@ impl CyclicSystem {
     /// `C = alpha_R M + beta_R K` and the dashpots of its supports.
     pub fn solid_body(
         sector: &SolidSector,
-        material: &ElasticMaterial,
+        material: &dyn MaterialField,
         mass: MassKind,
         damping: RayleighDamping,
         is_clamped: bool,
@@ -56,7 +56,7 @@ impl CyclicSystem {
         if !is_clamped {
             sector.specification.conditions = [BoundaryCondition::Free; 4];
         }
-        let tangent = WaveTangent::of_free_revolution(&sector, material, mass, damping);
+        let tangent = WaveTangent::of_free(&sector, material, mass, damping);
         Self::sliding(&tangent, 0.0)
     }
 

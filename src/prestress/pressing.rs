@@ -1,10 +1,10 @@
 //! Pressed equilibrium of a body of revolution in steady sliding: rigid contact ring by ring, or springs over the face.
 
-use super::PrestressError;
-use super::face_conditions::pressure_load;
+use super::{PrestressError, pressure_load};
 use crate::contact::{NormalLaw, SlidingContact};
 use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
-use crate::fem::solid::{FaceTerm, face_matrix, wave_dofs};
+use crate::fem::sector::Sectored;
+use crate::fem::solid::{FaceTerm, face_matrix};
 use crate::linalg::banded::{BandedFactor, BandedMatrix};
 use crate::mesh::{FaceElement, SolidSector};
 
@@ -288,7 +288,7 @@ pub(super) struct System {
 impl System {
     pub fn new(sector: &SolidSector, terms: &[&SectorMatrix]) -> Self {
         let dofs = 3 * sector.node_count();
-        let WaveDofs { half_bandwidth, sectors, .. } = wave_dofs(sector);
+        let WaveDofs { half_bandwidth, sectors, .. } = sector.wave_dofs();
         let all = WaveDofs::new(dofs, |_| false, half_bandwidth, sectors);
         let stiffness = all.fold(0, MirrorParity::Even, terms);
         Self { dofs, is_held: (0..dofs).map(|dof| sector.is_held(dof)).collect(), stiffness }

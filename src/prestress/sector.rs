@@ -7,7 +7,7 @@ use super::pressed_state::PressedState;
 use crate::contact::{NormalLaw, Point, Row, SlidingContact, SteadyFriction};
 use crate::fem::Triplets;
 use crate::fem::fold::{MirrorParity, SectorMatrix};
-use crate::fem::sector;
+use crate::fem::sector::Sectored;
 use crate::mesh::SectorMesh;
 
 /// The state of steady sliding of an annulus, the same in every sector.
@@ -40,7 +40,7 @@ impl SectorSliding {
         let surface_speed = sector.specification.inner_radius * contact.rotation_speed;
         let friction = contact.steady_friction(sliding_direction, surface_speed);
         let points = points(sector, friction);
-        let band = sector::wave_dofs(sector).fold(0, MirrorParity::Even, &[elastic]);
+        let band = sector.wave_dofs().fold(0, MirrorParity::Even, &[elastic]);
         let entries = (0..band.dimension()).flat_map(|row| {
             let band = &band;
             band.columns(row).map(move |column| (row, column, band.get(row, column)))

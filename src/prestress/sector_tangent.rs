@@ -1,12 +1,11 @@
 //! The terms of a plane annulus in steady sliding.
 
 use super::solid_contact::ContactTerms;
-use super::wave_tangent::{RegionTerms, SectorLayout, WaveContact, WaveTerms};
-use super::{PrestressError, SectorSliding, TangentOptions, WaveTangent};
+use super::wave_tangent::{WaveContact, WaveTerms};
+use super::{PrestressError, SectorSliding, TangentOptions, WaveTangent, supports};
 use crate::contact::SlidingContact;
+use crate::fem::MaterialField;
 use crate::fem::fold::SectorMatrix;
-use crate::fem::sector;
-use crate::fem::{ElasticMaterial, MassKind, MaterialField, RayleighDamping, RegionMaterial};
 use crate::mesh::SectorMesh;
 use std::f64::consts::PI;
 
@@ -24,76 +23,21 @@ impl WaveTangent {
         options: &TangentOptions,
         contact: &SlidingContact,
     ) -> Result<Self, PrestressError> {
-        let count = sector.strip.regions.len().max(1);
-        let fields: Vec<Vec<RegionMaterial>> =
-            (0..count).map(|own| alone(material, own, count)).collect();
-        let elastic: Vec<SectorMatrix> =
-            fields.iter().map(|own| sector::stiffness(sector, own)).collect();
-        let supports: Vec<(String, [SectorMatrix; 2])> = sector::each_support(sector);
-
+        let mut terms = WaveTerms::of(sector, material, options.mass);
         // The state that all parts have together.
-        let springs = supports.iter().map(|(_, [springs, _])| springs);
-        let supported = elastic[1..].iter().chain(springs);
-        let supported = supported.fold(elastic[0].clone(), |sum, own| sum.plus(own));
+        let [springs, _] = supports(sector);
+        let supported = terms.elastic().plus(&springs);
         let base = SectorSliding::solve(sector, &supported, contact, options.contact.law)?;
-
-        let stress = |own: &Vec<RegionMaterial>| match options.geometric_stiffness {
-            true => [0, 1].map(|power| {
-                sector::geometric_stiffness(sector, own, &base.state.displacements[power])
-            }),
-            false => Default::default(),
-        };
-        let regions = fields.iter().zip(elastic).enumerate().map(|(region, (own, elastic))| {
-            let mass = sector::mass(sector, own, options.mass);
-            let damping = material.own_damping(region);
-            RegionTerms { mass, elastic, stress: stress(own), damping }
-        });
         let edge = Edge { sector, base: &base };
-        let terms = WaveTerms {
-            regions: regions.collect(),
-            supports,
-            turning: match options.geometric_stiffness {
-                true => edge.turning(),
-                false => Default::default(),
-            },
-            contact: edge.terms(options),
-        };
-        let parts = (terms, edge.dofs(options));
-        Ok(Self::new(layout(sector), parts, options, base.sliding_direction))
-    }
-
-    /// An annulus without contact and prestress.
-    pub fn of_free_annulus(
-        sector: &SectorMesh,
-        material: &ElasticMaterial,
-        mass: MassKind,
-        damping: RayleighDamping,
-    ) -> Self {
-        let matrices = [sector::mass(sector, material, mass), sector::stiffness(sector, material)];
-        Self::alone(layout(sector), matrices, sector::each_support(sector), (mass, damping))
-    }
-}
-
-fn layout(sector: &SectorMesh) -> SectorLayout {
-    let half_step = |&node: &usize| (node, sector.half_step(node));
-    SectorLayout {
-        components: 2,
-        nodes: sector.sector_node_of[..sector.node_count()].iter().map(half_step).collect(),
-        dofs: sector::wave_dofs(sector),
-    }
-}
-
-/// The materials of all regions but one taken away.
-fn alone(material: &dyn MaterialField, own: usize, count: usize) -> Vec<RegionMaterial> {
-    let of = |region: usize| {
-        let mut elastic = *material.of(region);
-        if region != own {
-            elastic = elastic.without_stiffness();
-            elastic.density = 0.0;
+        if options.geometric_stiffness {
+            let displacements = [0, 1].map(|power| &base.state.displacements[power][..]);
+            terms.take_stress(sector, material, displacements);
+            terms.turning = edge.turning();
         }
-        RegionMaterial { elastic, damping: None }
-    };
-    (0..count).map(of).collect()
+        terms.contact = edge.terms(options);
+        let parts = (terms, edge.dofs(options));
+        Ok(Self::new(sector, parts, options, base.sliding_direction))
+    }
 }
 
 /// The contact edge of a sector in steady sliding.

@@ -1,8 +1,7 @@
 //! Steady sliding of a body of revolution in three dimensions, from one sector.
 
-use super::PrestressError;
-use super::face_conditions::supports;
 use super::pressing::{System, along_element, press_on_springs, press_rigidly, pressed_span};
+use super::{PrestressError, supports};
 use crate::contact::{NormalLaw, SlidingContact, SteadyFriction};
 use crate::fem::fold::SectorMatrix;
 use crate::fem::solid::whole_element;

@@ -1,13 +1,11 @@
 //! The terms of a body of revolution in three dimensions in steady sliding.
 
-use super::face_conditions::each_support;
 use super::solid_contact::contact_terms;
-use super::wave_tangent::{RegionTerms, SectorLayout, WaveContact, WaveTerms};
+use super::wave_tangent::{WaveContact, WaveTerms};
 use super::{PrestressError, SolidSliding, TangentOptions, WaveTangent};
 use crate::contact::SlidingContact;
+use crate::fem::MaterialField;
 use crate::fem::fold::SectorMatrix;
-use crate::fem::solid;
-use crate::fem::{ElasticMaterial, MassKind, RayleighDamping};
 use crate::mesh::SolidSector;
 
 impl WaveTangent {
@@ -17,57 +15,25 @@ impl WaveTangent {
     /// [`PrestressError`] where that state does not exist, [`PrestressError::AtRest`] where the rotor does not turn.
     pub fn of_revolution(
         sector: &SolidSector,
-        material: &ElasticMaterial,
+        material: &dyn MaterialField,
         options: &TangentOptions,
         contact: &SlidingContact,
     ) -> Result<Self, PrestressError> {
         if contact.rotation_speed == 0.0 {
             return Err(PrestressError::AtRest);
         }
-        let elastic = solid::stiffness(sector, material);
-        let base = SolidSliding::solve(sector, &elastic, contact, options.contact.base_law())?;
-        let stress = |displacement| solid::geometric_stiffness(sector, material, displacement);
-        let (stress, turning) = match options.geometric_stiffness {
-            true => (
-                [&base.pressed_displacement, &base.sheared_displacement].map(|u| stress(u)),
-                turning_forces(sector, &base),
-            ),
-            false => Default::default(),
-        };
-        let mass = solid::mass(sector, material, options.mass);
-        let terms = WaveTerms {
-            regions: vec![RegionTerms { mass, elastic, stress, damping: None }],
-            supports: supports_of(sector),
-            turning,
-            contact: contact_terms(&base, sector, &options.contact),
-        };
+        let mut terms = WaveTerms::of(sector, material, options.mass);
+        let base =
+            SolidSliding::solve(sector, &terms.elastic(), contact, options.contact.base_law())?;
+        if options.geometric_stiffness {
+            let displacements = [&base.pressed_displacement[..], &base.sheared_displacement];
+            terms.take_stress(sector, material, displacements);
+            terms.turning = turning_forces(sector, &base);
+        }
+        terms.contact = contact_terms(&base, sector, &options.contact);
         let parts = (terms, rings(sector, &base, options));
-        Ok(Self::new(layout(sector), parts, options, base.sliding_direction))
+        Ok(Self::new(sector, parts, options, base.sliding_direction))
     }
-
-    /// A body of revolution without contact and prestress.
-    pub fn of_free_revolution(
-        sector: &SolidSector,
-        material: &ElasticMaterial,
-        mass: MassKind,
-        damping: RayleighDamping,
-    ) -> Self {
-        let matrices = [solid::mass(sector, material, mass), solid::stiffness(sector, material)];
-        Self::alone(layout(sector), matrices, supports_of(sector), (mass, damping))
-    }
-}
-
-fn layout(sector: &SolidSector) -> SectorLayout {
-    SectorLayout {
-        components: 3,
-        nodes: sector.nodes.iter().map(|node| node.half_step).enumerate().collect(),
-        dofs: solid::wave_dofs(sector),
-    }
-}
-
-fn supports_of(sector: &SolidSector) -> Vec<(String, [SectorMatrix; 2])> {
-    let all = each_support(sector).into_iter();
-    all.map(|(name, own)| (name.to_owned(), own)).collect()
 }
 
 /// The dofs of the contact, ring by ring. Those of a ring are free to move along the normal, else they would not belong to it.

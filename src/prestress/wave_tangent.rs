@@ -1,10 +1,10 @@
 //! The small motions around steady sliding of a body of equal sectors, harmonic by harmonic, from the terms of one sector.
 
 use super::solid_contact::ContactTerms;
-use super::{DampingModel, FrictionPolynomial, HarmonicTangent, TangentOptions};
+use super::{DampingModel, FrictionPolynomial, HarmonicTangent, TangentOptions, WaveSector};
 use crate::contact::ContactStiffness;
 use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
-use crate::fem::{DofMap, MassKind, RayleighDamping};
+use crate::fem::{DofMap, MassKind, MaterialField, RayleighDamping, sector};
 use crate::linalg::banded::BandedMatrix;
 use crate::linalg::c64;
 
@@ -72,6 +72,41 @@ pub(super) struct RegionTerms {
     pub damping: Option<RayleighDamping>,
 }
 
+impl WaveTerms {
+    /// Regions without stress and supports of a sector.
+    pub fn of<S: WaveSector>(sector: &S, material: &dyn MaterialField, kind: MassKind) -> Self {
+        let region = |region: usize| RegionTerms {
+            mass: sector::mass_of(sector, material, kind, Some(region)),
+            elastic: sector::stiffness_of(sector, material, Some(region)),
+            stress: Default::default(),
+            damping: material.own_damping(region),
+        };
+        Self {
+            regions: (0..sector.region_count()).map(region).collect(),
+            supports: sector.supports(),
+            ..Self::default()
+        }
+    }
+
+    /// Elastic stiffness of all regions.
+    pub fn elastic(&self) -> SectorMatrix {
+        let (first, others) = self.regions.split_first().expect("a body has a region");
+        others.iter().fold(first.elastic.clone(), |sum, own| sum.plus(&own.elastic))
+    }
+
+    /// Takes up the stress of the displacements without friction and for each unit of it.
+    pub fn take_stress<S: WaveSector>(
+        &mut self,
+        sector: &S,
+        material: &dyn MaterialField,
+        states: [&[f64]; 2],
+    ) {
+        for (region, own) in self.regions.iter_mut().enumerate() {
+            own.stress = states.map(|u| sector::geometric_stiffness(sector, material, region, u));
+        }
+    }
+}
+
 /// The contact of one sector, by its dofs.
 #[derive(Clone, Debug, Default)]
 pub(super) struct WaveContact {
@@ -89,42 +124,32 @@ pub(super) struct WaveContact {
     pub rigid: Vec<(usize, Vec<(usize, f64)>)>,
 }
 
-/// The dofs and nodes of a sector.
-pub(super) struct SectorLayout {
-    pub components: usize,
-    /// See [`WaveTangent::nodes`].
-    pub nodes: Vec<(usize, usize)>,
-    /// Dofs that nothing holds.
-    pub dofs: WaveDofs,
-}
-
 impl WaveTangent {
     /// A body without contact and prestress, `C = alpha_R M + beta_R K` and the dashpots of its supports.
-    pub(super) fn alone(
-        layout: SectorLayout,
-        [mass, elastic]: [SectorMatrix; 2],
-        supports: Vec<(String, [SectorMatrix; 2])>,
-        (mass_kind, damping): (MassKind, RayleighDamping),
+    pub fn of_free<S: WaveSector>(
+        sector: &S,
+        material: &dyn MaterialField,
+        mass: MassKind,
+        damping: RayleighDamping,
     ) -> Self {
         let options = TangentOptions {
-            mass: mass_kind,
+            mass,
             geometric_stiffness: false,
             damping,
             damping_model: DampingModel::WholeTangent,
             contact: ContactStiffness::default(),
         };
-        let region = RegionTerms { mass, elastic, stress: Default::default(), damping: None };
-        let terms = WaveTerms { regions: vec![region], supports, ..WaveTerms::default() };
-        Self::new(layout, (terms, WaveContact::default()), &options, 1.0)
+        let terms = WaveTerms::of(sector, material, mass);
+        Self::new(sector, (terms, WaveContact::default()), &options, 1.0)
     }
 
-    pub(super) fn new(
-        layout: SectorLayout,
+    pub(super) fn new<S: WaveSector>(
+        sector: &S,
         (terms, mut contact): (WaveTerms, WaveContact),
         options: &TangentOptions,
         sliding_direction: f64,
     ) -> Self {
-        let SectorLayout { components, nodes, dofs } = layout;
+        let dofs = sector.wave_dofs();
         let place = |dof: usize| dofs.unknown_of[dof];
         let is_still = |dof: usize| contact.rigid.iter().any(|(normal, _)| *normal == dof);
         let total = dofs.unknown_of.len();
@@ -143,8 +168,8 @@ impl WaveTangent {
             moving: unknowns.dofs.iter().filter_map(|&dof| place(dof)).collect(),
             options: *options,
             unknowns,
-            components,
-            nodes,
+            components: S::COMPONENTS,
+            nodes: sector.nodes(),
             dofs,
             terms,
             contact,

@@ -32,14 +32,15 @@ const UNITS: [(f64, &str); 4] =
 /// Source: R. J. Allemang, The modal assurance criterion: twenty years of use and abuse, Sound and Vibration 37 (2003).
 ///
 /// # Errors
-/// Points none of which lie on the body; a body whose modes are known harmonic by harmonic alone; those of the solver.
+/// Points none of which lie on the body; those of the solver.
 pub fn assurance(
     case: &Case,
     shapes: &[MeasuredShape],
     scale: f64,
 ) -> Result<MacSummary, StudyError> {
     let cea = case.require_cea()?;
-    refuse_revolution(case)?;
+    let mut notes = whole_mesh_note(case);
+    let case = &*case.on_whole_mesh()?;
     let friction = case.contact.sliding.friction_coefficient;
     let own = Cea {
         friction_coefficients: vec![friction],
@@ -64,7 +65,6 @@ pub fn assurance(
     let values = modes.iter().map(|mode| mode.shape.as_deref().unwrap_or_default());
     let values: Vec<&[c64]> = values.collect();
     let matrix = criteria(&model.mesh, &values, shapes, &placed);
-    let mut notes = Vec::new();
     for (shape, placed) in shapes.iter().zip(&placed) {
         notes.extend(placed.note(shape, case.body.size()));
     }
@@ -93,7 +93,7 @@ pub fn assurance(
                 mode: index + 1,
                 frequency_hz: mode.eigenvalue.im / TAU,
                 real_hz: mode.eigenvalue.re / TAU,
-                harmonic: case.has_sectors().then_some(mode.harmonic),
+                harmonic: mode.diameters(case.has_sectors()),
             })
             .collect(),
         mac: matrix,
@@ -102,7 +102,14 @@ pub fn assurance(
     })
 }
 
-/// Measured points are nodes of the whole mesh.
+/// Says of a body of revolution that its whole mesh is solved.
+pub(in crate::study) fn whole_mesh_note(case: &Case) -> Vec<String> {
+    let note =
+        "this body of revolution was solved on its whole mesh, as with cea.method = \"sparse\"";
+    case.body.revolution().map(|_| note.to_owned()).into_iter().collect()
+}
+
+/// Measured points that a fit compares with its own modes are nodes of the whole mesh.
 pub(in crate::study) fn refuse_revolution(case: &Case) -> Result<(), StudyError> {
     let Body::Revolution(_) = &case.body else {
         return Ok(());

@@ -3,7 +3,7 @@
 use super::StudyError;
 use super::eigenvalues::{Model, Solver};
 use super::tangent_options;
-use crate::case::{Case, CeaMethod, refusal};
+use crate::case::{Case, CeaMethod};
 use crate::cea::CeaError;
 use crate::contact::{Point, Row};
 use crate::linalg::{MarketMatrix, MatrixPolynomial};
@@ -15,24 +15,19 @@ use crate::results::matrices::{
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Mass, damping, stiffness and contact rows of a case's body around steady sliding, by power of the distance from the case's own
-/// friction coefficient, or from another one in its place. The base states are those of the eigenvalue analysis.
+/// friction coefficient, or from another one in its place: of a body of revolution those of its whole mesh. The base states are those
+/// of the eigenvalue analysis.
 ///
 /// # Errors
-/// A case without `[cea]`, a body of revolution, whose problem is one of complex matrices for each harmonic; no steady sliding.
+/// A case without `[cea]`; no steady sliding.
 pub fn matrices(case: &Case, friction: Option<f64>) -> Result<ExportedSystem, StudyError> {
     let cea = case.require_cea()?;
     let frictions = cea.solved_friction_coefficients();
-    let mut case = case.clone();
+    let mut case = case.on_whole_mesh()?.into_owned();
     if let Some(friction) = friction {
         case.contact.sliding.friction_coefficient = friction;
     }
     let case = &case;
-    if case.body.revolution().is_some() {
-        return Err(StudyError::Case(refusal!(case, "material.formulation",
-            "the matrices of a body of revolution in three dimensions are complex, one set for \
-             each harmonic. There is no one real problem to write";
-            "a body of revolution"; "take its whole mesh: cea.method = \"sparse\"")));
-    }
     let mut regions = 0..case.body.region_count();
     if regions.any(|region| case.materials().table(region).is_some()) {
         let refusal = case.loss_error(

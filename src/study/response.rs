@@ -257,7 +257,7 @@ fn annulus(
     }
     let is_clamped = frf.boundary == FrfBoundary::Clamped;
     let rayleigh = case.damping.rayleigh;
-    Ok(CyclicSystem::body(&sector, &case.material, frf.mass, rayleigh, is_clamped))
+    Ok(CyclicSystem::body(&sector, case.materials(), frf.mass, rayleigh, is_clamped))
 }
 
 fn solid(
@@ -269,12 +269,12 @@ fn solid(
     let contact = &case.contact.sliding;
     if frf.boundary == FrfBoundary::Sliding {
         let options = tangent_options(case, frf.mass);
-        let tangent = WaveTangent::of_revolution(&sector, &case.material, &options, contact)?;
+        let tangent = WaveTangent::of_revolution(&sector, case.materials(), &options, contact)?;
         return Ok(CyclicSystem::sliding(&tangent, contact.friction_coefficient));
     }
     let is_clamped = frf.boundary == FrfBoundary::Clamped;
     let rayleigh = case.damping.rayleigh;
-    Ok(CyclicSystem::solid_body(&sector, &case.material, frf.mass, rayleigh, is_clamped))
+    Ok(CyclicSystem::solid_body(&sector, case.materials(), frf.mass, rayleigh, is_clamped))
 }
 
 /// Matrices of the whole mesh as it is held, and the ports of force and response.

@@ -77,7 +77,26 @@ fn the_whole_mesh_of_a_body_of_revolution_has_the_spectrum_of_its_harmonics() {
     }
 }
 
-/// What the harmonics cannot do is done on the whole mesh: a mass on the disc, its losses, its matrices.
+/// Independent, as above: losses of the body and of what holds it part the waves of each harmonic.
+#[test]
+fn losses_of_a_body_of_revolution_are_those_of_its_whole_mesh() {
+    let folder = folder();
+    let held = "boundaries.outer={condition=\"support\",normal_stiffness=1e12,\
+         tangential_stiffness=1e12,axial_stiffness=1e12,loss_factor=0.1}";
+    let sets = [held, "material.loss_factor=0.02"];
+    run(folder.path(), "cea", DISC, "waves", &sets).code(0);
+    let whole = [held, sets[1], "cea.method=\"sparse\""];
+    run(folder.path(), "cea", DISC, "whole", &whole).code(0);
+    let [waves, whole] = ["waves", "whole"].map(|out| modes(folder.path(), out));
+    assert_eq!(waves.len(), whole.len());
+    let error = distance(&whole, &waves).max(distance(&waves, &whole));
+    println!("{error:e}");
+    assert!(error < 1e-9, "{error:e}");
+    let listed = rows(&folder.path().join("waves").join("eigenvalues.csv"));
+    assert!(listed.iter().any(|row| row["harmonic"] == "3"));
+}
+
+/// What the harmonics cannot do is done on the whole mesh: a mass on the disc, its matrices, measured shapes, improvements.
 #[test]
 fn a_generated_body_of_revolution_takes_what_breaks_its_symmetry() {
     let folder = folder();
@@ -97,9 +116,42 @@ fn a_generated_body_of_revolution_takes_what_breaks_its_symmetry() {
         let damping = -mode[2] / (TAU * mode[1]);
         assert!((damping - 0.005).abs() < 1e-5, "{mode:?}");
     }
-    let refused = run(folder.path(), "matrices", DISC, "refused", &[]);
-    refused.code(2).warns(&["cea.method = \"sparse\""]);
-    run(folder.path(), "matrices", DISC, "written", &["cea.method=\"sparse\""]).code(0);
+    for (out, sets) in [("auto", &[][..]), ("sparse", &["cea.method=\"sparse\""][..])] {
+        run(folder.path(), "matrices", DISC, out, sets).code(0);
+    }
+    let [auto, sparse] =
+        ["auto", "sparse"].map(|out| fs::read(folder.path().join(out).join("K.mtx")).unwrap());
+    assert!(auto == sparse, "the matrices are those of the whole mesh");
+    // What is predicted for one body, whichever way it was asked for.
+    let [auto, sparse] = ["auto", "sparse"].map(|method| {
+        let sets = [
+            "contact.friction_coefficient=0.6 ; cea.friction_coefficients=[0.0, 0.6]",
+            "improve.modifications=[\"mass\"] ; improve.confirm=0 ; improve.mass=0.01",
+            &format!("cea.method=\"{method}\""),
+        ];
+        let answer = run(folder.path(), "improve", DISC, method, &sets).code(0);
+        let notes = answer.summary()["notes"].to_string();
+        assert_eq!(notes.contains("on its whole mesh"), method == "auto", "{notes}");
+        rows(&folder.path().join(method).join("candidates.csv"))
+    });
+    assert_eq!(auto.len(), sparse.len());
+    for (a, b) in auto.iter().zip(&sparse) {
+        let [a, b] = [a, b].map(|row| row.number("predicted_growth_rate_per_s"));
+        assert!((a - b).abs() < 1e-6 * a.abs(), "{a} {b}");
+    }
+    let shapes = folder.path().join("shapes.csv");
+    let points = ["0.0205,0,0.009", "0.01893953042,0.00784501036,0.009", "0,0.0205,0.009"];
+    let points = points.map(|point| format!("s,1000,{point},0,0,1\n")).concat();
+    fs::write(&shapes, format!("mode,frequency_hz,x,y,z,ux,uy,uz\n{points}")).unwrap();
+    let shapes = shapes.to_str().unwrap();
+    let mac = Run::of_text("mac", folder.path(), DISC).args(&[shapes, "--force"]).out("mac").end();
+    let mac = mac.code(0).summary();
+    // Motion along the axis, the same all around, is that of a mode of harmonic 0.
+    let best = mac["pairs"][0]["mode"].as_u64().unwrap() as usize;
+    assert_eq!(mac["modes"][best - 1]["harmonic"], 0, "{mac}");
+    let springs = ["contact.normal_stiffness=1e12"];
+    let refused = run(folder.path(), "matrices", DISC, "refused", &springs);
+    refused.code(2).warns(&["contact.base_state", "\"compliant\""]);
 }
 
 #[test]

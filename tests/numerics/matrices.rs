@@ -383,13 +383,6 @@ fn archives_hold_compressed_rows_as_scipy_reads_them() {
     );
 }
 
-#[test]
-fn matrices_of_a_body_of_revolution_are_refused_with_the_reason() {
-    let folder = folder();
-    fs::copy(shipped("ring-on-layer.toml"), folder.path().join("block.toml")).unwrap();
-    run(&folder, "matrices", &[]).refused(&["one set for each harmonic"]);
-}
-
 fn brake(folder: &TempDir, stiffness: &str) {
     for name in ["M.mtx", "C.mtx", "K.mtx"] {
         fs::copy(public(name), folder.path().join(name)).unwrap();

@@ -28,7 +28,7 @@ pub use frictionsim::contact::{
 pub use frictionsim::fem::operator::SimdLevel;
 pub use frictionsim::fem::{
     AnnulusMaterials, DofMap, ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping,
-    RegionMaterial, Triplets, assemble_mass, assemble_stiffness, solid,
+    RegionMaterial, Triplets, assemble_mass, assemble_stiffness, sector,
 };
 pub use frictionsim::frf::{
     CyclicSystem, Direction, FrfError, FrfSystem, Terminal, cyclic_response, direct_response,

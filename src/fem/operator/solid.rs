@@ -3,7 +3,7 @@
 use super::kernel::solid::{SheetCoupling, SheetLayout, solid_advance, solid_multiply};
 use super::{MotionFields, OperatorError, SimdLevel, StepCoefficients, StiffnessOperator};
 use crate::fem::fold::SectorMatrix;
-use crate::fem::{ElasticMaterial, MassKind, solid};
+use crate::fem::{MassKind, MaterialField, sector};
 use crate::mesh::SolidSector;
 use std::collections::BTreeMap;
 
@@ -31,7 +31,7 @@ impl SolidStencil {
     /// [`OperatorError`] for bricks of 20 nodes, for sectors that are not mirror-symmetric, for a node without mass.
     pub fn assemble(
         sector: &SolidSector,
-        material: &ElasticMaterial,
+        material: &dyn MaterialField,
         springs: &SectorMatrix,
         simd: SimdLevel,
     ) -> Result<Self, OperatorError> {
@@ -41,7 +41,7 @@ impl SolidStencil {
         let layout =
             SheetLayout::new(sector.sector_count(), sector.node_count(), sector.node_bandwidth());
         let node_masses = nodal_masses(sector, material)?;
-        let elastic = solid::stiffness(sector, material);
+        let elastic = sector::stiffness(sector, material);
         let blocks = sector_blocks(sector, &[&elastic, springs]);
         let relative = asymmetry(&blocks);
         // Assembly order leaves a few units of round-off; anything more is no sector.
@@ -78,10 +78,10 @@ impl SolidStencil {
 /// Lumped masses of the nodes of a sector, kg.
 fn nodal_masses(
     sector: &SolidSector,
-    material: &ElasticMaterial,
+    material: &dyn MaterialField,
 ) -> Result<Vec<f64>, OperatorError> {
     let mut masses = vec![0.0; sector.node_count()];
-    let lumped = solid::mass(sector, material, MassKind::Lumped);
+    let lumped = sector::mass(sector, material, MassKind::Lumped);
     let own = lumped.entries().filter(|&(row, column, ..)| row == column && row % 3 == 0);
     for (row, _, _, mass) in own {
         masses[row / 3] += mass;

@@ -242,7 +242,7 @@ fn snapshot_fields(report: &TransientReport<'_>, snapshot: &Snapshot) -> Vec<Fie
     ];
     let count = match (report.solid, mesh.dimension) {
         (Some(sector), _) => {
-            let stress = revolved_stress(sector, report.material.of(0), displacement);
+            let stress = revolved_stress(sector, report.material, displacement);
             fields.extend(Field::solid_stresses(&stress, "rtz"));
             displacement.len() / 3
         }

@@ -3,7 +3,7 @@
 use super::StudyError;
 use crate::case::Case;
 use crate::contact::SteadyFriction;
-use crate::fem::{revolved_stress, solid};
+use crate::fem::{revolved_stress, sector};
 use crate::mesh::{ContactRing, SolidSector, SolidSpecification};
 use crate::prestress::SolidSliding;
 use crate::results::cea::{BaseState, SolidReport};
@@ -22,7 +22,7 @@ impl SolidBody {
     /// A mesh that cannot be built, no state of sliding.
     pub fn new(case: &Case, specification: &SolidSpecification) -> Result<Self, StudyError> {
         let sector = SolidSector::generate(specification)?;
-        let elastic = solid::stiffness(&sector, &case.material);
+        let elastic = sector::stiffness(&sector, &case.material);
         let law = case.contact.stiffness.base_law();
         let base = SolidSliding::solve(&sector, &elastic, &case.contact.sliding, law)?;
         let friction_coefficient = case.contact.sliding.friction_coefficient;

@@ -233,12 +233,6 @@ pub(in crate::study) fn refuse_bodies(case: &Case) -> Result<(), CaseErrors> {
         ));
     }
     match &case.body {
-        Body::Revolution(_) => refuse(
-            "material.formulation",
-            "improve adds to, or takes from, one place of a body, which breaks the symmetry that this body is solved by",
-            "a body of revolution in three dimensions",
-            "take its whole mesh: cea.method = \"sparse\"",
-        ),
         Body::Annulus(annulus) if annulus.materials.shaft.is_some() => refuse(
             "geometry.shaft_inner_radius",
             "improve adds to, or takes from, one place of a body, which breaks the symmetry that disc and shaft are solved by",

@@ -22,6 +22,7 @@ mod places;
 mod shown;
 mod trial;
 
+use super::mac::whole_mesh_note;
 use super::{StudyError, extent_of};
 use crate::case::{Case, ModificationKind};
 use crate::cea::CeaError;
@@ -68,6 +69,8 @@ struct Predicted {
 /// A body that is solved by its symmetry, nothing that grows; those of the solver.
 pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
     let cea = case.require_cea()?;
+    let mut notes = whole_mesh_note(case);
+    let case = &*case.on_whole_mesh()?;
     let base = Base::solve(case, cea)?;
     let thickness = match base.mesh.dimension {
         2 => case.thickness,
@@ -88,7 +91,6 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
     let asked = &case.improve.modifications;
     let is_asked = |kind: &ModificationKind| asked.is_empty() || asked.contains(kind);
     let kinds: Vec<ModificationKind> = ModificationKind::all().filter(is_asked).collect();
-    let mut notes = Vec::new();
     let mut listed: Vec<(usize, Predicted)> = Vec::new();
     for &kind in &kinds {
         let predicted = predictions(&search, &modal, kind, &mut notes)?;

@@ -5,7 +5,7 @@ use crate::contact::{
     ContactInterface, ContactStiffness, ContactSurface, CoulombFriction, Point, Row,
 };
 use crate::fem::operator::StiffnessOperator;
-use crate::fem::{assemble_stiffness, solid};
+use crate::fem::{assemble_stiffness, sector};
 use crate::mesh::{Counterface, Mesh, SolidSector};
 use crate::prestress::{
     Assembly, PressedRange, PressedState, PrestressError, SolidSliding, SteadySliding,
@@ -83,7 +83,7 @@ impl TransientModel<'_> {
     }
 
     fn sliding_face(&self, sector: &SolidSector) -> Result<SolidSliding, PrestressError> {
-        let elastic = solid::stiffness(sector, self.material.of(0));
+        let elastic = sector::stiffness(sector, self.material);
         SolidSliding::solve(sector, &elastic, &self.contact, self.stiffness.base_law())
     }
 

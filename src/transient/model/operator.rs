@@ -37,7 +37,7 @@ impl TransientModel<'_> {
             }
             (SteppedBody::Revolution(sector), _) => {
                 let [springs, _] = supports(sector);
-                let material = self.material.of(0);
+                let material = self.material;
                 Ok(Box::new(SolidStencil::assemble(sector, material, &springs, simd)?))
             }
             (SteppedBody::Assembly { .. }, OperatorChoice::Cyclic) => {

@@ -3,7 +3,7 @@
 use crate::prelude::*;
 use crate::solids::model::{disc, modes};
 use frictionsim::fem::fold::{MirrorParity, WaveDofs};
-use frictionsim::fem::solid::{stiffness, wave_dofs};
+use frictionsim::fem::sector::{Sectored, stiffness};
 use frictionsim::mesh::SheetNode;
 
 /// Independent check: strains `xx`, `zx`, `zz` constant over the body cost no force inside. In waves around,
@@ -22,7 +22,7 @@ fn bricks_hold_every_constant_strain() {
         let sector = SolidSector::generate(&model.specification).unwrap();
         let elastic = stiffness(&sector, &model.material);
         let dofs = 3 * sector.node_count();
-        let own = wave_dofs(&sector);
+        let own = sector.wave_dofs();
         let all = WaveDofs::new(dofs, |_| false, own.half_bandwidth, own.sectors);
         for (n, field) in fields {
             let matrix = all.fold(n, MirrorParity::Even, &[&elastic]);

@@ -13,7 +13,7 @@ fn ringed(element: ElementKind, divisions: [usize; 3]) -> SolidModel {
 
 fn base(model: &SolidModel) -> Result<(SolidSector, SolidSliding), PrestressError> {
     let sector = SolidSector::generate(&model.specification).unwrap();
-    let elastic = solid::stiffness(&sector, &model.material);
+    let elastic = sector::stiffness(&sector, &model.material);
     let law = model.options.contact.base_law();
     let base = SolidSliding::solve(&sector, &elastic, &model.contact, law)?;
     Ok((sector, base))

@@ -100,7 +100,7 @@ fn a_wave_under_a_ring_that_opens_in_part_grows_at_the_rate_of_the_eigenvalue_an
     model.contact.friction_coefficient = 0.4;
     model.contact.interference = 1e-5;
     let sector = SolidSector::generate(&model.specification).unwrap();
-    let elastic = solid::stiffness(&sector, &model.material);
+    let elastic = sector::stiffness(&sector, &model.material);
     let law = model.options.contact.base_law();
     let base = SolidSliding::solve(&sector, &elastic, &model.contact, law).unwrap();
     assert!(base.is_pressed.contains(&true) && base.is_pressed.contains(&false));

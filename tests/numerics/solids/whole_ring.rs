@@ -41,7 +41,7 @@ impl WholeRing {
     pub fn sliding(model: &SolidModel, friction: f64) -> Self {
         let mut ring = Self::new(model, false);
         let sector = ring.sector.clone();
-        let elastic = frictionsim::fem::solid::stiffness(&sector, &model.material);
+        let elastic = frictionsim::fem::sector::stiffness(&sector, &model.material);
         let base = SolidSliding::solve(&sector, &elastic, &model.contact, None).unwrap();
         let face = sector.specification.contact.face();
         let (normal, across) = (face.normal_component(), face.across_component());
