@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 /// Corrections of a left vector, at most: as many cost what factors of the full problem do.
 const CORRECTIONS: usize = 24;
-/// Energy of a correction, relative to that of the vector, below which no more are made.
+/// Energy of a correction, relative to that of the vector, below which no more are made; a hundred times as much is left where they end.
 const NEGLIGIBLE: f64 = 1e-8;
 /// Modes that are corrected together.
 const PAIRS_AT_A_TIME: usize = 6;
@@ -107,7 +107,7 @@ fn correct_group(
     }
     let mut iterations = 0;
     for ((pair, left), goal) in pairs.iter_mut().zip(lefts).zip(goals) {
-        let is_mended = energy(&left) <= NEGLIGIBLE * goal;
+        let is_mended = energy(&left) <= 100.0 * NEGLIGIBLE * goal;
         let [mut left, ..] = left;
         if !is_mended {
             left = iterate(problem, pair).unwrap_or(left);
