@@ -9,7 +9,7 @@ use super::open_residuals::OpenResiduals;
 use super::packed::PackedModes;
 use super::reduced::ReducedModel;
 use super::structure::{ShiftInverted, StructureMatrices};
-use super::{GROUP_WIDTH, SAME_SPACE, SEARCH_WIDTH};
+use super::{CONVERGED, GROUP_WIDTH, SAME_SPACE, SEARCH_WIDTH};
 use crate::cea::{CeaError, SweepProgress, SweepStage, SweepWatch};
 use crate::linalg::dense::{
     column, column_mut, column_norms, columns_of, dot, from_columns, join_columns, join_rows,
@@ -28,9 +28,7 @@ use std::sync::OnceLock;
 const VECTOR_TOLERANCE: f64 = 1e-10;
 /// The same for vectors of unit length whose span is compressed.
 const COMPRESSED: f64 = 5e-12;
-/// Length of corrections, of modes of unit length, that refinement aims at.
-const SHORTEST: f64 = 1e-11;
-/// Krylov steps that follow a refinement, for each decade between its longest correction and [`SHORTEST`]: a step wins
+/// Krylov steps that follow a refinement, for each decade between its longest correction and [`CONVERGED`]: a step wins
 /// about a decade and a half, and costs half of another refinement, which needs residuals.
 const STEPS_PER_DECADE: f64 = 0.7;
 /// Part of the vectors of such a step, relative to the mode of highest frequency, that is worth keeping.
@@ -38,9 +36,8 @@ const KRYLOV_TOLERANCE: f64 = 1e-3;
 /// Friction values whose modes make up the compressed basis, besides the ends.
 const CHEBYSHEV_POINTS: usize = 5;
 /// Residual of the iteration whose vectors the basis takes up, relative to the shift-inverted operator. The ladder improves what is
-/// left of it where damping is not proportional; where it is, nothing is left.
+/// left of it where damping is not proportional; where it is, [`CONVERGED`] leaves nothing.
 const SAMPLE_RESIDUAL: f64 = 1e-8;
-const PROPORTIONAL_RESIDUAL: f64 = 1e-11;
 /// Unknowns up to which a dense decomposition is as cheap as that iteration.
 const DENSE_UP_TO: usize = 150;
 /// Start vectors of an iteration from the modes without friction: modes may come in pairs of equal eigenvalue, and factors are read once
@@ -171,7 +168,7 @@ impl<'a> BasisBuilder<'a> {
         }
         for &mu in spread(values).iter().cycle().take(MAX_ROUNDS) {
             // The last corrections need no other look: points are checked.
-            let is_done = |longest: f64| longest <= SHORTEST;
+            let is_done = |longest: f64| longest <= CONVERGED;
             if self.refine_at(mu)?.is_none_or(is_done) {
                 break;
             }
@@ -216,7 +213,7 @@ impl<'a> BasisBuilder<'a> {
         let longest = column_norms(corrections.as_ref()).into_iter().fold(0.0, f64::max);
         let mut new = self.model.extend(corrections, VECTOR_TOLERANCE * longest);
         let has_added = new.ncols() > 0;
-        let steps = STEPS_PER_DECADE * (longest / SHORTEST).log10();
+        let steps = STEPS_PER_DECADE * (longest / CONVERGED).log10();
         let inertia = self.highest_kappa(&modes);
         // A negative number is none.
         for _ in 0..steps as usize {
@@ -310,7 +307,7 @@ impl<'a> BasisBuilder<'a> {
             None => random_columns(unknowns, SEARCH_WIDTH.min(unknowns), 2 + seed),
         });
         let (start, wanted, tolerance) = match self.linearization {
-            Linearization::Reduced(..) => (start[0].clone(), count, PROPORTIONAL_RESIDUAL),
+            Linearization::Reduced(..) => (start[0].clone(), count, CONVERGED),
             Linearization::Companion { .. } => {
                 let [x, y] = start.each_ref().map(Mat::as_ref);
                 (join_rows(x, y), 2 * count, SAMPLE_RESIDUAL)

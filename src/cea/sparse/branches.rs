@@ -4,7 +4,7 @@ use super::edge::ContactEdge;
 use super::mode::ReducedMode;
 use super::point::SolvedPoint;
 use super::reduced::ReducedModel;
-use super::{MULTIPLE, NEARLY_CRITICAL};
+use super::{MULTIPLE, NEARLY_CRITICAL, SAME_EIGENVALUE};
 use crate::linalg::{ComplexDenseLu, LinalgError};
 use crate::linalg::{Mat, c64};
 
@@ -18,8 +18,6 @@ const ABOVE_RANGE: f64 = 0.01;
 const MAX_BISECTIONS: usize = 10;
 /// Bisections of an interval in all; a branch that these do not follow is lost.
 const MOST_BETWEEN: usize = 250;
-/// Relative distance of eigenvalues that are equal.
-const EQUAL: f64 = 1e-6;
 /// Relative error of the predicted eigenvalue of a mode that is the same beyond doubt.
 const PREDICTED: f64 = 1e-3;
 
@@ -315,7 +313,7 @@ fn clear_links(from: ModesAt<'_>, to: ModesAt<'_>, overlaps: &Mat<f64>) -> Vec<O
         let predicted = a.eigenvalue + (a.derivative + b.derivative) * (0.5 * step);
         let reach = 0.5 * (a.derivative.norm() + b.derivative.norm()) * step;
         let error = (b.eigenvalue - predicted).norm();
-        let accuracy = if distance(j) < SAME { PREDICTED } else { EQUAL };
+        let accuracy = if distance(j) < SAME { PREDICTED } else { SAME_EIGENVALUE };
         if error <= 0.5 * reach + accuracy * a.eigenvalue.norm() {
             *link = Some(j);
             taken[j] = true;
@@ -325,7 +323,8 @@ fn clear_links(from: ModesAt<'_>, to: ModesAt<'_>, overlaps: &Mat<f64>) -> Vec<O
     // defective. One branch is as good as the other.
     for (i, link) in links.iter_mut().enumerate().filter(|(_, link)| link.is_none()) {
         let own = from.1[i].eigenvalue;
-        let is_equal = |b: &ReducedMode| (b.eigenvalue - own).norm() <= EQUAL * own.norm();
+        let is_equal =
+            |b: &ReducedMode| (b.eigenvalue - own).norm() <= SAME_EIGENVALUE * own.norm();
         let is_multiple = from.1.iter().filter(|b| is_equal(b)).nth(1).is_some();
         let free = (0..to.1.len()).find(|&j| !taken[j] && is_equal(&to.1[j]));
         if let Some(j) = free.filter(|_| is_multiple) {

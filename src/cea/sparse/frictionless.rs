@@ -3,7 +3,7 @@
 use super::factors::StiffnessFactors;
 use super::inertia::{counted, gyroscopic_count};
 use super::linearization::Centre;
-use super::{GUARD_MODES, LOSSY_GUARD};
+use super::{CONVERGED, GUARD_MODES, LOSSY_GUARD};
 use crate::cea::{CeaError, ModeLimit, SweepWatch};
 use crate::linalg::dense::{column, column_mut, columns_of, dot, from_columns, norm, pick_columns};
 use crate::linalg::{
@@ -13,8 +13,6 @@ use crate::linalg::{
 use crate::prestress::SlidingTangent;
 use std::f64::consts::TAU;
 
-/// Residual of a pair `1 / (kappa + c^2)`, relative to itself.
-const TOLERANCE: f64 = 1e-11;
 /// Vectors iterated together: rigid motions of one body come six at a time.
 const BLOCK: usize = 8;
 /// First guess of the shift `c^2`, relative to the largest eigenvalue of the mesh: below the modes of all but the finest meshes.
@@ -100,7 +98,7 @@ impl FrictionlessModes {
             ModeLimit::Lowest(count) => count,
             ModeLimit::MaxFrequency(limit_hz) => inertia.bound_below(tangent, TAU * limit_hz)?,
         };
-        let beyond = beyond_wanted(tangent);
+        let beyond = if tangent.is_lossy() { LOSSY_GUARD } else { 0 };
         let mut shift = match limit {
             ModeLimit::Lowest(_) => FIRST_SHIFT * inertia.largest_ratio(),
             ModeLimit::MaxFrequency(limit_hz) => SHIFT * (TAU * limit_hz).powi(2),
@@ -218,15 +216,6 @@ fn recalled(kept: Option<Vec<Vec<f64>>>, unknowns: usize) -> Option<(Mat<f64>, V
     is_whole.then_some((vectors, frequencies, Centre { shift, rigid }))
 }
 
-/// Modes held beyond those wanted. Losses other than viscous move modes past each other, and no iteration finds them in their order:
-/// of two close ones at the end corrections from the viscous modes may reach the wrong one.
-fn beyond_wanted(tangent: &SlidingTangent) -> usize {
-    match tangent.is_lossy() {
-        true => LOSSY_GUARD,
-        false => 0,
-    }
-}
-
 /// Number of leading frequencies before the widest relative gap at or after `wanted`.
 fn widest_gap(frequencies: &[f64], wanted: usize) -> usize {
     let gap = |i: usize| match frequencies[i] {
@@ -275,7 +264,7 @@ impl<'a> Inertia<'a> {
         let mut outcome = Err(LinalgError::NotConverged {
             converged: 0,
             wanted: count,
-            tolerance: TOLERANCE,
+            tolerance: CONVERGED,
             applications: 0,
         });
         for attempt in 0..MAX_SHIFTS {
@@ -290,7 +279,7 @@ impl<'a> Inertia<'a> {
                 ShiftedPencil { mass: self.mass, values: self.mass.evaluate(0.0), factors };
             let settings = LanczosSettings {
                 count,
-                tolerance: TOLERANCE,
+                tolerance: CONVERGED,
                 block: BLOCK,
                 max_restarts: MAX_RESTARTS,
             };
@@ -301,7 +290,7 @@ impl<'a> Inertia<'a> {
             outcome = Err(LinalgError::NotConverged {
                 converged: pairs.converged,
                 wanted: count,
-                tolerance: TOLERANCE,
+                tolerance: CONVERGED,
                 applications: MAX_RESTARTS * count,
             });
             // The highest pair is known well enough to place the shift by it.
@@ -363,18 +352,11 @@ impl<'a> Inertia<'a> {
 
     /// Factors of `K - sigma M` with a shift amid the modes, else those of `K + shift M`.
     fn factors(&self, frequencies: &[f64], shift: f64) -> Result<StiffnessFactors, LinalgError> {
-        if let Some(amid) = self.factorize_amid(frequencies) {
-            return Ok(amid);
-        }
-        let ldl = SparseLdl::factorize(&self.analysis, &self.shifted(-shift))?;
+        let factorize = |shift: f64| SparseLdl::factorize(&self.analysis, &self.shifted(shift));
+        // There may be no such gap, or no such factors.
+        let amid = frequency_amid(frequencies).and_then(|amid| factorize(amid.powi(2)).ok());
+        let ldl = amid.map_or_else(|| factorize(-shift), Ok)?;
         Ok(StiffnessFactors::Symmetric(Box::new(ldl)))
-    }
-
-    /// Factors of `K - sigma M` with a shift amid the modes; nothing where there is no such gap, or no such factors.
-    fn factorize_amid(&self, frequencies: &[f64]) -> Option<StiffnessFactors> {
-        let shift = frequency_amid(frequencies)?.powi(2);
-        let ldl = SparseLdl::factorize(&self.analysis, &self.shifted(shift)).ok()?;
-        Some(StiffnessFactors::Symmetric(Box::new(ldl)))
     }
 
     /// Values of `K - shift M`.

@@ -64,7 +64,8 @@ pub use sweep::{SparseSweep, sweep};
 /// Modes beyond the wanted ones that are computed along, so that crossings at the upper end of the range
 /// are seen.
 const GUARD_MODES: usize = 5;
-/// Modes held beyond the wanted ones, besides, where damping is not viscous alone.
+/// Modes held beyond the wanted ones, besides, where damping is not viscous alone: it moves modes past each other, and of two close ones
+/// at the end corrections from the viscous modes may reach the wrong one.
 const LOSSY_GUARD: usize = 3;
 /// Modes beyond those to which a branch may be matched.
 const TRACKING_MARGIN: usize = 6;
@@ -73,6 +74,11 @@ const NEARLY_CRITICAL: f64 = 0.5;
 /// Relative distance of eigenvalues up to which they are one multiple eigenvalue, whose vectors are any basis of one space; farther apart
 /// each has a vector of its own.
 const MULTIPLE: f64 = 1e-7;
+/// Relative distance of eigenvalues up to which they are one where their vectors are, or where friction moves neither.
+const SAME_EIGENVALUE: f64 = 1e-6;
+/// Residual, relative to what it is one of, or length of a correction of a mode of unit length, at which it has converged: below that
+/// corrections are round-off.
+const CONVERGED: f64 = 1e-11;
 /// What a vector of unit length has beyond a space: more makes the space wider, less is round-off. A part as short as this along the
 /// stiffest waves of a mesh moves the slowest modes, a thousandth as fast, by a relative 1e-9.
 const SAME_SPACE: f64 = 1e-13;

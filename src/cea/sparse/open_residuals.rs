@@ -1,5 +1,6 @@
 //! Residuals of modes in the full matrices, and which of their corrections are worth having.
 
+use super::CONVERGED;
 use super::packed::PackedEntry;
 use super::structure::StructureMatrices;
 use crate::linalg::dense::{column, dot, norm, pick_columns};
@@ -9,8 +10,7 @@ use std::ops::Range;
 /// Energy of a correction, relative to its mode, below which the mode is left as it is: a stiff contact has large
 /// forces in short displacements, so lengths do not tell.
 const SMALLEST_ENERGY: f64 = 1e-24;
-/// Residual force, relative to the inertia force, below which a mode is left as it is.
-const CONVERGED: f64 = 1e-11;
+
 /// Residuals of the packed vectors that have not converged.
 pub struct OpenResiduals {
     /// One column for a real vector, two for a complex one.

@@ -1,13 +1,13 @@
 //! Modes of projected matrices whose stiffness depends on frequency, each at its own frequency.
 
+use super::SAME_EIGENVALUE;
 use super::mode::ReducedMode;
+use super::packed::inner;
 use super::projected::ProjectedMatrices;
 use crate::linalg::{LinalgError, c64};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
-/// Relative distance of eigenvalues below which two are one, where their vectors are.
-const SAME: f64 = 1e-6;
 /// What the overlap of two right vectors lacks to 1 where they are one.
 const PARALLEL: f64 = 1e-4;
 /// Solutions at one frequency after which a mode counts as one that does not settle.
@@ -84,11 +84,10 @@ fn fixed_point(
 /// Whether two modes have one eigenvalue and one right vector.
 fn is_same(one: &ReducedMode, other: &ReducedMode) -> bool {
     let distance = (one.eigenvalue - other.eigenvalue).norm();
-    if distance > SAME * one.eigenvalue.norm() {
+    if distance > SAME_EIGENVALUE * one.eigenvalue.norm() {
         return false;
     }
     let length = |v: &[c64]| v.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt();
-    let entries = one.right.iter().zip(&other.right);
-    let overlap: c64 = entries.map(|(a, b)| a.conj() * b).sum();
-    overlap.norm() > (1.0 - PARALLEL) * length(&one.right) * length(&other.right)
+    inner(&one.right, &other.right).norm()
+        > (1.0 - PARALLEL) * length(&one.right) * length(&other.right)
 }

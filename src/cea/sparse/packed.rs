@@ -22,6 +22,25 @@ pub fn forms(lefts: &[ReducedMode], p: &Mat<f64>, rights: &[ReducedMode]) -> Mat
     })
 }
 
+/// Real and imaginary parts of complex vectors in neighbouring columns, continued by zeros.
+pub fn side_by_side<V: AsRef<[c64]>>(rows: usize, vectors: &[V]) -> Mat<f64> {
+    Mat::from_fn(rows, 2 * vectors.len(), |i, j| {
+        let value = vectors[j / 2].as_ref().get(i);
+        value.map_or(0.0, |v| if j % 2 == 0 { v.re } else { v.im })
+    })
+}
+
+/// The `k`-th of complex vectors [`side_by_side`].
+pub fn joined(columns: &Mat<f64>, k: usize) -> Vec<c64> {
+    let [re, im] = [2 * k, 2 * k + 1].map(|j| column(columns.as_ref(), j).iter());
+    re.zip(im).map(|(&re, &im)| c64::new(re, im)).collect()
+}
+
+/// `a^H b`.
+pub fn inner(a: &[c64], b: &[c64]) -> c64 {
+    a.iter().zip(b).map(|(a, b)| a.conj() * b).sum()
+}
+
 /// Where a vector is among packed columns.
 #[derive(Clone, Copy, Debug)]
 pub struct PackedEntry {

@@ -1,9 +1,10 @@
 //! Right and left vectors of modes in the full problem, and what small changes of the matrices do to their eigenvalues.
 
 use super::full_problem::FullProblem;
+use super::packed::inner;
 use crate::fem::own_frequency_step;
 use crate::linalg::dense::random_columns;
-use crate::linalg::{Mat, SparsityPattern, c64};
+use crate::linalg::{ComplexSparseLu, Mat, SparsityPattern, c64};
 use crate::prestress::SlidingTangent;
 use rayon::prelude::*;
 
@@ -113,35 +114,41 @@ pub fn mode_pairs(tangent: &SlidingTangent, mu: f64, targets: &[c64]) -> Vec<Opt
     targets.par_iter().map(pair).collect()
 }
 
-/// Right and left vector, of unit length, of the single eigenvalue at `target`, by inverse iteration on `T(lambda)` and its transpose.
+/// Factors of `T` so near an eigenvalue that each step of an inverse iteration gains many digits.
+pub(super) fn factors_beside(problem: &FullProblem<'_>, target: c64) -> Option<ComplexSparseLu> {
+    OFFSETS.iter().find_map(|own| problem.factors(target * (1.0 + own)).ok())
+}
+
+/// Columns, of unit length, from a start after [`STEPS`] of inverse iteration on `T(lambda)` or, for left vectors, its transpose.
+pub(super) fn iterated(factors: &ComplexSparseLu, mut x: Mat<c64>, is_left: bool) -> Mat<c64> {
+    for _ in 0..STEPS {
+        match is_left {
+            true => factors.solve_transpose_in_place(x.as_mut()),
+            false => factors.solve_in_place(x.as_mut()),
+        }
+        for j in 0..x.ncols() {
+            let length = x.col(j).norm_l2();
+            x.col_mut(j).iter_mut().for_each(|v| *v /= length);
+        }
+    }
+    x
+}
+
+/// Right and left vector, of unit length, of the single eigenvalue at `target`.
 fn inverse_iterations(problem: &FullProblem<'_>, target: c64) -> Option<[Vec<c64>; 2]> {
     let unknowns = problem.dimension();
     let start = random_columns(unknowns, 2.min(unknowns), 7);
-    let factors = OFFSETS.iter().find_map(|own| problem.factors(target * (1.0 + own)).ok())?;
-    let converged = |is_left: bool| {
-        let mut x = Mat::from_fn(unknowns, start.ncols(), |i, j| c64::new(start[(i, j)], 0.0));
-        for _ in 0..STEPS {
-            match is_left {
-                true => factors.solve_transpose_in_place(x.as_mut()),
-                false => factors.solve_in_place(x.as_mut()),
-            }
-            for j in 0..x.ncols() {
-                let length = x.col(j).norm_l2();
-                x.col_mut(j).iter_mut().for_each(|v| *v /= length);
-            }
-        }
-        single(&x)
-    };
-    Some([converged(false)?, converged(true)?])
+    let start = Mat::from_fn(unknowns, start.ncols(), |i, j| c64::new(start[(i, j)], 0.0));
+    let factors = factors_beside(problem, target)?;
+    let right = single(&iterated(&factors, start.clone(), false))?;
+    Some([right, single(&iterated(&factors, start, true))?])
 }
 
 /// The first of two columns of unit length, if the other one is a multiple of it.
 fn single(x: &Mat<c64>) -> Option<Vec<c64>> {
-    let own: Vec<c64> = x.col(0).iter().copied().collect();
-    let other = x.col(x.ncols() - 1);
-    let overlap: c64 = own.iter().zip(other.iter()).map(|(a, b)| a.conj() * b).sum();
-    let rest = own.iter().zip(other.iter());
-    let rest: f64 = rest.map(|(a, b)| (b - a * overlap).norm_sqr()).sum();
+    let [own, other] = [0, x.ncols() - 1].map(|j| x.col(j).iter().copied().collect::<Vec<c64>>());
+    let overlap = inner(&own, &other);
+    let rest: f64 = own.iter().zip(&other).map(|(a, b)| (b - a * overlap).norm_sqr()).sum();
     // No number at all is no vector either.
     (rest.sqrt() <= ALIKE).then_some(own)
 }

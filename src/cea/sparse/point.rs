@@ -7,7 +7,7 @@ use super::edge::ContactEdge;
 use super::left::{OpenPair, correct_lefts};
 use super::linearization::Linearization;
 use super::mode::ReducedMode;
-use super::packed::{PackedModes, PackedVector};
+use super::packed::{PackedModes, PackedVector, joined, side_by_side};
 use super::reduced::ReducedModel;
 use super::structure::StructureMatrices;
 use super::{GROUP_WIDTH, RESIDUAL_BOUND, TRACKING_MARGIN};
@@ -283,20 +283,12 @@ impl PointSolver<'_> {
         modes: &[ReducedMode],
         of: impl Fn(&ReducedMode) -> &Vec<c64>,
     ) -> Vec<Vec<c64>> {
-        let mut vectors = Vec::with_capacity(modes.len());
-        for group in modes.chunks(GROUP_WIDTH / 2) {
-            // Real and imaginary part of each side by side.
-            let coordinates = Mat::from_fn(model.dimension(), 2 * group.len(), |i, column| {
-                let value = of(&group[column / 2]).get(i);
-                value.map_or(0.0, |v| if column % 2 == 0 { v.re } else { v.im })
-            });
-            let x = model.expand(coordinates.as_ref());
-            vectors.extend((0..group.len()).map(|j| -> Vec<c64> {
-                let parts = x.col(2 * j).iter().zip(x.col(2 * j + 1).iter());
-                parts.map(|(&re, &im)| c64::new(re, im)).collect()
-            }));
-        }
-        vectors
+        let groups = modes.chunks(GROUP_WIDTH / 2).flat_map(|group| {
+            let coordinates: Vec<&Vec<c64>> = group.iter().map(&of).collect();
+            let x = model.expand(side_by_side(model.dimension(), &coordinates).as_ref());
+            (0..group.len()).map(move |j| joined(&x, j))
+        });
+        groups.collect()
     }
 }
 

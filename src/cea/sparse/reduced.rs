@@ -25,6 +25,19 @@ fn lengthened(columns: &Mat<f64>, rows: usize) -> Mat<f64> {
     Mat::from_fn(rows, columns.ncols(), |i, j| if i < known { columns[(i, j)] } else { 0.0 })
 }
 
+/// Orthonormal `columns` continued by what the coordinates of some samples have beyond them.
+fn spanned<'a>(
+    mut columns: Mat<f64>,
+    samples: impl Iterator<Item = &'a (f64, Mat<f64>)>,
+) -> Mat<f64> {
+    for (_, coordinates) in samples {
+        let own = lengthened(coordinates, columns.nrows());
+        let new = orthonormal_complement(columns.as_ref(), own, SAME_SPACE);
+        columns = join_columns(columns.as_ref(), new.as_ref());
+    }
+    columns
+}
+
 /// `columns` times complex coordinates; nothing of no coordinates.
 fn combined(columns: &Mat<f64>, coordinates: &[c64]) -> Vec<c64> {
     let mut sum =
@@ -280,12 +293,7 @@ impl ReducedModel {
     /// each.
     pub fn restrict(&mut self, known: usize) -> Mat<f64> {
         let m = self.dimension();
-        let mut columns = Mat::from_fn(m, known, |i, j| f64::from(u8::from(i == j)));
-        for (_, held) in &self.samples {
-            let own = lengthened(held, m);
-            let new = orthonormal_complement(columns.as_ref(), own, SAME_SPACE);
-            columns = join_columns(columns.as_ref(), new.as_ref());
-        }
+        let columns = spanned(Mat::identity(m, known), self.samples.iter());
         for (_, held) in &mut self.samples {
             *held = transpose_product(columns.as_ref(), lengthened(held, m).as_ref());
         }
@@ -314,14 +322,7 @@ impl ReducedModel {
             true => nearest.retain(|sample| sample.0 == mu),
             false => nearest.truncate(count),
         }
-        let m = self.dimension();
-        let mut columns = Mat::zeros(m, 0);
-        for (_, coordinates) in nearest {
-            let own = lengthened(coordinates, m);
-            let new = orthonormal_complement(columns.as_ref(), own, SAME_SPACE);
-            columns = join_columns(columns.as_ref(), new.as_ref());
-        }
-        Some(columns)
+        Some(spanned(Mat::zeros(self.dimension(), 0), nearest.into_iter()))
     }
 
     /// The modes within a space of coordinates, or in the whole basis, without derivatives and scale.

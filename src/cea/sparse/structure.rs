@@ -25,19 +25,10 @@ impl<'a> StructureMatrices<'a> {
     /// The matrices of `tangent` at friction coefficient `mu`.
     pub fn at(tangent: &'a SlidingTangent, linearization: Linearization, mu: f64) -> Self {
         let of = |p: &MatrixPolynomial| p.pattern().by_rows(&p.evaluate(mu));
-        let damping = match linearization {
-            Linearization::Reduced(..) => Vec::new(),
-            Linearization::Companion { .. } => of(&tangent.damping),
-        };
-        let structural = match linearization {
-            Linearization::Reduced(..) => None,
-            Linearization::Companion { .. } => tangent.structural.as_ref(),
-        };
-        let tabled = match linearization {
-            Linearization::Reduced(..) => &[][..],
-            Linearization::Companion { .. } => tangent.tabled.as_slice(),
-        };
-        let tabled = tabled.iter();
+        let is_general = matches!(linearization, Linearization::Companion { .. });
+        let damping = if is_general { of(&tangent.damping) } else { Vec::new() };
+        let structural = tangent.structural.as_ref().filter(|_| is_general);
+        let tabled = tangent.tabled.iter().filter(|_| is_general);
         Self {
             pattern: tangent.stiffness.pattern(),
             values: [of(&tangent.stiffness), damping, of(&tangent.mass)],

@@ -5,7 +5,7 @@ use crate::cea::CeaError;
 use crate::cea::sparse::full_problem::FullProblem;
 use crate::cea::sparse::linearization::Linearization;
 use crate::cea::sparse::mode::ReducedMode;
-use crate::cea::sparse::packed::PackedModes;
+use crate::cea::sparse::packed::{PackedModes, side_by_side};
 use crate::cea::sparse::structure::StructureMatrices;
 use crate::cea::sparse::{GROUP_WIDTH, SAME_SPACE, TRACKING_MARGIN};
 use crate::linalg::{LinalgError, Mat, c64};
@@ -285,10 +285,7 @@ impl BasisBuilder<'_> {
 
 /// Complex vectors as real and imaginary parts in neighbouring columns, as real as can be.
 fn real_columns(rows: usize, vectors: &[Vec<c64>]) -> Mat<f64> {
-    let mut columns = Mat::from_fn(rows, 2 * vectors.len(), |i, j| {
-        let value = vectors[j / 2][i];
-        if j % 2 == 0 { value.re } else { value.im }
-    });
+    let mut columns = side_by_side(rows, vectors);
     turn_to_real(&mut columns);
     columns
 }
