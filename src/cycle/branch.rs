@@ -217,8 +217,8 @@ impl<'a> Branch<'a> {
             let rates = [
                 normal,
                 heading.tangential()[i],
-                linear.normal_scale() * gap[i],
-                linear.tangential_scale() * slip[i],
+                linear.scales[0] * gap[i],
+                linear.scales[1] * slip[i],
                 friction * normal + self.state.normal[i] * rise,
             ];
             (event, slack, event.slack(self.state.contact[i].drag(), rates))
@@ -336,8 +336,8 @@ fn slacks<'a>(
     events.map(move |event| {
         let i = event.point();
         let normal = state.normal[i];
-        let gap = linear.normal_scale() * linear.gap[i];
-        let slip = linear.tangential_scale() * linear.slip[i];
+        let gap = linear.scales[0] * linear.gap[i];
+        let slip = linear.scales[1] * linear.slip[i];
         let parts = [normal, state.tangential[i], gap, slip, friction * normal];
         (event, event.slack(state.contact[i].drag(), parts))
     })

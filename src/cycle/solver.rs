@@ -23,8 +23,9 @@ const MOST_STEPS: usize = 6_000;
 /// Most changes of contact state from birth to an operating point.
 const MOST_STEPS_FROM_BIRTH: usize = 2_000;
 
-/// Friction coefficient beyond which no branch is followed.
+/// Friction coefficient beyond which no branch is followed; over the critical one where a cycle below that is sought.
 const HIGHEST_FRICTION: f64 = 10.0;
+const PASSED: f64 = 2.0;
 
 /// Phases of the grid on which a fold must be found again, over those of its own, and how far apart the two folds may be, in
 /// units of the value that a point of its own grid is worth.
@@ -132,7 +133,8 @@ impl CycleSolver {
 
     /// The limit cycle at an operating point.
     ///
-    /// It is followed over the friction coefficient from its birth at the family's onset.
+    /// It is followed over the friction coefficient from its birth at the family's onset. Below the critical friction it must lie
+    /// before the branch turns and passes twice that.
     ///
     /// # Errors
     /// [`CycleError`] for a point without limit cycle.
@@ -149,18 +151,28 @@ impl CycleSolver {
         })?;
         let target = point.contact.friction_coefficient;
         let parameter = Parameter::FrictionCoefficient;
+        let is_below = target < onset.friction_coefficient;
         let mut failure = (f64::NEG_INFINITY, BranchEnd::Lost);
         for shift in ORIGINS {
             let origin = TAU * shift / wave.points() as f64;
             let (state, event) = largest_linear_wave(&wave, point, &onset, origin);
             let branch = Branch::new(&wave, parameter, state, 1.0, Some(event));
-            match Half::new(branch, &Values::new(&[target]), MOST_STEPS_FROM_BIRTH).reach() {
+            let wanted = Values::new(&[target]);
+            let mut half = Half::new(branch, &wanted, MOST_STEPS_FROM_BIRTH);
+            if is_below {
+                half.highest = PASSED * onset.friction_coefficient;
+            }
+            match half.reach() {
                 Ok(cycle) => return Ok(cycle),
                 Err(end) if end.0 > failure.0 => failure = end,
                 Err(_) => {}
             }
         }
-        Err(self.not_reached(parameter, target, failure))
+        let mut error = self.not_reached(parameter, target, failure);
+        if let (true, CycleError::NotReached { reason, .. }) = (is_below, &mut error) {
+            *reason = "it rises from its birth".to_owned();
+        }
+        Err(error)
     }
 
     /// The limit cycle at `point` from the one of a neighbouring point that differs in `parameter`.
@@ -278,13 +290,15 @@ struct Half<'a> {
     turning: Turning,
     /// Changes of contact state that may still come.
     steps: usize,
+    /// Friction coefficient beyond which it ends.
+    highest: f64,
 }
 
 impl<'a> Half<'a> {
     fn new(branch: Branch<'a>, values: &'a Values, steps: usize) -> Self {
         let turning =
             Turning::new(branch.value(), branch.direction().signum(), branch.wave.points());
-        Self { branch, values, cycles: Vec::new(), turning, steps }
+        Self { branch, values, cycles: Vec::new(), turning, steps, highest: HIGHEST_FRICTION }
     }
 
     /// The cycle at the only value asked for, or where the branch ends before and why.
@@ -317,7 +331,7 @@ impl<'a> Half<'a> {
         if state.contact.iter().all(|&point| point == PointState::SlipForward) {
             return Some(BranchEnd::Birth);
         }
-        let is_beyond = !(state.point.contact.friction_coefficient < HIGHEST_FRICTION);
+        let is_beyond = !(state.point.contact.friction_coefficient < self.highest);
         is_beyond.then_some(BranchEnd::Lost)
     }
 }

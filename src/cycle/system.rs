@@ -198,7 +198,7 @@ impl<'a> System<'a> {
         part: impl Fn(c64) -> f64,
     ) -> f64 {
         let first = &linear.first[phase.index];
-        let scale = linear.normal_scale() / self.force_scale;
+        let scale = linear.scales[0] / self.force_scale;
         let friction = self.state.point.contact.friction_coefficient;
         let turn = |i: usize| {
             let place = ((i / phase.stride) % phase.points) as f64;
@@ -237,7 +237,7 @@ impl<'a> System<'a> {
             Closure::Amplitude(phase, value) => {
                 let own = &self.phases[phase];
                 let found = self.first_row(matrix, at, linear, own, |value| value.re);
-                residual[at] = found - linear.normal_scale() / self.force_scale * value;
+                residual[at] = found - linear.scales[0] / self.force_scale * value;
             }
             Closure::AlongParameter => matrix[(at, at)] = 1.0,
             Closure::Along(heading) => {

@@ -178,6 +178,17 @@ impl<'a> Wave<'a> {
         self.transform(&mut spectrum, &self.inverse);
         spectrum.into_iter().map(|value| value.re).collect()
     }
+
+    /// Displacement of every free node outwards at harmonic `k` for that of the edge.
+    pub fn profile(
+        &self,
+        k: usize,
+        rate: c64,
+        damping: &RayleighDamping,
+        edge: [c64; 2],
+    ) -> Vec<[c64; 2]> {
+        self.body.profile(k, DynamicCoefficients::new(rate, damping), edge)
+    }
 }
 
 /// What ties one phase down: the first harmonic along it of the tangential displacement of the edge, turned back by the state's
@@ -201,7 +212,8 @@ pub struct Linearization {
     pub by: Vec<[Vec<f64>; 2]>,
     /// Responses of gap and tangential velocity, at rising phase, to a unit normal and tangential force at phase zero.
     pub columns: [[Vec<f64>; 2]; 2],
-    /// Forces for a unit of gap and of velocity.
+    /// Normal force for a unit of gap and tangential force for one of velocity, N/m for each m or m/s: what closes them where the
+    /// response is largest. A point's own response will not do: with little damping a resonance can take it through zero.
     pub scales: [f64; 2],
     /// What ties each phase down.
     pub first: Vec<FirstHarmonic>,
@@ -319,7 +331,6 @@ impl Linearization {
                 by: by.map(|&which| share * moved[k][1 + which][1]).collect(),
             }
         });
-        let first = first.collect();
         let [by_gap, by_slip] = &mut by[phases.len()];
         match parameter {
             Parameter::RotationSpeed | Parameter::Speed => by_slip.fill(-wave.body.radius),
@@ -327,41 +338,14 @@ impl Linearization {
             _ => {}
         }
         let columns = [[gap_column(0), gap_column(1)], [slip_column(0), slip_column(1)]];
+        let largest = |own: &Vec<f64>| own.iter().fold(0.0_f64, |m, value| m.max(value.abs()));
         Self {
             gap,
             slip,
             by,
             scales: [0, 1].map(|law| 1.0 / largest(&columns[law][law])),
             columns,
-            first,
+            first: first.collect(),
         }
-    }
-
-    /// Normal force for a unit of gap, N/m for each m: what closes it where the response is largest. The point's own
-    /// response will not do: with little damping a resonance can take it through zero.
-    pub fn normal_scale(&self) -> f64 {
-        self.scales[0]
-    }
-
-    /// Tangential force for a unit of velocity, likewise.
-    pub fn tangential_scale(&self) -> f64 {
-        self.scales[1]
-    }
-}
-
-fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0_f64, |m, value| m.max(value.abs()))
-}
-
-impl Wave<'_> {
-    /// Displacement of every free node outwards at harmonic `k` for that of the edge.
-    pub fn profile(
-        &self,
-        k: usize,
-        rate: c64,
-        damping: &RayleighDamping,
-        edge: [c64; 2],
-    ) -> Vec<[c64; 2]> {
-        self.body.profile(k, DynamicCoefficients::new(rate, damping), edge)
     }
 }

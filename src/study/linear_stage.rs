@@ -1,10 +1,11 @@
 //! The modes that a transient has in its linear stage.
 
 use super::eigenvalues::{asked_modes, modes_at_own_friction};
+use super::tangent_options;
 use crate::case::Case;
 use crate::cea::{CeaError, ComplexMode};
 use crate::fem::MassKind;
-use crate::prestress::{DampingModel, TangentOptions};
+use crate::prestress::DampingModel;
 use crate::results::charts::ModeLine;
 
 /// Modes looked at where the case has no `[cea]`.
@@ -77,20 +78,11 @@ impl LinearStage {
 }
 
 fn modes(case: &Case) -> Result<Vec<ComplexMode>, CeaError> {
-    let contact = case.contact.stiffness;
-    // On a rigid contact they are one and the same.
-    let is_rigid = contact.normal_stiffness.is_none();
-    let damping_model = match is_rigid || case.damping.include_contact {
-        true => DampingModel::WholeTangent,
-        false => DampingModel::BodyOnly,
-    };
-    let options = TangentOptions {
-        mass: MassKind::Lumped,
-        geometric_stiffness: false,
-        damping: case.damping.rayleigh,
-        damping_model,
-        contact,
-    };
-    let limit = asked_modes(case, MODES);
-    modes_at_own_friction(case, &options, limit)
+    let mut options = tangent_options(case, MassKind::Lumped);
+    options.geometric_stiffness = false;
+    if case.contact.stiffness.normal_stiffness.is_none() {
+        // On a rigid contact they are one and the same.
+        options.damping_model = DampingModel::WholeTangent;
+    }
+    modes_at_own_friction(case, &options, asked_modes(case, MODES))
 }

@@ -1,6 +1,6 @@
 //! Checks of a case without running it, through the code paths of the run.
 
-use super::eigenvalues::{SlidingModel, Solver};
+use super::eigenvalues::Solver;
 use super::improve;
 use super::response::FrequencyStudy;
 use super::transient::TransientStudy;
@@ -13,11 +13,8 @@ use crate::transient::StepPlan;
 /// Nodes up to which matrices are set up to find out.
 const MOST_NODES: u128 = 200_000;
 
-/// Nodes up to which the steady sliding is solved to find out.
-const MOST_SOLVED: u128 = 3_000;
-
-/// Unknowns of a sector, times modes, up to which one eigenvalue problem is solved to find out.
-const MOST_EIGENVALUE_WORK: usize = 100_000;
+/// Unknowns up to which a whole mesh is factorized to find out: in about a second.
+const MOST_SOLVED: u128 = 20_000;
 
 /// What is known of a case before it runs.
 #[derive(Debug)]
@@ -67,7 +64,7 @@ pub fn preflight(case: &Case, available: f64) -> Result<Preflight, StudyError> {
         case.require_cycle()?;
     }
     let is_small = found.cost.nodes <= MOST_NODES;
-    let is_solved = found.cost.nodes <= MOST_SOLVED;
+    let is_solved = found.cost.dofs <= MOST_SOLVED;
     if let Body::Revolution(revolution) = &case.body
         && is_small
     {
@@ -89,26 +86,13 @@ pub fn preflight(case: &Case, available: f64) -> Result<Preflight, StudyError> {
     if let Some(cea) = &case.cea
         && is_small
     {
-        // A harmonic of a plane annulus is solved at once; anything else takes the time of the run itself.
         Solver::of_analysis(case, cea)?;
-        if let Solver::Sectors(annulus) = Solver::by_symmetry(case) {
-            let modes = found.cost.cea.map_or(0, |cost| cost.modes);
-            let sectors = annulus.specification.circumferential_elements.max(1);
-            let sector = found.cost.dofs as usize / sectors;
-            if sector.saturating_mul(modes) <= MOST_EIGENVALUE_WORK {
-                // Both methods find the same modes, or none.
-                let by_sectors = Cea { method: CeaMethod::Cyclic, ..cea.clone() };
-                let tried = eigenvalues::preflight(case, &by_sectors);
-                found.tolerate("cea", tried)?;
-            }
+        // Harmonics are solved at once, and all methods find the same modes.
+        let is_whole = matches!(Solver::by_symmetry(case), Solver::WholeMesh | Solver::Assembly);
+        if !is_whole || is_solved {
+            let auto = Cea { method: CeaMethod::Auto, ..cea.clone() };
+            found.tolerate("cea", eigenvalues::preflight(case, &auto))?;
         }
-    }
-    // Whether something presses the contact, and whether it slides, is known once the base state is.
-    if let Some(cea) = &case.cea
-        && is_solved
-    {
-        let tried = SlidingModel::new(case, cea).map(|_| ());
-        found.tolerate("cea", tried)?;
     }
     if case.frf.is_some() && (is_solved || is_small && case.body.has_sectors()) {
         let tried = FrequencyStudy::new(case).map(|_| ());
@@ -165,10 +149,7 @@ pub fn refuse_memory(
     bytes: f64,
     available: f64,
 ) -> Result<(), CaseErrors> {
-    match bytes > available {
-        true => Err(case.memory_error(command, bytes, available)),
-        false => Ok(()),
-    }
+    if bytes > available { Err(case.memory_error(command, bytes, available)) } else { Ok(()) }
 }
 
 /// The plan of the run. The steady sliding of any body but a plane annulus takes longer than a check is worth.

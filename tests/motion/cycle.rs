@@ -350,6 +350,10 @@ fn impossible_requests_say_which_key_to_change() {
     assert_eq!(element, CycleError::Element);
     let mut weak = operating(610.0);
     weak.contact.friction_coefficient = 0.05;
+    // The branch rises from its birth at 0.12, which is told where it has come to twice that: 0.05 is not on it.
     let stable = solver(1).find(&weak).unwrap_err();
-    assert!(matches!(stable, CycleError::NotReached { .. }), "{stable}");
+    let CycleError::NotReached { reached, reason, .. } = &stable else {
+        panic!("{stable}");
+    };
+    assert!((0.24..0.3).contains(reached) && reason.contains("rises"), "{stable}");
 }

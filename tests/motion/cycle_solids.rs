@@ -26,9 +26,9 @@ const PAD: &str = "title = \"Pad on a disc\"
      perturbation = { noise = 1e-2 }
 [output]\nprobes = [100]\nsample_interval = 1e-5\nsnapshots = []\n";
 
-fn pad(folder: &Path, overrides: &[&str]) -> Case {
+fn pad(folder: &Path, around: usize, overrides: &[&str]) -> Case {
     let blocks = [
-        brick("disc", [0.03, 0.0, 0.0], [0.04, TAU, 0.006], [2, 16, 1]),
+        brick("disc", [0.03, 0.0, 0.0], [0.04, TAU, 0.006], [2, around, 1]),
         brick("pad", [0.045, -0.3, 0.006], [0.022, 0.6, 0.01], [2, 3, 1]),
     ];
     let polar = |[r, angle, z]: [f64; 3]| [r * angle.cos(), r * angle.sin(), z];
@@ -38,7 +38,7 @@ fn pad(folder: &Path, overrides: &[&str]) -> Case {
 
 #[test]
 fn the_cycle_of_a_pad_on_a_disc_is_that_of_its_transient() {
-    let result = hold_to_transient(&pad(tempfile::tempdir().unwrap().path(), &[]));
+    let result = hold_to_transient(&pad(tempfile::tempdir().unwrap().path(), 16, &[]));
     let cycle = found(&result);
     let motion = &cycle.motion;
     // The balance of the time loop closes; what the motion misses its start by is left.
@@ -101,24 +101,27 @@ impl SweepWatch for Kept {
 #[test]
 fn a_branch_of_solid_bodies_goes_on_after_an_interruption_bit_by_bit() {
     // More values than the twenty points between which what is done is kept.
-    let range = "cycle={ confirmation_periods = 0, stability = \"none\", continuation = { key = \
-                 \"contact.friction_coefficient\", from = 0.46, to = 0.5, count = 24 } }";
-    let case = pad(tempfile::tempdir().unwrap().path(), &[range]);
+    let count = sized(21, 24);
+    let range = format!(
+        "cycle={{ confirmation_periods = 0, stability = \"none\", continuation = {{ key = \
+                 \"contact.friction_coefficient\", from = 0.46, to = 0.5, count = {count} }} }}"
+    );
+    let case = pad(tempfile::tempdir().unwrap().path(), sized(12, 16), &[&range]);
     let run = |kept: &Kept| -> Vec<PeriodicResult> {
         let study = PeriodicStudy::new(&case, SimdLevel::detect()).unwrap();
         study.run(1, kept, &|_| {}).unwrap()
     };
     let first = Kept::default();
     let whole = run(&first);
-    let count = first.steps.lock().unwrap().len();
-    assert!(count > 2, "{count}");
-    let resumed = run(&first.after(count - 1));
+    let steps = first.steps.lock().unwrap().len();
+    assert!(steps > 2, "{steps}");
+    let resumed = run(&first.after(steps - 1));
     assert_eq!(whole.len(), resumed.len());
     for (a, b) in whole.iter().zip(&resumed) {
         let (a, b) = (found(a), found(b));
         assert_eq!(a.motion, b.motion);
         let [a, b] = [a, b].map(|own| &own.branch.as_ref().unwrap().motions);
-        assert!(a.len() > 23 && a.len() == b.len(), "{} {}", a.len(), b.len());
+        assert!(a.len() > count - 1 && a.len() == b.len(), "{} {}", a.len(), b.len());
         for (a, b) in a.iter().zip(b) {
             assert_eq!((a.value, &a.motion), (b.value, &b.motion));
         }
@@ -128,7 +131,7 @@ fn a_branch_of_solid_bodies_goes_on_after_an_interruption_bit_by_bit() {
 #[test]
 fn parameters_that_solid_bodies_do_not_have_are_refused_with_those_they_have() {
     let range = "cycle.continuation={ key = \"contact.interference\", from = 0.0, to = 1e-5 }";
-    let case = pad(tempfile::tempdir().unwrap().path(), &[range]);
+    let case = pad(tempfile::tempdir().unwrap().path(), 12, &[range]);
     let error = PeriodicStudy::new(&case, SimdLevel::detect()).err();
     let text = error.unwrap().to_string();
     assert!(text.contains("cannot be followed over contact.interference"), "{text}");

@@ -59,8 +59,9 @@ fn two_waves_are_born_where_the_cycle_loses_its_stability() {
     let above = cycle(&solver, 700.0);
     let speed = Parameter::RotationSpeed;
     let values = [500.0 * rpm, 650.0 * rpm, 800.0 * rpm];
+    let phases = Some(sized(31, 41));
     let run = |kept: &Kept| {
-        let found = stepping.two_waves(&above, 2, Some(41), kept).unwrap();
+        let found = stepping.two_waves(&above, 2, phases, kept).unwrap();
         found.waves.follow(&found.motion, speed, &values, kept)
     };
     let kept = Kept::default();
@@ -80,5 +81,6 @@ fn two_waves_are_born_where_the_cycle_loses_its_stability() {
     assert!(change.kind(1).contains("Neimark-Sacker"));
     // The coarse grid of phases is what is between them.
     let (born, lost) = (branch.births[0] / rpm, change.value / rpm);
+    println!("{born} and {lost} rpm");
     assert!((born / lost - 1.0).abs() < 0.02, "{born} {lost}");
 }

@@ -297,13 +297,14 @@ fn the_lame_mode_of_a_cube_converges_with_the_order_of_the_kind() {
     for kind in SOLIDS {
         let cells = match kind {
             _ if kind.is_quadratic() => [4, 6],
-            _ => [8, 14],
+            _ => sized([6, 10], [8, 14]),
         };
         let errors = cells.map(|cells| error(kind, cells));
         let order = (errors[0] / errors[1]).ln() / (cells[1] as f64 / cells[0] as f64).ln();
         println!("{kind:?} {errors:?} {order}");
         let expected = if kind.is_quadratic() { 4.0 } else { 2.0 };
-        // Split cells have not lost their next term yet (1.76 and 3.62 here, 1.37 and 3.2 with half as many cells); bricks have.
+        // Split cells have not lost their next term yet (1.60 and 3.62 here, 1.76 with 8 and 14 cells, 1.37 and 3.2 with half as
+        // many); bricks have.
         let shortfall = match kind {
             ElementKind::Hex8 | ElementKind::Hex20 => 0.02,
             _ => 0.4,

@@ -153,8 +153,8 @@ impl Iterate {
         let mut sum = 0.0;
         let points = 0..state.contact.len();
         let contact = points.map(|i| {
-            let normal = (state.normal[i] - linear.normal_scale() * linear.gap[i]).max(0.0);
-            let shear = state.tangential[i] - linear.tangential_scale() * linear.slip[i];
+            let normal = (state.normal[i] - linear.scales[0] * linear.gap[i]).max(0.0);
+            let shear = state.tangential[i] - linear.scales[1] * linear.slip[i];
             let limit = friction * normal;
             sum += (state.normal[i] - normal).powi(2);
             sum += (state.tangential[i] - shear.clamp(-limit, limit)).powi(2);

@@ -40,8 +40,14 @@ pub use states::WholeMesh;
 
 use super::StudyError;
 use crate::case::{Case, Cea, Diagnostic, ModeSelection};
-use crate::cea::{FrictionSweep, SweepRequest, SweepWatch, Unwatched};
+use crate::cea::sparse::FrictionlessModes;
+use crate::cea::{CeaError, FrictionSweep, SweepRequest, SweepWatch, Unwatched};
+use crate::linalg::banded::BandedLdl;
+use crate::linalg::{LdlAnalysis, SparseLdl};
 use crate::results::cea::{BaseField, CeaReport, Reading, SensitivityReport};
+use rayon::prelude::*;
+use solve::at_key;
+use std::f64::consts::TAU;
 
 /// Hears of every friction value that is solved, and may keep what took long to find.
 pub type Progress<'a> = dyn SweepWatch + 'a;
@@ -81,34 +87,76 @@ pub fn modes_and_onsets(case: &Case) -> Result<FrictionSweep, StudyError> {
     Ok(sweep)
 }
 
-/// Solves at the first friction coefficient alone: bounds that have no mode below them show there.
+/// Motions below a frequency limit up to which they are told apart, for so many may be rigid; unknowns up to which tables are tried.
+const MOST_RIGID: usize = 12;
+const MOST_TABLED: usize = 3_000;
+
+/// Refuses what a run refuses before it follows branches: no steady sliding, no mode below the limit, modes beyond a table.
+///
+/// Modes without friction are counted: by one factorization of `K - omega^2 M`, or by one of each harmonic.
 ///
 /// # Errors
-/// As [`solve`] and [`refuse_no_modes`].
+/// As [`SlidingModel::new`] and [`refuse_no_modes`].
 pub fn preflight(case: &Case, cea: &Cea) -> Result<(), StudyError> {
-    let one = Cea { friction_coefficients: vec![cea.friction_coefficients[0]], ..cea.of_tables() };
-    let model = SlidingModel::new(case, &one)?;
-    let solution = solve_modes(case, &one, &model)?;
-    refuse_no_modes(case, &one, &solution.sweep)
+    let SlidingModel { model, mesh, .. } = SlidingModel::new(case, cea)?;
+    let mut regions = 0..case.body.region_count();
+    let is_tabled = regions.any(|region| case.materials().table(region).is_some());
+    if is_tabled && mesh.dof_count() <= MOST_TABLED {
+        // Tables hold the frequencies of all modes, or not.
+        let one =
+            Cea { friction_coefficients: vec![cea.friction_coefficients[0]], ..cea.of_tables() };
+        let solution = solve_modes(case, &one, &SlidingModel::new(case, &one)?)?;
+        return refuse_no_modes(case, &one, &solution.sweep);
+    }
+    let ModeSelection::BelowHz(limit_hz) = cea.modes else {
+        return Ok(());
+    };
+    let kappa = (TAU * limit_hz).powi(2);
+    if let Some(waves) = model.wave_tangent(case)? {
+        let has_modes = |n: usize| {
+            let [mass, stiffness] = waves.at_rest(n);
+            BandedLdl::new(&stiffness, &mass, kappa).negative_count() > 0
+        };
+        if (0..=waves.largest_harmonic()).into_par_iter().any(has_modes) {
+            return Ok(());
+        }
+        // Friction may bring a mode below the limit. There is little to follow.
+        let frictions = cea.solved_friction_coefficients();
+        let request = SweepRequest::new(&frictions, mode_limit(cea));
+        return refuse_no_modes(case, cea, &model.spectrum(case, &request, &Unwatched)?.sweep);
+    }
+    let tangent = model.tangent(case, model.state_of()[0])?.referred_to(limit_hz);
+    let [stiffness, mass] = [&tangent.stiffness, &tangent.mass].map(|own| own.evaluate(0.0));
+    let shifted: Vec<f64> = stiffness.iter().zip(&mass).map(|(k, m)| k - kappa * m).collect();
+    let analysis = LdlAnalysis::new(tangent.stiffness.pattern()).map_err(CeaError::from)?;
+    if SparseLdl::factorize(&analysis, &shifted).is_ok_and(|f| f.negative_count() > MOST_RIGID) {
+        return Ok(());
+    }
+    let found = FrictionlessModes::compute(&tangent, mode_limit(cea));
+    found.map_or_else(|error| Err(at_key(case, &error)), |_| Ok(()))
 }
 
 /// A frequency limit below the first mode is an error of the case.
 pub fn refuse_no_modes(case: &Case, cea: &Cea, sweep: &FrictionSweep) -> Result<(), StudyError> {
-    let ModeSelection::BelowHz(limit) = cea.modes else {
-        return Ok(());
-    };
-    if sweep.points.iter().any(|point| !point.modes.is_empty()) {
-        return Ok(());
+    match cea.modes {
+        ModeSelection::BelowHz(limit) if sweep.points.iter().all(|own| own.modes.is_empty()) => {
+            let message = format!("cea.max_frequency_hz = {limit}: there are no modes below it");
+            Err(no_modes(case, message))
+        }
+        _ => Ok(()),
     }
+}
+
+fn no_modes(case: &Case, message: String) -> StudyError {
     let error = Diagnostic::error(
-        format!("cea.max_frequency_hz = {limit}: there are no modes below it"),
+        message,
         "below the first mode",
         case.raw.place("cea.max_frequency_hz"),
         "raise it, or ask for the lowest ones with `modes = 10` instead",
     );
     // A slip of units comes first: the missing modes are its consequence.
     let all = [case.warnings.as_slice(), &[error]].concat();
-    Err(StudyError::Case(case.raw.errors(all)))
+    StudyError::Case(case.raw.errors(all))
 }
 
 /// What there is to report of a solution.

@@ -67,11 +67,9 @@ pub(super) fn table_notes(case: &Case) -> Vec<String> {
 
 pub(super) fn instead_note(error: &CeaError) -> String {
     let why = match error {
-        CeaError::LostHarmonic { harmonic, friction } => {
-            format!(
-                "a branch of harmonic {harmonic} could not be followed up to friction {friction}"
-            )
-        }
+        CeaError::LostHarmonic { harmonic, friction } => format!(
+            "a branch of harmonic {harmonic} could not be followed up to friction {friction}"
+        ),
         CeaError::Unproven { harmonic, .. } => {
             format!("harmonic {harmonic} may hold further modes")
         }
@@ -147,11 +145,6 @@ pub(super) fn damping_note(case: &Case, sweep: &FrictionSweep) -> Option<String>
 /// The modes of a whole mesh that friction across slow sliding damps beyond the critical, that change too fast to be followed, that did
 /// not converge or grow just above the list, and its rigid motions.
 pub(super) fn ended_notes(sweep: &FrictionSweep) -> Vec<String> {
-    let listed = |all: Vec<String>| {
-        let (shown, rest) = all.split_at(all.len().min(MISSING_SHOWN));
-        let more = if rest.is_empty() { "" } else { ", ..." };
-        format!("{}{more}", shown.join(", "))
-    };
     let (mut damped, mut lost) = (Vec::new(), Vec::new());
     for mode in &sweep.ended {
         let (frequency, friction) = (mode.frequency_hz, mode.friction_coefficient);
@@ -162,44 +155,28 @@ pub(super) fn ended_notes(sweep: &FrictionSweep) -> Vec<String> {
             }
         }
     }
-    let number = |count: usize, one: &str, many: &str| match count {
-        1 => format!("1 {one}"),
-        count => format!("{count} {many}"),
-    };
-    let damped = (!damped.is_empty()).then(|| {
-        let which = number(
-            damped.len(),
-            "mode near critical damping is",
-            "modes near critical damping are",
-        );
+    let open = sweep.unconverged.iter().map(|mode| {
+        format!("{:.0} Hz at friction {}", mode.frequency_hz, mode.friction_coefficient)
+    });
+    let which = ["mode near critical damping is", "modes near critical damping are"];
+    let damped = listed(damped, which).map(|(which, places)| {
         format!(
-            "{which} not followed beyond it ({}). Friction across the sliding is a dashpot of mu p \
-             / V there. It grows as the sliding slows down, and holds that motion in the limit",
-            listed(damped),
+            "{which} not followed beyond it ({places}). Friction across the sliding is a dashpot of mu p \
+             / V there. It grows as the sliding slows down, and holds that motion in the limit"
         )
     });
-    let lost = (!lost.is_empty()).then(|| {
+    let lost = listed(lost, ["branch changes", "branches change"]).map(|(which, places)| {
         format!(
-            "{} too fast to be followed ({}): branches beyond have new numbers. If one is unstable \
-             there, its critical friction lies in between. Ask for friction coefficients closer \
-             together there, or for a faster sliding. cea.count_modes says whether a mode is \
-             missing",
-            number(lost.len(), "branch changes", "branches change"),
-            listed(lost),
+            "{which} too fast to be followed ({places}): branches beyond have new numbers. If one is \
+             unstable there, its critical friction lies in between. Ask for friction coefficients \
+             closer together there, or for a faster sliding. cea.count_modes says whether a mode is \
+             missing"
         )
     });
-    let open = sweep.unconverged.iter();
-    let open: Vec<String> = open
-        .map(|mode| {
-            format!("{:.0} Hz at friction {}", mode.frequency_hz, mode.friction_coefficient)
-        })
-        .collect();
-    let open = (!open.is_empty()).then(|| {
-        let which = number(open.len(), "mode has", "modes have");
-        format!("{which} not converged: left out is what lies at {}", listed(open))
-    });
+    let open = listed(open.collect(), ["mode has", "modes have"])
+        .map(|(which, places)| format!("{which} not converged: left out is what lies at {places}"));
     let rigid = (sweep.rigid_motions > 0).then(|| {
-        let which = number(sweep.rigid_motions, "rigid motion", "rigid motions");
+        let which = number(sweep.rigid_motions, ["rigid motion", "rigid motions"]);
         format!(
             "{which}, at frequency zero, not listed: nothing holds the body in those directions"
         )
@@ -212,6 +189,18 @@ pub(super) fn ended_notes(sweep: &FrictionSweep) -> Vec<String> {
         )
     });
     damped.into_iter().chain(lost).chain(open).chain(beyond).chain(rigid).collect()
+}
+
+fn number(count: usize, [one, many]: [&str; 2]) -> String {
+    let noun = if count == 1 { one } else { many };
+    format!("{count} {noun}")
+}
+
+/// How many there are, and the first of them; nothing of none.
+fn listed(all: Vec<String>, nouns: [&str; 2]) -> Option<(String, String)> {
+    let (shown, rest) = all.split_at(all.len().min(MISSING_SHOWN));
+    let more = if rest.is_empty() { "" } else { ", ..." };
+    (!all.is_empty()).then(|| (number(all.len(), nouns), shown.join(", ") + more))
 }
 
 /// The motions that friction across the sliding keeps from oscillating, and those that it damps.

@@ -8,7 +8,7 @@ use super::notes::{
 use super::reading::{lefts_needed, read, shapes_needed};
 use super::sensitivity::body_sensitivities;
 use super::solid::SolidBody;
-use super::{Progress, SlidingModel, Solution, StudyError};
+use super::{Progress, SlidingModel, Solution, StudyError, no_modes};
 use crate::case::{Case, Cea, CeaMethod};
 use crate::cea::{CeaError, SweepRequest, Unwatched};
 use crate::results::cea::SensitivityReport;
@@ -39,16 +39,12 @@ fn solve_with(
     let frictions = cea.solved_friction_coefficients();
     let waves_at: &[f64] = if with_reading { &frictions } else { &[] };
     let modes = case.cost().cea.map_or(0, |cost| cost.modes) as f64;
-    let needed = |of: &Model| match with_reading {
-        true => shapes_needed(case, of, &frictions, modes),
-        false => Vec::new(),
-    };
     let solve = |of: &Model| {
-        let shown = [cea.shapes_at.as_slice(), &needed(of)].concat();
-        let lefts_at = match with_reading {
-            true => lefts_needed(case, cea.mass, &shown, modes),
-            false => Vec::new(),
-        };
+        let (mut shown, mut lefts_at) = (cea.shapes_at.clone(), Vec::new());
+        if with_reading {
+            shown.extend(shapes_needed(case, of, &frictions, modes));
+            lefts_at = lefts_needed(case, cea.mass, &shown, modes);
+        }
         let request = SweepRequest {
             shapes_at: &shown,
             lefts_at: &lefts_at,
@@ -62,7 +58,7 @@ fn solve_with(
         Ok(found) => (found, model.model.method(), None),
         Err(error) => {
             let whole = whole_mesh_instead(case, cea, model, &error)?;
-            let whole = whole.ok_or_else(|| at_table(case, &error))?;
+            let whole = whole.ok_or_else(|| at_key(case, &error))?;
             let found = solve(&whole)?;
             (found, whole.method(), Some(instead_note(&error)))
         }
@@ -145,15 +141,14 @@ fn body_rates(
     }
 }
 
-/// An error about a table of moduli at the key that names it; any other as it is.
-fn at_table(case: &Case, error: &CeaError) -> StudyError {
-    let help = "extend the table, or lower cea.max_frequency_hz or cea.modes";
+/// An error about a key of the case where that is given; any other as it is.
+pub(super) fn at_key(case: &Case, error: &CeaError) -> StudyError {
     match error {
         CeaError::BeyondTable { key, .. } => {
-            let label = "does not cover the modes".to_owned();
-            let help = Some(help.to_owned());
-            case.error_at(key, error.to_string(), label, help).into()
+            let help = "extend the table, or lower cea.max_frequency_hz or cea.modes";
+            case.error_at(key, error.to_string(), "does not cover the modes", help).into()
         }
+        CeaError::NoModes { .. } => no_modes(case, error.to_string()),
         other => other.clone().into(),
     }
 }
