@@ -6,7 +6,6 @@ use super::modifications::{Misfit, Modification, reshaped};
 use super::node::Nodes;
 use super::reader::Section;
 use super::refuse;
-use crate::fem::{RegionMaterial, TabledMaterial};
 use crate::mesh::{
     Attachment, BodyError, BodySpecification, CounterfaceSpecification, DampedPatch, Mesh,
 };
@@ -39,9 +38,7 @@ pub(super) fn reshaped_annulus(
     };
     let body = Mesh::from_gmsh(&file, &specification);
     let body = body.map_err(|error: BodyError| (key, error.to_string()))?;
-    let own = RegionMaterial { elastic: annulus.materials.annulus, damping: None };
-    let table = annulus.tables[0].clone();
-    let materials = vec![TabledMaterial { own, table }];
+    let materials = vec![annulus.materials[0].clone()];
     Ok(ImportedBody::new(body, materials, file, specification))
 }
 

@@ -3,7 +3,7 @@
 use super::assembly::AssemblyBody;
 use super::imported::ImportedBody;
 use crate::contact::RigidMotion;
-use crate::fem::{AnnulusMaterials, ElasticMaterial, MaterialField, ModulusTable, RayleighDamping};
+use crate::fem::{MaterialField, TabledMaterial};
 use crate::mesh::{
     AnnulusMesh, AnnulusSpecification, BoundaryCondition, Counterface, Mesh, MeshError,
     SolidContact, SolidSpecification,
@@ -16,33 +16,17 @@ use std::sync::Arc;
 pub struct Annulus {
     /// Radii, element counts, and what holds the outer edge.
     pub specification: AnnulusSpecification,
-    /// The materials of disc and shaft, with the moduli of the lowest frequency of their tables.
-    pub materials: AnnulusMaterials,
-    /// Modulus and loss factor over frequency of disc and shaft.
-    pub tables: [Option<Arc<ModulusTable>>; 2],
-}
-
-impl MaterialField for Annulus {
-    fn of(&self, region: usize) -> &ElasticMaterial {
-        self.materials.of(region)
-    }
-
-    fn own_damping(&self, region: usize) -> Option<RayleighDamping> {
-        self.materials.own_damping(region)
-    }
-
-    fn table(&self, region: usize) -> Option<&Arc<ModulusTable>> {
-        self.tables[region].as_ref()
-    }
+    /// The materials of the disc and, where there is one, of its shaft.
+    pub materials: Vec<TabledMaterial>,
 }
 
 /// A body of revolution in three dimensions that is generated from radii, thickness and element counts.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Revolution {
     /// Radii, thickness, element counts, contact, and what holds each face.
     pub specification: SolidSpecification,
-    /// Its material.
-    pub material: ElasticMaterial,
+    /// The material of each of its regions.
+    pub materials: Vec<TabledMaterial>,
 }
 
 /// The body of a case.
@@ -257,8 +241,8 @@ impl Body {
     /// The material of each region of the mesh.
     pub fn materials(&self) -> &dyn MaterialField {
         match self {
-            Self::Annulus(annulus) => annulus,
-            Self::Revolution(revolution) => &revolution.material,
+            Self::Annulus(annulus) => &annulus.materials,
+            Self::Revolution(revolution) => &revolution.materials,
             Self::Imported(imported) => &imported.materials,
             Self::Assembly(assembly) => &assembly.materials,
         }
@@ -296,8 +280,8 @@ impl Body {
     /// Number of materials.
     pub fn region_count(&self) -> usize {
         match self {
-            Self::Annulus(annulus) => 1 + usize::from(annulus.materials.shaft.is_some()),
-            Self::Revolution(_) => 1,
+            Self::Annulus(annulus) => annulus.materials.len(),
+            Self::Revolution(revolution) => revolution.materials.len(),
             Self::Imported(imported) => imported.materials.len(),
             Self::Assembly(assembly) => assembly.materials.len(),
         }

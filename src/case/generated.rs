@@ -13,7 +13,7 @@ use super::shaft;
 use super::solid;
 use super::tables::TableFiles;
 use super::whole_revolution::whole_revolution;
-use crate::fem::{AnnulusMaterials, ElasticMaterial, TabledMaterial};
+use crate::fem::{ElasticMaterial, TabledMaterial};
 use crate::mesh::{AnnulusSpecification, BoundaryCondition, SolidSpecification};
 
 /// The generated body with what its modifications take away or move, and its contact. Closes both sections.
@@ -31,7 +31,8 @@ pub(super) fn generated(
     let sectors = Surroundings::Sectors { is_plane: !is_solid };
     place_axes(root, &["material"], material, &sectors);
     let parts = (conditions, is_solid);
-    let (mut annulus, mut shaft) = annulus(root, [&geometry, &mesh], parts, (material, tables));
+    let (mut annulus, mut shaft) =
+        annulus(root, [&geometry, &mesh], parts, (material, &mut *tables));
     if let Some(shaft) = &mut shaft {
         let path = ["materials", "shaft"];
         place_axes(root, &path, &mut shaft.own.elastic, &sectors);
@@ -42,55 +43,54 @@ pub(super) fn generated(
     let body = match axial {
         None => Some(Annulus {
             specification: annulus,
-            materials: AnnulusMaterials {
-                annulus: *material,
-                shaft: shaft.as_ref().map(|shaft| shaft.own),
-            },
-            tables: [common.table.clone(), shaft.and_then(|shaft| shaft.table)],
+            materials: std::iter::once(common.clone()).chain(shaft).collect(),
         })
         .and_then(|annulus| plane_annulus(root, annulus, changes)),
         Some(axial_elements) => {
             let conditions = solid::conditions(root, conditions, place.solid);
             annulus.outer = conditions[1];
-            let revolution = Revolution {
-                specification: SolidSpecification {
-                    annulus,
-                    thickness,
-                    axial_elements,
-                    contact: place.solid,
-                    conditions,
-                },
-                material: *material,
+            let mut specification = SolidSpecification {
+                annulus,
+                thickness,
+                axial_elements,
+                contact: place.solid,
+                conditions,
+                parts: Vec::new(),
             };
-            revolution_body(root, revolution, (common, &contact), changes)
+            let mut materials = vec![common.clone()];
+            for (part, mut material) in
+                solid::parts(root, &common.own.elastic, tables, &specification)
+            {
+                let path = ["materials", &part.name];
+                place_axes(root, &path, &mut material.own.elastic, &sectors);
+                specification.parts.push(part);
+                materials.push(material);
+            }
+            let revolution = Revolution { specification, materials };
+            revolution_body(root, revolution, &contact, changes)
         }
     };
     (body, contact)
 }
 
 /// A body of revolution, as a whole mesh where modifications break its symmetry, where losses or moduli over frequency part the
-/// waves +n and -n of its harmonics, and where that is asked for.
+/// waves +n and -n of its harmonics, where it has several materials, and where that is asked for.
 fn revolution_body(
     root: &Section<'_>,
     revolution: Revolution,
-    parts: (&TabledMaterial, &Contact),
+    contact: &Contact,
     changes: &[Modification],
 ) -> Option<Body> {
-    let (material, contact) = parts;
-    let supports = revolution.specification.conditions.iter();
-    let loses = supports.filter_map(|condition| match condition {
-        BoundaryCondition::Support(support) => Some(support.loss_factor),
-        _ => None,
-    });
-    let own = [material.own.elastic.loss_factor, contact.stiffness.loss_factor];
-    let is_lossy = loses.chain(own).any(|eta| eta > 0.0) || material.table.is_some();
     let cea = root.section("cea", false);
     let is_asked_for = cea.is_text("method", "sparse")
         || root.section("transient", false).is_text("operator", "sparse");
-    if changes.is_empty() && !is_lossy && !is_asked_for {
-        return Some(Body::Revolution(revolution));
+    let body = Body::Revolution(revolution.clone());
+    let is_lossy = body.has_structural_damping() || contact.stiffness.loss_factor > 0.0;
+    let has_parts = revolution.materials.len() > 1;
+    if changes.is_empty() && !is_asked_for && !is_lossy && !has_parts {
+        return Some(body);
     }
-    let found = whole_revolution(&revolution, parts, changes);
+    let found = whole_revolution(&revolution, contact, changes);
     let reject = |(key, why): modifications::Misfit| {
         let section = key.split('.').next().unwrap_or_default().to_owned();
         let message = format!("{key}: {why}");
@@ -128,10 +128,15 @@ fn annulus(
              {inner_radius}";
             "must be above {inner_radius}"; "both are radii in metres; are they swapped?");
     }
-    let shaft = shaft::shaft(root, [geometry, mesh], inner_radius, conditions, material, tables);
-    if is_solid && shaft.is_some() {
-        refuse!(geometry, "shaft_inner_radius", "a deformable shaft turns in a plane annulus only";
-            "the body is three-dimensional"; "leave the shaft out, or use a plane formulation");
+    let shaft = match is_solid {
+        false => shaft::shaft(root, [geometry, mesh], inner_radius, conditions, material, tables),
+        true => None,
+    };
+    for (section, key) in [(geometry, "shaft_inner_radius"), (mesh, "shaft_radial_elements")] {
+        if is_solid && !section.refused(key).is_empty() {
+            refuse!(section, key, "a deformable shaft turns in a plane annulus only";
+                "the body is three-dimensional"; "leave the shaft out, or use a plane formulation");
+        }
     }
     let annulus = AnnulusSpecification {
         inner_radius,

@@ -100,6 +100,22 @@ pub(super) fn materials(
     common: &ElasticMaterial,
     files: &mut TableFiles<'_>,
 ) -> Vec<(String, TabledMaterial)> {
+    let all = materials_and(root, common, files, |section| {
+        for key in section.refused("radii heights") {
+            refuse!(section, key => "is of a part of a generated three-dimensional body";
+                "of other bodies"; "leave it out");
+        }
+    });
+    all.into_iter().map(|(name, (material, ()))| (name, material)).collect()
+}
+
+/// [`materials`] with what else their sections hold.
+pub(super) fn materials_and<T>(
+    root: &Section<'_>,
+    common: &ElasticMaterial,
+    files: &mut TableFiles<'_>,
+    beside: impl Fn(&Section<'_>) -> T,
+) -> Vec<(String, (TabledMaterial, T))> {
     root.each("materials", |section| {
         let coefficients = [
             section.optional_number("mass_coefficient"),
@@ -114,7 +130,7 @@ pub(super) fn materials(
                 stiffness_coefficient: stiffness.unwrap_or(0.0),
             }),
         };
-        TabledMaterial { own: RegionMaterial { elastic, damping }, table }
+        (TabledMaterial { own: RegionMaterial { elastic, damping }, table }, beside(section))
     })
 }
 

@@ -161,9 +161,9 @@ impl Case {
                 let whole = self.thickness * mesh.sector_count() as f64;
                 base.map(|base| vec![whole * base.state.normal_forces[0].iter().sum::<f64>()])
             }
-            Body::Revolution(Revolution { specification, material }) => {
+            Body::Revolution(Revolution { specification, materials }) => {
                 let mesh = SolidSector::generate(specification).map_err(in_words)?;
-                let elastic = sector::stiffness(&mesh, material);
+                let elastic = sector::stiffness(&mesh, materials);
                 let law = self.contact.stiffness.base_law();
                 let base = SolidSliding::solve(&mesh, &elastic, &contact, law);
                 let whole = mesh.sector_count() as f64;

@@ -3,10 +3,13 @@
 use super::boundaries::NamedCondition;
 use super::diagnostic::CaseErrors;
 use super::reader::Section;
+use super::tables::TableFiles;
 use super::{Case, suggestion};
-use super::{refusal, refuse};
-use crate::fem::{ElasticMaterial, PlaneFormulation};
-use crate::mesh::{AnnulusSpecification, BoundaryCondition, SolidContact, SolidFace};
+use super::{imported, refusal, refuse};
+use crate::fem::{ElasticMaterial, PlaneFormulation, TabledMaterial};
+use crate::mesh::{
+    AnnulusSpecification, BoundaryCondition, SolidContact, SolidFace, SolidPart, SolidSpecification,
+};
 
 /// Whether the body has a thickness of its own.
 pub(super) fn is_solid(material: &ElasticMaterial) -> bool {
@@ -81,6 +84,61 @@ pub(super) fn contact(section: &Section<'_>, annulus: &AnnulusSpecification) -> 
             "must be above {inner}"; "are they swapped?");
     }
     SolidContact::Ring { inner_radius: inner, outer_radius: outer }
+}
+
+/// `[materials.*]`: parts of a body between radii and heights, which no element crosses, with their materials.
+pub(super) fn parts(
+    root: &Section<'_>,
+    common: &ElasticMaterial,
+    tables: &mut TableFiles<'_>,
+    body: &SolidSpecification,
+) -> Vec<(SolidPart, TabledMaterial)> {
+    let radii = body.corner_radii().unwrap_or_default();
+    let height = |layer: usize| body.thickness * layer as f64 / body.axial_elements as f64;
+    let heights: Vec<f64> = (0..=body.axial_elements).map(height).collect();
+    let found = imported::materials_and(root, common, tables, |section| {
+        if !section.has("radii") && !section.has("heights") {
+            refuse!(section, "radii", "{} needs the radii or the heights between which it lies",
+                section.name("radii"); "lies nowhere"; "describe the rest of the body in [material]");
+        }
+        let range = |key: &str, lines: &[f64]| {
+            let whole = [lines.first(), lines.last()].map(|end| end.copied().unwrap_or(0.0));
+            let given = section.numbers(key);
+            let [from, to] = match given.as_deref() {
+                None => whole,
+                Some(&[from, to]) if from < to => [from, to],
+                Some(_) => {
+                    refuse!(section, key => "needs two rising numbers"; "must be [from, to]";
+                        "for example `{key} = {whole:?}`");
+                    whole
+                }
+            };
+            for end in [from, to] {
+                let away = |line: &f64| (line - end).abs();
+                let nearest = lines.iter().copied().min_by(|a, b| away(a).total_cmp(&away(b)));
+                if let Some(near) = nearest.filter(|near| away(near) > 1e-9 * whole[1]) {
+                    refuse!(section, key, "{}: no elements meet at {end} m", section.name(key);
+                        "crosses elements"; "the nearest border of elements is at {near} m: move \
+                         it there, or change the element counts");
+                }
+            }
+            [from, to]
+        };
+        [range("radii", &radii), range("heights", &heights)]
+    });
+    let section = root.section("materials", false);
+    let mut parts: Vec<(SolidPart, TabledMaterial)> = Vec::new();
+    for (name, (material, [radii, heights])) in found {
+        let meets = |[a, b]: [f64; 2], [c, d]: [f64; 2]| a.max(c) < b.min(d);
+        let covers = |own: &SolidPart| meets(own.radii, radii) && meets(own.heights, heights);
+        let other = parts.iter().find(|(own, _)| covers(own)).map(|(own, _)| own.name.clone());
+        if let Some(other) = other.or((name == "disc").then(|| "the rest".to_owned())) {
+            refuse!(section, &name, "materials.{name} and {other} share a place or a name";
+                "two materials in one"; "move one of the parts, or give it another name");
+        }
+        parts.push((SolidPart { name, radii, heights }, material));
+    }
+    parts
 }
 
 /// What holds each face, from `[boundaries.*]`; the outer one is clamped unless something else is said.

@@ -7,7 +7,6 @@ use super::contact::Contact;
 use super::modifications::{Misfit, Modification, reshaped};
 use super::{Case, CaseErrors};
 use crate::contact::{Counterpart, PairFriction, RigidCounterface, RigidMotion, RigidShape};
-use crate::fem::{RegionMaterial, TabledMaterial};
 use crate::mesh::{BoundaryCondition, Mesh, SolidContact, SolidFace, SolidSector};
 use crate::prestress::{BaseChoice, SlidingSurfaces};
 use std::borrow::Cow;
@@ -22,9 +21,7 @@ impl Case {
         let Body::Revolution(revolution) = &self.body else {
             return Ok(Cow::Borrowed(self));
         };
-        let own = RegionMaterial { elastic: revolution.material, damping: None };
-        let material = TabledMaterial { own, table: None };
-        let body = whole_revolution(revolution, (&material, &self.contact), &[]);
+        let body = whole_revolution(revolution, &self.contact, &[]);
         let body = body.map_err(|(key, why)| {
             let label = "does not fit the whole mesh";
             self.error_at(&key, format!("{key}: {why}"), label, None::<String>)
@@ -36,7 +33,7 @@ impl Case {
 /// The whole mesh of a body of revolution on its rigid cylinder, or under its rigid ring.
 pub(super) fn whole_revolution(
     revolution: &Revolution,
-    (material, contact): (&TabledMaterial, &Contact),
+    contact: &Contact,
     modifications: &[Modification],
 ) -> Result<AssemblyBody, Misfit> {
     let specification = &revolution.specification;
@@ -68,9 +65,14 @@ pub(super) fn whole_revolution(
         let why = "nothing is left of the surface of the contact";
         ("modifications".to_owned(), why.to_owned())
     })?;
-    let own = RegionMaterial { elastic: revolution.material, damping: None };
+    // Regions are in the order of their names.
+    let names = specification.region_names();
+    let materials = mesh.regions.iter().map(|name| {
+        let own = names.iter().position(|own| own == name);
+        revolution.materials[own.unwrap_or(0)].clone()
+    });
     Ok(AssemblyBody {
-        materials: vec![TabledMaterial { own, table: material.table.clone() }],
+        materials: materials.collect(),
         ties: Vec::new(),
         contacts: vec![sliding_surfaces(specification.contact, surface, contact)],
         motions: Vec::new(),

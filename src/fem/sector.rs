@@ -81,16 +81,17 @@ impl Sectored for SolidSector {
     }
 
     fn region_count(&self) -> usize {
-        1
+        1 + self.specification.parts.len()
     }
 
-    fn region(&self, _: usize) -> usize {
-        0
+    fn region(&self, element: usize) -> usize {
+        self.region(element)
     }
 
-    /// Layers are alike.
+    /// Layers of one material are alike.
     fn alike(&self, element: usize) -> usize {
-        element % self.divisions()[0]
+        let mut layers = (element % self.divisions()[0]..element).step_by(self.divisions()[0]);
+        layers.find(|own| self.region(*own) == self.region(element)).unwrap_or(element)
     }
 
     fn places(&self, element: usize) -> Vec<(usize, usize)> {

@@ -44,8 +44,8 @@ pub use refinement::refined_file;
 pub use repetition::repeated_file;
 pub use sector::SectorMesh;
 pub use solid::{
-    ContactRing, FaceElement, SheetNode, SolidContact, SolidFace, SolidSector, SolidSpecification,
-    face_quadrature, face_shapes,
+    ContactRing, FaceElement, SheetNode, SolidContact, SolidFace, SolidPart, SolidSector,
+    SolidSpecification, face_quadrature, face_shapes,
 };
 pub use specification::{AnnulusSpecification, MeshError, ShaftSpecification};
 

@@ -12,7 +12,7 @@ mod specification;
 mod whole;
 
 pub use faces::{FaceElement, face_quadrature, face_shapes};
-pub use specification::{SolidContact, SolidFace, SolidSpecification};
+pub use specification::{SolidContact, SolidFace, SolidPart, SolidSpecification};
 
 /// A node of one sector's sheets.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,8 +70,13 @@ impl SolidSector {
         let radii = specification.corner_radii()?;
         let (nodes, index) = sheet_nodes(specification, &radii);
         let elements = elements(specification, &index);
-        let mut sector =
-            Self { specification: *specification, nodes, radii, elements, rings: Vec::new() };
+        let mut sector = Self {
+            specification: specification.clone(),
+            nodes,
+            radii,
+            elements,
+            rings: Vec::new(),
+        };
         sector.rings = sector.contact_rings();
         Ok(sector)
     }
@@ -108,18 +113,18 @@ impl SolidSector {
             nodes: nodes.map(|(sheet, k)| place(sheet, k)).collect(),
             frames: NodalFrames::global(3, sheets * per_sector),
             element_starts: vec![0],
-            regions: vec![String::new()],
+            regions: self.specification.region_names(),
             ..Mesh::default()
         };
         for sector in 0..count.min(self.sector_count()) {
-            for element in &self.elements {
+            for (e, element) in self.elements.iter().enumerate() {
                 let nodes = element.iter();
                 let nodes = nodes.map(|&(k, half)| (sector + half / 2) % sheets * per_sector + k);
                 mesh.elements.extend(nodes.map(|node| node as u32));
                 mesh.congruent_to.push(mesh.element_kinds.len() as u32);
                 mesh.element_starts.push(mesh.elements.len() as u32);
                 mesh.element_kinds.push(self.element_kind());
-                mesh.element_regions.push(0);
+                mesh.element_regions.push(self.region(e) as u16);
             }
         }
         mesh
@@ -139,6 +144,18 @@ impl SolidSector {
     pub fn divisions(&self) -> [usize; 2] {
         let specification = &self.specification;
         [specification.annulus.radial_elements, specification.axial_elements]
+    }
+
+    /// Region of an element: 0, or the first part that its middle lies in, counted from 1.
+    pub fn region(&self, element: usize) -> usize {
+        let [radial, axial] = self.divisions();
+        let (i, j) = (element % radial, element / radial);
+        let radius = 0.5 * (self.radii[i] + self.radii[i + 1]);
+        let height = self.specification.thickness * (j as f64 + 0.5) / axial as f64;
+        let lies_in = |range: [f64; 2], at: f64| range[0] < at && at < range[1];
+        let mut parts = self.specification.parts.iter();
+        let own = parts.position(|p| lies_in(p.radii, radius) && lies_in(p.heights, height));
+        own.map_or(0, |part| part + 1)
     }
 
     /// Kind of all elements.
@@ -248,6 +265,12 @@ impl SolidSector {
 }
 
 impl SolidSpecification {
+    /// Names of the regions.
+    pub fn region_names(&self) -> Vec<String> {
+        let parts = self.parts.iter().map(|part| part.name.clone());
+        std::iter::once("disc".to_owned()).chain(parts).collect()
+    }
+
     /// The grid of its section across the axis, clamped outside, wherever the body itself is held.
     pub fn plane(&self) -> AnnulusSpecification {
         AnnulusSpecification { outer: BoundaryCondition::Clamped, ..self.annulus }

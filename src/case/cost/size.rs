@@ -1,7 +1,7 @@
 //! Size of a mesh, as the cost estimates need it.
 
 use crate::case::{Body, Case, Revolution};
-use crate::fem::{ElasticMaterial, TabledMaterial};
+use crate::fem::{ElasticMaterial, MaterialField, TabledMaterial};
 use crate::mesh::{AnnulusSpecification, Mesh};
 use std::f64::consts::TAU;
 
@@ -27,13 +27,16 @@ impl Size {
         let highest_frequency = match body {
             Body::Annulus(annulus) => {
                 let grid = &annulus.specification;
-                let of_disc = grid_frequency(grid, &annulus.materials.annulus, 0.0);
-                let shaft = annulus.materials.shaft.map(|shaft| shaft.elastic);
-                of_disc.max(shaft_frequency(grid, shaft.as_ref()))
+                let of_disc = grid_frequency(grid, annulus.materials.of(0), 0.0);
+                let shaft = annulus.materials.get(1).map(|shaft| &shaft.own.elastic);
+                of_disc.max(shaft_frequency(grid, shaft))
             }
-            Body::Revolution(Revolution { specification, material }) => {
+            Body::Revolution(Revolution { specification, materials }) => {
                 let through = specification.axial_elements as f64 / specification.thickness;
-                grid_frequency(&specification.annulus, material, through)
+                let of = |own: &TabledMaterial| {
+                    grid_frequency(&specification.annulus, &own.own.elastic, through)
+                };
+                materials.iter().map(of).fold(0.0, f64::max)
             }
             Body::Imported(own) => highest(&own.mesh, &own.materials, element_frequency),
             Body::Assembly(own) => highest(&own.mesh, &own.materials, solid_frequency),

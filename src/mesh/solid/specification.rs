@@ -75,8 +75,19 @@ impl SolidContact {
     }
 }
 
+/// A part of a body of revolution that has a material of its own: the elements whose middle lies in it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SolidPart {
+    /// Its name.
+    pub name: String,
+    /// Radii from and to, m.
+    pub radii: [f64; 2],
+    /// Heights over the bottom face from and to, m.
+    pub heights: [f64; 2],
+}
+
 /// What the generator of a body of revolution needs to know.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SolidSpecification {
     /// Radii and divisions in the plane; its outer condition is that of [`Self::conditions`].
     pub annulus: AnnulusSpecification,
@@ -88,4 +99,6 @@ pub struct SolidSpecification {
     pub contact: SolidContact,
     /// What holds each face, in the order of [`SolidFace::ALL`].
     pub conditions: [BoundaryCondition; 4],
+    /// Regions beside that of the rest, which is region 0.
+    pub parts: Vec<SolidPart>,
 }

@@ -8,8 +8,7 @@ impl SolidSector {
     /// The whole body as a mesh file would have it, made of equal sectors: surfaces `inner`, `outer`, `top` and `bottom`, and that
     /// under a ring on the top ([`Self::contact_surface`]).
     pub fn file(&self) -> FileMesh {
-        let mut mesh = self.part(self.sector_count());
-        mesh.regions = vec!["disc".to_owned()];
+        let mesh = self.part(self.sector_count());
         let mut surfaces: BTreeMap<String, Vec<_>> = BTreeMap::new();
         let faces = mesh.outer_faces();
         for face in &faces {

@@ -93,7 +93,7 @@ pub fn disc_model(case: &Case) -> Result<DiscModel, CaseErrors> {
     let annulus = case.require_annulus("limit cycles are rotating waves, which", search)?;
     Ok(DiscModel {
         specification: annulus.specification,
-        material: annulus.materials.annulus,
+        material: annulus.materials[0].own.elastic,
         damping: case.damping.rayleigh,
     })
 }

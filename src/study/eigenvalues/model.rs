@@ -8,6 +8,7 @@ use crate::case::{
 };
 use crate::cea::cyclic::{self, Coverage, Overdamped, SolidModel, WaveSweep};
 use crate::cea::{CeaError, FrictionSweep, ModeBranch, ModeLimit, SweepRequest};
+use crate::fem::TabledMaterial;
 use crate::mesh::{SectorMesh, SolidSector};
 use crate::prestress::{SlidingTangent, TangentOptions, WaveTangent};
 use crate::study::tangent_options;
@@ -67,7 +68,7 @@ impl Solver {
         match &case.body {
             Body::Annulus(_) if case.has_structural_damping() => Self::WholeMesh,
             Body::Annulus(annulus) => Self::Sectors(annulus.clone()),
-            Body::Revolution(revolution) => Self::SolidSectors(*revolution),
+            Body::Revolution(revolution) => Self::SolidSectors(revolution.clone()),
             Body::Imported(_) => Self::WholeMesh,
             Body::Assembly(_) => Self::Assembly,
         }
@@ -124,7 +125,7 @@ pub enum Model {
     /// The harmonics of a plane annulus.
     Sectors(Box<Annulus>, TangentOptions),
     /// The harmonics of a body of revolution in three dimensions.
-    SolidSectors(Box<SolidModel>),
+    SolidSectors(Box<SolidModel<Vec<TabledMaterial>>>),
     /// The whole mesh of a plane body.
     Whole(Box<WholeMesh>),
     /// The whole mesh of solid bodies.
@@ -213,10 +214,10 @@ impl Model {
         let sliding = &case.contact.sliding;
         Ok(match solver {
             Solver::Sectors(annulus) => Self::Sectors(Box::new(annulus), options),
-            Solver::SolidSectors(Revolution { specification, material }) => {
+            Solver::SolidSectors(Revolution { specification, materials }) => {
                 Self::SolidSectors(Box::new(SolidModel {
                     specification,
-                    material,
+                    material: materials,
                     options,
                     contact: *sliding,
                 }))

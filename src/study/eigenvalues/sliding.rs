@@ -47,8 +47,9 @@ impl SlidingModel {
         let (mesh, state) = match &model {
             Model::SolidSectors(revolution) => {
                 let solid = SolidBody::new(case, &revolution.specification)?;
-                let mesh = Arc::new(AnnulusMesh::generate(&revolution.specification.plane())?.mesh);
-                (mesh, SteadyState::Solid(Box::new(solid)))
+                let mut mesh = AnnulusMesh::generate(&revolution.specification.plane())?.mesh;
+                mesh.regions = revolution.specification.region_names();
+                (Arc::new(mesh), SteadyState::Solid(Box::new(solid)))
             }
             Model::Assembly(assembly) => {
                 let report = assembly.report(case);

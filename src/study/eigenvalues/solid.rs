@@ -22,12 +22,12 @@ impl SolidBody {
     /// A mesh that cannot be built, no state of sliding.
     pub fn new(case: &Case, specification: &SolidSpecification) -> Result<Self, StudyError> {
         let sector = SolidSector::generate(specification)?;
-        let elastic = sector::stiffness(&sector, &case.material);
+        let elastic = sector::stiffness(&sector, case.materials());
         let law = case.contact.stiffness.base_law();
         let base = SolidSliding::solve(&sector, &elastic, &case.contact.sliding, law)?;
         let friction_coefficient = case.contact.sliding.friction_coefficient;
         let displacement = base.displacement(friction_coefficient);
-        let stress = revolved_stress(&sector, &case.material, &displacement);
+        let stress = revolved_stress(&sector, case.materials(), &displacement);
         Ok(Self { report: SolidReport { sector, stress, base, friction_coefficient } })
     }
 

@@ -233,7 +233,7 @@ pub(in crate::study) fn refuse_bodies(case: &Case) -> Result<(), CaseErrors> {
         ));
     }
     match &case.body {
-        Body::Annulus(annulus) if annulus.materials.shaft.is_some() => refuse(
+        Body::Annulus(annulus) if annulus.specification.shaft.is_some() => refuse(
             "geometry.shaft_inner_radius",
             "improve adds to, or takes from, one place of a body, which breaks the symmetry that disc and shaft are solved by",
             "a deformable shaft",

@@ -5,6 +5,7 @@ mod elements;
 mod frf_command;
 mod limits;
 mod model;
+mod parts;
 mod plane_transient;
 mod poles;
 mod response;

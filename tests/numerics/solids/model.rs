@@ -25,6 +25,7 @@ pub fn disc(element: ElementKind, [around, radial, axial]: [usize; 3]) -> SolidM
                 BoundaryCondition::Free,
                 BoundaryCondition::Free,
             ],
+            parts: Vec::new(),
         },
         material: elastic(2.5e9, 0.3805, 1228.0, PlaneFormulation::ThreeDimensional),
         options: TangentOptions {

@@ -104,7 +104,7 @@ fn contact_that_stiffens_shares_the_distance_with_a_layer() {
 fn a_law_that_hardly_stiffens_is_springs() {
     let mut linear = ringed(ElementKind::Quad8, [24, 7, 1]);
     compliant(&mut linear, 3e11);
-    let mut own = linear;
+    let mut own = linear.clone();
     own.options.contact.law = Some(NormalLaw::Cubic { stiffness: 3e11, cubic_stiffness: 1e8 });
     let [linear, own] = [linear, own].map(|model| modes(&model, 0.5, 4000.0));
     assert_eq!(linear.len(), own.len());

@@ -51,7 +51,7 @@ fn compare(model: &SolidModel, what: &str) {
     assert!(all.len() >= 5, "{what}: {}", all.len());
     let changed = |change: fn(&mut SolidModel, f64)| {
         move |offset: f64| {
-            let mut changed = *model;
+            let mut changed = model.clone();
             change(&mut changed, offset);
             eigenvalues(&changed, FRICTION)
         }
@@ -134,7 +134,7 @@ fn compare(model: &SolidModel, what: &str) {
         };
         // Of Poisson's ratio relative to what is left to 1/2.
         let own = rates(&all, STEP * if name == "nu" { 0.1 } else { scale }, &|offset| {
-            let mut changed = *model;
+            let mut changed = model.clone();
             change(&mut changed, offset);
             tangent(&changed)
         });

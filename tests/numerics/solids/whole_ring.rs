@@ -17,7 +17,7 @@ impl WholeRing {
     /// The body: 8 nodes by the operator of the transient, which knows no harmonics, with lumped mass; 20 nodes, without
     /// supports, by an element in global coordinates written here, with consistent mass.
     pub fn new(model: &SolidModel, is_free: bool) -> Self {
-        let mut specification = model.specification;
+        let mut specification = model.specification.clone();
         if is_free {
             specification.conditions = [BoundaryCondition::Free; 4];
         }

@@ -14,7 +14,7 @@ use crate::cea::cyclic::problem::HarmonicProblem;
 use crate::cea::cyclic::sweep::{Overdamped, WaveSweep, together};
 use crate::cea::{CeaError, FrictionPoint, SweepRequest};
 use crate::contact::SlidingContact;
-use crate::fem::ElasticMaterial;
+use crate::fem::{ElasticMaterial, MaterialField};
 use crate::linalg::c64;
 use crate::mesh::{SolidSector, SolidSpecification};
 use crate::prestress::{HarmonicTangent, TangentOptions, WaveTangent};
@@ -22,12 +22,12 @@ use rayon::prelude::*;
 use std::f64::consts::TAU;
 
 /// Everything that an analysis of a body of revolution is made from.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SolidModel {
+#[derive(Clone, Debug, PartialEq)]
+pub struct SolidModel<M = ElasticMaterial> {
     /// The body and its mesh.
     pub specification: SolidSpecification,
-    /// Its material.
-    pub material: ElasticMaterial,
+    /// The material of each of its regions.
+    pub material: M,
     /// Choices of the linearisation.
     pub options: TangentOptions,
     /// The rotor.
@@ -67,13 +67,16 @@ struct Solved {
 ///
 /// # Errors
 /// [`CeaError`] where there is no sliding equilibrium, or a branch cannot be followed.
-pub fn solid_sweep(model: &SolidModel, request: &SweepRequest<'_>) -> Result<WaveSweep, CeaError> {
+pub fn solid_sweep<M: MaterialField>(
+    model: &SolidModel<M>,
+    request: &SweepRequest<'_>,
+) -> Result<WaveSweep, CeaError> {
     solid_sweep_with_waves(model, request, &[])
 }
 
 /// [`solid_sweep`] that keeps the waves of one sector at some of the friction coefficients.
-pub fn solid_sweep_with_waves(
-    model: &SolidModel,
+pub fn solid_sweep_with_waves<M: MaterialField>(
+    model: &SolidModel<M>,
     request: &SweepRequest<'_>,
     waves_at: &[f64],
 ) -> Result<WaveSweep, CeaError> {
@@ -93,8 +96,8 @@ pub fn solid_sweep_with_waves(
         .into_par_iter()
         .map(|found| follow(&tangent, found, &kept, (&grid, wanted)))
         .collect();
-    let (mut followed, mut reductions, mut error) = (Vec::new(), Vec::new(), 0.0_f64);
-    let mut overdamped = Vec::new();
+    let (mut followed, mut reductions, mut overdamped) = (Vec::new(), Vec::new(), Vec::new());
+    let mut error = 0.0_f64;
     for solved in solved? {
         followed.push(solved.paths);
         reductions.push(solved.reduction);
@@ -114,11 +117,9 @@ pub fn solid_sweep_with_waves(
         waves_at,
         unknowns: &unknowns,
     };
-    let points: Vec<FrictionPoint> = request
-        .friction_coefficients
-        .iter()
-        .map(|&friction| point(&producer, &followed, friction, request))
-        .collect();
+    let frictions = request.friction_coefficients.iter();
+    let points: Vec<FrictionPoint> =
+        frictions.map(|&friction| point(&producer, &followed, friction, request)).collect();
     let (sweep, branches) = together(points, &followed, direction);
     let coverage = Coverage {
         largest_harmonic: tangent.largest_harmonic(),
