@@ -4,7 +4,7 @@ use super::profile::{Profile, Run};
 use super::{Failure, RunOptions, Session};
 use crate::case::{AssemblyBody, Case, ModeSelection};
 use crate::chart::{ChartError, Figure};
-use crate::mesh::{AnnulusMesh, SolidSector, SolidSpecification};
+use crate::mesh::{AnnulusMesh, SolidSector};
 use crate::results::OutputFolder;
 use crate::results::mesh::{
     Measured, MeshStatistics, MeshSummary, SolidMeshStatistics, plane_figure, solid_figure,
@@ -35,7 +35,7 @@ impl Run for Arguments {
         }
         let mesh = case.mesh().map_err(Failure::usage)?;
         let revolution = case.body.revolution().map(|body| &body.specification);
-        let grid = revolution.map(SolidSpecification::plane).or(case.body.grid().copied());
+        let grid = revolution.map(|own| own.plane()).or(case.body.grid().copied());
         let annulus = grid.map(|grid| AnnulusMesh::generate(&grid).map_err(Failure::usage));
         let annulus = annulus.transpose()?;
         let solid = revolution.map(|solid| SolidSector::generate(solid).map_err(Failure::usage));

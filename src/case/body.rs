@@ -24,7 +24,7 @@ pub struct Annulus {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Revolution {
     /// Radii, thickness, element counts, contact, and what holds each face.
-    pub specification: SolidSpecification,
+    pub specification: Box<SolidSpecification>,
     /// The material of each of its regions.
     pub materials: Vec<TabledMaterial>,
 }

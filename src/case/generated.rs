@@ -66,6 +66,7 @@ pub(super) fn generated(
                 specification.parts.push(part);
                 materials.push(material);
             }
+            let specification = Box::new(specification);
             let revolution = Revolution { specification, materials };
             revolution_body(root, revolution, &contact, changes)
         }

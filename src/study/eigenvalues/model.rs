@@ -216,7 +216,7 @@ impl Model {
             Solver::Sectors(annulus) => Self::Sectors(Box::new(annulus), options),
             Solver::SolidSectors(Revolution { specification, materials }) => {
                 Self::SolidSectors(Box::new(SolidModel {
-                    specification,
+                    specification: *specification,
                     material: materials,
                     options,
                     contact: *sliding,

@@ -54,7 +54,7 @@ fn the_whole_mesh_of_a_disc_with_a_ring_has_the_modes_of_its_harmonics() {
     let own: TabledMaterial = materials[ring.unwrap()].clone();
     let part = SolidPart { name: "ring".to_owned(), radii: [0.03, 0.04], heights: [0.0, 0.005] };
     let model = SolidModel {
-        specification: SolidSpecification { parts: vec![part], ..plain.specification },
+        specification: SolidSpecification { parts: vec![part], ..*plain.specification },
         material: vec![plain.materials[0].clone(), own],
         options: TangentOptions {
             damping: RayleighDamping { mass_coefficient: 0.0, stiffness_coefficient: 0.0 },

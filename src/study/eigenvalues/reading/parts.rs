@@ -214,13 +214,11 @@ fn contact_dofs(mesh: &Mesh, contacts: &[(String, Vec<usize>)]) -> Vec<(String, 
     names.zip(dofs).collect()
 }
 
-/// Number and displacements, by power of the friction beyond an origin, of the base state at a friction coefficient, as far as
-/// their stress is not in the terms of the rotation.
-fn base_state<'m>(
-    case: &Case,
-    model: &'m SlidingModel,
-    friction: f64,
-) -> Option<(usize, Cow<'m, [Vec<f64>]>, f64)> {
+/// Number of a base state, its displacements by power of the friction beyond an origin, and that origin.
+type Stressing<'m> = (usize, Cow<'m, [Vec<f64>]>, f64);
+
+/// The base state at a friction coefficient, as far as its stress is not in the terms of the rotation.
+fn base_state<'m>(case: &Case, model: &'m SlidingModel, friction: f64) -> Option<Stressing<'m>> {
     let place = || {
         let solved = case.cea.as_ref()?.solved_friction_coefficients();
         solved.iter().position(|&mu| mu == friction)
