@@ -7,7 +7,7 @@
 //! use frictionsim::study::improve::improve;
 //!
 //! let case = Case::parse("disc", &std::fs::read("cases/polycarbonate-disc.toml")?, &[])?;
-//! for candidate in improve(&case)?.candidates {
+//! for candidate in improve(&case)?.summary.candidates {
 //!     println!("{} {}: {}", candidate.kind, candidate.place(), candidate.verdict);
 //! }
 //! # Ok::<(), Box<dyn std::error::Error>>(())
