@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
 /// Points after which the entries of one place are summed.
-const POINTS_AT_A_TIME: usize = 2000;
+const POINTS_AT_A_TIME: usize = 250;
 
 /// How the directions at a contact point turn with small motions, along the sliding `t` and across it `d`.
 #[derive(Clone, Debug, Default, PartialEq)]
