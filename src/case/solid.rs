@@ -99,7 +99,8 @@ pub(super) fn parts(
     let found = imported::materials_and(root, common, tables, |section| {
         if !section.has("radii") && !section.has("heights") {
             refuse!(section, "radii", "{} needs the radii or the heights between which it lies",
-                section.name("radii"); "lies nowhere"; "describe the rest of the body in [material]");
+                section.name("radii"); "lies nowhere";
+                "describe the rest of the body in [material]");
         }
         let range = |key: &str, lines: &[f64]| {
             let whole = [lines.first(), lines.last()].map(|end| end.copied().unwrap_or(0.0));

@@ -134,32 +134,6 @@ impl MaterialField for RelaxedMaterials {
     }
 }
 
-/// Materials of an annulus, region 0, and of its deformable shaft, region 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AnnulusMaterials {
-    /// Of the annulus.
-    pub annulus: ElasticMaterial,
-    /// Of the shaft, where it is deformable.
-    pub shaft: Option<RegionMaterial>,
-}
-
-impl From<ElasticMaterial> for AnnulusMaterials {
-    fn from(annulus: ElasticMaterial) -> Self {
-        Self { annulus, shaft: None }
-    }
-}
-
-impl MaterialField for AnnulusMaterials {
-    fn of(&self, region: usize) -> &ElasticMaterial {
-        let shaft = self.shaft.as_ref().filter(|_| region == 1);
-        shaft.map_or(&self.annulus, |shaft| &shaft.elastic)
-    }
-
-    fn own_damping(&self, region: usize) -> Option<RayleighDamping> {
-        self.shaft.filter(|_| region == 1)?.damping
-    }
-}
-
 /// One for each region.
 impl MaterialField for Vec<RegionMaterial> {
     fn of(&self, region: usize) -> &ElasticMaterial {

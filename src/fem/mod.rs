@@ -34,8 +34,8 @@ pub use assembly::{
 pub use discretization::DiscretizationError;
 pub use dof_map::DofMap;
 pub use material::{
-    AnnulusMaterials, ElasticMaterial, MaterialField, PlaneFormulation, RayleighDamping,
-    RegionMaterial, RelaxedMaterials, TabledMaterial,
+    ElasticMaterial, MaterialField, PlaneFormulation, RayleighDamping, RegionMaterial,
+    RelaxedMaterials, TabledMaterial,
 };
 pub use maxwell::{MaxwellChain, MaxwellElement};
 pub use modulus_table::{ModulusTable, own_frequency_step};

@@ -11,6 +11,7 @@ pub use crate::disc::{
 pub use crate::mesh_text::{even, mesh_text, quadrilaterals};
 pub use crate::msh::{CYLINDER, FORMS, plane_body, write_msh};
 pub use crate::program::{Answer, Run, folder, has, shipped};
+pub use crate::shaft::model::AnnulusMaterials;
 pub use crate::table_1::TABLE_1;
 pub use crate::tier::sized;
 pub use crate::triangles::body;
@@ -27,8 +28,8 @@ pub use frictionsim::contact::{
 };
 pub use frictionsim::fem::operator::SimdLevel;
 pub use frictionsim::fem::{
-    AnnulusMaterials, DofMap, ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping,
-    RegionMaterial, Triplets, assemble_mass, assemble_stiffness, sector,
+    DofMap, ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, RegionMaterial, Triplets,
+    assemble_mass, assemble_stiffness, sector,
 };
 pub use frictionsim::frf::{
     CyclicSystem, Direction, FrfError, FrfSystem, Terminal, cyclic_response, direct_response,

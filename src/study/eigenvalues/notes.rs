@@ -161,16 +161,16 @@ pub(super) fn ended_notes(sweep: &FrictionSweep) -> Vec<String> {
     let which = ["mode near critical damping is", "modes near critical damping are"];
     let damped = listed(damped, which).map(|(which, places)| {
         format!(
-            "{which} not followed beyond it ({places}). Friction across the sliding is a dashpot of mu p \
-             / V there. It grows as the sliding slows down, and holds that motion in the limit"
+            "{which} not followed beyond it ({places}). Friction across the sliding is a dashpot of \
+             mu p / V there. It grows as the sliding slows down, and holds that motion in the limit"
         )
     });
     let lost = listed(lost, ["branch changes", "branches change"]).map(|(which, places)| {
         format!(
-            "{which} too fast to be followed ({places}): branches beyond have new numbers. If one is \
-             unstable there, its critical friction lies in between. Ask for friction coefficients \
-             closer together there, or for a faster sliding. cea.count_modes says whether a mode is \
-             missing"
+            "{which} too fast to be followed ({places}): branches beyond have new numbers. If one \
+             is unstable there, its critical friction lies in between. Ask for friction \
+             coefficients closer together there, or for a faster sliding. cea.count_modes says \
+             whether a mode is missing"
         )
     });
     let open = listed(open.collect(), ["mode has", "modes have"])

@@ -2,6 +2,6 @@
 
 mod case;
 mod eigenvalues;
-mod model;
+pub mod model;
 mod statics;
 mod transient;

@@ -2,6 +2,33 @@
 
 use crate::prelude::*;
 use frictionsim::cea::cyclic::sweep;
+use frictionsim::fem::MaterialField;
+
+/// Materials of an annulus, region 0, and of its deformable shaft, region 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AnnulusMaterials {
+    /// Of the annulus.
+    pub annulus: ElasticMaterial,
+    /// Of the shaft, where it is deformable.
+    pub shaft: Option<RegionMaterial>,
+}
+
+impl From<ElasticMaterial> for AnnulusMaterials {
+    fn from(annulus: ElasticMaterial) -> Self {
+        Self { annulus, shaft: None }
+    }
+}
+
+impl MaterialField for AnnulusMaterials {
+    fn of(&self, region: usize) -> &ElasticMaterial {
+        let shaft = self.shaft.as_ref().filter(|_| region == 1);
+        shaft.map_or(&self.annulus, |shaft| &shaft.elastic)
+    }
+
+    fn own_damping(&self, region: usize) -> Option<RayleighDamping> {
+        self.shaft.filter(|_| region == 1)?.damping
+    }
+}
 
 pub const STEEL: ElasticMaterial = elastic(2.1e11, 0.3, 7850.0, PlaneFormulation::PlaneStrain);
 
