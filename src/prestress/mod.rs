@@ -38,6 +38,7 @@ mod wave_harmonic;
 mod wave_parts;
 mod wave_sector;
 mod wave_tangent;
+mod wave_terms;
 
 pub use assembly::{Assembly, Joined};
 pub use complementarity::PressedRange;

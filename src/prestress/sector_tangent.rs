@@ -1,8 +1,8 @@
 //! The terms of a plane annulus in steady sliding.
 
 use super::solid_contact::ContactTerms;
-use super::wave_sector::WaveTerms;
 use super::wave_tangent::WaveContact;
+use super::wave_terms::WaveTerms;
 use super::{PrestressError, SectorSliding, TangentOptions, WaveTangent, supports};
 use crate::contact::SlidingContact;
 use crate::fem::MaterialField;

@@ -1,8 +1,8 @@
 //! The terms of a body of revolution in three dimensions in steady sliding.
 
 use super::solid_contact::contact_terms;
-use super::wave_sector::WaveTerms;
 use super::wave_tangent::WaveContact;
+use super::wave_terms::WaveTerms;
 use super::{PrestressError, SolidSliding, TangentOptions, WaveTangent};
 use crate::contact::SlidingContact;
 use crate::fem::MaterialField;

@@ -9,7 +9,7 @@
 //! with `G_r(mu) = P_r + i mu S_r` the geometric stiffness, Hermitian, of which `beta_R` multiplies the whole where the damping
 //! is that of the whole tangent. Everything is of one sector, in the unknowns of the harmonic.
 
-use super::wave_sector::RegionTerms;
+use super::wave_terms::RegionTerms;
 use super::{DampingModel, WaveTangent};
 use crate::fem::RayleighDamping;
 use crate::fem::fold::{MirrorParity, SectorMatrix};

@@ -1,11 +1,9 @@
-//! What the waves of a sector are made of: its nodes, the matrices of its regions, springs, dashpots and pressures on its
-//! boundaries.
+//! What the waves of a sector need beside its elements: its nodes, springs, dashpots and pressures on its boundaries.
 
-use super::solid_contact::ContactTerms;
+use crate::fem::MaterialField;
 use crate::fem::fold::SectorMatrix;
-use crate::fem::sector::{self, Sectored, stiffness};
+use crate::fem::sector::{Sectored, stiffness};
 use crate::fem::solid::{FaceTerm, face_load, face_matrix, whole_element};
-use crate::fem::{MassKind, MaterialField, RayleighDamping};
 use crate::mesh::{BoundaryCondition, NodalSupport, SectorMesh, SolidFace, SolidSector};
 use nalgebra::DMatrix;
 
@@ -59,64 +57,6 @@ impl WaveSector for SolidSector {
 
     fn supports(&self) -> Vec<(String, [SectorMatrix; 2])> {
         supported_faces(self)
-    }
-}
-
-/// What the matrices are made of.
-#[derive(Clone, Debug, Default)]
-pub(super) struct WaveTerms {
-    pub regions: Vec<RegionTerms>,
-    /// Name, springs and dashpots of each supported boundary.
-    pub supports: Vec<(String, [SectorMatrix; 2])>,
-    /// Contact forces that turn with their nodes, without friction and for each unit of it.
-    pub turning: [SectorMatrix; 2],
-    /// Over the distances across the contact where that joins two bodies.
-    pub contact: ContactTerms,
-}
-
-/// Matrices of one region.
-#[derive(Clone, Debug)]
-pub(super) struct RegionTerms {
-    pub mass: SectorMatrix,
-    pub elastic: SectorMatrix,
-    /// Stress of the pressed state and, for each unit of friction, of the sheared state; empty where it does not act back.
-    pub stress: [SectorMatrix; 2],
-    /// Rayleigh coefficients of its own, else those of the whole body.
-    pub damping: Option<RayleighDamping>,
-}
-
-impl WaveTerms {
-    /// Regions without stress and supports of a sector.
-    pub fn of<S: WaveSector>(sector: &S, material: &dyn MaterialField, kind: MassKind) -> Self {
-        let region = |region: usize| RegionTerms {
-            mass: sector::mass_of(sector, material, kind, Some(region)),
-            elastic: sector::stiffness_of(sector, material, Some(region)),
-            stress: Default::default(),
-            damping: material.own_damping(region),
-        };
-        Self {
-            regions: (0..sector.region_count()).map(region).collect(),
-            supports: sector.supports(),
-            ..Self::default()
-        }
-    }
-
-    /// Elastic stiffness of all regions.
-    pub fn elastic(&self) -> SectorMatrix {
-        let (first, others) = self.regions.split_first().expect("a body has a region");
-        others.iter().fold(first.elastic.clone(), |sum, own| sum.plus(&own.elastic))
-    }
-
-    /// Takes up the stress of the displacements without friction and for each unit of it.
-    pub fn take_stress<S: WaveSector>(
-        &mut self,
-        sector: &S,
-        material: &dyn MaterialField,
-        states: [&[f64]; 2],
-    ) {
-        for (region, own) in self.regions.iter_mut().enumerate() {
-            own.stress = states.map(|u| sector::geometric_stiffness(sector, material, region, u));
-        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! The small motions around steady sliding of a body of equal sectors, harmonic by harmonic, from the terms of one sector.
 
-use super::wave_sector::{RegionTerms, WaveTerms};
+use super::wave_terms::{RegionTerms, WaveTerms};
 use super::{DampingModel, FrictionPolynomial, HarmonicTangent, TangentOptions, WaveSector};
 use crate::contact::ContactStiffness;
 use crate::fem::fold::{MirrorParity, SectorMatrix, WaveDofs};
