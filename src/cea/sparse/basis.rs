@@ -3,6 +3,7 @@
 mod samples;
 
 use super::factors::StiffnessFactors;
+use super::full_problem::SharedAnalysis;
 use super::linearization::Linearization;
 use super::mode::ReducedMode;
 use super::open_residuals::OpenResiduals;
@@ -16,12 +17,11 @@ use crate::linalg::dense::{
     orthonormal_complement, random_columns,
 };
 use crate::linalg::{
-    BlockOperator, KrylovSchurSettings, LinalgError, LuAnalysis, MatrixPolynomial, krylov_schur,
+    BlockOperator, KrylovSchurSettings, LinalgError, MatrixPolynomial, krylov_schur,
 };
 use crate::linalg::{Mat, Scale, c64};
 use crate::prestress::SlidingTangent;
 use std::borrow::Cow;
-use std::sync::OnceLock;
 
 /// Part of a block of corrections, relative to its longest: a longer one is a direction that the basis takes up, a shorter one is
 /// round-off.
@@ -64,8 +64,7 @@ pub struct BasisBuilder<'a> {
     factors: StiffnessFactors,
     /// What takes the place of `K` in factors, see [`Linearization::centred_stiffness`].
     stiffness: Cow<'a, MatrixPolynomial>,
-    /// Made for the first factors with friction.
-    analysis: OnceLock<Result<LuAnalysis, LinalgError>>,
+    analysis: SharedAnalysis,
     /// The projected problem so far.
     pub model: ReducedModel,
     /// Modes to be held at every friction coefficient.
@@ -107,7 +106,7 @@ impl<'a> BasisBuilder<'a> {
             linearization,
             factors,
             stiffness: linearization.centred_stiffness(tangent),
-            analysis: OnceLock::new(),
+            analysis: SharedAnalysis::default(),
             model,
             count: modes.ncols() - rigid,
             rigid,
@@ -292,9 +291,7 @@ impl<'a> BasisBuilder<'a> {
                 StiffnessFactors::frictionless(&self.stiffness)?
             }
             _ => {
-                let pattern = self.stiffness.pattern();
-                let analysis = self.analysis.get_or_init(|| LuAnalysis::new(pattern));
-                let analysis = analysis.as_ref().map_err(Clone::clone)?;
+                let analysis = self.analysis.of(self.stiffness.pattern())?;
                 StiffnessFactors::general(&self.stiffness, analysis, mu)?
             }
         };

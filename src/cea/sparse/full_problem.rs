@@ -4,11 +4,21 @@ use crate::linalg::{ComplexSparseLu, LinalgError, LuAnalysis, Mat, MatRef, Spars
 use crate::prestress::{SlidingTangent, TabledGain};
 use std::sync::{Arc, OnceLock};
 
+/// Order of elimination of all matrices of one tangent, made for the first factors.
+#[derive(Clone, Default)]
+pub struct SharedAnalysis(Arc<OnceLock<Result<LuAnalysis, LinalgError>>>);
+
+impl SharedAnalysis {
+    /// The analysis of `pattern`, the same each time.
+    pub fn of(&self, pattern: &Arc<SparsityPattern>) -> Result<&LuAnalysis, LinalgError> {
+        self.0.get_or_init(|| LuAnalysis::new(pattern)).as_ref().map_err(Clone::clone)
+    }
+}
+
 /// `T(lambda) = lambda^2 M + lambda C + K + i H + sum_p g_p K_p` at one friction coefficient, `g_p` at the frequency of `lambda`.
 pub struct FullProblem<'a> {
     pattern: &'a Arc<SparsityPattern>,
-    /// Made for the first factors.
-    analysis: OnceLock<Result<LuAnalysis, LinalgError>>,
+    analysis: SharedAnalysis,
     /// Nonzero values of `K`, `C` and `M`.
     values: [Vec<f64>; 3],
     /// Those of `H`; empty without structural damping.
@@ -20,12 +30,17 @@ pub struct FullProblem<'a> {
 impl<'a> FullProblem<'a> {
     /// The problem of `tangent` at friction coefficient `mu`.
     pub fn at(tangent: &'a SlidingTangent, mu: f64) -> Self {
+        Self::analysed(tangent, mu, SharedAnalysis::default())
+    }
+
+    /// [`Self::at`] with an analysis that serves other friction coefficients too.
+    pub fn analysed(tangent: &'a SlidingTangent, mu: f64, analysis: SharedAnalysis) -> Self {
         let all = [&tangent.stiffness, &tangent.damping, &tangent.mass];
         let structural = tangent.structural.as_ref();
         let tabled = tangent.tabled.iter();
         Self {
             pattern: tangent.stiffness.pattern(),
-            analysis: OnceLock::new(),
+            analysis,
             values: all.map(|p| p.evaluate(mu)),
             structural: structural.map_or_else(Vec::new, |p| p.evaluate(mu)),
             tabled: tabled.map(|part| (&part.gain, part.stiffness.evaluate(mu))).collect(),
@@ -53,8 +68,7 @@ impl<'a> FullProblem<'a> {
 
     /// LU factors of `T(lambda)`.
     pub fn factors(&self, lambda: c64) -> Result<ComplexSparseLu, LinalgError> {
-        let analysis = self.analysis.get_or_init(|| LuAnalysis::new(self.pattern));
-        ComplexSparseLu::factorize(analysis.as_ref().map_err(Clone::clone)?, self.pencil(lambda))
+        ComplexSparseLu::factorize(self.analysis.of(self.pattern)?, self.pencil(lambda))
     }
 
     /// `T(lambda)^T w` of each of `values` with its two columns of `w`, real and imaginary part.

@@ -23,6 +23,13 @@ pub struct State {
     pub mode: ReducedMode,
 }
 
+impl State {
+    /// What round-off of its growth rate may move a crossing by: much where friction hardly feeds the mode.
+    pub fn doubt(&self) -> f64 {
+        OnsetFinder::ROUND_OFF * self.mode.eigenvalue.norm() / self.mode.derivative.re.abs()
+    }
+}
+
 /// An unstable interval, and the modes where it begins and ends between the points of a sweep.
 pub struct FoundInterval {
     /// The interval.

@@ -201,7 +201,7 @@ impl BasisBuilder<'_> {
 
     /// The corrections of [`Self::shift`], two real columns each. Neighbours in frequency share factors.
     fn shifted_corrections(&self, mu: f64, modes: &[ReducedMode]) -> Result<Mat<f64>, LinalgError> {
-        let problem = FullProblem::at(self.tangent, mu);
+        let problem = FullProblem::analysed(self.tangent, mu, self.analysis.clone());
         let unknowns = problem.dimension();
         // Residuals in the full matrices.
         let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);

@@ -101,20 +101,28 @@ impl SparseSweep<'_> {
     /// Unstable intervals of all branches. The basis holds the modes of a few friction coefficients only, or of all that were asked for:
     /// the modes at crossings are corrected by the full problem there until these settle.
     fn intervals(&mut self, branches: &[TrackedBranch]) -> Result<Vec<FoundInterval>, CeaError> {
-        let (mut settled, mut known) = (Vec::new(), Vec::new());
+        let (mut before, mut known): (Vec<f64>, _) = (Vec::new(), Vec::new());
         for round in 0.. {
             let found = self.find_intervals(branches, &known)?;
-            let crossings = || found.iter().flatten().flat_map(FoundInterval::crossings);
+            let crossings: Vec<&State> =
+                found.iter().flatten().flat_map(FoundInterval::crossings).collect();
             let missed = || found.iter().flatten().filter_map(FoundInterval::missed);
-            let places: Vec<f64> = crossings().map(|state| state.mu).collect();
-            let mut pairs = places.iter().zip(&settled);
-            let has_settled = places.len() == settled.len()
-                && pairs.all(|(new, old): (&f64, &f64)| (new - old).abs() <= SETTLED);
-            let open: Vec<&State> = match self.builder.is_sampling() && !has_settled {
-                _ if round == MOST_ROUNDS => Vec::new(),
-                true => crossings().collect(),
-                false => missed().collect(),
+            // Crossings that moved since the last round, all in the first one; then those whose residual is too large.
+            let is_same = before.len() == crossings.len();
+            let moving = crossings.iter().enumerate().filter(|(i, state)| {
+                !is_same || (state.mu - before[*i]).abs() > SETTLED.max(state.doubt())
+            });
+            let mut open: Vec<&State> = match self.builder.is_sampling() {
+                true => moving.map(|(_, state)| *state).collect(),
+                false => Vec::new(),
             };
+            if open.is_empty() {
+                open.extend(missed());
+            }
+            if round == MOST_ROUNDS {
+                open.clear();
+            }
+            let places: Vec<f64> = crossings.iter().map(|state| state.mu).collect();
             let mut has_grown = false;
             for State { mu, mode } in open {
                 has_grown |= self.builder.shift(*mu, std::slice::from_ref(mode))?;
@@ -126,7 +134,7 @@ impl SparseSweep<'_> {
             }
             // What a basis that missed a crossing says about the other branches is worth no more: all are looked at again.
             known = if missed().next().is_none() { found } else { Vec::new() };
-            settled = places;
+            before = places;
         }
         unreachable!("rounds end")
     }
