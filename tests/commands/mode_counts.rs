@@ -37,3 +37,27 @@ fn what_cannot_be_counted_is_refused() {
     assert!(answer.said().contains("the harmonics of an annulus are always counted"));
     assert!(answer.summary()["mode_counts"].is_null());
 }
+
+/// A disc without damping on a soft contact: every branch that friction feeds grows, by a part of a thousand million. With little damping
+/// none does, and nothing is said.
+#[test]
+fn branches_that_hardly_grow_are_told_from_squeal() {
+    let run = |damping: &str| {
+        let sets = [
+            "mesh.circumferential_elements=24",
+            "mesh.radial_elements=4",
+            "cea.geometric_stiffness=false",
+            "contact.normal_stiffness=1e5",
+            "damping.stiffness_coefficient=0",
+            damping,
+        ];
+        let folder = folder();
+        let run = Run::of("cea", shipped("polycarbonate-disc.toml")).out(folder.path().join("run"));
+        run.set(&sets).end().code(0).said().to_owned()
+    };
+    let undamped = run("damping.mass_coefficient=0");
+    let note = "13 unstable branches hardly grow (";
+    assert!(undamped.contains(note), "{undamped}");
+    let damped = run("damping.mass_coefficient=1");
+    assert!(damped.contains("0 unstable") && !damped.contains("hardly grow"), "{damped}");
+}

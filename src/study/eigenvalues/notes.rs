@@ -5,7 +5,7 @@ use super::model::Model;
 use super::sliding::SteadyState;
 use crate::case::{Body, Case, Cea};
 use crate::cea::cyclic::{Coverage, Overdamped};
-use crate::cea::{BeyondMode, CeaError, FrictionSweep, ModeCount};
+use crate::cea::{BeyondMode, CeaError, FrictionSweep, ModeCount, UnstableInterval};
 use std::f64::consts::TAU;
 
 /// What the counts of modes say.
@@ -189,6 +189,29 @@ pub(super) fn ended_notes(sweep: &FrictionSweep) -> Vec<String> {
         )
     });
     damped.into_iter().chain(lost).chain(open).chain(beyond).chain(rigid).collect()
+}
+
+/// Damping factor of a growing mode that the damping of any real part exceeds.
+const WEAK: f64 = 1e-6;
+
+/// Branches that count as unstable while they hardly grow, as where friction hardly feeds a mode that nothing damps.
+pub(super) fn weak_note(sweep: &FrictionSweep) -> Option<String> {
+    let growth = |own: &UnstableInterval| {
+        let modes = sweep.points.iter().flat_map(|point| &point.modes);
+        let own = modes.filter(|mode| (mode.harmonic, mode.branch) == (own.harmonic, own.branch));
+        own.map(|mode| -mode.damping_factor()).filter(|growth| *growth > 0.0).reduce(f64::max)
+    };
+    let weak = sweep.intervals.iter().filter(|own| growth(own).is_some_and(|most| most < WEAK));
+    let places = weak.map(|own| {
+        format!("{:.0} Hz from friction {:.4} on", own.frequency_hz, own.critical_friction)
+    });
+    let which = ["unstable branch hardly grows", "unstable branches hardly grow"];
+    listed(places.collect(), which).map(|(which, places)| {
+        format!(
+            "{which} ({places}): by less than {WEAK:.0e} of critical damping at every friction value. \
+             Any real part damps more: give the case its damping"
+        )
+    })
 }
 
 fn number(count: usize, [one, many]: [&str; 2]) -> String {

@@ -3,7 +3,7 @@
 use super::model::{Model, Solver, Spectrum, mode_limit};
 use super::notes::{
     MISSING_SHOWN, count_notes, coverage_note, damping_note, ended_notes, friction_note,
-    instead_note, overdamped_note, table_notes, uncertainty_note,
+    instead_note, overdamped_note, table_notes, uncertainty_note, weak_note,
 };
 use super::reading::{lefts_needed, read, shapes_needed};
 use super::sensitivity::body_sensitivities;
@@ -83,6 +83,7 @@ fn solve_with(
     notes.extend(uncertainty_note(case, &found.sweep));
     notes.extend(damping_note(case, &found.sweep));
     notes.extend(ended_notes(&found.sweep));
+    notes.extend(weak_note(&found.sweep));
     notes.extend(friction_note(case, model));
     let reading = match with_reading {
         true => read(case, model, found.waves.as_ref().map(|waves| &waves.tangent), &found.sweep),
