@@ -8,8 +8,10 @@ use crate::mesh::Mesh;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-/// Pairs of vectors whose strains are held at a time.
+/// Pairs of vectors whose strains are held at a time, at least; of a small mesh as many as have so many values: the operators of an
+/// element are made once for all of them.
 const PAIRS_AT_A_TIME: usize = 16;
+const VALUES_AT_A_TIME: usize = 8_000_000;
 /// Real columns of a pair: real and imaginary part of both.
 const COLUMNS: usize = 4;
 
@@ -41,7 +43,8 @@ impl<'a> DiscretizationError<'a> {
 
     /// `a(e_w, e_x)` of each pair `[w, x]` over all dofs (m), region by region, J without conjugation.
     pub fn forms(&self, pairs: &[[&[c64]; 2]]) -> Vec<Vec<c64>> {
-        let groups = pairs.chunks(PAIRS_AT_A_TIME);
+        let values = self.recovery.first_sample.last().unwrap_or(&0) * self.components() * COLUMNS;
+        let groups = pairs.chunks(PAIRS_AT_A_TIME.max(VALUES_AT_A_TIME / values.max(1)));
         groups.flat_map(|group| self.forms_of(group)).collect()
     }
 

@@ -15,28 +15,38 @@ impl Triplets {
 
     /// Sums the entries of one place, in their order; then they are in the order of rows and columns.
     pub fn merge(&mut self) {
-        // Rows by counting, columns within each by sorting.
-        let rows = self.entries.iter().map(|entry| entry.0 + 1).max();
-        let mut ends = vec![0_usize; rows.unwrap_or(0) + 1];
+        // Rows by counting; in each the sums of its columns in a row of all columns, of which those taken are then sorted.
+        let [rows, columns] =
+            self.entries.iter().fold([0; 2], |[m, n], own| [m.max(own.0 + 1), n.max(own.1 + 1)]);
+        let mut ends = vec![0_usize; rows + 1];
         self.entries.iter().for_each(|entry| ends[entry.0 + 1] += 1);
         for row in 1..ends.len() {
             ends[row] += ends[row - 1];
         }
         let mut next = ends.clone();
-        let mut sorted = vec![(0_u32, 0.0); self.entries.len()];
+        let mut by_row = vec![(0_u32, 0.0); self.entries.len()];
         for &(row, column, value) in &self.entries {
             // A mesh has fewer dofs than 2^32.
-            sorted[next[row]] = (column as u32, value);
+            by_row[next[row]] = (column as u32, value);
             next[row] += 1;
         }
         self.entries.clear();
-        for row in 0..ends.len() - 1 {
-            let own = &mut sorted[ends[row]..ends[row + 1]];
-            own.sort_by_key(|entry| entry.0);
-            for same in own.chunk_by(|one, other| one.0 == other.0) {
-                let sum = same.iter().map(|entry| entry.1).sum();
-                self.entries.push((row, same[0].0 as usize, sum));
+        let (mut sums, mut taken_by) = (vec![0.0; columns], vec![usize::MAX; columns]);
+        let mut taken: Vec<u32> = Vec::new();
+        for row in 0..rows {
+            taken.clear();
+            for &(column, value) in &by_row[ends[row]..ends[row + 1]] {
+                let place = column as usize;
+                if taken_by[place] == row {
+                    sums[place] += value;
+                } else {
+                    (sums[place], taken_by[place]) = (value, row);
+                    taken.push(column);
+                }
             }
+            taken.sort_unstable();
+            let entries = taken.iter().map(|&own| (row, own as usize, sums[own as usize]));
+            self.entries.extend(entries);
         }
         self.entries.shrink_to_fit();
     }

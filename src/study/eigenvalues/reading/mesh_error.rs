@@ -59,31 +59,31 @@ pub(super) fn mesh_errors(
             .sum::<c64>()
     };
 
-    let mut of_modes = Vec::new();
-    for point in points {
-        let numbered = point.modes.iter().enumerate();
-        let (modes, pairs): (Vec<_>, Vec<_>) = numbered
-            .filter(|(_, mode)| mode.damping_factor() < MOST_DAMPED)
-            .filter_map(|(i, mode)| {
-                let pair = [mode.left.as_deref()?, mode.shape.as_deref()?];
-                Some(((i + 1, mode), pair))
-            })
-            .unzip();
-        let forms = estimate.forms(&pairs);
-        let rows = modes.iter().zip(&forms);
-        let rows = rows.map(|((number, mode), forms)| MeshError {
-            friction_coefficient: point.friction_coefficient,
-            mode: *number,
-            of_hz: mode.frequency_hz(),
-            frequency_hz: error(mode.eigenvalue, forms).im / TAU,
-        });
-        of_modes.extend(rows.filter(|row| row.frequency_hz.is_finite()));
-    }
-
+    // Of modes and of onsets, all at once.
+    let numbered = points.iter().flat_map(|point| {
+        let modes = point.modes.iter().enumerate();
+        let modes = modes.filter(|(_, mode)| mode.damping_factor() < MOST_DAMPED);
+        modes.filter_map(|(i, mode)| {
+            let pair = [mode.left.as_deref()?, mode.shape.as_deref()?];
+            Some(((point.friction_coefficient, i + 1, mode), pair))
+        })
+    });
+    let (modes, mut pairs): (Vec<_>, Vec<_>) = numbered.unzip();
     let crossings: Vec<&ModeVectors> = sweep.crossings.iter().flatten().collect();
-    let pairs = crossings.iter().map(|own| [&*own.left, &*own.right]);
-    let forms = estimate.forms(&pairs.collect::<Vec<_>>());
-    let mut of_crossings = crossings.iter().zip(&forms).map(|(own, forms)| {
+    pairs.extend(crossings.iter().map(|own| [&*own.left, &*own.right]));
+    let forms = estimate.forms(&pairs);
+    let (forms, at_onsets) = forms.split_at(modes.len());
+
+    let rows = modes.iter().zip(forms);
+    let rows = rows.map(|(&(friction_coefficient, mode, own), forms)| MeshError {
+        friction_coefficient,
+        mode,
+        of_hz: own.frequency_hz(),
+        frequency_hz: error(own.eigenvalue, forms).im / TAU,
+    });
+    let of_modes = rows.filter(|row| row.frequency_hz.is_finite()).collect();
+
+    let mut of_crossings = crossings.iter().zip(at_onsets).map(|(own, forms)| {
         let change = -error(own.eigenvalue, forms).re / own.rate.re;
         change.is_finite().then_some(change)
     });
