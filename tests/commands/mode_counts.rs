@@ -61,3 +61,54 @@ fn branches_that_hardly_grow_are_told_from_squeal() {
     let damped = run("damping.mass_coefficient=1");
     assert!(damped.contains("0 unstable") && !damped.contains("hardly grow"), "{damped}");
 }
+
+/// A mesh of Gmsh: squares of 6 mm, an upright of 3 x 7 on the end of a foot of 10 x 2, whose lower edge is `sole` and whose upper end `top`.
+fn jaw() -> String {
+    let at = |i: usize, j: usize| 100 * j + i + 1;
+    let squares = (0..10).flat_map(|i| (0..7).map(move |j| (i, j)));
+    let squares: Vec<(usize, usize)> = squares.filter(|&(i, j)| i < 3 || j < 2).collect();
+    let corners =
+        |&(i, j): &(usize, usize)| [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+    let nodes: std::collections::BTreeSet<usize> = squares.iter().flat_map(corners).collect();
+    let node = |n: &usize| format!("{n} {} {} 0\n", 6 * ((n - 1) % 100), 6 * ((n - 1) / 100));
+    let lines = (0..10).map(|i| (1, at(i, 0), at(i + 1, 0)));
+    let lines = lines.chain((0..3).map(|i| (2, at(i, 7), at(i + 1, 7))));
+    let lines = lines.map(|(tag, a, b)| format!("1 2 {tag} {tag} {a} {b}\n"));
+    let faces =
+        squares.iter().map(corners).map(|[a, b, c, d]| format!("3 2 3 3 {a} {b} {c} {d}\n"));
+    let elements: Vec<String> = lines.chain(faces).collect();
+    let numbered = elements.iter().enumerate().map(|(e, element)| format!("{} {element}", e + 1));
+    format!(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"sole\"\n1 2 \"top\"\n2 3 \"jaw\"\n\
+         $EndPhysicalNames\n$Nodes\n{}\n{}$EndNodes\n$Elements\n{}\n{}$EndElements\n",
+        nodes.len(),
+        nodes.iter().map(node).collect::<String>(),
+        elements.len(),
+        numbered.collect::<String>(),
+    )
+}
+
+/// Near jamming the forces of a jaw that stands on its last contact node rise steeply, and the terms of its matrices cancel each other.
+/// Modes keep what rounding leaves of them: those of the friction value alone, to the share by which forces are known.
+#[test]
+fn modes_near_jamming_are_listed_as_far_as_rounding_lets_them() {
+    let folder = folder_with(&[("jaw.msh", jaw().as_bytes())]);
+    let case = "[mesh]\nfile = \"jaw.msh\"\nunits = \"mm-t-s\"\n\
+        [material]\nyoung_modulus = 2.1e11\npoisson_ratio = 0.3\ndensity = 7850.0\n\
+        [boundaries.top]\ncondition = \"support\"\nnormal_stiffness = 1e12\ntangential_stiffness = 1e12\n\
+        [damping]\nstiffness_coefficient = 1e-8\n\
+        [contact]\nboundary = \"sole\"\ncounterface = \"plane\"\nspeed = 1.0\n\
+        friction_coefficient = 0.33\ninterference = 1e-6\n[cea]\nmodes = 20\n";
+    let frequencies = |values: &str| -> Vec<f64> {
+        let run = Run::of_text("cea", folder.path(), case).out(folder.path().join(values));
+        let run = run.set(&[format!("cea.friction_coefficients=[{values}]")]);
+        let rows = run.end().code(0).rows("eigenvalues.csv").into_iter();
+        let rows = rows.map(|row| row.numbers(["friction_coefficient", "frequency_hz"]));
+        rows.filter(|[friction, _]| *friction == 0.33).map(|[_, frequency]| frequency).collect()
+    };
+    let (alone, beside) = (frequencies("0.33"), frequencies("0.2, 0.33"));
+    assert_eq!(beside.len(), alone.len());
+    for (beside, alone) in beside.iter().zip(&alone).filter(|(_, alone)| **alone > 2000.0) {
+        assert!((beside / alone - 1.0).abs() < 1e-3, "{beside} {alone}");
+    }
+}

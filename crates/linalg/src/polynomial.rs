@@ -247,6 +247,18 @@ impl MatrixPolynomial {
         }
     }
 
+    /// By how much the terms of `P(mu)` exceed their sum, largest entries taken: rounding of the terms is as many times that of the sum.
+    #[inline]
+    pub fn cancellation(&self, mu: f64) -> f64 {
+        let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+        let terms = self.coefficients.iter().enumerate();
+        let terms = terms.map(|(place, own)| self.weights().at(place, mu).abs() * largest(own));
+        match largest(&self.evaluate(mu)) {
+            0.0 => 1.0,
+            sum => terms.sum::<f64>() / sum,
+        }
+    }
+
     fn weighted(&self, weight: impl Fn(usize) -> f64) -> Vec<f64> {
         let mut values = vec![0.0; self.pattern.nonzero_count()];
         for (place, coefficient) in self.coefficients.iter().enumerate() {

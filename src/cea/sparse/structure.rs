@@ -9,6 +9,9 @@ use crate::linalg::{Mat, MatRef, c64};
 use crate::prestress::{SlidingTangent, TabledStiffness};
 use std::sync::Arc;
 
+/// Terms of a matrix, over their sum, from which on their rounding shows in residuals.
+const CANCELLING: f64 = 1e3;
+
 /// `K`, `C` and `M` at one friction coefficient, or their coefficients of one power of it.
 pub struct StructureMatrices<'a> {
     pattern: &'a Arc<SparsityPattern>,
@@ -19,6 +22,8 @@ pub struct StructureMatrices<'a> {
     /// Parts whose stiffness depends on frequency, with its nonzero values by rows.
     tabled: Vec<(&'a TabledStiffness, Vec<f64>)>,
     linearization: Linearization,
+    /// How many times larger than `K`, `C` and `M` the rounded terms of each are, where that shows.
+    rounding: [f64; 3],
 }
 
 impl<'a> StructureMatrices<'a> {
@@ -29,12 +34,14 @@ impl<'a> StructureMatrices<'a> {
         let damping = if is_general { of(&tangent.damping) } else { Vec::new() };
         let structural = tangent.structural.as_ref().filter(|_| is_general);
         let tabled = tangent.tabled.iter().filter(|_| is_general);
+        let all = [&tangent.stiffness, &tangent.damping, &tangent.mass];
         Self {
             pattern: tangent.stiffness.pattern(),
             values: [of(&tangent.stiffness), damping, of(&tangent.mass)],
             structural: structural.map(of),
             tabled: tabled.map(|part| (part, of(&part.stiffness))).collect(),
             linearization,
+            rounding: all.map(|p| (p.cancellation(mu) / CANCELLING).max(1.0)),
         }
     }
 
@@ -106,7 +113,7 @@ impl<'a> StructureMatrices<'a> {
         }
     }
 
-    /// Largest row sums of `|K|`, `|C|` and `|M|`.
+    /// Largest row sums of `|K|`, `|C|` and `|M|`; larger where the terms of a state that changes steeply with friction cancel each other.
     pub fn norms(&self) -> [f64; 3] {
         let norm = |values: &[f64]| {
             let row_sum = |row: usize| -> f64 {
@@ -115,7 +122,7 @@ impl<'a> StructureMatrices<'a> {
             };
             (0..self.pattern.dimension()).map(row_sum).fold(0.0, f64::max)
         };
-        let [stiff, damped, inert] = [0, 1, 2].map(|i| norm(&self.values[i]));
+        let [stiff, damped, inert] = [0, 1, 2].map(|i| self.rounding[i] * norm(&self.values[i]));
         let damped = match self.linearization {
             Linearization::Reduced(damping, _) => {
                 damping.mass_coefficient * inert + damping.stiffness_coefficient * stiff

@@ -275,7 +275,12 @@ fn words(report: &CeaReport<'_>, view: View) -> Vec<String> {
     let none = report.sweep.intervals.is_empty().then(|| {
         let values = report.friction_coefficients;
         let [first, last] = [values.first(), values.last()].map(|v| v.copied().unwrap_or(0.0));
-        format!("No mode turns unstable for friction from {first} to {last}.")
+        let range = format!("turns unstable for friction from {first} to {last}.");
+        if report.sweep.unconverged.is_empty() {
+            format!("No mode {range}")
+        } else {
+            format!("No mode that converged {range} What did not converge may.")
+        }
     });
     // Pages of the same case are the same bytes.
     let time = (view != View::Page).then(|| format!("{:.3} s.", report.wall_s));
@@ -342,7 +347,8 @@ fn facts(report: &CeaReport<'_>) -> Vec<(String, String)> {
             format!("below {}", interval.critical_friction)
         }
         Some(interval) => fixed(interval.critical_friction, 6),
-        None => "none: stable throughout".to_owned(),
+        None if report.sweep.unconverged.is_empty() => "none: stable throughout".to_owned(),
+        None => "none of the modes that converged".to_owned(),
     };
     let hertz = |frequency: f64| format!("{} Hz", fixed(frequency, 2));
     let mut rows = vec![("lowest critical friction".to_owned(), onset)];
