@@ -4,9 +4,9 @@ use super::UnstableInterval;
 use super::branch::{BranchPoint, Cubic};
 use std::f64::consts::TAU;
 
-/// Growth relative to `|lambda|` at a change of sign above which the branch jumps there: another one was taken for it, and nothing
-/// crosses zero.
-const JUMP: f64 = 1e-3;
+/// Growth relative to `|lambda|` at a change of sign above which the branch jumps there, unless it is as steep: another one was taken
+/// for it, and nothing crosses zero.
+const JUMP: f64 = 1e-6;
 
 /// Solves for one branch between friction coefficients at which it is known.
 pub(super) trait BranchSolver {
@@ -37,8 +37,10 @@ pub(super) trait BranchSolver {
 pub(super) struct Instability<S> {
     pub onset: S,
     pub restabilized: Option<S>,
-    /// Whether it grows from the first state on, or from one on that it jumped to.
+    /// Whether it grows from the first state on.
     pub from_start: bool,
+    /// Friction coefficient after which it jumped to `onset`.
+    pub lost_after: Option<f64>,
 }
 
 impl<S> Instability<S> {
@@ -62,6 +64,7 @@ impl<S> Instability<S> {
             frequency_hz,
             restabilized: self.restabilized.as_ref().map(place),
             unstable_from_start: self.from_start,
+            lost_after: self.lost_after,
         }
     }
 }
@@ -80,19 +83,22 @@ pub(super) fn instabilities<B: BranchSolver>(
     let point = search.solver.point(first);
     let mut was_growing = search.is_growing(first) || Search::<B>::grows_from_zero(&point);
     if was_growing {
-        found.push(Instability { onset: first.clone(), restabilized: None, from_start: true });
+        let onset = first.clone();
+        found.push(Instability { onset, restabilized: None, from_start: true, lost_after: None });
     }
     for pair in states.windows(2) {
         let mut start = pair[0].clone();
         for end in search.with_turning_points(&pair[0], &pair[1])? {
             if search.is_growing(&end) != was_growing {
                 let root = search.root(&start, &end)?;
+                let before = search.solver.point(&start).friction_coefficient;
                 match found.last_mut().filter(|_| was_growing) {
                     Some(open) => open.restabilized = root,
                     None => found.push(Instability {
-                        from_start: root.is_none(),
+                        lost_after: root.is_none().then_some(before),
                         onset: root.unwrap_or_else(|| end.clone()),
                         restabilized: None,
+                        from_start: false,
                     }),
                 }
                 was_growing = !was_growing;
@@ -203,7 +209,8 @@ impl<B: BranchSolver> Search<'_, B> {
             friction = next;
         }
         let point = self.solver.point(&best);
-        let has_root = Self::growth(&point).abs() <= JUMP * point.eigenvalue.norm();
+        let steep = 10.0 * B::TOLERANCE * (1.0 + point.friction_coefficient) * point.rate.re.abs();
+        let has_root = Self::growth(&point).abs() <= steep.max(JUMP * point.eigenvalue.norm());
         Ok(has_root.then_some(best))
     }
 }

@@ -154,9 +154,17 @@ pub struct UnstableInterval {
     pub restabilized: Option<(f64, f64)>,
     /// Whether the branch is already unstable at the lower end of the range.
     pub unstable_from_start: bool,
+    /// The last friction coefficient below [`Self::critical_friction`] at which it was not seen to grow, where it could not be followed
+    /// between: it turns unstable somewhere there.
+    pub lost_after: Option<f64>,
 }
 
 impl UnstableInterval {
+    /// Whether [`Self::critical_friction`] is a crossing, no bound of one.
+    pub fn is_located(&self) -> bool {
+        !self.unstable_from_start && self.lost_after.is_none()
+    }
+
     /// As [`ComplexMode::diameters`].
     pub fn diameters(&self, has_harmonics: bool) -> Option<usize> {
         has_harmonics.then_some(self.harmonic).or(self.nodal_diameters)

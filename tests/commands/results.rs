@@ -63,6 +63,7 @@ fn sweep(mesh: &AnnulusMesh) -> FrictionSweep {
             frequency_hz: 9893.0,
             restabilized: Some((0.9, 9950.0)),
             unstable_from_start: false,
+            lost_after: None,
         }],
         crossings: Vec::new(),
         ..FrictionSweep::default()
@@ -157,8 +158,8 @@ fn tables_hold_one_row_for_each_mode_of_a_tabulated_friction_value() {
         stability.lines().collect::<Vec<_>>(),
         [
             "harmonic,branch,direction,critical_friction,frequency_hz,restabilized_friction,\
-             restabilized_frequency_hz,unstable_from_start,mesh_error",
-            "2,0,-1,0.1382,9893.0,0.9,9950.0,false,"
+             restabilized_frequency_hz,unstable_from_start,lost_after,mesh_error",
+            "2,0,-1,0.1382,9893.0,0.9,9950.0,false,,"
         ]
     );
     assert_eq!(summary["critical_frictions"][0]["critical_friction"], 0.1382);

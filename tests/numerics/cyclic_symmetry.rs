@@ -171,10 +171,18 @@ fn waves_around_solid_bodies_have_the_spectrum_of_their_whole_mesh() {
     assert_same("ring", &mesh, &text("1e6", "[0.0, 0.3, 0.6]"));
 
     // Pressed a hundred times as much, motions damped by friction across the sliding lie among the modes, two of which are at one
-    // frequency: all that are asked for converge.
-    let pressed = solved("pressed-ring", &mesh, &text("1e8", "[0.6]"), "sparse").sweep;
+    // frequency: all that are asked for converge. Nine come into range as others cease to oscillate: three of them grow by then, and
+    // have the onsets that waves around the body have.
+    let pressed = solved("pressed-ring", &mesh, &text("1e8", "[0.0, 0.3, 0.6]"), "sparse").sweep;
     assert!(pressed.unconverged.is_empty(), "{:?}", pressed.unconverged);
     assert!(pressed.points.iter().all(|point| point.modes.len() >= 16));
+    assert!(pressed.intervals.iter().all(UnstableInterval::is_located), "{:?}", pressed.intervals);
+    for (critical, frequency_hz) in [(0.198758, 8742.75), (0.265936, 9289.07), (0.279959, 9571.03)]
+    {
+        let is_near = |own: &&UnstableInterval| (own.critical_friction - critical).abs() < 1e-6;
+        let found = pressed.intervals.iter().find(is_near).expect("an onset of waves");
+        assert!((found.frequency_hz - frequency_hz).abs() < 0.01, "{found:?}");
+    }
 }
 
 /// The same of a ring that turns with the inertia of its rotation, in both frames. In the frame at rest the waves of `n` diameters stand

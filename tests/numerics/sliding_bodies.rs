@@ -258,3 +258,28 @@ fn equal_eigenvalues_that_friction_does_not_move_are_all_listed() {
         assert!(point.modes.iter().all(|mode| mode.residual < 1e-9));
     }
 }
+
+/// Independent check: growth beside an onset by Newton's method on the exported matrices. Beyond it, at friction 0.0428, two modes of a cube
+/// nearly meet: the branch went on as the other one there, and that was its onset.
+#[test]
+fn a_mode_that_grows_before_it_nearly_meets_another_has_its_own_onset() {
+    let folder = tempfile::tempdir().unwrap();
+    let block = brick("part", [0.0; 3], [0.027372827842916517; 3], [3, 3, 2]);
+    fs::write(folder.path().join("part.msh"), file_of(&[block], |point| point)).unwrap();
+    let text = "[mesh]\nfile = \"part.msh\"\n[material]\nyoung_modulus = 5.630217e11\npoisson_ratio = 0.45\n\
+                density = 7850.0\n[boundaries.part_z1]\ncondition = \"support\"\nnormal_stiffness = 3.993823e8\n\
+                tangential_stiffness = 9.354510e6\nnormal_damping = 57.49282\n[contact]\nboundary = \"part_z0\"\n\
+                counterface = \"plane\"\ndirection = [1.0, 0.0, 0.0]\nspeed = 4.582433e-3\n\
+                friction_coefficient = 0.06\ninterference = 1.483458e-8\n\
+                [cea]\nfriction_coefficients = [0.016327, 0.06]\nmax_frequency_hz = 275000.0\n";
+    let case = case_of(folder.path().join("part.toml"), text, AS_IT_IS);
+    let found = modes_and_onsets(&case).unwrap();
+    let mut located = found.intervals.iter().filter(|own| own.is_located());
+    let onset = located.next().expect("one crosses");
+    for step in [-1e-6, 1e-6] {
+        let problem = sums(&matrices(&case, Some(onset.critical_friction + step)).unwrap());
+        let mode = polished(&problem, c64::new(0.0, TAU * onset.frequency_hz));
+        assert!((mode.im / TAU - onset.frequency_hz).abs() < 1.0, "{mode} {onset:?}");
+        assert_eq!(mode.re > 0.0, step > 0.0, "{mode} {onset:?}");
+    }
+}

@@ -74,8 +74,6 @@ fn leaves_range(mode: &ReducedMode, step: f64, range_end: f64) -> bool {
 /// A branch with no continuation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lost {
-    /// Its name.
-    pub label: BranchLabel,
     /// Index of the last point where it was seen.
     pub point: usize,
     /// Friction coefficient about which it was lost, between that point and the next.
@@ -96,16 +94,17 @@ pub fn label_first(
         .take(count)
         .map(|check| edge.harmonic(&check.edge, check.peak))
         .collect();
-    let labels = (0..harmonics.len())
-        .map(|i| {
-            let harmonic = harmonics[i];
-            let below = harmonics[..i].iter().filter(|&&n| n == harmonic).count();
-            let branch = if edge.is_paired(harmonic) { below / 2 } else { below };
-            BranchLabel { harmonic, branch: branch + 1 }
-        })
-        .collect();
+    let others = |i: usize| harmonics[..i].iter().copied();
+    let labels = (0..harmonics.len()).map(|i| label(edge, harmonics[i], others(i))).collect();
     split_degenerate(point, model, count)?;
     Ok(labels)
+}
+
+/// The next name of a harmonic, of which branches with the harmonics of `others` may have some.
+fn label(edge: &ContactEdge, harmonic: usize, others: impl Iterator<Item = usize>) -> BranchLabel {
+    let below = others.filter(|&other| other == harmonic).count();
+    let branch = if edge.is_paired(harmonic) { below / 2 } else { below };
+    BranchLabel { harmonic, branch: branch + 1 }
 }
 
 /// First-order perturbation theory within each cluster of equal eigenvalues.
@@ -219,8 +218,7 @@ pub fn track(
             {
                 let is_damped = may_vanish(&before.modes[i], step);
                 if !is_damped {
-                    let (label, place) = (branch.label, 0.5 * (seen_at + lost_at));
-                    all_lost.push(Lost { label, point: k - 1, place });
+                    all_lost.push(Lost { point: k - 1, place: 0.5 * (seen_at + lost_at) });
                 }
                 let after = k - 1;
                 branch.end = Some(BranchEnd { after, is_damped });
@@ -245,11 +243,8 @@ fn adopt_newcomers(
         }
         let check = &point.checks[i];
         let harmonic = edge.harmonic(&check.edge, check.peak);
-        let below = branches.iter().filter(|b| b.label.harmonic == harmonic).count();
-        let branch = if edge.is_paired(harmonic) { below / 2 } else { below };
-        let mut modes = vec![None; k];
-        modes.push(Some(i));
-        let label = BranchLabel { harmonic, branch: branch + 1 };
+        let label = label(edge, harmonic, branches.iter().map(|b| b.label.harmonic));
+        let modes = [vec![None; k], vec![Some(i)]].concat();
         branches.push(TrackedBranch { label, modes, end: None });
     }
 }
@@ -288,6 +283,34 @@ fn match_modes(
     let last_seen = |mode: &ReducedMode| LastSeen { mode: mode.clone(), between: [from.0, to.0] };
     let pairs = links.into_iter().zip(from.1);
     Ok(pairs.map(|(link, mode)| link.ok_or_else(|| last_seen(mode))).collect())
+}
+
+/// The mode at `to`, on either side, that continues one, in steps over which it is the same beyond doubt; nothing where it is lost.
+pub fn followed(
+    model: &ReducedModel,
+    (from, mode): (f64, &ReducedMode),
+    to: f64,
+) -> Option<ReducedMode> {
+    let (mut at, mut own, mut step) = (from, mode.clone(), to - from);
+    // Where two modes nearly meet they must be told apart on the way past.
+    let shortest = step.abs() * 0.25_f64.powi(MAX_BISECTIONS as i32);
+    while at != to {
+        let mu = if (to - at).abs() <= step.abs() { to } else { at + step };
+        let guess = own.eigenvalue + own.derivative * (mu - at);
+        let next = model.mode_near(mu, &ReducedMode { eigenvalue: guess, ..own.clone() });
+        let continues = |next: &ReducedMode| {
+            let mut ends = [(at, std::slice::from_ref(&own)), (mu, std::slice::from_ref(next))];
+            ends.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let [low, high] = ends;
+            clear_links(low, high, &overlaps(low, high, model))[0].is_some()
+        };
+        match next.filter(continues) {
+            Some(next) => (at, own, step) = (mu, next, 2.0 * step),
+            None if step.abs() <= shortest => return None,
+            None => step *= 0.5,
+        }
+    }
+    Some(own)
 }
 
 /// `|w_i^T N x'_j| |w'_j^T N x_i|`, see [`track`].

@@ -136,25 +136,18 @@ fn solve(
         })
         .collect();
     // No mode below the limit is an answer, unless it is that of all.
-    let mut empty: Option<CeaError> = None;
+    let (mut limit_hz, mut lowest_hz) = (f64::NAN, f64::INFINITY);
     for (part, own) in parts.iter_mut().zip(found) {
         match own {
-            Ok(None) => {}
-            Ok(sweep) => *part = sweep,
-            Err(CeaError::NoModes { limit_hz, lowest_hz }) => {
-                let least = match empty {
-                    Some(CeaError::NoModes { lowest_hz, .. }) => lowest_hz,
-                    _ => f64::INFINITY,
-                };
-                empty = Some(CeaError::NoModes { limit_hz, lowest_hz: lowest_hz.min(least) });
+            Ok(sweep) => *part = part.take().or(sweep),
+            Err(CeaError::NoModes { limit_hz: limit, lowest_hz: own }) => {
+                (limit_hz, lowest_hz) = (limit, lowest_hz.min(own));
             }
             Err(error) => return Err(error),
         }
     }
-    match empty.filter(|_| parts.iter().all(Option::is_none)) {
-        Some(error) => Err(error),
-        None => Ok(()),
-    }
+    let is_none = parts.iter().all(Option::is_none);
+    if is_none { Err(CeaError::NoModes { limit_hz, lowest_hz }) } else { Ok(()) }
 }
 
 /// Numbers of nodal diameters of which all listed modes are among the `count` lowest at some friction coefficient: more may be.
@@ -219,24 +212,19 @@ fn expanded(
 
 /// One sweep of those of all numbers of nodal diameters, its branches ranked by their frequency where they begin.
 fn merged(mut parts: Vec<FrictionSweep>, limit: ModeLimit) -> FrictionSweep {
-    let mut begins: Vec<(f64, f64, usize, usize)> = Vec::new();
-    for (part, sweep) in parts.iter().enumerate() {
-        let mut first: BTreeMap<usize, (f64, f64)> = BTreeMap::new();
-        for point in &sweep.points {
-            for mode in &point.modes {
-                let here = (point.friction_coefficient, mode.eigenvalue.im);
-                let known = first.entry(mode.branch).or_insert(here);
-                if here.0 < known.0 {
-                    *known = here;
-                }
-            }
-        }
-        begins.extend(first.iter().map(|(&branch, &(mu, omega))| (mu, omega, part, branch)));
+    let mut all: Vec<(f64, f64, usize, usize)> = Vec::new();
+    for (part, point) in
+        parts.iter().enumerate().flat_map(|(i, p)| p.points.iter().map(move |q| (i, q)))
+    {
+        let mu = point.friction_coefficient;
+        all.extend(point.modes.iter().map(|mode| (mu, mode.eigenvalue.im, part, mode.branch)));
     }
-    begins.sort_by(|a, b| (a.0.total_cmp(&b.0)).then(a.1.total_cmp(&b.1)));
-    let ranks = (1..).zip(&begins);
-    let rank_of: BTreeMap<(usize, usize), usize> =
-        ranks.map(|(rank, &(_, _, part, branch))| ((part, branch), rank)).collect();
+    all.sort_by(|a, b| (a.0.total_cmp(&b.0)).then(a.1.total_cmp(&b.1)));
+    let mut rank_of: BTreeMap<(usize, usize), usize> = BTreeMap::new();
+    for (.., part, branch) in all {
+        let next = rank_of.len() + 1;
+        rank_of.entry((part, branch)).or_insert(next);
+    }
     for (part, sweep) in parts.iter_mut().enumerate() {
         let modes = sweep.points.iter_mut().flat_map(|point| &mut point.modes);
         modes.for_each(|mode| mode.branch = rank_of[&(part, mode.branch)]);

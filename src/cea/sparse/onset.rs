@@ -1,7 +1,7 @@
 //! The projected problem as a solver of single branches, for the search of their onsets.
 
 use super::RESIDUAL_BOUND;
-use super::branches::TrackedBranch;
+use super::branches::{TrackedBranch, followed};
 use super::mode::ReducedMode;
 use super::point::{PointSolver, SolvedPoint};
 use super::reduced::ReducedModel;
@@ -9,10 +9,8 @@ use crate::cea::onset::{BranchSolver, Instability, instabilities};
 use crate::cea::{BranchPoint, UnstableInterval};
 use crate::linalg::LinalgError;
 
-/// Newton's steps to a crossing that is nearly known; two or three do.
-const CROSSING_STEPS: usize = 8;
-/// What a crossing may move by as the basis grows.
-const NEAR: f64 = 1e-4;
+/// Steps between two points in which a branch is led back: a crossing lies between two of them.
+const STEPS_BACK: usize = 4;
 
 /// A mode and its friction coefficient.
 #[derive(Clone, Debug)]
@@ -37,18 +35,21 @@ pub struct FoundInterval {
     /// Relative residual of the mode at its onset, see [`super::ModeCheck::residual`].
     residual: f64,
     found: Instability<State>,
+    /// Whether the branch was led back from the first point that has it.
+    is_led_back: bool,
 }
 
 impl FoundInterval {
-    /// The mode at its critical friction; `None` where it is unstable from the start.
+    /// The mode at its critical friction; `None` where that is only bounded.
     pub fn onset(&self) -> Option<&State> {
-        (!self.found.from_start).then_some(&self.found.onset)
+        self.interval.is_located().then_some(&self.found.onset)
     }
 
     /// The mode at its onset, if that misses the bound of converged pairs. A branch that is unstable from the start may come from beyond
-    /// the wanted modes, whose points are checked: nothing was located there.
+    /// the wanted modes, whose points are checked: nothing was located there, unless it was led back.
     pub fn missed(&self) -> Option<&State> {
-        self.onset().filter(|_| !(self.residual <= RESIDUAL_BOUND))
+        let is_found = self.is_led_back || self.interval.is_located();
+        (is_found && !(self.residual <= RESIDUAL_BOUND)).then_some(&self.found.onset)
     }
 
     /// Modes at its ends that lie within the range.
@@ -72,29 +73,61 @@ pub struct OnsetFinder<'a> {
 impl OnsetFinder<'_> {
     /// All unstable intervals of one branch, if it is among the wanted modes anywhere.
     pub fn intervals(&mut self, branch: &TrackedBranch) -> Result<Vec<FoundInterval>, LinalgError> {
-        let places = || branch.modes.iter().zip(self.points);
-        let is_wanted = |(index, point): (&Option<usize>, &SolvedPoint)| {
-            index.is_some_and(|i| i < point.wanted)
-        };
-        if !places().any(is_wanted) {
+        let places = || branch.modes.iter().zip(self.points).filter_map(|(i, p)| Some(((*i)?, p)));
+        if !places().any(|(i, point)| i < point.wanted) {
             return Ok(Vec::new());
         }
         // A branch is lost from sight above the range, at either end of its states.
-        let in_range = places().filter(|(_, point)| point.friction_coefficient >= self.lowest);
-        let states: Vec<Option<State>> = in_range
-            .map(|(index, point)| {
-                index
-                    .map(|i| State { mu: point.friction_coefficient, mode: point.modes[i].clone() })
-            })
-            .collect();
+        let states = places().map(|(i, point)| State {
+            mu: point.friction_coefficient,
+            mode: point.modes[i].clone(),
+        });
+        let states: Vec<State> = states.filter(|state| state.mu >= self.lowest).collect();
+        let begin = states.first().map_or(self.lowest, |state| state.mu);
         let mut intervals = Vec::new();
-        for run in states.split(Option::is_none) {
-            let run: Vec<State> = run.iter().flatten().cloned().collect();
-            for found in instabilities(self, &run)? {
-                intervals.push(self.report(branch, found));
+        for mut found in instabilities(self, &states)? {
+            // What grows where it comes into range, or where it was lost before, turned unstable farther below.
+            let mut is_led_back = false;
+            if found.lost_after.is_some() || found.from_start && begin > self.lowest {
+                let earlier = self.led_back(&found.onset)?;
+                is_led_back = earlier.is_some();
+                match earlier {
+                    Some(earlier) => {
+                        found = Instability { restabilized: found.restabilized, ..earlier }
+                    }
+                    None => {
+                        let points = self.points.iter().map(|point| point.friction_coefficient);
+                        let below = points.filter(|mu| *mu < found.onset.mu).last();
+                        (found.from_start, found.lost_after) = (false, found.lost_after.or(below));
+                    }
+                }
             }
+            let found = self.report(branch, found);
+            intervals.push(FoundInterval { is_led_back, ..found });
         }
         Ok(intervals)
+    }
+
+    /// The instability that has come to `last`, found on the way back from there to where it does not grow, or to the lowest friction;
+    /// nothing where it cannot be followed so far.
+    fn led_back(&mut self, last: &State) -> Result<Option<Instability<State>>, LinalgError> {
+        let mut states = vec![last.clone()];
+        let points = self.points.iter().rev().map(|point| point.friction_coefficient);
+        for place in points.filter(|mu| (self.lowest..last.mu).contains(mu)) {
+            let start = states[0].mu;
+            for step in 1..=STEPS_BACK {
+                let mu = start + (place - start) * (step as f64 / STEPS_BACK as f64);
+                let State { mu: from, mode } = &states[0];
+                let Some(mode) = followed(self.model, (*from, mode), mu) else {
+                    return Ok(None);
+                };
+                states.insert(0, State { mu, mode });
+                if states[0].mode.eigenvalue.re <= 0.0 {
+                    return Ok(instabilities(self, &states)?.pop());
+                }
+            }
+        }
+        Ok(instabilities(self, &states)?.pop())
     }
 
     fn report(&self, branch: &TrackedBranch, found: Instability<State>) -> FoundInterval {
@@ -107,50 +140,8 @@ impl OnsetFinder<'_> {
             interval: found.interval(name, |state| self.point(state)),
             residual: check.residual,
             found,
+            is_led_back: false,
         }
-    }
-
-    /// The intervals of a branch that were `known` in a smaller basis, by Newton's steps from their ends; nothing where one does
-    /// not settle near where it was.
-    pub fn again(
-        &self,
-        branch: &TrackedBranch,
-        known: &[FoundInterval],
-    ) -> Option<Vec<FoundInterval>> {
-        let mut intervals = Vec::new();
-        for FoundInterval { found, .. } in known {
-            let onset = match found.from_start {
-                true => Some(found.onset.clone()),
-                false => self.crossing_near(&found.onset),
-            };
-            let end = found.restabilized.as_ref().map(|end| self.crossing_near(end));
-            let (Some(onset), false) = (onset, matches!(end, Some(None))) else {
-                return None;
-            };
-            let instability =
-                Instability { onset, restabilized: end.flatten(), from_start: found.from_start };
-            intervals.push(self.report(branch, instability));
-        }
-        Some(intervals)
-    }
-
-    /// The crossing near `known`.
-    fn crossing_near(&self, known: &State) -> Option<State> {
-        let mut state = known.clone();
-        for _ in 0..CROSSING_STEPS {
-            state.mode = self.model.mode_near(state.mu, &state.mode)?;
-            let lambda = state.mode.eigenvalue;
-            let growth = lambda.re - Self::ROUND_OFF * lambda.norm();
-            let step = growth / state.mode.derivative.re;
-            if step.abs() <= Self::TOLERANCE * (1.0 + state.mu) {
-                return Some(state);
-            }
-            state.mu -= step;
-            if (state.mu - known.mu).abs() > NEAR * (1.0 + known.mu) {
-                return None;
-            }
-        }
-        None
     }
 }
 
@@ -165,14 +156,11 @@ impl OnsetFinder<'_> {
         let nearer = usize::from((to.mu - mu).abs() < (mu - from.mu).abs());
         let start = ReducedMode { eigenvalue: guess.eigenvalue, ..ends[nearer].mode.clone() };
         let mode = self.model.mode_near(mu, &start)?;
-        self.are_same(mu, &mode, &ends.map(|end| end.mode.clone())).then_some(mode)
-    }
-
-    /// Whether `mode` at `mu` overlaps with each of `others`.
-    fn are_same(&self, mu: f64, mode: &ReducedMode, others: &[ReducedMode]) -> bool {
-        let (at, own) = (self.model.at(mu), std::slice::from_ref(mode));
-        let [forward, backward] = [at.overlaps(own, others), at.overlaps(others, own)];
-        (0..others.len()).all(|j| (forward[(0, j)] * backward[(j, 0)]).norm() > SAME)
+        let (at, own) = (self.model.at(mu), std::slice::from_ref(&mode));
+        let others = ends.map(|end| end.mode.clone());
+        let [forward, backward] = [at.overlaps(own, &others), at.overlaps(&others, own)];
+        let is_same = |j| (forward[(0, j)] * backward[(j, 0)]).norm() > SAME;
+        [0, 1].into_iter().all(is_same).then_some(mode)
     }
 }
 
@@ -221,13 +209,9 @@ impl BranchSolver for OnsetFinder<'_> {
         };
         let best = (0..modes.len()).max_by(|&i, &j| score(i).total_cmp(&score(j)));
         Ok(best.map(|best| {
-            let coarse = modes.swap_remove(best);
             // That was in the span of samples, if there are any: the whole basis knows better.
-            let is_coarse = self.model.has_samples();
-            let fine = is_coarse.then(|| self.model.mode_near(mu, &coarse)).flatten();
-            let fine = fine.filter(|fine| self.are_same(mu, fine, std::slice::from_ref(&coarse)));
-            let mode = fine.unwrap_or(coarse);
-            State { mu, mode }
+            let coarse = modes.swap_remove(best);
+            State { mu, mode: self.model.mode_near(mu, &coarse).unwrap_or(coarse) }
         }))
     }
 }

@@ -229,7 +229,7 @@ fn stability_bars(report: &CeaReport<'_>, numbers: &BTreeMap<Branch, usize>) -> 
         intervals.iter().map(move |interval| {
             let end = interval.restabilized.map_or(high, |(friction, _)| friction);
             let from = signed(interval.critical_friction, 3);
-            let label = if interval.unstable_from_start { format!("≤ {from}") } else { from };
+            let label = if interval.is_located() { from } else { format!("≤ {from}") };
             (interval.critical_friction, end, row as f64 + 0.5, label)
         })
     });

@@ -1,7 +1,7 @@
 //! `summary.json` of a complex eigenvalue analysis.
 
 use super::{BaseState, CeaReport};
-use crate::cea::{ComplexMode, ModeCount, UnstableInterval};
+use crate::cea::{ComplexMode, FrictionPoint, ModeCount, UnstableInterval};
 use crate::output::Described;
 use crate::results::manifest::Manifest;
 use crate::results::summary::present;
@@ -123,6 +123,9 @@ pub struct CriticalFriction {
     pub restabilized_frequency_hz: Option<f64>,
     /// Whether it is unstable at the lowest friction value already.
     pub unstable_from_start: bool,
+    /// Where it could not be followed to its onset: that lies between this friction value and `critical_friction`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lost_after: Option<f64>,
     /// What the mesh makes of it: estimate of the critical friction less that on an ever finer mesh.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mesh_error: Option<f64>,
@@ -139,6 +142,7 @@ impl CriticalFriction {
             restabilized_friction: interval.restabilized.map(|end| end.0),
             restabilized_frequency_hz: interval.restabilized.map(|end| end.1),
             unstable_from_start: interval.unstable_from_start,
+            lost_after: interval.lost_after,
             mesh_error,
         }
     }
@@ -241,18 +245,15 @@ impl UnstableMode {
             growth_rate_per_s: mode.growth_rate(),
             damping_factor: mode.damping_factor(),
             critical_friction: last
-                .filter(|interval| !interval.unstable_from_start)
-                .and_then(|interval| present(interval.critical_friction)),
+                .filter(|own| own.is_located())
+                .and_then(|own| present(own.critical_friction)),
         }
     }
 }
 
 /// So many friction values, in words.
 pub(super) fn friction_values(count: usize) -> String {
-    match count {
-        1 => "1 friction value".to_owned(),
-        count => format!("{count} friction values"),
-    }
+    format!("{count} friction value{}", if count == 1 { "" } else { "s" })
 }
 
 /// The crossings into instability.
@@ -266,23 +267,19 @@ pub(super) fn onsets(report: &CeaReport<'_>) -> Vec<CriticalFriction> {
 
 /// The summary of an analysis.
 pub fn summary(report: &CeaReport<'_>, manifest: &Manifest) -> CeaSummary {
-    let of_point = |point: &crate::cea::FrictionPoint| UnstableCount {
+    let of_point = |point: &FrictionPoint| UnstableCount {
         friction_coefficient: point.friction_coefficient,
         modes: point.modes.len(),
         unstable: point.modes.iter().filter(|mode| mode.is_unstable()).count(),
     };
     let base = report.base;
-    let own = |point: &&crate::cea::FrictionPoint| {
-        point.friction_coefficient == base.friction_coefficient
-    };
+    let own = |point: &&FrictionPoint| point.friction_coefficient == base.friction_coefficient;
     let own = report.sweep.points.iter().find(own);
     let reading = report.reading.as_ref();
-    let modes_at = |point: &crate::cea::FrictionPoint| -> Vec<ModeSummary> {
+    let modes_at = |point: &FrictionPoint| -> Vec<ModeSummary> {
         let error = |mode: usize| reading?.mesh_error(point.friction_coefficient, mode);
-        let numbered = point.modes.iter().enumerate();
-        numbered
-            .map(|(i, mode)| ModeSummary::of(mode, error(i + 1), report.has_harmonics))
-            .collect()
+        let own = |(mode, own)| ModeSummary::of(own, error(mode), report.has_harmonics);
+        (1..).zip(&point.modes).map(own).collect()
     };
     let may_open = !report.has_harmonics || report.solid.is_some();
     let nodes = (base.slipping + base.sticking + base.open).max(1);

@@ -108,6 +108,8 @@ columns! {
         = onset.restabilized_frequency_hz, IfAny "frequency there" Fixed(2);
     unstable_from_start: "whether it is unstable at the lowest friction solved already"
         = onset.unstable_from_start;
+    lost_after: "friction coefficient between which and critical_friction it turns unstable, where it was lost"
+        = onset.lost_after;
 }
 
 columns! {
@@ -121,7 +123,8 @@ columns! {
     /// An onset in words.
     ONSET_WORDS: onset as CriticalFriction;
     travels = onset.direction.map(direction_name), IfAny "travels" Plain;
-    remark = onset.unstable_from_start.then_some("from the start"), IfAny "remark" Plain;
+    remark = onset.lost_after.map(|below| format!("lost: begins above {below}"))
+        .or(onset.unstable_from_start.then(|| "from the start".to_owned())), IfAny "remark" Plain;
 }
 
 /// Where a document is read.
@@ -343,9 +346,7 @@ fn facts(report: &CeaReport<'_>) -> Vec<(String, String)> {
     let lowest =
         intervals.iter().min_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction));
     let onset = match lowest {
-        Some(interval) if interval.unstable_from_start => {
-            format!("below {}", interval.critical_friction)
-        }
+        Some(own) if !own.is_located() => format!("below {}", own.critical_friction),
         Some(interval) => fixed(interval.critical_friction, 6),
         None if report.sweep.unconverged.is_empty() => "none: stable throughout".to_owned(),
         None => "none of the modes that converged".to_owned(),

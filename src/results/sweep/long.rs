@@ -147,9 +147,9 @@ mod tests {
         assert_eq!(
             written("stability.csv", &records),
             "geometry.inner_radius,harmonic,branch,direction,critical_friction,frequency_hz,\
-             restabilized_friction,restabilized_frequency_hz,unstable_from_start,point\n\
-             0.02,1,1,-1,0.12,10000.0,,,false,1\n0.02,2,0,-1,0.14,10000.0,,,false,1\n\
-             0.03,2,0,-1,0.11,10000.0,,,false,2\n"
+             restabilized_friction,restabilized_frequency_hz,unstable_from_start,lost_after,point\n\
+             0.02,1,1,-1,0.12,10000.0,,,false,,1\n0.02,2,0,-1,0.14,10000.0,,,false,,1\n\
+             0.03,2,0,-1,0.11,10000.0,,,false,,2\n"
         );
     }
 

@@ -23,12 +23,13 @@ fn first(point: &PointRecord, path: &str) -> Cell {
     }
 }
 
-/// The lowest critical friction; the first friction of the analysis is only a bound of it.
+/// The lowest critical friction; the first friction of the analysis is only a bound of it, as is one where its branch was lost.
 fn critical(point: &PointRecord) -> Cell {
-    let lowest = first(point, "/critical_frictions/0/critical_friction");
-    match first(point, "/critical_frictions/0/unstable_from_start") {
-        Cell::Flag(true) => Cell::Text(format!("<={}", lowest.text(Format::Fixed(6)))),
-        _ => lowest,
+    let said = |key: &str| first(point, &format!("/critical_frictions/0/{key}"));
+    let is_from_start = matches!(said("unstable_from_start"), Cell::Flag(true));
+    match (said("critical_friction"), said("lost_after")) {
+        (lowest, Cell::None) if !is_from_start => lowest,
+        (lowest, _) => Cell::Text(format!("<={}", lowest.text(Format::Fixed(6)))),
     }
 }
 

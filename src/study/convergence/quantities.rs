@@ -169,7 +169,7 @@ fn onsets(sizes: &[f64], sweeps: &[FrictionSweep], has_harmonics: bool) -> Vec<Q
         return quantities;
     };
     let mut seen: Vec<ModeKey> = Vec::new();
-    for interval in finest.intervals.iter().filter(|i| !i.unstable_from_start) {
+    for interval in finest.intervals.iter().filter(|i| i.is_located()) {
         let key = interval_key(interval);
         if seen.contains(&key) {
             continue;
@@ -180,7 +180,7 @@ fn onsets(sizes: &[f64], sweeps: &[FrictionSweep], has_harmonics: bool) -> Vec<Q
             .map(|sweep| {
                 let mut all = sweep.intervals.iter();
                 all.find(|other| interval_key(other) == key)
-                    .filter(|other| !other.unstable_from_start)
+                    .filter(|other| other.is_located())
                     .map(|other| other.critical_friction)
             })
             .collect();

@@ -146,15 +146,18 @@ pub(super) fn damping_note(case: &Case, sweep: &FrictionSweep) -> Option<String>
 /// not converge or grow just above the list, and its rigid motions.
 pub(super) fn ended_notes(sweep: &FrictionSweep) -> Vec<String> {
     let (mut damped, mut lost) = (Vec::new(), Vec::new());
+    let between =
+        |hz: f64, [from, to]: [f64; 2]| format!("{hz:.0} Hz between friction {from} and {to}");
     for mode in &sweep.ended {
         let (frequency, friction) = (mode.frequency_hz, mode.friction_coefficient);
         match mode.lost_before {
             None => damped.push(format!("{frequency:.0} Hz from friction {friction} on")),
-            Some(next) => {
-                lost.push(format!("{frequency:.0} Hz between friction {friction} and {next}"))
-            }
+            Some(next) => lost.push(between(frequency, [friction, next])),
         }
     }
+    lost.extend(sweep.intervals.iter().filter_map(|own| {
+        Some(between(own.frequency_hz, [own.lost_after?, own.critical_friction]))
+    }));
     let open = sweep.unconverged.iter().map(|mode| {
         format!("{:.0} Hz at friction {}", mode.frequency_hz, mode.friction_coefficient)
     });

@@ -165,7 +165,7 @@ struct Listed<'a> {
 
 /// Where a branch turns unstable within the range first, of its intervals.
 fn onset_of<'a>(mut intervals: impl Iterator<Item = &'a UnstableInterval>) -> Option<Target> {
-    let first = intervals.next().filter(|first| !first.unstable_from_start)?;
+    let first = intervals.next().filter(|first| first.is_located())?;
     Some(Target {
         friction: first.critical_friction,
         eigenvalue: c64::new(0.0, TAU * first.frequency_hz),

@@ -75,7 +75,7 @@ impl<'a> Sampler<'a> {
             critical_friction: interval.critical_friction,
             restabilized: interval.restabilized.map(|end| end.0),
             frequency_hz: interval.frequency_hz,
-            unstable_from_start: interval.unstable_from_start,
+            unstable_from_start: !interval.is_located(),
         };
         Ok((own, found.intervals.iter().map(onset).collect(), found))
     }

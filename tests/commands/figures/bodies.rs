@@ -33,6 +33,7 @@ fn sweep() -> FrictionSweep {
         frequency_hz: 1e4,
         restabilized: None,
         unstable_from_start: false,
+        lost_after: None,
     };
     // The waves of a pair that travel against the rotor grow.
     sweep.intervals = vec![interval(4, 0.3), interval(6, 0.6)];

@@ -92,6 +92,7 @@ pub fn sweep(count: usize) -> FrictionSweep {
                 frequency_hz: frequency,
                 restabilized: (harmonic == 1 && branch == 2).then_some((0.8, frequency)),
                 unstable_from_start: false,
+                lost_after: None,
             });
         }
     }

@@ -34,7 +34,7 @@ impl SparseSweep<'_> {
                 |mode: &&ComplexMode| (mode.harmonic, mode.branch) == (own.harmonic, own.branch);
             let mut modes = points.iter().flat_map(|point| &point.modes).filter(is_own).peekable();
             let is_told = modes.peek().is_none() || modes.any(ComplexMode::is_unstable);
-            is_told || !own.unstable_from_start || own.restabilized.is_some()
+            is_told || own.is_located() || own.restabilized.is_some()
         });
         let critical = |own: &FoundInterval| own.interval.critical_friction;
         found.sort_by(|a, b| critical(a).total_cmp(&critical(b)));
@@ -101,12 +101,12 @@ impl SparseSweep<'_> {
     /// Unstable intervals of all branches. The basis holds the modes of a few friction coefficients only, or of all that were asked for:
     /// the modes at crossings are corrected by the full problem there until these settle.
     fn intervals(&mut self, branches: &[TrackedBranch]) -> Result<Vec<FoundInterval>, CeaError> {
-        let (mut before, mut known): (Vec<f64>, _) = (Vec::new(), Vec::new());
+        let mut before: Vec<f64> = Vec::new();
         for round in 0.. {
-            let found = self.find_intervals(branches, &known)?;
+            let found = self.find_intervals(branches)?;
             let crossings: Vec<&State> =
-                found.iter().flatten().flat_map(FoundInterval::crossings).collect();
-            let missed = || found.iter().flatten().filter_map(FoundInterval::missed);
+                found.iter().flat_map(FoundInterval::crossings).collect();
+            let missed = || found.iter().filter_map(FoundInterval::missed);
             // Crossings that moved since the last round, all in the first one; then those whose residual is too large.
             let is_same = before.len() == crossings.len();
             let moving = crossings.iter().enumerate().filter(|(i, state)| {
@@ -130,37 +130,21 @@ impl SparseSweep<'_> {
             if !has_grown {
                 let open = missed().map(|state| (state.mu, state.mode.eigenvalue.im));
                 self.unconverged.extend(open);
-                return Ok(found.into_iter().flatten().collect());
+                return Ok(found);
             }
-            // What a basis that missed a crossing says about the other branches is worth no more: all are looked at again.
-            known = if missed().next().is_none() { found } else { Vec::new() };
             before = places;
         }
         unreachable!("rounds end")
     }
 
-    /// The intervals of each branch in the basis as it is; in a basis that grew, crossings are near where they were.
-    fn find_intervals(
-        &self,
-        branches: &[TrackedBranch],
-        known: &[Vec<FoundInterval>],
-    ) -> Result<Vec<Vec<FoundInterval>>, CeaError> {
-        let solver = self.point_solver();
-        let of_branch = |i: usize| {
-            let mut finder = OnsetFinder {
-                solver: &solver,
-                model: &self.builder.model,
-                points: &self.points,
-                lowest: self.lowest,
-            };
-            let again = known.get(i).and_then(|own| finder.again(&branches[i], own));
-            match again {
-                Some(intervals) => Ok(intervals),
-                None => finder.intervals(&branches[i]),
-            }
+    /// The intervals of all branches in the basis as it is.
+    fn find_intervals(&self, branches: &[TrackedBranch]) -> Result<Vec<FoundInterval>, CeaError> {
+        let (solver, model, points) = (&self.point_solver(), &self.builder.model, &self.points);
+        let of_branch = |branch: &TrackedBranch| {
+            OnsetFinder { solver, model, points, lowest: self.lowest }.intervals(branch)
         };
-        let found: Result<Vec<_>, _> = (0..branches.len()).into_par_iter().map(of_branch).collect();
-        Ok(found?)
+        let found: Result<Vec<_>, _> = branches.par_iter().map(of_branch).collect();
+        Ok(found?.into_iter().flatten().collect())
     }
 
     fn friction_point(

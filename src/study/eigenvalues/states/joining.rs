@@ -74,10 +74,7 @@ pub fn jumps(parts: &[Part]) -> impl Iterator<Item = f64> {
 /// Friction coefficients between two neighbours at which the state is unknown.
 fn unknown(pair: &[Part]) -> Range<f64> {
     let end = pair[0].last().map_or(f64::NAN, |p| p.friction_coefficient);
-    match end < pair[1].begin {
-        true => end..pair[1].begin,
-        false => end..end,
-    }
+    end..pair[1].begin.max(end)
 }
 
 /// Friction coefficients at which the state is unknown and between which a branch changes its stability.
@@ -93,7 +90,7 @@ pub fn undecided(parts: &[Part]) -> impl Iterator<Item = Undecided> {
     let gaps = gaps.filter(|(gap, _)| !gap.is_empty());
     gaps.filter_map(|(gap, pair)| {
         let ends = |interval: &UnstableInterval| {
-            let onset = (!interval.unstable_from_start).then_some(interval.critical_friction);
+            let onset = interval.is_located().then_some(interval.critical_friction);
             let end = interval.restabilized.map(|(mu, _)| mu);
             [onset, end]
         };
@@ -112,50 +109,46 @@ pub fn label(parts: &mut [Part]) {
     }
 }
 
-/// One sweep of the parts, with the friction coefficients asked for.
+/// One sweep of the parts, with the friction coefficients asked for: one at which a state gives way to the next is that of the next.
 pub fn joined(mut parts: Vec<Part>, frictions: &[f64]) -> FrictionSweep {
-    let found = joined_intervals(&mut parts);
+    let found = joined_intervals(&mut parts, frictions);
     let parts: Vec<FrictionSweep> = parts.into_iter().map(|part| part.sweep).collect();
-    let all: Vec<&FrictionPoint> = parts.iter().flat_map(|part| &part.points).collect();
-    let points = frictions.iter().filter_map(|mu| {
-        all.iter().find(|point| point.friction_coefficient == *mu).map(|point| (*point).clone())
-    });
-    let points = points.collect();
-    let ended = parts.iter().flat_map(|part| part.ended.iter().copied());
-    let ended = ended.collect();
+    let all = || parts.iter().rev().flat_map(|part| &part.points);
+    let at = |mu: &f64| all().find(|point| point.friction_coefficient == *mu).cloned();
+    let points = frictions.iter().filter_map(at).collect();
+    let ended = parts.iter().flat_map(|part| part.ended.iter().copied()).collect();
+    let is_asked = |mu: f64| frictions.contains(&mu);
     let counts = parts.iter().flat_map(|part| part.counts.clone());
     let mut counts: Vec<ModeCount> =
-        counts.filter(|count| frictions.contains(&count.friction_coefficient)).collect();
+        counts.filter(|count| is_asked(count.friction_coefficient)).collect();
     counts.dedup_by(|b, a| a.friction_coefficient == b.friction_coefficient);
     let unconverged = parts.iter().flat_map(|part| part.unconverged.iter().copied());
-    let unconverged = unconverged.filter(|own| frictions.contains(&own.friction_coefficient));
-    let unconverged = unconverged.collect();
+    let unconverged = unconverged.filter(|own| is_asked(own.friction_coefficient)).collect();
     let beyond = parts.iter().filter_map(|part| part.beyond);
-    let beyond =
-        BeyondMode::fastest(beyond.filter(|own| frictions.contains(&own.friction_coefficient)));
+    let beyond = BeyondMode::fastest(beyond.filter(|own| is_asked(own.friction_coefficient)));
     let rigid_motions = parts.first().map_or(0, |part| part.rigid_motions);
     let joined = FrictionSweep::joined(points, found, ended);
     FrictionSweep { counts, unconverged, beyond, rigid_motions, ..joined }
 }
 
 /// Unstable intervals over all parts: those that go on across a change are one, and growth may jump across zero at it.
-fn joined_intervals(parts: &mut [Part]) -> Vec<(UnstableInterval, Option<ModeVectors>)> {
+fn joined_intervals(
+    parts: &mut [Part],
+    frictions: &[f64],
+) -> Vec<(UnstableInterval, Option<ModeVectors>)> {
     let mut found: Vec<(UnstableInterval, Option<ModeVectors>)> = Vec::new();
+    let is_open =
+        |own: &UnstableInterval, name: Name| name_of(own) == name && own.restabilized.is_none();
     for k in 0..parts.len() {
         let (before, rest) = parts.split_at_mut(k);
         let part = &mut rest[0];
         let intervals = std::mem::take(&mut part.sweep.intervals);
         let crossings = std::mem::take(&mut part.sweep.crossings);
-        let jumps: Vec<Jump<'_>> = match before.last() {
-            Some(before) => jumps_between(before, part).collect(),
-            None => Vec::new(),
-        };
+        let jumps = before.last().map(|before| jumps_between(before, part));
+        let jumps: Vec<Jump<'_>> = jumps.into_iter().flatten().collect();
         // Where growth jumps to decay an interval ends.
         for jump in jumps.iter().filter(|jump| !jump.mode.is_unstable()) {
-            let own = found
-                .iter_mut()
-                .rev()
-                .find(|(known, _)| name_of(known) == jump.name && known.restabilized.is_none());
+            let own = found.iter_mut().rev().find(|(known, _)| is_open(known, jump.name));
             if let Some((known, _)) = own {
                 known.restabilized = Some((jump.friction_coefficient, jump.mode.frequency_hz()));
             }
@@ -163,15 +156,19 @@ fn joined_intervals(parts: &mut [Part]) -> Vec<(UnstableInterval, Option<ModeVec
         for (mut interval, crossing) in intervals.into_iter().zip(crossings) {
             if interval.unstable_from_start {
                 // A branch that is unstable on both sides of a change goes on.
-                let same = found.iter_mut().find(|(known, _)| {
-                    name_of(known) == name_of(&interval) && known.restabilized.is_none()
-                });
+                let own = name_of(&interval);
+                let same = found.iter_mut().find(|(known, _)| is_open(known, own));
                 if let Some((known, _)) = same {
                     known.restabilized = interval.restabilized;
                     continue;
                 }
-                let is_jump = jumps.iter().any(|jump| jump.name == name_of(&interval));
-                interval.unstable_from_start = !is_jump;
+                // One that is stable before the change begins at it; one that was not there came from above the range, or was lost.
+                let last = before.last().and_then(Part::last).map_or(&[][..], |last| &last.modes);
+                let is_known = last.iter().any(|mode| name(mode) == own);
+                let earlier =
+                    frictions.iter().copied().filter(|mu| *mu < interval.critical_friction);
+                interval.lost_after = earlier.max_by(f64::total_cmp).filter(|_| !is_known);
+                interval.unstable_from_start = before.is_empty();
             }
             found.push((interval, crossing));
         }
