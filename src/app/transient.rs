@@ -124,7 +124,7 @@ impl Run for Arguments {
         }
         let output = &self.options.output;
         if let Some(drawing) = output.drawing() {
-            figures::draw_record(&folder, &study, record, &summary, &drawing)?;
+            figures::draw_run(&folder, &study, &report, &summary, &drawing)?;
         }
         let state = analysis.settling.state;
         let table = document(&summary, state, PredictedGrowth::default()).to_text();

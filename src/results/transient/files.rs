@@ -10,7 +10,7 @@ use crate::results::pvd::{PvdEntry, write_pvd};
 use crate::results::record::write_record;
 use crate::results::summary::write_summary;
 use crate::results::table::{Table, format_number, write_rows};
-use crate::results::vtu::{EncodedMesh, Field, solid_vectors, write_vtu};
+use crate::results::vtu::{Field, write_vtu};
 use crate::transient::{Recorder, SampleRow, Snapshot};
 use std::io::{self, Write};
 
@@ -19,29 +19,29 @@ pub fn write(
     folder: &OutputFolder,
     report: &TransientReport<'_>,
 ) -> Result<TransientSummary, FolderError> {
-    let raw = |index: usize| Some(report.record.raw_accelerations.as_ref()?[index].as_slice());
-    for (index, rows) in report.record.probe_rows.iter().enumerate() {
-        let probe = report.probe_label(index);
+    let raw = |index: usize| Some(report.run.record.raw_accelerations.as_ref()?[index].as_slice());
+    for (index, rows) in report.run.record.probe_rows.iter().enumerate() {
+        let probe = report.run.probe_label(index);
         folder.write(&format!("probe-{probe}.csv"), |out| {
-            let axial = report.record.axial_rows.get(index).map(Vec::as_slice);
+            let axial = report.run.record.axial_rows.get(index).map(Vec::as_slice);
             let probe = ProbeRows {
                 rows,
                 axial,
                 raw: raw(index),
-                is_cartesian: report.solid.is_none() && report.mesh.dimension == 3,
+                is_cartesian: report.run.body.is_assembly(),
                 turn: report.turn_of_probe(index),
             };
-            write_probe(out, &report.record.rows, &probe)
+            write_probe(out, &report.run.record.rows, &probe)
         })?;
     }
     folder.write("energy.csv", |out| write_energy(out, report))?;
-    folder.write("contact.csv", |out| write_contact(out, &report.record.rows))?;
-    if report.has_harmonics {
-        folder.write("harmonics.csv", |out| write_harmonics(out, report.record))?;
+    folder.write("contact.csv", |out| write_contact(out, &report.run.record.rows))?;
+    if report.run.has_harmonics {
+        folder.write("harmonics.csv", |out| write_harmonics(out, report.run.record))?;
     }
-    folder.write("contact.npz", |out| out.write_all(&encode_contact(report.record)?))?;
+    folder.write("contact.npz", |out| out.write_all(&encode_contact(report.run.record)?))?;
     write_snapshots(folder, report)?;
-    write_record(folder, report.record)?;
+    write_record(folder, report.run.record)?;
     let summary = summary(report, folder.manifest());
     write_summary(folder, &summary)?;
     Ok(summary)
@@ -135,24 +135,24 @@ columns! {
 }
 
 fn write_energy(out: &mut dyn Write, report: &TransientReport<'_>) -> io::Result<()> {
-    let rows = report.record.rows.iter().map(|row| {
-        let powers = row.powers.scaled(report.thickness);
+    let rows = report.run.record.rows.iter().map(|row| {
+        let powers = row.powers.scaled(report.run.thickness);
         [
             row.time,
-            report.thickness * row.kinetic_energy,
-            report.thickness * row.strain_energy,
+            report.run.thickness * row.kinetic_energy,
+            report.run.thickness * row.strain_energy,
             powers.external,
             powers.stick,
             powers.slide,
             powers.contact_dissipated,
-            report.thickness * row.material_damping,
+            report.run.thickness * row.material_damping,
             powers.normal,
             row.balance_residual,
-            report.thickness * row.contact_energy,
+            report.run.thickness * row.contact_energy,
             powers.damping,
         ]
     });
-    let has_springs = report.record.has_contact_springs();
+    let has_springs = report.run.record.has_contact_springs();
     write_rows(out, if has_springs { ENERGY } else { &ENERGY[..10] }, rows)
 }
 
@@ -197,7 +197,7 @@ fn write_harmonics(out: &mut dyn Write, record: &Recorder) -> io::Result<()> {
 
 /// One VTU for each snapshot and `snapshots.pvd` over them.
 fn write_snapshots(folder: &OutputFolder, report: &TransientReport<'_>) -> Result<(), FolderError> {
-    let snapshots = &report.record.snapshots;
+    let snapshots = &report.run.record.snapshots;
     if snapshots.is_empty() {
         return Ok(());
     }
@@ -212,10 +212,7 @@ fn write_snapshots(folder: &OutputFolder, report: &TransientReport<'_>) -> Resul
         ];
         folder.write(&name, |out| {
             if encoded.is_none() {
-                encoded = Some(match report.solid {
-                    Some(sector) => EncodedMesh::solid(sector)?,
-                    None => EncodedMesh::new(report.mesh)?,
-                });
+                encoded = Some(report.run.body.encoded()?);
             }
             match &encoded {
                 Some(mesh) => write_vtu(out, mesh, &whole, &fields, &[]),
@@ -231,28 +228,25 @@ fn write_snapshots(folder: &OutputFolder, report: &TransientReport<'_>) -> Resul
 /// Motion and stress of all nodes, and the contact at the same step: status (0 open, 1 stick, 2 slip; -1 off the contact
 /// edge), pressure, shear and gap (zero off the contact edge).
 fn snapshot_fields(report: &TransientReport<'_>, snapshot: &Snapshot) -> Vec<Field> {
-    let (mesh, displacement) = (report.mesh, &snapshot.displacement);
-    let vectors = |name: &str, values: &[f64]| match report.solid {
-        Some(sector) => solid_vectors(name, sector, values),
-        None => Field::vectors(name, mesh, values),
-    };
+    let (body, displacement) = (&report.run.body, &snapshot.displacement);
+    let mesh = body.mesh;
     let mut fields = vec![
-        vectors("displacement_m", displacement),
-        vectors("velocity_m_per_s", &snapshot.velocity),
+        body.vectors("displacement_m", displacement),
+        body.vectors("velocity_m_per_s", &snapshot.velocity),
     ];
-    let count = match (report.solid, mesh.dimension) {
+    let count = match (body.sector, mesh.dimension) {
         (Some(sector), _) => {
-            let stress = revolved_stress(sector, report.material, displacement);
+            let stress = revolved_stress(sector, report.run.material, displacement);
             fields.extend(Field::solid_stresses(&stress, "rtz"));
             displacement.len() / 3
         }
         (None, 3) => {
-            let stress = solid_stress(mesh, report.material, displacement);
+            let stress = solid_stress(mesh, report.run.material, displacement);
             fields.extend(Field::solid_stresses(&stress, "xyz"));
             mesh.node_count()
         }
         _ => {
-            let stress = nodal_stress(mesh, report.material, displacement);
+            let stress = nodal_stress(mesh, report.run.material, displacement);
             fields.extend(Field::stresses(&stress));
             fields.extend(Field::cartesian_stresses(mesh, &stress));
             mesh.node_count()

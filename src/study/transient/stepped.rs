@@ -5,6 +5,7 @@ use crate::cycle::OperatingPoint;
 use crate::fem::MaterialField;
 use crate::mesh::{AnnulusMesh, Mesh, SolidSector};
 use crate::prestress::Assembly;
+use crate::results::ShownBody;
 use crate::study::StudyError;
 use crate::study::cycle::operating_point;
 use crate::transient::{SteppedBody, TransientModel};
@@ -79,6 +80,11 @@ impl<'a> SteppedMesh<'a> {
             },
             ..TransientModel::new(body, material, point.damping, point.contact)
         }
+    }
+
+    /// The body as results show it.
+    pub fn shown(&self) -> ShownBody<'_> {
+        ShownBody { mesh: &self.mesh, sector: self.sector.as_ref() }
     }
 
     /// Nodes of the whole body.
