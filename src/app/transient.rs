@@ -84,10 +84,7 @@ impl Run for Arguments {
         // Whatever is wrong with the case is said before the folder is touched.
         let fresh = study.start(operator.as_ref())?;
         let recorder = study.recorder(&fresh)?;
-        let saved = match self.resume {
-            true => continuation::find(&session)?,
-            false => None,
-        };
+        let saved = if self.resume { continuation::find(&session)? } else { None };
         let goes_on = saved.is_some();
         let (mut loop_, record) = match saved {
             None => (fresh, recorder),

@@ -252,10 +252,7 @@ fn criterion(mesh: &Mesh, mode: &[c64], shape: &MeasuredShape, placed: &Placed) 
             measured += y.norm_sqr();
         }
     }
-    match own * measured > 0.0 {
-        true => product.norm_sqr() / (own * measured),
-        false => 0.0,
-    }
+    if own * measured > 0.0 { product.norm_sqr() / (own * measured) } else { 0.0 }
 }
 
 /// Pairs of shapes and modes with the largest sum of the criterion.

@@ -215,10 +215,7 @@ impl OutputFolder {
     /// write again, and takes the place of the results that it replaces.
     pub fn finish(self) -> Result<(), FolderError> {
         self.seal()?;
-        match self.path == self.destination {
-            true => Ok(()),
-            false => self.move_into_place(),
-        }
+        if self.path == self.destination { Ok(()) } else { self.move_into_place() }
     }
 
     /// Ends a run before its time: its files stay where they are, and so do results that it was to replace. Gives that

@@ -241,10 +241,7 @@ pub fn summary(report: &TransientReport<'_>, manifest: &Manifest) -> TransientSu
         extent: report.run.extent,
         ambiguous_friction: report.run.record.ambiguous_share(),
         unconverged_steps: Some(report.run.record.unconverged_steps).filter(|steps| *steps > 0),
-        harmonics: match report.run.has_harmonics {
-            true => end.harmonics.to_vec(),
-            false => Vec::new(),
-        },
+        harmonics: if report.run.has_harmonics { end.harmonics.to_vec() } else { Vec::new() },
         significant_harmonics_m: by_harmonic(end.significant.iter().copied()),
         growth: analysis.growth.iter().filter_map(growth).collect(),
         no_growth: no_growth(analysis),

@@ -102,9 +102,6 @@ impl<'a> SteppedMesh<'a> {
 
     /// What powers and energies are multiplied by, m: those of a body in three dimensions are of the whole, and this is 1.
     pub fn thickness(&self, case: &Case) -> f64 {
-        match self.is_solid() {
-            true => 1.0,
-            false => case.thickness,
-        }
+        if self.is_solid() { 1.0 } else { case.thickness }
     }
 }
