@@ -301,7 +301,7 @@ fn refuse_links(path: &Path) -> Result<(), FolderError> {
         entry.file_type().is_ok_and(|kind| kind.is_symlink()) && entry.path().is_dir()
     });
     match links.next() {
-        Some(link) => Err(FolderError::Linked { path: link.path() }),
+        Some(link) => Err(FolderError::Linked(link.path())),
         None => Ok(()),
     }
 }
@@ -321,7 +321,7 @@ fn lock(path: &Path) -> Result<File, FolderError> {
         .map_err(|e| FolderError::io("open", &lock_path, e))?;
     match file.try_lock() {
         Ok(()) => Ok(file),
-        Err(TryLockError::WouldBlock) => Err(FolderError::Busy { path: path.to_owned() }),
+        Err(TryLockError::WouldBlock) => Err(FolderError::Busy(path.to_owned())),
         // A file system without locks: go on as if there were no other process.
         Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => Ok(file),
         Err(TryLockError::Error(error)) => Err(FolderError::io("lock", &lock_path, error)),

@@ -46,7 +46,7 @@ pub fn share(
     let lock_path = path.join(LOCK);
     let file = open_lock(&lock_path)?;
     let refusal = |error| match error {
-        TryLockError::WouldBlock => FolderError::Busy { path: path.to_owned() },
+        TryLockError::WouldBlock => FolderError::Busy(path.to_owned()),
         TryLockError::Error(error) => FolderError::io("lock", &lock_path, error),
     };
     match file.try_lock() {

@@ -342,8 +342,7 @@ fn take_over(
         _ => {}
     }
     if company == Company::Others {
-        let path = path.to_owned();
-        return Err(FolderError::Busy { path });
+        return Err(FolderError::Busy(path.to_owned()));
     }
     if let Some(contents) = &contents {
         remove_files(path, contents.files.iter())?;
@@ -359,8 +358,7 @@ fn take_over(
 /// Removes the points that are to be run over again, and the table that has them.
 fn remove_points(path: &Path, points: &[usize], company: Company) -> Result<(), FolderError> {
     if company == Company::Others {
-        let path = path.to_owned();
-        return Err(FolderError::Busy { path });
+        return Err(FolderError::Busy(path.to_owned()));
     }
     let names: Vec<String> = points
         .iter()

@@ -20,12 +20,9 @@ pub enum CheckpointError {
     /// None there.
     #[error(
         "{} does not exist: there is nothing to resume (run without --resume)",
-        path.display()
+        .0.display()
     )]
-    Missing {
-        /// The file.
-        path: PathBuf,
-    },
+    Missing(PathBuf),
     /// Cut short or changed.
     #[error(
         "{} is damaged ({reason}): it is left as it is; run without --resume to start over",
@@ -125,7 +122,7 @@ pub fn read_checkpoint(
     let bytes = match read_file(&path, RESULT) {
         Ok(bytes) => bytes,
         Err(source) if source.kind() == io::ErrorKind::NotFound => {
-            return Err(CheckpointError::Missing { path });
+            return Err(CheckpointError::Missing(path));
         }
         Err(source) => return Err(CheckpointError::Io { path, source }),
     };

@@ -78,7 +78,7 @@ pub fn read_modes(bytes: &[u8], source: &str) -> Result<Vec<MeasuredMode>, ReadE
     }
     if modes.len() > MOST_MODES {
         let count = modes.len();
-        return Err(ReadError::whole(source, ReadProblem::TooManyModes { count }));
+        return Err(ReadError::whole(source, ReadProblem::TooManyModes(count)));
     }
     Ok(modes)
 }
@@ -181,7 +181,7 @@ mod tests {
     fn a_response_in_place_of_a_list_of_modes_is_refused_by_its_length() {
         let rows: String = (1..=1001).map(|i| format!("{i},0.1\n")).collect();
         let error = read_modes(format!("f,real_hz\n{rows}").as_bytes(), "frf.csv").unwrap_err();
-        assert_eq!(error.problem, ReadProblem::TooManyModes { count: 1001 });
+        assert_eq!(error.problem, ReadProblem::TooManyModes(1001));
         assert!(error.to_string().contains("frictionsim identify"));
     }
 

@@ -42,7 +42,7 @@ pub fn read_signal(
 ) -> Result<SignalFile, ReadError> {
     let whole = |problem| ReadError::whole(source, problem);
     if let Some(value) = options.rate.filter(|rate| !(*rate > 0.0 && rate.is_finite())) {
-        return Err(whole(ReadProblem::Rate { value }));
+        return Err(whole(ReadProblem::Rate(value)));
     }
     let mut file = match Format::of(bytes) {
         Format::Universal => uff::read_signals(bytes, source)?,
@@ -50,7 +50,7 @@ pub fn read_signal(
         Format::Matlab => {
             from_table(&mat::read_table(bytes, source, &options.columns)?, source, options)?
         }
-        Format::Foreign(found) => return Err(whole(ReadProblem::Format { found })),
+        Format::Foreign(found) => return Err(whole(ReadProblem::Format(found))),
         Format::Text => from_table(&read_table(bytes, source, &options.columns)?, source, options)?,
     };
     // A file that states its rate is overruled aloud.
