@@ -1,7 +1,7 @@
 //! A mode shape as a picture of the deformed body.
 
-use super::CeaReport;
 use super::solid::Picture;
+use super::{CeaReport, arrow};
 use crate::cea::ComplexMode;
 use crate::chart::{
     Axis, ColourMap, Field, INK, Line, MUTED, Motion, MotionKind, MotionState, Panel, Stroke,
@@ -36,11 +36,7 @@ impl ModeShape<'_> {
 
     /// Harmonic, direction and stability in mark-up.
     pub fn harmonic(&self) -> String {
-        let arrow = match self.mode.direction {
-            1 => " ↺",
-            -1 => " ↻",
-            _ => "",
-        };
+        let arrow = arrow(self.mode.direction);
         let unstable = if self.mode.is_unstable() { " unstable" } else { "" };
         if !self.has_harmonics {
             let diameters = self.mode.nodal_diameters;

@@ -3,7 +3,7 @@
 use super::Disc;
 use super::bodies::{speeds_of_bodies, speeds_on_top};
 use super::palette::{
-    OPEN, SLIP, STICK, centred, line_colour, status_ground, status_keys, status_name, status_ring,
+    OPEN, SLIP, STICK, centred, line_colour, status_ground, status_keys, status_ring,
 };
 use crate::chart::{
     Axis, ChartError, ColourMap, Figure, Heat, INK, Label, Line, Palette, Panel, Rule, SERIES, Side,
@@ -291,8 +291,7 @@ pub fn status_curves(points: &[(f64, f64)], status: &[ContactStatus]) -> Vec<Lin
             start += run.len();
         }
         let width = if wanted == ContactStatus::Slip { 1.8 } else { 0.8 };
-        let name = status_name(wanted);
-        lines.push(Line::through(pieces).solid(line_colour(wanted), width).name(name));
+        lines.push(Line::through(pieces).solid(line_colour(wanted), width).name(wanted.name()));
     }
     lines
 }

@@ -4,6 +4,7 @@ use crate::case::Case;
 use crate::cea::{ComplexMode, FrictionSweep, UnstableInterval};
 use crate::cycle::Family;
 use crate::linalg::c64;
+use crate::results::cea::travels;
 use crate::results::convergence::Quantity;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
@@ -26,12 +27,7 @@ fn name_of((harmonic, branch, direction): ModeKey, has_harmonics: bool) -> Strin
     if !has_harmonics {
         return format!("mode {branch}");
     }
-    let direction = match direction {
-        1.. => ", with the rotor",
-        0 => "",
-        ..0 => ", against the rotor",
-    };
-    format!("n = {harmonic}, branch {branch}{direction}")
+    format!("n = {harmonic}, branch {branch}{}", travels(direction))
 }
 
 /// Frequency and real part of every mode at the case's friction coefficient, and every first onset,
