@@ -32,12 +32,6 @@ pub mod uncertainty;
 mod vtu;
 mod whole_mesh;
 
-/// Tables that are not declared yet.
-mod table {
-    pub use crate::output::csv::{Table, format_number};
-    pub use crate::output::rows::write_rows;
-}
-
 use store::{folder, framed, manifest, record, reopening, whole_file};
 
 pub use crate::output::csv::{Table, format_number};

@@ -37,13 +37,13 @@ fn rust_files(folder: &Path, files: &mut Vec<PathBuf>) {
 /// after a merge that conflicts here, the failure names the numbers to write.
 const BUDGETS: &[(&str, usize)] = &[
     ("crates/bounds", 196),
-    ("crates/chart", 4_987),
+    ("crates/chart", 4_969),
     ("crates/described", 104),
     ("crates/formats", 6_853),
     ("crates/linalg", 4_075),
-    ("crates/signal", 6_631),
-    ("src/app", 5_381),
-    ("src/case", 11_872),
+    ("crates/signal", 6_597),
+    ("src/app", 5_312),
+    ("src/case", 11_857),
     ("src/cea", 10_593),
     ("src/contact", 2_879),
     ("src/cycle", 8_309),
@@ -55,8 +55,8 @@ const BUDGETS: &[(&str, usize)] = &[
     ("src/mesh", 4_650),
     ("src/output", 816),
     ("src/prestress", 5_374),
-    ("src/results", 20_396),
-    ("src/study", 12_439),
+    ("src/results", 20_260),
+    ("src/study", 12_405),
     ("src/transient", 5_022),
 ];
 

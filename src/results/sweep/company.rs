@@ -1,21 +1,11 @@
 //! Locks of a folder that several processes share.
 
-use super::super::folder::{FolderError, LOCK};
-use std::fs::{File, OpenOptions, TryLockError};
+use super::super::folder::{FolderError, LOCK, open_lock};
+use std::fs::{File, TryLockError};
 use std::io;
 use std::path::Path;
 
 const DOOR: &str = ".door";
-
-/// Opens the file of a lock, which has nothing in it.
-pub fn open_lock(path: &Path) -> Result<File, FolderError> {
-    OpenOptions::new()
-        .create(true)
-        .truncate(false)
-        .write(true)
-        .open(path)
-        .map_err(|e| FolderError::io("open", path, e))
-}
 
 /// Who else works in a folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,15 +1,16 @@
 //! Probes, energies, contact, snapshots, summary.
 
-use super::contact::encode_contact;
 use super::{TransientReport, TransientSummary, summary};
 use crate::fem::{nodal_stress, revolved_stress, solid_stress};
 use crate::output::columns;
+use crate::output::csv::{Table, format_number};
+use crate::output::rows::write_rows;
 use crate::results::charts::palette::status_of_code;
 use crate::results::folder::{FolderError, OutputFolder};
+use crate::results::npz::NpzArchive;
 use crate::results::pvd::{PvdEntry, write_pvd};
 use crate::results::record::write_record;
 use crate::results::summary::write_summary;
-use crate::results::table::{Table, format_number, write_rows};
 use crate::results::vtu::{Field, write_vtu};
 use crate::transient::{Recorder, SampleRow, Snapshot};
 use std::io::{self, Write};
@@ -195,6 +196,34 @@ fn write_harmonics(out: &mut dyn Write, record: &Recorder) -> io::Result<()> {
     table.finish()
 }
 
+/// `contact.npz`, the contact edge over time, node by node: the arrays `time_s (F)`, `angle_rad (N)`, `status (F, N)`, `pressure_pa (F, N)` and `shear_pa (F, N)` for `F`
+/// frames and `N` contact nodes, as NumPy reads them; the numbers `interval_s` between frames, and `status_open` (0),
+/// `status_stick` (1), `status_slip` (2), which say what the codes of `status` mean. A body in three dimensions has
+/// `shear_across_pa (F, N)` too, along `e_z` on its inner edge and `e_r` on its top.
+///
+/// A frame is the state of one step; frames may lie several samples apart.
+fn encode_contact(record: &Recorder) -> io::Result<Vec<u8>> {
+    let mut archive = NpzArchive::default();
+    let frames = &record.frames;
+    let shape = [frames.len(), record.contact_angles.len()];
+    archive.array("time_s", &shape[..1], frames.iter().map(|f| f.time))?;
+    archive.array("angle_rad", &shape[1..], record.contact_angles.iter().copied())?;
+    let status = frames.iter().flat_map(|f| f.status.iter().copied());
+    archive.array("status", &shape, status)?;
+    let pressure = frames.iter().flat_map(|f| f.pressure.iter().copied());
+    archive.array("pressure_pa", &shape, pressure)?;
+    let shear = frames.iter().flat_map(|f| f.shear().iter().copied());
+    archive.array("shear_pa", &shape, shear)?;
+    if frames.iter().any(|frame| !frame.shear_across().is_empty()) {
+        let across = frames.iter().flat_map(|f| f.shear_across().iter().copied());
+        archive.array("shear_across_pa", &shape, across)?;
+    }
+    let interval = record.frame_stride as f64 * record.sample_interval;
+    archive.array("interval_s", &[], std::iter::once(interval))?;
+    archive.status_codes()?;
+    archive.finish()
+}
+
 /// One VTU for each snapshot and `snapshots.pvd` over them.
 fn write_snapshots(folder: &OutputFolder, report: &TransientReport<'_>) -> Result<(), FolderError> {
     let snapshots = &report.run.record.snapshots;
@@ -221,8 +250,7 @@ fn write_snapshots(folder: &OutputFolder, report: &TransientReport<'_>) -> Resul
         })?;
         entries.push(PvdEntry { time: snapshot.time, group: String::new(), file: name });
     }
-    folder.write("snapshots.pvd", |out| write_pvd(out, &entries))?;
-    Ok(())
+    folder.write("snapshots.pvd", |out| write_pvd(out, &entries))
 }
 
 /// Motion and stress of all nodes, and the contact at the same step: status (0 open, 1 stick, 2 slip; -1 off the contact

@@ -1,11 +1,9 @@
 //! Results of an explicit transient: what is printed and what is written.
 
 mod checkpoint;
-mod contact;
 mod energy;
 mod figures;
 mod files;
-mod record;
 mod run;
 mod signals;
 mod stages;
