@@ -67,14 +67,14 @@ pub fn read_signal(
     }
     let count = file.channels.first().map_or(0, |c| c.samples.len());
     if count < FEWEST {
-        return Err(whole(ReadProblem::Signal(SignalError::TooShort {
-            what: "the signal",
-            count,
-            needed: FEWEST,
-            remedy: "give a longer record",
-        })));
+        return Err(whole(too_short(count)));
     }
     Ok(file)
+}
+
+fn too_short(count: usize) -> ReadProblem {
+    let (what, remedy) = ("the signal", "give a longer record");
+    ReadProblem::Signal(SignalError::TooShort { what, count, needed: FEWEST, remedy })
 }
 
 fn from_table(
@@ -85,12 +85,7 @@ fn from_table(
     let whole = |problem| ReadError::whole(source, problem);
     let time = time_column(table);
     if table.rows() < FEWEST {
-        return Err(whole(ReadProblem::Signal(SignalError::TooShort {
-            what: "the signal",
-            count: table.rows(),
-            needed: FEWEST,
-            remedy: "give a longer record",
-        })));
+        return Err(whole(too_short(table.rows())));
     }
     let mut notes = Vec::new();
     let (rate, start) = match time {
