@@ -193,6 +193,9 @@ impl super::Case {
     }
 
     /// The case with overrides, and without what is studied of it.
+    ///
+    /// # Errors
+    /// Overrides that are none, and values that do not go together.
     pub fn with_keys(&self, overrides: &[String]) -> Result<Self, CaseErrors> {
         let mut raw = self.raw.with_overrides(overrides)?;
         for study in ["sweep", "fit", "uncertainty", "convergence"] {
