@@ -3,6 +3,7 @@
 use super::options::OutputOptions;
 use super::profile::{Profile, Run};
 use super::{Failure, terminal};
+use crate::case::hash_of;
 use crate::results::compare::{
     ComparedRun, ComparisonSummary, document, file, overlaid, print, shared,
 };
@@ -10,8 +11,6 @@ use crate::results::{
     Manifest, Page, Record, read_manifest, read_record, read_summary, write_table,
 };
 use clap::{Args, ValueHint};
-use sha2::{Digest, Sha256};
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 /// Set finished runs side by side: numbers and curves
@@ -108,16 +107,9 @@ const LONGEST_NAME: usize = 100;
 
 /// What the comparison is made from: the folders and the cases of their results.
 fn manifest_of(folders: &[PathBuf], runs: &[ComparedRun]) -> Manifest {
-    let mut hash = Sha256::new();
-    for run in runs {
-        hash.update(run.name.as_bytes());
-        hash.update([0]);
-        hash.update(run.manifest.case_hash.as_bytes());
-    }
-    let mut case_hash = String::new();
-    for byte in hash.finalize() {
-        let _ = write!(case_hash, "{byte:02x}");
-    }
+    let parts = |run: &'_ ComparedRun| [&run.name[..], "\0", &run.manifest.case_hash].concat();
+    let parts: String = runs.iter().map(parts).collect();
+    let case_hash = hash_of([parts.as_bytes()]);
     let mut folders = folders.iter().map(|path| path.display().to_string());
     Manifest {
         case_file: folders.next().unwrap_or_default(),

@@ -3,13 +3,12 @@
 use super::limits::{input_name, read_input};
 use super::profile::{Profile, Run};
 use super::{Failure, RunOptions, Session};
+use crate::case::hash_of;
 use crate::results::fit::BLOCK;
 use crate::signal::reader::{MeasuredShape, read_modes, read_shapes};
 use crate::study::fit::{MeasuredShapes, fit_case_with_shapes, refuse_too_few, summarize};
 use clap::{Args, ValueHint};
 use frictionsim_bounds::MEASUREMENT;
-use sha2::{Digest, Sha256};
-use std::fmt::Write as _;
 use std::path::PathBuf;
 
 /// Find parameters of a case from measured modes or squeal frequencies
@@ -56,7 +55,8 @@ impl Run for Arguments {
         session.case.require_fit()?;
         let bytes = read_input(&self.modes, MEASUREMENT)?;
         let lines = read_modes(&bytes, &input_name(&self.modes))?;
-        session.manifest.case_hash = joint_hash(&session.manifest.case_hash, &bytes);
+        // Results belong to case and table.
+        session.manifest.case_hash = hash_of([session.manifest.case_hash.as_bytes(), &bytes]);
         let shapes = read_measured(self, &mut session)?;
         let shapes = shapes.as_deref().map(|shapes| MeasuredShapes { shapes, scale: self.scale });
         refuse_too_few(&session.case, &lines)?;
@@ -87,7 +87,7 @@ fn read_measured(
     scale_of_shapes(arguments.scale)?;
     let bytes = read_input(path, MEASUREMENT)?;
     let identity = format!("{} {:?}", session.manifest.case_hash, arguments.scale);
-    session.manifest.case_hash = joint_hash(&identity, &bytes);
+    session.manifest.case_hash = hash_of([identity.as_bytes(), &bytes]);
     Ok(Some(read_shapes(&bytes, &input_name(path))?))
 }
 
@@ -98,15 +98,4 @@ pub(super) fn scale_of_shapes(scale: f64) -> Result<(), Failure> {
     }
     let message = format!("--scale {scale} must be positive and finite");
     Err(Failure::usage(message))
-}
-
-/// One hash for case and table: results belong to both.
-pub(super) fn joint_hash(case_hash: &str, table: &[u8]) -> String {
-    let mut hash = Sha256::new();
-    hash.update(case_hash.as_bytes());
-    hash.update(table);
-    hash.finalize().iter().fold(String::new(), |mut text, byte| {
-        let _ = write!(text, "{byte:02x}");
-        text
-    })
 }

@@ -3,6 +3,7 @@
 use super::limits::{input_name, read_input};
 use super::profile::{Profile, Run};
 use super::{Failure, RunOptions, Session};
+use crate::case::hash_of;
 use crate::results::mac::MacSummary;
 use crate::signal::reader::read_shapes;
 use crate::study::mac::assurance;
@@ -44,7 +45,7 @@ impl Run for Arguments {
         let shapes = read_shapes(&bytes, &source)?;
         // Results belong to case, shapes and scale.
         let identity = format!("{} {:?}", session.manifest.case_hash, self.scale);
-        session.manifest.case_hash = super::fit::joint_hash(&identity, &bytes);
+        session.manifest.case_hash = hash_of([identity.as_bytes(), &bytes]);
         session.case.require_cea()?;
         let folder = session.begin()?;
         let found = assurance(&session.case, &shapes, self.scale)?;

@@ -3,11 +3,10 @@
 use super::limits::{input_name, read_input};
 use super::options::OutputOptions;
 use super::{Failure, terminal};
+use crate::case::hash_of;
 use crate::results::{Manifest, OutputFolder};
 use crate::signal::reader::ReadError;
 use frictionsim_bounds::MEASUREMENT;
-use sha2::{Digest, Sha256};
-use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::Path;
 use std::time::Instant;
@@ -39,16 +38,8 @@ impl Measurement {
         let start = Instant::now();
         terminal::start_log(options.quiet, options.verbose);
         let bytes = read_input(path, MEASUREMENT)?;
-        let mut hash = Sha256::new();
-        hash.update(&bytes);
-        for choice in &choices {
-            hash.update([0]);
-            hash.update(choice.as_bytes());
-        }
-        let mut case_hash = String::new();
-        for byte in hash.finalize() {
-            let _ = write!(case_hash, "{byte:02x}");
-        }
+        let chosen = choices.iter().flat_map(|choice| [&[0][..], choice.as_bytes()]);
+        let case_hash = hash_of(std::iter::once(&bytes[..]).chain(chosen));
         Ok(Self {
             bytes,
             source: input_name(path),
@@ -131,8 +122,7 @@ impl<'a> SideFile<'a> {
             true => file.persist(self.path),
             false => file.persist_noclobber(self.path),
         };
-        kept.map_err(|error| fail(error.error))?;
-        Ok(())
+        kept.map(drop).map_err(|error| fail(error.error))
     }
 }
 

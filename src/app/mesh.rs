@@ -48,17 +48,8 @@ impl Run for Arguments {
         if let Some(sector) = &solid {
             statistics.turn(sector);
         }
-        let summary = MeshSummary {
-            command: "mesh".to_owned(),
-            title: case.title.clone(),
-            wall_s: session.wall_seconds(),
-            mesh: statistics,
-            notes: Vec::new(),
-            not_used: case.taken.not_used(),
-            manifest: session.manifest.clone(),
-        };
         let figures = || Ok(vec![plane_figure(&mesh, &case.title, &case.output.probes)]);
-        finish(&session, folder, &summary, figures)
+        finish(&session, folder, (statistics, Vec::new()), figures)
     }
 }
 
@@ -77,28 +68,29 @@ fn run_solid(
     let contact_nodes = contacts.flat_map(|role| mesh.boundaries[*role.0].nodes.iter().copied());
     write_mesh(&folder, mesh, contact_nodes)?;
     let statistics = SolidMeshStatistics::new(mesh, &densities, &roles);
-    let summary = MeshSummary {
-        command: "mesh".to_owned(),
-        title: case.title.clone(),
-        wall_s: session.wall_seconds(),
-        mesh: statistics,
-        notes: case.taken.notes.clone(),
-        not_used: case.taken.not_used(),
-        manifest: session.manifest.clone(),
-    };
-    finish(session, folder, &summary, || Ok(vec![solid_figure(mesh, &case.title, &roles)]))
+    let figures = || Ok(vec![solid_figure(mesh, &case.title, &roles)]);
+    finish(session, folder, (statistics, case.taken.notes.clone()), figures)
 }
 
 /// Draws, writes the summary and prints.
 fn finish<S: Measured>(
     session: &Session,
     folder: OutputFolder,
-    summary: &MeshSummary<S>,
+    (mesh, notes): (S, Vec<String>),
     figures: impl FnOnce() -> Result<Vec<Figure>, ChartError>,
 ) -> Result<(), Failure> {
+    let summary = MeshSummary {
+        command: "mesh".to_owned(),
+        title: session.case.title.clone(),
+        wall_s: session.wall_seconds(),
+        mesh,
+        notes,
+        not_used: session.case.taken.not_used(),
+        manifest: session.manifest.clone(),
+    };
     let document = summary.document();
     let text = document.to_text();
-    session.options.output.finish_result(folder, &text, document, summary, figures)
+    session.options.output.finish_result(folder, &text, document, &summary, figures)
 }
 
 /// Boundaries that slide or are glued, in a word.

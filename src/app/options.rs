@@ -99,10 +99,7 @@ impl OutputOptions {
     /// after what this run differs in: its overrides, or the folder that its input lies in. `is_continued`: a run that goes
     /// on takes the folder that is there.
     pub fn destination(&self, manifest: &Manifest, is_continued: bool) -> (PathBuf, Replace) {
-        let replace = match self.force {
-            true => Replace::Anything,
-            false => Replace::SameCase,
-        };
+        let replace = if self.force { Replace::Anything } else { Replace::SameCase };
         if let Some(path) = &self.out {
             return (path.clone(), replace);
         }

@@ -5,7 +5,7 @@ use super::terminal;
 use super::{Failure, RunOptions, embedded};
 use crate::case::{Case, RawCase};
 use crate::fem::operator::SimdLevel;
-use crate::results::{Manifest, OutputFolder};
+use crate::results::{FolderError, Manifest, OutputFolder};
 use crate::study::refuse_memory;
 use frictionsim_bounds::CASE;
 use std::path::Path;
@@ -86,14 +86,19 @@ impl Session {
         Ok(folder)
     }
 
-    /// Puts the mesh file beside the results: they can be drawn again without the file in its place.
+    /// Puts the mesh file and the tables beside the results: they can be drawn again without the files in their places.
+    pub fn keep_inputs(
+        &self,
+        write: impl Fn(&str, &[u8]) -> Result<(), FolderError>,
+    ) -> Result<(), Failure> {
+        self.case.raw.mesh.iter().try_for_each(|mesh| write(MESH, &mesh.bytes))?;
+        let mut tables = self.case.raw.kept_tables().into_iter();
+        Ok(tables.try_for_each(|(name, table)| write(&name, &table.bytes))?)
+    }
+
+    /// The same of an output folder.
     pub fn keep_mesh(&self, folder: OutputFolder) -> Result<OutputFolder, Failure> {
-        if let Some(mesh) = &self.case.raw.mesh {
-            folder.write(MESH, |out| out.write_all(&mesh.bytes))?;
-        }
-        for (name, table) in self.case.raw.kept_tables() {
-            folder.write(&name, |out| out.write_all(&table.bytes))?;
-        }
+        self.keep_inputs(|name, bytes| folder.write(name, |out| out.write_all(bytes)))?;
         Ok(folder)
     }
 
@@ -109,16 +114,6 @@ impl Session {
     pub fn check_memory(&self, bytes: f64) -> Result<(), Failure> {
         let command = &self.manifest.command;
         Ok(refuse_memory(&self.case, command, bytes, machine_memory())?)
-    }
-
-    /// Prints the summary as JSON, or the table for people and where the files are.
-    pub fn print(
-        &self,
-        table: &str,
-        summary: &serde_json::Value,
-        folder: &Path,
-    ) -> Result<(), Failure> {
-        self.options.output.print(table, summary, folder)
     }
 }
 

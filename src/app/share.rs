@@ -1,6 +1,5 @@
 //! Options of the commands whose work is dealt out: parts of it, and a folder that is gone on with.
 
-use super::session::MESH;
 use super::{Failure, OutputOptions, Session};
 use crate::results::OutputFolder;
 use crate::results::sweep::{Start, SweepFolder};
@@ -46,12 +45,7 @@ impl ShareOptions {
             return Err(output.dry_run_at(&path, &session.manifest));
         }
         let folder = SweepFolder::open(&path, &session.manifest, count, pieces, start)?;
-        if let Some(mesh) = &session.case.raw.mesh {
-            folder.write(MESH, |out| out.write_all(&mesh.bytes))?;
-        }
-        for (name, table) in session.case.raw.kept_tables() {
-            folder.write(&name, |out| out.write_all(&table.bytes))?;
-        }
+        session.keep_inputs(|name, bytes| folder.write(name, |out| out.write_all(bytes)))?;
         Ok(folder)
     }
 }

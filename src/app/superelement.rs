@@ -21,10 +21,7 @@ pub fn described(case: &Path, overrides: &[String]) -> Result<Option<FreeSystem>
     }
     let bytes = read_input(case, CASE)?;
     let raw = RawCase::parse(&input_name(case), &bytes, overrides)?;
-    match FreeSystem::is_described_by(&raw) {
-        true => Ok(Some(FreeSystem::read(raw)?)),
-        false => Ok(None),
-    }
+    if FreeSystem::is_described_by(&raw) { Ok(Some(FreeSystem::read(raw)?)) } else { Ok(None) }
 }
 
 /// Solves it and writes the eigenvalues.

@@ -1,6 +1,5 @@
 //! `frictionsim sweep`: an analysis at every point of a parameter study.
 
-mod analyses;
 mod progress;
 mod workers;
 
@@ -11,13 +10,14 @@ pub use workers::{PointRunner, SweepRun};
 use super::profile::{Profile, Run};
 use super::share::ShareOptions;
 use super::transient::linear_stage;
-use super::{Failure, RunOptions, Session, terminal};
+use super::{Failure, RunOptions, Session, cycle, terminal};
 use crate::case::{Analysis, Case};
 use crate::results::sweep::{Found, PointRecord, SweepDrawing, SweepFolder, SweepReport};
 use crate::results::sweep::{SweepSummary, document, draw, long_tables, write_points};
 use crate::results::{DrawingOptions, Manifest};
+use crate::study::{analysis_name, summarize};
 use clap::Args;
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 /// Run any analysis on a grid of parameters
 ///
@@ -61,7 +61,7 @@ impl Run for Arguments {
             folder: &folder,
             manifest: &session.manifest,
             progress: &progress,
-            runner: &|case| analyses::run_point(case, &plan.analyses, &session.manifest),
+            runner: &|case| run_point(case, &plan.analyses, &session.manifest),
         };
         let outcome = run.run(&points, threads);
         progress.finish();
@@ -76,7 +76,7 @@ impl Run for Arguments {
         } else {
             summary_object(&report, &session.manifest)?
         };
-        session.print(&document(&report, false).to_text(), &summary, folder.path())?;
+        output.print(&document(&report, false).to_text(), &summary, folder.path())?;
         let of_these = |record: &&PointRecord| points.binary_search(&record.point).is_ok();
         match report.failed().filter(of_these).count() {
             0 => Ok(()),
@@ -188,4 +188,28 @@ pub fn gather(
     let summary = summary_object(report, manifest)?;
     folder.write_summary(&summary)?;
     Ok(summary)
+}
+
+/// Runs the analyses of one point and gives the summary of each by its name, without the manifest:
+/// the sweep's folder has it once.
+///
+/// # Errors
+/// Those of the first analysis that fails.
+fn run_point(
+    case: &Case,
+    analyses: &[Analysis],
+    manifest: &Manifest,
+) -> Result<Map<String, Value>, Failure> {
+    let mut summaries = Map::new();
+    for &analysis in analyses {
+        if analysis == Analysis::Cycle {
+            cycle::check_memory(case)?;
+        }
+        let mut summary = summarize(case, analysis, manifest)?;
+        if let Value::Object(entries) = &mut summary {
+            entries.shift_remove("manifest");
+        }
+        summaries.insert(analysis_name(analysis).to_owned(), summary);
+    }
+    Ok(summaries)
 }

@@ -149,10 +149,7 @@ pub fn is_coloured() -> bool {
 
 /// `error:`, red and bold where stderr takes colours, as in front of the errors of a case.
 pub fn error_word() -> &'static str {
-    match is_coloured() {
-        true => "\x1b[1m\x1b[91merror\x1b[0m\x1b[1m:\x1b[0m",
-        false => "error:",
-    }
+    if is_coloured() { "\x1b[1m\x1b[91merror\x1b[0m\x1b[1m:\x1b[0m" } else { "error:" }
 }
 
 /// Sends the log to stderr: information and warnings; with one `quiet` warnings, with two errors only. An embedded run has

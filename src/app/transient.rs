@@ -84,10 +84,7 @@ impl Run for Arguments {
         // Whatever is wrong with the case is said before the folder is touched.
         let fresh = study.start(operator.as_ref())?;
         let recorder = study.recorder(&fresh)?;
-        let saved = match self.resume {
-            true => continuation::find(&session)?,
-            false => None,
-        };
+        let saved = if self.resume { continuation::find(&session)? } else { None };
         let goes_on = saved.is_some();
         let (mut loop_, record) = match saved {
             None => (fresh, recorder),
@@ -124,7 +121,7 @@ impl Run for Arguments {
         }
         let output = &self.options.output;
         if let Some(drawing) = output.drawing() {
-            figures::draw_record(&folder, &study, record, &summary, &drawing)?;
+            figures::draw_run(&folder, &study, &report, &summary, &drawing)?;
         }
         let state = analysis.settling.state;
         let table = document(&summary, state, PredictedGrowth::default()).to_text();

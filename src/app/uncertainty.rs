@@ -115,7 +115,7 @@ impl Run for Arguments {
                 draw_report(&folder, &summary, &drawing)?;
             }
         }
-        session.print(&document(&summary).to_text(), &object, folder.path())
+        output.print(&document(&summary).to_text(), &object, folder.path())
     }
 }
 

@@ -87,10 +87,7 @@ impl AssemblyParts {
         let motions = self.motions.iter().map(|(_, motion)| [motion.axis, motion.center]);
         let mut axes = motions.chain(turning.map(|rigid| [rigid.axis, rigid.center]));
         let first = axes.next().ok_or("nothing of the case turns")?;
-        match axes.any(|other| other != first) {
-            true => Err("what turns has several"),
-            false => Ok(first),
-        }
+        if axes.any(|other| other != first) { Err("what turns has several") } else { Ok(first) }
     }
 
     /// Whether something turns.

@@ -75,10 +75,7 @@ impl Case {
         let cycle = self.cycle.as_ref();
         let cycle = cycle.ok_or_else(|| self.lacks("cycle", "limit cycle", remedy))?;
         let speed = self.contact.sliding.rotation_speed;
-        let is_moving = match self.has_rotating_waves() {
-            true => speed > 0.0,
-            false => speed != 0.0,
-        };
+        let is_moving = if self.has_rotating_waves() { speed > 0.0 } else { speed != 0.0 };
         if is_moving {
             return Ok(cycle);
         }

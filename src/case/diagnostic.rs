@@ -112,6 +112,11 @@ impl CaseErrors {
         all.map(|error| error.message.clone()).collect()
     }
 
+    /// All of them in one line.
+    pub fn line(&self) -> String {
+        self.messages().join("; ")
+    }
+
     /// A report for people: each error with file, line, column, caret and remedy.
     pub fn render(&self, color: bool) -> String {
         let renderer = if color { Renderer::styled() } else { Renderer::plain() };

@@ -193,10 +193,7 @@ pub(super) fn place_axes(
         let outer = root.section(path[0], false);
         let inner = path.get(1).map(|name| outer.section(name, false));
         let section = inner.as_ref().unwrap_or(&outer);
-        let key = match section.has("axes") {
-            true => "axes",
-            false => "young_moduli",
-        };
+        let key = if section.has("axes") { "axes" } else { "young_moduli" };
         refuse!(section, key, "{}: {message}", section.name(key); "{label}"; "{help}");
     };
     if let MaterialAxes::Cylindrical { axis, center } = &mut orthotropy.axes {

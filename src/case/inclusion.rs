@@ -67,10 +67,7 @@ impl Expansion {
     fn found(&self, name: &str) -> PathBuf {
         let beside = |file: &Path| file.parent().unwrap_or(Path::new("")).join(name);
         let path = beside(&self.chain[self.chain.len() - 1]);
-        match path.exists() {
-            true => path,
-            false => beside(&self.chain[0]),
-        }
+        if path.exists() { path } else { beside(&self.chain[0]) }
     }
 }
 

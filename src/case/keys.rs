@@ -93,10 +93,7 @@ pub(super) fn dotted(name: &str) -> Cow<'_, str> {
             None => with_parts += &format!("[{part}"),
         }
     }
-    match with_parts == name {
-        true => Cow::Borrowed(name),
-        false => Cow::Owned(with_parts),
-    }
+    if with_parts == name { Cow::Borrowed(name) } else { Cow::Owned(with_parts) }
 }
 
 /// The place in a list, from 0, that the last part of a dotted name gives counted from 1.

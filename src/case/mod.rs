@@ -81,7 +81,7 @@ pub use node::PlacedNode;
 pub use overrides::unset;
 pub use parameters::ModelParameter;
 pub use range::{Spacing, range_values};
-pub use raw::{MeshBytes, RawCase, TableBytes};
+pub use raw::{MeshBytes, RawCase, TableBytes, hash_of};
 pub use shown::{first_of, shown, shown_json};
 pub use starting::case_from;
 pub use superelements::{FreeSystem, Superelement};

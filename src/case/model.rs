@@ -160,10 +160,7 @@ fn assembly_model(
             "bodies that are closed and free of stress have no geometric stiffness";
             "no effect with base_state = \"closed\""; "leave one of the two out");
     }
-    let axis = match parts.turns() {
-        true => parts.axis(),
-        false => Ok([[0.0, 0.0, 1.0], [0.0; 3]]),
-    };
+    let axis = if parts.turns() { parts.axis() } else { Ok([[0.0, 0.0, 1.0], [0.0; 3]]) };
     parts.symmetry = imported::symmetry(mesh, axis);
     let solids = Surroundings::Solids { axis: parts.axis() };
     let own = materials(root, &mut common.own.elastic, &solids, tables);

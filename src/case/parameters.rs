@@ -189,12 +189,19 @@ impl super::Case {
     ) -> Result<Self, String> {
         let values = values.into_iter();
         let overrides: Vec<String> = values.flat_map(|(p, v)| p.overrides(v)).collect();
-        let said = |errors: CaseErrors| errors.messages().join("; ");
-        let mut raw = self.raw.with_overrides(&overrides).map_err(said)?;
-        for study in ["sweep", "fit", "uncertainty"] {
+        self.with_keys(&overrides).map_err(|errors| errors.line())
+    }
+
+    /// The case with overrides, and without what is studied of it.
+    ///
+    /// # Errors
+    /// Overrides that are none, and values that do not go together.
+    pub fn with_keys(&self, overrides: &[String]) -> Result<Self, CaseErrors> {
+        let mut raw = self.raw.with_overrides(overrides)?;
+        for study in ["sweep", "fit", "uncertainty", "convergence"] {
             raw.root.remove(study);
         }
-        Self::read(raw).map_err(said)
+        Self::read(raw)
     }
 
     /// The continuous parameters of the model that the case gives as numbers, with these, by key; the friction

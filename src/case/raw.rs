@@ -159,18 +159,10 @@ impl RawCase {
 
     /// SHA-256 of [`RawCase::canonical`], and of the mesh file and tables where there are any, in hexadecimal.
     pub fn hash(&self) -> String {
-        let mut hex = String::new();
-        let mut digest = Sha256::new_with_prefix(self.canonical());
-        if let Some(mesh) = &self.mesh {
-            digest.update(&mesh.bytes);
-        }
-        for table in &self.tables {
-            digest.update(&table.bytes);
-        }
-        for byte in digest.finalize() {
-            let _ = write!(hex, "{byte:02x}");
-        }
-        hex
+        let canonical = self.canonical();
+        let mesh = self.mesh.iter().map(|mesh| &mesh.bytes[..]);
+        let tables = self.tables.iter().map(|table| &table.bytes[..]);
+        hash_of(std::iter::once(canonical.as_bytes()).chain(mesh).chain(tables))
     }
 
     /// Tables that the case names, each with the name under which it lies beside the results.
@@ -351,4 +343,16 @@ fn decimal_comma(text: &str, at: usize) -> Option<String> {
     let number = value.replace(',', ".");
     let is_number = value.matches(',').count() == 1 && number.parse::<f64>().is_ok();
     is_number.then(|| format!("write the number with a decimal point, not a comma: {number}"))
+}
+
+/// SHA-256 of parts one behind the other, in hexadecimal.
+pub fn hash_of<'a>(parts: impl IntoIterator<Item = &'a [u8]>) -> String {
+    let mut digest = Sha256::new();
+    parts.into_iter().for_each(|part| digest.update(part));
+    hex(digest)
+}
+
+/// A finished digest in hexadecimal.
+pub fn hex(digest: Sha256) -> String {
+    digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }

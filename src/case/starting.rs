@@ -86,10 +86,7 @@ fn units_of(file: &FileMesh) -> (UnitsWord, String) {
         });
     let stiffest = moduli.fold(0.0, f64::max);
     if stiffest > 0.0 {
-        let units = match stiffest > STIFFEST_MPA {
-            true => UnitsWord::MKgS,
-            false => UnitsWord::MmTS,
-        };
+        let units = if stiffest > STIFFEST_MPA { UnitsWord::MKgS } else { UnitsWord::MmTS };
         return (units, format!("judged by the modulus {stiffest:e} of a material; check it"));
     }
     let extent = (0..3).map(|axis| {

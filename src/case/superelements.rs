@@ -2,13 +2,12 @@
 
 use super::cea::{ModeSelection, mode_selection};
 use super::diagnostic::{CaseErrors, Location};
-use super::raw::RawCase;
+use super::raw::{RawCase, hex};
 use super::reader::{Findings, Section};
 use super::refuse;
 use crate::linalg::MarketMatrix;
 use frictionsim_bounds::{MATRIX, SUPERELEMENT_UNKNOWNS};
 use sha2::{Digest, Sha256};
-use std::fmt::Write as _;
 use std::path::Path;
 
 /// The matrices of a superelement, in the order of their keys.
@@ -82,10 +81,7 @@ impl FreeSystem {
         let (errors, _) = findings.into_parts();
         match read {
             Some(superelement) if errors.is_empty() => {
-                let mut hash = String::new();
-                for byte in digest.finalize() {
-                    let _ = write!(hash, "{byte:02x}");
-                }
+                let hash = hex(digest);
                 Ok(Self { title, superelement, modes, hash, raw })
             }
             _ => Err(raw.errors(errors)),

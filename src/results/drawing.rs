@@ -61,7 +61,7 @@ pub fn declared(declarations: Vec<Declaration<'_>>) -> Result<Vec<Figure>, Chart
     let all: Vec<_> = declarations.into_par_iter().map(|declare| declare()).collect();
     let is_kept = |own: &Result<Figure, ChartError>| match own {
         Ok(figure) => figure.has_data(),
-        Err(error) => !matches!(error, ChartError::Empty { .. }),
+        Err(error) => !matches!(error, ChartError::Empty(_)),
     };
     all.into_iter().filter(is_kept).collect()
 }

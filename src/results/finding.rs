@@ -23,7 +23,7 @@ pub fn write_tables(folder: &OutputFolder, document: &Document) -> Result<(), Fo
 
 /// Writes a table as its file.
 pub fn write_table(folder: &OutputFolder, table: &Table) -> Result<(), FolderError> {
-    folder.write(&table.file, |out| table.write_csv(out)).map(drop)
+    folder.write(&table.file, |out| table.write_csv(out))
 }
 
 /// Writes the page of a document, its figures, and both as data.

@@ -9,9 +9,9 @@ pub use summary::{
     ResponseSummary,
 };
 
-use super::table::write_rows;
 use super::{FolderError, OutputFolder};
 use crate::linalg::c64;
+use crate::output::rows::write_rows;
 use crate::output::{Document, Section, Table, columns};
 use crate::signal::reader::NamedResponse;
 use crate::signal::{Estimate, ModalFit};

@@ -21,6 +21,7 @@ mod pvd;
 pub mod reference;
 pub mod report;
 mod response;
+mod shown_body;
 pub mod signal;
 mod store;
 pub mod summary;
@@ -30,12 +31,6 @@ pub mod transient;
 pub mod uncertainty;
 mod vtu;
 mod whole_mesh;
-
-/// Tables that are not declared yet.
-mod table {
-    pub use crate::output::csv::{Table, format_number};
-    pub use crate::output::rows::write_rows;
-}
 
 use store::{folder, framed, manifest, record, reopening, whole_file};
 
@@ -47,6 +42,7 @@ pub use extent::Extent;
 pub use finding::{Finding, write_page, write_table, write_tables};
 pub use pvd::{PvdEntry, write_pvd};
 pub use response::{ResponseSummary, response_figure, write_response, write_universal_response};
+pub use shown_body::ShownBody;
 pub use store::{
     FolderError, Manifest, OutputFolder, Record, Replace, is_result, read_manifest, read_record,
     record_bytes,

@@ -73,8 +73,7 @@ pub fn write_universal_response(
         let response = response.map_err(io::Error::other)?;
         let named = NamedResponse { name: quantity.name().to_owned(), response };
         out.write_all(reader::write_response(&named).as_bytes())
-    })?;
-    Ok(())
+    })
 }
 
 impl ResponseSummary {

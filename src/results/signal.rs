@@ -10,8 +10,8 @@ pub use summary::{
 };
 
 use super::cea::{BRANCH, DIRECTION};
-use super::table::write_rows;
 use super::{FolderError, OutputFolder};
+use crate::output::rows::write_rows;
 use crate::output::{Document, Section, Table, columns, fixed, significant};
 use crate::signal::AmplitudeSpectrum;
 

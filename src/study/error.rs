@@ -81,6 +81,11 @@ impl StudyError {
         }
     }
 
+    /// The same in one line.
+    pub fn line(&self) -> String {
+        self.messages().join("; ")
+    }
+
     /// Whether the case is to blame rather than the run.
     pub fn is_usage(&self) -> bool {
         match self {

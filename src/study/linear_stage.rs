@@ -7,6 +7,7 @@ use crate::cea::{CeaError, ComplexMode};
 use crate::fem::MassKind;
 use crate::prestress::DampingModel;
 use crate::results::charts::ModeLine;
+use crate::results::transient::LinearStage;
 
 /// Modes looked at where the case has no `[cea]`.
 const MODES: usize = 30;
@@ -25,56 +26,40 @@ pub enum LinearStageError {
     Eigenvalues(#[from] CeaError),
 }
 
-/// Unstable modes of steady sliding as the time loop has it: the same mesh and contact, lumped mass, small
-/// displacements.
-#[derive(Default)]
-pub struct LinearStage {
-    /// Frequencies, numbered among all modes by frequency.
-    pub references: Vec<ModeLine>,
-    /// Largest growth rate of each unstable harmonic, 1/s, harmonics rising; none for a body without symmetry.
-    pub growth_rates: Vec<(usize, f64)>,
-    /// Frequency (Hz) and growth rate (1/s) of each unstable mode.
-    pub mode_rates: Vec<(f64, f64)>,
-}
-
-impl LinearStage {
-    /// Solves at the case's own friction coefficient.
-    ///
-    /// # Errors
-    /// [`LinearStageError::TooManyNodes`]; those of steady sliding, which would open, say, and of the solver.
-    pub fn of(case: &Case) -> Result<Self, LinearStageError> {
-        let imported = case.body.imported();
-        if imported.is_some_and(|imported| imported.mesh.node_count() > MOST_NODES) {
-            return Err(LinearStageError::TooManyNodes);
-        }
-        let modes = modes(case)?;
-        let unstable = || modes.iter().enumerate().filter(|(_, m)| m.is_unstable());
-        let mut growth_rates: Vec<(usize, f64)> = Vec::new();
-        // A body without symmetry has no harmonics that its waves belong to.
-        for (_, mode) in unstable().filter(|_| case.has_sectors()) {
-            let rate = mode.growth_rate();
-            match growth_rates.iter_mut().find(|(n, _)| *n == mode.harmonic) {
-                Some((_, known)) => *known = known.max(rate),
-                None => growth_rates.push((mode.harmonic, rate)),
-            }
-        }
-        growth_rates.sort_by_key(|&(harmonic, _)| harmonic);
-        Ok(Self {
-            references: unstable()
-                .map(|(index, mode)| ModeLine {
-                    frequency_hz: mode.frequency_hz(),
-                    label: match case.has_sectors() {
-                        true => format!("mode {}, *n* = {}", index + 1, mode.harmonic),
-                        false => format!("mode {}", index + 1),
-                    },
-                })
-                .collect(),
-            growth_rates,
-            mode_rates: unstable()
-                .map(|(_, mode)| (mode.frequency_hz(), mode.growth_rate()))
-                .collect(),
-        })
+/// Unstable modes of steady sliding at the case's own friction coefficient, as the time loop has it.
+///
+/// # Errors
+/// [`LinearStageError::TooManyNodes`]; those of steady sliding, which would open, say, and of the solver.
+pub fn linear_stage(case: &Case) -> Result<LinearStage, LinearStageError> {
+    let imported = case.body.imported();
+    if imported.is_some_and(|imported| imported.mesh.node_count() > MOST_NODES) {
+        return Err(LinearStageError::TooManyNodes);
     }
+    let modes = modes(case)?;
+    let unstable = || modes.iter().enumerate().filter(|(_, m)| m.is_unstable());
+    let mut growth_rates: Vec<(usize, f64)> = Vec::new();
+    // A body without symmetry has no harmonics that its waves belong to.
+    for (_, mode) in unstable().filter(|_| case.has_sectors()) {
+        let rate = mode.growth_rate();
+        match growth_rates.iter_mut().find(|(n, _)| *n == mode.harmonic) {
+            Some((_, known)) => *known = known.max(rate),
+            None => growth_rates.push((mode.harmonic, rate)),
+        }
+    }
+    growth_rates.sort_by_key(|&(harmonic, _)| harmonic);
+    Ok(LinearStage {
+        references: unstable()
+            .map(|(index, mode)| ModeLine {
+                frequency_hz: mode.frequency_hz(),
+                label: match case.has_sectors() {
+                    true => format!("mode {}, *n* = {}", index + 1, mode.harmonic),
+                    false => format!("mode {}", index + 1),
+                },
+            })
+            .collect(),
+        growth_rates,
+        mode_rates: unstable().map(|(_, mode)| (mode.frequency_hz(), mode.growth_rate())).collect(),
+    })
 }
 
 fn modes(case: &Case) -> Result<Vec<ComplexMode>, CeaError> {

@@ -252,33 +252,20 @@ fn criterion(mesh: &Mesh, mode: &[c64], shape: &MeasuredShape, placed: &Placed) 
             measured += y.norm_sqr();
         }
     }
-    match own * measured > 0.0 {
-        true => product.norm_sqr() / (own * measured),
-        false => 0.0,
-    }
+    if own * measured > 0.0 { product.norm_sqr() / (own * measured) } else { 0.0 }
 }
 
 /// Pairs of shapes and modes with the largest sum of the criterion.
 fn paired(matrix: &[Vec<f64>]) -> Vec<MacPair> {
     let (rows, columns) = (matrix.len(), matrix.first().map_or(0, Vec::len));
-    let cost = |shape: usize, mode: usize| 1.0 - matrix[shape][mode];
-    let pairs: Vec<(usize, usize)> = match rows <= columns {
-        true => {
-            let costs: Vec<Vec<f64>> = (0..rows)
-                .map(|shape| (0..columns).map(|mode| cost(shape, mode)).collect())
-                .collect();
-            least_cost(&costs).into_iter().enumerate().collect()
-        }
-        false => {
-            let costs: Vec<Vec<f64>> = (0..columns)
-                .map(|mode| (0..rows).map(|shape| cost(shape, mode)).collect())
-                .collect();
-            let modes = least_cost(&costs).into_iter().enumerate();
-            modes.map(|(mode, shape)| (shape, mode)).collect()
-        }
-    };
+    // Those of which there are fewer each find one of the others.
+    let places = |few: usize, many: usize| if rows <= columns { (few, many) } else { (many, few) };
+    let cost = |(shape, mode): (usize, usize)| 1.0 - matrix[shape][mode];
+    let row = |few: usize| (0..rows.max(columns)).map(|many| cost(places(few, many))).collect();
+    let costs: Vec<Vec<f64>> = (0..rows.min(columns)).map(row).collect();
+    let pairs = least_cost(&costs).into_iter().enumerate();
+    let pairs = pairs.map(|(few, many)| places(few, many));
     let mut pairs: Vec<MacPair> = pairs
-        .into_iter()
         .map(|(shape, mode)| MacPair { shape: shape + 1, mode: mode + 1, mac: matrix[shape][mode] })
         .collect();
     pairs.sort_by_key(|pair| pair.shape);

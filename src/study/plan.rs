@@ -118,7 +118,7 @@ impl<'a> SweepPlan<'a> {
     /// Values that do not go together, in one line.
     pub fn point_case(&self, point: usize) -> Result<Case, String> {
         let overrides = self.sweep.overrides(point - 1);
-        let one_line = |errors: CaseErrors| one_line(&errors.messages().join("; "));
+        let one_line = |errors: CaseErrors| one_line(&errors.line());
         let mut raw = self.case.raw.with_overrides(&overrides).map_err(one_line)?;
         raw.root.remove("sweep");
         Case::read(raw).map_err(one_line)

@@ -178,7 +178,7 @@ fn points_off_the_body_are_counted_and_wrong_units_recognised() {
 #[test]
 fn a_table_has_shapes_by_their_names_in_any_columns() {
     let text = "mode;frequency_hz;x;y;uy_im;uy_re;ux\n\
-                a;100;0;1;0,5;1;2+3j\nb;200;0;1;1;2;3\na;100;1;1;;-1;nan\n";
+                a;100;0;1;0,5;1;2+3j\nb;200;0;1;1;2;3\na;100;1;1;;-1;nan\n;;;;;;\n";
     let shapes = read_shapes(text.as_bytes(), "s.csv").unwrap();
     assert_eq!(shapes.len(), 2);
     assert_eq!((shapes[0].name.as_str(), shapes[0].frequency_hz), ("a", Some(100.0)));

@@ -8,13 +8,6 @@ fn run(folder: &TempDir, command: &str, case: &str, set: &[&str]) -> Run {
     Run::new(&[command, &shipped(case), "--quiet"]).within(folder).out("out").set(set)
 }
 
-/// Runs it, and holds its figures and their drawing again; the text of one figure.
-fn redrawn(run: Run, folder: &TempDir, expected: &str, figure: &str) -> String {
-    let answer = run.done();
-    check_redrawn(folder, expected);
-    answer.text(&format!("figures/{figure}.svg"))
-}
-
 fn plot(folder: &TempDir, more: &[&str]) -> Run {
     Run::new(&["plot", "out"]).within(folder).args(more)
 }
@@ -82,96 +75,74 @@ fn assert_same(first: &BTreeMap<String, Vec<u8>>, second: &BTreeMap<String, Vec<
 
 const COARSE: [&str; 2] = ["mesh.circumferential_elements=60", "mesh.radial_elements=12"];
 
-#[test]
-fn eigenvalue_figures_are_drawn_again_to_the_same_bytes() {
-    let folder = folder();
-    let set = [
-        COARSE[0],
-        COARSE[1],
-        "cea.friction_coefficients={from=0.0,to=0.4,count=5}",
-        "cea.shapes_at=[0.2,0.3]",
-    ];
-    let expected = "locus pairs prestress modes-mu-0.3 branch-n1-2-against";
-    redrawn(run(&folder, "cea", "polycarbonate-disc.toml", &set), &folder, expected, "locus");
-}
-
 const SHORT: [&str; 3] = [
     COARSE[0],
     COARSE[1],
     "output.probes=[1,200] ; output.snapshots=[0.002] ; transient.duration=0.004",
 ];
+const CYCLE_MESH: &str = "mesh.circumferential_elements=90 ; mesh.radial_elements=18";
 
-#[test]
-fn transient_figures_are_drawn_again_to_the_same_bytes() {
-    let folder = folder();
-    let expected = "overview-1 overview-200 spectrum-200 growth velocity shear-stress \
-        trajectories contact energy";
-    let run = run(&folder, "transient", "polycarbonate-610rpm.toml", &SHORT);
-    // The modes are those of the run's own linear stage: lumped mass, rigid contact.
-    let growth = redrawn(run, &folder, expected, "growth");
-    has(&growth, &["rate of the eigenvalue analysis"]);
+/// Holds the figures of a run to be there and to be drawn again: the command on a shipped case, the changes to it, the figures,
+/// one of them and the words in it.
+macro_rules! drawn_again {
+    ($($name:ident: $command:literal on $case:literal with $set:expr;
+       $expected:literal, of which $figure:literal says $words:expr;)*) => {$(
+        #[test]
+        fn $name() {
+            let folder = folder();
+            let answer = run(&folder, $command, $case, &$set).done();
+            check_redrawn(&folder, $expected);
+            has(&answer.text(concat!("figures/", $figure, ".svg")), $words);
+        }
+    )*};
 }
 
-#[test]
-fn study_figures_are_drawn_again_to_the_same_bytes() {
-    let folder = folder();
-    let set = [
+drawn_again! {
+    eigenvalue_figures_are_drawn_again: "cea" on "polycarbonate-disc.toml" with [
         COARSE[0],
         COARSE[1],
-        "output.probes=[1] ; transient.duration=0.004 ; \
-         sweep.\"contact.rotation_speed_rpm\"=[70,610] ; \
-         sweep.\"contact.friction_coefficient\"=[0.3]",
+        "cea.friction_coefficients={from=0.0,to=0.4,count=5} ; cea.shapes_at=[0.2,0.3]",
     ];
-    let run = run(&folder, "sweep", "speed-friction-study.toml", &set);
-    let text = redrawn(run, &folder, "frequencies status", "frequencies");
-    has(&text, &["unstable mode of the eigenvalue analysis"]);
-}
+    "locus pairs prestress modes-mu-0.3 branch-n1-2-against", of which "locus" says &[];
 
-const CYCLE_MESH: [&str; 2] = ["mesh.circumferential_elements=90", "mesh.radial_elements=18"];
-const CYCLE: [&str; 3] = [CYCLE_MESH[0], CYCLE_MESH[1], "cycle.continuation.count=9"];
+    // The modes are those of the run's own linear stage: lumped mass, rigid contact.
+    transient_figures_are_drawn_again: "transient" on "polycarbonate-610rpm.toml" with SHORT;
+    "overview-1 overview-200 spectrum-200 growth velocity shear-stress trajectories contact energy",
+        of which "growth" says &["rate of the eigenvalue analysis"];
 
-#[test]
-fn limit_cycle_figures_are_drawn_again_to_the_same_bytes() {
-    let folder = folder();
-    let expected = "contact-n1 history-n1 orbit-n1 contact-n2 history-n2 orbit-n2 velocity \
-        shear-stress branch-frequencies branch-shares";
-    let run = run(&folder, "cycle", "limit-cycle.toml", &CYCLE);
-    let text = redrawn(run, &folder, expected, "branch-frequencies");
-    has(&text, &["rotation speed", "onset of the instability"]);
-}
-
-#[test]
-fn cycles_of_a_whole_mesh_are_drawn_again_to_the_same_bytes() {
-    let folder = folder();
-    let set = ["contact.friction_coefficient=0.7 ; cycle.stability=\"branch\" ; \
-         cycle.continuation={ key = \"contact.friction_coefficient\", from = 0.69, to = 0.71, count = 3 }"];
-    let expected = "status-mode7 contact-mode7 history-mode7 orbit-mode7 harmonics-mode7 \
-        branch-frequencies branch-shares velocity shear-stress";
-    redrawn(run(&folder, "cycle", "sliding-block.toml", &set), &folder, expected, "velocity");
-}
-
-#[test]
-fn study_of_limit_cycles_is_drawn_again_to_the_same_bytes() {
-    let folder = folder();
-    let set = [
-        CYCLE[0],
-        CYCLE[1],
-        "cycle.continuation.count=5 ; cycle.stability=none ; cycle.confirmation_periods=0 ; \
-         sweep.\"contact.friction_coefficient\"=[0.2,0.3]",
+    study_figures_are_drawn_again: "sweep" on "speed-friction-study.toml" with [
+        COARSE[0],
+        COARSE[1],
+        "output.probes=[1] ; transient.duration=0.004 ; sweep.\"contact.rotation_speed_rpm\"=[70,610]",
+        "sweep.\"contact.friction_coefficient\"=[0.3]",
     ];
-    let run = run(&folder, "sweep", "limit-cycle.toml", &set);
-    let text = redrawn(run, &folder, "branch-frequencies branch-shares", "branch-shares");
-    has(&text, &["n</tspan> = 1", "n</tspan> = 2", "μ</tspan> = 0.2", "μ</tspan> = 0.3"]);
-}
+    "frequencies status", of which "frequencies" says &["unstable mode of the eigenvalue analysis"];
 
-#[test]
-fn convergence_figures_are_drawn_again_to_the_same_bytes() {
-    let folder = folder();
-    let set =
-        ["mesh.circumferential_elements=36 ; mesh.radial_elements=8 ; transient.duration=0.002 ; \
-         cea.max_frequency_hz=9000.0"];
-    let run = run(&folder, "convergence", "convergence.toml", &set);
-    redrawn(run, &folder, "convergence", "convergence");
+    limit_cycle_figures_are_drawn_again: "cycle" on "limit-cycle.toml" with
+        [CYCLE_MESH, "cycle.continuation.count=9"];
+    "contact-n1 history-n1 orbit-n1 contact-n2 history-n2 orbit-n2 velocity shear-stress branch-frequencies branch-shares",
+        of which "branch-frequencies" says &["rotation speed", "onset of the instability"];
+
+    figures_of_cycles_of_a_whole_mesh_are_drawn_again: "cycle" on "sliding-block.toml" with [
+        "contact.friction_coefficient=0.7 ; cycle.stability=\"branch\"",
+        "cycle.continuation={ key = \"contact.friction_coefficient\", from = 0.69, to = 0.71, count = 3 }",
+    ];
+    "status-mode7 contact-mode7 history-mode7 orbit-mode7 harmonics-mode7 branch-frequencies branch-shares velocity shear-stress",
+        of which "velocity" says &[];
+
+    figures_of_a_study_of_limit_cycles_are_drawn_again: "sweep" on "limit-cycle.toml" with [
+        CYCLE_MESH,
+        "cycle.continuation.count=5 ; cycle.stability=none ; cycle.confirmation_periods=0",
+        "sweep.\"contact.friction_coefficient\"=[0.2,0.3]",
+    ];
+    "branch-frequencies branch-shares", of which "branch-shares" says
+        &["n</tspan> = 1", "n</tspan> = 2", "μ</tspan> = 0.2", "μ</tspan> = 0.3"];
+
+    convergence_figures_are_drawn_again: "convergence" on "convergence.toml" with [
+        "mesh.circumferential_elements=36 ; mesh.radial_elements=8 ; transient.duration=0.002",
+        "cea.max_frequency_hz=9000.0",
+    ];
+    "convergence", of which "convergence" says &[];
 }
 
 #[test]
@@ -179,7 +150,8 @@ fn response_and_identification_are_drawn_again_to_the_same_bytes() {
     let folder = folder();
     let set = ["mesh.circumferential_elements=60 ; mesh.radial_elements=12 ; frf.force_node=13 ; \
          frf.response_node=13 ; frf.frequencies_hz={from=4.0,to=10000.0,count=2500}"];
-    redrawn(run(&folder, "frf", "hammer-test.toml", &set), &folder, "response", "response");
+    run(&folder, "frf", "hammer-test.toml", &set).done();
+    check_redrawn(&folder, "response");
     let table = folder.path().join("response.csv");
     fs::rename(folder.path().join("out/frf.csv"), &table).unwrap();
     // The tables are not needed.

@@ -1,5 +1,6 @@
 //! Consistency checks of result files on a made-up spectrum, and of the output folder.
 
+use crate::figures::synthetic;
 use crate::prelude::*;
 use flate2::read::ZlibDecoder;
 use frictionsim::cea::{ComplexMode, FrictionPoint};
@@ -17,20 +18,7 @@ fn annulus(element: ElementKind) -> AnnulusMesh {
 
 /// A mode whose numbers are easily told apart.
 fn mode(real_hz: f64, frequency_hz: f64, harmonic: usize, direction: i8) -> ComplexMode {
-    ComplexMode {
-        eigenvalue: c64::new(TAU * real_hz, TAU * frequency_hz),
-        harmonic,
-        branch: 0,
-        direction,
-        residual: 1e-13,
-        uncertainty: 1e-12,
-        contact_share: 0.2,
-        axial_share: None,
-        shape: None,
-        left: None,
-        nodal_diameters: None,
-        wave: None,
-    }
+    synthetic::mode(c64::new(TAU * real_hz, TAU * frequency_hz), harmonic, direction)
 }
 
 fn sweep(mesh: &AnnulusMesh) -> FrictionSweep {
@@ -55,15 +43,8 @@ fn sweep(mesh: &AnnulusMesh) -> FrictionSweep {
             point(0.3, &[stable[0].clone(), shaped]),
         ],
         intervals: vec![UnstableInterval {
-            harmonic: 2,
-            nodal_diameters: None,
-            branch: 0,
-            direction: -1,
-            critical_friction: 0.138_2,
-            frequency_hz: 9893.0,
             restabilized: Some((0.9, 9950.0)),
-            unstable_from_start: false,
-            lost_after: None,
+            ..synthetic::onset((2, 0), 0.138_2, 9893.0)
         }],
         crossings: Vec::new(),
         ..FrictionSweep::default()
@@ -91,34 +72,17 @@ fn report<'a>(
 ) -> CeaReport<'a> {
     CeaReport {
         title: "made up",
-        mesh: &mesh.mesh,
-        has_harmonics: true,
-        dofs: 96,
-        method: "sparse",
         selection: "below 10000 Hz".to_owned(),
         // 0.25 was solved for its shapes alone.
         friction_coefficients: &[0.0, 0.1, 0.3],
-        sweep,
-        contact_changes: &[],
         base: BaseState {
-            friction_coefficient: 0.3,
             slipping: 12,
-            sticking: 0,
-            open: 0,
             pressure_pa: [2.8e6, 2.83e6],
             shear_pa: [0.84e6, 0.849e6],
-            torque_n_m: Some(20.15),
-            drag_n: None,
-            power_w: 1287.0,
-            extent: Extent::WholeBody,
+            ..synthetic::SLIDING
         },
-        field,
-        solid: None,
-        assembly: None,
-        sensitivities: None,
-        reading: None,
         notes: vec!["harmonics above 6 do not exist on this mesh".to_owned()],
-        wall_s: 0.5,
+        ..synthetic::report(&mesh.mesh, sweep, field)
     }
 }
 
@@ -424,7 +388,7 @@ fn a_folder_has_one_writer_at_a_time() {
     let folder = tempfile::tempdir().unwrap();
     let first = open(folder.path(), "a", Replace::SameCase).unwrap();
     let second = open(folder.path(), "a", Replace::Anything).unwrap_err();
-    assert!(matches!(second, FolderError::Busy { .. }), "{second}");
+    assert!(matches!(second, FolderError::Busy(_)), "{second}");
     drop(first);
     assert!(open(folder.path(), "a", Replace::SameCase).is_ok());
 }
@@ -449,7 +413,7 @@ fn a_failed_write_leaves_the_earlier_file_whole() {
         Err(std::io::ErrorKind::StorageFull.into())
     });
     let error = error.unwrap_err();
-    assert!(matches!(error, FolderError::DiskFull { .. }), "{error}");
+    assert!(matches!(error, FolderError::DiskFull(_)), "{error}");
     assert!(error.to_string().contains("table.csv"));
     assert_eq!(fs::read(folder.path().join("table.csv")).unwrap(), b"whole");
     let strays = fs::read_dir(folder.path()).unwrap().filter(|entry| {

@@ -230,12 +230,12 @@ fn sweeps_and_other_commands_keep_out_of_each_others_folder() {
     {
         let _sweep = open(Start::Fresh).unwrap();
         let second = OutputFolder::open(folder.path(), &other, Replace::Anything).unwrap_err();
-        assert!(matches!(second, FolderError::Busy { .. }));
+        assert!(matches!(second, FolderError::Busy(_)));
         // Starting over would take the points from under the other process.
-        assert!(matches!(open(Start::Over), Err(FolderError::Busy { .. })));
+        assert!(matches!(open(Start::Over), Err(FolderError::Busy(_))));
     }
     let _cea = OutputFolder::open(folder.path(), &other, Replace::Anything).unwrap();
-    assert!(matches!(open(Start::Resume), Err(FolderError::Busy { .. })));
+    assert!(matches!(open(Start::Resume), Err(FolderError::Busy(_))));
     assert!(SweepFolder::find(folder.path()).is_err());
 }
 

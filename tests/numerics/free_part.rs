@@ -139,7 +139,7 @@ fn what_free_modes_cannot_tell_apart_is_named() {
     constants.push(("material.density", 2500.0));
     let case = lining("blind", &fitted(&constants), &[]);
     let error = fit_case(&case, &measured(&case, 30, 0.0, 1)).unwrap_err();
-    let StudyError::Fit(FitError::Blind { direction }) = &error else {
+    let StudyError::Fit(FitError::Blind(direction)) = &error else {
         panic!("{error}");
     };
     println!("{direction}");

@@ -183,10 +183,7 @@ impl<'a> Layout<'a> {
 
     fn collect_legends(&mut self) {
         for cell in &mut self.placed {
-            let legend = match cell.panel.has_legend {
-                true => &mut cell.legend,
-                false => &mut self.legend,
-            };
+            let legend = if cell.panel.has_legend { &mut cell.legend } else { &mut self.legend };
             cell.panel.add_keys(&cell.frame, legend);
         }
         let left = self.placed.iter().filter(|cell| cell.column == 0);

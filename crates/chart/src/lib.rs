@@ -78,11 +78,8 @@ pub use text::{Anchor, TextStyle, literal, plain};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ChartError {
     /// Nothing to draw.
-    #[error("{what}: there is nothing to draw")]
-    Empty {
-        /// Which figure or data.
-        what: String,
-    },
+    #[error("{0}: there is nothing to draw")]
+    Empty(String),
     /// The image cannot be encoded.
     #[error("the image cannot be encoded as PNG: {0}")]
     Encoding(String),
@@ -102,6 +99,6 @@ pub enum ChartError {
 impl ChartError {
     /// That `what` has nothing to draw.
     pub fn empty(what: &str) -> Self {
-        Self::Empty { what: what.into() }
+        Self::Empty(what.into())
     }
 }

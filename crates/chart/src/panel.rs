@@ -259,10 +259,7 @@ impl Panel {
 
     /// Room needed right of the data area, points; names may stand inside it.
     pub(super) fn right_need(&self, are_names_inside: bool) -> f64 {
-        let names = match are_names_inside {
-            true => 0.0,
-            false => self.names_width(),
-        };
+        let names = if are_names_inside { 0.0 } else { self.names_width() };
         let bar = match (self.bar, self.colours()) {
             (Some(Side::Right), Some(colours)) => colours.bar_width(self.height.min(150.0)),
             _ => 0.0,

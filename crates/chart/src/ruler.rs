@@ -156,15 +156,9 @@ fn non_empty(low: f64, high: f64) -> (f64, f64) {
 
 /// Ends that are not positive are replaced.
 fn positive(low: f64, high: f64) -> (f64, f64) {
-    let high = match high > 0.0 && high.is_finite() {
-        true => high.clamp(SIZES.0, SIZES.1),
-        false => 1.0,
-    };
+    let high = if high > 0.0 && high.is_finite() { high.clamp(SIZES.0, SIZES.1) } else { 1.0 };
     let low = if low > 0.0 { low.max(1e-280 * high) } else { 1e-3 * high };
-    match low < high * (1.0 - 1e-9) {
-        true => (low, high),
-        false => (0.5 * high, 2.0 * high),
-    }
+    if low < high * (1.0 - 1e-9) { (low, high) } else { (0.5 * high, 2.0 * high) }
 }
 
 /// The next step of 1, 2, 2.5 or 5 times a power of ten.

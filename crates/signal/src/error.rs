@@ -77,13 +77,10 @@ pub enum SignalError {
     },
     /// Too few damping factors for the two Rayleigh coefficients.
     #[error(
-        "{count} usable damping factor(s): alpha_R and beta_R with an uncertainty need at least 2 \
+        "{0} usable damping factor(s): alpha_R and beta_R with an uncertainty need at least 2 \
          modes of known uncertainty, or 3 without. Widen the frequency range"
     )]
-    TooFewModes {
-        /// Number of modes.
-        count: usize,
-    },
+    TooFewModes(usize),
     /// A resolution of a spectrum that the record cannot give.
     #[error(
         "a resolution of {asked_hz} Hz is out of reach: this record gives {finest_hz} to \
@@ -98,11 +95,8 @@ pub enum SignalError {
         coarsest_hz: f64,
     },
     /// The fit cannot be computed.
-    #[error("the modal fit failed: {reason}")]
-    Fit {
-        /// Why.
-        reason: &'static str,
-    },
+    #[error("the modal fit failed: {0}")]
+    Fit(&'static str),
 }
 
 /// Checks that every sample is finite.

@@ -82,12 +82,9 @@ pub enum NoGrowth {
     },
     /// An envelope that is no exponential.
     #[error(
-        "the envelope at {frequency_hz:.1} Hz has no exponential stretch over which it changes by a factor e"
+        "the envelope at {0:.1} Hz has no exponential stretch over which it changes by a factor e"
     )]
-    NotExponential {
-        /// Frequency at which the signal was demodulated, Hz.
-        frequency_hz: f64,
-    },
+    NotExponential(f64),
     /// A power of another wave, which grows so many times as fast at so many times its frequency.
     #[error("it holds a power of the growing wave of harmonic {harmonic}, and no mode of its own")]
     Power {
@@ -177,7 +174,7 @@ fn search(
             }
         }
     }
-    Err(NoGrowth::NotExponential { frequency_hz })
+    Err(NoGrowth::NotExponential(frequency_hz))
 }
 
 /// Complex demodulation at one value each period; the envelope is the amplitude of the real vibration.
@@ -303,7 +300,7 @@ mod tests {
         assert!((stage.rate_per_s.value + 80.0).abs() < 0.5, "{stage:?}");
         assert!(matches!(
             exponential_stage(&tone(0.0), rate, None),
-            Err(NoGrowth::NotExponential { .. })
+            Err(NoGrowth::NotExponential(_))
         ));
     }
 

@@ -54,10 +54,7 @@ pub fn rotating_lines(series: &[c64], sampling_rate: f64, weakest: f64) -> Vec<R
             let [before, at, after] =
                 [-1, 0, 1].map(|k| around(bin, k).max(f64::MIN_POSITIVE).ln());
             let offset = 0.5 * (before - after) / (before - 2.0 * at + after);
-            let signed = match bin > count / 2 {
-                true => bin as f64 - count as f64,
-                false => bin as f64,
-            };
+            let signed = if bin > count / 2 { bin as f64 - count as f64 } else { bin as f64 };
             RotatingLine {
                 frequency_hz: (signed + offset) * sampling_rate / count as f64,
                 amplitude: (at - 0.25 * (before - after) * offset).exp(),

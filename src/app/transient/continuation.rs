@@ -63,7 +63,7 @@ pub fn find(session: &Session) -> Result<Option<Checkpoint>, Failure> {
     refuse_other_case(session, &path)?;
     match read_checkpoint(&path, &run_hash(session), &session.manifest.simd) {
         Ok(checkpoint) => Ok(Some(checkpoint)),
-        Err(CheckpointError::Missing { path }) => {
+        Err(CheckpointError::Missing(path)) => {
             tracing::warn!("{} does not exist: starting from the beginning", path.display());
             Ok(None)
         }

@@ -2,44 +2,33 @@
 
 use crate::app::Failure;
 use crate::case::Case;
-use crate::results::transient::{RunFigures, TransientSummary, draw};
+use crate::results::transient::{
+    LinearStage, RecordedRun, RunFigures, TransientReport, TransientSummary, draw,
+};
 use crate::results::{DrawingOptions, OutputFolder};
+use crate::study;
 use crate::study::transient::TransientStudy;
-use crate::study::{LinearStage, extent_of};
-use crate::transient::Recorder;
 
 /// The modes that the figures mark; where there are none to be had, the log says why.
 pub fn linear_stage(case: &Case) -> LinearStage {
-    LinearStage::of(case).unwrap_or_else(|error| {
+    study::linear_stage(case).unwrap_or_else(|error| {
         tracing::warn!("figures without modes of the eigenvalue analysis: {error}");
         LinearStage::default()
     })
 }
 
-/// Draws the figures and the report of a record.
-pub(super) fn draw_record(
+/// Draws the figures and the page of a run.
+pub(super) fn draw_run(
     folder: &OutputFolder,
     study: &TransientStudy<'_>,
-    record: &Recorder,
+    report: &TransientReport<'_>,
     summary: &TransientSummary,
     options: &DrawingOptions,
 ) -> Result<(), Failure> {
-    let case = study.case;
-    let stage = linear_stage(case);
     let run = RunFigures {
-        record,
-        analysis: &study.analyse(record),
-        mesh: &study.stepped.mesh,
-        solid: study.stepped.sector.as_ref(),
-        has_harmonics: case.has_sectors(),
-        material: case.materials(),
-        thickness: study.stepped.thickness(case),
-        extent: extent_of(case),
+        run: RecordedRun { material: study.case.materials(), ..report.run },
         peripheral_speed: study.shown_speed(),
-        references: stage.references,
-        growth_rates: stage.growth_rates,
-        mode_rates: stage.mode_rates,
+        stage: linear_stage(study.case),
     };
-    draw(folder, &run, summary, options)?;
-    Ok(())
+    Ok(draw(folder, &run, summary, options)?)
 }

@@ -79,8 +79,7 @@ impl AssemblyReport {
         fields.extend(Field::solid_stresses(&self.stress, "xyz"));
         folder.write_bulk("prestress.vtu", |out| {
             write_vtu(out, &EncodedMesh::new(mesh)?, &[], &fields, &[])
-        })?;
-        Ok(())
+        })
     }
 
     /// Whether no contact point presses: the closed state of an analysis without prestress.

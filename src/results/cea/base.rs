@@ -172,6 +172,5 @@ pub fn write_base(
     fields.push(on_edge("shear_pa", &base.shears));
     folder.write_bulk("prestress.vtu", |out| {
         write_vtu(out, &EncodedMesh::new(mesh)?, &state.whole(), &fields, &[])
-    })?;
-    Ok(())
+    })
 }

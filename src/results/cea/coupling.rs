@@ -22,10 +22,7 @@ pub(super) fn sentences(report: &CeaReport<'_>) -> Vec<String> {
             continue;
         }
         told.push(branch);
-        out.extend(match report.has_harmonics {
-            true => of_pair(branch),
-            false => of_modes(report, interval),
-        });
+        out.extend(if report.has_harmonics { of_pair(branch) } else { of_modes(report, interval) });
     }
     out
 }

@@ -96,8 +96,7 @@ impl Feed {
                 None => EncodedMesh::new(report.mesh)?,
             };
             write_vtu(out, &mesh, &[], &fields, &[])
-        })?;
-        Ok(())
+        })
     }
 
     /// Growth for each area around each node; NaN where there is no contact point.

@@ -249,10 +249,7 @@ fn shapes(report: &CeaReport<'_>, friction: f64) -> Figure {
         panels,
         report.has_harmonics,
     );
-    match shapes.is_empty() {
-        true => figure,
-        false => figure.motion(moving(report, &shapes)),
-    }
+    if shapes.is_empty() { figure } else { figure.motion(moving(report, &shapes)) }
 }
 
 /// The first branches that turn unstable and have several shapes.

@@ -63,8 +63,7 @@ fn write_shapes(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), Fol
             });
         }
     }
-    folder.write("modes.pvd", |out| write_pvd(out, &entries))?;
-    Ok(())
+    folder.write("modes.pvd", |out| write_pvd(out, &entries))
 }
 
 /// Modes with a shape: friction coefficient, number among those of that value, mode.
@@ -101,8 +100,7 @@ pub fn write_universal(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<
             mesh.write_universal_mode(out, (&name, k + 1), mode.eigenvalue, parts)?;
         }
         Ok(())
-    })?;
-    Ok(())
+    })
 }
 
 /// The time of a mode in the collection: its frequency, Hz, by which ParaView animates modes. It takes files of one time for

@@ -28,7 +28,8 @@ pub use files::{write, write_universal};
 pub use kept::KeptSteps;
 pub use locus::NamedDamping;
 pub use mode_name::ModeName;
-pub(super) use mode_name::{BRANCH, BRANCHES, DIRECTION, HARMONIC, NAMES};
+pub(crate) use mode_name::travels;
+pub(super) use mode_name::{BRANCH, BRANCHES, DIRECTION, HARMONIC, NAMES, arrow};
 pub(super) use reading::{CONTRIBUTIONS, COUPLINGS};
 pub use reading::{Contribution, Coupling, MeshError, Reading, Source};
 pub(super) use sensitivity::ROWS;
@@ -106,13 +107,7 @@ impl CeaReport<'_> {
     /// its mode has at the case's own friction, after its nodal diameters on a body of one sector.
     fn branch_name(&self, branch: Branch, numbers: &BTreeMap<Branch, usize>) -> String {
         match (self.has_harmonics, numbers.get(&branch)) {
-            (true, _) => {
-                let way = match branch.2 {
-                    0 => String::new(),
-                    direction => format!(", {} the rotor", direction_name(direction)),
-                };
-                format!("n = {}, branch {}{way}", branch.0, branch.1)
-            }
+            (true, _) => format!("n = {}, branch {}{}", branch.0, branch.1, travels(branch.2)),
             (false, Some(number)) => {
                 let own = self.own_point().map(|point| &point.modes[number - 1]);
                 match own.and_then(|mode| mode.nodal_diameters) {

@@ -27,6 +27,24 @@ pub(in crate::results) const BRANCH: &str = "rank within the harmonic, else amon
 pub(in crate::results) const DIRECTION: &str =
     "1 travels with the rotor, -1 against it, 0 stands; none without symmetry";
 
+/// How a wave travels, behind its name; nothing of one that stands.
+pub(crate) fn travels(direction: i8) -> &'static str {
+    match direction {
+        1.. => ", with the rotor",
+        0 => "",
+        ..0 => ", against the rotor",
+    }
+}
+
+/// The same as an arrow.
+pub(in crate::results) fn arrow(direction: i8) -> &'static str {
+    match direction {
+        1.. => " ↺",
+        0 => "",
+        ..0 => " ↻",
+    }
+}
+
 columns! {
     /// A mode in tables of what is read from it.
     pub(in crate::results) NAMES: mode as ModeName;

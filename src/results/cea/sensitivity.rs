@@ -1,6 +1,6 @@
 //! `sensitivities.csv`: which parameter decides whether a mode grows.
 
-use super::{BRANCH, DIRECTION, HARMONIC, direction_name};
+use super::{BRANCH, DIRECTION, HARMONIC, travels};
 use crate::linalg::c64;
 use crate::output::{Format, Table, columns, fixed};
 use std::f64::consts::TAU;
@@ -109,8 +109,7 @@ impl SensitivityReport {
         let mut changes = self.per_cent(own);
         changes.retain(|(_, change)| change.norm() > 0.0);
         let (rate, frequency) = (own.eigenvalue.re, own.eigenvalue.im / TAU);
-        let travels = own.direction.map(|way| format!(", {} the rotor", direction_name(way)));
-        let travels = travels.unwrap_or_default();
+        let travels = own.direction.map_or("", travels);
         let caption = format!(
             "One per cent more of each parameter changes {}{travels} ({} Hz, {} at {} 1/s at friction {}) by",
             self.name(own),

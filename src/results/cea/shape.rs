@@ -1,7 +1,7 @@
 //! A mode shape as a picture of the deformed body.
 
-use super::CeaReport;
 use super::solid::Picture;
+use super::{CeaReport, arrow};
 use crate::cea::ComplexMode;
 use crate::chart::{
     Axis, ColourMap, Field, INK, Line, MUTED, Motion, MotionKind, MotionState, Panel, Stroke,
@@ -36,11 +36,7 @@ impl ModeShape<'_> {
 
     /// Harmonic, direction and stability in mark-up.
     pub fn harmonic(&self) -> String {
-        let arrow = match self.mode.direction {
-            1 => " ↺",
-            -1 => " ↻",
-            _ => "",
-        };
+        let arrow = arrow(self.mode.direction);
         let unstable = if self.mode.is_unstable() { " unstable" } else { "" };
         if !self.has_harmonics {
             let diameters = self.mode.nodal_diameters;
@@ -117,10 +113,7 @@ fn assembly_panel(view: &SolidView<'_>, shape: &ModeShape<'_>, lines: &[String; 
     let values = shape.mode.shape.as_deref().unwrap_or(&[]);
     let square = values.iter().fold(c64::ZERO, |sum, u| sum + u * u);
     let root = square.sqrt();
-    let turn = match root.norm() > 0.0 {
-        true => root.conj() / root.norm(),
-        false => c64::ONE,
-    };
+    let turn = if root.norm() > 0.0 { root.conj() / root.norm() } else { c64::ONE };
     let real: Vec<f64> = values.iter().map(|u| (u * turn).re).collect();
     let amplitude: Vec<f64> =
         real.chunks_exact(3).map(|u| u.iter().map(|x| x * x).sum::<f64>().sqrt()).collect();
@@ -193,10 +186,7 @@ fn crest_phase(mesh: &Mesh, shape: &[c64], harmonic: usize) -> c64 {
     let zero = c64::new(0.0, 0.0);
     let square = shape.iter().fold(zero, |sum, u| sum + u * u);
     let total: f64 = shape.iter().map(|u| u.norm_sqr()).sum();
-    let unit = |z: c64| match z.norm() > 0.0 {
-        true => z.conj() / z.norm(),
-        false => c64::new(1.0, 0.0),
-    };
+    let unit = |z: c64| if z.norm() > 0.0 { z.conj() / z.norm() } else { c64::new(1.0, 0.0) };
     if square.norm() > 0.5 * total {
         return unit(square.sqrt());
     }

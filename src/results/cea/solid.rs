@@ -91,8 +91,7 @@ impl SolidReport {
         let whole = state.whole();
         folder.write_bulk("prestress.vtu", |out| {
             write_vtu(out, &EncodedMesh::solid(&self.sector)?, &whole, &fields, &[])
-        })?;
-        Ok(())
+        })
     }
 
     /// Status, pressure and friction traction at the contact nodes of all sectors.

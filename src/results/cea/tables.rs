@@ -164,10 +164,7 @@ pub(super) fn stability(report: &CeaReport<'_>) -> Table {
         .columns(ONSETS, &rows)
         .columns(ONSET_ERRORS, &rows)
         .shown_only(ONSET_WORDS, &rows);
-    match report.has_harmonics {
-        true => table,
-        false => table.shown_column("mode", number),
-    }
+    if report.has_harmonics { table } else { table.shown_column("mode", number) }
 }
 
 /// The table of modes at some friction values.

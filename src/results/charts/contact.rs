@@ -1,14 +1,16 @@
 //! The contact over time and around the circle.
 
 use super::Disc;
+use super::bodies::{speeds_of_bodies, speeds_on_top};
 use super::palette::{
-    OPEN, SLIP, STICK, centred, line_colour, status_ground, status_keys, status_name, status_ring,
+    OPEN, SLIP, STICK, centred, line_colour, status_ground, status_keys, status_ring,
 };
 use crate::chart::{
     Axis, ChartError, ColourMap, Figure, Heat, INK, Label, Line, Palette, Panel, Rule, SERIES, Side,
 };
 use crate::contact::ContactStatus;
 use crate::fem::{MaterialField, nodal_stress};
+use crate::results::ShownBody;
 use std::f64::consts::TAU;
 
 /// Columns of a status map: three for each point of a wide panel.
@@ -85,15 +87,35 @@ impl ContactVelocity<'_> {
     }
 }
 
-/// Tractions (Pa) and tangential velocity of the nodes of an edge that is no whole hole, evenly spaced, on a ground
-/// coloured by status.
-pub fn open_contact_figure(
-    (name, caption, instant): (String, String, String),
-    status: &[ContactStatus],
-    [pressure, shear]: [&[f64]; 2],
-    velocity: ContactVelocity<'_>,
-) -> Figure {
-    let step = TAU / status.len().saturating_sub(1).max(1) as f64;
+/// The contact at one instant.
+pub struct ContactInstant<'a> {
+    /// Name of its figure.
+    pub name: String,
+    /// What it is of, and how its pattern turns.
+    pub subject: [String; 2],
+    /// When it is.
+    pub instant: String,
+    /// Angle of the first node around a hole, rad.
+    pub first_angle: f64,
+    /// Status of each node.
+    pub status: &'a [ContactStatus],
+    /// Pressure and friction traction, Pa.
+    pub tractions: [&'a [f64]; 2],
+    /// Tangential velocity.
+    pub velocity: ContactVelocity<'a>,
+}
+
+/// The contact at one instant, its nodes evenly spaced, on a ground coloured by status: tractions (Pa) and tangential velocity
+/// (m/s), and around a whole hole arcs of stick, slip and separation.
+pub fn contact_figure(body: &ShownBody<'_>, own: &ContactInstant<'_>) -> Figure {
+    match body.mesh.has_round_contact() {
+        true => round_contact(body.counterface(), own),
+        false => open_contact(own),
+    }
+}
+
+fn open_contact(own: &ContactInstant<'_>) -> Figure {
+    let step = TAU / own.status.len().saturating_sub(1).max(1) as f64;
     let along = |values: &[f64]| {
         let places = values.iter().enumerate();
         Line::through(places.map(|(i, &value)| (i as f64 * step, value)))
@@ -103,20 +125,26 @@ pub fn open_contact_figure(
             .plain()
             .height(78.0)
             .legend()
-            .layer(status_ground(status, |i| (i as f64 - 0.5) * step).unnamed())
+            .layer(status_ground(own.status, |i| (i as f64 - 0.5) * step).unnamed())
     };
     let names = ("counterface", "tangential velocity");
-    let [traction, velocity] = contact_panels(panel, along, [pressure, shear], (&velocity, names));
-    Figure::new(name, caption).shared_x().panel(traction.caption(instant)).panel(velocity)
+    let [traction, velocity] = contact_panels(panel, along, own, names);
+    let caption = format!(
+        "{} along the contact edge: tractions (a), velocity (b), on a ground coloured by status.",
+        own.subject[0]
+    );
+    let traction = traction.caption(own.instant.clone());
+    Figure::new(own.name.clone(), caption).shared_x().panel(traction).panel(velocity)
 }
 
 /// Tractions (Pa) and tangential velocity along a contact; `names` are those of the counterface and of an absolute velocity.
 fn contact_panels(
     panel: impl Fn(Axis) -> Panel,
     line: impl Fn(&[f64]) -> Line,
-    [pressure, shear]: [&[f64]; 2],
-    (velocity, names): (&ContactVelocity<'_>, (&str, &str)),
+    own: &ContactInstant<'_>,
+    names: (&str, &str),
 ) -> [Panel; 2] {
+    let ([pressure, shear], velocity) = (own.tractions, &own.velocity);
     let traction = Axis::new("traction", "Pa").prefixed().including(0.0).room(0.08);
     [
         panel(traction)
@@ -128,14 +156,8 @@ fn contact_panels(
     ]
 }
 
-/// The contact at one instant: arcs of stick, slip and separation around the circle, and over the angle the tractions (Pa) and
-/// the tangential velocity (m/s) of nodes evenly spaced from an angle (rad), on a ground coloured by status.
-pub fn contact_figure(
-    ((name, caption, instant), counterface): ((String, String, String), &str),
-    (first_angle, status): (f64, &[ContactStatus]),
-    [pressure, shear]: [&[f64]; 2],
-    velocity: ContactVelocity<'_>,
-) -> Figure {
+fn round_contact(counterface: &str, own: &ContactInstant<'_>) -> Figure {
+    let (first_angle, status) = (own.first_angle, own.status);
     let step = TAU / status.len().max(1) as f64;
     let closed = |values: &[f64]| {
         let around = values.iter().chain(values.first()).enumerate();
@@ -154,42 +176,76 @@ pub fn contact_figure(
     });
     let circle = Panel::plane([[-1.05, -1.05], [1.05, 1.05]])
         .beside(2)
-        .caption(instant)
+        .caption(own.instant.clone())
         .layer(status_ring(1.06, first_angle, status))
         .layers(angles)
         .layer(Label::new((0.0, 0.0), "↺").style(centred(13.0)))
         .layer(Label::new((0.0, 0.0), "rotor").style(centred(6.75)).moved(0.0, 11.0));
     let names = (counterface, "tangential *v*_{θ}");
-    Figure::new(name, caption)
+    let [subject, turning] = &own.subject;
+    let caption =
+        format!("{subject}: status around the circle (a), tractions (b), velocity (c){turning}.");
+    Figure::new(own.name.clone(), caption)
         .weighted(&[1.0, 1.7])
         .shared_x()
         .panel(circle)
-        .panels(contact_panels(over_angle, closed, [pressure, shear], (&velocity, names)))
+        .panels(contact_panels(over_angle, closed, own, names))
 }
 
 /// One field of several: heading, values at the nodes, status of each node of the contact edge.
-pub type FieldFrame = (String, Vec<f64>, Vec<ContactStatus>);
+type FieldFrame = (String, Vec<f64>, Vec<ContactStatus>);
 
-/// Shear stress of several displacement fields side by side, each with its heading.
+/// Shear stress of several displacement fields side by side, each with its heading, of a plane body; `when` they are.
 pub fn shear_stress_figure<'a>(
-    caption: &str,
-    disc: &Disc<'_>,
+    body: &ShownBody<'_>,
     material: &dyn MaterialField,
+    when: &str,
     fields: impl Iterator<Item = (String, &'a [f64])>,
 ) -> Result<Figure, ChartError> {
+    if body.is_solid() {
+        return Err(ChartError::empty("shear stress of a plane body"));
+    }
+    let disc = Disc::new(body.mesh);
+    let caption = format!("Shear stress {when}.");
     let frame = |(heading, displacement): (String, &[f64])| -> FieldFrame {
-        let stress = nodal_stress(disc.mesh(), material, displacement);
+        let stress = nodal_stress(body.mesh, material, displacement);
         let shear = stress.iter().map(|node| node.shear);
         (heading, shear.collect(), Vec::new())
     };
     let axis = Axis::new("shear stress *τ*_{rθ}", "MPa").times(1e-6);
-    let (names, frames) = (("shear-stress", caption), fields.map(frame).collect());
-    field_figure(names, disc, &axis, ColourMap::Diverging, frames)
+    let (names, frames) = (("shear-stress", &caption[..]), fields.map(frame).collect());
+    field_figure(names, &disc, &axis, ColourMap::Diverging, frames)
+}
+
+/// Velocity fields (nodal frames, m/s) side by side, each with its heading and the status of the contact nodes; `when` they are.
+/// What is no faster than `rest` is at rest.
+pub fn velocity_figure<'a>(
+    body: &ShownBody<'_>,
+    (when, rest): (&str, f64),
+    fields: impl Iterator<Item = (String, &'a [f64], Vec<ContactStatus>)>,
+) -> Result<Figure, ChartError> {
+    if body.is_assembly() {
+        let caption = format!("Velocity modulus {when}.");
+        return speeds_of_bodies(body.mesh, &caption, fields.map(|own| (own.0, own.1)));
+    }
+    let frames = fields.map(|(heading, velocity, status)| -> FieldFrame {
+        let (speeds, status) = match body.sector {
+            // A ring of statuses shows one edge.
+            Some(sector) => (speeds_on_top(sector, velocity), Vec::new()),
+            None => (velocity.chunks_exact(2).map(|v| v[0].hypot(v[1])).collect(), status),
+        };
+        let moves = |speed: f64| if speed > rest { speed } else { 0.0 };
+        (heading, speeds.into_iter().map(moves).collect(), status)
+    });
+    let caption = format!("Velocity modulus and contact status {when}.");
+    let axis = Axis::new("velocity |*v*|", "m/s");
+    let disc = Disc::new(body.mesh);
+    field_figure(("velocity", &caption), &disc, &axis, ColourMap::Viridis, frames.collect())
 }
 
 /// Fields side by side, each with its own scale of colours, as amplitudes may differ by decades, and with the contact status
 /// around the hole where it is known.
-pub fn field_figure(
+fn field_figure(
     (name, caption): (&str, &str),
     disc: &Disc<'_>,
     axis: &Axis,
@@ -235,8 +291,7 @@ pub fn status_curves(points: &[(f64, f64)], status: &[ContactStatus]) -> Vec<Lin
             start += run.len();
         }
         let width = if wanted == ContactStatus::Slip { 1.8 } else { 0.8 };
-        let name = status_name(wanted);
-        lines.push(Line::through(pieces).solid(line_colour(wanted), width).name(name));
+        lines.push(Line::through(pieces).solid(line_colour(wanted), width).name(wanted.name()));
     }
     lines
 }

@@ -8,10 +8,10 @@ mod motion;
 pub mod palette;
 mod solid;
 
-pub use bodies::{contact_surfaces, speeds_of_bodies, speeds_on_top};
+pub use bodies::contact_surfaces;
 pub use contact::{
-    ContactVelocity, FieldFrame, contact_figure, field_figure, open_contact_figure, place_axis,
-    shear_stress_figure, status_curves, status_map,
+    ContactInstant, ContactVelocity, contact_figure, place_axis, shear_stress_figure,
+    status_curves, status_map, velocity_figure,
 };
 pub use course::{
     ModeLine, Stage, run_axis, signal_panel, spectrogram_panels, spectrum_panel, with_stages,

@@ -55,12 +55,6 @@ pub fn status_keys() -> Vec<(Key, String)> {
     STATUSES.iter().map(key).collect()
 }
 
-/// Name of a status.
-pub fn status_name(status: ContactStatus) -> &'static str {
-    let found = STATUSES.iter().find(|entry| entry.0 == status);
-    found.map_or("", |entry| entry.1)
-}
-
 /// Colour of areas in a status.
 pub fn area_colour(status: ContactStatus) -> &'static str {
     entry(status).0

@@ -41,10 +41,7 @@ impl<'a> SolidView<'a> {
     fn of(mesh: &'a Mesh, faces: Vec<BoundaryFace>, towards: Vector3<f64>) -> Self {
         let towards = towards.try_normalize(0.0).unwrap_or(Vector3::z());
         // Upwards is z, but for what is seen along it.
-        let up = match towards.z.abs() > 0.9 {
-            true => Vector3::y(),
-            false => Vector3::z(),
-        };
+        let up = if towards.z.abs() > 0.9 { Vector3::y() } else { Vector3::z() };
         Self::upright(mesh, faces, towards, up)
     }
 

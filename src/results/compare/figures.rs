@@ -82,10 +82,7 @@ fn panel_of(panel: &PanelData, runs: &[(usize, &str, &PanelData)]) -> Panel {
     let axis = |k: usize| {
         let ends = runs.iter().map(|(_, _, own)| own.axes[k].ends);
         let ends = ends.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).unwrap_or([0.0, 1.0]);
-        let scale = match panel.axes[k].is_logarithmic {
-            true => Scale::Logarithmic,
-            false => Scale::Linear,
-        };
+        let scale = if panel.axes[k].is_logarithmic { Scale::Logarithmic } else { Scale::Linear };
         Axis::new(&literal(&panel.axes[k].title), "").scaled(scale).between(ends[0], ends[1])
     };
     let mut out = Panel::new(axis(0), axis(1)).height(150.0).legend();

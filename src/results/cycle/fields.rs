@@ -4,7 +4,7 @@ use super::{CycleReport, Search};
 use crate::cycle::periodic::ContactInstant;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::pvd::{PvdEntry, write_pvd};
-use crate::results::vtu::{EncodedMesh, Field, solid_vectors, write_vtu};
+use crate::results::vtu::{Field, write_vtu};
 
 /// The whole field of a limit cycle at one time.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,12 +86,8 @@ impl CycleReport<'_> {
                 _ => format!("{stem}-{i:03}.vtu"),
             };
             folder.write(&name, |out| {
-                let encoded = match self.solid {
-                    Some(sector) => EncodedMesh::solid(sector)?,
-                    None => EncodedMesh::new(self.mesh)?,
-                };
                 let whole = [Field::number("time_s", frame.0)];
-                write_vtu(out, &encoded, &whole, &self.frame_fields(&frame), &[])
+                write_vtu(out, &self.body.encoded()?, &whole, &self.frame_fields(&frame), &[])
             })?;
             entries.push(PvdEntry { time: frame.0, group: group.to_owned(), file: name });
         }
@@ -103,15 +99,12 @@ impl CycleReport<'_> {
 
     /// The fields of one frame: motion of all nodes; status, pressure and shear of those of the contact.
     fn frame_fields(&self, (_, [displacement, velocity], contact): &Frame<'_>) -> Vec<Field> {
-        let vectors = |name: &str, values: &[f64]| match self.solid {
-            Some(sector) => solid_vectors(name, sector, values),
-            None => Field::vectors(name, self.mesh, values),
-        };
-        let mut fields =
-            vec![vectors("displacement_m", displacement), vectors("velocity_m_per_s", velocity)];
+        let mut fields = vec![
+            self.body.vectors("displacement_m", displacement),
+            self.body.vectors("velocity_m_per_s", velocity),
+        ];
         if let (Some(contact), Search::Motions(search)) = (contact, &self.search) {
-            let is_solid = self.solid.is_some() || self.mesh.dimension == 3;
-            let count = displacement.len() / if is_solid { 3 } else { 2 };
+            let count = displacement.len() / if self.body.is_solid() { 3 } else { 2 };
             let nodes = &search.interface.nodes;
             fields.extend([
                 Field::status(count, nodes, contact.status.iter().copied()),

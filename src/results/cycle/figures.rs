@@ -3,22 +3,23 @@
 use super::record::{HistoryRow, MotionRecord};
 use super::{CycleReport, PeriodicResult, Search};
 use crate::chart::{
-    Axis, ChartError, ColourMap, Figure, INK, Line, MUTED, Marker, Motion, MotionKind, MotionState,
-    Panel, Rule, SERIES, Stroke, plain,
+    Axis, ChartError, Figure, INK, Line, MUTED, Marker, Motion, MotionKind, MotionState, Panel,
+    Rule, SERIES, Stroke, plain,
 };
 use crate::contact::ContactStatus;
 use crate::fem::MaterialField;
-use crate::mesh::SolidFace;
 use crate::results::charts::palette::{status_ground, status_of_code};
 use crate::results::charts::{
-    ContactVelocity, Disc, FieldFrame, MovingBody, contact_figure, field_figure,
-    open_contact_figure, place_axis, shear_stress_figure, speeds_on_top, status_curves, status_map,
+    ContactInstant, ContactVelocity, MovingBody, contact_figure, contact_surfaces, place_axis,
+    shear_stress_figure, status_curves, status_map, velocity_figure,
 };
 use crate::results::drawing::{Declaration, declared};
 use std::f64::consts::TAU;
 
 /// Whole-field pictures of one kind, at most.
-pub(super) const FIELD_LIMIT: usize = 8;
+const FIELD_LIMIT: usize = 8;
+/// When the fields are.
+const WHEN: &str = "of the limit cycles at one instant";
 /// Periods of a history.
 const PERIODS: usize = 2;
 /// Amplitude along the normal, over that along the contact, below which it is round-off.
@@ -29,9 +30,9 @@ pub struct CycleFigures<'a> {
     /// What was found.
     pub(super) report: &'a CycleReport<'a>,
     /// What is shown of each cycle.
-    pub(super) cycles: Vec<MotionRecord>,
+    cycles: Vec<MotionRecord>,
     /// The contacts of an assembly, each with the boundary that has its points.
-    pub(super) surfaces: Vec<(String, usize)>,
+    surfaces: Vec<(String, usize)>,
     /// The materials, for the stress fields.
     materials: &'a dyn MaterialField,
 }
@@ -71,37 +72,27 @@ impl<'a> CycleFigures<'a> {
     }
 
     /// Nodes of the contact of motions of the whole mesh, counted from 0.
-    pub(super) fn nodes(&self) -> &[u32] {
+    fn nodes(&self) -> &[u32] {
         match &self.report.search {
             Search::Waves(_) => &[],
             Search::Motions(search) => &search.interface.nodes,
         }
     }
 
-    /// Which contact nodes the figures over the angle show: of several rings of nodes the middle one.
-    fn is_shown(&self, node: usize) -> bool {
-        let rings = self.report.solid.map_or(1, |sector| sector.rings.len());
-        node % rings == rings / 2
-    }
-
+    /// The values of the contact nodes that the figures over the angle show.
     fn shown<T: Copy>(&self, values: &[T]) -> Vec<T> {
         let count = self.nodes().len().max(1);
-        let places = (0..values.len()).filter(|&i| self.is_shown(i % count));
+        let places = (0..values.len()).filter(|&i| self.report.body.is_shown(i % count));
         places.map(|i| values[i]).collect()
-    }
-
-    /// Whether it is of solid bodies of a mesh.
-    fn is_assembly(&self) -> bool {
-        self.report.solid.is_none() && self.report.mesh.dimension == 3
     }
 
     /// Where the shown contact nodes are.
     fn places(&self) -> Axis {
-        match self.is_assembly() {
+        match self.report.body.is_assembly() {
             true => {
                 Axis::new("contact nodes in their order", "%").times(100.0 / TAU).between(0.0, TAU)
             }
-            false => place_axis(self.report.mesh.has_round_contact()),
+            false => place_axis(self.report.body.mesh.has_round_contact()),
         }
     }
 
@@ -130,27 +121,14 @@ impl<'a> CycleFigures<'a> {
 
     /// The contact at time zero; of a wave around the whole circle, where a node at angle `theta` is in phase `n theta`.
     fn at_one_instant(&self, motion: &MotionRecord) -> Figure {
-        if self.is_assembly() {
+        let body = &self.report.body;
+        if body.is_assembly() {
             return self.on_surfaces(motion);
         }
         let n = motion.diameters.max(1);
         let around = |values: &[f64]| self.shown(&values.repeat(n));
         let [pressure, shear, velocity] = motion.edge.each_ref().map(|own| around(own));
-        let velocity = match self.report.mesh.opposite {
-            Some(_) => ContactVelocity::Absolute(&velocity, f64::NAN),
-            None => ContactVelocity::Absolute(&velocity, self.shown_speed(motion)),
-        };
-        let statuses = self.shown(&motion.first_statuses().repeat(n));
-        let name = format!("contact-{}", motion.tag);
-        if !self.report.mesh.has_round_contact() {
-            let caption = format!(
-                "Limit cycle of {} at one instant along the contact edge: tractions (a), velocity (b), on a ground coloured by \
-                 status.",
-                motion.whose()
-            );
-            let names = (name, caption, motion.heading());
-            return open_contact_figure(names, &statuses, [&pressure, &shear], velocity);
-        }
+        let speed = if body.mesh.opposite.is_some() { f64::NAN } else { self.shown_speed(motion) };
         let (turns, wave) = match motion.diameters {
             0 => (String::new(), ""),
             n => (
@@ -158,29 +136,46 @@ impl<'a> CycleFigures<'a> {
                 ", wave ↻",
             ),
         };
-        let caption = format!(
-            "Limit cycle of {} at one instant: status around the circle (a), tractions (b), velocity (c){turns}.",
-            motion.whose()
-        );
         let first = match &self.report.search {
             Search::Waves(_) => None,
             Search::Motions(search) => search.interface.angles.first().copied(),
         };
-        let counterface = match self.report.solid {
-            Some(sector) if sector.specification.contact.face() != SolidFace::Inner => "ring",
-            _ => "cylinder *Ωa*",
+        let shown = ContactInstant {
+            name: format!("contact-{}", motion.tag),
+            subject: [format!("Limit cycle of {} at one instant", motion.whose()), turns],
+            instant: motion.heading() + wave,
+            first_angle: first.unwrap_or(0.0),
+            status: &self.shown(&motion.first_statuses().repeat(n)),
+            tractions: [&pressure, &shear],
+            velocity: ContactVelocity::Absolute(&velocity, speed),
         };
-        contact_figure(
-            ((name, caption, motion.heading() + wave), counterface),
-            (first.unwrap_or(0.0), &statuses),
-            [&pressure, &shear],
-            velocity,
-        )
+        contact_figure(body, &shown)
+    }
+
+    /// Pressure on each contact surface at time zero, seen from outside along its mean normal; grey where it is open.
+    fn on_surfaces(&self, motion: &MotionRecord) -> Figure {
+        let [pressure, ..] = &motion.edge;
+        let mut values = vec![f64::NAN; self.report.body.mesh.node_count()];
+        let nodes = self.nodes().iter().zip(pressure);
+        for ((&node, &pressure), status) in nodes.zip(motion.first_statuses()) {
+            if status != ContactStatus::Open {
+                values[node as usize] = pressure;
+            }
+        }
+        let largest = pressure.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+        let axis = || Axis::new("contact pressure", "Pa").prefixed().between(0.0, largest);
+        let caption = format!(
+            "Limit cycle of {} at one instant: contact pressure on each contact surface, seen from outside; grey where it is open.",
+            motion.whose()
+        );
+        let name = format!("contact-{}", motion.tag);
+        let surfaces = (self.report.body.mesh, &self.surfaces[..]);
+        contact_surfaces((&name, &caption), surfaces, (&values, &[]), &axis)
     }
 
     /// Speed of the counterface at the shown contact nodes, m/s: it grows with the radius.
     fn shown_speed(&self, motion: &MotionRecord) -> f64 {
-        let Some(sector) = self.report.solid else {
+        let Some(sector) = self.report.body.sector else {
             return motion.counterface_speed;
         };
         let radius = |ring: usize| sector.rings[ring].radius;
@@ -190,11 +185,11 @@ impl<'a> CycleFigures<'a> {
 
     /// The contact node of the history in words.
     fn node(&self, motion: &MotionRecord) -> String {
-        let node = self.nodes().get(motion.node).map(|&node| node as usize);
-        match (node, self.report.solid) {
-            (None, _) => "a contact node".to_owned(),
-            (Some(node), Some(_)) => format!("contact node {}", node + 1),
-            (Some(node), None) => format!("contact node {}", self.report.mesh.node_label(node)),
+        match self.nodes().get(motion.node) {
+            None => "a contact node".to_owned(),
+            Some(&node) => {
+                format!("contact node {}", self.report.body.mesh.node_label(node as usize))
+            }
         }
     }
 
@@ -210,7 +205,7 @@ impl<'a> CycleFigures<'a> {
             repeated.panel(metres, 62.0, caption).layer(line(of, INK))
         };
         // What a node that sticks moves with, and the limits of friction, where they are numbers.
-        let counterface = (self.report.mesh.opposite.is_none())
+        let counterface = (self.report.body.mesh.opposite.is_none())
             .then(|| Rule::horizontal(motion.counterface_speed).stretching().name("counterface"));
         let limit = |sign: f64| {
             let friction = sign * motion.friction_coefficient.unwrap_or(f64::NAN);
@@ -285,7 +280,7 @@ impl<'a> CycleFigures<'a> {
 
     /// Contact status at time zero of every node of the edge; of a wave that of the nearest phase.
     fn around(&self, motion: &MotionRecord) -> Vec<u8> {
-        let nodes = self.report.mesh.contact_edge().nodes.len();
+        let nodes = self.report.body.mesh.contact_edge().nodes.len();
         let points = motion.status.len().max(1);
         let nearest =
             |node: usize| (2 * motion.diameters * node * points + nodes) / (2 * nodes) % points;
@@ -301,7 +296,7 @@ impl<'a> CycleFigures<'a> {
 
     /// The waves in motion, without the steady state that they ride on.
     fn turning(&self) -> Motion {
-        let body = MovingBody::new(self.report.mesh);
+        let body = MovingBody::new(self.report.body.mesh);
         let states = self.shown_cycles().map(|wave| MotionState {
             name: plain(&wave.heading()),
             frequency_hz: wave.frequency_hz,
@@ -315,38 +310,19 @@ impl<'a> CycleFigures<'a> {
     }
 
     fn velocity(&self) -> Result<Figure, ChartError> {
-        if self.is_assembly() {
-            return self.velocity_of_bodies();
-        }
-        let frames = self.shown_cycles().map(|motion| -> FieldFrame {
-            let velocity = &motion.velocity_field;
-            match self.report.solid {
-                // A ring of statuses shows one edge.
-                Some(sector) => (motion.heading(), speeds_on_top(sector, velocity), Vec::new()),
-                None => {
-                    let speeds = velocity.chunks_exact(2).map(|v| v[0].hypot(v[1])).collect();
-                    let codes = self.around(motion).into_iter();
-                    (motion.heading(), speeds, codes.map(status_of_code).collect())
-                }
-            }
+        let fields = self.shown_cycles().map(|motion| {
+            let status = self.around(motion).into_iter().map(status_of_code);
+            (motion.heading(), &motion.velocity_field[..], status.collect())
         });
-        let caption =
-            ("velocity", "Velocity modulus and contact status of the limit cycles at one instant.");
-        let axis = Axis::new("velocity |*v*|", "m/s");
-        let disc = Disc::new(self.report.mesh);
-        let figure = field_figure(caption, &disc, &axis, ColourMap::Viridis, frames.collect())?;
+        let figure = velocity_figure(&self.report.body, (WHEN, 0.0), fields)?;
         let is_wave = self.cycles.iter().any(|own| own.diameters > 0);
         Ok(if is_wave { figure.motion(self.turning()) } else { figure })
     }
 
     fn shear_stress(&self) -> Result<Figure, ChartError> {
-        if self.report.solid.is_some() || self.is_assembly() {
-            return Err(ChartError::empty("shear stress of a plane body"));
-        }
         let cycles = self.shown_cycles();
         let fields = cycles.map(|motion| (motion.heading(), &motion.displacement_field[..]));
-        let caption = "Shear stress of the limit cycles at one instant.";
-        shear_stress_figure(caption, &Disc::new(self.report.mesh), self.materials, fields)
+        shear_stress_figure(&self.report.body, self.materials, WHEN, fields)
     }
 }
 

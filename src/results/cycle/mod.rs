@@ -6,7 +6,6 @@ mod curve;
 mod fields;
 mod figures;
 mod motions;
-mod on_bodies;
 mod record;
 mod summary;
 mod tables;
@@ -38,14 +37,13 @@ pub use waves::{Absence, CycleResult, Finding, known};
 use crate::contact::{ContactInterface, SlidingContact};
 use crate::cycle::periodic::MotionHarmonic;
 use crate::cycle::{CriticalValue, Onset};
-use crate::mesh::{Mesh, SolidSector};
-use crate::results::DrawingOptions;
 use crate::results::drawing::DrawingError;
 use crate::results::extent::Extent;
 use crate::results::finding::{write_page, write_table, write_tables};
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::manifest::Manifest;
 use crate::results::summary::{CriticalSummary, write_summary};
+use crate::results::{DrawingOptions, ShownBody};
 use branch::BranchRow;
 use motions::ContactNode;
 use record::HistoryRow;
@@ -56,10 +54,8 @@ use serde_json::Value;
 pub struct CycleReport<'a> {
     /// Title of the case.
     pub title: &'a str,
-    /// The mesh; of a body of revolution in three dimensions the section across the axis.
-    pub mesh: &'a Mesh,
-    /// One sector of a body of revolution in three dimensions.
-    pub solid: Option<&'a SolidSector>,
+    /// The body.
+    pub body: ShownBody<'a>,
     /// Thickness, m: scales powers; 1 of a body in three dimensions.
     pub thickness: f64,
     /// What powers are of.
@@ -205,9 +201,10 @@ impl CycleReport<'_> {
             }
         };
         let told = told.map_err(|error| FolderError::io("write", folder.path(), error))?;
-        let is_solid = self.solid.is_some() || self.mesh.dimension == 3;
         for own in &told {
-            own.tables(is_solid).iter().try_for_each(|table| write_table(folder, table))?;
+            own.tables(self.body.is_solid())
+                .iter()
+                .try_for_each(|table| write_table(folder, table))?;
             if let Some(archive) = &own.archive {
                 let name = format!("contact-{}.npz", own.tag);
                 folder.write_bulk(&name, |out| out.write_all(archive))?;

@@ -118,7 +118,10 @@ impl FoundCycle {
                 residual: motion.residual,
                 periods: motion.periods,
                 steps: motion.steps,
-                contact_node: report.node_label(search.interface.nodes[motion.node]),
+                contact_node: report
+                    .body
+                    .mesh
+                    .node_label(search.interface.nodes[motion.node] as usize),
                 kick_velocity: threshold.map(PeriodicMotion::kick_velocity),
                 sound: self.sound.as_ref().map(|sound| SoundSummary {
                     power_w: sound.power(),
@@ -261,8 +264,8 @@ impl PeriodicResult {
         let known = found.stability.as_ref().and_then(|found| found.as_ref().ok());
         let multipliers = known.into_iter().flat_map(|found| &found.multipliers);
         let nodes = (0..search.interface.len()).map(|place| {
-            let node = search.interface.nodes[place];
-            contact_node(motion, place, (report.node_label(node), report.position(node)))
+            let (node, body) = (search.interface.nodes[place] as usize, &report.body);
+            contact_node(motion, place, (body.mesh.node_label(node), body.position(node)))
         });
         let harmonics = motion.harmonics.iter().take(found.harmonic_count).enumerate();
         Ok(Some(Told {
@@ -311,28 +314,6 @@ impl PeriodicResult {
             displacement_field,
             velocity_field,
         })
-    }
-}
-
-impl CycleReport<'_> {
-    /// Where a node of the whole body is, m.
-    fn position(&self, node: u32) -> [f64; 3] {
-        let Some(sector) = self.solid else {
-            return self.mesh.nodes[node as usize];
-        };
-        let (own, turn) =
-            (node as usize % sector.node_count(), node as usize / sector.node_count());
-        let (sine, cosine) = sector.angle(own, turn).sin_cos();
-        let place = &sector.nodes[own];
-        [place.radius * cosine, place.radius * sine, place.height]
-    }
-
-    /// Label of a node of the whole body in the case's own counting.
-    fn node_label(&self, node: u32) -> usize {
-        match self.solid {
-            Some(_) => node as usize + 1,
-            None => self.mesh.node_label(node as usize),
-        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::output::{Described, rounded};
 use crate::results::Manifest;
+use crate::results::cea::travels;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -90,13 +91,8 @@ impl ModeSummary {
 
     /// Harmonic and branch in words.
     pub fn name(&self) -> String {
-        let way = match self.direction {
-            1.. => ", with the rotor",
-            0 => "",
-            ..0 => ", against the rotor",
-        };
         match self.harmonic {
-            Some(n) => format!("n = {n}, branch {}{way}", self.branch),
+            Some(n) => format!("n = {n}, branch {}{}", self.branch, travels(self.direction)),
             None => format!("mode {}", self.branch),
         }
     }

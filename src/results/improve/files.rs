@@ -50,6 +50,5 @@ fn write_fields(
     }
     folder.write_bulk("improve.vtu", |out| {
         write_vtu(out, &EncodedMesh::new(mesh)?, &[], &nodal, &in_elements)
-    })?;
-    Ok(())
+    })
 }

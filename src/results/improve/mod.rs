@@ -138,10 +138,7 @@ impl Candidate {
     pub fn place(&self) -> String {
         // No minus sign before a zero.
         let [x, y, z] = self.position_m.map(|value| (1e5 * value).round() / 1e2 + 0.0);
-        let depth = match z == 0.0 {
-            true => String::new(),
-            false => format!(", {z:.2}"),
-        };
+        let depth = if z == 0.0 { String::new() } else { format!(", {z:.2}") };
         match (self.kind.as_str(), self.node) {
             ("offset", _) => format!("hole moved by ({x:.2}, {y:.2}) mm"),
             (_, Some(node)) => format!("node {node} at ({x:.2}, {y:.2}{depth}) mm"),

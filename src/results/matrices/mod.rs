@@ -8,8 +8,8 @@ use super::folder::{FolderError, OutputFolder};
 use super::manifest::Manifest;
 use super::npz::NpzArchive;
 use super::summary::object;
-use super::table::write_rows;
 use crate::linalg::MarketMatrix;
+use crate::output::rows::write_rows;
 use crate::output::{Described, Key, columns, significant};
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -297,8 +297,11 @@ pub fn write_matrices(
     if system.is_at_one_friction {
         return Ok(());
     }
-    write_unknowns(folder, system)?;
-    write_contact(folder, system)?;
+    let unknowns = system.unknowns.iter().cloned().enumerate();
+    folder.write(UNKNOWNS, |out| write_rows(out, UNKNOWN, unknowns))?;
+    let points = if system.dimension == 3 { SOLID_POINT } else { PLANE_POINT };
+    let contact = system.contact.iter().cloned().enumerate();
+    folder.write(CONTACT, |out| write_rows(out, points, contact))?;
     folder.write(DESCRIPTION, |out| {
         let mut description = object(summary)?;
         if let Some(fields) = description.as_object_mut() {
@@ -308,8 +311,7 @@ pub fn write_matrices(
         }
         serde_json::to_writer_pretty(&mut *out, &description)?;
         writeln!(out)
-    })?;
-    Ok(())
+    })
 }
 
 /// Its place among all, from 0, and an unknown.
@@ -328,12 +330,6 @@ columns! {
     x_m: "place of the node" = row.1.place[0];
     y_m: "place of the node" = row.1.place[1];
     z_m: "place of the node" = row.1.place[2];
-}
-
-/// Writes node, direction and place of every unknown.
-fn write_unknowns(folder: &OutputFolder, system: &ExportedSystem) -> Result<(), FolderError> {
-    let rows = system.unknowns.iter().cloned().enumerate();
-    folder.write(UNKNOWNS, |out| write_rows(out, UNKNOWN, rows)).map(drop)
 }
 
 /// Its place among all, from 0, and a contact point.
@@ -366,13 +362,6 @@ columns! {
     x_m: "its place" = row.1.place[0];
     y_m: "its place" = row.1.place[1];
     z_m: "its place" = row.1.place[2];
-}
-
-/// Writes the contact points.
-fn write_contact(folder: &OutputFolder, system: &ExportedSystem) -> Result<(), FolderError> {
-    let columns = if system.dimension == 3 { SOLID_POINT } else { PLANE_POINT };
-    let rows = system.contact.iter().cloned().enumerate();
-    folder.write(CONTACT, |out| write_rows(out, columns, rows)).map(drop)
 }
 
 /// An archive that `scipy.sparse.load_npz` reads as compressed rows.

@@ -151,10 +151,7 @@ pub fn write_mesh(
     // Counted from 1 in the order in which the summary lists them.
     let regions = (0..mesh.element_count()).map(|element| mesh.region(element) as i64 + 1);
     let regions = [Field::integers("region_id", regions.collect())];
-    folder.write("mesh.vtu", |out| {
-        write_vtu(out, &EncodedMesh::new(mesh)?, &[], &fields, &regions)
-    })?;
-    Ok(())
+    folder.write("mesh.vtu", |out| write_vtu(out, &EncodedMesh::new(mesh)?, &[], &fields, &regions))
 }
 
 /// Sizes and quality, name and value.

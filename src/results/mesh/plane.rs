@@ -220,7 +220,5 @@ pub fn write_revolution(folder: &OutputFolder, sector: &SolidSector) -> Result<(
         // 1 contact, 2 held, 0 elsewhere.
         Field::integers("edge", edge),
     ];
-    folder
-        .write("mesh.vtu", |out| write_vtu(out, &EncodedMesh::solid(sector)?, &[], &fields, &[]))?;
-    Ok(())
+    folder.write("mesh.vtu", |out| write_vtu(out, &EncodedMesh::solid(sector)?, &[], &fields, &[]))
 }

@@ -34,21 +34,15 @@ pub enum FolderError {
     #[error(
         "{} is a link to another folder, whose files would be replaced: \
          remove the link, or choose another folder with --out",
-        path.display()
+        .0.display()
     )]
-    Linked {
-        /// The subfolder.
-        path: PathBuf,
-    },
+    Linked(PathBuf),
     /// Another process writes it.
     #[error(
         "{} is being written by another process: wait for it, or choose another folder with --out",
-        path.display()
+        .0.display()
     )]
-    Busy {
-        /// The folder.
-        path: PathBuf,
-    },
+    Busy(PathBuf),
     /// It holds finished points of the same sweep.
     #[error(
         "{} already holds {found} of the {asked} points asked for: go on with --resume, \
@@ -84,12 +78,9 @@ pub enum FolderError {
         "no room left: {} was not written, because the disk is full or a quota or file size limit \
          is reached. Files finished before are whole. Make room, or choose another folder with \
          --out",
-        path.display()
+        .0.display()
     )]
-    DiskFull {
-        /// The file.
-        path: PathBuf,
-    },
+    DiskFull(PathBuf),
     /// Any other failure of the file system.
     #[error("cannot {action} {}: {source}", path.display())]
     Io {
@@ -108,7 +99,7 @@ impl FolderError {
         match source.kind() {
             io::ErrorKind::StorageFull
             | io::ErrorKind::QuotaExceeded
-            | io::ErrorKind::FileTooLarge => Self::DiskFull { path },
+            | io::ErrorKind::FileTooLarge => Self::DiskFull(path),
             _ => Self::Io { action, path, source },
         }
     }
@@ -119,7 +110,7 @@ impl FolderError {
             self,
             Self::OtherCase { .. }
                 | Self::Foreign { .. }
-                | Self::Linked { .. }
+                | Self::Linked(_)
                 | Self::Started { .. }
                 | Self::NotASweep { .. }
                 | Self::NotResults { .. }

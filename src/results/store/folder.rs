@@ -167,7 +167,7 @@ impl OutputFolder {
         &self,
         name: &str,
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    ) -> Result<PathBuf, FolderError> {
+    ) -> Result<(), FolderError> {
         self.write_as(name, true, fill)
     }
 
@@ -177,7 +177,7 @@ impl OutputFolder {
         &self,
         name: &str,
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    ) -> Result<PathBuf, FolderError> {
+    ) -> Result<(), FolderError> {
         self.write_as(name, false, fill)
     }
 
@@ -191,7 +191,7 @@ impl OutputFolder {
         name: &str,
         is_durable: bool,
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    ) -> Result<PathBuf, FolderError> {
+    ) -> Result<(), FolderError> {
         let path = self.path.join(name);
         let failed = |error| FolderError::io("write", &path, error);
         if self.written().insert(name.to_owned(), None).is_none() {
@@ -199,7 +199,7 @@ impl OutputFolder {
         }
         let checksum = write_whole(&path, is_durable, fill).map_err(failed)?;
         self.written().insert(name.to_owned(), Some(checksum));
-        Ok(path)
+        Ok(())
     }
 
     /// Removes a file that has served its purpose, written by this run or an earlier one.
@@ -215,10 +215,7 @@ impl OutputFolder {
     /// write again, and takes the place of the results that it replaces.
     pub fn finish(self) -> Result<(), FolderError> {
         self.seal()?;
-        match self.path == self.destination {
-            true => Ok(()),
-            false => self.move_into_place(),
-        }
+        if self.path == self.destination { Ok(()) } else { self.move_into_place() }
     }
 
     /// Ends a run before its time: its files stay where they are, and so do results that it was to replace. Gives that
@@ -275,8 +272,7 @@ impl OutputFolder {
 pub(crate) fn write_contents(folder: &Path, contents: &Contents) -> Result<(), FolderError> {
     let path = folder.join(MANIFEST);
     let written = write_whole(&path, true, |out| write_sealed(out, contents));
-    written.map_err(|e| FolderError::io("write", &path, e))?;
-    Ok(())
+    written.map(drop).map_err(|e| FolderError::io("write", &path, e))
 }
 
 /// Removes files that a manifest lists.
@@ -304,7 +300,7 @@ fn refuse_links(path: &Path) -> Result<(), FolderError> {
         entry.file_type().is_ok_and(|kind| kind.is_symlink()) && entry.path().is_dir()
     });
     match links.next() {
-        Some(link) => Err(FolderError::Linked { path: link.path() }),
+        Some(link) => Err(FolderError::Linked(link.path())),
         None => Ok(()),
     }
 }
@@ -314,17 +310,19 @@ fn is_inside(name: &str) -> bool {
     Path::new(name).components().all(|part| matches!(part, std::path::Component::Normal(_)))
 }
 
+/// Opens the file of a lock, which has nothing in it.
+pub(crate) fn open_lock(path: &Path) -> Result<File, FolderError> {
+    let mut options = OpenOptions::new();
+    options.create(true).truncate(false).write(true);
+    options.open(path).map_err(|e| FolderError::io("open", path, e))
+}
+
 fn lock(path: &Path) -> Result<File, FolderError> {
     let lock_path = path.join(LOCK);
-    let file = OpenOptions::new()
-        .create(true)
-        .truncate(false)
-        .write(true)
-        .open(&lock_path)
-        .map_err(|e| FolderError::io("open", &lock_path, e))?;
+    let file = open_lock(&lock_path)?;
     match file.try_lock() {
         Ok(()) => Ok(file),
-        Err(TryLockError::WouldBlock) => Err(FolderError::Busy { path: path.to_owned() }),
+        Err(TryLockError::WouldBlock) => Err(FolderError::Busy(path.to_owned())),
         // A file system without locks: go on as if there were no other process.
         Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => Ok(file),
         Err(TryLockError::Error(error)) => Err(FolderError::io("lock", &lock_path, error)),

@@ -3,7 +3,7 @@
 use super::error::FolderError;
 use super::folder::OutputFolder;
 use super::framed::{self, Defect};
-use frictionsim_bounds::{RESULT, read_file};
+use super::reopening::read_existing;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::io;
@@ -36,7 +36,7 @@ pub fn record_bytes<T: Record>(record: &T) -> io::Result<Vec<u8>> {
 
 /// Writes the record of a run.
 pub fn write_record<T: Record>(folder: &OutputFolder, record: &T) -> Result<(), FolderError> {
-    folder.write_bulk(T::FILE, |out| out.write_all(&record_bytes(record)?)).map(drop)
+    folder.write_bulk(T::FILE, |out| out.write_all(&record_bytes(record)?))
 }
 
 /// Reads the record of a folder.
@@ -45,15 +45,9 @@ pub fn write_record<T: Record>(folder: &OutputFolder, record: &T) -> Result<(), 
 /// [`FolderError::NotResults`] if it is missing, damaged or of another version; those of the file
 /// system.
 pub fn read_record<T: Record>(folder: &Path) -> Result<T, FolderError> {
-    let path = folder.join(T::FILE);
     let unusable = |reason: String| FolderError::NotResults { path: folder.to_owned(), reason };
-    let bytes = match read_file(&path, RESULT) {
-        Ok(bytes) => bytes,
-        Err(error) if error.kind() == io::ErrorKind::NotFound => {
-            return Err(unusable(format!("it has no {}: run it again", T::FILE)));
-        }
-        Err(error) => return Err(FolderError::io("read", &path, error)),
-    };
+    let bytes = read_existing(&folder.join(T::FILE))?;
+    let bytes = bytes.ok_or_else(|| unusable(format!("it has no {}: run it again", T::FILE)))?;
     let record = framed::read(&bytes, T::MAGIC, T::VERSION).and_then(|payload| {
         let record: T = postcard::from_bytes(payload).map_err(|e| Defect::Damage(e.to_string()))?;
         match record.inconsistency() {
@@ -62,15 +56,12 @@ pub fn read_record<T: Record>(folder: &Path) -> Result<T, FolderError> {
         }
     });
     record.map_err(|defect| {
-        let wanted = T::VERSION;
-        let file = T::FILE;
+        let (file, wanted) = (T::FILE, T::VERSION);
         unusable(match defect {
             Defect::Version(found) => format!(
                 "its {file} has format {found}, this version reads format {wanted}: run it again"
             ),
-            Defect::Damage(reason) => {
-                format!("its {file} is damaged ({reason}): run it again")
-            }
+            Defect::Damage(reason) => format!("its {file} is damaged ({reason}): run it again"),
         })
     })
 }

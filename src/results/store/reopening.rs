@@ -71,11 +71,16 @@ impl Contents {
 
 /// The contents of a folder: `None` if it has no manifest, or none that is whole.
 pub(crate) fn read_contents(path: &Path) -> Result<Option<Contents>, FolderError> {
-    let path = path.join(MANIFEST);
-    match read_file(&path, RESULT) {
-        Ok(bytes) => Ok(contents_of(&bytes).ok()),
+    let bytes = read_existing(&path.join(MANIFEST))?;
+    Ok(bytes.and_then(|bytes| contents_of(&bytes).ok()))
+}
+
+/// The bytes of a file, if it is there.
+pub(crate) fn read_existing(path: &Path) -> Result<Option<Vec<u8>>, FolderError> {
+    match read_file(path, RESULT) {
+        Ok(bytes) => Ok(Some(bytes)),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(FolderError::io("read", &path, error)),
+        Err(error) => Err(FolderError::io("read", path, error)),
     }
 }
 
@@ -119,14 +124,8 @@ pub fn read_manifest(path: &Path) -> Result<Manifest, FolderError> {
 }
 
 fn whole_contents(path: &Path) -> Result<Contents, FolderError> {
-    let file = path.join(MANIFEST);
-    let bytes = match read_file(&file, RESULT) {
-        Ok(bytes) => bytes,
-        Err(error) if error.kind() == io::ErrorKind::NotFound => {
-            return Err(lacks(path, format!("it has no {MANIFEST}")));
-        }
-        Err(error) => return Err(FolderError::io("read", &file, error)),
-    };
+    let bytes = read_existing(&path.join(MANIFEST))?;
+    let bytes = bytes.ok_or_else(|| lacks(path, format!("it has no {MANIFEST}")))?;
     contents_of(&bytes).map_err(|defect| {
         let reason = match defect {
             Defect::Damage(reason) => reason,
@@ -145,12 +144,7 @@ pub(crate) fn read_own(path: &Path, name: &str) -> Result<Vec<u8>, FolderError> 
     if contents.is_sealed && journal.lines().any(|written| written == name) {
         return Err(did_not_end());
     }
-    let file = path.join(name);
-    let bytes = match read_file(&file, RESULT) {
-        Ok(bytes) => bytes,
-        Err(error) if error.kind() == io::ErrorKind::NotFound => return Err(did_not_end()),
-        Err(error) => return Err(FolderError::io("read", &file, error)),
-    };
+    let bytes = read_existing(&path.join(name))?.ok_or_else(did_not_end)?;
     let is_sealed = contents.is_sealed;
     match contents.into_files().remove(name).flatten() {
         Some(wanted) if wanted == crc32fast::hash(&bytes) => Ok(bytes),

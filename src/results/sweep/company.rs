@@ -1,21 +1,11 @@
 //! Locks of a folder that several processes share.
 
-use super::super::folder::{FolderError, LOCK};
-use std::fs::{File, OpenOptions, TryLockError};
+use super::super::folder::{FolderError, LOCK, open_lock};
+use std::fs::{File, TryLockError};
 use std::io;
 use std::path::Path;
 
 const DOOR: &str = ".door";
-
-/// Opens the file of a lock, which has nothing in it.
-pub fn open_lock(path: &Path) -> Result<File, FolderError> {
-    OpenOptions::new()
-        .create(true)
-        .truncate(false)
-        .write(true)
-        .open(path)
-        .map_err(|e| FolderError::io("open", path, e))
-}
 
 /// Who else works in a folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,7 +36,7 @@ pub fn share(
     let lock_path = path.join(LOCK);
     let file = open_lock(&lock_path)?;
     let refusal = |error| match error {
-        TryLockError::WouldBlock => FolderError::Busy { path: path.to_owned() },
+        TryLockError::WouldBlock => FolderError::Busy(path.to_owned()),
         TryLockError::Error(error) => FolderError::io("lock", &lock_path, error),
     };
     match file.try_lock() {

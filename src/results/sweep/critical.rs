@@ -3,7 +3,7 @@
 use super::PointRecord;
 use super::matrix::listed;
 use crate::chart::{Axis, ChartError, Figure, Fill, Label, Line, Panel, Scale, look};
-use crate::results::cea::CriticalFriction;
+use crate::results::cea::{CriticalFriction, arrow};
 use crate::results::charts::palette::STABLE;
 use crate::results::parameter::parameter_axis;
 use std::collections::BTreeSet;
@@ -51,14 +51,9 @@ pub fn critical_friction(records: &[PointRecord], highest: f64) -> Result<Figure
     let lowest = |i: usize| branches.iter().map(|own| own.1[i]).fold(highest, f64::min);
     let lowest: Vec<f64> = (0..values.len()).map(lowest).collect();
     let lines = branches.iter().enumerate().map(|(index, ((n, number, direction), critical))| {
-        let way = match direction {
-            1.. => " ↺",
-            0 => "",
-            ..0 => " ↻",
-        };
         let line = Line::new(&values, critical).nth(index).marked(look(index).1, 1.8);
         let harmonic = n.map_or(String::new(), |n| format!("*n* = {n}, "));
-        line.name(format!("{harmonic}branch {number}{way}"))
+        line.name(format!("{harmonic}branch {number}{}", arrow(*direction)))
     });
     let x = parameter_axis(key).scaled(Scale::for_values(values.iter().copied(), 10.0)).tight();
     let panel = Panel::new(x, Axis::friction().between(0.0, highest))

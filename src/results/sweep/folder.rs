@@ -2,14 +2,15 @@
 
 use super::super::drawing::{DrawingError, DrawingOptions, Page};
 use super::super::folder::{
-    FolderError, OutputFolder, Replace, check_owner, refuse_foreign, remove_files, write_contents,
+    FolderError, OutputFolder, Replace, check_owner, open_lock, refuse_foreign, remove_files,
+    write_contents,
 };
 use super::super::framed::write_sealed;
 use super::super::manifest::Manifest;
 use super::super::record::{Record, record_bytes};
-use super::super::reopening::{Contents, MANIFEST, own_value, read_contents};
+use super::super::reopening::{Contents, MANIFEST, own_value, read_contents, read_existing};
 use super::super::whole_file::{is_temporary, write_whole};
-use super::company::{Company, open_lock, share};
+use super::company::{Company, share};
 use super::{PointClock, PointRecord};
 use frictionsim_bounds::{RESULT, read_file};
 use serde_json::Value;
@@ -144,12 +145,7 @@ impl SweepFolder {
             Ok(())
         })?;
         let is_sealed = read_contents(path)?.is_none_or(|contents| contents.is_sealed);
-        let folder = Self {
-            path: path.to_owned(),
-            sweep_hash: manifest.case_hash.clone(),
-            is_sealed,
-            _lock: lock,
-        };
+        let folder = Self::of(path, manifest, is_sealed, lock);
         if start == Start::Fresh {
             folder.refuse_started(points)?;
         }
@@ -170,24 +166,19 @@ impl SweepFolder {
         if !path.join(MANIFEST).is_file() {
             return Err(not_a_sweep(format!("it has no {MANIFEST}")));
         }
-        let (manifest, is_sealed) = match read_contents(path)? {
-            Some(contents) if contents.manifest.command == command => {
-                (contents.manifest, contents.is_sealed)
-            }
-            Some(contents) => {
-                let command = contents.manifest.command;
-                return Err(not_a_sweep(format!("it belongs to frictionsim {command}")));
-            }
-            None => return Err(not_a_sweep(format!("its {MANIFEST} is damaged"))),
+        let Some(Contents { manifest, is_sealed, .. }) = read_contents(path)? else {
+            return Err(not_a_sweep(format!("its {MANIFEST} is damaged")));
         };
+        if manifest.command != command {
+            return Err(not_a_sweep(format!("it belongs to frictionsim {}", manifest.command)));
+        }
         let lock = share(path, |_| Ok(()))?;
-        let folder = Self {
-            path: path.to_owned(),
-            sweep_hash: manifest.case_hash.clone(),
-            is_sealed,
-            _lock: lock,
-        };
-        Ok((folder, manifest))
+        Ok((Self::of(path, &manifest, is_sealed, lock), manifest))
+    }
+
+    fn of(path: &Path, manifest: &Manifest, is_sealed: bool, lock: File) -> Self {
+        let sweep_hash = manifest.case_hash.clone();
+        Self { path: path.to_owned(), sweep_hash, is_sealed, _lock: lock }
     }
 
     /// The folder's path.
@@ -202,11 +193,8 @@ impl SweepFolder {
 
     /// Reads a finished point.
     pub fn read(&self, point: usize) -> Result<Found, FolderError> {
-        let path = self.point_path(point);
-        let bytes = match read_file(&path, RESULT) {
-            Ok(bytes) => bytes,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Found::Nothing),
-            Err(error) => return Err(FolderError::io("read", &path, error)),
+        let Some(bytes) = read_existing(&self.point_path(point))? else {
+            return Ok(Found::Nothing);
         };
         let record = own_value(&bytes, !self.is_sealed).and_then(|value| {
             serde_json::from_value::<PointRecord>(value).map_err(|error| error.to_string())
@@ -279,8 +267,7 @@ impl SweepFolder {
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), FolderError> {
         let path = self.path.join(name);
-        write_whole(&path, true, fill).map_err(|e| FolderError::io("write", &path, e))?;
-        Ok(())
+        write_whole(&path, true, fill).map(drop).map_err(|e| FolderError::io("write", &path, e))
     }
 
     /// Writes a page, its figures, and both as data.
@@ -342,8 +329,7 @@ fn take_over(
         _ => {}
     }
     if company == Company::Others {
-        let path = path.to_owned();
-        return Err(FolderError::Busy { path });
+        return Err(FolderError::Busy(path.to_owned()));
     }
     if let Some(contents) = &contents {
         remove_files(path, contents.files.iter())?;
@@ -359,8 +345,7 @@ fn take_over(
 /// Removes the points that are to be run over again, and the table that has them.
 fn remove_points(path: &Path, points: &[usize], company: Company) -> Result<(), FolderError> {
     if company == Company::Others {
-        let path = path.to_owned();
-        return Err(FolderError::Busy { path });
+        return Err(FolderError::Busy(path.to_owned()));
     }
     let names: Vec<String> = points
         .iter()

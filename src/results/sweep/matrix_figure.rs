@@ -294,10 +294,7 @@ fn of_numbers(key: &str, numbers: &[f64], found: &mut Vec<Dimension>) {
     let sizes = numbers.iter().map(|v| if is_both_ways { v.abs() } else { *v });
     let sizes: Vec<f64> = sizes.collect();
     let (factor, unit) = shared_unit(key, low.abs().max(high.abs()));
-    let role = match key.ends_with("pressure") {
-        true => Role::Pressure,
-        false => Role::Other,
-    };
+    let role = if key.ends_with("pressure") { Role::Pressure } else { Role::Other };
     let labels = ordered(&sizes, |value| in_unit(value, factor));
     add(found, role, (parameter_name(key), unit), labels);
 }

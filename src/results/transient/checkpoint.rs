@@ -2,6 +2,7 @@
 
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::framed::{self, Defect};
+use crate::results::record::Record;
 use crate::transient::{Recorder, TransientState};
 use frictionsim_bounds::{RESULT, read_file};
 use serde::{Deserialize, Serialize};
@@ -20,12 +21,9 @@ pub enum CheckpointError {
     /// None there.
     #[error(
         "{} does not exist: there is nothing to resume (run without --resume)",
-        path.display()
+        .0.display()
     )]
-    Missing {
-        /// The file.
-        path: PathBuf,
-    },
+    Missing(PathBuf),
     /// Cut short or changed.
     #[error(
         "{} is damaged ({reason}): it is left as it is; run without --resume to start over",
@@ -88,6 +86,17 @@ pub struct Checkpoint {
     pub record: Option<Recorder>,
 }
 
+/// What a longer run goes on from.
+impl Record for Recorder {
+    const FILE: &str = "record.bin";
+    const MAGIC: [u8; 8] = *b"FRICSIMR";
+    const VERSION: u32 = 4;
+
+    fn inconsistency(&self) -> Option<&'static str> {
+        (!self.is_consistent()).then_some("its samples, probes and frames do not fit together")
+    }
+}
+
 /// What a checkpoint is written from, without a copy.
 #[derive(Serialize)]
 struct Borrowed<'a> {
@@ -108,8 +117,7 @@ pub fn write_checkpoint(
     folder.write(CHECKPOINT, |out| {
         let payload = postcard::to_stdvec(&contents).map_err(io::Error::other)?;
         framed::write(out, MAGIC, VERSION, &payload)
-    })?;
-    Ok(())
+    })
 }
 
 /// Reads the checkpoint of a folder, if it is whole and of this run.
@@ -125,7 +133,7 @@ pub fn read_checkpoint(
     let bytes = match read_file(&path, RESULT) {
         Ok(bytes) => bytes,
         Err(source) if source.kind() == io::ErrorKind::NotFound => {
-            return Err(CheckpointError::Missing { path });
+            return Err(CheckpointError::Missing(path));
         }
         Err(source) => return Err(CheckpointError::Io { path, source }),
     };

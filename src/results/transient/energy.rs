@@ -42,7 +42,7 @@ fn moving_average(values: &[f64], window: usize) -> Vec<f64> {
 /// Acceleration, status, external power and its parts, power balance of the body, the external power as the sum of what
 /// contact and material dissipate, stored energy, balance residual, as figure 12 of the paper has them.
 pub(super) fn energy(run: &RunFigures<'_>) -> Figure {
-    let (rows, times, thickness) = (&run.record.rows, run.times(), run.thickness);
+    let (rows, times, thickness) = (&run.run.record.rows, run.times(), run.run.thickness);
     let step = (extremes(times.iter().copied()).1 - times.first().copied().unwrap_or(0.0))
         / times.len().max(2) as f64;
     let window = (AVERAGING_TIME / step.max(1e-300))
@@ -67,38 +67,38 @@ pub(super) fn energy(run: &RunFigures<'_>) -> Figure {
         course("total", INK, &|row| row.kinetic_energy + row.strain_energy + row.contact_energy);
     let strain = course("strain", SERIES[2], &|row| row.strain_energy);
     let kinetic = course("kinetic", SERIES[1], &|row| row.kinetic_energy);
-    let probes = run.record.probes.len();
+    let probes = run.run.record.probes.len();
     let inside = (0..probes).find(|&probe| !run.is_on_contact(probe)).or((probes > 0).then_some(0));
     let acceleration = inside.map(|probe| {
         let panel =
             Panel::new(run_axis(&times), Axis::new("*a*_{θ}", "m/s²").symmetric()).height(50.0);
-        let caption = format!("tangential acceleration, node {}", run.probe_label(probe));
+        let caption = format!("tangential acceleration, node {}", run.run.probe_label(probe));
         panel
             .caption(caption)
             .layer(Line::new(&times, &run.acceleration(probe)).solid(SERIES[0], 0.45).whole())
     });
     let dissipated: Vec<f64> =
         contact.mean.iter().zip(&material.mean).map(|(a, b)| a + b).collect();
-    let sum =
-        Panel::new(run_axis(&times), power_axis(&[&external, &contact, &material], run.extent).0)
-            .height(72.0)
-            .caption("external power and what is dissipated")
-            .legend()
-            .layer(
-                Fill::from(0.0, &times, &contact.mean, CONTACT_DISSIPATION)
-                    .opacity(0.45)
-                    .name(contact.name),
-            )
-            .layer(
-                Fill::between(&times, &contact.mean, &dissipated, MATERIAL_DISSIPATION)
-                    .opacity(0.45)
-                    .name(material.name),
-            )
-            .layer(
-                Line::new(&times, &external.mean).solid(EXTERNAL_POWER, 1.1).name(external.name),
-            );
+    let sum = Panel::new(
+        run_axis(&times),
+        power_axis(&[&external, &contact, &material], run.run.extent).0,
+    )
+    .height(72.0)
+    .caption("external power and what is dissipated")
+    .legend()
+    .layer(
+        Fill::from(0.0, &times, &contact.mean, CONTACT_DISSIPATION)
+            .opacity(0.45)
+            .name(contact.name),
+    )
+    .layer(
+        Fill::between(&times, &contact.mean, &dissipated, MATERIAL_DISSIPATION)
+            .opacity(0.45)
+            .name(material.name),
+    )
+    .layer(Line::new(&times, &external.mean).solid(EXTERNAL_POWER, 1.1).name(external.name));
     let balance = powers(
-        (&times, run.extent),
+        (&times, run.run.extent),
         "power balance of the body",
         72.0,
         &[&normal, &material, &received],
@@ -111,7 +111,7 @@ pub(super) fn energy(run: &RunFigures<'_>) -> Figure {
     let stored = [&total, &strain, &kinetic].into_iter().fold(
         Panel::new(
             run_axis(&times),
-            Axis::new("energy", &run.extent.unit("J")).prefixed().including(0.0),
+            Axis::new("energy", &run.run.extent.unit("J")).prefixed().including(0.0),
         )
         .height(56.0)
         .caption("stored energy")
@@ -130,7 +130,7 @@ pub(super) fn energy(run: &RunFigures<'_>) -> Figure {
     .panels(acceleration)
     .panel(status(rows, &times))
     .panel(powers(
-        (&times, run.extent),
+        (&times, run.run.extent),
         "external power and its parts",
         88.0,
         &[&contact, &slide, &stick, &external],

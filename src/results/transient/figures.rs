@@ -1,24 +1,26 @@
 //! The figures of a transient, from its record.
 
 use super::run::RunFigures;
-use crate::chart::{Axis, ChartError, ColourMap, Figure, Line, Panel, SERIES, extremes};
+use crate::chart::{Axis, ChartError, Figure, Line, Panel, SERIES, extremes};
 use crate::contact::{ContactInterface, ContactStatus};
 use crate::mesh::{SolidFace, SolidSector};
 use crate::results::charts::palette::status_of_code;
 use crate::results::charts::{
-    ContactVelocity, Disc, FieldFrame, contact_figure, field_figure, open_contact_figure,
-    shear_stress_figure, speeds_of_bodies, speeds_on_top, status_curves,
+    ContactInstant, ContactVelocity, contact_figure, shear_stress_figure, status_curves,
+    velocity_figure,
 };
 use crate::results::drawing::{Declaration, declared};
 use crate::transient::{EndState, Snapshot};
 
 /// Whole-field pictures of one kind, at most.
 const FIELD_LIMIT: usize = 8;
+/// When the fields are.
+const WHEN: &str = "at the snapshot times";
 
 /// Draws every figure that the record has data for.
 pub fn draw_run(run: &RunFigures<'_>) -> Result<Vec<Figure>, ChartError> {
     let mut figures: Vec<Declaration<'_>> = Vec::new();
-    for probe in 0..run.record.probes.len() {
+    for probe in 0..run.run.record.probes.len() {
         figures.push(Box::new(move || Ok(run.overview(probe))));
         figures.push(Box::new(move || Ok(run.spectrum(probe))));
     }
@@ -33,74 +35,51 @@ pub fn draw_run(run: &RunFigures<'_>) -> Result<Vec<Figure>, ChartError> {
 
 impl RunFigures<'_> {
     fn snapshots(&self) -> impl Iterator<Item = &Snapshot> {
-        self.record.snapshots.iter().take(FIELD_LIMIT)
+        self.run.record.snapshots.iter().take(FIELD_LIMIT)
     }
 
     fn velocity(&self) -> Result<Figure, ChartError> {
-        if self.is_assembly() {
-            let frames = self.snapshots();
-            let frames = frames.map(|snapshot| (heading(snapshot), &snapshot.velocity[..]));
-            let caption = "Velocity modulus at the snapshot times.";
-            return speeds_of_bodies(self.mesh, caption, frames);
-        }
         // What is that much slower than the cylinder is round-off of a body at rest.
         let rest = 1e-9 * self.peripheral_speed.abs();
-        let frames = self.snapshots().map(|snapshot| -> FieldFrame {
-            let speeds = match self.solid {
-                Some(sector) => speeds_on_top(sector, &snapshot.velocity),
-                None => {
-                    let speeds = snapshot.velocity.chunks_exact(2);
-                    speeds.map(|v| v[0].hypot(v[1])).collect()
-                }
-            };
-            let values =
-                speeds.into_iter().map(|speed| if speed > rest { speed } else { 0.0 }).collect();
-            // A ring of statuses shows one edge.
-            let status = match self.solid {
-                Some(_) => Vec::new(),
-                None => statuses(&snapshot.contact.status),
-            };
-            (heading(snapshot), values, status)
+        let fields = self.snapshots().map(|snapshot| {
+            let status = statuses(&snapshot.contact.status);
+            (heading(snapshot), &snapshot.velocity[..], status)
         });
-        let caption = ("velocity", "Velocity modulus and contact status at the snapshot times.");
-        let axis = Axis::new("velocity |*v*|", "m/s");
-        field_figure(caption, &Disc::new(self.mesh), &axis, ColourMap::Viridis, frames.collect())
+        velocity_figure(&self.run.body, (WHEN, rest), fields)
     }
 
     fn shear_stress(&self) -> Result<Figure, ChartError> {
-        if self.solid.is_some() || self.is_assembly() {
-            return Err(ChartError::empty("shear stress of a plane body"));
-        }
         let fields = self.snapshots();
         let fields = fields.map(|snapshot| (heading(snapshot), &snapshot.displacement[..]));
-        let caption = "Shear stress at the snapshot times.";
-        shear_stress_figure(caption, &Disc::new(self.mesh), self.material, fields)
+        shear_stress_figure(&self.run.body, self.run.material, WHEN, fields)
     }
 
     /// Whether a probe lies on the contact edge.
     pub(super) fn is_on_contact(&self, probe: usize) -> bool {
-        let node = self.record.probes[probe] as u32;
-        if let Some(sector) = self.solid {
-            return super::solid::contact_nodes(sector).contains(&(node - 1));
+        let node = self.run.record.probes[probe] as u32;
+        if let Some(sector) = self.run.body.sector {
+            return contact_nodes(sector).contains(&(node - 1));
         }
-        self.mesh.contact_edge().nodes.iter().any(|other| other + 1 == node)
+        self.run.body.mesh.contact_edge().nodes.iter().any(|other| other + 1 == node)
     }
 
     /// Phase plot of an internal node, and path of a contact node coloured by status over the last fifth.
     fn trajectories(&self) -> Result<Figure, ChartError> {
         let is_inner =
             |sector: &SolidSector| sector.specification.contact.face() == SolidFace::Inner;
-        if self.is_assembly() || self.solid.is_some_and(|sector| !is_inner(sector)) {
+        if self.run.body.is_assembly()
+            || self.run.body.sector.is_some_and(|sector| !is_inner(sector))
+        {
             return Err(ChartError::empty("paths of nodes of an edge"));
         }
-        let probes = 0..self.record.probes.len();
+        let probes = 0..self.run.record.probes.len();
         let (edge, inside): (Vec<usize>, Vec<usize>) =
             probes.partition(|&probe| self.is_on_contact(probe));
         let (Some(&edge), Some(&inside)) = (edge.first(), inside.first()) else {
             return Err(ChartError::empty("probes inside and on the contact edge"));
         };
         let pair = |probe: usize, x: usize, y: usize| -> Vec<(f64, f64)> {
-            self.record.probe_rows[probe].iter().map(|row| (row[x], row[y])).collect()
+            self.run.record.probe_rows[probe].iter().map(|row| (row[x], row[y])).collect()
         };
         let (phase, path) = (pair(inside, 1, 3), pair(edge, 1, 0));
         let start = path.len() - path.len().div_ceil(5);
@@ -114,10 +93,10 @@ impl RunFigures<'_> {
             Axis::new("velocity *v*_{θ}", "m/s").prefixed(),
         )
         .height(172.0)
-        .caption(format!("node {}, tangential", self.probe_label(inside)))
+        .caption(format!("node {}, tangential", self.run.probe_label(inside)))
         .layer(approach(&phase))
         .layer(Line::through(phase[start..].iter().copied()).solid(SERIES[1], 0.8).name(
-            match self.analysis.settling.state {
+            match self.run.analysis.settling.state {
                 EndState::LimitCycle => "limit cycle",
                 EndState::TwoFrequency(_) => "two frequencies",
                 _ => "last fifth of the run",
@@ -125,7 +104,7 @@ impl RunFigures<'_> {
         ));
         let path_panel = Panel::new(metres("tangential *u*_{θ}"), metres("radial *u*_{r}"))
             .height(172.0)
-            .caption(format!("contact node {}", self.probe_label(edge)))
+            .caption(format!("contact node {}", self.run.probe_label(edge)))
             .layer(approach(&path))
             .layers(status_curves(&path[start..], &status));
         let caption = "Phase plot of an internal node (a) and path of a contact node (b), whose last fifth is coloured by contact status.";
@@ -135,8 +114,8 @@ impl RunFigures<'_> {
     /// Status of a contact node from a sample on, from its motion: off the cylinder it is open, with the cylinder's velocity it
     /// sticks. Finer in time than the contact frames; the node touches the cylinder at its smallest radial displacement.
     fn traced_status(&self, probe: usize, start: usize) -> Vec<ContactStatus> {
-        let rows = &self.record.probe_rows[probe][start..];
-        if self.mesh.opposite.is_some() {
+        let rows = &self.run.record.probe_rows[probe][start..];
+        if self.run.body.mesh.opposite.is_some() {
             return self.kept_status(probe, start);
         }
         let (low, high) = extremes(rows.iter().map(|row| row[0]));
@@ -156,11 +135,11 @@ impl RunFigures<'_> {
 
     /// Status of a contact node from a sample on, as the contact frames keep it: what it touches moves as well.
     fn kept_status(&self, probe: usize, start: usize) -> Vec<ContactStatus> {
-        let node = self.record.probes[probe] as u32 - 1;
-        let edge = ContactInterface::of(self.mesh).nodes;
+        let node = self.run.record.probes[probe] as u32 - 1;
+        let edge = ContactInterface::of(self.run.body.mesh).nodes;
         let place = edge.iter().position(|&other| other == node);
-        let (frames, stride) = (&self.record.frames, self.record.frame_stride as usize);
-        let samples = start..self.record.rows.len();
+        let (frames, stride) = (&self.run.record.frames, self.run.record.frame_stride as usize);
+        let samples = start..self.run.record.rows.len();
         let status = samples.map(|sample| {
             let frame = frames.get(sample / stride).or(frames.last());
             match (frame, place) {
@@ -171,50 +150,32 @@ impl RunFigures<'_> {
         status.collect()
     }
 
-    /// Which places of the contact figures over the angle show: of several rings of nodes the middle one.
-    pub(super) fn shown_places(&self) -> impl Fn(&usize) -> bool + use<> {
-        let rings = self.solid.map_or(1, |sector| sector.rings.len());
-        move |place| place % rings == rings / 2
-    }
-
     /// The contact at the last snapshot.
     fn contact(&self) -> Result<Figure, ChartError> {
-        let snapshot = self.record.snapshots.last();
-        let snapshot = snapshot.filter(|_| !self.is_assembly());
+        let body = &self.run.body;
+        let snapshot = self.run.record.snapshots.last();
+        let snapshot = snapshot.filter(|_| !body.is_assembly());
         let snapshot = snapshot.ok_or_else(|| ChartError::empty("contact at the snapshots"))?;
         let frame = &snapshot.contact;
-        let one = self.shown_places();
-        let wide = |values: &[f32]| -> Vec<f64> {
-            let places = (0..values.len()).filter(&one);
-            places.map(|i| f64::from(values[i])).collect()
-        };
+        let places: Vec<usize> = (0..frame.status.len()).filter(|&i| body.is_shown(i)).collect();
+        let wide =
+            |values: &[f32]| -> Vec<f64> { places.iter().map(|&i| f64::from(values[i])).collect() };
         let velocity = self.contact_velocity(snapshot);
-        let velocity: Vec<f64> = (0..velocity.len()).filter(&one).map(|i| velocity[i]).collect();
-        let velocity = match self.mesh.opposite {
-            Some(_) => ContactVelocity::Slip(&velocity),
-            None => ContactVelocity::Absolute(&velocity, self.peripheral_speed),
+        let velocity: Vec<f64> = places.iter().map(|&i| velocity[i]).collect();
+        let codes: Vec<u8> = places.iter().map(|&i| frame.status[i]).collect();
+        let shown = ContactInstant {
+            name: "contact".to_owned(),
+            subject: ["Contact at the last snapshot".to_owned(), String::new()],
+            instant: format!("*t* = {:.3} ms", snapshot.time * 1e3),
+            first_angle: self.run.record.contact_angles.first().copied().unwrap_or(0.0),
+            status: &statuses(&codes),
+            tractions: [&wide(&frame.pressure), &wide(frame.shear())],
+            velocity: match body.mesh.opposite {
+                Some(_) => ContactVelocity::Slip(&velocity),
+                None => ContactVelocity::Absolute(&velocity, self.peripheral_speed),
+            },
         };
-        let codes: Vec<u8> =
-            (0..frame.status.len()).filter(&one).map(|i| frame.status[i]).collect();
-        let tractions = [&wide(&frame.pressure)[..], &wide(frame.shear())];
-        let instant = format!("*t* = {:.3} ms", snapshot.time * 1e3);
-        if !self.mesh.has_round_contact() {
-            let caption = "Contact at the last snapshot along the contact edge: tractions (a), velocity (b), on a ground coloured by status.";
-            return Ok(open_contact_figure(
-                ("contact".into(), caption.into(), instant),
-                &statuses(&codes),
-                tractions,
-                velocity,
-            ));
-        }
-        let caption = "Contact at the last snapshot: status around the circle (a), tractions (b), velocity (c).";
-        let first = self.record.contact_angles.first().copied().unwrap_or(0.0);
-        let names = ("contact".into(), caption.into(), instant);
-        let counterface = match self.solid {
-            Some(sector) if sector.specification.contact.face() != SolidFace::Inner => "ring",
-            _ => "cylinder *Ωa*",
-        };
-        Ok(contact_figure((names, counterface), (first, &statuses(&codes)), tractions, velocity))
+        Ok(contact_figure(body, &shown))
     }
 
     /// Tangential velocity of each contact node, m/s: before another body that of what it meets less its own, the slip.
@@ -223,10 +184,10 @@ impl RunFigures<'_> {
             let place = |&node: &u32| snapshot.velocity[components * node as usize + 1];
             nodes.iter().map(place).collect()
         };
-        if let Some(sector) = self.solid {
-            return own(&super::solid::contact_nodes(sector), 3);
+        if let Some(sector) = self.run.body.sector {
+            return own(&contact_nodes(sector), 3);
         }
-        let interface = ContactInterface::of(self.mesh);
+        let interface = ContactInterface::of(self.run.body.mesh);
         let own = own(&interface.nodes, 2).into_iter().enumerate();
         let slip = |(i, velocity): (usize, f64)| {
             let shares = interface.opposite_of(i);
@@ -247,4 +208,11 @@ fn statuses(codes: &[u8]) -> Vec<ContactStatus> {
 
 fn heading(snapshot: &Snapshot) -> String {
     format!("*t* = {:.2} ms", snapshot.time * 1e3)
+}
+
+/// Contact nodes of a body of revolution in the order of the record, counted from 0.
+fn contact_nodes(sector: &SolidSector) -> Vec<u32> {
+    let rings = || sector.rings.iter().flat_map(|ring| &ring.nodes);
+    let sectors = 0..sector.sector_count();
+    sectors.flat_map(|s| rings().map(move |node| (s * sector.node_count() + node) as u32)).collect()
 }

@@ -1,16 +1,17 @@
 //! Probes, energies, contact, snapshots, summary.
 
-use super::contact::encode_contact;
 use super::{TransientReport, TransientSummary, summary};
 use crate::fem::{nodal_stress, revolved_stress, solid_stress};
 use crate::output::columns;
+use crate::output::csv::{Table, format_number};
+use crate::output::rows::write_rows;
 use crate::results::charts::palette::status_of_code;
 use crate::results::folder::{FolderError, OutputFolder};
+use crate::results::npz::NpzArchive;
 use crate::results::pvd::{PvdEntry, write_pvd};
 use crate::results::record::write_record;
 use crate::results::summary::write_summary;
-use crate::results::table::{Table, format_number, write_rows};
-use crate::results::vtu::{EncodedMesh, Field, solid_vectors, write_vtu};
+use crate::results::vtu::{Field, write_vtu};
 use crate::transient::{Recorder, SampleRow, Snapshot};
 use std::io::{self, Write};
 
@@ -19,29 +20,29 @@ pub fn write(
     folder: &OutputFolder,
     report: &TransientReport<'_>,
 ) -> Result<TransientSummary, FolderError> {
-    let raw = |index: usize| Some(report.record.raw_accelerations.as_ref()?[index].as_slice());
-    for (index, rows) in report.record.probe_rows.iter().enumerate() {
-        let probe = report.probe_label(index);
+    let raw = |index: usize| Some(report.run.record.raw_accelerations.as_ref()?[index].as_slice());
+    for (index, rows) in report.run.record.probe_rows.iter().enumerate() {
+        let probe = report.run.probe_label(index);
         folder.write(&format!("probe-{probe}.csv"), |out| {
-            let axial = report.record.axial_rows.get(index).map(Vec::as_slice);
+            let axial = report.run.record.axial_rows.get(index).map(Vec::as_slice);
             let probe = ProbeRows {
                 rows,
                 axial,
                 raw: raw(index),
-                is_cartesian: report.solid.is_none() && report.mesh.dimension == 3,
+                is_cartesian: report.run.body.is_assembly(),
                 turn: report.turn_of_probe(index),
             };
-            write_probe(out, &report.record.rows, &probe)
+            write_probe(out, &report.run.record.rows, &probe)
         })?;
     }
     folder.write("energy.csv", |out| write_energy(out, report))?;
-    folder.write("contact.csv", |out| write_contact(out, &report.record.rows))?;
-    if report.has_harmonics {
-        folder.write("harmonics.csv", |out| write_harmonics(out, report.record))?;
+    folder.write("contact.csv", |out| write_contact(out, &report.run.record.rows))?;
+    if report.run.has_harmonics {
+        folder.write("harmonics.csv", |out| write_harmonics(out, report.run.record))?;
     }
-    folder.write("contact.npz", |out| out.write_all(&encode_contact(report.record)?))?;
+    folder.write("contact.npz", |out| out.write_all(&encode_contact(report.run.record)?))?;
     write_snapshots(folder, report)?;
-    write_record(folder, report.record)?;
+    write_record(folder, report.run.record)?;
     let summary = summary(report, folder.manifest());
     write_summary(folder, &summary)?;
     Ok(summary)
@@ -135,24 +136,24 @@ columns! {
 }
 
 fn write_energy(out: &mut dyn Write, report: &TransientReport<'_>) -> io::Result<()> {
-    let rows = report.record.rows.iter().map(|row| {
-        let powers = row.powers.scaled(report.thickness);
+    let rows = report.run.record.rows.iter().map(|row| {
+        let powers = row.powers.scaled(report.run.thickness);
         [
             row.time,
-            report.thickness * row.kinetic_energy,
-            report.thickness * row.strain_energy,
+            report.run.thickness * row.kinetic_energy,
+            report.run.thickness * row.strain_energy,
             powers.external,
             powers.stick,
             powers.slide,
             powers.contact_dissipated,
-            report.thickness * row.material_damping,
+            report.run.thickness * row.material_damping,
             powers.normal,
             row.balance_residual,
-            report.thickness * row.contact_energy,
+            report.run.thickness * row.contact_energy,
             powers.damping,
         ]
     });
-    let has_springs = report.record.has_contact_springs();
+    let has_springs = report.run.record.has_contact_springs();
     write_rows(out, if has_springs { ENERGY } else { &ENERGY[..10] }, rows)
 }
 
@@ -195,9 +196,37 @@ fn write_harmonics(out: &mut dyn Write, record: &Recorder) -> io::Result<()> {
     table.finish()
 }
 
+/// `contact.npz`, the contact edge over time, node by node: the arrays `time_s (F)`, `angle_rad (N)`, `status (F, N)`, `pressure_pa (F, N)` and `shear_pa (F, N)` for `F`
+/// frames and `N` contact nodes, as NumPy reads them; the numbers `interval_s` between frames, and `status_open` (0),
+/// `status_stick` (1), `status_slip` (2), which say what the codes of `status` mean. A body in three dimensions has
+/// `shear_across_pa (F, N)` too, along `e_z` on its inner edge and `e_r` on its top.
+///
+/// A frame is the state of one step; frames may lie several samples apart.
+fn encode_contact(record: &Recorder) -> io::Result<Vec<u8>> {
+    let mut archive = NpzArchive::default();
+    let frames = &record.frames;
+    let shape = [frames.len(), record.contact_angles.len()];
+    archive.array("time_s", &shape[..1], frames.iter().map(|f| f.time))?;
+    archive.array("angle_rad", &shape[1..], record.contact_angles.iter().copied())?;
+    let status = frames.iter().flat_map(|f| f.status.iter().copied());
+    archive.array("status", &shape, status)?;
+    let pressure = frames.iter().flat_map(|f| f.pressure.iter().copied());
+    archive.array("pressure_pa", &shape, pressure)?;
+    let shear = frames.iter().flat_map(|f| f.shear().iter().copied());
+    archive.array("shear_pa", &shape, shear)?;
+    if frames.iter().any(|frame| !frame.shear_across().is_empty()) {
+        let across = frames.iter().flat_map(|f| f.shear_across().iter().copied());
+        archive.array("shear_across_pa", &shape, across)?;
+    }
+    let interval = record.frame_stride as f64 * record.sample_interval;
+    archive.array("interval_s", &[], std::iter::once(interval))?;
+    archive.status_codes()?;
+    archive.finish()
+}
+
 /// One VTU for each snapshot and `snapshots.pvd` over them.
 fn write_snapshots(folder: &OutputFolder, report: &TransientReport<'_>) -> Result<(), FolderError> {
-    let snapshots = &report.record.snapshots;
+    let snapshots = &report.run.record.snapshots;
     if snapshots.is_empty() {
         return Ok(());
     }
@@ -212,10 +241,7 @@ fn write_snapshots(folder: &OutputFolder, report: &TransientReport<'_>) -> Resul
         ];
         folder.write(&name, |out| {
             if encoded.is_none() {
-                encoded = Some(match report.solid {
-                    Some(sector) => EncodedMesh::solid(sector)?,
-                    None => EncodedMesh::new(report.mesh)?,
-                });
+                encoded = Some(report.run.body.encoded()?);
             }
             match &encoded {
                 Some(mesh) => write_vtu(out, mesh, &whole, &fields, &[]),
@@ -224,35 +250,31 @@ fn write_snapshots(folder: &OutputFolder, report: &TransientReport<'_>) -> Resul
         })?;
         entries.push(PvdEntry { time: snapshot.time, group: String::new(), file: name });
     }
-    folder.write("snapshots.pvd", |out| write_pvd(out, &entries))?;
-    Ok(())
+    folder.write("snapshots.pvd", |out| write_pvd(out, &entries))
 }
 
 /// Motion and stress of all nodes, and the contact at the same step: status (0 open, 1 stick, 2 slip; -1 off the contact
 /// edge), pressure, shear and gap (zero off the contact edge).
 fn snapshot_fields(report: &TransientReport<'_>, snapshot: &Snapshot) -> Vec<Field> {
-    let (mesh, displacement) = (report.mesh, &snapshot.displacement);
-    let vectors = |name: &str, values: &[f64]| match report.solid {
-        Some(sector) => solid_vectors(name, sector, values),
-        None => Field::vectors(name, mesh, values),
-    };
+    let (body, displacement) = (&report.run.body, &snapshot.displacement);
+    let mesh = body.mesh;
     let mut fields = vec![
-        vectors("displacement_m", displacement),
-        vectors("velocity_m_per_s", &snapshot.velocity),
+        body.vectors("displacement_m", displacement),
+        body.vectors("velocity_m_per_s", &snapshot.velocity),
     ];
-    let count = match (report.solid, mesh.dimension) {
+    let count = match (body.sector, mesh.dimension) {
         (Some(sector), _) => {
-            let stress = revolved_stress(sector, report.material, displacement);
+            let stress = revolved_stress(sector, report.run.material, displacement);
             fields.extend(Field::solid_stresses(&stress, "rtz"));
             displacement.len() / 3
         }
         (None, 3) => {
-            let stress = solid_stress(mesh, report.material, displacement);
+            let stress = solid_stress(mesh, report.run.material, displacement);
             fields.extend(Field::solid_stresses(&stress, "xyz"));
             mesh.node_count()
         }
         _ => {
-            let stress = nodal_stress(mesh, report.material, displacement);
+            let stress = nodal_stress(mesh, report.run.material, displacement);
             fields.extend(Field::stresses(&stress));
             fields.extend(Field::cartesian_stresses(mesh, &stress));
             mesh.node_count()

@@ -34,19 +34,20 @@ impl RunFigures<'_> {
     /// Acceleration, spectrograms and contact status on one time axis, with the end of the run enlarged at the right.
     pub(super) fn overview(&self, probe: usize) -> Figure {
         let (node, times, signal) =
-            (self.probe_label(probe), self.times(), self.acceleration(probe));
+            (self.run.probe_label(probe), self.times(), self.acceleration(probe));
         let (start, end) = extremes([times.first(), times.last()].into_iter().flatten().copied());
-        let periods = self.analysis.last_fifth.main_frequency_hz.map(|frequency| 4.0 / frequency);
+        let periods =
+            self.run.analysis.last_fifth.main_frequency_hz.map(|frequency| 4.0 / frequency);
         let enlarged =
             periods.filter(|length| *length < end - start).map(|length| (end - length, end));
         let axis = run_axis(&times);
         let top = self.highest_frequency();
         let component = self.shown_component(probe);
-        let unit = match self.is_assembly() {
+        let unit = match self.run.body.is_assembly() {
             true => (["*a*_{x}", "*a*_{y}", "*a*_{z}"][component], "m/s²"),
             false => ("*a*_{θ}", "m/s²"),
         };
-        let stages = stages(self.record, self.analysis);
+        let stages = stages(self.run.record, self.run.analysis);
         let largest = extremes(signal.iter().copied()).1;
         let whole = signal_panel(axis.clone(), &times, &signal, unit, 0.45);
         let whole = with_stages(
@@ -70,7 +71,7 @@ impl RunFigures<'_> {
         // A run shorter than a window has no spectrogram, and needs none.
         let map = spectrogram(&signal, 1.0 / self.interval().max(1e-12), &options).ok();
         let spectrograms = map.map_or(Vec::new(), |map| {
-            spectrogram_panels(&axis, &map, start, top, &self.references)
+            spectrogram_panels(&axis, &map, start, top, &self.stage.references)
         });
         let caption = format!(
             "Course of the run at node {node}: acceleration, spectrograms with the frequencies of \
@@ -104,14 +105,15 @@ impl RunFigures<'_> {
 
     /// The status of all contact nodes over time; a map of some instants says so.
     fn status_panel(&self, time: Axis, range: (f64, f64), caption: String) -> Option<Panel> {
-        if self.is_assembly() {
+        if self.run.body.is_assembly() {
             // Nodes of surfaces have no order along an edge.
             return None;
         }
-        let frames = &self.record.frames;
+        let frames = &self.run.record.frames;
         let times: Vec<f64> = frames.iter().map(|frame| frame.time).collect();
-        let places: Vec<usize> =
-            (0..self.record.contact_angles.len()).filter(self.shown_places()).collect();
+        let places: Vec<usize> = (0..self.run.record.contact_angles.len())
+            .filter(|&i| self.run.body.is_shown(i))
+            .collect();
         let codes: Vec<u8> = frames
             .iter()
             .flat_map(|frame| places.iter().map(|&place| frame.status[place]))
@@ -120,7 +122,7 @@ impl RunFigures<'_> {
         let apart = apart.map(|s| format!(" at instants {} ms apart", significant(s * 1e3, 3)));
         let caption = caption + &apart.unwrap_or_default();
         Some(
-            Panel::new(time, place_axis(self.mesh.has_round_contact()))
+            Panel::new(time, place_axis(self.run.body.mesh.has_round_contact()))
                 .plain()
                 .height(92.0)
                 .caption(caption)
@@ -130,7 +132,7 @@ impl RunFigures<'_> {
 
     /// Spectra of both components over the last fifth of the run.
     pub(super) fn spectrum(&self, probe: usize) -> Figure {
-        let node = self.probe_label(probe);
+        let node = self.run.probe_label(probe);
         let spectrum_of = |signal: Vec<f64>| {
             let end = &signal[signal.len() - signal.len().div_ceil(5)..];
             let found =
@@ -139,15 +141,16 @@ impl RunFigures<'_> {
         };
         let [tangential, radial] = [5, 4].map(|column| spectrum_of(self.column(probe, column)));
         let [first, second, third] = self.directions();
-        let axial = self.record.axial_rows.get(probe);
+        let axial = self.run.record.axial_rows.get(probe);
         let axial = axial.map(|rows| spectrum_of(rows.iter().map(|row| row[2]).collect()));
         let mut spectra: Vec<(&str, &[f64], &[f64])> =
             vec![(second, &tangential.0, &tangential.1), (first, &radial.0, &radial.1)];
         spectra.extend(axial.iter().map(|(f, a)| (third, &f[..], &a[..])));
         let caption =
             format!("Spectra of the accelerations of node {node} over the last fifth of the run.");
-        let frequencies = (self.highest_frequency(), self.analysis.last_fifth.main_frequency_hz);
-        let panel = spectrum_panel(&spectra, "m/s²", frequencies, &self.references);
+        let frequencies =
+            (self.highest_frequency(), self.run.analysis.last_fifth.main_frequency_hz);
+        let panel = spectrum_panel(&spectra, "m/s²", frequencies, &self.stage.references);
         Figure::new(format!("spectrum-{node}"), caption)
             .panel(panel.caption(format!("accelerations of node {node}")))
     }
@@ -155,10 +158,10 @@ impl RunFigures<'_> {
     /// Growth of the contact edge's vibration, all of it, beside the rate of the mode at its frequency; the whole run where there is no
     /// linear stage.
     fn growth_of_edge(&self) -> Figure {
-        let (record, times) = (self.record, self.times());
+        let (record, times) = (self.run.record, self.times());
         let (start, last) = extremes([times.first(), times.last()].into_iter().flatten().copied());
-        let has_stage = self.analysis.growth.iter().any(|own| own.stage.is_ok());
-        let linear_end = self.analysis.first_nonlinearity.filter(|_| has_stage);
+        let has_stage = self.run.analysis.growth.iter().any(|own| own.stage.is_ok());
+        let linear_end = self.run.analysis.first_nonlinearity.filter(|_| has_stage);
         let stage = linear_end.unwrap_or(last);
         // About the mean over the linear stage, which is steady sliding, or over the end of the run.
         let count = times.len();
@@ -209,19 +212,19 @@ impl RunFigures<'_> {
 
     /// Growth of the harmonics of the contact edge, beside the rates of the eigenvalue analysis.
     pub(super) fn growth(&self) -> Figure {
-        if !self.has_harmonics {
+        if !self.run.has_harmonics {
             return self.growth_of_edge();
         }
-        let (rows, times) = (&self.record.rows, self.times());
+        let (rows, times) = (&self.run.record.rows, self.times());
         let amplitude = |n: usize| -> Vec<f64> {
-            let parts = (0..rows.len()).map(|sample| self.record.amplitude(sample, n));
+            let parts = (0..rows.len()).map(|sample| self.run.record.amplitude(sample, n));
             parts.map(|parts| parts.map_or(f64::NAN, |[a, b]| a.hypot(b))).collect()
         };
         let amplitudes: BTreeMap<usize, Vec<f64>> =
-            self.record.followed_harmonics().map(|n| (n, amplitude(n))).collect();
+            self.run.record.followed_harmonics().map(|n| (n, amplitude(n))).collect();
         let largest = extremes(amplitudes.values().flatten().copied()).1;
         let (start, last) = extremes([times.first(), times.last()].into_iter().flatten().copied());
-        let linear_end = self.analysis.first_nonlinearity;
+        let linear_end = self.run.analysis.first_nonlinearity;
         let end = linear_end.map_or(last, |end| last.min(start + SHOWN_STAGES * (end - start)));
         let is_shown = |n: usize| {
             amplitudes
@@ -236,7 +239,7 @@ impl RunFigures<'_> {
         // What the start leaves behind has died out by a third of the stage.
         let stage = linear_end.unwrap_or(last);
         let window = (0.35 * stage, 0.95 * stage);
-        let rates = self.growth_rates.iter().filter(|(n, _)| is_shown(*n));
+        let rates = self.stage.growth_rates.iter().filter(|(n, _)| is_shown(*n));
         let rates = rates.filter_map(|&(n, rate)| {
             predicted((&times, &amplitudes[&n]), window, rate, &format!("*n* = {n}"))
         });

@@ -200,10 +200,10 @@ pub struct MotionSummary {
 
 /// The summary of a run.
 pub fn summary(report: &TransientReport<'_>, manifest: &Manifest) -> TransientSummary {
-    let (plan, analysis) = (&report.plan, report.analysis);
+    let (plan, analysis) = (&report.plan, report.run.analysis);
     let (end, settling) = (&analysis.last_fifth, &analysis.settling);
-    let body = end.material_damping * report.thickness;
-    let damping = Some(report.thickness * end.powers.damping);
+    let body = end.material_damping * report.run.thickness;
+    let damping = Some(report.run.thickness * end.powers.damping);
     let two = match settling.state {
         EndState::TwoFrequency(two) => Some(two),
         _ => None,
@@ -235,22 +235,19 @@ pub fn summary(report: &TransientReport<'_>, manifest: &Manifest) -> TransientSu
         main_amplitude_m: end.main_amplitude,
         status: StatusFractions::of(end.status),
         power_w: MeanPowers {
-            contact_damping: damping.filter(|_| report.record.has_contact_springs()),
-            ..MeanPowers::of(&end.powers.scaled(report.thickness), body)
+            contact_damping: damping.filter(|_| report.run.record.has_contact_springs()),
+            ..MeanPowers::of(&end.powers.scaled(report.run.thickness), body)
         },
-        extent: report.extent,
-        ambiguous_friction: report.record.ambiguous_share(),
-        unconverged_steps: Some(report.record.unconverged_steps).filter(|steps| *steps > 0),
-        harmonics: match report.has_harmonics {
-            true => end.harmonics.to_vec(),
-            false => Vec::new(),
-        },
+        extent: report.run.extent,
+        ambiguous_friction: report.run.record.ambiguous_share(),
+        unconverged_steps: Some(report.run.record.unconverged_steps).filter(|steps| *steps > 0),
+        harmonics: if report.run.has_harmonics { end.harmonics.to_vec() } else { Vec::new() },
         significant_harmonics_m: by_harmonic(end.significant.iter().copied()),
         growth: analysis.growth.iter().filter_map(growth).collect(),
         no_growth: no_growth(analysis),
         first_nonlinearity_s: analysis.first_nonlinearity,
         probes: probes(report),
-        contact_interval_s: report.record.frame_stride as f64 * plan.sample_interval,
+        contact_interval_s: report.run.record.frame_stride as f64 * plan.sample_interval,
         notes: report.notes.clone(),
         manifest: manifest.clone(),
     }
@@ -285,7 +282,7 @@ fn no_growth(analysis: &TransientAnalysis) -> BTreeMap<String, String> {
 }
 
 fn probes(report: &TransientReport<'_>) -> BTreeMap<String, ProbeSummary> {
-    let motions = report.analysis.last_fifth.probes.iter().enumerate();
+    let motions = report.run.analysis.last_fifth.probes.iter().enumerate();
     motions
         .map(|(probe, motion)| {
             let [radial, tangential] = [0, 1].map(|c| {
@@ -295,11 +292,11 @@ fn probes(report: &TransientReport<'_>) -> BTreeMap<String, ProbeSummary> {
                     motion.acceleration_peak[c],
                 ])
             });
-            let node = report.record.probes[probe] - 1;
+            let node = report.run.record.probes[probe] - 1;
             let mut places = report.places.iter();
             let place = places.find(|place| place.0 == node).map(|&(_, asked_m)| {
-                let at_m = report.place(node);
-                PlaceSummary { asked_m, at_m }
+                let [x, y, _] = report.run.body.position(node);
+                PlaceSummary { asked_m, at_m: [x, y] }
             });
             let summary = ProbeSummary {
                 place,
@@ -307,7 +304,7 @@ fn probes(report: &TransientReport<'_>) -> BTreeMap<String, ProbeSummary> {
                 tangential,
                 axial: motion.axial.map(MotionSummary::of),
             };
-            (report.probe_label(probe).to_string(), summary)
+            (report.run.probe_label(probe).to_string(), summary)
         })
         .collect()
 }

@@ -57,9 +57,9 @@ pub fn draw(
     summary: &TransientSummary,
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
-    let state = run.analysis.settling.state;
+    let state = run.run.analysis.settling.state;
     let mode = run.growing_mode().map(|(_, rate)| rate);
-    let predicted = PredictedGrowth { harmonics: &run.growth_rates, mode };
+    let predicted = PredictedGrowth { harmonics: &run.stage.growth_rates, mode };
     let document = document(summary, state, predicted);
     write_page(folder, document, draw_run(run)?, options)
 }

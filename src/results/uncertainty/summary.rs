@@ -2,6 +2,7 @@
 
 use crate::output::Described;
 use crate::results::Manifest;
+use crate::results::cea::arrow;
 use crate::signal::Estimate;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -134,13 +135,8 @@ pub struct DesignCurve {
 impl FamilySummary {
     /// Harmonic, branch, direction in words.
     pub fn name(&self) -> String {
-        let way = match self.direction {
-            1.. => " ↺",
-            0 => "",
-            ..0 => " ↻",
-        };
         let harmonic = self.harmonic.map_or(String::new(), |n| format!("n = {n}, "));
-        format!("{harmonic}branch {}{way}", self.branch)
+        format!("{harmonic}branch {}{}", self.branch, arrow(self.direction))
     }
 }
 

@@ -4,6 +4,7 @@ use crate::case::Case;
 use crate::cea::{ComplexMode, FrictionSweep, UnstableInterval};
 use crate::cycle::Family;
 use crate::linalg::c64;
+use crate::results::cea::travels;
 use crate::results::convergence::Quantity;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
@@ -26,12 +27,14 @@ fn name_of((harmonic, branch, direction): ModeKey, has_harmonics: bool) -> Strin
     if !has_harmonics {
         return format!("mode {branch}");
     }
-    let direction = match direction {
-        1.. => ", with the rotor",
-        0 => "",
-        ..0 => ", against the rotor",
-    };
-    format!("n = {harmonic}, branch {branch}{direction}")
+    format!("n = {harmonic}, branch {branch}{}", travels(direction))
+}
+
+/// The modes at a friction coefficient; none where it was not solved.
+fn modes_at(sweep: &FrictionSweep, friction: f64) -> &[ComplexMode] {
+    let mut points = sweep.points.iter();
+    let point = points.find(|point| point.friction_coefficient == friction);
+    point.map_or(&[][..], |point| &point.modes)
 }
 
 /// Frequency and real part of every mode at the case's friction coefficient, and every first onset,
@@ -51,14 +54,7 @@ pub fn of_sweeps(
             &named
         }
     };
-    let modes: Vec<&[ComplexMode]> = sweeps
-        .iter()
-        .map(|sweep| {
-            let mut points = sweep.points.iter();
-            let point = points.find(|point| point.friction_coefficient == friction);
-            point.map_or(&[][..], |point| &point.modes)
-        })
-        .collect();
+    let modes: Vec<&[ComplexMode]> = sweeps.iter().map(|sweep| modes_at(sweep, friction)).collect();
     let finest = modes.last().copied().unwrap_or_default();
     let everywhere: Vec<Vec<&ComplexMode>> = finest
         .iter()
@@ -107,9 +103,7 @@ const FOREIGN: usize = 1 << 20;
 fn name_by_rank(sweeps: &mut [FrictionSweep], friction: f64) {
     type Shapes = Vec<(Vec<c64>, usize)>;
     let own = |sweep: &FrictionSweep| -> Shapes {
-        let mut points = sweep.points.iter();
-        let point = points.find(|point| point.friction_coefficient == friction);
-        let modes = point.map_or(&[][..], |point| &point.modes).iter();
+        let modes = modes_at(sweep, friction).iter();
         modes.map(|mode| (mode.shape.clone().unwrap_or_default(), mode.branch)).collect()
     };
     let mut finer: Option<Shapes> = None;

@@ -31,6 +31,7 @@ use crate::cycle::{
 use crate::fem::lumped_masses;
 use crate::fem::operator::SimdLevel;
 use crate::mesh::AnnulusMesh;
+use crate::results::ShownBody;
 use crate::results::cycle::{
     Absence, CycleFrame, CycleReport, CycleResult, Search, SoughtCycle, TwoWaveResult, WaveSearch,
     known,
@@ -134,8 +135,7 @@ impl<'a> CycleStudy<'a> {
     ) -> CycleReport<'_> {
         CycleReport {
             title: &self.case.title,
-            mesh: &self.annulus.mesh,
-            solid: None,
+            body: ShownBody { mesh: &self.annulus.mesh, sector: None },
             thickness: self.case.thickness,
             extent: extent_of(self.case),
             friction_coefficient: self.point.contact.friction_coefficient,

@@ -308,8 +308,7 @@ impl<'a> PeriodicStudy<'a> {
     pub fn report(&self, results: Vec<PeriodicResult>, wall_s: f64) -> CycleReport<'_> {
         CycleReport {
             title: &self.case.title,
-            mesh: &self.stepped.mesh,
-            solid: self.stepped.sector.as_ref(),
+            body: self.stepped.shown(),
             thickness: self.stepped.thickness(self.case),
             extent: extent_of(self.case),
             friction_coefficient: self.case.contact.sliding.friction_coefficient,

@@ -155,7 +155,7 @@ fn modes(
     let own = [case.contact.sliding.friction_coefficient];
     let shapes_at = &own[..usize::from(shapes.is_some())];
     let solved = eigenvalues::modes_with_waves_below(&case, limit_hz, shapes_at);
-    let (modes, waves) = solved.map_err(said)?;
+    let (modes, waves) = solved.map_err(|error| error.line())?;
     let assurances = assurances(&case, shapes, &modes)?;
     let by_parameter = match waves.filter(|_| with_rates) {
         Some(waves) => {
@@ -164,7 +164,16 @@ fn modes(
         }
         None => vec![vec![None; modes.len()]; wanted.parameters.len()],
     };
-    let has_harmonics = case.has_sectors();
+    Ok(model_modes(&modes, case.has_sectors(), &by_parameter, assurances))
+}
+
+/// Modes with their derivatives by each parameter and their likeness to the measured shapes.
+fn model_modes(
+    modes: &[ComplexMode],
+    has_harmonics: bool,
+    by_parameter: &[Vec<Option<c64>>],
+    assurances: Vec<Vec<f64>>,
+) -> Vec<ModelMode> {
     let of = |(i, (mode, assurances)): (usize, (&ComplexMode, Vec<f64>))| ModelMode {
         eigenvalue: mode.eigenvalue,
         harmonic: has_harmonics.then_some(mode.harmonic),
@@ -173,7 +182,7 @@ fn modes(
         rates: by_parameter.iter().map(|rates| rates[i]).collect(),
         assurances,
     };
-    Ok(modes.iter().zip(assurances).enumerate().map(of).collect())
+    modes.iter().zip(assurances).enumerate().map(of).collect()
 }
 
 /// Derivatives of modes of a body solved harmonic by harmonic by each parameter, with the keys that follow it; `None` where
@@ -217,13 +226,9 @@ fn assurances(
     modes: &[ComplexMode],
 ) -> Result<Vec<Vec<f64>>, String> {
     match shapes {
-        Some(shapes) => shapes.assurances(case, modes).map_err(said),
+        Some(shapes) => shapes.assurances(case, modes).map_err(|error| error.line()),
         None => Ok(vec![Vec::new(); modes.len()]),
     }
-}
-
-fn said(failure: StudyError) -> String {
-    failure.messages().join("; ")
 }
 
 /// The modes of a part that nothing holds, damps or touches, with all derivatives.
@@ -234,16 +239,8 @@ fn modes_of_free_part<'p>(
     limit_hz: f64,
 ) -> Result<Vec<ModelMode>, String> {
     let cea = analysis(case, &[case.contact.sliding.friction_coefficient], limit_hz);
-    let modes = shaped_modes(case, &cea).map_err(said)?;
+    let modes = shaped_modes(case, &cea).map_err(|error| error.line())?;
     let by_parameter = rates(case, &cea, &modes, parameters);
     let assurances = assurances(case, shapes, &modes)?;
-    let of = |(i, (mode, assurances)): (usize, (&ComplexMode, Vec<f64>))| ModelMode {
-        eigenvalue: mode.eigenvalue,
-        harmonic: None,
-        branch: mode.branch,
-        direction: mode.direction,
-        rates: by_parameter.iter().map(|rates| rates[i]).collect(),
-        assurances,
-    };
-    Ok(modes.iter().zip(assurances).enumerate().map(of).collect())
+    Ok(model_modes(&modes, false, &by_parameter, assurances))
 }

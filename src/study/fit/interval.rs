@@ -46,7 +46,7 @@ pub fn estimates(
         (0..parameters.len()).filter(|&k| side(best.places[k]).is_none()).collect();
     let jacobian = squares.jacobian(best)?.select_columns(&free);
     if let Some(direction) = blind_direction(&jacobian, parameters, &free, best) {
-        return Ok(Err(FitError::Blind { direction }));
+        return Ok(Err(FitError::Blind(direction)));
     }
     let covariance = (jacobian.transpose() * &jacobian).try_inverse();
     let degrees = problem.data_count() as f64 - free.len() as f64;

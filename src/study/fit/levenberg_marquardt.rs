@@ -69,10 +69,7 @@ impl Squares<'_> {
             let has_shapes = self.weights.iter().any(|weights| weights.shape.is_some());
             let given =
                 !has_shapes && trial.matched.iter().flatten().all(|&m| is_known(&trial.modes[m]));
-            let around = match given {
-                true => None,
-                false => Some(self.around(trial, column)?),
-            };
+            let around = if given { None } else { Some(self.around(trial, column)?) };
             for (row, line) in lines.iter().enumerate() {
                 let Some(mode) = trial.matched[row].map(|m| &trial.modes[m]) else {
                     continue;

@@ -220,10 +220,7 @@ pub enum FitError {
     },
     /// The data do not change along a direction of the parameters.
     #[error(
-        "the data cannot tell these parameters apart: no measured number changes with {direction} together; fix one of them, or measure what depends on it"
+        "the data cannot tell these parameters apart: no measured number changes with {0} together; fix one of them, or measure what depends on it"
     )]
-    Blind {
-        /// The direction, parameter by parameter.
-        direction: String,
-    },
+    Blind(String),
 }

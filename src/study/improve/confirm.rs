@@ -6,7 +6,6 @@ use crate::case::{Case, ModificationKind};
 use crate::output::rounded;
 use crate::prestress::SlidingTangent;
 use crate::results::improve::State;
-use crate::study::StudyError;
 use crate::study::eigenvalues::Model;
 use nalgebra::{Matrix3, Vector3};
 
@@ -65,16 +64,7 @@ pub(super) fn keys_of(search: &Search<'_>, trial: &Trial) -> Vec<String> {
 
 /// The case with some keys.
 fn changed(base: &Base<'_>, keys: &[String]) -> Result<Case, String> {
-    let said = |errors: crate::case::CaseErrors| errors.messages().join("; ");
-    let mut raw = base.case.raw.with_overrides(keys).map_err(said)?;
-    for study in ["sweep", "fit", "uncertainty", "convergence"] {
-        raw.root.remove(study);
-    }
-    Case::read(raw).map_err(said)
-}
-
-fn one_line(error: &StudyError) -> String {
-    error.messages().join("; ")
+    base.case.with_keys(keys).map_err(|errors| errors.line())
 }
 
 /// The tangent of the case with some keys, at its own friction coefficient.
@@ -92,8 +82,8 @@ pub(super) fn tangent_of(base: &Base<'_>, keys: &[String]) -> Result<SlidingTang
 /// Runs the case with some keys.
 pub(super) fn run_again(base: &Base<'_>, keys: &[String]) -> Result<State, String> {
     let case = changed(base, keys)?;
-    let cea = case.require_cea().map_err(|errors| errors.messages().join("; "))?;
-    let (_, sweep) = spectrum_of(&case, cea).map_err(|error| one_line(&error))?;
+    let cea = case.require_cea().map_err(|errors| errors.line())?;
+    let (_, sweep) = spectrum_of(&case, cea).map_err(|error| error.line())?;
     let point = sweep.points.iter();
     let own = point.filter(|point| point.friction_coefficient == base.friction);
     let modes = own.flat_map(|point| &point.modes);

@@ -139,10 +139,7 @@ impl Search<'_> {
                 first_order: None,
             })
         });
-        match self.places.has_hole {
-            true => all.collect(),
-            false => Vec::new(),
-        }
+        if self.places.has_hole { all.collect() } else { Vec::new() }
     }
 
     /// The first of some trials that lie at least a patch's width from each other.

@@ -29,7 +29,7 @@ use crate::cycle::Family;
 use crate::fem::operator::{SimdLevel, StiffnessOperator};
 use crate::linalg::interruption;
 use crate::prestress::Assembly;
-use crate::results::transient::TransientReport;
+use crate::results::transient::{RecordedRun, TransientReport};
 use crate::transient::{
     CentralDifference, InitialState, Recorder, RecorderSettings, StepPlan, TransientAnalysis,
     TransientError, TransientModel, TransientSettings, TransientState,
@@ -249,21 +249,22 @@ impl<'a> TransientStudy<'a> {
         let places = case.output.placed_probes.iter();
         TransientReport {
             title: &case.title,
-            mesh: &self.stepped.mesh,
-            solid: self.stepped.sector.as_ref(),
+            run: RecordedRun {
+                record,
+                analysis,
+                body: self.stepped.shown(),
+                material: case.materials_in_time(),
+                has_harmonics: case.has_sectors(),
+                thickness: self.stepped.thickness(case),
+                extent: extent_of(case),
+            },
             contact_nodes: self.body().interface().nodes,
-            material: case.materials_in_time(),
-            has_harmonics: case.has_sectors(),
-            thickness: self.stepped.thickness(case),
-            extent: extent_of(case),
             friction_coefficient: case.contact.sliding.friction_coefficient,
             initial: settings.initial.name(),
             perturbation: &settings.perturbation,
             places: places.map(|place| (place.node, [place.asked[0], place.asked[1]])).collect(),
             operator,
             plan,
-            record,
-            analysis,
             steps: 0,
             steps_timed: 0,
             stepping_s: 0.0,

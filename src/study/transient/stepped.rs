@@ -5,6 +5,7 @@ use crate::cycle::OperatingPoint;
 use crate::fem::MaterialField;
 use crate::mesh::{AnnulusMesh, Mesh, SolidSector};
 use crate::prestress::Assembly;
+use crate::results::ShownBody;
 use crate::study::StudyError;
 use crate::study::cycle::operating_point;
 use crate::transient::{SteppedBody, TransientModel};
@@ -81,6 +82,11 @@ impl<'a> SteppedMesh<'a> {
         }
     }
 
+    /// The body as results show it.
+    pub fn shown(&self) -> ShownBody<'_> {
+        ShownBody { mesh: &self.mesh, sector: self.sector.as_ref() }
+    }
+
     /// Nodes of the whole body.
     pub fn node_count(&self) -> usize {
         match &self.sector {
@@ -96,9 +102,6 @@ impl<'a> SteppedMesh<'a> {
 
     /// What powers and energies are multiplied by, m: those of a body in three dimensions are of the whole, and this is 1.
     pub fn thickness(&self, case: &Case) -> f64 {
-        match self.is_solid() {
-            true => 1.0,
-            false => case.thickness,
-        }
+        if self.is_solid() { 1.0 } else { case.thickness }
     }
 }

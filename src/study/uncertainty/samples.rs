@@ -66,7 +66,7 @@ impl<'a> Sampler<'a> {
         frictions.sort_by(f64::total_cmp);
         frictions.dedup();
         let found = eigenvalues::unstable_intervals(&case, &frictions, harmonics);
-        let found = found.map_err(|failure| failure.messages().join("; "))?;
+        let found = found.map_err(|failure| failure.line())?;
         let onset = |interval: &UnstableInterval| Onset {
             harmonic: interval.diameters(case.has_sectors()),
             branch: interval.branch,

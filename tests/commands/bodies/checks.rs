@@ -2,6 +2,7 @@
 
 use super::{Answer, Bench, Cell};
 use crate::prelude::*;
+use crate::program::rows;
 
 /// A cell of the table: the body's bench, and that of the same body described otherwise.
 type Check = fn(&Bench, Option<&Bench>) -> Cell;
@@ -62,29 +63,15 @@ fn is_close(a: f64, b: f64, tolerance: f64) -> bool {
     (a - b).abs() <= tolerance * a.abs().max(b.abs())
 }
 
-fn headers(folder: &Path, file: &str) -> Vec<String> {
-    let mut reader = csv::Reader::from_path(folder.join(file)).unwrap();
-    let headers = reader.headers().unwrap().iter();
-    headers.map(str::to_owned).collect()
-}
-
 fn column(folder: &Path, file: &str, name: &str) -> Vec<f64> {
-    let mut reader =
-        csv::Reader::from_path(folder.join(file)).unwrap_or_else(|error| panic!("{file}: {error}"));
-    let headers = reader.headers().unwrap().clone();
-    let place = headers.iter().position(|header| header == name);
-    let place = place.unwrap_or_else(|| panic!("{file} has no column {name}"));
-    let rows = reader.records().map(|row| row.unwrap()[place].parse());
-    rows.map(|value| value.unwrap_or(f64::NAN)).collect()
+    rows(&folder.join(file)).iter().map(|row| row.number(name)).collect()
 }
 
 /// Frequency and growth rate of the modes at friction 0.3, by frequency.
 fn spectrum(folder: &Path) -> Vec<[f64; 2]> {
-    let of = |name| column(folder, "eigenvalues.csv", name);
-    let (friction, frequency) = (of("friction_coefficient"), of("frequency_hz"));
-    let growth = of("growth_rate_per_s");
-    let rows = (0..friction.len()).filter(|&i| friction[i] == 0.3);
-    rows.map(|i| [frequency[i], growth[i]]).collect()
+    let rows = rows(&folder.join("eigenvalues.csv"));
+    let rows = rows.iter().filter(|row| row.number("friction_coefficient") == 0.3);
+    rows.map(|row| row.numbers(["frequency_hz", "growth_rate_per_s"])).collect()
 }
 
 /// Whether every mode of `a` below the last of both has its like in `b`: to `tolerance` of the circular frequency.
@@ -95,9 +82,8 @@ fn agree(a: &[[f64; 2]], b: &[[f64; 2]], tolerance: f64) -> Cell {
     if below(a) == 0 || below(a) != below(b) {
         return Cell::Wrong(format!("{} modes beside {}: {a:?}, {b:?}", below(a), below(b)));
     }
-    let distance = |p: &[f64; 2], q: &[f64; 2]| {
-        (std::f64::consts::TAU * (p[0] - q[0])).hypot(p[1] - q[1]) / (std::f64::consts::TAU * p[0])
-    };
+    let distance =
+        |p: &[f64; 2], q: &[f64; 2]| (TAU * (p[0] - q[0])).hypot(p[1] - q[1]) / (TAU * p[0]);
     let worst = a
         .iter()
         .filter(|mode| mode[0] < limit)
@@ -158,14 +144,14 @@ fn sensitivities(bench: &Bench, _: Option<&Bench>) -> Cell {
     if !folder.join("sensitivities.csv").exists() {
         return Cell::Refused("not computed for this body yet".to_owned());
     }
-    let of = |name: &str| column(&folder, "sensitivities.csv", name);
+    let table = rows(&folder.join("sensitivities.csv"));
+    let of = |name: &str| -> Vec<f64> { table.iter().map(|row| row.number(name)).collect() };
     let (frequencies, growths) = (of("frequency_hz"), of("growth_rate_per_s"));
     // Where several materials have the key, its whole name heads the column.
-    let names = headers(&folder, "sensitivities.csv");
     let slopes_by = |key: &str| {
         let of_key = |kind: &str| {
             let both = [format!("{kind}_per_{key}"), format!("{kind}_per_material.{key}")];
-            both.into_iter().find(|name| names.contains(name)).map(|name| of(&name))
+            both.into_iter().find(|name| table[0].0.contains_key(name)).map(|name| of(&name))
         };
         Some([of_key("frequency_hz")?, of_key("growth_rate")?])
     };
@@ -181,7 +167,7 @@ fn sensitivities(bench: &Bench, _: Option<&Bench>) -> Cell {
     let (low, high) = (spectrum(&low), spectrum(&high));
     // Both waves of a pair have nearly one frequency: the growth rate tells them apart.
     let distance = |mode: &[f64; 2], [frequency, growth]: [f64; 2]| {
-        (std::f64::consts::TAU * (mode[0] - frequency)).hypot(mode[1] - growth)
+        (TAU * (mode[0] - frequency)).hypot(mode[1] - growth)
     };
     let nearest = |modes: &[[f64; 2]], place: [f64; 2]| {
         let near = |a: &&[f64; 2], b: &&[f64; 2]| distance(a, place).total_cmp(&distance(b, place));

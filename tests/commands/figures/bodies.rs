@@ -25,15 +25,8 @@ fn sweep() -> FrictionSweep {
         }
     }
     let interval = |branch, critical_friction| UnstableInterval {
-        harmonic: 0,
-        nodal_diameters: None,
-        branch,
         direction: 0,
-        critical_friction,
-        frequency_hz: 1e4,
-        restabilized: None,
-        unstable_from_start: false,
-        lost_after: None,
+        ..synthetic::onset((0, branch), critical_friction, 1e4)
     };
     // The waves of a pair that travel against the rotor grow.
     sweep.intervals = vec![interval(4, 0.3), interval(6, 0.6)];
@@ -68,33 +61,18 @@ fn report<'a>(
 ) -> CeaReport<'a> {
     CeaReport {
         title: "A body of its own",
-        mesh,
         has_harmonics: false,
-        dofs: 320,
-        method: "sparse",
-        selection: "the lowest 28".into(),
         friction_coefficients: &[0.0, 0.25, 0.5, 0.75, 1.0],
-        sweep,
         contact_changes: &[0.6],
         base: BaseState {
             friction_coefficient: 0.5,
             slipping: 40,
-            sticking: 0,
-            open: 0,
-            pressure_pa: [1e6, 3e6],
-            shear_pa: [3e5, 9e5],
             torque_n_m: Some(2014.0),
-            drag_n: None,
             power_w: 9600.0,
             extent,
+            ..synthetic::SLIDING
         },
-        field,
-        solid: None,
-        assembly: None,
-        sensitivities: None,
-        reading: None,
-        notes: vec![],
-        wall_s: 1.0,
+        ..synthetic::report(mesh, sweep, field)
     }
 }
 

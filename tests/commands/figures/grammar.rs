@@ -107,7 +107,7 @@ proptest! {
                 prop_assert!(drawing.to_png(40.0).is_ok() && drawing.to_pdf().is_ok());
                 prop_assert_eq!(figure.to_svg(Some(width)).unwrap(), svg);
             }
-            Err(error) => prop_assert!(matches!(error, ChartError::Empty { .. }), "{error}"),
+            Err(error) => prop_assert!(matches!(error, ChartError::Empty(_)), "{error}"),
         }
     }
 }

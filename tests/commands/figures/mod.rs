@@ -8,7 +8,7 @@ mod grammar;
 mod report;
 mod run;
 mod studies;
-mod synthetic;
+pub mod synthetic;
 
 use frictionsim::chart::Drawing;
 use std::path::PathBuf;

@@ -31,36 +31,8 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
             .collect(),
     };
     let frictions: Vec<f64> = sweep.points.iter().map(|p| p.friction_coefficient).collect();
-    let report = CeaReport {
-        has_harmonics: true,
-        title: "Polycarbonate disc",
-        mesh: &mesh,
-        dofs: 12_420,
-        method: "cyclic",
-        selection: "below 17500 Hz".into(),
-        friction_coefficients: &frictions,
-        sweep: &sweep,
-        contact_changes: &[],
-        base: BaseState {
-            friction_coefficient: 0.3,
-            slipping: 180,
-            sticking: 0,
-            open: 0,
-            pressure_pa: [2.827e6; 2],
-            shear_pa: [0.848e6; 2],
-            torque_n_m: Some(20.15),
-            drag_n: None,
-            power_w: 1287.0,
-            extent: Extent::WholeBody,
-        },
-        field: &field,
-        solid: None,
-        assembly: None,
-        sensitivities: None,
-        reading: None,
-        notes: vec![],
-        wall_s: 1.2,
-    };
+    let report = synthetic::report(&mesh, &sweep, &field);
+    let report = CeaReport { friction_coefficients: &frictions, ..report };
     let damping = RayleighDamping {
         mass_coefficient: synthetic::MASS_COEFFICIENT,
         stiffness_coefficient: synthetic::STIFFNESS_COEFFICIENT,

@@ -6,8 +6,9 @@ use crate::prelude::*;
 use frictionsim::chart::Figure;
 use frictionsim::contact::SlidingContact;
 use frictionsim::fem::operator::SimdLevel;
+use frictionsim::results::ShownBody;
 use frictionsim::results::charts::ModeLine;
-use frictionsim::results::transient::{RunFigures, draw_run};
+use frictionsim::results::transient::{LinearStage, RecordedRun, RunFigures, draw_run};
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
     TransientAnalysis, TransientModel,
@@ -40,18 +41,21 @@ fn a_run_gets_every_figure_of_its_record() {
         Some((g.harmonic()?, stage.rate_per_s.value))
     });
     let data = RunFigures {
-        record: &record,
-        analysis: &analysis,
-        mesh: &annulus.mesh,
-        solid: None,
-        has_harmonics: true,
-        material: model.material,
-        thickness: 0.009,
-        extent: Extent::MetreOfThickness,
+        run: RecordedRun {
+            record: &record,
+            analysis: &analysis,
+            body: ShownBody { mesh: &annulus.mesh, sector: None },
+            has_harmonics: true,
+            material: model.material,
+            thickness: 0.009,
+            extent: Extent::MetreOfThickness,
+        },
         peripheral_speed: rotation_speed * 0.0205,
-        references: vec![ModeLine { frequency_hz: 9901.0, label: "mode 5, *n* = 2".into() }],
-        growth_rates: growth.collect(),
-        mode_rates: Vec::new(),
+        stage: LinearStage {
+            references: vec![ModeLine { frequency_hz: 9901.0, label: "mode 5, *n* = 2".into() }],
+            growth_rates: growth.collect(),
+            mode_rates: Vec::new(),
+        },
     };
     let started = std::time::Instant::now();
     let figures = draw_run(&data).unwrap();

@@ -42,6 +42,80 @@ fn rayleigh(omega: f64) -> f64 {
     -0.5 * (MASS_COEFFICIENT + STIFFNESS_COEFFICIENT * omega * omega)
 }
 
+/// A mode without a shape, of the first branch.
+pub fn mode(eigenvalue: c64, harmonic: usize, direction: i8) -> ComplexMode {
+    ComplexMode {
+        eigenvalue,
+        harmonic,
+        branch: 0,
+        direction,
+        residual: 1e-13,
+        uncertainty: 1e-12,
+        contact_share: 0.2,
+        axial_share: None,
+        shape: None,
+        left: None,
+        nodal_diameters: None,
+        wave: None,
+    }
+}
+
+/// Where a wave against the rotor begins to grow.
+pub fn onset(
+    (harmonic, branch): (usize, usize),
+    critical_friction: f64,
+    frequency_hz: f64,
+) -> UnstableInterval {
+    UnstableInterval {
+        harmonic,
+        nodal_diameters: None,
+        branch,
+        direction: -1,
+        critical_friction,
+        frequency_hz,
+        restabilized: None,
+        unstable_from_start: false,
+        lost_after: None,
+    }
+}
+
+/// A steady state that slips everywhere.
+pub const SLIDING: BaseState = BaseState {
+    friction_coefficient: 0.3,
+    slipping: 180,
+    sticking: 0,
+    open: 0,
+    pressure_pa: [2.827e6; 2],
+    shear_pa: [0.848e6; 2],
+    torque_n_m: Some(20.15),
+    drag_n: None,
+    power_w: 1287.0,
+    extent: Extent::WholeBody,
+};
+
+/// A report of the disc with such a state.
+pub fn report<'a>(mesh: &'a Mesh, sweep: &'a FrictionSweep, field: &'a BaseField) -> CeaReport<'a> {
+    CeaReport {
+        title: "Polycarbonate disc",
+        mesh,
+        has_harmonics: true,
+        dofs: 12_420,
+        method: "cyclic",
+        selection: "below 17500 Hz".to_owned(),
+        friction_coefficients: &[],
+        sweep,
+        contact_changes: &[],
+        base: SLIDING,
+        field,
+        solid: None,
+        assembly: None,
+        sensitivities: None,
+        reading: None,
+        notes: Vec::new(),
+        wall_s: 1.2,
+    }
+}
+
 /// All modes at one friction value; pairs split symmetrically, the wave against the rotor gains.
 pub fn modes(friction: f64, mesh: Option<&Mesh>) -> Vec<ComplexMode> {
     let mut modes = Vec::new();
@@ -52,19 +126,11 @@ pub fn modes(friction: f64, mesh: Option<&Mesh>) -> Vec<ComplexMode> {
             let omega = TAU * frequency;
             let real = rayleigh(omega) + sign * TAU * split * friction / 0.3;
             let imaginary = omega + sign * TAU * 0.03 * split * (friction / 0.3).powi(2);
+            let travels = if friction == 0.0 { 0 } else { direction };
             modes.push(ComplexMode {
-                eigenvalue: c64::new(real, imaginary),
-                harmonic,
                 branch,
-                direction: if friction == 0.0 { 0 } else { direction },
-                residual: 1e-12,
-                uncertainty: 1e-12,
-                contact_share: 0.1,
-                axial_share: None,
                 shape: mesh.map(|mesh| shape(mesh, harmonic, branch, direction, friction)),
-                left: None,
-                nodal_diameters: None,
-                wave: None,
+                ..mode(c64::new(real, imaginary), harmonic, travels)
             });
         }
     }
@@ -84,15 +150,8 @@ pub fn sweep(count: usize) -> FrictionSweep {
         let critical = -0.3 * rayleigh(TAU * frequency) / (TAU * split);
         if split > 0.0 && critical < 1.0 {
             intervals.push(UnstableInterval {
-                harmonic,
-                nodal_diameters: None,
-                branch,
-                direction: -1,
-                critical_friction: critical,
-                frequency_hz: frequency,
                 restabilized: (harmonic == 1 && branch == 2).then_some((0.8, frequency)),
-                unstable_from_start: false,
-                lost_after: None,
+                ..onset((harmonic, branch), critical, frequency)
             });
         }
     }

@@ -113,10 +113,7 @@ impl Placed<'_> {
         let first = baseline - CAPTION_STEP * captions.len().saturating_sub(1) as f64;
         let headings = self.heading_lines(letter.is_some());
         let lines = headings.len();
-        let last = match captions.is_empty() {
-            true => baseline,
-            false => first - 9.5,
-        };
+        let last = if captions.is_empty() { baseline } else { first - 9.5 };
         for (row, (line, colour)) in headings.iter().enumerate() {
             let y = last - (lines - 1 - row) as f64 * 1.25 * HEADING_SIZE;
             let style = TextStyle::new(HEADING_SIZE).anchored(Anchor::Middle).coloured(*colour);

@@ -56,7 +56,7 @@ pub fn harmonic_growth(
     }
     let mut stage = signal.fit(0, signal.times.len())?;
     if !(stage.deviation <= LARGEST_DEVIATION) {
-        return Err(NoGrowth::NotExponential { frequency_hz: stage.frequency_hz.value.abs() });
+        return Err(NoGrowth::NotExponential(stage.frequency_hz.value.abs()));
     }
     let begin = (series.len() / 3 + first) as f64 / sampling_rate;
     (stage.start, stage.end) = (stage.start + begin, stage.end + begin);
@@ -156,7 +156,7 @@ mod tests {
             })
             .collect();
         let beat = harmonic_growth(&beat, RATE, 9e-6);
-        assert!(matches!(beat, Err(NoGrowth::NotExponential { .. })), "{beat:?}");
+        assert!(matches!(beat, Err(NoGrowth::NotExponential(_))), "{beat:?}");
         assert!(harmonic_growth(&[], RATE, 0.0).is_err());
         let still = vec![c64::new(0.0, 0.0); 1000];
         assert!(harmonic_growth(&still, RATE, 0.0).is_err());

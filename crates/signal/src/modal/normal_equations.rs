@@ -49,9 +49,7 @@ fn factor(
         }
         ridge *= 100.0;
     }
-    Err(SignalError::Fit {
-        reason: "the normal equations are singular; restrict the frequency range",
-    })
+    Err(SignalError::Fit("the normal equations are singular; restrict the frequency range"))
 }
 
 /// Solution of the normal equations with `damping` on the diagonal of the equilibrated matrix.

@@ -56,7 +56,7 @@ pub fn fit_rayleigh(
 ) -> Result<RayleighFit, SignalError> {
     let m = samples.len();
     if m < 2 || (m < 3 && covariance.is_none()) {
-        return Err(SignalError::TooFewModes { count: m });
+        return Err(SignalError::TooFewModes(m));
     }
     for s in samples {
         crate::error::check_positive("modal frequency", s.frequency_hz, " (Hz)")?;
@@ -69,16 +69,16 @@ pub fn fit_rayleigh(
         if k == 0 { 0.5 / x } else { 0.5 * x }
     });
     let zeta = DVector::from_iterator(m, samples.iter().map(|s| s.damping_factor));
-    let singular = SignalError::Fit { reason: "the covariance of the damping factors is singular" };
+    let singular = SignalError::Fit("the covariance of the damping factors is singular");
     let weight = match covariance {
         Some(c) => DMatrix::from_fn(m, m, |i, j| c[(i, j)]).cholesky().ok_or(singular)?.inverse(),
         None => DMatrix::from_diagonal(&zeta.map(|z| 1.0 / (z * z).max(f64::MIN_POSITIVE))),
     };
     let normal = design.transpose() * &weight * &design;
     let right = design.transpose() * &weight * &zeta;
-    let spread = normal.clone().try_inverse().ok_or(SignalError::Fit {
-        reason: "the modes lie at one frequency, which cannot tell alpha_R from beta_R",
-    })?;
+    let spread = normal.clone().try_inverse().ok_or(SignalError::Fit(
+        "the modes lie at one frequency, which cannot tell alpha_R from beta_R",
+    ))?;
     let mut x = &spread * &right;
     for k in 0..2 {
         if x[k] < 0.0 {
@@ -143,7 +143,7 @@ mod tests {
     #[test]
     fn two_modes_need_a_known_uncertainty() {
         let samples = curve(40.0, 4.5e-7, &[2000.0, 8000.0]);
-        assert!(matches!(fit_rayleigh(&samples, None), Err(SignalError::TooFewModes { count: 2 })));
+        assert!(matches!(fit_rayleigh(&samples, None), Err(SignalError::TooFewModes(2))));
         let covariance = Mat::from_fn(2, 2, |i, j| if i == j { 1e-10 } else { 0.0 });
         let fit = fit_rayleigh(&samples, Some(&covariance)).unwrap();
         assert!(fit.mass_coefficient.low < 40.0 && 40.0 < fit.mass_coefficient.high);

@@ -90,13 +90,10 @@ pub enum ReadProblem {
     },
     /// A number with both a decimal comma and a decimal point.
     #[error(
-        "`{field}` mixes comma and point; write numbers without thousands separators, as 1234.5 \
+        "`{0}` mixes comma and point; write numbers without thousands separators, as 1234.5 \
          or 1234,5"
     )]
-    MixedDecimals {
-        /// The field as written.
-        field: String,
-    },
+    MixedDecimals(String),
     /// Commas may separate columns or decimals.
     #[error(
         "{found} fields separated by commas where the header names {expected}: the comma seems to \
@@ -128,13 +125,10 @@ pub enum ReadProblem {
     },
     /// Not a list of modes.
     #[error(
-        "{count} rows, one for each mode, are too many; is this a frequency response? `frictionsim identify` finds its \
+        "{0} rows, one for each mode, are too many; is this a frequency response? `frictionsim identify` finds its \
          modes"
     )]
-    TooManyModes {
-        /// Number of rows.
-        count: usize,
-    },
+    TooManyModes(usize),
     /// Columns without names that could mean several things.
     #[error(
         "{count} columns without names could mean several things; add a first line such as \
@@ -163,11 +157,8 @@ pub enum ReadProblem {
         found: String,
     },
     /// A file of a format that is recognised but not read.
-    #[error("this is {found}; supported formats: {formats}", formats = FORMATS)]
-    Format {
-        /// What the file seems to be.
-        found: &'static str,
-    },
+    #[error("this is {0}; supported formats: {formats}", formats = FORMATS)]
+    Format(&'static str),
     /// A file of a known format that is damaged or uses what is not read.
     #[error("{format}: {reason}")]
     Damaged {
@@ -188,11 +179,8 @@ pub enum ReadProblem {
         rate: f64,
     },
     /// A negative frequency.
-    #[error("frequency {value} is negative; export the one-sided response")]
-    NegativeFrequency {
-        /// The value as read.
-        value: f64,
-    },
+    #[error("frequency {0} is negative; export the one-sided response")]
+    NegativeFrequency(f64),
     /// One frequency, two values.
     #[error(
         "frequency {value} Hz is already in line {first_line} with another value; keep one of \
@@ -205,13 +193,8 @@ pub enum ReadProblem {
         first_line: usize,
     },
     /// A negative magnitude.
-    #[error(
-        "magnitude {value} is negative; if it is in decibels, say so in the header (magnitude_db)"
-    )]
-    NegativeMagnitude {
-        /// The value.
-        value: f64,
-    },
+    #[error("magnitude {0} is negative; if it is in decibels, say so in the header (magnitude_db)")]
+    NegativeMagnitude(f64),
     /// Time does not advance.
     #[error("time {value} s does not follow the {previous} s before it; sort the rows by time")]
     TimeOrder {
@@ -246,11 +229,8 @@ pub enum ReadProblem {
         option: f64,
     },
     /// A sampling rate that is not positive.
-    #[error("sampling rate {value} Hz must be positive and finite")]
-    Rate {
-        /// The value, Hz.
-        value: f64,
-    },
+    #[error("sampling rate {0} Hz must be positive and finite")]
+    Rate(f64),
     /// The numbers are readable, but no signal.
     #[error("{0}")]
     Signal(#[from] SignalError),
@@ -261,7 +241,7 @@ impl ReadProblem {
     pub(super) fn unreadable(field: &str, name: String) -> Self {
         let field = super::text::shortened(field);
         if field.contains(',') && field.contains('.') {
-            ReadProblem::MixedDecimals { field }
+            ReadProblem::MixedDecimals(field)
         } else {
             ReadProblem::NotANumber { field, name }
         }

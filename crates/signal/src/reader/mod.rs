@@ -15,6 +15,7 @@ mod contents;
 mod error;
 mod field;
 mod gaps;
+mod headed;
 mod mat;
 mod modes;
 mod moduli;

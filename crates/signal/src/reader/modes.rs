@@ -2,8 +2,8 @@
 
 use super::error::{ReadError, ReadProblem};
 use super::field::number;
-use super::separator::{Separator, character, fields};
-use super::text::{comment, decode, first_of, lines, shortened};
+use super::headed::{Row, headed};
+use super::text::{decode, first_of, shortened};
 
 /// A measured mode, or a line of a squeal.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,20 +40,7 @@ const COLUMNS: [&[&str]; 7] = [
 /// [`ReadError`] with the place: no such column, a cell that is no number or no possible value.
 pub fn read_modes(bytes: &[u8], source: &str) -> Result<Vec<MeasuredMode>, ReadError> {
     let text = decode(bytes);
-    let mut rows = lines(&text).filter(|(_, line)| {
-        let blank = |c: char| c.is_whitespace() || ";,".contains(c);
-        !line.trim_matches(blank).is_empty() && comment(line).is_none()
-    });
-    let Some((_, head)) = rows.next() else {
-        return Err(ReadError::whole(source, ReadProblem::Empty));
-    };
-    let separator = match head {
-        _ if head.contains(';') => Separator::Semicolon,
-        _ if head.trim().contains('\t') => Separator::Tab,
-        _ if head.contains(',') => Separator::Comma,
-        _ => Separator::Blanks,
-    };
-    let names: Vec<String> = fields(head, separator).map(str::to_lowercase).collect();
+    let (names, rows) = headed(&text, source)?;
     let place = |known: &&[&str]| names.iter().position(|name| known.contains(&name.as_str()));
     let places = COLUMNS.each_ref().map(place);
     if places[0].is_none() && places[1].is_none() {
@@ -65,20 +52,13 @@ pub fn read_modes(bytes: &[u8], source: &str) -> Result<Vec<MeasuredMode>, ReadE
         };
         return Err(ReadError::whole(source, problem));
     }
-    let modes: Result<Vec<MeasuredMode>, ReadError> = rows
-        .map(|(line, text)| {
-            let cells: Vec<&str> = fields(text, separator).collect();
-            let row = Row { source, line, text, cells };
-            row.mode(&places)
-        })
-        .collect();
-    let modes = modes?;
+    let modes = rows.map(|row| mode(&row, &places)).collect::<Result<Vec<_>, ReadError>>()?;
     if modes.is_empty() {
         return Err(ReadError::whole(source, ReadProblem::NoNumbers));
     }
     if modes.len() > MOST_MODES {
         let count = modes.len();
-        return Err(ReadError::whole(source, ReadProblem::TooManyModes { count }));
+        return Err(ReadError::whole(source, ReadProblem::TooManyModes(count)));
     }
     Ok(modes)
 }
@@ -89,69 +69,52 @@ const MOST_MODES: usize = 1000;
 const LOWEST_HZ: f64 = 1e-3;
 const HIGHEST_HZ: f64 = 1e9;
 
-/// One row of the table.
-struct Row<'a> {
-    source: &'a str,
-    line: usize,
-    text: &'a str,
-    cells: Vec<&'a str>,
+/// The number in a column, if the row has one there and `admits` takes it.
+fn number_in(
+    row: &Row<'_>,
+    places: &[Option<usize>; 7],
+    column: usize,
+    admits: fn(f64) -> bool,
+) -> Result<Option<f64>, ReadError> {
+    let Some(cell) = row.cell(places[column]) else {
+        return Ok(None);
+    };
+    let (field, name) = (shortened(cell), format!("`{}`", COLUMNS[column][0]));
+    let value = match cell {
+        // As the tables of the program's own say it.
+        "true" => Some(1.0),
+        "false" => Some(0.0),
+        cell => number(cell),
+    };
+    match value {
+        None => Err(row.error(cell, ReadProblem::NotANumber { field, name })),
+        Some(value) if value.is_nan() => Ok(None),
+        Some(value) if !admits(value) => {
+            Err(row.error(cell, ReadProblem::Impossible { field, name }))
+        }
+        Some(value) => Ok(Some(value)),
+    }
 }
 
-impl Row<'_> {
-    /// The number in a column, if the row has one there and `admits` takes it.
-    fn cell(
-        &self,
-        places: &[Option<usize>; 7],
-        column: usize,
-        admits: fn(f64) -> bool,
-    ) -> Result<Option<f64>, ReadError> {
-        let cell = places[column].and_then(|place| self.cells.get(place));
-        let Some(cell) = cell.filter(|cell| !cell.is_empty()) else {
-            return Ok(None);
-        };
-        let name = format!("`{}`", COLUMNS[column][0]);
-        let refuse = |problem| {
-            let at = character(self.text, cell);
-            Err(ReadError::at(self.source, self.line, at, problem))
-        };
-        let value = match *cell {
-            // As the tables of the program's own say it.
-            "true" => Some(1.0),
-            "false" => Some(0.0),
-            cell => number(cell),
-        };
-        match value {
-            None => refuse(ReadProblem::NotANumber { field: shortened(cell), name }),
-            Some(value) if value.is_nan() => Ok(None),
-            Some(value) if !admits(value) => {
-                refuse(ReadProblem::Impossible { field: shortened(cell), name })
-            }
-            Some(value) => Ok(Some(value)),
-        }
-    }
-
-    fn mode(&self, places: &[Option<usize>; 7]) -> Result<MeasuredMode, ReadError> {
-        let positive = |value: f64| value > 0.0 && value.is_finite();
-        let plausible = |value: f64| (LOWEST_HZ..=HIGHEST_HZ).contains(&value);
-        let hertz = self.cell(places, 0, plausible)?;
-        let kilohertz = self.cell(places, 1, plausible)?;
-        let Some(frequency_hz) = hertz.or(kilohertz.map(|value| 1e3 * value)) else {
-            let (field, name) = (String::new(), "`frequency_hz`".to_owned());
-            let problem = ReadProblem::NotANumber { field, name };
-            return Err(ReadError::at(self.source, self.line, 1, problem));
-        };
-        let damping = self.cell(places, 3, |zeta| zeta.abs() < 1.0)?;
-        let damped = damping.map(|zeta| -zeta * frequency_hz / (1.0 - zeta * zeta).sqrt());
-        let harmonic = self.cell(places, 4, |n| n >= 0.0 && n.fract() == 0.0 && n < 1e6)?;
-        Ok(MeasuredMode {
-            line: self.line,
-            frequency_hz,
-            real_hz: self.cell(places, 2, f64::is_finite)?.or(damped),
-            harmonic: harmonic.map(|n| n as usize),
-            sigma_hz: self.cell(places, 5, positive)?,
-            is_unstable: self.cell(places, 6, |flag| flag == 0.0 || flag == 1.0)? == Some(1.0),
-        })
-    }
+fn mode(row: &Row<'_>, places: &[Option<usize>; 7]) -> Result<MeasuredMode, ReadError> {
+    let cell = |column, admits| number_in(row, places, column, admits);
+    let positive = |value: f64| value > 0.0 && value.is_finite();
+    let plausible = |value: f64| (LOWEST_HZ..=HIGHEST_HZ).contains(&value);
+    let hertz = cell(0, plausible)?;
+    let kilohertz = cell(1, plausible)?;
+    let frequency_hz = hertz.or(kilohertz.map(|value| 1e3 * value));
+    let frequency_hz = frequency_hz.ok_or_else(|| row.missing("frequency_hz"))?;
+    let damping = cell(3, |zeta| zeta.abs() < 1.0)?;
+    let damped = damping.map(|zeta| -zeta * frequency_hz / (1.0 - zeta * zeta).sqrt());
+    let harmonic = cell(4, |n| n >= 0.0 && n.fract() == 0.0 && n < 1e6)?;
+    Ok(MeasuredMode {
+        line: row.line,
+        frequency_hz,
+        real_hz: cell(2, f64::is_finite)?.or(damped),
+        harmonic: harmonic.map(|n| n as usize),
+        sigma_hz: cell(5, positive)?,
+        is_unstable: cell(6, |flag| flag == 0.0 || flag == 1.0)? == Some(1.0),
+    })
 }
 
 #[cfg(test)]
@@ -181,7 +144,7 @@ mod tests {
     fn a_response_in_place_of_a_list_of_modes_is_refused_by_its_length() {
         let rows: String = (1..=1001).map(|i| format!("{i},0.1\n")).collect();
         let error = read_modes(format!("f,real_hz\n{rows}").as_bytes(), "frf.csv").unwrap_err();
-        assert_eq!(error.problem, ReadProblem::TooManyModes { count: 1001 });
+        assert_eq!(error.problem, ReadProblem::TooManyModes(1001));
         assert!(error.to_string().contains("frictionsim identify"));
     }
 

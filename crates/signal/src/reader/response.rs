@@ -49,10 +49,10 @@ pub fn read_response(
         }
         Format::Wave => {
             let found = "a WAV file, which holds time signals: give it to `frictionsim signal`";
-            return Err(ReadError::whole(source, ReadProblem::Format { found }));
+            return Err(ReadError::whole(source, ReadProblem::Format(found)));
         }
         Format::Foreign(found) => {
-            return Err(ReadError::whole(source, ReadProblem::Format { found }));
+            return Err(ReadError::whole(source, ReadProblem::Format(found)));
         }
         Format::Text => from_table(&read_table(bytes, source, &options.columns)?, source, options)?,
     };
@@ -188,7 +188,7 @@ fn values(table: &Table, layout: Layout, source: &str) -> Result<Vec<c64>, ReadE
                     None => value,
                 };
                 if modulus < 0.0 {
-                    let problem = ReadProblem::NegativeMagnitude { value };
+                    let problem = ReadProblem::NegativeMagnitude(value);
                     return Err(table.error(source, i, magnitude, problem));
                 }
                 let angle = phase.map_or(0.0, |(k, factor)| real(k)[i] * factor);
@@ -209,7 +209,7 @@ fn ordered(
 ) -> Result<Vec<(f64, usize)>, ReadError> {
     let raw = &table.columns[column].real;
     if let Some(i) = raw.iter().position(|f| *f < 0.0) {
-        let problem = ReadProblem::NegativeFrequency { value: raw[i] };
+        let problem = ReadProblem::NegativeFrequency(raw[i]);
         return Err(table.error(source, i, column, problem));
     }
     let numbered = raw.iter().enumerate();

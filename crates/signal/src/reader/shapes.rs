@@ -4,8 +4,8 @@
 
 use super::error::{ReadError, ReadProblem};
 use super::field::{Value, parse};
-use super::separator::{Separator, character, fields};
-use super::text::{comment, decode, first_of, lines, shortened};
+use super::headed::{Row, headed};
+use super::text::{decode, first_of, shortened};
 use faer::c64;
 use frictionsim_bounds::{LARGEST_COORDINATE, LARGEST_DISPLACEMENT};
 use std::collections::BTreeMap;
@@ -96,25 +96,12 @@ impl Columns {
 /// The shapes of a table, in the order in which their names come.
 fn table(bytes: &[u8], source: &str) -> Result<Vec<MeasuredShape>, ReadError> {
     let text = decode(bytes);
-    let mut rows =
-        lines(&text).filter(|(_, line)| !line.trim().is_empty() && comment(line).is_none());
-    let Some((_, head)) = rows.next() else {
-        return Err(ReadError::whole(source, ReadProblem::Empty));
-    };
-    let separator = match head {
-        _ if head.contains(';') => Separator::Semicolon,
-        _ if head.trim().contains('\t') => Separator::Tab,
-        _ if head.contains(',') => Separator::Comma,
-        _ => Separator::Blanks,
-    };
-    let names: Vec<String> = fields(head, separator).map(str::to_lowercase).collect();
+    let (names, rows) = headed(&text, source)?;
     let columns = Columns::of(&names, source)?;
     let mut shapes: Vec<MeasuredShape> = Vec::new();
     let mut known: BTreeMap<String, usize> = BTreeMap::new();
-    for (line, text) in rows {
-        let cells: Vec<&str> = fields(text, separator).collect();
-        let row = Row { source, line, text, cells };
-        let name = row.text_of(columns.mode).unwrap_or("1").to_owned();
+    for row in rows {
+        let name = row.cell(columns.mode).unwrap_or("1").to_owned();
         let count = shapes.len();
         let place = *known.entry(name.clone()).or_insert(count);
         if place == count {
@@ -142,33 +129,13 @@ fn table(bytes: &[u8], source: &str) -> Result<Vec<MeasuredShape>, ReadError> {
     Ok(shapes)
 }
 
-/// One row of a table.
-struct Row<'a> {
-    source: &'a str,
-    line: usize,
-    text: &'a str,
-    cells: Vec<&'a str>,
-}
-
 impl Row<'_> {
-    /// The cell of a column, if it has one that is not empty.
-    fn text_of(&self, column: Option<usize>) -> Option<&str> {
-        let cell = self.cells.get(column?)?;
-        (!cell.is_empty()).then_some(*cell)
-    }
-
-    fn missing(&self, name: &str) -> ReadError {
-        let problem = ReadProblem::NotANumber { field: String::new(), name: format!("`{name}`") };
-        ReadError::at(self.source, self.line, 1, problem)
-    }
-
     fn value(&self, column: Option<usize>, name: &str) -> Result<Option<c64>, ReadError> {
-        let Some(cell) = self.text_of(column) else {
+        let Some(cell) = self.cell(column) else {
             return Ok(None);
         };
-        let (at, name) = (character(self.text, cell), format!("`{name}`"));
-        let field = shortened(cell);
-        let refuse = |problem| Err(ReadError::at(self.source, self.line, at, problem));
+        let (field, name) = (shortened(cell), format!("`{name}`"));
+        let refuse = |problem| Err(self.error(cell, problem));
         let value = match parse(cell) {
             Some(Value::Real(value)) => c64::new(value, 0.0),
             Some(Value::Complex(re, im)) => c64::new(re, im),

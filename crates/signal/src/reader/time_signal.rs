@@ -42,7 +42,7 @@ pub fn read_signal(
 ) -> Result<SignalFile, ReadError> {
     let whole = |problem| ReadError::whole(source, problem);
     if let Some(value) = options.rate.filter(|rate| !(*rate > 0.0 && rate.is_finite())) {
-        return Err(whole(ReadProblem::Rate { value }));
+        return Err(whole(ReadProblem::Rate(value)));
     }
     let mut file = match Format::of(bytes) {
         Format::Universal => uff::read_signals(bytes, source)?,
@@ -50,7 +50,7 @@ pub fn read_signal(
         Format::Matlab => {
             from_table(&mat::read_table(bytes, source, &options.columns)?, source, options)?
         }
-        Format::Foreign(found) => return Err(whole(ReadProblem::Format { found })),
+        Format::Foreign(found) => return Err(whole(ReadProblem::Format(found))),
         Format::Text => from_table(&read_table(bytes, source, &options.columns)?, source, options)?,
     };
     // A file that states its rate is overruled aloud.
@@ -67,14 +67,14 @@ pub fn read_signal(
     }
     let count = file.channels.first().map_or(0, |c| c.samples.len());
     if count < FEWEST {
-        return Err(whole(ReadProblem::Signal(SignalError::TooShort {
-            what: "the signal",
-            count,
-            needed: FEWEST,
-            remedy: "give a longer record",
-        })));
+        return Err(whole(too_short(count)));
     }
     Ok(file)
+}
+
+fn too_short(count: usize) -> ReadProblem {
+    let (what, remedy) = ("the signal", "give a longer record");
+    ReadProblem::Signal(SignalError::TooShort { what, count, needed: FEWEST, remedy })
 }
 
 fn from_table(
@@ -85,12 +85,7 @@ fn from_table(
     let whole = |problem| ReadError::whole(source, problem);
     let time = time_column(table);
     if table.rows() < FEWEST {
-        return Err(whole(ReadProblem::Signal(SignalError::TooShort {
-            what: "the signal",
-            count: table.rows(),
-            needed: FEWEST,
-            remedy: "give a longer record",
-        })));
+        return Err(whole(too_short(table.rows())));
     }
     let mut notes = Vec::new();
     let (rate, start) = match time {

@@ -104,8 +104,7 @@ impl SparseSweep<'_> {
         let mut before: Vec<f64> = Vec::new();
         for round in 0.. {
             let found = self.find_intervals(branches)?;
-            let crossings: Vec<&State> =
-                found.iter().flat_map(FoundInterval::crossings).collect();
+            let crossings: Vec<&State> = found.iter().flat_map(FoundInterval::crossings).collect();
             let missed = || found.iter().filter_map(FoundInterval::missed);
             // Crossings that moved since the last round, all in the first one; then those whose residual is too large.
             let is_same = before.len() == crossings.len();

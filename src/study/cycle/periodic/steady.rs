@@ -87,11 +87,7 @@ impl Steady {
         }
         let value = parameter.in_key_units(value);
         let change = format!("{}={value:?}", parameter.key());
-        let mut raw = case.raw.with_overrides(&[change])?;
-        for study in ["sweep", "fit", "uncertainty"] {
-            raw.root.remove(study);
-        }
-        let other = Case::read(raw)?;
+        let other = case.with_keys(&[change])?;
         Self::of(&other, &SteppedMesh::of(&other)?)
     }
 

@@ -64,10 +64,7 @@ impl ModalModel<'_> {
             }
             for _ in 0..HALVINGS {
                 let middle = 0.5 * (below + above);
-                match grows(middle)? {
-                    true => above = middle,
-                    false => below = middle,
-                }
+                if grows(middle)? { above = middle } else { below = middle }
             }
             break;
         }

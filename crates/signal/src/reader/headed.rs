@@ -1,0 +1,55 @@
+//! Tables with a head of names, cells of which may be empty.
+
+use super::error::{ReadError, ReadProblem};
+use super::separator::{Separator, character, fields};
+use super::text::{comment, lines};
+
+/// A row of such a table.
+pub(super) struct Row<'a> {
+    source: &'a str,
+    pub line: usize,
+    text: &'a str,
+    cells: Vec<&'a str>,
+}
+
+impl<'a> Row<'a> {
+    /// The cell of a column, if the row has one there that is not empty.
+    pub fn cell(&self, column: Option<usize>) -> Option<&'a str> {
+        self.cells.get(column?).copied().filter(|cell| !cell.is_empty())
+    }
+
+    /// An error at a cell.
+    pub fn error(&self, cell: &str, problem: ReadProblem) -> ReadError {
+        ReadError::at(self.source, self.line, character(self.text, cell), problem)
+    }
+
+    /// That the row has no number in a column that needs one.
+    pub fn missing(&self, name: &str) -> ReadError {
+        let problem = ReadProblem::NotANumber { field: String::new(), name: format!("`{name}`") };
+        ReadError::at(self.source, self.line, 1, problem)
+    }
+}
+
+/// The names of the columns, lower case, and the rows below them; comments and rows without any cell are passed over.
+///
+/// # Errors
+/// A text without a head.
+pub(super) fn headed<'a>(
+    text: &'a str,
+    source: &'a str,
+) -> Result<(Vec<String>, impl Iterator<Item = Row<'a>>), ReadError> {
+    let blank = |c: char| c.is_whitespace() || ";,".contains(c);
+    let is_content = move |line: &str| !line.trim_matches(blank).is_empty();
+    let mut rows = lines(text).filter(move |(_, line)| is_content(line) && comment(line).is_none());
+    let (_, head) = rows.next().ok_or_else(|| ReadError::whole(source, ReadProblem::Empty))?;
+    let separator = match head {
+        _ if head.contains(';') => Separator::Semicolon,
+        _ if head.trim().contains('\t') => Separator::Tab,
+        _ if head.contains(',') => Separator::Comma,
+        _ => Separator::Blanks,
+    };
+    let names = fields(head, separator).map(str::to_lowercase).collect();
+    let row =
+        move |(line, text)| Row { source, line, text, cells: fields(text, separator).collect() };
+    Ok((names, rows.map(row)))
+}

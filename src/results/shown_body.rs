@@ -1,0 +1,64 @@
+//! A body as results show it.
+
+use super::vtu::{EncodedMesh, Field, solid_vectors};
+use crate::mesh::{Mesh, SolidFace, SolidSector};
+use std::io;
+
+/// A body in tables, fields and figures.
+#[derive(Clone, Copy, Debug)]
+pub struct ShownBody<'a> {
+    /// The mesh; of a body of revolution in three dimensions the section across the axis.
+    pub mesh: &'a Mesh,
+    /// One sector of a body of revolution in three dimensions.
+    pub sector: Option<&'a SolidSector>,
+}
+
+impl ShownBody<'_> {
+    /// Whether it has three dimensions.
+    pub fn is_solid(&self) -> bool {
+        self.sector.is_some() || self.mesh.dimension == 3
+    }
+
+    /// Whether it is solid bodies of a mesh, whose nodes move along x, y and z.
+    pub fn is_assembly(&self) -> bool {
+        self.sector.is_none() && self.mesh.dimension == 3
+    }
+
+    /// Where a node of the whole body is, m.
+    pub fn position(&self, node: usize) -> [f64; 3] {
+        let Some(sector) = self.sector else {
+            return self.mesh.nodes[node];
+        };
+        let (own, turn) = (node % sector.node_count(), node / sector.node_count());
+        let (sine, cosine) = sector.angle(own, turn).sin_cos();
+        let place = &sector.nodes[own];
+        [place.radius * cosine, place.radius * sine, place.height]
+    }
+
+    /// Its nodes and elements for ParaView.
+    pub fn encoded(&self) -> io::Result<EncodedMesh> {
+        self.sector.map_or_else(|| EncodedMesh::new(self.mesh), EncodedMesh::solid)
+    }
+
+    /// Vectors at all nodes, given in their frames, along x, y and z.
+    pub fn vectors(&self, name: &str, nodal: &[f64]) -> Field {
+        match self.sector {
+            Some(sector) => solid_vectors(name, sector, nodal),
+            None => Field::vectors(name, self.mesh, nodal),
+        }
+    }
+
+    /// Whether figures over the angle show a node of the contact: of several rings of nodes the middle one.
+    pub fn is_shown(&self, place: usize) -> bool {
+        let rings = self.sector.map_or(1, |sector| sector.rings.len());
+        place % rings == rings / 2
+    }
+
+    /// What the contact slides on, in legends.
+    pub fn counterface(&self) -> &'static str {
+        match self.sector {
+            Some(sector) if sector.specification.contact.face() != SolidFace::Inner => "ring",
+            _ => "cylinder *Ωa*",
+        }
+    }
+}
