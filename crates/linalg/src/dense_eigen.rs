@@ -160,14 +160,28 @@ pub fn real_eigen(
     with_left: bool,
     leading: usize,
 ) -> Result<RealEigen, LinalgError> {
+    real_eigen_above(matrix, with_left, &|values| {
+        let mut moduli: Vec<f64> = values.iter().map(|v| v.norm()).collect();
+        moduli.sort_by(|a, b| b.total_cmp(a));
+        moduli.get(leading).copied().unwrap_or(0.0)
+    })
+}
+
+/// [`real_eigen`] with the modulus from which on vectors are held to their equation, said for the eigenvalues found.
+///
+/// # Errors
+/// As [`real_eigen`].
+pub fn real_eigen_above(
+    matrix: MatRef<'_, f64>,
+    with_left: bool,
+    smallest: &dyn Fn(&[c64]) -> f64,
+) -> Result<RealEigen, LinalgError> {
     let n = matrix.nrows();
     let mut right = Mat::<f64>::zeros(n, n);
     let mut left = with_left.then(|| Mat::<f64>::zeros(n, n));
     let mut values = decomposed(matrix, left.as_mut(), Some(&mut right))?;
     order_conjugate_pairs(&mut values, &mut right, left.as_mut());
-    let mut moduli: Vec<f64> = values.iter().map(|v| v.norm()).collect();
-    moduli.sort_by(|a, b| b.total_cmp(a));
-    let smallest = moduli.get(leading).copied().unwrap_or(0.0);
+    let smallest = smallest(&values);
     repair(matrix, &values, smallest, &mut right);
     if let Some(left) = &mut left {
         // Conjugates of left vectors are right vectors of the transpose.

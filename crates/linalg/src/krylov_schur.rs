@@ -3,7 +3,7 @@
 use super::dense::{
     GrowingColumns, Orthonormalized, add_product, orthonormalize, product, transpose_product,
 };
-use super::dense_eigen::{RealEigen, real_eigen};
+use super::dense_eigen::{RealEigen, real_eigen, real_eigen_above};
 use super::gram::orthonormal_columns;
 use super::{LinalgError, interruption};
 use faer::{Mat, MatRef, c64};
@@ -117,8 +117,13 @@ fn whole(
 ) -> Result<RealPairs, LinalgError> {
     let n = operator.dimension();
     let matrix = operator.apply(Mat::identity(n, n).as_ref());
-    let eigen = real_eigen(matrix.as_ref(), false, n)?;
-    let chosen = leading(&eigen.values, is_wanted, wanted);
+    let chosen = |values: &[c64]| leading(values, is_wanted, wanted);
+    let smallest = |values: &[c64]| {
+        let moduli = chosen(values).into_iter().map(|i| values[i].norm());
+        moduli.fold(f64::INFINITY, f64::min)
+    };
+    let eigen = real_eigen_above(matrix.as_ref(), false, &smallest)?;
+    let chosen = chosen(&eigen.values);
     let ritz = Mat::from_fn(n, chosen.len(), |i, j| eigen.right[(i, chosen[j])]);
     let vectors = product(matrix.as_ref(), ritz.as_ref());
     let residuals = vec![0.0; chosen.len()];

@@ -5,6 +5,9 @@ use crate::case::diagnostic::Location;
 use crate::case::keys;
 use crate::case::value::{RawItem, RawValue};
 
+/// How a case names a node by its place.
+const PLACE: &str = "{ x, y } or { radius, angle_deg }, with z on solid bodies";
+
 /// How a case names a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::case) enum NodePlace {
@@ -30,8 +33,16 @@ impl<'a> Section<'a> {
     }
 
     fn read_node(&self, key: &str, item: &'a RawItem) -> Option<NodePlace> {
-        let RawValue::Table(table) = &item.value else {
-            return self.read_count(key, item, 1).map(NodePlace::Number);
+        let table = match &item.value {
+            RawValue::Table(table) => table,
+            RawValue::Integer(_) | RawValue::Float(_) => {
+                return self.read_count(key, item, 1).map(NodePlace::Number);
+            }
+            _ => {
+                let wanted = format!("must be a node number, {PLACE}");
+                self.reject_at(item, key, &wanted);
+                return None;
+            }
         };
         let mut place = Section::new(self.findings, self.name(key), Some(table), item.at.clone());
         place.declarations = Some(&keys::PLACE);
@@ -44,8 +55,7 @@ impl<'a> Section<'a> {
                 NodePlace::Polar { radius, angle: angle.to_radians(), z }
             }
             _ => {
-                let wanted = "must be { x, y } or { radius, angle_deg }, with z on solid bodies";
-                self.reject_at(item, key, wanted);
+                self.reject_at(item, key, &format!("must be {PLACE}"));
                 return None;
             }
         };
