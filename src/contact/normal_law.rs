@@ -159,10 +159,7 @@ mod tests {
             for [a, b] in [[0.0, 3e-6], [2e-6, 2.00001e-6], [4e-6, 1e-6], [-1e-6, 2e-6]] {
                 let count = 2000;
                 let at = |k: usize| a + (b - a) * k as f64 / f64::from(count as u32);
-                let pressure = |k: usize| match at(k) > 0.0 {
-                    true => law.pressure(at(k)),
-                    false => 0.0,
-                };
+                let pressure = |k: usize| if at(k) > 0.0 { law.pressure(at(k)) } else { 0.0 };
                 let weight = |k: usize| match k {
                     0 => 1.0,
                     k if k == count => 1.0,

@@ -50,10 +50,7 @@ impl Mesh {
                 let column = turned.column(*axis);
                 held.iter().map(|b| b.dot(&column).powi(2)).sum::<f64>() > 1.0 - 1e-12
             };
-            match (0..3).filter(is_held).count() == held.len() {
-                true => turned,
-                false => self.frame(node),
-            }
+            if (0..3).filter(is_held).count() == held.len() { turned } else { self.frame(node) }
         });
         self.frames = NodalFrames::Solid(frames.collect());
     }

@@ -296,10 +296,7 @@ impl SolidSpecification {
     /// The corner node of a sector on radius `i` in layer `j` of the corner nodes, without generating it.
     pub fn corner_node(&self, [i, j]: [usize; 2]) -> usize {
         let (nr, nz) = (self.annulus.radial_elements, self.axial_elements);
-        let (slow, fast, [p, q]) = match nr >= nz {
-            true => (nr, nz, [i, j]),
-            false => (nz, nr, [j, i]),
-        };
+        let (slow, fast, [p, q]) = if nr >= nz { (nr, nz, [i, j]) } else { (nz, nr, [j, i]) };
         debug_assert!(p <= slow && q <= fast);
         match self.annulus.element.is_quadratic() {
             // A row of corners has two sheets and the middles between them, a row of middles one.

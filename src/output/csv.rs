@@ -15,10 +15,7 @@ fn tamed(cell: &[u8]) -> Cow<'_, [u8]> {
         [b'+' | b'-', next, ..] => !next.is_ascii_digit() && *next != b'.',
         _ => false,
     };
-    match is_formula {
-        true => [b"'", cell].concat().into(),
-        false => cell.into(),
-    }
+    if is_formula { [b"'", cell].concat().into() } else { cell.into() }
 }
 
 /// Writes a table row by row: a header of column names, then records.

@@ -215,10 +215,7 @@ fn end_between(
         }
         let secant = (inside * at_outside - outside * at_inside) / (at_outside - at_inside);
         let is_between = (secant - inside) * (secant - outside) < 0.0;
-        let middle = match is_between && step % 3 != 0 {
-            true => secant,
-            false => 0.5 * (inside + outside),
-        };
+        let middle = if is_between && step % 3 != 0 { secant } else { 0.5 * (inside + outside) };
         let at_middle = violation(middle)?;
         let holds = at_middle <= 0.0;
         // An end that stays twice counts half.

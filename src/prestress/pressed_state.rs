@@ -323,10 +323,7 @@ fn last_terms(values: &[Vec<f64>]) -> f64 {
     let components = 0..values[0].len();
     let last = components.flat_map(|i| [count - 1, count - 2].map(|n| coefficient(n, i).abs()));
     let largest = largest(values);
-    match largest > 0.0 {
-        true => last.fold(0.0_f64, f64::max) / largest,
-        false => 0.0,
-    }
+    if largest > 0.0 { last.fold(0.0_f64, f64::max) / largest } else { 0.0 }
 }
 
 /// A range of friction coefficients, made as wide as a polynomial needs.

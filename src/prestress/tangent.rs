@@ -214,10 +214,7 @@ impl SlidingTangent {
             tangential: nodes.clone().map(|i| interface.tangential_dof(i)).collect(),
             normal: nodes.map(|i| interface.normal_dof(i)).collect(),
             opposite: touched.map(|share| share.dof).collect(),
-            angles: match mesh.is_cyclic {
-                true => interface.angles.clone(),
-                false => Vec::new(),
-            },
+            angles: if mesh.is_cyclic { interface.angles.clone() } else { Vec::new() },
             sliding_direction: base.sliding_direction,
         };
         let basis = Elimination::holding(mesh.dof_count(), mesh.held_dofs());

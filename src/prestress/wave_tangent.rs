@@ -291,10 +291,7 @@ impl WaveTangent {
 
     /// Over the unknowns alone.
     pub(super) fn restricted(&self, matrix: BandedMatrix) -> BandedMatrix {
-        match self.contact.rigid.is_empty() {
-            true => matrix,
-            false => matrix.restricted_to(&self.moving),
-        }
+        if self.contact.rigid.is_empty() { matrix } else { matrix.restricted_to(&self.moving) }
     }
 
     fn mass(&self, n: usize) -> BandedMatrix {

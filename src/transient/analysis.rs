@@ -203,10 +203,7 @@ fn refuse_powers(growths: &mut [Growth]) {
 fn linear_stage(rows: &[SampleRow]) -> Range<usize> {
     let (mut best, mut start) = (0..0, 0);
     let first = rows.first().map_or_else(StatusCounts::default, |row| row.counts);
-    let opened = match first.stick == 0 && first.slip > 0 {
-        true => first.open,
-        false => 0,
-    };
+    let opened = if first.stick == 0 && first.slip > 0 { first.open } else { 0 };
     let is_base = |counts: &StatusCounts| {
         // Samples count the nodes of one step or of several.
         counts.stick == 0 && counts.open * first.slip == opened * counts.slip

@@ -139,10 +139,7 @@ pub(super) fn places(mesh: &Mesh, annulus: Option<&AnnulusMesh>) -> Vec<Place> {
                 Counterface::Cylinder { .. } => counterface.place(point),
                 Counterface::Plane { .. } => TAU * (counterface.place(point) - low) / (high - low),
             },
-            direction: match is_straight {
-                true => [0.0, 1.0, 0.0],
-                false => [turn.cos(), turn.sin(), 0.0],
-            },
+            direction: if is_straight { [0.0, 1.0, 0.0] } else { [turn.cos(), turn.sin(), 0.0] },
         }
     });
     place.collect()

@@ -109,10 +109,7 @@ impl Collection {
     /// The mesh file; nodes of no element are dropped, node sets whose nodes are all nodes of faces become surfaces.
     pub fn finish(mut self, mut model: ModelData) -> FileMesh {
         self.drop_unused_nodes(&mut model);
-        let outer = match self.node_sets.is_empty() {
-            true => Vec::new(),
-            false => self.free_faces(&[]),
-        };
+        let outer = if self.node_sets.is_empty() { Vec::new() } else { self.free_faces(&[]) };
         let mut node_sets = BTreeMap::new();
         for (name, nodes) in std::mem::take(&mut self.node_sets) {
             let set: BTreeSet<u32> = nodes.iter().copied().collect();

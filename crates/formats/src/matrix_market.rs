@@ -153,10 +153,7 @@ impl MarketMatrix {
             self.add((row - 1, column - 1), value, symmetry);
             found += 1;
         }
-        match found == promised {
-            true => Ok(()),
-            false => Err(MatrixMarketError::Count { promised, found }),
-        }
+        if found == promised { Ok(()) } else { Err(MatrixMarketError::Count { promised, found }) }
     }
 
     /// Column by column; of a symmetric matrix the lower triangle alone.

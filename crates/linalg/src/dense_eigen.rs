@@ -84,10 +84,7 @@ pub fn complex_eigen(
     let mut values = Diag::<c64>::zeros(n);
     let mut right = Mat::<c64>::zeros(n, n);
     let mut left = with_left.then(|| Mat::<c64>::zeros(n, n));
-    let left_mode = match with_left {
-        true => ComputeEigenvectors::Yes,
-        false => ComputeEigenvectors::No,
-    };
+    let left_mode = if with_left { ComputeEigenvectors::Yes } else { ComputeEigenvectors::No };
     let yes = ComputeEigenvectors::Yes;
     let scratch = evd_scratch::<c64>(n, left_mode, yes, Par::Seq, Default::default());
     evd_cplx(

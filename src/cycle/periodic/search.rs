@@ -160,10 +160,7 @@ fn attempt(
         }
         let is_far = image.relative_residual() > NEAR && search.is_plain;
         search.is_plain = search.spent <= least || (is_far && search.spent <= most);
-        match search.is_plain {
-            true => search.go_plainly(image),
-            false => search.go(image),
-        }
+        if search.is_plain { search.go_plainly(image) } else { search.go(image) }
     }
 }
 

@@ -83,10 +83,7 @@ pub fn balanced_start(map: &mut PeriodMap<'_>, mode: &GrowingMode<'_>) -> Period
     }
     for _ in 0..BISECTIONS {
         let middle = (inner * outer).sqrt();
-        match grows(map, middle) == is_growing {
-            true => inner = middle,
-            false => outer = middle,
-        }
+        if grows(map, middle) == is_growing { inner = middle } else { outer = middle }
     }
     mode.state(map, (inner * outer).sqrt())
 }

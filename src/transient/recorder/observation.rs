@@ -46,10 +46,7 @@ impl Observer for Recorder {
             self.has_stopped = true;
             return ControlFlow::Break(());
         }
-        match interruption::is_asked() {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        }
+        if interruption::is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }
 
