@@ -178,6 +178,7 @@ fn wrong_input_files_are_told_by_line_and_name() {
 TYPE=C3D8R => TYPE=C3D27 => line 14: elements of type C3D27 are not supported
 3, 1, 2, 0 => 3, 1, 2.x, 0 => line 7: a coordinate expected, found "2.x"
 One.Foot, Two.Foot => One.Foot, Two.Foo => line 34: no node set is called "Two.Foo"
+One.Foot, Two.Foot => One.Foot, Two.All => no node set is called "Two.All"; an element set is: *NSET
 2, 3\n*TIE => 2, 33\n*TIE => line 36: no node has the number "33"
 All, S2 => All, S7 => line 19: element 1 (hex8) has no face "S7"
 One.Top, Two.Top => One.Top, Two.Tip => no surface is called "Two.Tip"

@@ -239,8 +239,13 @@ impl Reader<'_, '_> {
     /// An error that a name is not defined.
     fn unknown(&self, place: Place, what: &str, name: &str) -> MeshFileError {
         let shown: String = name.chars().take(80).collect();
-        let message = format!("no {what} is called \"{shown}\"");
-        self.deck.error(place, message)
+        let own = shown.rsplit('.').next().unwrap_or_default().to_uppercase();
+        let has_elements = what == "node set" && self.element_sets.keys().any(|key| key.1 == own);
+        let remedy = match has_elements {
+            true => "; an element set is: *NSET, NSET=NAME, ELSET=ITS NAME gives its nodes a name",
+            false => "",
+        };
+        self.deck.error(place, format!("no {what} is called \"{shown}\"{remedy}"))
     }
 }
 
