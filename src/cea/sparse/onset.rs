@@ -90,7 +90,7 @@ impl OnsetFinder<'_> {
                     }
                     None => {
                         let points = self.points.iter().map(|point| point.friction_coefficient);
-                        let below = points.filter(|mu| *mu < found.onset.mu).last();
+                        let below = points.filter(|mu| *mu < found.onset.mu).next_back();
                         (found.from_start, found.lost_after) = (false, found.lost_after.or(below));
                     }
                 }
