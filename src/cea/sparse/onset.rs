@@ -95,8 +95,7 @@ impl OnsetFinder<'_> {
                     }
                 }
             }
-            let found = self.report(branch, found);
-            intervals.push(FoundInterval { is_led_back, ..found });
+            intervals.push(FoundInterval { is_led_back, ..self.report(branch, found) });
         }
         Ok(intervals)
     }
