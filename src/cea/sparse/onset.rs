@@ -89,8 +89,8 @@ impl OnsetFinder<'_> {
                         found = Instability { restabilized: found.restabilized, ..earlier }
                     }
                     None => {
-                        let points = self.points.iter().map(|point| point.friction_coefficient);
-                        let below = points.filter(|mu| *mu < found.onset.mu).next_back();
+                        let mut points = self.points.iter().map(|p| p.friction_coefficient);
+                        let below = points.rfind(|mu| *mu < found.onset.mu);
                         (found.from_start, found.lost_after) = (false, found.lost_after.or(below));
                     }
                 }
