@@ -154,8 +154,7 @@ pub struct UnstableInterval {
     pub restabilized: Option<(f64, f64)>,
     /// Whether the branch is already unstable at the lower end of the range.
     pub unstable_from_start: bool,
-    /// The last friction coefficient below [`Self::critical_friction`] at which it was not seen to grow, where it could not be followed
-    /// between: it turns unstable somewhere there.
+    /// Where it could not be followed to its onset, the last friction coefficient below at which it was not seen to grow.
     pub lost_after: Option<f64>,
 }
 
@@ -215,6 +214,12 @@ pub struct UnconvergedMode {
     pub friction_coefficient: f64,
     /// Its frequency where the iterations ended, Hz.
     pub frequency_hz: f64,
+}
+
+impl UnconvergedMode {
+    pub(super) fn of(friction_coefficient: f64, frequency: f64) -> Self {
+        Self { friction_coefficient, frequency_hz: frequency / TAU }
+    }
 }
 
 /// An unstable mode just above the listed ones.

@@ -283,3 +283,28 @@ fn a_mode_that_grows_before_it_nearly_meets_another_has_its_own_onset() {
         assert_eq!(mode.re > 0.0, step > 0.0, "{mode} {onset:?}");
     }
 }
+
+/// A plane block of four contact nodes, three of which have lifted: the eighth mode comes from above the limit in frequency as friction rises.
+/// The dense decomposition has it at 148.3 kHz.
+#[test]
+fn modes_that_friction_brings_below_a_limit_in_frequency_are_listed() {
+    let folder = tempfile::tempdir().unwrap();
+    let [xs, ys] = [0.020107041919607042, 0.021423467543813624].map(|edge| even(edge, 3));
+    let mesh = quadrilaterals(&xs, &ys, ["part_z0", "part_z1", "part"], |x, y| [x, y]);
+    fs::write(folder.path().join("part.msh"), mesh).unwrap();
+    let text = "[mesh]\nfile = \"part.msh\"\n[material]\nyoung_modulus = 1.762983925e11\npoisson_ratio = 0.3\n\
+                density = 7850.0\nformulation = \"plane-strain\"\n[boundaries.part_z1]\ncondition = \"support\"\n\
+                normal_stiffness = 1.228280591e12\ntangential_stiffness = 7.667491236e10\nnormal_damping = 3.7335\n\
+                [contact]\nboundary = \"part_z0\"\ncounterface = \"plane\"\ndirection = [1.0, 0.0]\nspeed = 2.0596e-3\n\
+                friction_coefficient = 0.617907591291667\ninterference = 4.863789604578336e-07\n\
+                [cea]\nfriction_coefficients = [0.56, 0.617907591291667]\ngeometric_stiffness = false\n\
+                max_frequency_hz = 155859.15\n";
+    let case = case_of(folder.path().join("part.toml"), text, AS_IT_IS);
+    let found = modes_and_onsets(&case).unwrap();
+    for point in &found.points {
+        let problem = sums(&matrices(&case, Some(point.friction_coefficient)).unwrap());
+        let exact = lossy_eigenvalues(problem.each_ref());
+        let below = exact.iter().filter(|own| own.im > 0.0 && own.im < TAU * 155859.15);
+        assert_eq!(point.modes.len(), below.count(), "{}", point.friction_coefficient);
+    }
+}

@@ -88,12 +88,8 @@ pub fn label_first(
     edge: &ContactEdge,
     count: usize,
 ) -> Result<Vec<BranchLabel>, LinalgError> {
-    let harmonics: Vec<usize> = point
-        .checks
-        .iter()
-        .take(count)
-        .map(|check| edge.harmonic(&check.edge, check.peak))
-        .collect();
+    let checks = point.checks.iter().take(count);
+    let harmonics: Vec<usize> = checks.map(|own| edge.harmonic(&own.edge, own.peak)).collect();
     let others = |i: usize| harmonics[..i].iter().copied();
     let labels = (0..harmonics.len()).map(|i| label(edge, harmonics[i], others(i))).collect();
     split_degenerate(point, model, count)?;

@@ -94,11 +94,12 @@ impl FrictionlessModes {
     ) -> Result<Self, CeaError> {
         let unknowns = tangent.stiffness.dimension();
         // Motions below the limit, rigid ones among them; those that a turning frame alone holds count twice.
-        let below = match limit {
-            ModeLimit::Lowest(count) => count,
-            ModeLimit::MaxFrequency(limit_hz) => inertia.bound_below(tangent, TAU * limit_hz)?,
+        // One mode above a limit in frequency tells that none below it is missing under friction.
+        let (below, guard) = match limit {
+            ModeLimit::Lowest(count) => (count, 0),
+            ModeLimit::MaxFrequency(hz) => (inertia.bound_below(tangent, TAU * hz)?, 1),
         };
-        let beyond = if tangent.is_lossy() { LOSSY_GUARD } else { 0 };
+        let beyond = if tangent.is_lossy() { LOSSY_GUARD } else { guard };
         let mut shift = match limit {
             ModeLimit::Lowest(_) => FIRST_SHIFT * inertia.largest_ratio(),
             ModeLimit::MaxFrequency(limit_hz) => SHIFT * (TAU * limit_hz).powi(2),

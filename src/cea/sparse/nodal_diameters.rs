@@ -284,21 +284,14 @@ fn merged_counts(parts: &[FrictionSweep], points: &[FrictionPoint]) -> Vec<ModeC
         let (first, rest) = own.split_first()?;
         let mut whole = (*first).clone();
         for count in rest {
-            let ([low, high], [left, right]) =
-                (count.region.frequencies_hz, count.region.growth_rates);
-            let region = &mut whole.region;
-            let [least, most] = region.frequencies_hz;
-            region.frequencies_hz = [least.max(low), most.min(high)];
-            let [decay, growth] = region.growth_rates;
-            region.growth_rates = [decay.max(left), growth.min(right)];
+            let (region, own) = (&mut whole.region, count.region);
+            let shared = |a: [f64; 2], b: [f64; 2]| [a[0].max(b[0]), a[1].min(b[1])];
+            region.frequencies_hz = shared(region.frequencies_hz, own.frequencies_hz);
+            region.growth_rates = shared(region.growth_rates, own.growth_rates);
             whole.recovered += count.recovered;
             whole.determinants += count.determinants;
             whole.near = whole.near.or(count.near);
-            whole.missing = match (whole.missing, &count.missing) {
-                (Ok(known), Ok(more)) => Ok(known + more),
-                (Ok(_), Err(why)) => Err(why.clone()),
-                (Err(why), _) => Err(why),
-            };
+            whole.missing = whole.missing.and_then(|known| Ok(known + count.missing.clone()?));
         }
         let below = |mode: &&ComplexMode| mode.frequency_hz() < whole.region.frequencies_hz[1];
         whole.known = point.modes.iter().filter(below).count();

@@ -96,14 +96,13 @@ impl OnsetFinder<'_> {
                         found = Instability { restabilized: found.restabilized, ..earlier }
                     }
                     None => {
-                        let points = self.points.iter().map(|point| point.friction_coefficient);
-                        let below = points.filter(|mu| *mu < found.onset.mu).last();
+                        let mut points = self.points.iter().map(|p| p.friction_coefficient);
+                        let below = points.rfind(|mu| *mu < found.onset.mu);
                         (found.from_start, found.lost_after) = (false, found.lost_after.or(below));
                     }
                 }
             }
-            let found = self.report(branch, found);
-            intervals.push(FoundInterval { is_led_back, ..found });
+            intervals.push(FoundInterval { is_led_back, ..self.report(branch, found) });
         }
         Ok(intervals)
     }

@@ -10,9 +10,10 @@ use super::edge::ContactEdge;
 use super::frictionless::FrictionlessModes;
 use super::linearization::Linearization;
 use super::point::{PointSolver, SolvedPoint};
-use super::{RESIDUAL_BOUND, TRACKING_MARGIN};
+use super::{GUARD_MODES, RESIDUAL_BOUND, TRACKING_MARGIN};
 use crate::cea::{
-    CeaError, FrictionSweep, ModeLimit, SweepProgress, SweepRequest, SweepStage, SweepWatch,
+    CeaError, FrictionSweep, ModeLimit, PartWatch, SweepProgress, SweepRequest, SweepStage,
+    SweepWatch, UnconvergedMode,
 };
 use crate::linalg::LinalgError;
 use crate::prestress::SlidingTangent;
@@ -52,9 +53,28 @@ pub fn sweep(
     watch: &dyn SweepWatch,
 ) -> Result<FrictionSweep, CeaError> {
     let tangent = referred(tangent, request.limit)?;
-    let mut sweep = SparseSweep::prepare(&tangent, request, watch)?;
+    sweep_holding(&tangent, request, request.limit, watch)
+}
+
+/// [`sweep`] from the modes within `limit` without friction, those wanted there at least.
+fn sweep_holding(
+    tangent: &SlidingTangent,
+    request: &SweepRequest<'_>,
+    limit: ModeLimit,
+    watch: &dyn SweepWatch,
+) -> Result<FrictionSweep, CeaError> {
+    let mut sweep = SparseSweep::prepare(tangent, &SweepRequest { limit, ..*request }, watch)?;
+    sweep.limit = request.limit;
     sweep.cover()?;
     sweep.solve()?;
+    // Friction brings modes from above a limit in frequency: there may be more where all that are held lie below.
+    let (held, all) = (sweep.builder.count, tangent.unknowns.len() - sweep.builder.rigid);
+    let is_full = held < all && sweep.points.iter().any(|point| point.wanted >= held);
+    if is_full && matches!(request.limit, ModeLimit::MaxFrequency(_)) {
+        let watch = PartWatch { whole: watch, prefix: format!("of-{held}-"), is_heard: true };
+        let more = ModeLimit::Lowest((held + GUARD_MODES).min(all));
+        return sweep_holding(tangent, request, more, &watch);
+    }
     let branches = sweep.track()?;
     let (branches, counts) = sweep.count(request, branches)?;
     let found = sweep.finish(request, &branches)?;
@@ -106,8 +126,8 @@ pub struct SparseSweep<'a> {
     points: Vec<SolvedPoint>,
     /// Points where motions near critical damping that do not converge are left out.
     leaves_out: Vec<bool>,
-    /// Friction coefficient and frequency (rad/s) of the modes that did not converge, which are not listed.
-    unconverged: Vec<(f64, f64)>,
+    /// The modes that no iteration made converge, which are not listed.
+    unconverged: Vec<UnconvergedMode>,
     labels: Vec<BranchLabel>,
     watch: &'a dyn SweepWatch,
 }
@@ -215,7 +235,7 @@ impl<'a> SparseSweep<'a> {
         for point in &mut self.points[first..] {
             let mu = point.friction_coefficient;
             let dropped = point.drop_unconverged();
-            self.unconverged.extend(dropped.into_iter().map(|frequency| (mu, frequency)));
+            self.unconverged.extend(dropped.into_iter().map(|own| UnconvergedMode::of(mu, own)));
         }
         let model = &self.builder.model;
         self.points.par_iter_mut().for_each(|point| point.refine_lefts(model));

@@ -27,7 +27,7 @@ pub struct Onset {
     pub restabilized: Option<f64>,
     /// Frequency at the onset, Hz.
     pub frequency_hz: f64,
-    /// Whether it is unstable at the lowest friction already; absent in points of earlier versions.
+    /// Whether it is unstable at the lowest friction already, or was lost below its onset: that is lower then; absent in points of earlier versions.
     #[serde(default)]
     pub unstable_from_start: bool,
 }

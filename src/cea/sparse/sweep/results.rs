@@ -51,19 +51,11 @@ impl SparseSweep<'_> {
             intervals: found.into_iter().map(|own| own.interval).collect(),
             crossings,
             ended: self.ended(branches),
-            unconverged: self.unconverged(),
+            unconverged: self.unconverged.clone(),
             beyond: self.beyond(),
             rigid_motions: self.builder.rigid,
             counts: Vec::new(),
         })
-    }
-
-    /// The modes that no iteration made converge.
-    fn unconverged(&self) -> Vec<UnconvergedMode> {
-        let each = self.unconverged.iter().map(|&(friction_coefficient, frequency)| {
-            UnconvergedMode { friction_coefficient, frequency_hz: frequency / TAU }
-        });
-        each.collect()
     }
 
     /// The mode that grows fastest of those that were computed beyond the wanted ones.
@@ -127,7 +119,7 @@ impl SparseSweep<'_> {
                 has_grown |= self.builder.shift(*mu, std::slice::from_ref(mode))?;
             }
             if !has_grown {
-                let open = missed().map(|state| (state.mu, state.mode.eigenvalue.im));
+                let open = missed().map(|s| UnconvergedMode::of(s.mu, s.mode.eigenvalue.im));
                 self.unconverged.extend(open);
                 return Ok(found);
             }
