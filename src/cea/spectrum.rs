@@ -69,10 +69,7 @@ pub struct ModeWave {
 impl ModeWave {
     /// The eigenvalue of the wave `+n`, of that of the mode.
     pub fn root(&self, eigenvalue: c64) -> c64 {
-        match self.is_backward {
-            true => eigenvalue.conj(),
-            false => eigenvalue,
-        }
+        if self.is_backward { eigenvalue.conj() } else { eigenvalue }
     }
 }
 

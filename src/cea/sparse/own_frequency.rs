@@ -73,10 +73,7 @@ fn fixed_point(
                 return Ok(fine);
             }
         }
-        frequency_hz = match pass < WHOLE_PASSES {
-            true => next,
-            false => 0.5 * (next + frequency_hz),
-        };
+        frequency_hz = if pass < WHOLE_PASSES { next } else { 0.5 * (next + frequency_hz) };
     }
     Ok(mode)
 }

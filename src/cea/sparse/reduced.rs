@@ -318,9 +318,10 @@ impl ReducedModel {
         let mut nearest: Vec<&(f64, Mat<f64>)> = self.samples.iter().collect();
         nearest.sort_by(|a, b| (a.0 - mu).abs().total_cmp(&(b.0 - mu).abs()));
         let is_sampled = nearest.first()?.0 == mu;
-        match is_sampled {
-            true => nearest.retain(|sample| sample.0 == mu),
-            false => nearest.truncate(count),
+        if is_sampled {
+            nearest.retain(|sample| sample.0 == mu)
+        } else {
+            nearest.truncate(count)
         }
         Some(spanned(Mat::zeros(self.dimension(), 0), nearest.into_iter()))
     }

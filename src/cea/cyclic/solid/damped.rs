@@ -197,10 +197,7 @@ impl Course<'_> {
                 let path = Path {
                     branch: self.next_branch,
                     rest: None,
-                    waves: match value.im > 0.0 {
-                        true => Waves::Forward,
-                        false => Waves::Backward,
-                    },
+                    waves: if value.im > 0.0 { Waves::Forward } else { Waves::Backward },
                     points: back,
                 };
                 self.next_branch += 1;

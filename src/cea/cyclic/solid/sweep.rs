@@ -211,10 +211,7 @@ fn largest_error(
             left: &end.y,
         };
         let is_listed = pair.eigenvalue.norm_sqr() <= wanted && !paths.problem.is_ending(end.theta);
-        match is_listed {
-            true => reduction_error(reduction, harmonic, pencil, &pair),
-            false => 0.0,
-        }
+        if is_listed { reduction_error(reduction, harmonic, pencil, &pair) } else { 0.0 }
     });
     errors.fold(0.0, f64::max)
 }

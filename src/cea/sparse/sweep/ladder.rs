@@ -120,10 +120,7 @@ impl SparseSweep<'_> {
 
     /// Residual force, relative to the inertia force, above which a point is improved.
     fn goal(&self) -> f64 {
-        match self.builder.is_lossy() {
-            true => LOSSY_GOAL,
-            false => self.linearization.force_residual_goal(),
-        }
+        if self.builder.is_lossy() { LOSSY_GOAL } else { self.linearization.force_residual_goal() }
     }
 
     /// Points whose modes could still be improved.
