@@ -93,27 +93,38 @@ impl SparseSweep<'_> {
     /// Unstable intervals of all branches. The basis holds the modes of a few friction coefficients only, or of all that were asked for:
     /// the modes at crossings are corrected by the full problem there until these settle.
     fn intervals(&mut self, branches: &[TrackedBranch]) -> Result<Vec<FoundInterval>, CeaError> {
-        let mut before: Vec<f64> = Vec::new();
+        let all = || (0..branches.len()).collect::<Vec<usize>>();
+        let mut found: Vec<Vec<FoundInterval>> = branches.iter().map(|_| Vec::new()).collect();
+        let mut before: Vec<Vec<f64>> = vec![Vec::new(); branches.len()];
+        let mut sought = all();
         for round in 0.. {
-            let found = self.find_intervals(branches)?;
-            let crossings: Vec<&State> = found.iter().flat_map(FoundInterval::crossings).collect();
-            let missed = || found.iter().filter_map(FoundInterval::missed);
-            // Crossings that moved since the last round, all in the first one; then those whose residual is too large.
-            let is_same = before.len() == crossings.len();
-            let moving = crossings.iter().enumerate().filter(|(i, state)| {
-                !is_same || (state.mu - before[*i]).abs() > SETTLED.max(state.doubt())
-            });
-            let mut open: Vec<&State> = match self.builder.is_sampling() {
-                true => moving.map(|(_, state)| *state).collect(),
-                false => Vec::new(),
-            };
+            for (&i, own) in sought.iter().zip(self.find_intervals(branches, &sought)?) {
+                found[i] = own;
+            }
+            // Crossings that moved since the last round, all in the first one.
+            let mut open: Vec<&State> = Vec::new();
+            let mut moved: Vec<usize> = Vec::new();
+            for &i in sought.iter().filter(|_| self.builder.is_sampling()) {
+                let own: Vec<&State> = found[i].iter().flat_map(FoundInterval::crossings).collect();
+                let places: Vec<f64> = own.iter().map(|state| state.mu).collect();
+                let before = std::mem::replace(&mut before[i], places);
+                let is_same = round > 0 && before.len() == own.len();
+                let moving = own.into_iter().enumerate().filter(|(k, state)| {
+                    !is_same || (state.mu - before[*k]).abs() > SETTLED.max(state.doubt())
+                });
+                open.extend(moving.map(|(_, state)| state));
+                moved.resize(open.len(), i);
+            }
+            moved.dedup();
+            // Then those whose residual is too large: what that basis says about other branches is worth no more.
+            let missed = || found.iter().flatten().filter_map(FoundInterval::missed);
             if open.is_empty() {
                 open.extend(missed());
+                moved = all();
             }
             if round == MOST_ROUNDS {
                 open.clear();
             }
-            let places: Vec<f64> = crossings.iter().map(|state| state.mu).collect();
             let mut has_grown = false;
             for State { mu, mode } in open {
                 has_grown |= self.builder.shift(*mu, std::slice::from_ref(mode))?;
@@ -121,21 +132,25 @@ impl SparseSweep<'_> {
             if !has_grown {
                 let open = missed().map(|s| UnconvergedMode::of(s.mu, s.mode.eigenvalue.im));
                 self.unconverged.extend(open);
-                return Ok(found);
+                return Ok(found.into_iter().flatten().collect());
             }
-            before = places;
+            sought = moved;
         }
         unreachable!("rounds end")
     }
 
-    /// The intervals of all branches in the basis as it is.
-    fn find_intervals(&self, branches: &[TrackedBranch]) -> Result<Vec<FoundInterval>, CeaError> {
+    /// The intervals of each of the branches `sought` in the basis as it is.
+    fn find_intervals(
+        &self,
+        branches: &[TrackedBranch],
+        sought: &[usize],
+    ) -> Result<Vec<Vec<FoundInterval>>, CeaError> {
         let (solver, model, points) = (&self.point_solver(), &self.builder.model, &self.points);
-        let of_branch = |branch: &TrackedBranch| {
-            OnsetFinder { solver, model, points, lowest: self.lowest }.intervals(branch)
+        let of_branch = |&i: &usize| {
+            OnsetFinder { solver, model, points, lowest: self.lowest }.intervals(&branches[i])
         };
-        let found: Result<Vec<_>, _> = branches.par_iter().map(of_branch).collect();
-        Ok(found?.into_iter().flatten().collect())
+        let found: Result<Vec<_>, _> = sought.par_iter().map(of_branch).collect();
+        Ok(found?)
     }
 
     fn friction_point(
